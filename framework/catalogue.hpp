@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// The catalogue: every node in nodes/, by id, with its type forgotten. Filled by the build (catalogue.cmake).
+
+#include "node.hpp"
+
+#include <memory>
+#include <string>
+#include <variant>
+
+namespace tactus
+{
+
+/// The value of a setting, from the closed set that files, editors and generated code all know.
+using Records = std::vector<std::vector<double>>;   ///< one row a record, in the order of its fields
+using SettingValue = std::variant<double, std::string, Curve, Law, Records>;
+
+/// A row of the datasheet, as graphs and hosts see it.
+struct PortSheet
+{
+    Role role;
+    std::string_view id;
+    UnitRule unit;
+    std::string_view about;
+    Limits limits;
+    std::span<const std::string_view> choices;
+    int width;            ///< components: 1 for a scalar, 3 for a vector
+    bool list;            ///< an array port: as many entries as the setting `inputs`
+    std::size_t offset;   ///< of the value in its Params or Outputs struct
+    double initial[3];    ///< default of each component; of each entry, for a list
+};
+
+struct FieldSheet
+{
+    std::string_view id;
+    Unit unit;
+    std::string_view about;
+    Limits limits;
+    double initial;
+};
+
+struct SettingSheet
+{
+    enum class Kind
+    {
+        number,
+        integer,
+        text,
+        curve,
+        law,
+        records
+    };
+
+    Kind kind;
+    std::string_view id;
+    UnitRule unit;     ///< of the number; of the curve's or law's value
+    UnitRule x_unit;   ///< of the curve's or law's argument
+    std::string_view about;
+    Limits limits;
+    std::vector<FieldSheet> fields;
+    SettingValue initial;
+    void (*set) (void* node, const SettingValue&);   ///< the alternative that belongs to `kind`; integers as double
+};
+
+/// A node type. The functions take the node and outputs as void*; `sources` holds one pointer per input component, in
+/// the order of the datasheet, the entries of a list one after another. A hook the node does not have is null.
+struct NodeType
+{
+    Info info;
+    std::vector<PortSheet> inputs, params, outputs;
+    std::vector<SettingSheet> settings;
+    std::size_t outputs_size, outputs_align;
+
+    std::shared_ptr<void> (*make)();
+    void* (*paramsOf) (void* node) noexcept;
+    void (*initialiseOutputs) (void* outputs) noexcept;
+    void (*tick) (void* node, const double* const* sources, void* outputs) noexcept;
+    void (*peek) (void* node, const double* const* sources, void* outputs) noexcept;
+    int (*delay) (const void* node) noexcept;
+    void (*prepare) (void* node, const Setup&);
+    void (*update) (void* node) noexcept;
+    void (*adopt) (void* node, const void* old) noexcept;
+    Claims (*claims) (const void* node);
+    void (*bind) (void* node, const DeviceState&);
+    Effort (*effort) (const void* node) noexcept;
+};
+
+/// All node types, sorted by id.
+class Catalogue
+{
+public:
+    explicit Catalogue (std::vector<NodeType>);
+
+    const NodeType* find (std::string_view id) const noexcept;
+
+    auto begin() const noexcept { return types.begin(); }
+    auto end() const noexcept { return types.end(); }
+
+private:
+    std::vector<NodeType> types;
+};
+
+const Catalogue& catalogue();
+
+//==============================================================================
+// Implementation below.
+
+namespace detail
+{
+template <typename T>
+struct Shape
+{
+    static constexpr int width = 1;
+    static constexpr bool list = false;
+};
+template <>
+struct Shape<Vec3>
+{
+    static constexpr int width = 3;
+    static constexpr bool list = false;
+};
+template <>
+struct Shape<List>
+{
+    static constexpr int width = 1;
+    static constexpr bool list = true;
+};
+template <typename T>
+struct Shape<InputList<T>>
+{
+    static constexpr int width = Shape<T>::width;
+    static constexpr bool list = true;
+};
+
+template <typename N>
+int listSize (const N& node) noexcept
+{
+    if constexpr (requires { node.settings.inputs; })
+        return node.settings.inputs;
+    else
+        return 0;
+}
+
+template <typename N>
+struct Erased
+{
+    using Inputs = typename N::Inputs;
+    using Outputs = typename N::Outputs;
+
+    /// Fills Inputs from the sources, in datasheet order.
+    static Inputs gather (const N& node, const double* const* sources) noexcept
+    {
+        Inputs in;
+        const auto load = [&] (const auto& row)
+        {
+            using R = std::remove_cvref_t<decltype (row)>;
+            if constexpr (R::role == Role::input)
+            {
+                using T = typename R::Value;
+                if constexpr (Shape<T>::list)
+                {
+                    const int n = listSize (node);
+                    in.*row.member = T { sources, n };
+                    sources += n * Shape<T>::width;
+                }
+                else if constexpr (Shape<T>::width == 3)
+                {
+                    in.*row.member = Vec3 { *sources[0], *sources[1], *sources[2] };
+                    sources += 3;
+                }
+                else
+                    in.*row.member = **sources++;
+            }
+        };
+        std::apply ([&] (const auto&... row)
+                    { (load (row), ...); },
+                    N::ports);
+        return in;
+    }
+
+    static void tick (void* node, const double* const* sources, void* outputs) noexcept
+    {
+        N& n = *static_cast<N*> (node);
+        if constexpr (Peekable<N>)
+            n.tick (gather (n, sources));
+        else
+            new (outputs) Outputs (n.tick (gather (n, sources)));
+    }
+
+    static void peek (void* node, const double* const*, void* outputs) noexcept
+    {
+        new (outputs) Outputs (static_cast<const N*> (node)->peek());
+    }
+
+    template <std::size_t row>
+    static void set (void* node, const SettingValue& value)
+    {
+        constexpr auto& r = std::get<row> (N::ports);
+        auto& target = static_cast<N*> (node)->settings.*r.member;
+        using T = std::remove_cvref_t<decltype (target)>;
+        if constexpr (std::is_arithmetic_v<T>)
+            target = static_cast<T> (std::get<double> (value));
+        else if constexpr (requires { T::value_type::fields; })
+        {
+            target.clear();
+            for (const auto& record : std::get<Records> (value))
+            {
+                auto& made = target.emplace_back();
+                std::size_t i = 0;
+                std::apply ([&] (const auto&... f)
+                            { ((made.*f.member = record[i++]), ...); },
+                            T::value_type::fields);
+            }
+        }
+        else
+            target = std::get<T> (value);
+    }
+};
+
+template <typename T>
+SettingSheet settingSheet (const T& initial)
+{
+    using Kind = SettingSheet::Kind;
+    SettingSheet s {};
+    if constexpr (std::is_arithmetic_v<T>)
+    {
+        s.kind = std::is_integral_v<T> ? Kind::integer : Kind::number;
+        s.initial = static_cast<double> (initial);
+    }
+    else if constexpr (requires { T::value_type::fields; })
+    {
+        s.kind = Kind::records;
+        using Record = typename T::value_type;
+        const Record fresh;
+        std::apply ([&] (const auto&... f)
+                    { (s.fields.push_back ({ f.id, f.unit, f.about, f.limits, fresh.*f.member }), ...); },
+                    Record::fields);
+        Records rows;
+        for (const auto& record : initial)
+            std::apply ([&] (const auto&... f)
+                        { rows.push_back ({ record.*f.member... }); },
+                        Record::fields);
+        s.initial = std::move (rows);
+    }
+    else
+    {
+        s.kind = std::is_same_v<T, Curve> ? Kind::curve : std::is_same_v<T, Law> ? Kind::law
+                                                                                 : Kind::text;
+        s.initial = initial;
+    }
+    return s;
+}
+
+template <typename Owner, typename R>
+PortSheet portSheet (const Owner& owner, const R& row)
+{
+    using T = typename R::Value;
+    const auto& value = owner.*row.member;
+    PortSheet s { R::role, row.id, row.unit, row.about, row.limits, row.choices, Shape<T>::width, Shape<T>::list, static_cast<std::size_t> (reinterpret_cast<const char*> (&value) - reinterpret_cast<const char*> (&owner)), { 0.0, 0.0, 0.0 } };
+    if constexpr (std::is_enum_v<T>)
+    {
+        static_assert (sizeof (T) == sizeof (int), "a choice is an enum of int size");
+        s.initial[0] = static_cast<double> (static_cast<int> (value));
+    }
+    else if constexpr (std::is_same_v<T, Vec3>)
+        for (int i = 0; i < 3; ++i)
+            s.initial[i] = value[i];
+    else if constexpr (std::is_same_v<T, List>)
+        s.initial[0] = value[0];
+    else if constexpr (std::is_same_v<T, double>)
+        s.initial[0] = value;
+    return s;
+}
+}   // namespace detail
+
+/// The catalogue entry of a node; called by the code the build generates.
+template <Node N>
+NodeType describe()
+{
+    using E = detail::Erased<N>;
+    NodeType t {};
+    t.info = N::info;
+    t.outputs_size = sizeof (typename N::Outputs);
+    t.outputs_align = alignof (typename N::Outputs);
+
+    const N fresh;
+    const typename N::Inputs inputs;
+    const typename N::Outputs outputs;
+    const auto add = [&]<std::size_t i> (std::integral_constant<std::size_t, i>)
+    {
+        constexpr auto& row = std::get<i> (N::ports);
+        using R = std::remove_cvref_t<decltype (row)>;
+        if constexpr (R::role == Role::input)
+            t.inputs.push_back (detail::portSheet (inputs, row));
+        else if constexpr (R::role == Role::param)
+            t.params.push_back (detail::portSheet (fresh.params, row));
+        else if constexpr (R::role == Role::output)
+            t.outputs.push_back (detail::portSheet (outputs, row));
+        else
+        {
+            auto s = detail::settingSheet (fresh.settings.*row.member);
+            s.id = row.id;
+            s.unit = row.unit;
+            s.x_unit = row.x_unit;
+            s.about = row.about;
+            s.limits = row.limits;
+            s.set = &E::template set<i>;
+            t.settings.push_back (std::move (s));
+        }
+    };
+    [&]<std::size_t... i> (std::index_sequence<i...>) { (add (std::integral_constant<std::size_t, i> {}), ...); }
+    (std::make_index_sequence<std::tuple_size_v<std::remove_cvref_t<decltype (N::ports)>>> {});
+
+    t.make = []() -> std::shared_ptr<void>
+    { return std::make_shared<N>(); };
+    t.paramsOf = [] (void* n) noexcept -> void*
+    { return &static_cast<N*> (n)->params; };
+    t.initialiseOutputs = [] (void* o) noexcept
+    { new (o) typename N::Outputs(); };
+    t.tick = &E::tick;
+    if constexpr (Peekable<N>) t.peek = &E::peek;
+    if constexpr (Delaying<N>) t.delay = [] (const void* n) noexcept
+    { return static_cast<const N*> (n)->delay(); };
+    if constexpr (Preparable<N>) t.prepare = [] (void* n, const Setup& s)
+    { static_cast<N*> (n)->prepare (s); };
+    if constexpr (Updatable<N>) t.update = [] (void* n) noexcept
+    { static_cast<N*> (n)->update(); };
+    if constexpr (Adoptable<N>) t.adopt = [] (void* n, const void* o) noexcept
+    { static_cast<N*> (n)->adopt (*static_cast<const N*> (o)); };
+    if constexpr (Claiming<N>) t.claims = [] (const void* n)
+    { return static_cast<const N*> (n)->claims(); };
+    if constexpr (DeviceBound<N>) t.bind = [] (void* n, const DeviceState& s)
+    { static_cast<N*> (n)->bind (s); };
+    if constexpr (Sink<N>) t.effort = [] (const void* n) noexcept
+    { return static_cast<const N*> (n)->effort(); };
+    return t;
+}
+
+}   // namespace tactus

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// The datasheet of a node: a constexpr tuple with one row per member of its Inputs, Params, Settings and Outputs.
+///
+///     static constexpr std::tuple ports {
+///         input (&Inputs::position, "position", unit::metre, "tool position"),
+///         param (&Params::mu, "mu", unit::gain, "friction coefficient", { .hard = { 0, inf }, .usual = { 0, 2 } }),
+///         choice (&Params::adhesion, "adhesion", adhesion_names, "how the contact sticks"),
+///         setting (&Settings::inputs, "inputs", unit::count, "number of inputs", { .hard = { 1, list_capacity } }),
+///         output (&Outputs::force, "force", unit::newton, "force on the tool"),
+///     };
+
+#include "curve.hpp"
+#include "law.hpp"
+#include "list.hpp"
+#include "quantity.hpp"
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace tactus
+{
+
+inline constexpr double inf = std::numeric_limits<double>::infinity();
+
+/// The title block of a node's datasheet.
+struct Info
+{
+    std::string_view id;        ///< stable; graph files refer to it, so it never changes
+    std::string_view name;      ///< what the host shows
+    std::string_view summary;   ///< one sentence
+    std::string_view source;    ///< where the equations come from
+};
+
+struct Interval
+{
+    double min = -inf, max = inf;
+
+    constexpr bool contains (double v) const noexcept { return v >= min && v <= max; }
+    constexpr double clamp (double v) const noexcept { return v < min ? min : v > max ? max
+                                                                                      : v; }
+    constexpr bool operator== (const Interval&) const = default;
+};
+
+/// Outside `hard` the model has no meaning: an error in a file, clamped when wired. `usual` is what a slider shows;
+/// values outside it are fine. A latched parameter is read at contact onset or on the hit and holds through it.
+struct Limits
+{
+    Interval hard {};
+    Interval usual = hard;
+    bool latch = false;
+};
+
+/// How a port comes by its unit: it has one, or a generic node takes it from what is wired.
+struct UnitRule
+{
+    enum class Kind
+    {
+        fixed,    ///< `unit`
+        open,     ///< whatever is wired; all entries of an array port alike
+        each,     ///< whatever is wired; each entry of an array port on its own
+        same,     ///< the unit of port `a`, times `unit`
+        product   ///< the product of ports `a` and `b`; of all entries of `a` if `b` is empty
+    };
+
+    Kind kind = Kind::fixed;
+    Unit unit;
+    std::string_view a, b;
+
+    constexpr UnitRule() = default;
+    constexpr UnitRule (Unit fixed) : unit (fixed) {}
+    constexpr UnitRule (Kind k, Unit u = unit::count, std::string_view a_ = {}, std::string_view b_ = {}) : kind (k), unit (u), a (a_), b (b_) {}
+};
+
+inline constexpr UnitRule any_unit { UnitRule::Kind::open };
+inline constexpr UnitRule each_its_unit { UnitRule::Kind::each };
+constexpr UnitRule sameAs (std::string_view port) { return { UnitRule::Kind::same, unit::count, port }; }
+constexpr UnitRule sameAs (std::string_view port, Unit times) { return { UnitRule::Kind::same, times, port }; }
+constexpr UnitRule productOf (std::string_view a, std::string_view b = {}) { return { UnitRule::Kind::product, unit::count, a, b }; }
+
+enum class Role
+{
+    input,
+    param,
+    setting,
+    output
+};
+
+/// One row of a datasheet: where the value lives, and everything a person or a host needs to know of it.
+template <Role role_, typename Owner_, typename T>
+struct Row
+{
+    static constexpr Role role = role_;
+    using Owner = Owner_;
+    using Value = T;
+
+    T Owner::*member;
+    std::string_view id;
+    UnitRule unit;
+    std::string_view about;
+    Limits limits {};
+    std::span<const std::string_view> choices {};   ///< the names of a choice, in the order of its enum
+    UnitRule x_unit = unit::count;                  ///< of the argument, if the value is a curve or a law
+};
+
+template <typename O, typename T>
+constexpr Row<Role::input, O, T> input (T O::*m, std::string_view id, UnitRule u, std::string_view about)
+{
+    return { m, id, u, about };
+}
+
+template <typename O, typename T>
+constexpr Row<Role::param, O, T> param (T O::*m, std::string_view id, UnitRule u, std::string_view about, Limits l = {})
+{
+    return { m, id, u, about, l };
+}
+
+/// A parameter with named alternatives. T is an enum of int size, 0 … n-1 in the order of the names.
+/// A node that has a contact takes a new choice over only when the contact is open.
+template <typename O, typename T>
+requires std::is_enum_v<T>
+constexpr Row<Role::param, O, T> choice (T O::*m, std::string_view id, std::span<const std::string_view> names, std::string_view about)
+{
+    return { m, id, unit::count, about, {}, names };
+}
+
+/// A setting shapes the node and is fixed while it runs: number (double, int), text, Curve, Law, or a list of records
+/// (std::vector of a struct with a `fields` table).
+template <typename O, typename T>
+constexpr Row<Role::setting, O, T> setting (T O::*m, std::string_view id, UnitRule u, std::string_view about, Limits l = {})
+{
+    return { m, id, u, about, l };
+}
+
+/// A setting that is a Curve or a Law, with the unit of its argument.
+template <typename O, typename T>
+constexpr Row<Role::setting, O, T> setting (T O::*m, std::string_view id, UnitRule x, UnitRule y, std::string_view about)
+{
+    return { m, id, y, about, {}, {}, x };
+}
+
+template <typename O, typename T>
+constexpr Row<Role::output, O, T> output (T O::*m, std::string_view id, UnitRule u, std::string_view about)
+{
+    return { m, id, u, about };
+}
+
+/// One field of a record; see Row. Records hold doubles only.
+template <typename Record>
+struct Field
+{
+    double Record::*member;
+    std::string_view id;
+    Unit unit;
+    std::string_view about;
+    Limits limits {};
+};
+
+template <typename R>
+constexpr Field<R> field (double R::*m, std::string_view id, Unit u, std::string_view about, Limits l = {})
+{
+    return { m, id, u, about, l };
+}
+
+//==============================================================================
+// Implementation below.
+
+namespace detail
+{
+struct Anything
+{
+    template <typename T>
+    operator T() const;
+};
+
+template <typename T, std::size_t... I>
+constexpr bool initialisableFrom (std::index_sequence<I...>)
+{
+    return requires { T { (void (I), Anything {})... }; };
+}
+
+template <typename T, std::size_t N = 24>
+constexpr std::size_t memberCount()
+{
+    if constexpr (N == 0)
+        return 0;
+    else if constexpr (initialisableFrom<T> (std::make_index_sequence<N> {}))
+        return N;
+    else
+        return memberCount<T, N - 1>();
+}
+
+template <Role role, typename... R>
+constexpr std::size_t rowCount (const std::tuple<R...>&)
+{
+    return (std::size_t (R::role == role) + ... + 0u);
+}
+
+struct NoSettings
+{
+};
+
+template <typename N>
+struct SettingsOf
+{
+    using Type = NoSettings;
+};
+template <typename N>
+requires requires { typename N::Settings; }
+struct SettingsOf<N>
+{
+    using Type = typename N::Settings;
+};
+}   // namespace detail
+
+/// True if `ports` has exactly one row per member of Inputs, Params, Settings and Outputs.
+template <typename N>
+constexpr bool datasheetIsComplete()
+{
+    return detail::rowCount<Role::input> (N::ports) == detail::memberCount<typename N::Inputs>()
+           && detail::rowCount<Role::param> (N::ports) == detail::memberCount<typename N::Params>()
+           && detail::rowCount<Role::setting> (N::ports) == detail::memberCount<typename detail::SettingsOf<N>::Type>()
+           && detail::rowCount<Role::output> (N::ports) == detail::memberCount<typename N::Outputs>();
+}
+
+}   // namespace tactus

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "curve.hpp"
+
+#include <cmath>
+
+namespace tactus
+{
+
+/// A force-deflection law: the force at deflection e >= 0, and the energy stored on the way there.
+///
+///     power        f = k e^n                  energy = k e^(n+1) / (n+1)
+///     exponential  f = a (exp (b e) - 1)      energy = a ((exp (b e) - 1) / b - e)
+///     table        straight between points from (0, 0), the last slope continued
+///
+/// In files {"power": [k, n]}, {"exponential": [a, b]}, {"table": [[e…], [f…]]}. All are 0 for e <= 0.
+/// A law of kind `none` stands for "not given"; the node's doc block says what happens then.
+struct Law
+{
+    enum class Kind
+    {
+        none,
+        power,
+        exponential,
+        table
+    };
+
+    Kind kind = Kind::none;
+    double a = 0.0, b = 1.0;   ///< k and n, or a and b
+    Curve table;
+
+    explicit operator bool() const noexcept { return kind != Kind::none; }
+
+    double operator() (double e) const noexcept
+    {
+        if (! (e > 0.0)) return 0.0;
+        switch (kind)
+        {
+        case Kind::power:
+            return b == 1.0 ? a * e : a * std::pow (e, b);
+        case Kind::exponential:
+            return a * std::expm1 (b * e);
+        case Kind::table:
+            return along (e).force;
+        case Kind::none:
+            break;
+        }
+        return 0.0;
+    }
+
+    double energy (double e) const noexcept
+    {
+        if (! (e > 0.0)) return 0.0;
+        switch (kind)
+        {
+        case Kind::power:
+            return a * std::pow (e, b + 1.0) / (b + 1.0);
+        case Kind::exponential:
+            return a * (std::expm1 (b * e) / b - e);
+        case Kind::table:
+            return along (e).energy;
+        case Kind::none:
+            break;
+        }
+        return 0.0;
+    }
+
+private:
+    struct Point
+    {
+        double force, energy;
+    };
+
+    Point along (double e) const noexcept
+    {
+        double x = 0.0, y = 0.0, slope = 0.0, energy = 0.0;
+        for (std::size_t i = 0; i < table.x.size() && x < e; ++i)
+        {
+            if (table.x[i] <= x) continue;   // a first point at (0, 0) is implied, and may be written
+            slope = (table.y[i] - y) / (table.x[i] - x);
+            const double step = std::min (table.x[i], e) - x;
+            energy += step * (y + 0.5 * slope * step);
+            x += step;
+            y += slope * step;
+        }
+        const double beyond = e - x;
+        return { y + slope * beyond, energy + beyond * (y + 0.5 * slope * beyond) };
+    }
+};
+
+}   // namespace tactus

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// What a node is. Start here, then read nodes/friction/elasto_plastic.hpp.
+///
+/// A node is a plain struct. It inherits from nothing and knows nothing of graphs, threads or hosts:
+///
+///   Inputs, Params, Outputs   plain structs of double, Vec3 and arrays, SI units, defaults in place
+///   Settings                  optional; what shapes the node and is fixed while it runs
+///   info, ports               its datasheet: names, units, ranges, sources (framework/datasheet.hpp)
+///   tick (in) -> Outputs      one sample; the only function on the hot path
+///
+/// Hooks, each optional, found by the compiler:
+///
+///   prepare (setup)           before the first tick, with params and settings in place; may allocate   [main thread]
+///   update()                  after a parameter moved and before the tick: coefficients, so that a filter does not
+///                             pay `tan` each tick; also once after prepare                              [tick thread]
+///   peek() -> Outputs         for a node whose outputs do not depend on this tick's inputs: gives them before tick,
+///                             which then returns nothing. This is how a delay opens a loop.            [tick thread]
+///   delay() -> int            how many ticks lie between a peeking node's inputs and outputs; 1 if not given
+///   adopt (old)               take over the state of the instance this one replaces                    [tick thread]
+///   claims() -> Claims        what tests and the validator can hold the node to
+///   bind (state)              gives a device node its role's DeviceState, before prepare               [main thread]
+///   effort() -> Effort        makes the node a sink: what it asks of its role, after tick              [tick thread]
+///
+/// A tick is noexcept and total. On a non-finite input it gives 0 on all outputs (-1 on `state`), re-opens the
+/// contact, and goes on with the next finite sample as if nothing had been touched before.
+///
+/// The line TACTUS_NODE (MyNode) at the end of the header checks all this at compile time and is what the build looks
+/// for to put the node in the catalogue. There is no other list to edit.
+
+#include "datasheet.hpp"
+#include "device.hpp"
+
+#include <concepts>
+#include <type_traits>
+
+namespace tactus
+{
+
+/// What the engine tells every node before it runs.
+struct Setup
+{
+    double rate_hz = 4000.0;
+
+    constexpr double dt_s() const noexcept { return 1.0 / rate_hz; }
+};
+
+/// What a node vouches for, with its params and settings as they are.
+struct Claims
+{
+    bool passive = false;             ///< over any closed path it gives no energy
+    double stiffness = 0.0;           ///< largest slope of force over position, N/m
+    double damping = 0.0;             ///< smallest damping it adds, N s/m
+    double spatial_frequency = 0.0;   ///< highest it renders, 1/m
+    double amplitude = inf;           ///< its outputs never exceed this, in their own unit
+};
+
+template <typename N>
+concept Peekable = requires (const N node)
+{
+    {
+        node.peek()
+    }
+    noexcept->std::same_as<typename N::Outputs>;
+};
+
+template <typename N>
+concept Node = std::default_initializable<N> && requires
+{
+    typename N::Inputs;
+    typename N::Params;
+    typename N::Outputs;
+    requires std::same_as<std::remove_cvref_t<decltype (N::info)>, Info>;
+    N::ports;
+} && requires (N node, const typename N::Inputs in)
+{
+    requires std::same_as<decltype (node.params), typename N::Params>;
+    requires ! requires { typename N::Settings; }
+    || requires { node.settings; };
+    requires (Peekable<N> && requires { { node.tick (in) } noexcept -> std::same_as<void>; })
+        || (! Peekable<N> && requires { { node.tick (in) } noexcept -> std::same_as<typename N::Outputs>; });
+};
+
+template <typename N>
+concept Preparable = requires (N node, Setup setup)
+{
+    node.prepare (setup);
+};
+
+template <typename N>
+concept Updatable = requires (N node)
+{
+    {
+        node.update()
+    }
+    noexcept;
+};
+
+template <typename N>
+concept Delaying = Peekable<N> && requires (const N node)
+{
+    {
+        node.delay()
+    }
+    noexcept->std::same_as<int>;
+};
+
+template <typename N>
+concept Adoptable = requires (N node, const N old)
+{
+    {
+        node.adopt (old)
+    }
+    noexcept;
+};
+
+template <typename N>
+concept Claiming = requires (const N node)
+{
+    {
+        node.claims()
+        } -> std::same_as<Claims>;
+};
+
+template <typename N>
+concept DeviceBound = requires (N node, const DeviceState& state)
+{
+    node.bind (state);
+};
+
+template <typename N>
+concept Sink = DeviceBound<N> && requires (const N node)
+{
+    {
+        node.effort()
+    }
+    noexcept->std::same_as<Effort>;
+};
+
+}   // namespace tactus
+
+#define TACTUS_NODE(N)                                                              \
+    static_assert (::tactus::Node<N>, #N " is not a node: see framework/node.hpp"); \
+    static_assert (::tactus::datasheetIsComplete<N>(),                              \
+                   #N "::ports must have exactly one row per member of Inputs, Params, Settings and Outputs")
