@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "graph.hpp"
+
+#include <algorithm>
+#include <atomic>
+
+namespace tactus::graph
+{
+
+Id newId() noexcept
+{
+    static std::atomic<Id> last { 0 };
+    return ++last;
+}
+
+const Node* Patch::find (std::string_view wanted) const noexcept
+{
+    const auto at = std::ranges::find (nodes, wanted, &Node::name);
+    return at == nodes.end() ? nullptr : &*at;
+}
+
+const Patch* Graph::find (std::string_view subgraph) const noexcept
+{
+    const auto at = std::ranges::find (graphs, subgraph, &std::pair<std::string, Patch>::first);
+    return at == graphs.end() ? nullptr : &at->second;
+}
+
+}   // namespace tactus::graph
