@@ -20,10 +20,13 @@ struct Measure
 
 /// Reads "0.4 mm", "1200 1/m", "2 N/mm", "60 mN", "1e-4 m/N", "5 %", "30 deg", "0.5" (a bare number has no dimension).
 /// Grammar: a number, then factors joined by * or a space and /, each a unit with an optional SI prefix and an optional
-/// integer power ("J/m2", "m^2", "s-1"). Returns the measure, or a sentence saying what is wrong with the text.
+/// integer power ("J/m2", "m^2", "s-1"). Read from left to right: a slash divides by the one factor that follows it.
+/// Units: m g s N J W Pa Hz rad, with the prefixes p n u (or µ) m c d k M G; deg and %, without. A prefix only shifts the
+/// decimal point, so "0.4 mm" is the same double as 0.0004. There is no "min", and no "dB": decibels are bare numbers.
+/// Returns the measure, or a sentence saying what is wrong with the text.
 std::variant<Measure, std::string> parseMeasure (std::string_view text);
 
-/// The usual way to write a dimension in SI: "N/m", "m/s", "kg*m2/s2" where it has no name.
+/// The usual way to write a dimension in SI: "N/m", "m/s", "kg*m2/s3" where it has no name. parseMeasure reads it.
 std::string symbolOf (Dimension);
 
 }   // namespace tactus
