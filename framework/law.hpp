@@ -28,7 +28,7 @@ struct Law
 
     Kind kind = Kind::none;
     double a = 0.0, b = 1.0;   ///< k and n, or a and b
-    Curve table;
+    Curve table {};
 
     explicit operator bool() const noexcept { return kind != Kind::none; }
 

@@ -23,6 +23,7 @@ struct Message
     std::string where;    ///< JSON pointer into the graph file, such as "/nodes/drag/params/mu"
     std::string text;     ///< what is wrong, with the names of both ends
     std::string remedy;   ///< what would be right
+    std::string file;     ///< of an included graph file; empty for the file itself
 };
 
 using Messages = std::vector<Message>;

@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: MIT
+#include "build.hpp"
+#include "ops.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <deque>
+#include <limits>
+#include <map>
+#include <new>
+
+namespace tactus::plan
+{
+
+namespace
+{
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double zero = 0.0;
+
+std::size_t at (int i) { return static_cast<std::size_t> (i); }
+
+/// Everything a plan's records point into. Nothing in it moves once the plan runs.
+struct Storage
+{
+    struct Arena
+    {
+        static constexpr std::align_val_t alignment { 64 };
+
+        explicit Arena (std::size_t size) : bytes (static_cast<std::byte*> (::operator new (std::max (size, std::size_t { 1 }), alignment))) {}
+        ~Arena() { ::operator delete (bytes, alignment); }
+        Arena (const Arena&) = delete;
+        Arena& operator= (const Arena&) = delete;
+
+        std::byte* bytes;
+    };
+
+    explicit Storage (std::size_t outputs_size) : outputs (outputs_size) {}
+
+    std::vector<std::shared_ptr<void>> nodes;
+    std::deque<NodeType> made_types;
+    Arena outputs;
+    std::vector<double> defaults;   // of unconnected input components, one per source
+    std::vector<const double*> sources;
+    std::deque<Sum> sums;
+    std::deque<DelayLine> delays;
+    std::deque<DrivenNode> driven;
+    std::deque<Bypass> bypasses;
+};
+
+/// What drives one component of an input or parameter.
+struct Drivers
+{
+    std::vector<Sum::Term> replace, add;
+    const double* feed = nullptr;
+};
+
+class Builder
+{
+public:
+    Builder (Flat& f, const PortUnits& u, std::span<const int> o, const Outside& out, const Setup& s) : flat (f), units (u), order (o), outside (out), setup (s) {}
+
+    std::shared_ptr<Plan> run()
+    {
+        layOut();
+        plan->feeds.assign (outside.feeds.size(), 0.0);
+        makeNodes();
+        connectDrivers();
+        for (const int n : order)
+            if (const auto& node = flat.nodes[at (n)]; ! node.muted)
+            {
+                connectInputs (n);
+                node.bypass ? addBypass (n) : addNode (n);
+            }
+        plan->records.insert (plan->records.begin(), peeks.begin(), peeks.end());
+        plan->records.insert (plan->records.end(), writes.begin(), writes.end());
+        addTaps();
+        plan->delays = pathDelays (flat, nodeDelays());
+        storage->made_types = std::move (flat.made_types);
+        plan->storage = storage;
+        return std::move (plan);
+    }
+
+private:
+    Flat& flat;
+    const PortUnits& units;
+    std::span<const int> order;
+    const Outside& outside;
+    const Setup& setup;
+
+    std::shared_ptr<Plan> plan = std::make_shared<Plan>();
+    std::shared_ptr<Storage> storage;
+    std::vector<std::size_t> output_at, source_at;                // of each node: into the arena, into sources
+    std::map<std::tuple<int, Role, int, int>, Drivers> drivers;   // by node, role, port, slot within the port
+    std::vector<Record> peeks, writes;
+
+    std::byte* outputsOf (int n) { return storage->outputs.bytes + output_at[at (n)]; }
+    void* nodeOf (int n) { return storage->nodes[at (n)].get(); }
+
+    static int slots (const FlatNode& n, const PortSheet& row) { return row.width * (row.list ? n.list_size : 1); }
+
+    /// Where a component stands among the slots of its port.
+    static int slotOf (const PortRef& r, int component, int width) { return std::max (r.index, 0) * width + std::max (component, 0); }
+
+    void layOut()
+    {
+        std::size_t size = 0, sources = 0;
+        for (const auto& n : flat.nodes)
+        {
+            const auto align = n.type->outputs_align;
+            size = (size + align - 1) / align * align;
+            output_at.push_back (size);
+            size += n.type->outputs_size;
+            source_at.push_back (sources);
+            for (const auto& row : n.type->inputs)
+                sources += at (slots (n, row));
+        }
+        storage = std::make_shared<Storage> (size);
+        storage->defaults.resize (sources);
+        storage->sources.resize (sources);
+    }
+
+    void makeNodes()
+    {
+        for (int i = 0; i < static_cast<int> (flat.nodes.size()); ++i)
+        {
+            const auto& n = flat.nodes[at (i)];
+            const bool made = n.type->make != nullptr;
+            storage->nodes.push_back (made ? n.type->make() : nullptr);
+            if (made)
+                n.type->initialiseOutputs (outputsOf (i));
+            else
+                std::memset (outputsOf (i), 0, n.type->outputs_size);
+            if (made) prepare (i);
+        }
+        std::ranges::sort (plan->roles, {}, &Plan::RoleUse::name);
+    }
+
+    void prepare (int i)
+    {
+        const auto& n = flat.nodes[at (i)];
+        void* node = nodeOf (i);
+        for (std::size_t p = 0; p < n.params.size(); ++p)
+            for (std::size_t k = 0; k < n.params[p].size(); ++k)
+            {
+                if (n.type->params[p].choices.empty())
+                    *param (i, p, k) = n.params[p][k];
+                else
+                {
+                    const int chosen = static_cast<int> (n.params[p][k]);
+                    std::memcpy (static_cast<std::byte*> (n.type->paramsOf (node)) + n.type->params[p].offset, &chosen, sizeof chosen);
+                }
+            }
+        for (std::size_t s = 0; s < n.settings.size(); ++s)
+            n.type->settings[s].set (node, n.settings[s]);
+
+        if (n.type->bind && ! n.muted && ! n.bypass) use (i);
+        if (n.type->prepare) n.type->prepare (node, setup);
+        if (n.type->update) n.type->update (node);
+    }
+
+    void use (int i)
+    {
+        const auto& n = flat.nodes[at (i)];
+        auto role = std::ranges::find (plan->roles, n.role, &Plan::RoleUse::name);
+        if (role == plan->roles.end())
+        {
+            plan->roles.push_back ({ n.role, std::make_unique<DeviceState>(), {} });
+            role = std::prev (plan->roles.end());
+        }
+        n.type->bind (nodeOf (i), *role->state);
+        if (n.type->effort) role->sinks.push_back ({ n.type->effort, nodeOf (i) });
+    }
+
+    double* param (int i, std::size_t p, std::size_t k)
+    {
+        const auto& type = *flat.nodes[at (i)].type;
+        return reinterpret_cast<double*> (static_cast<std::byte*> (type.paramsOf (nodeOf (i))) + type.params[p].offset) + k;
+    }
+
+    const double* output (const PortRef& r, int component)
+    {
+        return reinterpret_cast<const double*> (outputsOf (r.node) + flat.sheet (r).offset) + slotOf (r, component, flat.sheet (r).width);
+    }
+
+    Drivers& driversOf (const PortRef& r, int component) { return drivers[{ r.node, r.role, r.port, slotOf (r, component, flat.sheet (r).width) }]; }
+
+    void connectDrivers()
+    {
+        for (const auto& w : flat.wires)
+        {
+            const int width = flat.widthOf (w.to);
+            for (int c = 0; c < width; ++c)
+            {
+                const int from_component = w.from && w.from->component >= 0 ? w.from->component : c;
+                const int to_component = w.to.component >= 0 ? w.to.component : c;
+                const double* from = w.from ? output (*w.from, from_component) : &zero;
+                if (w.delay > 0) from = delayed (from, w.delay);
+                auto& d = driversOf (w.to, to_component);
+                (w.add ? d.add : d.replace).push_back ({ from, w.gain });
+            }
+        }
+        for (std::size_t f = 0; f < outside.feeds.size(); ++f)
+            driversOf (outside.feeds[f], outside.feeds[f].component).feed = &plan->feeds[f];
+    }
+
+    const double* delayed (const double* from, int ticks)
+    {
+        auto& d = storage->delays.emplace_back();
+        d.from = from;
+        d.line.assign (at (ticks), 0.0);
+        peeks.push_back ({ &DelayLine::read, &d, nullptr, nullptr });
+        writes.push_back ({ &DelayLine::write, &d, nullptr, nullptr });
+        return &d.out;
+    }
+
+    /// One value for several wires: the wire itself where there is one without gain, else a sum.
+    const double* joined (std::vector<Sum::Term> terms)
+    {
+        if (terms.empty()) return nullptr;
+        if (terms.size() == 1 && terms[0].gain == 1.0) return terms[0].from;
+        auto& s = storage->sums.emplace_back();
+        s.terms = std::move (terms);
+        s.scratch.resize (s.terms.size());
+        plan->records.push_back ({ &Sum::step, &s, nullptr, nullptr });
+        return &s.out;
+    }
+
+    void connectInputs (int i)
+    {
+        const auto& n = flat.nodes[at (i)];
+        auto slot = source_at[at (i)];
+        for (std::size_t p = 0; p < n.type->inputs.size(); ++p)
+        {
+            const auto& row = n.type->inputs[p];
+            for (int k = 0; k < slots (n, row); ++k, ++slot)
+            {
+                storage->defaults[slot] = row.initial[row.list ? 0 : k];
+                storage->sources[slot] = &storage->defaults[slot];
+                const auto found = drivers.find ({ i, Role::input, static_cast<int> (p), k });
+                if (found == drivers.end()) continue;
+                storage->sources[slot] = found->second.feed ? found->second.feed : joined (found->second.replace);
+            }
+        }
+    }
+
+    void addNode (int i)
+    {
+        const auto& n = flat.nodes[at (i)];
+        const double* const* sources = storage->sources.data() + source_at[at (i)];
+        if (n.type->peek) peeks.push_back ({ n.type->peek, nodeOf (i), sources, outputsOf (i) });
+
+        auto drives = drivesOf (i);
+        if (drives.empty())
+        {
+            plan->records.push_back ({ n.type->tick, nodeOf (i), sources, outputsOf (i) });
+            return;
+        }
+        auto& d = storage->driven.emplace_back();
+        d.type = n.type;
+        d.node = nodeOf (i);
+        d.drives = std::move (drives);
+        const auto end = at (i) + 1 < source_at.size() ? source_at[at (i) + 1] : storage->sources.size();
+        d.faulted.assign (end - source_at[at (i)], &not_a_number);
+        plan->records.push_back ({ &DrivenNode::step, &d, sources, outputsOf (i) });
+    }
+
+    std::vector<DrivenNode::Drive> drivesOf (int i)
+    {
+        const auto& n = flat.nodes[at (i)];
+        std::vector<DrivenNode::Drive> drives;
+        for (std::size_t p = 0; p < n.params.size(); ++p)
+            for (std::size_t k = 0; k < n.params[p].size(); ++k)
+            {
+                const auto found = drivers.find ({ i, Role::param, static_cast<int> (p), static_cast<int> (k) });
+                if (found == drivers.end()) continue;
+                const auto& d = found->second;
+                drives.push_back ({ param (i, p, k), n.params[p][k], d.feed ? d.feed : joined (d.replace), d.feed ? nullptr : joined (d.add), n.type->params[p].limits.hard });
+            }
+        return drives;
+    }
+
+    void addBypass (int i)
+    {
+        const auto& n = flat.nodes[at (i)];
+        auto& bypass = storage->bypasses.emplace_back();
+        for (const auto& out : n.type->outputs)
+        {
+            auto* to = reinterpret_cast<double*> (outputsOf (i) + out.offset);
+            std::size_t first = 0;
+            for (const auto& in : n.type->inputs)
+            {
+                if (in.width == out.width && ! out.list && (in.id == out.id || (in.id == "in" && out.id == "out")))
+                    for (int c = 0; c < out.width; ++c)
+                        bypass.copies.push_back ({ to + c, first + at (c), in.list ? at (n.list_size) : 1, at (in.width) });
+                first += at (slots (n, in));
+            }
+            if (out.unit.kind == UnitRule::Kind::fixed && out.unit.unit.quantity == Quantity::gain) *to = 1.0;
+        }
+        plan->records.push_back ({ &Bypass::step, &bypass, storage->sources.data() + source_at[at (i)], nullptr });
+    }
+
+    void addTaps()
+    {
+        for (const auto& r : outside.records)
+        {
+            const auto& n = flat.node (r);
+            const auto& row = flat.sheet (r);
+            const int first_index = r.index, last_index = row.list && r.index < 0 ? n.list_size - 1 : r.index;
+            for (int index = row.list ? std::max (first_index, 0) : -1; index <= last_index; ++index)
+                for (int c = r.component >= 0 ? r.component : row.width == 3 ? 0
+                                                                             : -1;
+                     c < (r.component >= 0 ? r.component + 1 : row.width == 3 ? 3
+                                                                              : 0);
+                     ++c)
+                {
+                    const PortRef one { r.node, r.role, r.port, index, c };
+                    const auto& unit = units (one);
+                    plan->taps.push_back ({ flat.nameOf (one), unit.quantity, unit.symbol, valueOf (one) });
+                }
+        }
+    }
+
+    const double* valueOf (const PortRef& r)
+    {
+        const auto& n = flat.node (r);
+        const int slot = slotOf (r, r.component, flat.sheet (r).width);
+        if (r.role == Role::output) return output (r, r.component);
+        if (r.role == Role::param) return n.type->make ? param (r.node, at (r.port), at (slot)) : &zero;
+
+        auto first = source_at[at (r.node)];
+        for (int p = 0; p < r.port; ++p)
+            first += at (slots (n, n.type->inputs[at (p)]));
+        return n.muted ? &zero : storage->sources[first + at (slot)];
+    }
+
+    std::vector<int> nodeDelays()
+    {
+        std::vector<int> delays;
+        for (int i = 0; i < static_cast<int> (flat.nodes.size()); ++i)
+        {
+            const auto& n = flat.nodes[at (i)];
+            const bool source = n.type->bind && ! n.type->effort;
+            const bool waits = n.type->peek && ! n.bypass && ! source;
+            delays.push_back (! waits ? 0 : n.type->delay ? n.type->delay (nodeOf (i))
+                                                          : 1);
+        }
+        return delays;
+    }
+};
+}   // namespace
+
+std::shared_ptr<Plan> build (Flat& flat, const PortUnits& units, std::span<const int> order, const Outside& outside, const Setup& setup)
+{
+    return Builder { flat, units, order, outside, setup }.run();
+}
+
+}   // namespace tactus::plan

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "compile.hpp"
+#include "build.hpp"
+
+#include <map>
+
+namespace tactus
+{
+
+namespace
+{
+using namespace plan;
+
+bool addsUp (Quantity q) { return q == Quantity::force || q == Quantity::torque || q == Quantity::hit; }
+
+/// Several wires into one place add up if the quantity does; else it is an error that names both.
+void checkFanIn (Flat& flat, const PortUnits& units)
+{
+    std::map<std::tuple<int, Role, int, int, int>, const FlatWire*> taken;
+    for (const auto& w : flat.wires)
+    {
+        if (w.add || (w.to.role == Role::input && addsUp (units (w.to).quantity))) continue;
+        const int first = w.to.component >= 0 ? w.to.component : 0;
+        for (int c = first; c < first + flat.widthOf (w.to); ++c)
+        {
+            const auto [other, fresh] = taken.try_emplace ({ w.to.node, w.to.role, w.to.port, w.to.index, c }, &w);
+            if (fresh) continue;
+            const auto& quantity = units (w.to).quantity;
+            flat.error ("wire/two_into_one", w.origin, "\"" + other->second->text + "\" and \"" + w.text + "\" both end at '" + flat.nameOf (w.to) + "', and a " + (quantity == Quantity::any ? "value" : std::string (name (quantity))) + " does not add up",
+                        w.to.role == Role::param ? "add the second with (+), or remove one" : "join them in a signal.add or vector.add, or remove one");
+            break;
+        }
+    }
+}
+
+Outside findOutside (Flat& flat, const Directory& directory, const CompileOptions& options)
+{
+    Outside outside;
+    for (const auto& name : options.feeds)
+    {
+        const Origin origin { "", "feed column " + name };
+        const auto port = directory.find (name, Side::end, origin, flat);
+        if (! port) continue;
+        const auto& sheet = flat.sheet (*port);
+        if (! sheet.choices.empty())
+            flat.error ("feed/choice", origin, "'" + name + "' is a choice among names and cannot be fed", "set it with --set, or in the file");
+        else if (flat.widthOf (*port) != 1)
+            flat.error ("feed/width", origin, "'" + name + "' is a vector", "feed its components: " + name + ".x, " + name + ".y, " + name + ".z");
+        else if (sheet.list && port->index < 0)
+            flat.error ("feed/width", origin, "'" + name + "' is an array port", "feed its entries: " + name + "[0], …");
+        else
+            outside.feeds.push_back (*port);
+    }
+
+    for (const auto& name : options.records)
+    {
+        const Origin origin { "", "record " + name };
+        const auto port = directory.find (name, Side::record, origin, flat);
+        if (! port) continue;
+        if (flat.sheet (*port).choices.empty())
+            outside.records.push_back (*port);
+        else
+            flat.error ("record/choice", origin, "'" + name + "' is a choice among names and has no number to record", "record a port that carries a number");
+    }
+    if (options.records.empty())
+        for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
+            if (const auto& node = flat.nodes[static_cast<std::size_t> (n)]; node.type->effort && ! node.muted)
+                for (int p = 0; p < static_cast<int> (node.type->inputs.size()); ++p)
+                    outside.records.push_back ({ n, Role::input, p, -1, -1 });
+    return outside;
+}
+}   // namespace
+
+Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const CompileOptions& options)
+{
+    auto [flat, directory] = flatten (g, catalogue, options.overrides);
+    const double rate = options.rate_hz > 0.0 ? options.rate_hz : g.rate_hz;
+    if (! (rate >= 1.0 && rate <= 1e6))
+        flat.error ("graph/rate", { "", "/rate_hz" }, "the rate must be from 1 Hz to 1 MHz", "haptic graphs run at 1000 to 10000 Hz");
+
+    const auto units = checkUnits (flat);
+    checkFanIn (flat, units);
+    const auto ordered = order (flat);
+    const auto outside = findOutside (flat, directory, options);
+
+    const bool runs = std::ranges::none_of (flat.messages, [] (const Message& m)
+                                            { return m.severity == Message::Severity::error && m.id != "node/unknown_type"; });
+    std::shared_ptr<Plan> made;
+    if (runs) made = build (flat, units, ordered, outside, { .rate_hz = rate });
+    return { std::move (made), std::move (flat.messages) };
+}
+
+}   // namespace tactus

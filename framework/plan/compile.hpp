@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// From graph to plan, in steps that each stand in a file of their own:
+///
+///   flatten      subgraphs expanded, names resolved, values read      flat.hpp, values.hpp
+///   unit_check   units of wires and values, generic nodes typed       unit_check.hpp
+///   order        running order, loops, delays                         order.hpp
+///   build        nodes made, storage laid out, records written        build.hpp
+
+#include "plan.hpp"
+
+#include <framework/graph/graph.hpp>
+#include <framework/message.hpp>
+
+namespace tactus
+{
+
+struct CompileOptions
+{
+    double rate_hz = 0.0;                    ///< 0: the graph's own
+    std::vector<std::string> feeds;          ///< ports driven from outside: "drag.position.x", "drag.mu"
+    std::vector<std::string> records;        ///< ports to tap; none: the inputs of every sink
+    std::vector<plan::Override> overrides;   ///< values that outrank the file's
+};
+
+struct Compiled
+{
+    std::shared_ptr<Plan> plan;   ///< null if there are errors, except for placeholders
+    Messages messages;
+};
+
+/// Pure: the same graph and options give the same plan, whatever the order its nodes and wires were written in.
+/// All problems are reported at once. A node of an unknown type is an error of the list, but the plan still runs with a
+/// placeholder in its place. [main thread]
+Compiled compile (const graph::Graph&, const Catalogue&, const CompileOptions& = {});
+
+}   // namespace tactus

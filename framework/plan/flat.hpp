@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// A graph with its subgraphs expanded, its names resolved against the catalogue and its values read: what the later
+/// steps of compiling work on. See compile.hpp for the whole.
+
+#include <framework/catalogue.hpp>
+#include <framework/graph/graph.hpp>
+#include <framework/message.hpp>
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace tactus::plan
+{
+
+/// Where something was written, for messages.
+struct Origin
+{
+    std::string file;      ///< of an included file; empty for the graph itself
+    std::string pointer;   ///< JSON pointer
+};
+
+/// A port of a flat node, or an entry or a component of it.
+struct PortRef
+{
+    int node = -1;
+    Role role = Role::input;
+    int port = -1;        ///< row among the inputs, params or outputs of the node's type
+    int index = -1;       ///< entry of an array port; -1 if the port is none
+    int component = -1;   ///< -1 for all components
+
+    bool operator== (const PortRef&) const = default;
+};
+
+/// A value given to a parameter: the point `amount` of the way from low to high.
+struct Assignment
+{
+    PortRef to;
+    Json low, high;
+    double amount = 0.0;
+    Origin origin;
+};
+
+struct FlatNode
+{
+    std::string path;   ///< "grain/wave"
+    const NodeType* type = nullptr;
+    std::string role {};
+    Origin origin {};
+    bool bypass = false;
+    bool muted = false;   ///< inside a bypassed subgraph: takes no part
+    std::vector<SettingValue> settings {};
+    std::vector<std::vector<double>> params {};   ///< by row; components of a vector, entries of an array port
+    int list_size = 0;
+
+    const std::vector<PortSheet>& ports (Role role_) const noexcept
+    {
+        return role_ == Role::input ? type->inputs : role_ == Role::param ? type->params
+                                                                          : type->outputs;
+    }
+};
+
+struct FlatWire
+{
+    std::optional<PortRef> from;   ///< nothing: a placeholder's output, which is 0
+    PortRef to;
+    int delay = 0;
+    bool add = false;
+    double gain = 1.0;
+    std::optional<Dimension> gain_dimension {};   ///< if the gain has a unit
+    std::string text;
+    Origin origin;
+};
+
+struct Flat
+{
+    std::vector<FlatNode> nodes;   ///< in file order, a subgraph's nodes where it stands
+    std::vector<FlatWire> wires;
+    std::vector<Assignment> assignments;   ///< in order of precedence, lowest first
+    std::deque<NodeType> made_types;       ///< of bypassed subgraphs
+    Messages messages;
+
+    const PortSheet& sheet (const PortRef& r) const { return nodes[static_cast<std::size_t> (r.node)].ports (r.role)[static_cast<std::size_t> (r.port)]; }
+    const FlatNode& node (const PortRef& r) const { return nodes[static_cast<std::size_t> (r.node)]; }
+
+    /// "grain/wave.phase", "mix.in[2]", "hand.position.x".
+    std::string nameOf (const PortRef&) const;
+
+    /// How many components a reference stands for.
+    int widthOf (const PortRef& r) const { return r.component >= 0 ? 1 : sheet (r).width; }
+
+    void error (std::string id, const Origin&, std::string text, std::string remedy);
+    void warn (std::string id, const Origin&, std::string text, std::string remedy);
+};
+
+/// Which roles a name may be looked up among, in this order.
+enum class Side
+{
+    start,   ///< of a wire: outputs
+    end,     ///< of a wire, or a feed: inputs, then params
+    param,   ///< params
+    record   ///< outputs, then inputs, then params
+};
+
+/// Finds ports by the names people use, from the top of the graph. Made by flatten; lives as long as the graph.
+class Directory
+{
+public:
+    struct Scope;
+
+    Directory();
+    Directory (Directory&&) noexcept;
+    Directory& operator= (Directory&&) noexcept;
+    ~Directory();
+
+    /// A port of the top level or below; nothing, with a message added, if there is none. A placeholder's port gives
+    /// nothing too, without a message.
+    std::optional<PortRef> find (const graph::Endpoint&, Side, const Origin&, Flat&) const;
+    std::optional<PortRef> find (std::string_view text, Side, const Origin&, Flat&) const;
+
+    std::unique_ptr<Scope> top;
+};
+
+struct Flattened
+{
+    Flat flat;
+    Directory directory;
+};
+
+/// A value given from outside, as by --set: "drag.mu" to "0.3", or a control's id to 0…1. It outranks the file.
+struct Override
+{
+    std::string name;
+    Json value;
+};
+
+/// Expands, resolves and reads. Unknown node types become placeholders, with the message node/unknown_type.
+Flattened flatten (const graph::Graph&, const Catalogue&, const std::vector<Override>&);
+
+}   // namespace tactus::plan

@@ -1,0 +1,595 @@
+// SPDX-License-Identifier: MIT
+#include "flat.hpp"
+#include "values.hpp"
+
+#include <framework/graph/text.hpp>
+#include <framework/nearest.hpp>
+
+#include <cmath>
+
+namespace tactus::plan
+{
+
+struct Directory::Scope
+{
+    /// What a name in a patch stands for: a node, a placeholder (neither), or a subgraph. A bypassed subgraph is both.
+    struct Member
+    {
+        int node = -1;
+        std::unique_ptr<Scope> inside;
+    };
+
+    struct Exposed
+    {
+        Role role;
+        std::string name;
+        std::optional<PortRef> to;
+    };
+
+    const graph::Graph* owner = nullptr;
+    const graph::Patch* patch = nullptr;
+    std::string prefix;   // of paths
+    Origin origin;        // of the patch
+    std::unordered_map<std::string, Member> members;
+    std::vector<Exposed> exposed;
+};
+
+Directory::Directory() = default;
+Directory::Directory (Directory&&) noexcept = default;
+Directory& Directory::operator= (Directory&&) noexcept = default;
+Directory::~Directory() = default;
+
+namespace
+{
+using Scope = Directory::Scope;
+
+constexpr int max_depth = 32;
+constexpr const char* component_names[] = { ".x", ".y", ".z" };
+
+Origin at (const Origin& base, std::string_view key)
+{
+    std::string escaped;
+    for (const char c : key)
+        escaped += c == '~' ? "~0" : c == '/' ? "~1"
+                                              : std::string (1, c);
+    return { base.file, base.pointer + "/" + escaped };
+}
+
+Origin at (const Origin& base, std::string_view key, std::string_view inner) { return at (at (base, key), inner); }
+
+std::vector<Role> rolesOf (Side side)
+{
+    switch (side)
+    {
+    case Side::start:
+        return { Role::output };
+    case Side::end:
+        return { Role::input, Role::param };
+    case Side::param:
+        return { Role::param };
+    case Side::record:
+        break;
+    }
+    return { Role::output, Role::input, Role::param };
+}
+
+const char* withArticle (Role role) { return role == Role::input ? "an input" : role == Role::param ? "a parameter"
+                                                                                                    : "an output"; }
+
+std::string listed (const std::vector<std::string>& names)
+{
+    std::string all;
+    for (const auto& n : names)
+        all += (all.empty() ? "" : ", ") + n;
+    return all.empty() ? "none" : all;
+}
+
+/// Looks a port up by name among the rows of a node, or among what a subgraph exposes.
+struct Finder
+{
+    Flat& flat;
+    const Origin& origin;
+    Side side;
+
+    std::optional<PortRef> in (const Scope& scope, const graph::Endpoint& e) const
+    {
+        const auto slash = e.node.find ('/');
+        const std::string head = e.node.substr (0, slash);
+        const auto member = scope.members.find (head);
+        if (member == scope.members.end())
+        {
+            if (head.find ('[') != std::string::npos)
+                flat.error ("graph/not_yet", origin, "'" + scope.prefix + head + "' addresses one of several instances, which this version does not run", "give each a node of its own");
+            else
+            {
+                std::vector<std::string> names;
+                for (const auto& n : scope.patch->nodes)
+                    names.push_back (n.name);
+                flat.error ("port/unknown_node", origin, "there is no node '" + scope.prefix + head + "'" + didYouMean (head, names), "nodes here: " + listed (names));
+            }
+            return {};
+        }
+
+        const auto& [node, inside] = member->second;
+        if (slash != std::string::npos)
+        {
+            if (inside) return in (*inside, { e.node.substr (slash + 1), e.port, e.index, e.component });
+            if (node >= 0)
+                flat.error ("port/not_a_subgraph", origin, "'" + scope.prefix + head + "' is a node, so nothing lies inside it", "address it as " + head + "." + e.port);
+            return {};
+        }
+        if (node >= 0) return amongRows (node, e);
+        return inside ? amongExposed (*inside, e) : std::nullopt;
+    }
+
+private:
+    std::optional<PortRef> amongRows (int node, const graph::Endpoint& e) const
+    {
+        const auto& n = flat.nodes[static_cast<std::size_t> (node)];
+        for (const auto role : rolesOf (side))
+        {
+            const auto& rows = n.ports (role);
+            const auto row = std::ranges::find (rows, e.port, &PortSheet::id);
+            if (row != rows.end())
+                return narrow ({ node, role, static_cast<int> (row - rows.begin()), -1, -1 }, e);
+        }
+
+        std::vector<std::string> names;
+        for (const auto role : rolesOf (side))
+            for (const auto& row : n.ports (role))
+                names.emplace_back (row.id);
+        unknownPort (n.path, std::string (n.type->info.id), e.port, names, [&] (Role role)
+                     { return std::ranges::count (n.ports (role), e.port, &PortSheet::id) > 0; });
+        return {};
+    }
+
+    std::optional<PortRef> amongExposed (const Scope& inside, const graph::Endpoint& e) const
+    {
+        for (const auto role : rolesOf (side))
+            for (const auto& x : inside.exposed)
+                if (x.role == role && x.name == e.port)
+                    return x.to ? narrow (*x.to, e) : std::nullopt;
+
+        std::vector<std::string> names;
+        for (const auto role : rolesOf (side))
+            for (const auto& x : inside.exposed)
+                if (x.role == role) names.push_back (x.name);
+        unknownPort (inside.prefix.substr (0, inside.prefix.size() - 1), "subgraph", e.port, names, [&] (Role role)
+                     { return std::ranges::any_of (inside.exposed, [&] (const auto& x)
+                                                   { return x.role == role && x.name == e.port; }); });
+        return {};
+    }
+
+    template <typename Has>
+    void unknownPort (const std::string& path, const std::string& type, const std::string& port, const std::vector<std::string>& names, Has has) const
+    {
+        const std::string wanted = side == Side::start ? "output" : side == Side::end ? "input or parameter"
+                                                                : side == Side::param ? "parameter"
+                                                                                      : "port";
+        for (const auto role : { Role::output, Role::input, Role::param })
+            if (has (role))
+            {
+                flat.error ("port/wrong_side", origin, "'" + path + "." + port + "' is " + withArticle (role) + "; what belongs here is " + (side == Side::start ? "an output" : side == Side::end ? "an input or a parameter"
+                                                                                                                                                                                                   : "a parameter"),
+                            "it has: " + listed (names));
+                return;
+            }
+        flat.error ("port/unknown", origin, "'" + path + "' (" + type + ") has no " + wanted + " '" + port + "'" + didYouMean (port, names), "it has: " + listed (names));
+    }
+
+    /// Applies the index and component of an endpoint to the port it names.
+    std::optional<PortRef> narrow (PortRef r, const graph::Endpoint& e) const
+    {
+        const auto& sheet = flat.sheet (r);
+        const auto& node = flat.node (r);
+        if (e.index >= 0)
+        {
+            if (! sheet.list || r.index >= 0)
+            {
+                flat.error ("port/bad_index", origin, "'" + flat.nameOf (r) + "' is not an array port", "leave out [" + std::to_string (e.index) + "]");
+                return {};
+            }
+            r.index = e.index;
+        }
+        if (sheet.list && r.index >= node.list_size)
+        {
+            flat.error ("port/bad_index", origin, "'" + flat.nameOf (r) + "' does not exist: '" + node.path + "' has " + std::to_string (node.list_size) + " entries, counted from 0", "raise its setting `inputs`, or use a smaller index");
+            return {};
+        }
+        if (e.component >= 0)
+        {
+            if (sheet.width != 3 || r.component >= 0)
+            {
+                flat.error ("port/not_a_vector", origin, "'" + flat.nameOf (r) + "' is a scalar and has no component " + component_names[e.component], "leave out " + std::string (component_names[e.component]));
+                return {};
+            }
+            r.component = e.component;
+        }
+        return r;
+    }
+};
+
+class Flattener
+{
+public:
+    Flattener (const Catalogue& c, const std::vector<Override>& o, Flattened& r) : nodes (c), overrides (o), result (r), flat (r.flat) {}
+
+    void run (const graph::Graph& g)
+    {
+        auto& top = result.directory.top;
+        top = std::make_unique<Scope>();
+        top->owner = &g;
+        top->patch = &g.root;
+        expand (*top, {}, false);
+        readControls (g);
+        readOverrides();
+    }
+
+private:
+    using Roles = std::unordered_map<std::string, std::string>;
+
+    const Catalogue& nodes;
+    const std::vector<Override>& overrides;
+    Flattened& result;
+    Flat& flat;
+    std::vector<const graph::Patch*> open;   // the patches we are inside of
+
+    void expand (Scope& scope, const Roles& roles, bool muted)
+    {
+        open.push_back (scope.patch);
+        for (const auto& node : scope.patch->nodes)
+        {
+            const auto here = at (scope.origin, "nodes", node.name);
+            refuseUnsupported (node, here);
+            auto& member = scope.members[node.name];
+            if (node.type.starts_with ("graph:") || node.type.starts_with ("file:"))
+                addSubgraph (scope, node, here, roles, muted, member);
+            else
+                addNode (scope, node, here, roles, muted, member);
+        }
+        expose (scope);
+        addWires (scope, muted);
+        open.pop_back();
+    }
+
+    void refuseUnsupported (const graph::Node& node, const Origin& here)
+    {
+        for (const auto* key : { "count", "every", "times", "hold" })
+            if (node.extra.contains (key))
+                flat.error ("graph/not_yet", at (here, key), "'" + node.name + "' asks for `" + key + "`, which this version does not run yet", "remove it, and give each instance a node of its own");
+    }
+
+    void addNode (Scope& scope, const graph::Node& node, const Origin& here, const Roles& roles, bool muted, Scope::Member& member)
+    {
+        const auto* type = nodes.find (node.type);
+        if (type == nullptr)
+        {
+            std::vector<std::string> ids;
+            for (const auto& t : nodes)
+                ids.emplace_back (t.info.id);
+            flat.error ("node/unknown_type", at (here, "type"), "'" + scope.prefix + node.name + "' has the unknown type '" + node.type + "'" + didYouMean (node.type, ids),
+                        "it is kept as a placeholder whose outputs are 0; `tactus nodes` lists the types there are");
+            return;
+        }
+
+        member.node = static_cast<int> (flat.nodes.size());
+        flat.nodes.push_back ({ .path = scope.prefix + node.name, .type = type, .origin = here, .bypass = node.bypass, .muted = muted });
+        auto& made = flat.nodes.back();
+        readRole (node, here, roles, made);
+        readSettings (node, here, made);
+        for (const auto& [key, value] : node.params.items())
+            assign (scope, node.name + "." + key, value, at (here, "params", key), flat.assignments);
+    }
+
+    void readRole (const graph::Node& node, const Origin& here, const Roles& roles, FlatNode& made)
+    {
+        if (made.type->bind != nullptr && node.role.empty())
+            flat.error ("node/no_role", here, "'" + made.path + "' (" + node.type + ") does not say which device it belongs to", "give it a role, as in \"role\": \"stylus\"");
+        if (made.type->bind == nullptr && ! node.role.empty())
+            flat.warn ("node/needless_role", at (here, "role"), "'" + made.path + "' (" + node.type + ") is not a device node, so its role means nothing", "remove the role");
+        const auto outer = roles.find (node.role);
+        made.role = outer == roles.end() ? node.role : outer->second;
+    }
+
+    void readSettings (const graph::Node& node, const Origin& here, FlatNode& made)
+    {
+        for (const auto& sheet : made.type->settings)
+            made.settings.push_back (sheet.initial);
+
+        for (const auto& [key, value] : node.settings.items())
+        {
+            const auto sheet = std::ranges::find (made.type->settings, key, &SettingSheet::id);
+            if (sheet == made.type->settings.end())
+            {
+                std::vector<std::string> ids;
+                for (const auto& s : made.type->settings)
+                    ids.emplace_back (s.id);
+                const bool is_param = std::ranges::count (made.type->params, key, &PortSheet::id) > 0;
+                flat.error ("node/unknown_setting", at (here, "settings", key), "'" + made.path + "' (" + node.type + ") has no setting '" + key + "'" + didYouMean (key, ids),
+                            is_param ? "it is a parameter: move it to params" : "its settings: " + listed (ids));
+                continue;
+            }
+            auto origin = at (here, "settings", key);
+            const auto read = readSetting (value, *sheet, origin.pointer);
+            if (const auto* problem = std::get_if<std::string> (&read))
+                flat.error ("setting/value", origin, "setting '" + key + "' of '" + made.path + "': " + *problem, std::string (sheet->about));
+            else
+                made.settings[static_cast<std::size_t> (sheet - made.type->settings.begin())] = std::get<SettingValue> (read);
+        }
+
+        for (std::size_t i = 0; i < made.type->settings.size(); ++i)
+            if (made.type->settings[i].id == "inputs")
+                made.list_size = static_cast<int> (std::get<double> (made.settings[i]));
+
+        for (const auto& row : made.type->params)
+            made.params.emplace_back (row.list ? static_cast<std::size_t> (made.list_size) : static_cast<std::size_t> (row.width), row.initial[0]);
+        for (std::size_t p = 0; p < made.params.size(); ++p)
+            if (made.type->params[p].width == 3)
+                made.params[p].assign (made.type->params[p].initial, made.type->params[p].initial + 3);
+    }
+
+    void addSubgraph (Scope& scope, const graph::Node& node, const Origin& here, const Roles& roles, bool muted, Scope::Member& member)
+    {
+        auto inside = std::make_unique<Scope>();
+        if (! findSubgraph (scope, node, here, *inside)) return;
+
+        if (std::ranges::count (open, inside->patch) > 0 || open.size() >= max_depth)
+        {
+            flat.error ("graph/recursive", at (here, "type"), "'" + scope.prefix + node.name + "' contains itself through '" + node.type + "'", "a subgraph may hold others, but not one it is inside of");
+            return;
+        }
+
+        inside->prefix = scope.prefix + node.name + "/";
+        Roles mapped;
+        if (node.roles.is_object())
+            for (const auto& [inner, outer] : node.roles.items())
+            {
+                if (outer.is_string())
+                {
+                    const auto through = roles.find (outer.get<std::string>());
+                    mapped[inner] = through == roles.end() ? outer.get<std::string>() : through->second;
+                }
+                else
+                    flat.error ("node/bad_roles", at (at (here, "roles"), inner), "role '" + inner + "' of '" + scope.prefix + node.name + "' must be the name of a role", "write { \"" + inner + "\": \"stylus\" }");
+            }
+        for (const auto& [inner, outer] : roles)
+            mapped.try_emplace (inner, outer);
+
+        expand (*inside, mapped, muted || node.bypass);
+        member.inside = std::move (inside);
+
+        for (const auto& [key, value] : node.params.items())
+            assign (scope, node.name + "." + key, value, at (here, "params", key), flat.assignments);
+        for (const auto& [key, value] : node.overrides.items())
+            assign (*member.inside, key, value, at (here, "overrides", key), flat.assignments);
+        if (node.bypass) bypassSubgraph (scope, node, here, muted, member);
+    }
+
+    bool findSubgraph (const Scope& scope, const graph::Node& node, const Origin& here, Scope& inside)
+    {
+        const auto colon = node.type.find (':');
+        const auto name = node.type.substr (colon + 1);
+        if (node.type.starts_with ("graph:"))
+        {
+            inside.owner = scope.owner;
+            inside.patch = scope.owner->find (name);
+            inside.origin = at ({ scope.origin.file, "" }, "graphs", name);
+            std::vector<std::string> names;
+            for (const auto& [id, patch] : scope.owner->graphs)
+                names.push_back (id);
+            if (inside.patch == nullptr)
+                flat.error ("graph/unknown_subgraph", at (here, "type"), "there is no subgraph '" + name + "' under `graphs`" + didYouMean (name, names), "subgraphs here: " + listed (names));
+        }
+        else if (const auto file = scope.owner->files.find (name); file != scope.owner->files.end())
+        {
+            inside.owner = file->second.get();
+            inside.patch = &inside.owner->root;
+            inside.origin = { name, "" };
+        }
+        else
+            flat.error ("graph/unknown_file", at (here, "type"), "the subgraph file '" + name + "' was not loaded", "check the path; it is relative to the file that names it");
+        return inside.patch != nullptr;
+    }
+
+    /// A bypassed subgraph keeps its exposed ports, as a node whose outputs pass the inputs of the same name.
+    void bypassSubgraph (const Scope& scope, const graph::Node& node, const Origin& here, bool muted, Scope::Member& member)
+    {
+        NodeType type {};
+        type.info = { .id = "subgraph", .name = "Bypassed subgraph", .summary = "", .source = "" };
+        std::size_t offset = 0;
+        for (const auto& x : member.inside->exposed)
+        {
+            if (! x.to) continue;
+            auto row = flat.sheet (*x.to);
+            row.role = x.role;
+            row.id = x.name;
+            if (row.unit.kind != UnitRule::Kind::fixed) row.unit = each_its_unit;
+            row.width = flat.widthOf (*x.to);
+            row.list = false;
+            if (x.role == Role::output)
+            {
+                row.offset = offset;
+                offset += sizeof (double) * static_cast<std::size_t> (row.width);
+            }
+            (x.role == Role::input ? type.inputs : x.role == Role::param ? type.params
+                                                                         : type.outputs)
+                .push_back (row);
+        }
+        type.outputs_size = std::max (offset, sizeof (double));
+        type.outputs_align = alignof (double);
+        flat.made_types.push_back (std::move (type));
+
+        member.node = static_cast<int> (flat.nodes.size());
+        flat.nodes.push_back ({ .path = scope.prefix + node.name, .type = &flat.made_types.back(), .origin = here, .bypass = true, .muted = muted });
+        for (const auto& row : flat.made_types.back().params)
+            flat.nodes.back().params.emplace_back (static_cast<std::size_t> (row.width), row.initial[0]);
+    }
+
+    void expose (Scope& scope)
+    {
+        const auto add = [&] (Role role, Side side, const char* key, const auto& entries)
+        {
+            for (const auto& [name, endpoint] : entries)
+            {
+                const auto origin = at (at (at (scope.origin, "expose"), key), name);
+                scope.exposed.push_back ({ role, name, Finder { flat, origin, side }.in (scope, endpoint) });
+            }
+        };
+        add (Role::input, Side::end, "inputs", scope.patch->expose.inputs);
+        add (Role::output, Side::start, "outputs", scope.patch->expose.outputs);
+        add (Role::param, Side::param, "params", scope.patch->expose.params);
+    }
+
+    void addWires (const Scope& scope, bool muted)
+    {
+        for (std::size_t i = 0; i < scope.patch->wires.size(); ++i)
+        {
+            const auto& wire = scope.patch->wires[i];
+            const auto origin = at (scope.origin, "wires", std::to_string (i));
+            const auto before = flat.messages.size();
+            const auto from = Finder { flat, origin, Side::start }.in (scope, wire.from);
+            const bool from_failed = flat.messages.size() > before;
+            const auto to = Finder { flat, origin, Side::end }.in (scope, wire.to);
+            if (from_failed || ! to) continue;
+
+            FlatWire w { .from = from, .to = *to, .delay = wire.delay, .add = wire.add, .text = graph::toText (wire), .origin = origin };
+            if (readGain (wire, w) && wireFits (w) && ! muted && wire.enabled.value_or (true))
+                flat.wires.push_back (std::move (w));
+        }
+    }
+
+    bool readGain (const graph::Wire& wire, FlatWire& w)
+    {
+        if (wire.gain.is_null()) return true;
+        const auto read = readNumber (wire.gain);
+        if (const auto* problem = std::get_if<std::string> (&read))
+        {
+            flat.error ("wire/gain", at (w.origin, "gain"), "gain of \"" + w.text + "\": " + *problem, "a number, or text with a unit such as \"1e-4 m/N\"");
+            return false;
+        }
+        w.gain = std::get<Number> (read).value;
+        w.gain_dimension = std::get<Number> (read).dimension;
+        return true;
+    }
+
+    bool wireFits (const FlatWire& w)
+    {
+        const auto& to = flat.sheet (w.to);
+        for (const auto& end : { w.from, std::optional { w.to } })
+            if (end && flat.sheet (*end).list && end->index < 0)
+            {
+                const auto name = flat.nameOf (*end);
+                flat.error ("wire/which_entry", w.origin, "\"" + w.text + "\" does not say which entry of the array port '" + name + "' it means", "write " + name + "[0]");
+                return false;
+            }
+        if (! to.choices.empty())
+        {
+            flat.error ("wire/onto_choice", w.origin, "'" + flat.nameOf (w.to) + "' is a choice among names and takes no wire", "set it under params");
+            return false;
+        }
+        if (w.add && w.to.role != Role::param)
+        {
+            flat.error ("wire/add_to_input", w.origin, "(+) adds to a parameter's stored value, but '" + flat.nameOf (w.to) + "' is an input", "leave out (+)");
+            return false;
+        }
+        if (w.from && flat.widthOf (*w.from) != flat.widthOf (w.to))
+        {
+            const bool vector_first = flat.widthOf (*w.from) == 3;
+            flat.error ("wire/width", w.origin, "'" + flat.nameOf (*w.from) + (vector_first ? "' is a vector and '" : "' is a scalar and '") + flat.nameOf (w.to) + (vector_first ? "' a scalar" : "' a vector"),
+                        vector_first ? "wire one component, as in " + flat.nameOf (*w.from) + ".x" : "wire it to one component, as in " + flat.nameOf (w.to) + ".x");
+            return false;
+        }
+        return true;
+    }
+
+    void assign (const Scope& scope, std::string_view name, const Json& value, const Origin& origin, std::vector<Assignment>& into)
+    {
+        if (const auto to = target (scope, name, origin))
+            into.push_back ({ *to, value, value, 0.0, origin });
+    }
+
+    std::optional<PortRef> target (const Scope& scope, std::string_view name, const Origin& origin)
+    {
+        const auto parsed = graph::parseEndpoint (name);
+        if (const auto* problem = std::get_if<std::string> (&parsed))
+        {
+            flat.error ("param/name", origin, *problem, "name a parameter, as in drag.mu");
+            return {};
+        }
+        return Finder { flat, origin, Side::param }.in (scope, std::get<graph::Endpoint> (parsed));
+    }
+
+    void readControls (const graph::Graph& g)
+    {
+        for (const auto& control : g.controls)
+        {
+            const auto origin = at ({}, "controls", control.id);
+            auto value = control.value;
+            for (const auto& o : overrides)
+                if (o.name == control.id)
+                {
+                    const auto read = readNumber (o.value);
+                    if (const auto* problem = std::get_if<std::string> (&read))
+                        flat.error ("control/value", origin, "control '" + control.id + "': " + *problem, "a number from 0 to 1");
+                    else
+                        value = std::get<Number> (read).value;
+                }
+            if (! (value >= 0.0 && value <= 1.0))
+                flat.error ("control/value", at (origin, "value"), "control '" + control.id + "' is out of its range", "a number from 0 to 1");
+
+            for (const auto& t : control.to)
+                if (const auto to = target (*result.directory.top, t.path, at (at (origin, "to"), t.path)))
+                    flat.assignments.push_back ({ *to, t.low, t.high, value, at (at (origin, "to"), t.path) });
+        }
+    }
+
+    void readOverrides()
+    {
+        const auto& controls = result.directory.top->owner->controls;
+        for (const auto& o : overrides)
+            if (std::ranges::count (controls, o.name, &graph::Control::id) == 0)
+                assign (*result.directory.top, o.name, o.value, { "", "--set " + o.name }, flat.assignments);
+    }
+};
+}   // namespace
+
+std::string Flat::nameOf (const PortRef& r) const
+{
+    auto name = node (r).path + "." + std::string (sheet (r).id);
+    if (r.index >= 0) name += "[" + std::to_string (r.index) + "]";
+    if (r.component >= 0) name += component_names[r.component];
+    return name;
+}
+
+void Flat::error (std::string id, const Origin& origin, std::string text, std::string remedy)
+{
+    messages.push_back ({ Message::Severity::error, std::move (id), origin.pointer, std::move (text), std::move (remedy), origin.file });
+}
+
+void Flat::warn (std::string id, const Origin& origin, std::string text, std::string remedy)
+{
+    messages.push_back ({ Message::Severity::warning, std::move (id), origin.pointer, std::move (text), std::move (remedy), origin.file });
+}
+
+std::optional<PortRef> Directory::find (const graph::Endpoint& e, Side side, const Origin& origin, Flat& flat) const
+{
+    return Finder { flat, origin, side }.in (*top, e);
+}
+
+std::optional<PortRef> Directory::find (std::string_view text, Side side, const Origin& origin, Flat& flat) const
+{
+    const auto parsed = graph::parseEndpoint (text);
+    if (const auto* endpoint = std::get_if<graph::Endpoint> (&parsed)) return find (*endpoint, side, origin, flat);
+    flat.error ("port/syntax", origin, std::get<std::string> (parsed), "name a port, as in drag.force or hand.position.x");
+    return {};
+}
+
+Flattened flatten (const graph::Graph& g, const Catalogue& catalogue, const std::vector<Override>& overrides)
+{
+    Flattened result;
+    Flattener { catalogue, overrides, result }.run (g);
+    readParams (result.flat);
+    return result;
+}
+
+}   // namespace tactus::plan

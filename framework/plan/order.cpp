@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+#include "order.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <queue>
+
+namespace tactus::plan
+{
+
+namespace
+{
+/// Strongly connected components of a graph given by successors, numbered so that each comes after those it leads to
+/// (Tarjan 1972, without recursion, so that a chain of 10^5 nodes does not overflow the stack).
+std::vector<int> components (const std::vector<std::vector<int>>& next)
+{
+    const auto size = next.size();
+    std::vector<int> number (size, -1), low (size, 0), component (size, -1), path;
+    std::vector<std::pair<int, std::size_t>> calls;
+    int visited = 0, found = 0;
+
+    for (int start = 0; start < static_cast<int> (size); ++start)
+    {
+        if (number[static_cast<std::size_t> (start)] >= 0) continue;
+        calls.emplace_back (start, 0);
+        while (! calls.empty())
+        {
+            const int v = calls.back().first;
+            const auto i = static_cast<std::size_t> (v);
+            if (calls.back().second == 0)
+            {
+                number[i] = low[i] = visited++;
+                path.push_back (v);
+            }
+            if (calls.back().second < next[i].size())
+            {
+                const int w = next[i][calls.back().second++];
+                const auto j = static_cast<std::size_t> (w);
+                if (number[j] < 0)
+                    calls.emplace_back (w, 0);
+                else if (component[j] < 0)
+                    low[i] = std::min (low[i], number[j]);
+                continue;
+            }
+            calls.pop_back();
+            if (! calls.empty())
+            {
+                const auto parent = static_cast<std::size_t> (calls.back().first);
+                low[parent] = std::min (low[parent], low[i]);
+            }
+            if (low[i] == number[i])
+            {
+                while (component[i] < 0)
+                {
+                    component[static_cast<std::size_t> (path.back())] = found;
+                    path.pop_back();
+                }
+                ++found;
+            }
+        }
+    }
+    return component;
+}
+
+std::size_t at (int i) { return static_cast<std::size_t> (i); }
+
+/// A bypassed node passes its inputs on at once, so it does not peek.
+bool peeks (const FlatNode& n) { return n.type->peek != nullptr && ! n.bypass; }
+
+/// True if the wire makes its end wait for its start within a tick.
+bool binds (const Flat& flat, const FlatWire& w) { return w.from && w.delay == 0 && ! peeks (flat.node (*w.from)); }
+
+/// Steps from the nearest node without inputs to each node; what is far from the sources is near the end of a chain.
+std::vector<int> distances (const Flat& flat, const std::vector<std::vector<int>>& next)
+{
+    std::vector<bool> fed (flat.nodes.size(), false);
+    for (const auto& w : flat.wires)
+        if (w.from) fed[at (w.to.node)] = true;
+
+    std::vector<int> distance (flat.nodes.size(), static_cast<int> (flat.nodes.size()));
+    std::queue<int> open;
+    for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
+        if (! fed[at (n)] || peeks (flat.nodes[at (n)]))
+        {
+            distance[at (n)] = 0;
+            open.push (n);
+        }
+    for (; ! open.empty(); open.pop())
+        for (const int n : next[at (open.front())])
+            if (distance[at (n)] > distance[at (open.front())] + 1)
+            {
+                distance[at (n)] = distance[at (open.front())] + 1;
+                open.push (n);
+            }
+    return distance;
+}
+
+/// The shortest loop through `start` that stays within its component, as wires.
+std::vector<const FlatWire*> loopThrough (int start, const Flat& flat, const std::vector<int>& component)
+{
+    std::vector<std::vector<const FlatWire*>> out (flat.nodes.size());
+    for (const auto& w : flat.wires)
+        if (binds (flat, w) && component[at (w.from->node)] == component[at (start)] && component[at (w.to.node)] == component[at (start)])
+            out[at (w.from->node)].push_back (&w);
+
+    std::vector<const FlatWire*> by (flat.nodes.size(), nullptr);
+    std::queue<int> open;
+    open.push (start);
+    while (! open.empty() && by[at (start)] == nullptr)
+    {
+        for (const auto* w : out[at (open.front())])
+            if (by[at (w->to.node)] == nullptr)
+            {
+                by[at (w->to.node)] = w;
+                open.push (w->to.node);
+            }
+        open.pop();
+    }
+
+    std::vector<const FlatWire*> loop;
+    for (int n = start; loop.empty() || n != start;)
+    {
+        loop.push_back (by[at (n)]);
+        n = by[at (n)]->from->node;
+    }
+    std::ranges::reverse (loop);
+    return loop;
+}
+
+std::string textOf (const Flat& flat, const FlatWire& w, const char* arrow = " -> ") { return flat.nameOf (*w.from) + arrow + flat.nameOf (w.to); }
+
+void reportLoops (Flat& flat, const std::vector<std::vector<int>>& next)
+{
+    const auto component = components (next);
+    const auto distance = distances (flat, next);
+    std::vector<int> members (flat.nodes.size(), 0);
+    for (const int c : component)
+        ++members[at (c)];
+    std::vector<bool> reported (flat.nodes.size(), false);
+
+    std::vector<int> by_path (flat.nodes.size());
+    std::iota (by_path.begin(), by_path.end(), 0);
+    std::ranges::sort (by_path, {}, [&] (int n)
+                       { return flat.nodes[at (n)].path; });
+
+    for (const int n : by_path)
+    {
+        const auto c = at (component[at (n)]);
+        const bool loops = members[c] > 1 || std::ranges::count (next[at (n)], n) > 0;
+        if (! loops || reported[c]) continue;
+        reported[c] = true;
+
+        const auto loop = loopThrough (n, flat, component);
+        std::string chain;
+        for (const auto* w : loop)
+            chain += (chain.empty() ? "" : ", then ") + textOf (flat, *w);
+
+        // A delay costs least on the wire that leads back: from far from the sources to near them.
+        const auto* back = *std::ranges::max_element (loop, {}, [&] (const FlatWire* w)
+                                                      { return distance[at (w->from->node)] - distance[at (w->to.node)]; });
+        const auto origin = back->origin;
+        flat.error ("graph/loop", origin, "a loop without a delay: " + chain, "put a delay where it goes back: \"" + textOf (flat, *back, " -> [1] -> ") + "\"");
+    }
+}
+}   // namespace
+
+std::vector<int> order (Flat& flat)
+{
+    const auto size = flat.nodes.size();
+    std::vector<std::vector<int>> next (size);
+    std::vector<int> waiting (size, 0);
+    for (const auto& w : flat.wires)
+        if (binds (flat, w))
+        {
+            next[at (w.from->node)].push_back (w.to.node);
+            ++waiting[at (w.to.node)];
+        }
+
+    const auto later = [&] (int a, int b)
+    { return flat.nodes[at (a)].path > flat.nodes[at (b)].path; };
+    std::priority_queue<int, std::vector<int>, decltype (later)> ready (later);
+    for (int n = 0; n < static_cast<int> (size); ++n)
+        if (waiting[at (n)] == 0) ready.push (n);
+
+    std::vector<int> ordered;
+    while (! ready.empty())
+    {
+        const int n = ready.top();
+        ready.pop();
+        ordered.push_back (n);
+        for (const int m : next[at (n)])
+            if (--waiting[at (m)] == 0) ready.push (m);
+    }
+    if (ordered.size() < size) reportLoops (flat, next);
+    return ordered;
+}
+
+std::vector<PathDelay> pathDelays (const Flat& flat, const std::vector<int>& node_delays)
+{
+    struct Edge
+    {
+        int to, delay;
+    };
+    const auto size = flat.nodes.size();
+    std::vector<std::vector<Edge>> edges (size);
+    std::vector<std::vector<int>> next (size);
+    for (const auto& w : flat.wires)
+        if (w.from)
+        {
+            edges[at (w.from->node)].push_back ({ w.to.node, w.delay + node_delays[at (w.from->node)] });
+            next[at (w.from->node)].push_back (w.to.node);
+        }
+
+    // Components come numbered sinks first; walking them from high to low visits each node after all that lead to it.
+    const auto component = components (next);
+    std::vector<int> members (size, 0), walk (size);
+    for (const int c : component)
+        ++members[at (c)];
+    std::iota (walk.begin(), walk.end(), 0);
+    std::ranges::stable_sort (walk, std::greater {}, [&] (int n)
+                              { return component[at (n)]; });
+
+    const auto acts = [&] (int n)
+    { return flat.nodes[at (n)].type->effort != nullptr; };
+    const auto reads = [&] (int n)
+    { return flat.nodes[at (n)].type->bind != nullptr && ! acts (n); };
+
+    std::vector<PathDelay> found;
+    for (int source = 0; source < static_cast<int> (size); ++source)
+    {
+        if (! reads (source)) continue;
+
+        constexpr int unreached = -1;
+        std::vector<int> shortest (size, unreached), longest (size, unreached);
+        std::vector<bool> recirculates (size, false);
+        shortest[at (source)] = longest[at (source)] = 0;
+
+        std::priority_queue<std::pair<int, int>, std::vector<std::pair<int, int>>, std::greater<>> open;
+        for (open.emplace (0, source); ! open.empty();)
+        {
+            const auto [delay, n] = open.top();
+            open.pop();
+            if (delay > shortest[at (n)]) continue;
+            for (const auto& e : edges[at (n)])
+                if (shortest[at (e.to)] == unreached || delay + e.delay < shortest[at (e.to)])
+                {
+                    shortest[at (e.to)] = delay + e.delay;
+                    open.emplace (delay + e.delay, e.to);
+                }
+        }
+        for (const int n : walk)
+        {
+            if (shortest[at (n)] == unreached) continue;
+            if (members[at (component[at (n)])] > 1 || std::ranges::count (next[at (n)], n) > 0) recirculates[at (n)] = true;
+            longest[at (n)] = std::max (longest[at (n)], shortest[at (n)]);
+            for (const auto& e : edges[at (n)])
+            {
+                if (component[at (e.to)] != component[at (n)]) longest[at (e.to)] = std::max (longest[at (e.to)], longest[at (n)] + e.delay);
+                recirculates[at (e.to)] = recirculates[at (e.to)] || recirculates[at (n)];
+            }
+        }
+        for (int sink = 0; sink < static_cast<int> (size); ++sink)
+            if (acts (sink) && shortest[at (sink)] != unreached)
+                found.push_back ({ flat.nodes[at (source)].path, flat.nodes[at (sink)].path, shortest[at (sink)], longest[at (sink)], recirculates[at (sink)] });
+    }
+    std::ranges::sort (found, {}, [] (const PathDelay& d)
+                       { return std::pair { d.source, d.sink }; });
+    return found;
+}
+
+}   // namespace tactus::plan

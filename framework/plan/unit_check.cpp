@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: MIT
+#include "unit_check.hpp"
+#include "values.hpp"
+
+#include <map>
+#include <numeric>
+
+namespace tactus::plan
+{
+
+namespace
+{
+/// What is known of a set of ports that must carry the same: its dimension, its quantity, and who said so.
+struct Class
+{
+    std::optional<Dimension> dimension;
+    Quantity quantity = Quantity::any;
+};
+
+/// Sets of ports joined by wires and `same as`. Each port carries its set's dimension times a factor of its own.
+class Joined
+{
+public:
+    explicit Joined (int size) : parent (static_cast<std::size_t> (size)), factor (static_cast<std::size_t> (size)), classes (static_cast<std::size_t> (size))
+    {
+        std::iota (parent.begin(), parent.end(), 0);
+    }
+
+    int root (int v)
+    {
+        int r = v;
+        Dimension total;
+        while (up (r) != r)
+        {
+            total = total * factor[static_cast<std::size_t> (r)];
+            r = up (r);
+        }
+        while (up (v) != r && v != r)   // shorten the path for the next time
+        {
+            const auto i = static_cast<std::size_t> (v);
+            const int next = parent[i];
+            const auto rest = total / factor[i];
+            parent[i] = r;
+            factor[i] = total;
+            total = rest;
+            v = next;
+        }
+        return r;
+    }
+
+    std::optional<Dimension> dimension (int v)
+    {
+        const auto& c = classes[static_cast<std::size_t> (root (v))];
+        if (! c.dimension) return {};
+        return *c.dimension * factorOf (v);
+    }
+
+    /// True, or false if v is known to carry another dimension.
+    bool state (int v, Dimension d)
+    {
+        auto& c = classes[static_cast<std::size_t> (root (v))];
+        if (! c.dimension) c.dimension = d / factorOf (v);
+        return *c.dimension == d / factorOf (v);
+    }
+
+    /// States dimension (b) = dimension (a) times `times`. False if both are known and disagree.
+    bool join (int a, int b, Dimension times)
+    {
+        const int ra = root (a), rb = root (b);
+        const auto shift = factorOf (a) * times / factorOf (b);   // of rb's class over ra's
+        if (ra == rb) return shift == Dimension {};
+        auto& ca = classes[static_cast<std::size_t> (ra)];
+        const auto& cb = classes[static_cast<std::size_t> (rb)];
+        if (ca.dimension && cb.dimension && *cb.dimension != *ca.dimension * shift) return false;
+        if (! ca.dimension && cb.dimension) ca.dimension = *cb.dimension / shift;
+        parent[static_cast<std::size_t> (rb)] = ra;
+        factor[static_cast<std::size_t> (rb)] = shift;
+        return true;
+    }
+
+private:
+    std::vector<int> parent;
+    std::vector<Dimension> factor;   // to the parent
+    std::vector<Class> classes;      // of roots
+
+    int up (int v) const { return parent[static_cast<std::size_t> (v)]; }
+    Dimension factorOf (int v) const { return up (v) == v ? Dimension {} : factor[static_cast<std::size_t> (v)]; }   // after root (v)
+};
+
+class UnitCheck
+{
+public:
+    explicit UnitCheck (Flat& f) : flat (f), variable (f), dimensions (variable.count()), quantity (static_cast<std::size_t> (variable.count()), Quantity::any) {}
+
+    PortUnits run()
+    {
+        for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
+            stateDatasheet (n);
+        spreadQuantities();
+        for (const auto& w : flat.wires)
+            wire (w);
+        for (const auto& a : flat.assignments)
+            assignment (a);
+        multiply();
+        spreadQuantities();
+        return result();
+    }
+
+private:
+    Flat& flat;
+    PortNumbers variable;
+    Joined dimensions;
+    std::vector<Quantity> quantity;
+    std::vector<std::pair<int, int>> alike;   // ports of one quantity: generic nodes and the wires at them
+
+    struct Product
+    {
+        int node, out;
+        std::vector<int> factors;
+    };
+    std::vector<Product> products;
+
+    std::optional<PortRef> named (int node, std::string_view id) const
+    {
+        for (const auto role : { Role::input, Role::param, Role::output })
+        {
+            const auto& rows = flat.nodes[static_cast<std::size_t> (node)].ports (role);
+            const auto row = std::ranges::find (rows, id, &PortSheet::id);
+            if (row != rows.end()) return PortRef { node, role, static_cast<int> (row - rows.begin()), -1, -1 };
+        }
+        return {};
+    }
+
+    void stateDatasheet (int node)
+    {
+        const auto& n = flat.nodes[static_cast<std::size_t> (node)];
+        for (const auto role : { Role::input, Role::param, Role::output })
+            for (int i = 0; i < static_cast<int> (n.ports (role).size()); ++i)
+            {
+                const auto& row = n.ports (role)[static_cast<std::size_t> (i)];
+                const int v = variable ({ node, role, i, -1, -1 });
+                if (row.unit.kind == UnitRule::Kind::fixed)
+                {
+                    dimensions.state (v, row.unit.unit.dimension);
+                    quantity[static_cast<std::size_t> (v)] = row.unit.unit.quantity;
+                }
+                else if (row.unit.kind == UnitRule::Kind::same)
+                {
+                    if (const auto a = named (node, row.unit.a))
+                    {
+                        dimensions.join (variable (*a), v, row.unit.unit.dimension);
+                        if (row.unit.unit.dimension == Dimension {}) alike.emplace_back (variable (*a), v);
+                    }
+                }
+                else if (row.unit.kind == UnitRule::Kind::product)
+                {
+                    Product p { node, v, {} };
+                    for (const auto id : { row.unit.a, row.unit.b })
+                        if (const auto a = named (node, id))
+                            for (int k = 0; k < PortNumbers::entries (n, flat.sheet (*a)); ++k)
+                                p.factors.push_back (variable (*a) + k);
+                    products.push_back (std::move (p));
+                }
+            }
+    }
+
+    void wire (const FlatWire& w)
+    {
+        if (! w.from) return;
+        const int from = variable (*w.from), to = variable (w.to);
+        const auto gain = w.gain_dimension.value_or (Dimension {});
+        if (! dimensions.join (from, to, gain))
+        {
+            const auto have = dimensions.dimension (from), want = dimensions.dimension (to);
+            const auto arrives = have.value_or (Dimension {}) * gain;
+            const auto needed = want.value_or (Dimension {}) / have.value_or (Dimension {});
+            flat.error ("wire/unit", w.origin, "'" + flat.nameOf (*w.from) + "' carries " + symbolOf (arrives) + (w.gain_dimension ? " after the wire's gain" : "") + ", but '" + flat.nameOf (w.to) + "' takes " + symbolOf (want.value_or (Dimension {})),
+                        "wire something that fits, or give the wire a gain in " + symbolOf (needed));
+            return;
+        }
+        if (gain != Dimension {}) return;
+
+        const auto a = quantity[static_cast<std::size_t> (from)], b = quantity[static_cast<std::size_t> (to)];
+        if (a != Quantity::any && b != Quantity::any && a != b)
+            flat.warn ("wire/quantity", w.origin, "'" + flat.nameOf (*w.from) + "' is a " + std::string (name (a)) + " and '" + flat.nameOf (w.to) + "' a " + std::string (name (b)) + "; both are in " + symbolOf (dimensions.dimension (from).value_or (Dimension {})),
+                       "fine if it is meant; else wire another port");
+        alike.emplace_back (from, to);
+        spread (from, to);
+    }
+
+    void assignment (const Assignment& a)
+    {
+        const auto& sheet = flat.sheet (a.to);
+        if (! sheet.choices.empty()) return;
+        for (const auto* json : { &a.low, &a.high })
+            for (const auto& part : json->is_array() ? *json : Json::array ({ *json }))
+            {
+                const auto read = readNumber (part);
+                const auto* number = std::get_if<Number> (&read);
+                if (number == nullptr || ! number->dimension) continue;
+                const int v = variable (a.to);
+                if (! dimensions.state (v, *number->dimension))
+                {
+                    flat.error ("param/unit", a.origin, "'" + flat.nameOf (a.to) + "' is in " + symbolOf (*dimensions.dimension (v)) + ", but " + part.dump() + " is in " + symbolOf (*number->dimension),
+                                "give it in " + symbolOf (*dimensions.dimension (v)) + ", or as a plain SI number");
+                    return;
+                }
+            }
+    }
+
+    /// Products carry dimensions forward, and backward where a single factor is unknown. Each pass that changes
+    /// something may let others go on; a pass without change ends it.
+    void multiply()
+    {
+        std::vector<bool> done (products.size(), false);
+        for (bool changed = true; changed;)
+        {
+            changed = false;
+            for (std::size_t i = 0; i < products.size(); ++i)
+            {
+                if (done[i]) continue;
+                const auto& p = products[i];
+                Dimension known;
+                int unknown = -1, unknowns = 0;
+                for (const int f : p.factors)
+                {
+                    if (const auto d = dimensions.dimension (f))
+                        known = known * *d;
+                    else
+                    {
+                        unknown = f;
+                        ++unknowns;
+                    }
+                }
+                const auto out = dimensions.dimension (p.out);
+                if (unknowns == 0)
+                {
+                    if (! dimensions.state (p.out, known))
+                    {
+                        const auto& n = flat.nodes[static_cast<std::size_t> (p.node)];
+                        flat.error ("node/unit", n.origin, "'" + n.path + "' multiplies to " + symbolOf (known) + ", but its output is used as " + symbolOf (*out), "check what is wired into it");
+                    }
+                    done[i] = changed = true;
+                }
+                else if (unknowns == 1 && out)
+                {
+                    dimensions.state (unknown, *out / known);
+                    done[i] = changed = true;
+                }
+            }
+        }
+    }
+
+    void spread (int a, int b)
+    {
+        auto& qa = quantity[static_cast<std::size_t> (a)];
+        auto& qb = quantity[static_cast<std::size_t> (b)];
+        if (qa == Quantity::any) qa = qb;
+        if (qb == Quantity::any) qb = qa;
+    }
+
+    /// Lets quantities flow along wires and through generic nodes until nothing changes.
+    void spreadQuantities()
+    {
+        std::vector<std::vector<int>> neighbours (static_cast<std::size_t> (variable.count()));
+        for (const auto& [a, b] : alike)
+        {
+            neighbours[static_cast<std::size_t> (a)].push_back (b);
+            neighbours[static_cast<std::size_t> (b)].push_back (a);
+        }
+        std::vector<int> open;
+        for (int v = 0; v < variable.count(); ++v)
+            if (quantity[static_cast<std::size_t> (v)] != Quantity::any) open.push_back (v);
+        while (! open.empty())
+        {
+            const int v = open.back();
+            open.pop_back();
+            for (const int n : neighbours[static_cast<std::size_t> (v)])
+                if (quantity[static_cast<std::size_t> (n)] == Quantity::any)
+                {
+                    quantity[static_cast<std::size_t> (n)] = quantity[static_cast<std::size_t> (v)];
+                    open.push_back (n);
+                }
+        }
+    }
+
+    PortUnits result()
+    {
+        PortUnits units { variable, {} };
+        for (int v = 0; v < variable.count(); ++v)
+        {
+            PortUnits::Found f { quantity[static_cast<std::size_t> (v)], dimensions.dimension (v), "" };
+            if (f.dimension) f.symbol = symbolOf (*f.dimension);
+            units.found.push_back (std::move (f));
+        }
+        for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
+            for (const auto role : { Role::input, Role::param, Role::output })
+                for (int i = 0; i < static_cast<int> (flat.nodes[static_cast<std::size_t> (n)].ports (role).size()); ++i)
+                {
+                    const PortRef r { n, role, i, -1, -1 };
+                    const auto& row = flat.sheet (r);
+                    if (row.unit.kind == UnitRule::Kind::fixed) units.found[static_cast<std::size_t> (variable (r))].symbol = row.unit.unit.symbol;
+                }
+        return units;
+    }
+};
+}   // namespace
+
+PortNumbers::PortNumbers (const Flat& f) : flat (&f)
+{
+    for (const auto& n : f.nodes)
+    {
+        first.push_back (total);
+        for (const auto role : { Role::input, Role::param, Role::output })
+            for (const auto& row : n.ports (role))
+                total += entries (n, row);
+    }
+}
+
+int PortNumbers::entries (const FlatNode& n, const PortSheet& row) noexcept
+{
+    return row.list && row.unit.kind == UnitRule::Kind::each ? n.list_size : 1;
+}
+
+int PortNumbers::operator() (const PortRef& r) const
+{
+    const auto& n = flat->node (r);
+    int number = first[static_cast<std::size_t> (r.node)];
+    for (const auto role : { Role::input, Role::param, Role::output })
+        for (int i = 0; const auto& row : n.ports (role))
+        {
+            const int size = entries (n, row);
+            if (role == r.role && i == r.port) return number + (size > 1 ? std::max (r.index, 0) : 0);
+            number += size;
+            ++i;
+        }
+    return number;
+}
+
+PortUnits checkUnits (Flat& flat) { return UnitCheck { flat }.run(); }
+
+}   // namespace tactus::plan

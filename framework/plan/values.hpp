@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "flat.hpp"
+
+#include <framework/units.hpp>
+
+namespace tactus::plan
+{
+
+/// A number of a file: plain, or text with a unit. Without a unit it is in SI and fits any dimension.
+struct Number
+{
+    double value = 0.0;
+    std::optional<Dimension> dimension;
+};
+
+/// Reads a number, or says what is wrong with it.
+std::variant<Number, std::string> readNumber (const Json&);
+
+/// Reads a setting of the given kind, with the units and ranges of its sheet checked; or says what is wrong.
+/// `where` is extended to the pointer of the culprit.
+std::variant<SettingValue, std::string> readSetting (const Json&, const SettingSheet&, std::string& where);
+
+/// Puts the assignments of a flat graph into its nodes' params: kinds, choices, shapes and ranges. Units are looked at
+/// by unit_check, which knows what generic nodes carry.
+void readParams (Flat&);
+
+}   // namespace tactus::plan
