@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "text.hpp"
+
+#include <framework/quoted.hpp>
+
+#include <charconv>
+#include <optional>
+
+namespace tactus::graph
+{
+namespace
+{
+constexpr bool startsId (char c) noexcept { return c >= 'a' && c <= 'z'; }
+constexpr bool continuesId (char c) noexcept { return startsId (c) || (c >= '0' && c <= '9') || c == '_'; }
+
+std::string_view trimmed (std::string_view text) noexcept
+{
+    constexpr std::string_view space = " \t\r\n";
+    const auto first = text.find_first_not_of (space);
+    if (first == std::string_view::npos) return {};
+    return text.substr (first, text.find_last_not_of (space) + 1 - first);
+}
+
+/// The text still to be read.
+struct Reader
+{
+    std::string_view text;
+
+    bool take (std::string_view expected)
+    {
+        if (! text.starts_with (expected)) return false;
+        text.remove_prefix (expected.size());
+        return true;
+    }
+
+    std::string_view id()
+    {
+        std::size_t size = 0;
+        if (! text.empty() && startsId (text.front()))
+            while (size < text.size() && continuesId (text[size]))
+                ++size;
+        const auto read = text.substr (0, size);
+        text.remove_prefix (size);
+        return read;
+    }
+
+    /// A count from 0, as it stands in brackets.
+    std::optional<int> number()
+    {
+        int n = 0;
+        if (text.starts_with ('-')) return std::nullopt;
+        const auto [end, error] = std::from_chars (text.data(), text.data() + text.size(), n);
+        if (error != std::errc {}) return std::nullopt;
+        text.remove_prefix (static_cast<std::size_t> (end - text.data()));
+        return n;
+    }
+
+    /// What stands next, for a sentence.
+    std::string next() const { return text.empty() ? "its end" : quoted (text); }
+};
+
+constexpr auto id_rule = "ids are small letters, digits and _, and begin with a letter";
+
+/// "[3]" or "[*]" after its bracket, appended in its one spelling; false if it is neither.
+bool readInstance (Reader& in, std::string& path)
+{
+    if (in.take ("*]"))
+    {
+        path += "[*]";
+        return true;
+    }
+    const auto n = in.number();
+    if (! n || ! in.take ("]")) return false;
+    path += '[' + std::to_string (*n) + ']';
+    return true;
+}
+
+std::variant<Endpoint, std::string> readEndpoint (std::string_view written, bool relative)
+{
+    const auto text = trimmed (written);
+    const auto wrong = [text] (const std::string& what)
+    { return quoted (text) + ": " + what; };
+
+    Endpoint end;
+    Reader in { text };
+    if (text.empty()) return std::string ("an empty text where a port, written node.port, should be");
+
+    if (relative && in.take ("["))
+    {
+        if (! readInstance (in, end.node)) return wrong ("an instance is written [0], [1] … or [*], found " + in.next());
+        if (! in.take ("/")) return wrong ("a / should follow the instance, as in [3]/drag.mu, found " + in.next());
+        end.node += '/';
+    }
+
+    while (true)
+    {
+        const auto name = in.id();
+        if (name.empty()) return wrong ("the id of a node should stand before " + in.next() + "; " + id_rule);
+        end.node += name;
+        if (in.take ("[") && ! readInstance (in, end.node)) return wrong ("an instance of a node is written [0], [1] … or [*], found " + in.next());
+        if (! in.take ("/")) break;
+        end.node += '/';
+    }
+    if (! in.take ("."))
+        return wrong (in.text.empty() ? "the port is missing; write node.port" : "found " + in.next() + " after the node; a port is written node.port, and " + id_rule);
+
+    const auto port = in.id();
+    if (port.empty()) return wrong ("the id of a port should stand before " + in.next() + "; " + id_rule);
+    end.port = port;
+    if (in.take ("["))
+    {
+        const auto n = in.number();
+        if (! n || ! in.take ("]")) return wrong ("an entry of an array port is written in[0], in[1] …, found " + in.next());
+        end.index = *n;
+    }
+    if (in.take ("."))
+    {
+        const auto component = in.id();
+        if (component != "x" && component != "y" && component != "z")
+            return wrong ("a component is .x, .y or .z" + std::string (component.empty() ? "" : ", not ." + std::string (component)) + "; a node inside a subgraph is reached with a /, as in grain/wave.phase");
+        end.component = component[0] - 'x';
+    }
+    if (! in.text.empty()) return wrong ("found " + in.next() + " after the port; " + id_rule);
+    return end;
+}
+}   // namespace
+
+bool isId (std::string_view text) noexcept
+{
+    Reader in { text };
+    return ! in.id().empty() && in.text.empty();
+}
+
+std::variant<Endpoint, std::string> parseEndpoint (std::string_view text) { return readEndpoint (text, false); }
+std::variant<Endpoint, std::string> parseOverride (std::string_view text) { return readEndpoint (text, true); }
+
+std::variant<Wire, std::string> parseWire (std::string_view written)
+{
+    constexpr std::string_view arrow = "->";
+    constexpr auto form = "; a wire is written 'node.port -> node.port', with a delay 'node.port -> [1] -> node.port'";
+    const auto wrong = [written] (const std::string& what)
+    { return quoted (trimmed (written)) + ": " + what; };
+
+    Wire wire;
+    auto cut = written.find (arrow);
+    if (cut == std::string_view::npos) return wrong (std::string ("there is no -> in it") + form);
+
+    auto from = parseEndpoint (written.substr (0, cut));
+    if (auto* sentence = std::get_if<std::string> (&from)) return "the start of the wire: " + *sentence;
+    wire.from = std::get<Endpoint> (from);
+    auto rest = trimmed (written.substr (cut + arrow.size()));
+
+    if (rest.starts_with ('['))
+    {
+        Reader in { trimmed (rest.substr (1)) };
+        const auto ticks = in.number();
+        in.text = trimmed (in.text);
+        if (! ticks || *ticks < 1 || *ticks > longest_delay || ! in.take ("]"))
+            return wrong ("a delay is a whole number of ticks from 1 to " + std::to_string (longest_delay) + ", written [1]");
+        in.text = trimmed (in.text);
+        if (! in.take (arrow)) return wrong (std::string ("a -> should follow the delay") + form);
+        wire.delay = *ticks;
+        rest = trimmed (in.text);
+    }
+    if (rest.starts_with ("(+)"))
+    {
+        wire.add = true;
+        rest = trimmed (rest.substr (3));
+    }
+    if (rest.find (arrow) != std::string_view::npos) return wrong (std::string ("more than one wire in one text") + form);
+
+    auto to = parseEndpoint (rest);
+    if (auto* sentence = std::get_if<std::string> (&to)) return "the end of the wire: " + *sentence;
+    wire.to = std::get<Endpoint> (to);
+    return wire;
+}
+
+std::string toText (const Endpoint& end)
+{
+    auto text = end.node + '.' + end.port;
+    if (end.index >= 0) text += '[' + std::to_string (end.index) + ']';
+    if (end.component >= 0) text.append (1, '.').append (1, static_cast<char> ('x' + end.component));
+    return text;
+}
+
+std::string toText (const Wire& wire)
+{
+    auto text = toText (wire.from);
+    if (wire.delay > 0) text += " -> [" + std::to_string (wire.delay) + ']';
+    return text + (wire.add ? " -> (+) " : " -> ") + toText (wire.to);
+}
+
+}   // namespace tactus::graph
