@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "units.hpp"
 
-#include "quoted.hpp"
+#include "in_quotes.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -78,7 +78,7 @@ std::optional<Known> lookUp (std::string_view symbol)
 std::string unknownUnit (std::string_view symbol)
 {
     if (symbol == "dB") return "'dB' is not a unit of a number with a dimension; write the bare number where decibels are meant";
-    std::string text = "unknown unit " + quoted (symbol) + "; known are ";
+    std::string text = "unknown unit " + inQuotes (symbol) + "; known are ";
     for (const auto& unit : known)
         text.append (unit.symbol).append (&unit == &known[std::size (known) - 1] ? "" : ", ");
     return text + ", with the prefixes p n u m c d k M G";
@@ -170,7 +170,7 @@ std::variant<Measure, std::string> parseMeasure (std::string_view text)
 {
     using namespace std::string_literals;
     const auto wrong = [text] (const std::string& what)
-    { return quoted (text) + ": " + what; };
+    { return inQuotes (text) + ": " + what; };
     constexpr auto too_large = "the number is too large or too small to be held";
 
     if (text.size() > 200) return wrong ("too long for a number with a unit");
@@ -210,12 +210,12 @@ std::variant<Measure, std::string> parseMeasure (std::string_view text)
             const auto unit = lookUp (symbol);
             if (! unit) return wrong (unknownUnit (symbol));
             const auto power = in.power();
-            if (! power) return wrong ("the power of " + quoted (symbol) + " should be an integer from -12 to 12");
+            if (! power) return wrong ("the power of " + inQuotes (symbol) + " should be an integer from -12 to 12");
             product.multiply (*unit, divide ? -*power : *power);
             if (product.tooHigh()) return wrong ("the powers of its units add up to more than any physical quantity has");
         }
         else if (! (in.take ('1') && ! isDigit (in.peek())))   // the one of "1/m" is a factor too
-            return wrong (in.text.empty() ? "a unit should follow at the end" : "a unit should stand before " + quoted (in.text));
+            return wrong (in.text.empty() ? "a unit should follow at the end" : "a unit should stand before " + inQuotes (in.text));
         spaced = in.skipSpace();
     }
 

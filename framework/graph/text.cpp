@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "text.hpp"
 
-#include <framework/quoted.hpp>
+#include <framework/in_quotes.hpp>
 
 #include <charconv>
 #include <optional>
@@ -56,7 +56,7 @@ struct Reader
     }
 
     /// What stands next, for a sentence.
-    std::string next() const { return text.empty() ? "its end" : quoted (text); }
+    std::string next() const { return text.empty() ? "its end" : inQuotes (text); }
 };
 
 constexpr auto id_rule = "ids are small letters, digits and _, and begin with a letter";
@@ -79,7 +79,7 @@ std::variant<Endpoint, std::string> readEndpoint (std::string_view written, bool
 {
     const auto text = trimmed (written);
     const auto wrong = [text] (const std::string& what)
-    { return quoted (text) + ": " + what; };
+    { return inQuotes (text) + ": " + what; };
 
     Endpoint end;
     Reader in { text };
@@ -139,7 +139,7 @@ std::variant<Wire, std::string> parseWire (std::string_view written)
     constexpr std::string_view arrow = "->";
     constexpr auto form = "; a wire is written 'node.port -> node.port', with a delay 'node.port -> [1] -> node.port'";
     const auto wrong = [written] (const std::string& what)
-    { return quoted (trimmed (written)) + ": " + what; };
+    { return inQuotes (trimmed (written)) + ": " + what; };
 
     Wire wire;
     auto cut = written.find (arrow);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "quoted.hpp"
+#include "in_quotes.hpp"
 
 namespace tactus
 {
@@ -31,7 +31,7 @@ std::size_t characterSize (std::string_view text)
 }
 }   // namespace
 
-std::string quoted (std::string_view text)
+std::string inQuotes (std::string_view text)
 {
     constexpr std::size_t longest = 60;
     constexpr char digits[] = "0123456789ABCDEF";
