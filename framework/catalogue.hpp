@@ -5,6 +5,7 @@
 
 #include "node.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <variant>
@@ -78,6 +79,7 @@ struct NodeType
     void (*tick) (void* node, const double* const* sources, void* outputs) noexcept;
     void (*peek) (void* node, const double* const* sources, void* outputs) noexcept;
     int (*delay) (const void* node) noexcept;
+    std::string (*problem) (const void* node);
     void (*prepare) (void* node, const Setup&);
     void (*update) (void* node) noexcept;
     void (*adopt) (void* node, const void* old) noexcept;
@@ -268,6 +270,8 @@ PortSheet portSheet (const Owner& owner, const R& row)
             s.initial[i] = value[i];
     else if constexpr (std::is_same_v<T, List>)
         s.initial[0] = value[0];
+    else if constexpr (Shape<T>::list)
+        std::fill_n (s.initial, Shape<T>::width, row.unwired);
     else if constexpr (std::is_same_v<T, double>)
         s.initial[0] = value;
     return s;
@@ -322,6 +326,8 @@ NodeType describe()
     if constexpr (Peekable<N>) t.peek = &E::peek;
     if constexpr (Delaying<N>) t.delay = [] (const void* n) noexcept
     { return static_cast<const N*> (n)->delay(); };
+    if constexpr (SelfChecking<N>) t.problem = [] (const void* n)
+    { return static_cast<const N*> (n)->problem(); };
     if constexpr (Preparable<N>) t.prepare = [] (void* n, const Setup& s)
     { static_cast<N*> (n)->prepare (s); };
     if constexpr (Updatable<N>) t.update = [] (void* n) noexcept

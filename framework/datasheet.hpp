@@ -109,12 +109,20 @@ struct Row
     Limits limits {};
     std::span<const std::string_view> choices {};   ///< the names of a choice, in the order of its enum
     UnitRule x_unit = unit::count;                  ///< of the argument, if the value is a curve or a law
+    double unwired = 0.0;                           ///< what an entry of an InputList gives that nothing is wired to
 };
 
 template <typename O, typename T>
 constexpr Row<Role::input, O, T> input (T O::*m, std::string_view id, UnitRule u, std::string_view about)
 {
     return { m, id, u, about };
+}
+
+/// An array of inputs. It has no values of its own, so the row says what an entry is while nothing is wired to it.
+template <typename O, typename T>
+constexpr Row<Role::input, O, InputList<T>> input (InputList<T> O::*m, std::string_view id, UnitRule u, std::string_view about, double unwired)
+{
+    return { m, id, u, about, {}, {}, unit::count, unwired };
 }
 
 template <typename O, typename T>

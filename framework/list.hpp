@@ -72,4 +72,8 @@ requires (sizeof...(T) > 1) bool isFinite (const T&... values) noexcept
     return (isFinite (values) && ...);
 }
 
+/// The value if all of it is finite, else 0: the last word of a node whose arithmetic may overflow.
+inline double finiteOrZero (double v) noexcept { return isFinite (v) ? v : 0.0; }
+inline Vec3 finiteOrZero (const Vec3& v) noexcept { return isFinite (v) ? v : Vec3::Zero(); }
+
 }   // namespace tactus

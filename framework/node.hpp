@@ -12,6 +12,9 @@
 ///
 /// Hooks, each optional, found by the compiler:
 ///
+///   problem() -> string       what is wrong with the settings, as a sentence for the user; empty if nothing is. Asked
+///                             with params and settings in place, before prepare; a graph with a problem does not
+///                             run. Only for what the limits in the datasheet cannot say.              [main thread]
 ///   prepare (setup)           before the first tick, with params and settings in place; may allocate   [main thread]
 ///   update()                  after a parameter moved and before the tick: coefficients, so that a filter does not
 ///                             pay `tan` each tick; also once after prepare                              [tick thread]
@@ -33,6 +36,7 @@
 #include "device.hpp"
 
 #include <concepts>
+#include <string>
 #include <type_traits>
 
 namespace tactus
@@ -80,6 +84,14 @@ concept Node = std::default_initializable<N> && requires
     || requires { node.settings; };
     requires (Peekable<N> && requires { { node.tick (in) } noexcept -> std::same_as<void>; })
         || (! Peekable<N> && requires { { node.tick (in) } noexcept -> std::same_as<typename N::Outputs>; });
+};
+
+template <typename N>
+concept SelfChecking = requires (const N node)
+{
+    {
+        node.problem()
+        } -> std::same_as<std::string>;
 };
 
 template <typename N>
