@@ -76,4 +76,11 @@ requires (sizeof...(T) > 1) bool isFinite (const T&... values) noexcept
 inline double finiteOrZero (double v) noexcept { return isFinite (v) ? v : 0.0; }
 inline Vec3 finiteOrZero (const Vec3& v) noexcept { return isFinite (v) ? v : Vec3::Zero(); }
 
+/// Where a finite vector points: length 1, or 0 for a vector of length 0. Right for the largest and smallest, too.
+inline Vec3 direction (const Vec3& v) noexcept
+{
+    const double largest = v.cwiseAbs().maxCoeff();
+    return largest > 0.0 ? Vec3 { (v / largest).normalized() } : Vec3::Zero();
+}
+
 }   // namespace tactus
