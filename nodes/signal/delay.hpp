@@ -3,6 +3,7 @@
 
 #include <framework/node.hpp>
 
+#include <algorithm>
 #include <vector>
 
 namespace tactus::nodes
@@ -52,6 +53,15 @@ struct Delay
     void prepare (const Setup&)
     {
         line.assign (static_cast<std::size_t> (settings.ticks), 0.0);
+        now = 0;
+    }
+
+    /// The newest samples stay; a longer line repeats the oldest of them, so that nothing steps to 0.
+    void adopt (const Delay& old) noexcept
+    {
+        const auto had = old.line.size();
+        for (std::size_t age = 1; age <= line.size(); ++age)
+            line[line.size() - age] = old.line[(old.now + had - std::min (age, had)) % had];
         now = 0;
     }
 
