@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <framework/node.hpp>
+
+namespace tactus::nodes
+{
+
+/// Makes a signal larger or smaller.
+///
+/// To multiply two signals, units and all, take signal.multiply.
+struct SignalGain
+{
+    struct Inputs
+    {
+        double in = 0.0;
+    };
+
+    struct Params
+    {
+        double gain = 1.0;
+    };
+
+    struct Outputs
+    {
+        double out = 0.0;
+    };
+
+    static constexpr Info info {
+        .id = "signal.gain",
+        .name = "Gain",
+        .summary = "Makes a signal larger or smaller.",
+        .source = "definition",
+    };
+
+    static constexpr std::tuple ports {
+        input (&Inputs::in, "in", any_unit, "signal"),
+        param (&Params::gain, "gain", unit::gain, "factor; negative turns the signal over", { .usual = { 0, 2 } }),
+        output (&Outputs::out, "out", sameAs ("in"), "gain times the signal"),
+    };
+
+    Params params;
+
+    Outputs tick (const Inputs& in) const noexcept { return { .out = finiteOrZero (params.gain * in.in) }; }
+};
+
+}   // namespace tactus::nodes
+
+TACTUS_NODE (tactus::nodes::SignalGain);

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <framework/node.hpp>
+
+namespace tactus::nodes
+{
+
+/// The product of its inputs, units included. An input that nothing is wired to counts as 1.
+///
+/// This is the amplifier of a modular synthesiser: a vibration times an envelope, a force times a contact window.
+struct SignalMultiply
+{
+    struct Inputs
+    {
+        InputList<double> in;
+    };
+
+    struct Params
+    {
+    };
+
+    struct Settings
+    {
+        int inputs = 2;
+    };
+
+    struct Outputs
+    {
+        double out = 0.0;
+    };
+
+    static constexpr Info info {
+        .id = "signal.multiply",
+        .name = "Multiply",
+        .summary = "Multiplies signals.",
+        .source = "definition",
+    };
+
+    static constexpr std::tuple ports {
+        input (&Inputs::in, "in", each_its_unit, "signals", 1.0),
+        setting (&Settings::inputs, "inputs", unit::count, "number of inputs", { .hard = { 1, list_capacity }, .usual = { 1, 8 } }),
+        output (&Outputs::out, "out", productOf ("in"), "the product"),
+    };
+
+    Params params;
+    Settings settings;
+
+    Outputs tick (const Inputs& in) const noexcept
+    {
+        double product = 1.0;
+        for (int i = 0; i < in.in.size(); ++i)
+            product *= in.in[i];
+        return { .out = finiteOrZero (product) };
+    }
+};
+
+}   // namespace tactus::nodes
+
+TACTUS_NODE (tactus::nodes::SignalMultiply);

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <framework/node.hpp>
+
+namespace tactus::nodes
+{
+
+/// Keeps the value a signal had at the last hit.
+///
+/// It takes the signal on the tick of the hit itself and gives 0 until the first one. A hit that is nan is no hit. On a
+/// non-finite input it gives 0 for that tick; what it holds, stays.
+struct SignalSampleHold
+{
+    struct Inputs
+    {
+        double in = 0.0;
+        double hit = 0.0;
+    };
+
+    struct Params
+    {
+    };
+
+    struct Outputs
+    {
+        double out = 0.0;
+    };
+
+    static constexpr Info info {
+        .id = "signal.sample_hold",
+        .name = "Sample and hold",
+        .summary = "Keeps the value a signal had at the last hit.",
+        .source = "definition",
+    };
+
+    static constexpr std::tuple ports {
+        input (&Inputs::in, "in", any_unit, "signal"),
+        input (&Inputs::hit, "hit", unit::hit, "takes the signal while positive"),
+        output (&Outputs::out, "out", sameAs ("in"), "the signal at the last hit"),
+    };
+
+    Params params;
+
+    Outputs tick (const Inputs& in) noexcept
+    {
+        if (! isFinite (in.in, in.hit)) return {};
+        if (in.hit > 0.0) held = in.in;
+        return { .out = held };
+    }
+
+private:
+    double held = 0.0;
+};
+
+}   // namespace tactus::nodes
+
+TACTUS_NODE (tactus::nodes::SignalSampleHold);
