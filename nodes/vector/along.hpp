@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <framework/node.hpp>
+
+namespace tactus::nodes
+{
+
+/// Parts a vector by a direction: a number along it, and the vector that is left across.
+///
+///     u = direction / |direction|      along = in . u      across = in - along u
+///
+/// Only where the direction points matters, not how long it is. A direction of length 0 has nothing along it: all is across.
+struct VectorAlong
+{
+    struct Inputs
+    {
+        Vec3 in = Vec3::Zero();
+        Vec3 direction = Vec3::UnitZ();
+    };
+
+    struct Params
+    {
+    };
+
+    struct Outputs
+    {
+        double along = 0.0;
+        Vec3 across = Vec3::Zero();
+    };
+
+    static constexpr Info info {
+        .id = "vector.along",
+        .name = "Along",
+        .summary = "Parts a vector into what lies along a direction and what lies across.",
+        .source = "definition",
+    };
+
+    static constexpr std::tuple ports {
+        input (&Inputs::in, "in", any_unit, "vector"),
+        input (&Inputs::direction, "direction", any_unit, "direction of any length"),
+        output (&Outputs::along, "along", sameAs ("in"), "signed part along the direction"),
+        output (&Outputs::across, "across", sameAs ("in"), "the rest, at right angles to it"),
+    };
+
+    Params params;
+
+    Outputs tick (const Inputs& in) const noexcept
+    {
+        if (! isFinite (in.in, in.direction)) return {};
+
+        const Vec3 u = direction (in.direction);
+        const double along = in.in.dot (u);
+        const Vec3 across = in.in - along * u;
+        if (! isFinite (along) || ! isFinite (across)) return {};
+        return { .along = along, .across = across };
+    }
+};
+
+}   // namespace tactus::nodes
+
+TACTUS_NODE (tactus::nodes::VectorAlong);

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <framework/node.hpp>
+
+#include <Eigen/Geometry>
+
+namespace tactus::nodes
+{
+
+/// The cross product, right-handed: at right angles to both vectors. Lever cross force is torque.
+struct VectorCross
+{
+    struct Inputs
+    {
+        Vec3 a = Vec3::Zero();
+        Vec3 b = Vec3::Zero();
+    };
+
+    struct Params
+    {
+    };
+
+    struct Outputs
+    {
+        Vec3 out = Vec3::Zero();
+    };
+
+    static constexpr Info info {
+        .id = "vector.cross",
+        .name = "Cross product",
+        .summary = "Multiplies two vectors to a third, at right angles to both.",
+        .source = "definition",
+    };
+
+    static constexpr std::tuple ports {
+        input (&Inputs::a, "a", any_unit, "first vector"),
+        input (&Inputs::b, "b", any_unit, "second vector"),
+        output (&Outputs::out, "out", productOf ("a", "b"), "a cross b"),
+    };
+
+    Params params;
+
+    Outputs tick (const Inputs& in) const noexcept
+    {
+        if (! isFinite (in.a, in.b)) return {};
+        return { .out = finiteOrZero (Vec3 { in.a.cross (in.b) }) };
+    }
+};
+
+}   // namespace tactus::nodes
+
+TACTUS_NODE (tactus::nodes::VectorCross);

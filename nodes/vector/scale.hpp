@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <framework/node.hpp>
+
+namespace tactus::nodes
+{
+
+/// Makes a vector longer or shorter by a signal, units included: a normal times a resistance is a force.
+struct VectorScale
+{
+    struct Inputs
+    {
+        Vec3 in = Vec3::Zero();
+        double gain = 1.0;
+    };
+
+    struct Params
+    {
+    };
+
+    struct Outputs
+    {
+        Vec3 out = Vec3::Zero();
+    };
+
+    static constexpr Info info {
+        .id = "vector.scale",
+        .name = "Scale",
+        .summary = "Multiplies a vector by a signal.",
+        .source = "definition",
+    };
+
+    static constexpr std::tuple ports {
+        input (&Inputs::in, "in", any_unit, "vector"),
+        input (&Inputs::gain, "gain", any_unit, "factor; negative turns the vector round"),
+        output (&Outputs::out, "out", productOf ("in", "gain"), "gain times the vector"),
+    };
+
+    Params params;
+
+    Outputs tick (const Inputs& in) const noexcept { return { .out = finiteOrZero (in.gain * in.in) }; }
+};
+
+}   // namespace tactus::nodes
+
+TACTUS_NODE (tactus::nodes::VectorScale);
