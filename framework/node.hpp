@@ -60,95 +60,51 @@ struct Claims
     double amplitude = inf;           ///< its outputs never exceed this, in their own unit
 };
 
+// clang-format 14 tears requirements apart.
+// clang-format off
 template <typename N>
-concept Peekable = requires (const N node)
-{
-    {
-        node.peek()
-    }
-    noexcept->std::same_as<typename N::Outputs>;
-};
+concept Peekable = requires (const N node) { { node.peek() } noexcept -> std::same_as<typename N::Outputs>; };
 
 template <typename N>
-concept Node = std::default_initializable<N> && requires
-{
-    typename N::Inputs;
-    typename N::Params;
-    typename N::Outputs;
-    requires std::same_as<std::remove_cvref_t<decltype (N::info)>, Info>;
-    N::ports;
-} && requires (N node, const typename N::Inputs in)
-{
-    requires std::same_as<decltype (node.params), typename N::Params>;
-    requires ! requires { typename N::Settings; }
-    || requires { node.settings; };
-    requires (Peekable<N> && requires { { node.tick (in) } noexcept -> std::same_as<void>; })
-        || (! Peekable<N> && requires { { node.tick (in) } noexcept -> std::same_as<typename N::Outputs>; });
-};
+concept Node = std::default_initializable<N>
+    && requires {
+           typename N::Inputs;
+           typename N::Params;
+           typename N::Outputs;
+           requires std::same_as<std::remove_cvref_t<decltype (N::info)>, Info>;
+           N::ports;
+       }
+    && requires (N node, const typename N::Inputs in) {
+           requires std::same_as<decltype (node.params), typename N::Params>;
+           requires ! requires { typename N::Settings; } || requires { node.settings; };
+           requires (Peekable<N> && requires { { node.tick (in) } noexcept -> std::same_as<void>; })
+               || (! Peekable<N> && requires { { node.tick (in) } noexcept -> std::same_as<typename N::Outputs>; });
+       };
 
 template <typename N>
-concept SelfChecking = requires (const N node)
-{
-    {
-        node.problem()
-        } -> std::same_as<std::string>;
-};
+concept SelfChecking = requires (const N node) { { node.problem() } -> std::same_as<std::string>; };
 
 template <typename N>
-concept Preparable = requires (N node, Setup setup)
-{
-    node.prepare (setup);
-};
+concept Preparable = requires (N node, Setup setup) { node.prepare (setup); };
 
 template <typename N>
-concept Updatable = requires (N node)
-{
-    {
-        node.update()
-    }
-    noexcept;
-};
+concept Updatable = requires (N node) { { node.update() } noexcept; };
 
 template <typename N>
-concept Delaying = Peekable<N> && requires (const N node)
-{
-    {
-        node.delay()
-    }
-    noexcept->std::same_as<int>;
-};
+concept Delaying = Peekable<N> && requires (const N node) { { node.delay() } noexcept -> std::same_as<int>; };
 
 template <typename N>
-concept Adoptable = requires (N node, const N old)
-{
-    {
-        node.adopt (old)
-    }
-    noexcept;
-};
+concept Adoptable = requires (N node, const N old) { { node.adopt (old) } noexcept; };
 
 template <typename N>
-concept Claiming = requires (const N node)
-{
-    {
-        node.claims()
-        } -> std::same_as<Claims>;
-};
+concept Claiming = requires (const N node) { { node.claims() } -> std::same_as<Claims>; };
 
 template <typename N>
-concept DeviceBound = requires (N node, const DeviceState& state)
-{
-    node.bind (state);
-};
+concept DeviceBound = requires (N node, const DeviceState& state) { node.bind (state); };
 
 template <typename N>
-concept Sink = DeviceBound<N> && requires (const N node)
-{
-    {
-        node.effort()
-    }
-    noexcept->std::same_as<Effort>;
-};
+concept Sink = DeviceBound<N> && requires (const N node) { { node.effort() } noexcept -> std::same_as<Effort>; };
+// clang-format on
 
 }   // namespace tactus
 

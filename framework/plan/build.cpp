@@ -153,6 +153,13 @@ private:
         for (std::size_t s = 0; s < n.settings.size(); ++s)
             n.type->settings[s].set (node, n.settings[s]);
 
+        if (n.type->problem)
+            if (const auto problem = n.type->problem (node); ! problem.empty())
+            {
+                flat.error ("node/problem", n.origin, "'" + n.path + "' (" + std::string (n.type->info.id) + "): " + problem, std::string (n.type->info.summary));
+                return;
+            }
+
         if (n.type->bind && ! n.muted && ! n.bypass) use (i);
         if (n.type->prepare) n.type->prepare (node, setup);
         if (n.type->update) n.type->update (node);

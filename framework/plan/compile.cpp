@@ -11,6 +11,13 @@ namespace
 {
 using namespace plan;
 
+/// A placeholder runs, and gives 0; every other error keeps a graph from running.
+bool runs (const Messages& messages)
+{
+    return std::ranges::none_of (messages, [] (const Message& m)
+                                 { return m.severity == Message::Severity::error && m.id != "node/unknown_type"; });
+}
+
 bool addsUp (Quantity q) { return q == Quantity::force || q == Quantity::torque || q == Quantity::hit; }
 
 /// Several wires into one place add up if the quantity does; else it is an error that names both.
@@ -83,10 +90,9 @@ Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const Compi
     const auto ordered = order (flat);
     const auto outside = findOutside (flat, directory, options);
 
-    const bool runs = std::ranges::none_of (flat.messages, [] (const Message& m)
-                                            { return m.severity == Message::Severity::error && m.id != "node/unknown_type"; });
     std::shared_ptr<Plan> made;
-    if (runs) made = build (flat, units, ordered, outside, { .rate_hz = rate });
+    if (runs (flat.messages)) made = build (flat, units, ordered, outside, { .rate_hz = rate });
+    if (! runs (flat.messages)) made = nullptr;
     return { std::move (made), std::move (flat.messages) };
 }
 

@@ -18,10 +18,10 @@ namespace tactus
 
 struct CompileOptions
 {
-    double rate_hz = 0.0;                    ///< 0: the graph's own
-    std::vector<std::string> feeds;          ///< ports driven from outside: "drag.position.x", "drag.mu"
-    std::vector<std::string> records;        ///< ports to tap; none: the inputs of every sink
-    std::vector<plan::Override> overrides;   ///< values that outrank the file's
+    double rate_hz = 0.0;                       ///< 0: the graph's own
+    std::vector<std::string> feeds {};          ///< ports driven from outside: "drag.position.x", "drag.mu"
+    std::vector<std::string> records {};        ///< ports to tap; none: the inputs of every sink
+    std::vector<plan::Override> overrides {};   ///< values that outrank the file's
 };
 
 struct Compiled
