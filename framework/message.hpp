@@ -23,7 +23,10 @@ struct Message
     std::string where;    ///< JSON pointer into the graph file, such as "/nodes/drag/params/mu"
     std::string text;     ///< what is wrong, with the names of both ends
     std::string remedy;   ///< what would be right
-    std::string file;     ///< of an included graph file; empty for the file itself
+
+    // Where it stands in a text, if it was read from one.
+    std::string file = {};      ///< as it was opened, or as a subgraph's type names it; empty for the graph itself
+    int line = 0, column = 0;   ///< counted from 1, 0 where unknown: see LoadedGraph::positionOf
 };
 
 using Messages = std::vector<Message>;

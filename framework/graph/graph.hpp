@@ -62,6 +62,7 @@ struct Node
 struct Expose
 {
     std::vector<std::pair<std::string, Endpoint>> inputs, outputs, params;
+    Json extra = Json::object();   ///< unknown keys
 };
 
 /// Nodes and wires: the body of a graph, and of each subgraph.

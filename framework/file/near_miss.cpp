@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "near_miss.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace tactus
+{
+
+int editDistance (std::string_view a, std::string_view b)
+{
+    // Row i holds the distances of the first i letters of a to every beginning of b; a swap looks two rows back.
+    std::vector<int> before_last (b.size() + 1), last (b.size() + 1), row (b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j)
+        row[j] = static_cast<int> (j);
+    for (std::size_t i = 1; i <= a.size(); ++i)
+    {
+        before_last.swap (last);
+        last.swap (row);
+        row[0] = static_cast<int> (i);
+        for (std::size_t j = 1; j <= b.size(); ++j)
+        {
+            row[j] = std::min ({ last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1) });
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min (row[j], before_last[j - 2] + 1);
+        }
+    }
+    return row[b.size()];
+}
+
+std::string_view nearMiss (std::string_view word, std::span<const std::string_view> known)
+{
+    constexpr std::size_t longest = 30;   // no known word is; a key of a megabyte need not be compared
+    if (word.size() > longest) return {};
+    std::string_view best;
+    int nearest = 3;
+    for (const auto candidate : known)
+    {
+        const int slips = std::min (word.size(), candidate.size()) > 4 ? 2 : 1;
+        if (const int d = editDistance (word, candidate); d <= slips && d < nearest && d < static_cast<int> (candidate.size()))
+        {
+            best = candidate;
+            nearest = d;
+        }
+    }
+    return best;
+}
+
+}   // namespace tactus

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace tactus
+{
+
+/// Insertions, deletions, replacements and swaps of neighbours that turn one word into the other.
+int editDistance (std::string_view, std::string_view);
+
+/// The known word that was probably meant: one slip away, two for words of more than four letters. Empty if there is none.
+std::string_view nearMiss (std::string_view word, std::span<const std::string_view> known);
+
+}   // namespace tactus
