@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include <features.h>
+
+#include "no_allocation.hpp"
+
+#include <cerrno>
+#include <cstddef>
+
+#include <dlfcn.h>
+#include <pthread.h>
+
+namespace
+{
+thread_local bool watching = false;
+thread_local int allocations_seen = 0;
+thread_local int locks_seen = 0;
+
+[[maybe_unused]] void allocating() noexcept
+{
+    if (watching) ++allocations_seen;
+}
+}   // namespace
+
+NoAllocation::NoAllocation() noexcept
+{
+    allocations_seen = locks_seen = 0;
+    watching = true;
+}
+NoAllocation::~NoAllocation() { watching = false; }
+int NoAllocation::allocations() const noexcept { return allocations_seen; }
+int NoAllocation::locks() const noexcept { return locks_seen; }
+
+#if ! defined(__SANITIZE_ADDRESS__) && ! defined(__SANITIZE_THREAD__) && defined(__GLIBC__)
+
+// The executable's own symbols come before those of libc, also for calls from inside libstdc++.
+extern "C"
+{
+    void* __libc_malloc (std::size_t);
+    void __libc_free (void*);
+    void* __libc_realloc (void*, std::size_t);
+    void* __libc_calloc (std::size_t, std::size_t);
+    void* __libc_memalign (std::size_t, std::size_t);
+
+    void* malloc (std::size_t n) noexcept
+    {
+        allocating();
+        return __libc_malloc (n);
+    }
+    void free (void* p) noexcept
+    {
+        if (p) allocating();
+        __libc_free (p);
+    }
+    void* realloc (void* p, std::size_t n) noexcept
+    {
+        allocating();
+        return __libc_realloc (p, n);
+    }
+    void* calloc (std::size_t count, std::size_t n) noexcept
+    {
+        allocating();
+        return __libc_calloc (count, n);
+    }
+    void* memalign (std::size_t alignment, std::size_t n) noexcept
+    {
+        allocating();
+        return __libc_memalign (alignment, n);
+    }
+    void* aligned_alloc (std::size_t alignment, std::size_t n) noexcept
+    {
+        allocating();
+        return __libc_memalign (alignment, n);
+    }
+    int posix_memalign (void** p, std::size_t alignment, std::size_t n) noexcept
+    {
+        allocating();
+        *p = __libc_memalign (alignment, n);
+        return *p ? 0 : ENOMEM;
+    }
+    int pthread_mutex_lock (pthread_mutex_t* m) noexcept
+    {
+        using Lock = int (*) (pthread_mutex_t*);
+        static const auto real = reinterpret_cast<Lock> (dlsym (RTLD_NEXT, "pthread_mutex_lock"));
+        if (watching) ++locks_seen;
+        return real (m);
+    }
+}
+
+#endif

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "rig.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace tactus;
+
+namespace
+{
+template <typename Sheets>
+auto& named (std::string_view id, Sheets& sheets)
+{
+    const auto at = std::ranges::find (sheets, id, [] (const auto& s)
+                                       { return s.id; });
+    INFO ("there is no " << id);
+    REQUIRE (at != sheets.end());
+    return *at;
+}
+
+const NodeType& typeNamed (std::string_view id)
+{
+    const auto* type = catalogue().find (id);
+    INFO ("there is no node " << id);
+    REQUIRE (type != nullptr);
+    return *type;
+}
+
+std::size_t firstOf (std::string_view id, const std::vector<Rig::Component>& components, int index)
+{
+    const auto at = std::ranges::find_if (components, [&] (const auto& c)
+                                          { return c.port->id == id && c.index == index; });
+    INFO ("there is no " << id << " [" << index << "]");
+    REQUIRE (at != components.end());
+    return static_cast<std::size_t> (at - components.begin());
+}
+}   // namespace
+
+Rig::Rig (const NodeType& type, double rate_hz) : sheet (type), setup { rate_hz }, node (type.make()), results (new std::byte[type.outputs_size])
+{
+    type.initialiseOutputs (results.get());
+    for (const auto& s : type.settings)
+        if (s.id == "inputs") list_size = static_cast<int> (std::get<double> (s.initial));
+}
+
+Rig::Rig (std::string_view type_id, double rate_hz) : Rig (typeNamed (type_id), rate_hz) {}
+
+Rig& Rig::set (std::string_view id, const SettingValue& value)
+{
+    named (id, sheet.settings).set (node.get(), value);
+    if (id == "inputs") list_size = static_cast<int> (std::get<double> (value));
+    return *this;
+}
+
+Rig& Rig::param (std::string_view id, double value, int index)
+{
+    const auto& port = named (id, sheet.params);
+    REQUIRE (port.choices.empty());
+    paramAt (port, index) = value;
+    moved();
+    return *this;
+}
+
+Rig& Rig::choose (std::string_view id, std::string_view alternative)
+{
+    const auto& port = named (id, sheet.params);
+    const auto at = std::ranges::find (port.choices, alternative);
+    INFO (id << " is never " << alternative);
+    REQUIRE (at != port.choices.end());
+    const int value = static_cast<int> (at - port.choices.begin());
+    std::copy_n (reinterpret_cast<const std::byte*> (&value), sizeof value, static_cast<std::byte*> (sheet.paramsOf (node.get())) + port.offset);
+    moved();
+    return *this;
+}
+
+std::string Rig::problem() const { return sheet.problem ? sheet.problem (node.get()) : std::string {}; }
+
+void Rig::prepare()
+{
+    if (sheet.bind) sheet.bind (node.get(), *device);
+    if (sheet.prepare) sheet.prepare (node.get(), setup);
+    moved();
+
+    const auto list = [this] (const std::vector<PortSheet>& ports)
+    {
+        std::vector<Component> all;
+        for (const auto& p : ports)
+            for (int i = 0; i < p.width * (p.list ? list_size : 1); ++i)
+                all.push_back ({ &p, i });
+        return all;
+    };
+    inputs = list (sheet.inputs);
+    outputs = list (sheet.outputs);
+
+    in.clear();
+    for (const auto& c : inputs)
+        in.push_back (c.port->initial[c.index % c.port->width]);
+    sources.clear();
+    for (const auto& value : in)
+        sources.push_back (&value);
+}
+
+void Rig::adopt (const Rig& old)
+{
+    if (sheet.adopt) sheet.adopt (node.get(), old.node.get());
+}
+
+Rig& Rig::input (std::string_view id, double value, int index)
+{
+    in[firstOf (id, inputs, index)] = value;
+    return *this;
+}
+
+Rig& Rig::input (std::string_view id, const Vec3& value)
+{
+    for (int i = 0; i < 3; ++i)
+        input (id, value[i], i);
+    return *this;
+}
+
+void Rig::tick() noexcept
+{
+    if (params_moved && sheet.update) sheet.update (node.get());
+    params_moved = false;
+    if (sheet.peek) sheet.peek (node.get(), sources.data(), results.get());
+    sheet.tick (node.get(), sources.data(), results.get());
+}
+
+double Rig::out (std::string_view id, int index) const { return out (firstOf (id, outputs, index)); }
+
+Vec3 Rig::vector (std::string_view id) const { return { out (id, 0), out (id, 1), out (id, 2) }; }
+
+Claims Rig::claims() const { return sheet.claims ? sheet.claims (node.get()) : Claims {}; }
+
+Effort Rig::effort() const noexcept { return sheet.effort ? sheet.effort (node.get()) : Effort {}; }
+
+double Rig::out (std::size_t output) const noexcept
+{
+    const auto& c = outputs[output];
+    return reinterpret_cast<const double*> (results.get() + c.port->offset)[c.index];
+}
+
+std::vector<double> Rig::outs() const
+{
+    std::vector<double> all;
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+        all.push_back (out (i));
+    return all;
+}
+
+double& Rig::paramAt (const PortSheet& port, int index) noexcept
+{
+    return reinterpret_cast<double*> (static_cast<std::byte*> (sheet.paramsOf (node.get())) + port.offset)[index];
+}
