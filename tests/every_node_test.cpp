@@ -1,0 +1,638 @@
+// SPDX-License-Identifier: MIT
+// What every node promises. A new node is held to this without anyone writing a test for it.
+
+#include "support/no_allocation.hpp"
+#include "support/rig.hpp"
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <random>
+#include <regex>
+#include <set>
+#include <sstream>
+
+using namespace tactus;
+
+namespace
+{
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// Draws the numbers nodes are fed with. All of a run follows from its seed.
+class Dice
+{
+public:
+    explicit Dice (unsigned seed) : random (seed) {}
+
+    double uniform (double from, double to) { return std::uniform_real_distribution { from, to }(random); }
+    int below (int n) { return std::uniform_int_distribution { 0, n - 1 }(random); }
+    bool once_in (int n) { return below (n) == 0; }
+
+    /// A size from nothing to what a double just holds, with the sizes of hands and forces among them.
+    double size()
+    {
+        static constexpr double sizes[] { 0.0, 5e-324, 1e-310, 1e-200, 1e-9, 1e-6, 1e-3, 1e-2, 1.0, 10.0, 1e3, 1e9, 1e150, 1e300, 1.7e308 };
+        return sizes[below (static_cast<int> (std::size (sizes)))];
+    }
+
+    double within (const Interval& range)
+    {
+        if (once_in (8) && std::isfinite (range.min)) return range.min;
+        if (once_in (8) && std::isfinite (range.max)) return range.max;
+        if (std::isfinite (range.min) && std::isfinite (range.max)) return uniform (range.min, range.max);
+        return range.clamp (uniform (-1.0, 1.0) * std::pow (10.0, uniform (-6.0, 12.0)));
+    }
+
+private:
+    std::mt19937 random;
+};
+
+enum class Span
+{
+    usual,
+    hard
+};
+
+void drawParams (Rig& rig, Dice& dice, Span span)
+{
+    for (const auto& p : rig.type().params)
+    {
+        if (! p.choices.empty())
+            rig.choose (p.id, p.choices[static_cast<std::size_t> (dice.below (static_cast<int> (p.choices.size())))]);
+        else
+            for (int i = 0; i < p.width * (p.list ? rig.entries() : 1); ++i)
+                rig.paramAt (p, i) = dice.within (span == Span::usual ? p.limits.usual : p.limits.hard);
+    }
+    rig.moved();
+}
+
+/// Numbers and records within their usual ranges; texts, curves and laws stay as delivered.
+void drawSettings (Rig& rig, Dice& dice)
+{
+    for (const auto& s : rig.type().settings)
+    {
+        const auto bounded = [] (const Interval& range)
+        { return std::isfinite (range.min) && std::isfinite (range.max); };
+        if (s.kind == SettingSheet::Kind::integer && bounded (s.limits.usual))
+            rig.set (s.id, std::round (dice.within (s.limits.usual)));
+        else if (s.kind == SettingSheet::Kind::number && bounded (s.limits.usual))
+            rig.set (s.id, dice.within (s.limits.usual));
+        else if (s.kind == SettingSheet::Kind::records)
+        {
+            Records records (static_cast<std::size_t> (dice.below (4)));
+            for (auto& record : records)
+                for (const auto& f : s.fields)
+                    record.push_back (dice.within (f.limits.usual));
+            rig.set (s.id, records);
+            if (! rig.problem().empty()) rig.set (s.id, s.initial);
+        }
+    }
+}
+
+/// New inputs for the next tick: now and then the same again, else each of the run's size or of one of its own.
+void drawInputs (Rig& rig, Dice& dice, double size)
+{
+    if (dice.once_in (4)) return;
+    for (auto& v : rig.in)
+        v = dice.uniform (-1.0, 1.0) * (dice.once_in (4) ? dice.size() : size);
+}
+
+/// As drawInputs, of sizes that hands have, so that nothing overflows.
+void drawTameInputs (Rig& rig, Dice& dice)
+{
+    if (dice.once_in (4)) return;
+    for (auto& v : rig.in)
+        v = dice.uniform (-1.0, 1.0) * std::pow (10.0, dice.below (4) - 3);
+}
+
+template <typename... T>
+void fail (const T&... words)
+{
+    std::ostringstream text;
+    (text << ... << words);
+    RC_FAIL (text.str());
+}
+
+void checkFinite (const Rig& rig)
+{
+    for (std::size_t i = 0; i < rig.outputs.size(); ++i)
+        if (! std::isfinite (rig.out (i)))
+        {
+            std::ostringstream inputs;
+            for (const double v : rig.in)
+                inputs << ' ' << v;
+            fail (rig.outputs[i].port->id, " is ", rig.out (i), " for inputs", inputs.str());
+        }
+}
+
+bool sameBits (const std::vector<double>& a, const std::vector<double>& b)
+{
+    return std::ranges::equal (
+        a, b, {}, [] (double v)
+        { return std::bit_cast<std::uint64_t> (v); },
+        [] (double v)
+        { return std::bit_cast<std::uint64_t> (v); });
+}
+
+/// What an output gives on a fault: 0, but for the states, and for what a material does not forget.
+double onFault (std::string_view type, std::string_view output, double before)
+{
+    if (output == "state" || output == "triangle") return -1.0;
+    if (output == "dissipated_energy" || output == "crack" || output == "crack_front") return before;
+    if (type == "safety.passivity" && output == "energy") return before;
+    return 0.0;
+}
+
+std::vector<double> onFault (const Rig& rig, const std::vector<double>& before)
+{
+    std::vector<double> expected;
+    for (std::size_t i = 0; i < rig.outputs.size(); ++i)
+        expected.push_back (onFault (rig.type().info.id, rig.outputs[i].port->id, before[i]));
+    return expected;
+}
+
+bool isHit (const PortSheet& port) { return port.unit.kind == UnitRule::Kind::fixed && port.unit.unit.quantity == Quantity::hit; }
+
+Rig prepared (const NodeType& type, double rate_hz = 4000.0)
+{
+    Rig rig { type, rate_hz };
+    rig.prepare();
+    return rig;
+}
+}   // namespace
+
+//==============================================================================
+// The datasheet.
+
+TEST_CASE ("every node has an id of its own, family.name, as its header is called", "[nodes][contract]")
+{
+    const std::regex wanted { "[a-z][a-z0-9_]*\\.[a-z][a-z0-9_]*" };
+    std::set<std::string> ids;
+
+    for (const auto& type : catalogue())
+    {
+        const std::string id { type.info.id };
+        INFO (id);
+        CHECK (ids.insert (id).second);
+        CHECK (std::regex_match (id, wanted));
+        const auto dot = id.find ('.');
+        CHECK (std::filesystem::exists (std::filesystem::path { TACTUS_SOURCE_DIR } / "nodes" / id.substr (0, dot) / (id.substr (dot + 1) + ".hpp")));
+        CHECK (catalogue().find (id) == &type);
+    }
+}
+
+TEST_CASE ("every node says what it is and where it comes from", "[nodes][contract]")
+{
+    for (const auto& type : catalogue())
+    {
+        INFO (type.info.id);
+        CHECK_FALSE (type.info.name.empty());
+        CHECK_FALSE (type.info.source.empty());
+        CHECK (type.info.summary.ends_with ('.'));
+    }
+}
+
+TEST_CASE ("every row of a datasheet has a name, a sentence and a default in range", "[nodes][contract]")
+{
+    const std::regex wanted { "[a-z][a-z0-9_]*" };
+
+    for (const auto& type : catalogue())
+    {
+        std::set<std::string> in_names, out_names;
+        const auto checkRow = [&] (std::string_view id, std::string_view about, auto& names)
+        {
+            const std::string name { id };
+            CHECK (names.insert (name).second);
+            CHECK (std::regex_match (name, wanted));
+            CHECK_FALSE (about.empty());
+        };
+        const auto checkRange = [] (const Limits& limits, double v)
+        {
+            CHECK (limits.hard.min <= limits.hard.max);
+            CHECK (limits.usual.min <= limits.usual.max);
+            CHECK (limits.hard.contains (v));
+            CHECK (limits.usual.contains (v));
+        };
+
+        for (const auto* ports : { &type.inputs, &type.params, &type.outputs })
+            for (const auto& p : *ports)
+            {
+                INFO (type.info.id << "." << p.id);
+                if (p.role == Role::output)
+                    checkRow (p.id, p.about, out_names);
+                else
+                    checkRow (p.id, p.about, in_names);
+                if (p.role != Role::param) continue;
+                if (p.choices.empty())
+                    for (int i = 0; i < p.width; ++i)
+                        checkRange (p.limits, p.initial[i]);
+                else
+                    CHECK (p.initial[0] < static_cast<double> (p.choices.size()));
+            }
+
+        for (const auto& s : type.settings)
+        {
+            INFO (type.info.id << "." << s.id);
+            checkRow (s.id, s.about, in_names);
+            if (const auto* v = std::get_if<double> (&s.initial)) checkRange (s.limits, *v);
+
+            std::set<std::string> field_names;
+            for (const auto& f : s.fields)
+            {
+                INFO (f.id);
+                checkRow (f.id, f.about, field_names);
+                CHECK (f.limits.hard.contains (f.initial));
+            }
+        }
+    }
+}
+
+TEST_CASE ("every choice has alternatives, each with a name of its own", "[nodes][contract]")
+{
+    for (const auto& type : catalogue())
+        for (const auto& p : type.params)
+        {
+            if (p.choices.empty()) continue;
+            INFO (type.info.id << "." << p.id);
+            CHECK (p.choices.size() > 1);
+            CHECK (std::set<std::string_view> (p.choices.begin(), p.choices.end()).size() == p.choices.size());
+            CHECK (std::ranges::none_of (p.choices, &std::string_view::empty));
+        }
+}
+
+TEST_CASE ("every unit that is taken from another port names one that exists", "[nodes][contract]")
+{
+    for (const auto& type : catalogue())
+    {
+        std::set<std::string_view> names;
+        for (const auto* ports : { &type.inputs, &type.params, &type.outputs })
+            for (const auto& p : *ports)
+                names.insert (p.id);
+
+        const auto checkUnit = [&] (const UnitRule& unit)
+        {
+            if (unit.kind != UnitRule::Kind::same && unit.kind != UnitRule::Kind::product) return;
+            CHECK (names.contains (unit.a));
+            if (! unit.b.empty()) CHECK (names.contains (unit.b));
+        };
+        for (const auto* ports : { &type.inputs, &type.params, &type.outputs })
+            for (const auto& p : *ports)
+            {
+                INFO (type.info.id << "." << p.id);
+                checkUnit (p.unit);
+            }
+        for (const auto& s : type.settings)
+        {
+            INFO (type.info.id << "." << s.id);
+            checkUnit (s.unit);
+            checkUnit (s.x_unit);
+        }
+    }
+}
+
+TEST_CASE ("every node with a list says how long it is", "[nodes][contract]")
+{
+    for (const auto& type : catalogue())
+    {
+        INFO (type.info.id);
+        const auto isList = [] (const PortSheet& p)
+        { return p.list; };
+        if (std::ranges::none_of (type.inputs, isList) && std::ranges::none_of (type.params, isList) && std::ranges::none_of (type.outputs, isList)) continue;
+
+        const auto at = std::ranges::find (type.settings, std::string_view { "inputs" }, &SettingSheet::id);
+        REQUIRE (at != type.settings.end());
+        CHECK (at->kind == SettingSheet::Kind::integer);
+        CHECK (at->limits.hard == Interval { 1, list_capacity });
+    }
+}
+
+TEST_CASE ("every node has no problem as delivered", "[nodes][contract]")
+{
+    for (const auto& type : catalogue())
+    {
+        INFO (type.info.id);
+        CHECK (Rig { type }.problem() == "");
+    }
+}
+
+//==============================================================================
+// What it does.
+
+TEST_CASE ("every node gives finite outputs for finite inputs", "[nodes][contract]")
+{
+    for (const auto& type : catalogue())
+        DYNAMIC_SECTION (type.info.id)
+        {
+            rc::prop ("any inputs, params over the usual or the whole range", [&] (unsigned seed)
+                      {
+                Dice dice { seed };
+                static constexpr double rates[] { 100.0, 1000.0, 4000.0, 48000.0 };
+                Rig rig { type, rates[dice.below (4)] };
+                if (dice.once_in (2)) drawSettings (rig, dice);
+                if (! dice.once_in (4)) drawParams (rig, dice, dice.once_in (2) ? Span::usual : Span::hard);
+                rig.prepare();
+
+                const double size = dice.size();
+                for (int k = 0; k < 100; ++k)
+                {
+                    if (dice.once_in (20)) drawParams (rig, dice, dice.once_in (2) ? Span::usual : Span::hard);
+                    drawInputs (rig, dice, size);
+                    rig.tick();
+                    checkFinite (rig);
+                } });
+        }
+}
+
+TEST_CASE ("every node answers a non-finite input with 0 and goes on", "[nodes][contract]")
+{
+    for (const auto& type : catalogue())
+        DYNAMIC_SECTION (type.info.id)
+        {
+            rc::prop ("nan or inf in any one component", [&] (unsigned seed)
+                      {
+                Dice dice { seed };
+                Rig rig = prepared (type), twin = prepared (type);
+                if (rig.in.empty()) return;
+
+                for (int k = 0; k < 20; ++k)
+                {
+                    drawTameInputs (rig, dice);
+                    twin.in = rig.in;
+                    rig.tick();
+                    twin.tick();
+                }
+                const auto before = rig.outs();
+
+                const auto at = static_cast<std::size_t> (dice.below (static_cast<int> (rig.in.size())));
+                const auto& port = *rig.inputs[at].port;
+                const bool nan_is_unwired = std::isnan (port.initial[0]);
+                static constexpr double bad[] { inf, -inf, not_a_number };
+                rig.in[at] = bad[dice.below (nan_is_unwired ? 2 : 3)];
+                twin.in[at] = 0.0;
+                rig.tick();
+                twin.tick();
+                if (type.peek)   // its outputs were there before the input was; the next ones are of it
+                {
+                    drawTameInputs (rig, dice);
+                    rig.in[at] = 0.0;
+                    rig.tick();
+                    twin.tick();
+                }
+
+                // a hit that is no number may also just be no hit
+                if (! (isHit (port) && sameBits (rig.outs(), twin.outs())))
+                    for (std::size_t i = 0; i < rig.outputs.size(); ++i)
+                    {
+                        const auto& output = *rig.outputs[i].port;
+                        if (rig.out (i) != onFault (rig, before)[i])
+                            fail (port.id, " is not finite, but ", output.id, " is ", rig.out (i));
+                    }
+
+                for (int k = 0; k < 20; ++k)
+                {
+                    drawTameInputs (rig, dice);
+                    if (! std::isfinite (rig.in[at])) rig.in[at] = 0.0;
+                    rig.tick();
+                    checkFinite (rig);
+                } });
+        }
+}
+
+TEST_CASE ("a node without a memory does not remember a fault", "[nodes][contract]")
+{
+    for (const auto& type : catalogue())
+    {
+        if (type.peek) continue;
+        DYNAMIC_SECTION (type.info.id)
+        {
+            // Without a memory is a node that after any past answers as a fresh one does.
+            const auto answers = [&] (Dice& dice, bool with_fault)
+            {
+                Rig old = prepared (type), fresh = prepared (type);
+                for (int k = 0; k < 10; ++k)
+                {
+                    drawTameInputs (old, dice);
+                    old.tick();
+                }
+                if (with_fault && ! old.in.empty())
+                {
+                    old.in[static_cast<std::size_t> (dice.below (static_cast<int> (old.in.size())))] = not_a_number;
+                    old.tick();
+                }
+                for (auto& v : old.in)
+                    v = dice.uniform (-1.0, 1.0);
+                fresh.in = old.in;
+                old.tick();
+                fresh.tick();
+                return sameBits (old.outs(), fresh.outs());
+            };
+
+            Dice dice { 1 };
+            bool remembers = false;
+            for (int k = 0; k < 50; ++k)
+                remembers = remembers || ! answers (dice, false);
+            if (! remembers)
+                for (int k = 0; k < 50; ++k)
+                    CHECK (answers (dice, true));
+        }
+    }
+}
+
+TEST_CASE ("every node repeats itself to the bit", "[nodes][contract]")
+{
+    for (const auto& type : catalogue())
+        DYNAMIC_SECTION (type.info.id)
+        {
+            rc::prop ("two fresh instances, the same inputs", [&] (unsigned seed)
+                      {
+                const auto run = [&]
+                {
+                    Dice dice { seed };
+                    Rig rig { type };
+                    drawSettings (rig, dice);
+                    drawParams (rig, dice, Span::usual);
+                    rig.prepare();
+                    std::vector<double> all;
+                    for (int k = 0; k < 50; ++k)
+                    {
+                        drawTameInputs (rig, dice);
+                        rig.tick();
+                        for (std::size_t i = 0; i < rig.outputs.size(); ++i)
+                            all.push_back (rig.out (i));
+                    }
+                    return all;
+                };
+                RC_ASSERT (sameBits (run(), run())); });
+        }
+}
+
+TEST_CASE ("every node that can adopt goes on exactly where the old instance was", "[nodes][contract]")
+{
+    for (const auto& type : catalogue())
+    {
+        if (! type.adopt) continue;
+        DYNAMIC_SECTION (type.info.id)
+        {
+            rc::prop ("same settings, same params", [&] (unsigned seed)
+                      {
+                Dice dice { seed };
+                Rig old = prepared (type), young = prepared (type);
+                for (int k = 0; k < 50; ++k)
+                {
+                    drawTameInputs (old, dice);
+                    old.tick();
+                }
+                young.adopt (old);
+                for (int k = 0; k < 50; ++k)
+                {
+                    drawTameInputs (old, dice);
+                    young.in = old.in;
+                    old.tick();
+                    young.tick();
+                    RC_ASSERT (sameBits (old.outs(), young.outs()));
+                } });
+        }
+    }
+}
+
+TEST_CASE ("no node allocates or locks within a tick", "[nodes][contract]")
+{
+    if (! NoAllocation::watches)
+    {
+        WARN ("not watched under this sanitizer");
+        return;
+    }
+
+    for (const auto& type : catalogue())
+        DYNAMIC_SECTION (type.info.id)
+        {
+            Dice dice { 1 };
+            Rig rig = prepared (type);
+            for (int k = 0; k < 200; ++k)
+            {
+                if (k % 20 == 0) drawParams (rig, dice, Span::usual);
+                drawTameInputs (rig, dice);
+                if (k == 100 && ! rig.in.empty()) rig.in[0] = not_a_number;
+
+                int allocations = 0, locks = 0;
+                {
+                    const NoAllocation watch;
+                    rig.moved();
+                    rig.tick();
+                    rig.effort();
+                    allocations = watch.allocations();
+                    locks = watch.locks();
+                }
+                REQUIRE (allocations == 0);
+                REQUIRE (locks == 0);
+            }
+        }
+}
+
+//==============================================================================
+// What it claims.
+
+TEST_CASE ("a node that claims an amplitude never exceeds it", "[nodes][contract]")
+{
+    for (const auto& type : catalogue())
+    {
+        if (! type.claims) continue;
+        DYNAMIC_SECTION (type.info.id)
+        {
+            rc::prop ("any inputs", [&] (unsigned seed)
+                      {
+                Dice dice { seed };
+                Rig rig { type };
+                if (dice.once_in (2)) drawSettings (rig, dice);
+                if (! dice.once_in (4)) drawParams (rig, dice, dice.once_in (2) ? Span::usual : Span::hard);
+                rig.prepare();
+
+                const double amplitude = rig.claims().amplitude;
+                if (! std::isfinite (amplitude)) return;
+
+                const double size = dice.size();
+                for (int k = 0; k < 100; ++k)
+                {
+                    drawInputs (rig, dice, size);
+                    rig.tick();
+                    for (std::size_t i = 0; i < rig.outputs.size(); ++i)
+                    {
+                        const auto& [port, index] = rig.outputs[i];
+                        if (port->id == "state") continue;
+                        const double length = port->width == 3 && index == 0 ? std::hypot (rig.out (i), rig.out (i + 1), rig.out (i + 2)) : std::abs (rig.out (i));
+                        if (length > amplitude * (1.0 + 1e-9))
+                            fail (port->id, " is ", length, ", claimed ", amplitude);
+                    }
+                } });
+        }
+    }
+}
+
+TEST_CASE ("a node that claims to be passive gives no energy on a closed path", "[nodes][contract]")
+{
+    for (const auto& type : catalogue())
+    {
+        const auto hasVector = [] (const std::vector<PortSheet>& ports, std::string_view id)
+        {
+            return std::ranges::any_of (ports, [&] (const PortSheet& p)
+                                        { return p.id == id && p.width == 3 && ! p.list; });
+        };
+        if (! type.claims || ! hasVector (type.inputs, "position") || ! hasVector (type.outputs, "force")) continue;
+
+        DYNAMIC_SECTION (type.info.id)
+        {
+            rc::prop ("a tangled loop, run through twice", [&] (unsigned seed)
+                      {
+                Dice dice { seed };
+                Rig rig { type };
+                if (dice.once_in (2)) drawParams (rig, dice, Span::usual);
+                rig.prepare();
+                if (! rig.claims().passive) return;
+
+                constexpr int steps = 5000, waves = 4;
+                const double size = std::pow (10.0, dice.uniform (-5.0, -2.0));
+                Vec3 sines[waves], cosines[waves];
+                for (int w = 0; w < waves; ++w)
+                    for (int i = 0; i < 3; ++i)
+                    {
+                        sines[w][i] = dice.uniform (-size, size);
+                        cosines[w][i] = dice.uniform (-size, size);
+                    }
+                const auto path = [&] (int k)
+                {
+                    Vec3 p = Vec3::Zero();
+                    for (int w = 0; w < waves; ++w)
+                    {
+                        const double angle = 2.0 * M_PI * (w + 1) * (k % steps) / steps;
+                        p += std::sin (angle) * sines[w] + std::cos (angle) * cosines[w];
+                    }
+                    return p;
+                };
+
+                double given = 0.0, handled = 0.0;
+                Vec3 p = path (0);
+                rig.input ("position", p);
+                rig.tick();
+                Vec3 force = rig.vector ("force");
+                for (int k = 1; k <= 2 * steps; ++k)
+                {
+                    const Vec3 next = path (k);
+                    rig.input ("position", next);
+                    rig.tick();
+                    const Vec3 now = rig.vector ("force");
+                    const double work = 0.5 * (now + force).dot (next - p);
+                    given += work;
+                    handled += std::abs (work);
+                    force = now;
+                    p = next;
+                }
+                if (given > 0.01 * handled + 1e-15)
+                    fail ("it gave ", given, " J of ", handled, " J handled"); });
+        }
+    }
+}
