@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: MIT
+#include <framework/guard.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+using namespace tactus;
+
+namespace
+{
+constexpr double dt = 1e-3;
+constexpr double inf = std::numeric_limits<double>::infinity();
+const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+const Reading fresh;
+const Reading silent { .valid = false };
+
+Guard guardWith (const GuardLimits& limits)
+{
+    Guard guard;
+    guard.prepare (limits, dt);
+    return guard;
+}
+
+Effort pushing (double x, double y = 0.0, double z = 0.0) { return { .force = { x, y, z } }; }
+
+bool sameBits (const Vec3& a, const Vec3& b)
+{
+    for (int i = 0; i < 3; ++i)
+        if (std::bit_cast<std::uint64_t> (a[i]) != std::bit_cast<std::uint64_t> (b[i])) return false;
+    return true;
+}
+
+double length (const Vec3& v) { return v.stableNorm(); }
+
+// Numbers as they come, up to the ends of what a double can hold; whole numbers among them, so that rows repeat.
+rc::Gen<double> anyFinite()
+{
+    return rc::gen::oneOf (
+        rc::gen::map (rc::gen::inRange (-20, 21), [] (int i)
+                      { return 1.0 * i; }),
+        rc::gen::map (rc::gen::inRange (-1'000'000, 1'000'001), [] (int i)
+                      { return 1e-5 * i; }),
+        rc::gen::element (0.0, -0.0, 5e-324, -1e-310, 1e154, -1.7e308, 1.7e308));
+}
+
+rc::Gen<double> anyNumber()
+{
+    return rc::gen::weightedOneOf<double> ({ { 30, anyFinite() }, { 1, rc::gen::element (inf, -inf, not_a_number) } });
+}
+
+rc::Gen<Vec3> vectorOf (const rc::Gen<double>& part)
+{
+    return rc::gen::map (rc::gen::tuple (part, part, part), [] (const auto& t)
+                         { return Vec3 (std::get<0> (t), std::get<1> (t), std::get<2> (t)); });
+}
+
+struct Tick
+{
+    Effort wanted;
+    Reading reading;
+    bool halt = false;
+};
+
+rc::Gen<Tick> anyTick()
+{
+    const auto rarely = rc::gen::map (rc::gen::inRange (0, 12), [] (int i)
+                                      { return i == 0; });
+    const auto age = rc::gen::weightedOneOf<double> ({ { 20, rc::gen::just (0.0) }, { 1, rc::gen::element (0.004, 0.1, inf, not_a_number, -1.0) } });
+
+    return rc::gen::map (rc::gen::tuple (vectorOf (anyNumber()), vectorOf (anyNumber()), age, rarely, rarely),
+                         [] (const auto& t)
+                         {
+                             Tick tick;
+                             tick.wanted = { std::get<0> (t), std::get<1> (t) };
+                             tick.halt = std::get<4> (t);
+                             tick.reading.age = std::get<2> (t);
+                             tick.reading.valid = ! std::get<3> (t);
+                             return tick;
+                         });
+}
+
+rc::Gen<GuardLimits> anyLimits()
+{
+    const auto limit = rc::gen::element (inf, inf, 0.0, 0.1, 3.0, 12.0);
+    const auto slew = rc::gen::element (inf, inf, 0.0, 10.0, 500.0, 1e5);
+    const auto ramp = rc::gen::element (0.0, 0.0, 0.002, 0.5, inf);
+    const auto watchdog = rc::gen::element (inf, 0.02, 0.0);
+
+    return rc::gen::map (rc::gen::tuple (limit, limit, slew, slew, ramp, watchdog),
+                         [] (const auto& t)
+                         {
+                             return GuardLimits {
+                                 .max_force = std::get<0> (t),
+                                 .max_torque = std::get<1> (t),
+                                 .max_slew = std::get<2> (t),
+                                 .max_torque_slew = std::get<3> (t),
+                                 .ramp = std::get<4> (t),
+                                 .watchdog = std::get<5> (t),
+                             };
+                         });
+}
+
+std::vector<Tick> anyRun()
+{
+    return *rc::gen::container<std::vector<Tick>> (anyTick());
+}
+
+/// Calls check (tick, effort before, effort now) for every tick of a run.
+template <typename Check>
+void play (Guard& guard, const std::vector<Tick>& run, Check check)
+{
+    Effort before;
+    for (const auto& tick : run)
+    {
+        tick.halt ? guard.halt() : guard.resume();
+        const Effort now = guard (tick.wanted, tick.reading);
+        check (tick, before, now);
+        before = now;
+    }
+}
+}   // namespace
+
+TEST_CASE ("guard: without limits a finite effort passes to the bit, whatever came before", "[framework][guard]")
+{
+    rc::prop ("any run",
+              []
+              {
+                  auto guard = guardWith ({});
+                  play (guard, anyRun(), [&] (const Tick& tick, const Effort&, const Effort& now)
+                        {
+                            if (guard.stop() != Guard::Stop::none) return;
+                            RC_ASSERT (sameBits (now.force, tick.wanted.force));
+                            RC_ASSERT (sameBits (now.torque, tick.wanted.torque)); });
+              });
+}
+
+TEST_CASE ("guard: what is not a number never reaches a device", "[framework][guard]")
+{
+    rc::prop ("any run, any limits",
+              []
+              {
+                  auto guard = guardWith (*anyLimits());
+                  play (guard, anyRun(), [] (const Tick&, const Effort&, const Effort& now)
+                        { RC_ASSERT (isFinite (now.force, now.torque)); });
+              });
+
+    rc::prop ("limits, periods and ages that are no numbers themselves",
+              []
+              {
+                  const auto wild = rc::gen::element (not_a_number, -1.0, inf, -inf, 0.0, 1.0, 1.7e308);
+                  Guard guard;
+                  guard.prepare ({ *wild, *wild, *wild, *wild, *wild, *wild }, *wild);
+                  play (guard, anyRun(), [] (const Tick&, const Effort&, const Effort& now)
+                        { RC_ASSERT (isFinite (now.force, now.torque)); });
+              });
+}
+
+TEST_CASE ("guard: from one end of the doubles to the other is a long way, but a finite one", "[framework][guard]")
+{
+    Guard guard;
+    guard.prepare ({ .max_slew = 1.7e308 }, 1.0);
+
+    CHECK (guard (pushing (1.7e308), fresh).force.x() == Approx (1.7e308));
+    CHECK (std::abs (guard (pushing (-1.7e308), fresh).force.x()) < 1e300);
+    CHECK (guard (pushing (-1.7e308), fresh).force.x() == Approx (-1.7e308));
+}
+
+TEST_CASE ("guard: force and torque are never longer than their limits", "[framework][guard]")
+{
+    rc::prop ("any run, any limits",
+              []
+              {
+                  const auto limits = *anyLimits();
+                  auto guard = guardWith (limits);
+                  play (guard, anyRun(), [&] (const Tick&, const Effort&, const Effort& now)
+                        {
+                            RC_ASSERT (length (now.force) <= limits.max_force * (1 + 1e-15));
+                            RC_ASSERT (length (now.torque) <= limits.max_torque * (1 + 1e-15)); });
+              });
+}
+
+TEST_CASE ("guard: from tick to tick the effort changes no faster than the slew limit, through stops and recoveries", "[framework][guard]")
+{
+    rc::prop ("any run, any limits",
+              []
+              {
+                  const auto limits = *anyLimits();
+                  auto guard = guardWith (limits);
+                  play (guard, anyRun(), [&] (const Tick&, const Effort& before, const Effort& now)
+                        {
+                            // What is left is the rounding of a sum, an ulp of the force itself.
+                            const auto slack = [] (const Vec3& a, const Vec3& b) { return 1e-15 * (length (a) + length (b)); };
+                            RC_ASSERT (length (0.5 * now.force - 0.5 * before.force) <= 0.5 * limits.max_slew * dt + slack (now.force, before.force));
+                            RC_ASSERT (length (0.5 * now.torque - 0.5 * before.torque) <= 0.5 * limits.max_torque_slew * dt + slack (now.torque, before.torque)); });
+              });
+}
+
+TEST_CASE ("guard: a force that is too long keeps its direction", "[framework][guard]")
+{
+    rc::prop ("any force",
+              []
+              {
+                  const auto wanted = *vectorOf (anyFinite());
+                  const auto most = *rc::gen::element (0.1, 3.0, 12.0);
+                  auto guard = guardWith ({ .max_force = most });
+                  const Vec3 now = guard ({ .force = wanted }, fresh).force;
+
+                  if (length (wanted) <= most)
+                      RC_ASSERT (sameBits (now, wanted));
+                  else
+                  {
+                      const double scale = wanted.cwiseAbs().maxCoeff();
+                      RC_ASSERT (length (now) == Approx (most).epsilon (1e-14));
+                      RC_ASSERT ((now.normalized() - (wanted / scale).normalized()).norm() < 1e-14);
+                  }
+              });
+}
+
+TEST_CASE ("guard: a session starts from nothing and reaches full effort after the ramp", "[framework][guard]")
+{
+    auto guard = guardWith ({ .ramp = 0.1 });
+    double before = 0.0;
+
+    for (int k = 1; k <= 100; ++k)
+    {
+        const double now = guard (pushing (2.0), fresh).force.x();
+        CHECK (now == Approx (2.0 * k / 100));
+        CHECK (now - before < 2.0 / 100 + 1e-12);
+        before = now;
+    }
+    CHECK (guard (pushing (2.0), fresh).force.x() == 2.0);
+}
+
+TEST_CASE ("guard: a stop is no step, also where no limit was set", "[framework][guard]")
+{
+    const auto [bad, seen, why] = GENERATE (table<Effort, Reading, Guard::Stop> ({
+        { pushing (not_a_number), fresh, Guard::Stop::not_finite },
+        { { .torque = { 0, inf, 0 } }, fresh, Guard::Stop::not_finite },
+        { pushing (4.0), silent, Guard::Stop::stale },
+    }));
+
+    auto guard = guardWith ({});
+    double before = guard (pushing (4.0), fresh).force.x();
+    REQUIRE (before == 4.0);
+
+    for (int k = 1; k <= 5; ++k)
+    {
+        const double now = guard (bad, seen).force.x();
+        CHECK (now == Approx (4.0 * (1 - k / 5.0)).margin (1e-12));
+        CHECK (guard.stop() == why);
+    }
+    CHECK (guard (bad, seen).force.x() == 0.0);
+    CHECK (guard.isAtRest());
+}
+
+TEST_CASE ("guard: with a slew limit a stop takes the time that the limit asks for", "[framework][guard]")
+{
+    auto guard = guardWith ({ .max_slew = 100.0 });
+    for (int k = 0; k < 100; ++k)
+        guard (pushing (4.0), fresh);
+
+    int ticks = 0;
+    while (! guard.isAtRest() && ticks < 1000)
+    {
+        guard (pushing (not_a_number), fresh);
+        ++ticks;
+    }
+    CHECK (ticks == Approx (40).margin (4));   // 4 N at 0.1 N a tick, behind a fade of 5 ticks
+}
+
+TEST_CASE ("guard: a single bad tick brings the effort back through the ramp, without a step", "[framework][guard]")
+{
+    auto guard = guardWith ({ .ramp = 0.05 });
+    Effort last;
+    for (int k = 0; k < 60; ++k)
+        last = guard (pushing (1.0), fresh);
+    REQUIRE (last.force.x() == 1.0);
+
+    double before = guard (pushing (not_a_number), fresh).force.x(), lowest = before, largest_change = 1.0 - before;
+    for (int k = 0; k < 49; ++k)
+    {
+        const double now = guard (pushing (1.0), fresh).force.x();
+        largest_change = std::max (largest_change, std::abs (now - before));
+        lowest = std::min (lowest, now);
+        before = now;
+    }
+    CHECK (lowest == Approx (0.1).margin (0.03));
+    CHECK (largest_change < 0.21);   // a fifth: the fade of 5 ticks
+    CHECK (guard (pushing (1.0), fresh).force.x() == Approx (1.0));
+    CHECK (guard.stop() == Guard::Stop::none);
+}
+
+TEST_CASE ("guard: a constant push is never exceeded on the way back from a stop, however short the ramp", "[framework][guard]")
+{
+    const double ramp = GENERATE (0.0, 0.001, 0.002, 0.004, 0.006, 0.02);
+    auto guard = guardWith ({ .ramp = ramp });
+    for (int k = 0; k < 30; ++k)
+        guard (pushing (1.0), fresh);
+
+    guard (pushing (not_a_number), fresh);
+    for (int k = 0; k < 30; ++k)
+        CHECK (guard (pushing (1.0), fresh).force.x() <= 1.0);
+}
+
+TEST_CASE ("guard: input older than the watchdog stops the force, and no sooner", "[framework][guard]")
+{
+    auto guard = guardWith ({ .watchdog = 0.02 });
+
+    CHECK (guard (pushing (1.0), { .age = 0.02 }).force.x() == 1.0);
+    CHECK (guard (pushing (1.0), { .age = 0.0201 }).force.x() < 1.0);
+    CHECK (guard.stop() == Guard::Stop::stale);
+
+    for (int k = 0; k < 10; ++k)
+        guard (pushing (1.0), { .age = 0.1 });
+    CHECK (guard.isAtRest());
+
+    CHECK (guard (pushing (1.0), { .age = not_a_number }).force.x() == 0.0);
+    CHECK (guard (pushing (1.0), fresh).force.x() == 1.0);
+}
+
+TEST_CASE ("guard: a halt leaves the device at rest until it is resumed", "[framework][guard]")
+{
+    auto guard = guardWith ({ .max_slew = 1000.0, .ramp = 0.01 });
+    for (int k = 0; k < 20; ++k)
+        guard (pushing (3.0), fresh);
+    REQUIRE (! guard.isAtRest());
+
+    guard.halt();
+    for (int k = 0; k < 10; ++k)
+        guard (pushing (3.0), fresh);
+    CHECK (guard.isAtRest());
+    CHECK (guard.stop() == Guard::Stop::halted);
+
+    guard.resume();
+    for (int k = 0; k < 20; ++k)
+        guard (pushing (3.0), fresh);
+    CHECK (guard (pushing (3.0), fresh).force.x() == Approx (3.0));
+}
+
+TEST_CASE ("guard: the reason of a stop is told with its numbers, and kept when it is over", "[framework][guard]")
+{
+    auto guard = guardWith ({ .watchdog = 0.02 });
+    CHECK (describe (guard.latest()) == "not stopped");
+
+    guard (pushing (1.0), { .age = 0.031 });
+    CHECK (describe (guard.latest()) == "the last reading is 31 ms old, the watchdog allows 20 ms");
+    guard (pushing (1.0), { .age = 0.5 });
+    CHECK (describe (guard.latest()) == "the last reading is 31 ms old, the watchdog allows 20 ms");
+
+    guard (pushing (1.0), fresh);
+    CHECK (guard.stop() == Guard::Stop::none);
+    CHECK (guard.latest().why == Guard::Stop::stale);
+
+    guard (pushing (0.5, not_a_number, 1), fresh);
+    CHECK (describe (guard.latest()) == "the graph asked for a force that is not a number: (0.5, nan, 1) N");
+    guard (pushing (1.0), fresh);
+
+    guard (pushing (1.0), silent);
+    CHECK (describe (guard.latest()) == "the device has no reading to give");
+}
+
+TEST_CASE ("guard: a session can tighten a profile's limits, never loosen them", "[framework][guard]")
+{
+    const GuardLimits profile { .max_force = 3.3, .max_slew = 500.0, .ramp = 0.2, .watchdog = 0.02 };
+    const GuardLimits session { .max_force = 10.0, .max_torque = 0.1, .max_slew = 200.0, .ramp = 0.1, .watchdog = 1.0 };
+
+    CHECK (tightest (profile, session) == GuardLimits { .max_force = 3.3, .max_torque = 0.1, .max_slew = 200.0, .ramp = 0.2, .watchdog = 0.02 });
+    CHECK (tightest (profile, {}) == profile);
+    CHECK (tightest (profile, { .max_force = not_a_number, .ramp = not_a_number }).max_force == 0.0);
+}
