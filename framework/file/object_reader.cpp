@@ -2,7 +2,7 @@
 #include "object_reader.hpp"
 
 #include "json_text.hpp"
-#include "near_miss.hpp"
+#include <framework/near_miss.hpp>
 
 #include <framework/in_quotes.hpp>
 

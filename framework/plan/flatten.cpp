@@ -3,7 +3,7 @@
 #include "values.hpp"
 
 #include <framework/graph/text.hpp>
-#include <framework/nearest.hpp>
+#include <framework/near_miss.hpp>
 
 #include <cmath>
 
@@ -563,12 +563,12 @@ std::string Flat::nameOf (const PortRef& r) const
 
 void Flat::error (std::string id, const Origin& origin, std::string text, std::string remedy)
 {
-    messages.push_back ({ Message::Severity::error, std::move (id), origin.pointer, std::move (text), std::move (remedy), origin.file });
+    messages.push_back ({ Message::Severity::error, std::move (id), origin.pointer, std::move (text), std::move (remedy), origin.file, 0, 0 });
 }
 
 void Flat::warn (std::string id, const Origin& origin, std::string text, std::string remedy)
 {
-    messages.push_back ({ Message::Severity::warning, std::move (id), origin.pointer, std::move (text), std::move (remedy), origin.file });
+    messages.push_back ({ Message::Severity::warning, std::move (id), origin.pointer, std::move (text), std::move (remedy), origin.file, 0, 0 });
 }
 
 std::optional<PortRef> Directory::find (const graph::Endpoint& e, Side side, const Origin& origin, Flat& flat) const

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "values.hpp"
 
-#include <framework/nearest.hpp>
+#include <framework/near_miss.hpp>
 
 #include <charconv>
 #include <cmath>

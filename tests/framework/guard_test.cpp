@@ -13,7 +13,6 @@ using namespace tactus;
 namespace
 {
 constexpr double dt = 1e-3;
-constexpr double inf = std::numeric_limits<double>::infinity();
 const double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 const Reading fresh;

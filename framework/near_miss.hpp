@@ -2,7 +2,9 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace tactus
 {
@@ -12,5 +14,8 @@ int editDistance (std::string_view, std::string_view);
 
 /// The known word that was probably meant: one slip away, two for words of more than four letters. Empty if there is none.
 std::string_view nearMiss (std::string_view word, std::span<const std::string_view> known);
+
+/// " (did you mean 'mu'?)", or "".
+std::string didYouMean (std::string_view word, const std::vector<std::string>& known);
 
 }   // namespace tactus

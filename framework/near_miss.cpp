@@ -45,4 +45,10 @@ std::string_view nearMiss (std::string_view word, std::span<const std::string_vi
     return best;
 }
 
+std::string didYouMean (std::string_view word, const std::vector<std::string>& known)
+{
+    const auto meant = nearMiss (word, std::vector<std::string_view> (known.begin(), known.end()));
+    return meant.empty() ? "" : " (did you mean '" + std::string (meant) + "'?)";
+}
+
 }   // namespace tactus
