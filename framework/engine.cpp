@@ -69,6 +69,18 @@ void Engine::tick() noexcept
     ++ticks;
 }
 
+void Engine::halt() noexcept
+{
+    for (auto& a : attached)
+        a.guard.halt();
+}
+
+bool Engine::isAtRest() const noexcept
+{
+    return std::ranges::all_of (attached, [] (const Attached& a)
+                                { return a.guard.isAtRest(); });
+}
+
 const Guard& Engine::guardOf (std::string_view role) const { return attached[indexOf (*current, role)].guard; }
 
 }   // namespace tactus

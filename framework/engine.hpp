@@ -25,6 +25,12 @@ public:
     /// One sample. Allocates nothing, takes no lock, asks no clock. [tick thread]
     void tick() noexcept;
 
+    /// Brings the efforts of all roles to zero, smoothly, and keeps them there. [tick thread]
+    void halt() noexcept;
+
+    /// True once nothing is on any device, so that it can be let go without a step. [tick thread]
+    bool isAtRest() const noexcept;
+
     Plan& plan() noexcept { return *current; }
     const Guard& guardOf (std::string_view role) const;
     double time_s() const noexcept { return static_cast<double> (ticks) / rate; }

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace tactus::host
+{
+
+/// Each adds its subcommand, with its options and examples, to the program.
+void addNodes (CLI::App&);
+void addValidate (CLI::App&);
+void addRender (CLI::App&);
+void addPlay (CLI::App&);
+
+}   // namespace tactus::host

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.hpp"
+#include "report.hpp"
+
+#include <cstdio>
+#include <exception>
+
+int main (int argc, char** argv)
+{
+    using namespace tactus::host;
+
+    CLI::App app { "Tactus: haptic effects, patched like a modular synthesiser.", "tactus" };
+    app.footer ("Examples:\n"
+                "  tactus nodes                                   every node there is\n"
+                "  tactus nodes friction.elasto_plastic           one datasheet\n"
+                "  tactus validate graphs/*.json                  everything wrong with them, at once\n"
+                "  tactus render graphs/dry_wood.json --out wood.csv --plot wood.png\n"
+                "  tactus play graphs/dry_wood.json --duration 4  in real time\n"
+                "\n`tactus COMMAND --help` shows the options and more examples.");
+    app.require_subcommand (1);
+    addNodes (app);
+    addValidate (app);
+    addRender (app);
+    addPlay (app);
+
+    try
+    {
+        app.parse (argc, argv);
+    }
+    catch (const CLI::ParseError& e)
+    {
+        const bool asked_for_help = e.get_exit_code() == static_cast<int> (CLI::ExitCodes::Success);
+        app.exit (e);
+        return asked_for_help ? fine : wrong_usage;
+    }
+    catch (const Stop&)
+    {
+        return fault_of_input;
+    }
+    catch (const std::exception& e)
+    {
+        std::fprintf (stderr, "tactus: error: %s\n    this should not happen; please report it with the command and its files\n", e.what());
+        return fault_of_input;
+    }
+    return fine;
+}

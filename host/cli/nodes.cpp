@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.hpp"
+#include "report.hpp"
+
+#include <framework/catalogue.hpp>
+#include <framework/json.hpp>
+#include <framework/near_miss.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <iostream>
+#include <memory>
+
+namespace tactus::host
+{
+
+namespace
+{
+std::string text (double v)
+{
+    char buffer[32];
+    return { buffer, std::to_chars (buffer, buffer + sizeof buffer, v).ptr };
+}
+
+std::string unitText (const UnitRule& u)
+{
+    switch (u.kind)
+    {
+    case UnitRule::Kind::fixed:
+        return std::string (u.unit.symbol);
+    case UnitRule::Kind::open:
+    case UnitRule::Kind::each:
+        return "as wired";
+    case UnitRule::Kind::same:
+        return "as " + std::string (u.a) + (u.unit == unit::count ? "" : " * " + std::string (u.unit.symbol));
+    case UnitRule::Kind::product:
+        break;
+    }
+    return std::string (u.a) + (u.b.empty() ? "[0] * " + std::string (u.a) + "[1] …" : " * " + std::string (u.b));
+}
+
+std::string initialText (const PortSheet& p)
+{
+    if (! p.choices.empty()) return std::string (p.choices[static_cast<std::size_t> (p.initial[0])]);
+    if (p.width == 1) return text (p.initial[0]);
+    return "(" + text (p.initial[0]) + ", " + text (p.initial[1]) + ", " + text (p.initial[2]) + ")";
+}
+
+std::string rangeText (const Interval& i)
+{
+    if (i == Interval {}) return "";
+    if (i.max == inf) return "from " + text (i.min);
+    if (i.min == -inf) return "up to " + text (i.max);
+    return text (i.min) + " … " + text (i.max);
+}
+
+constexpr std::string_view kind_names[] = { "number", "whole number", "text", "curve", "law", "records" };
+
+/// A table whose columns are as wide as their widest cell; the last one is not padded.
+void print (const std::vector<std::vector<std::string>>& rows)
+{
+    std::vector<std::size_t> width;
+    const auto letters = [] (const std::string& s)
+    { return static_cast<std::size_t> (std::ranges::count_if (s, [] (char c)
+                                                              { return (c & 0xc0) != 0x80; })); };
+    for (const auto& row : rows)
+    {
+        width.resize (std::max (width.size(), row.size()));
+        for (std::size_t i = 0; i < row.size(); ++i)
+            width[i] = std::max (width[i], letters (row[i]));
+    }
+    for (const auto& row : rows)
+    {
+        std::cout << "  ";
+        for (std::size_t i = 0; i < row.size(); ++i)
+            std::cout << row[i] << (i + 1 < row.size() ? std::string (width[i] - letters (row[i]) + 2, ' ') : "\n");
+    }
+}
+
+void printDatasheet (const NodeType& t)
+{
+    std::cout << t.info.id << ": " << t.info.name << "\n"
+              << t.info.summary << "\nSource: " << t.info.source << "\n";
+
+    const auto section = [] (const char* title, const std::vector<PortSheet>& ports, bool with_default)
+    {
+        if (ports.empty()) return;
+        std::cout << '\n'
+                  << title << '\n';
+        std::vector<std::vector<std::string>> rows;
+        for (const auto& p : ports)
+        {
+            std::string about (p.about);
+            if (! p.choices.empty())
+            {
+                about += "; one of";
+                for (const auto c : p.choices)
+                    about += (c == p.choices.front() ? " " : ", ") + std::string (c);
+            }
+            if (const auto usual = rangeText (p.limits.usual); ! usual.empty()) about += "; usually " + usual;
+            if (! (p.limits.hard == p.limits.usual) && ! rangeText (p.limits.hard).empty()) about += "; only " + rangeText (p.limits.hard);
+            if (p.limits.latch) about += "; latched at onset";
+            rows.push_back ({ std::string (p.id) + (p.list ? "[…]" : "") + (p.width == 3 ? " (x, y, z)" : ""), p.choices.empty() ? unitText (p.unit) : "choice" });
+            if (with_default) rows.back().push_back (initialText (p));
+            rows.back().push_back (about);
+        }
+        print (rows);
+    };
+    section ("inputs", t.inputs, true);
+    section ("params", t.params, true);
+    if (! t.settings.empty())
+    {
+        std::cout << "\nsettings\n";
+        std::vector<std::vector<std::string>> rows;
+        for (const auto& s : t.settings)
+        {
+            std::string about (s.about);
+            for (const auto& f : s.fields)
+                about += (&f == &s.fields.front() ? "; each with " : ", ") + std::string (f.id) + " (" + std::string (f.unit.symbol) + ")";
+            if (const auto hard = rangeText (s.limits.hard); ! hard.empty()) about += "; only " + hard;
+            const auto* initial = std::get_if<double> (&s.initial);
+            rows.push_back ({ std::string (s.id), std::string (kind_names[static_cast<int> (s.kind)]), initial ? text (*initial) : "", about });
+        }
+        print (rows);
+    }
+    section ("outputs", t.outputs, false);
+}
+
+Json number (double v) { return isFinite (v) ? Json (v) : Json(); }
+
+Json toJson (const UnitRule& u)
+{
+    Json j = { { "unit", unitText (u) } };
+    if (u.kind == UnitRule::Kind::fixed) j["quantity"] = name (u.unit.quantity);
+    return j;
+}
+
+void add (Json& j, const Limits& l)
+{
+    if (! (l.hard == Interval {})) j["hard_range"] = { number (l.hard.min), number (l.hard.max) };
+    if (! (l.usual == Interval {})) j["usual_range"] = { number (l.usual.min), number (l.usual.max) };
+    if (l.latch) j["latch"] = true;
+}
+
+Json toJson (const PortSheet& p)
+{
+    Json j = { { "id", p.id } };
+    if (p.choices.empty())
+        j.update (toJson (p.unit));
+    else
+        j["choices"] = std::vector<std::string> (p.choices.begin(), p.choices.end());
+    if (p.width == 3) j["components"] = { "x", "y", "z" };
+    if (p.list) j["array"] = true;
+    if (p.role != Role::output) j["default"] = p.choices.empty() ? (p.width == 1 ? number (p.initial[0]) : Json { p.initial[0], p.initial[1], p.initial[2] }) : Json (initialText (p));
+    add (j, p.limits);
+    j["about"] = p.about;
+    return j;
+}
+
+Json toJson (const SettingSheet& s)
+{
+    Json j = { { "id", s.id }, { "kind", kind_names[static_cast<int> (s.kind)] } };
+    if (const auto* v = std::get_if<double> (&s.initial)) j["default"] = number (*v);
+    if (const auto* v = std::get_if<std::string> (&s.initial)) j["default"] = *v;
+    j.update (toJson (s.unit));
+    add (j, s.limits);
+    for (const auto& f : s.fields)
+    {
+        Json field = { { "id", f.id }, { "unit", f.unit.symbol }, { "quantity", name (f.unit.quantity) }, { "default", number (f.initial) }, { "about", f.about } };
+        add (field, f.limits);
+        j["fields"].push_back (field);
+    }
+    j["about"] = s.about;
+    return j;
+}
+
+Json toJson (const NodeType& t)
+{
+    Json j = { { "id", t.info.id }, { "name", t.info.name }, { "summary", t.info.summary }, { "source", t.info.source } };
+    const auto all = [&] (const char* key, const auto& sheets)
+    {
+        j[key] = Json::array();
+        for (const auto& s : sheets)
+            j[key].push_back (toJson (s));
+    };
+    all ("inputs", t.inputs);
+    all ("params", t.params);
+    all ("settings", t.settings);
+    all ("outputs", t.outputs);
+    return j;
+}
+
+void listAll()
+{
+    std::string family;
+    std::vector<std::vector<std::string>> rows;
+    const auto flush = [&]
+    {
+        if (! rows.empty()) std::cout << family << '\n';
+        print (rows);
+        rows.clear();
+    };
+    for (const auto& t : catalogue())
+    {
+        const std::string id (t.info.id), its_family = id.substr (0, id.find ('.'));
+        if (its_family != family)
+        {
+            flush();
+            family = its_family;
+        }
+        rows.push_back ({ id, std::string (t.info.summary) });
+    }
+    flush();
+}
+
+void run (const std::string& wanted, bool json)
+{
+    if (! wanted.empty())
+    {
+        const auto* type = catalogue().find (wanted);
+        if (type == nullptr)
+        {
+            std::vector<std::string> ids;
+            for (const auto& t : catalogue())
+                ids.emplace_back (t.info.id);
+            fail ("node/unknown_type", "there is no node type '" + wanted + "'" + didYouMean (wanted, ids), "`tactus nodes` lists them all");
+        }
+        if (json)
+            std::cout << toJson (*type).dump (2) << '\n';
+        else
+            printDatasheet (*type);
+        return;
+    }
+    if (! json) return listAll();
+    Json all = Json::array();
+    for (const auto& t : catalogue())
+        all.push_back (toJson (t));
+    std::cout << all.dump (2) << '\n';
+}
+}   // namespace
+
+void addNodes (CLI::App& app)
+{
+    struct Options
+    {
+        std::string type;
+        bool json = false;
+    };
+    const auto options = std::make_shared<Options>();
+    auto* command = app.add_subcommand ("nodes", "List the node types, or show the datasheet of one");
+    command->add_option ("type", options->type, "Id of a node type, as in friction.elasto_plastic");
+    command->add_flag ("--json", options->json, "As JSON, for programs");
+    command->footer ("Examples:\n"
+                     "  tactus nodes\n"
+                     "  tactus nodes deform.plane\n"
+                     "  tactus nodes --json | jq '.[].id'");
+    command->callback ([options]
+                       { run (options->type, options->json); });
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plotter.hpp"
+#include "report.hpp"
+
+#include <host/io/plot.hpp>
+
+#include <algorithm>
+
+namespace tactus::host
+{
+
+namespace
+{
+/// What an axis is called: the quantity, or the tap itself where nothing says what it carries.
+Quantity axisOf (const Tap& tap)
+{
+    return { tap.quantity == tactus::Quantity::any ? tap.name : std::string (name (tap.quantity)), tap.unit };
+}
+}   // namespace
+
+Plotter::Plotter (std::string f, const std::vector<Tap>& t, const std::string& over_name, double rate) : file (std::move (f)), taps (t), rate_hz (rate), columns (t.size())
+{
+    if (taps.empty()) fail ("record/nothing", "there is nothing to plot: the graph has no sink", "name ports with --record, as in --record drag.force");
+    if (over_name.empty()) return;
+    const auto found = std::ranges::find (taps, over_name, &Tap::name);
+    if (found == taps.end()) fail ("plot/not_recorded", "'" + over_name + "' is not among what is recorded", "add it to --record");
+    over = found - taps.begin();
+}
+
+void Plotter::frame (std::span<const double> values)
+{
+    for (std::size_t i = 0; i < columns.size(); ++i)
+        columns[i].push_back (values[i]);
+}
+
+void Plotter::draw (const std::string& title)
+{
+    Figure figure { .title = title };
+    std::vector<double> times (columns[0].size());
+    for (std::size_t k = 0; k < times.size(); ++k)
+        times[k] = static_cast<double> (k) / rate_hz;
+    const auto& x = over < 0 ? times : columns[static_cast<std::size_t> (over)];
+    const Quantity x_axis = over < 0 ? Quantity { "time", "s" } : Quantity { taps[static_cast<std::size_t> (over)].name, taps[static_cast<std::size_t> (over)].unit };
+
+    for (std::size_t i = 0; i < taps.size(); ++i)
+    {
+        if (static_cast<std::ptrdiff_t> (i) == over) continue;
+        const auto y = axisOf (taps[i]);
+        auto panel = std::ranges::find_if (figure.panels, [&] (const Axes& a)
+                                           { return a.y.name == y.name && a.y.unit == y.unit; });
+        if (panel == figure.panels.end())
+        {
+            figure.panels.push_back ({ .title = {}, .x = x_axis, .y = y, .series = {} });
+            panel = std::prev (figure.panels.end());
+        }
+        panel->series.push_back ({ .label = taps[i].name, .x = x, .y = columns[i] });
+    }
+    orFail (writePng (figure, file));
+}
+
+}   // namespace tactus::host

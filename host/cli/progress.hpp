@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+
+namespace tactus::host
+{
+
+/// A line on the terminal that says how far a long run has come. Silent where stderr is no terminal, and for the first
+/// half second.
+class Progress
+{
+public:
+    explicit Progress (std::size_t total);
+    ~Progress();
+
+    void operator() (std::size_t done);
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    std::size_t total;
+    bool visible, shown = false;
+    Clock::time_point start = Clock::now(), next = start + std::chrono::milliseconds (500);
+};
+
+}   // namespace tactus::host

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.hpp"
+#include "plotter.hpp"
+#include "progress.hpp"
+#include "recorder.hpp"
+#include "report.hpp"
+#include "session.hpp"
+
+#include <memory>
+#include <optional>
+
+namespace tactus::host
+{
+
+namespace
+{
+struct Options : SessionOptions
+{
+    std::string plot, over;
+};
+
+void run (const Options& options)
+{
+    Session session { options };
+    if (! session.ticks())
+        fail ("run/no_length", "nothing says how long to run: there is no feed, trace or gesture", "give --duration S, --feed IN.csv, or --device ROLE=gesture:NAME");
+
+    const auto& taps = session.engine().plan().taps;
+    Recorder recorder { options.outputs, taps, session.rate(), options.plot.empty() };
+    std::optional<Plotter> plotter;
+    if (! options.plot.empty()) plotter.emplace (options.plot, taps, options.over, session.rate());
+
+    std::vector<double> values (taps.size());
+    Progress progress { *session.ticks() };
+    for (std::size_t k = 0; k < *session.ticks(); ++k)
+    {
+        session.tick();
+        for (std::size_t i = 0; i < taps.size(); ++i)
+            values[i] = *taps[i].value;
+        recorder.frame (values);
+        if (plotter) plotter->frame (values);
+        progress (k);
+    }
+    recorder.commit();
+    if (plotter) plotter->draw (session.name());
+}
+}   // namespace
+
+void addRender (CLI::App& app)
+{
+    const auto options = std::make_shared<Options>();
+    auto* command = app.add_subcommand ("render", "Run a graph offline: deterministic, faster than real time, the same engine as live");
+    options->addTo (*command);
+    command->add_option ("--plot", options->plot, "Draw what is recorded into a .png");
+    command->add_option ("--over", options->over, "Plot over this recorded port instead of time")->needs ("--plot");
+    command->footer ("Without --out and --plot, CSV goes to the standard output.\n\n"
+                     "Examples:\n"
+                     "  tactus render graphs/dry_wood.json --out wood.csv --plot wood.png\n"
+                     "  tactus render graphs/dry_wood.json --device stylus=gesture:circle --out wood.wav\n"
+                     "  tactus render graphs/dry_wood.json --device stylus=trace:pen.csv --record drag.force,drag.state\n"
+                     "  tactus render rub.json --feed positions.csv --record drag.force --set drag.mu=0.3 --set drag.d_max=\"20 um\"\n"
+                     "  tactus render rub.json --feed loop.csv --record drag.position.x,drag.force.x --plot loop.png --over drag.position.x");
+    command->callback ([options]
+                       { run (*options); });
+}
+
+}   // namespace tactus::host

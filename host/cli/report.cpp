@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report.hpp"
+
+#include <cstdio>
+#include <iostream>
+
+namespace tactus::host
+{
+
+namespace
+{
+std::string placeOf (const Message& m, const LoadedGraph& loaded, const std::string& file)
+{
+    const bool in_graph = m.where.empty() || m.where.starts_with ('/');
+    if (! m.file.empty() && m.file != file)
+        return m.line > 0 ? m.file + ":" + std::to_string (m.line) + ":" + std::to_string (m.column) : m.file + m.where;
+    if (! in_graph) return m.where;   // a feed column or an option
+    const auto at = m.line > 0 ? TextPosition { m.line, m.column } : loaded.positionOf (m.where);
+    return file + ":" + std::to_string (at.line) + ":" + std::to_string (at.column);
+}
+}   // namespace
+
+int report (const Messages& messages, const LoadedGraph& loaded, const std::string& file)
+{
+    int errors = 0;
+    for (const auto& m : messages)
+    {
+        const bool error = m.severity == Message::Severity::error;
+        errors += error;
+        std::cerr << placeOf (m, loaded, file) << ": " << (error ? "error: " : "warning: ") << m.text << "\n    " << m.remedy << " [" << m.id << "]\n";
+    }
+    return errors;
+}
+
+void fail (const Error& e)
+{
+    std::cerr << e.where << (e.where.empty() ? "" : ": ") << "error: " << e.what << "\n    " << e.remedy << " [" << e.id << "]\n";
+    throw Stop {};
+}
+
+void fail (const std::string& id, const std::string& what, const std::string& remedy) { fail (Error { id, "", what, remedy }); }
+
+}   // namespace tactus::host

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <framework/file/graph_file.hpp>
+#include <framework/message.hpp>
+#include <host/io/error.hpp>
+
+#include <string>
+
+namespace tactus::host
+{
+
+/// Exit statuses of the program (contract section 3).
+enum ExitStatus
+{
+    fine = 0,
+    fault_of_input = 1,
+    wrong_usage = 2
+};
+
+/// Ends a command whose input is at fault; what is wrong has been said on stderr.
+struct Stop
+{
+};
+
+/// Prints each message on stderr: where it stands, what is wrong, what would be right. Returns the number of errors.
+int report (const Messages&, const LoadedGraph&, const std::string& file);
+
+/// Prints the error and throws Stop.
+[[noreturn]] void fail (const Error&);
+[[noreturn]] void fail (const std::string& id, const std::string& what, const std::string& remedy);
+
+/// The value of a result, or the end of the command.
+template <typename Expected>
+auto orFail (Expected&& result)
+{
+    if (! result) fail (result.error());
+    if constexpr (! std::is_void_v<typename std::remove_cvref_t<Expected>::value_type>)
+        return std::move (*result);
+}
+
+}   // namespace tactus::host

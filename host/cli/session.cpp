@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "session.hpp"
+#include "report.hpp"
+
+#include <framework/near_miss.hpp>
+#include <framework/plan/compile.hpp>
+#include <host/devices/make_device.hpp>
+
+#include <cmath>
+#include <filesystem>
+
+namespace tactus::host
+{
+
+namespace
+{
+/// The value of --set: a number, a list of numbers, or text with a unit or the name of a choice.
+Json readValue (const std::string& text)
+{
+    const auto json = Json::parse (text, nullptr, false);
+    return json.is_number() || json.is_array() ? json : Json (text);
+}
+
+plan::Override readSet (const std::string& text)
+{
+    const auto equals = text.find ('=');
+    if (equals == std::string::npos || equals == 0)
+        throw CLI::ValidationError ("--set", "'" + text + "' is not NODE.PARAM=VALUE, as in drag.mu=0.3 or board.stiffness=\"2 N/mm\"");
+    return { text.substr (0, equals), readValue (text.substr (equals + 1)) };
+}
+}   // namespace
+
+void SessionOptions::addTo (CLI::App& app)
+{
+    app.add_option ("graph", graph, "Graph file, as in graphs/dry_wood.json")->required();
+    app.add_option ("--feed", feed, "CSV whose columns drive ports: node.port or node.port.x, and t in s");
+    app.add_option ("--record", records, "Ports to record, separated by commas; default: the inputs of every sink")->delimiter (',');
+    app.add_option ("--out", outputs, "Where to: a .csv or a .wav; may be given more than once");
+    app.add_option ("--rate", rate_hz, "Ticks per second; default: the feed's, else the graph's")->check (CLI::Range (1.0, 1e6));
+    app.add_option ("--duration", duration_s, "Length of the run in s")->check (CLI::PositiveNumber);
+    app.add_option ("--set", sets, "NODE.PARAM=VALUE, or CONTROL=0…1; may be given more than once");
+    app.add_option ("--device", devices, "ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv or ROLE=gesture:NAME");
+}
+
+Session::Session (const SessionOptions& options) : loaded (loadGraph (options.graph))
+{
+    if (report (loaded.messages, loaded, options.graph) > 0) throw Stop {};
+    readFeed (options);
+    compileGraph (options);
+    bindDevices (options);
+    decideLength (options);
+}
+
+void Session::readFeed (const SessionOptions& options)
+{
+    rate_hz = options.rate_hz > 0.0 ? options.rate_hz : loaded.graph.rate_hz;
+    if (options.feed.empty()) return;
+    feed = orFail (Feed::make (orFail (readTable (std::filesystem::path (options.feed))), options.feed, options.rate_hz, loaded.graph.rate_hz));
+    rate_hz = feed->rate();
+}
+
+void Session::compileGraph (const SessionOptions& options)
+{
+    CompileOptions wanted { .rate_hz = rate_hz, .records = options.records };
+    if (feed) wanted.feeds = feed->ports();
+    for (const auto& set : options.sets)
+        wanted.overrides.push_back (readSet (set));
+
+    auto compiled = compile (loaded.graph, catalogue(), wanted);
+    report (compiled.messages, loaded, options.graph);
+    if (! compiled.plan) throw Stop {};
+    running = std::make_unique<Engine> (std::move (compiled.plan), rate_hz);
+}
+
+void Session::bindDevices (const SessionOptions& options)
+{
+    const auto folder = std::filesystem::path (options.graph).parent_path();
+    std::vector<DeviceOption> chosen;
+    std::vector<std::string> roles;
+    for (const auto& role : running->plan().roles)
+        roles.push_back (role.name);
+
+    for (const auto& text : options.devices)
+    {
+        auto parsed = parseDeviceOption (text, loaded.graph.devices, folder);
+        if (auto* message = std::get_if<Message> (&parsed)) fail ({ message->id, "--device " + text, message->text, message->remedy });
+        chosen.push_back (std::move (std::get<DeviceOption> (parsed)));
+        if (std::ranges::count (roles, chosen.back().role) == 0)
+        {
+            std::string all;
+            for (const auto& r : roles)
+                all += (all.empty() ? "" : ", ") + r;
+            fail ({ "device/unknown_role", "--device " + text, "the graph has no role '" + chosen.back().role + "'" + didYouMean (chosen.back().role, roles), roles.empty() ? "it has no device nodes at all" : "its roles: " + all });
+        }
+    }
+
+    int errors = 0;
+    for (const auto& role : roles)
+    {
+        const auto option = std::ranges::find (chosen, role, &DeviceOption::role);
+        const auto described = std::ranges::find (loaded.graph.devices, role, &std::pair<std::string, Json>::first);
+        const bool in_graph = option == chosen.end() && described != loaded.graph.devices.end();
+        const Json description = option != chosen.end() ? option->description : in_graph ? described->second
+                                                                                         : Json { { "driver", "sim" } };
+
+        auto made = makeDevice (description, option != chosen.end() ? option->folder : folder);
+        for (auto& m : made.messages)
+            m.where = in_graph ? "/devices/" + role + m.where : "--device " + role + m.where;
+        errors += report (made.messages, loaded, options.graph);
+        devices.push_back ({ role, std::move (made.device), made.limits });
+    }
+    if (errors > 0) throw Stop {};
+    for (auto& d : devices)
+        running->attach (d.role, *d.device, d.limits);
+}
+
+void Session::decideLength (const SessionOptions& options)
+{
+    double seconds = options.duration_s;
+    if (seconds == 0.0)
+        for (const auto& d : devices)
+            seconds = std::max (seconds, d.device->duration());
+
+    if (feed) count = feed->ticks();
+    if (options.duration_s > 0.0 || (! feed && seconds > 0.0))
+    {
+        const double wanted = std::ceil (seconds * rate_hz - 1e-6);
+        if (wanted > 1e12) fail ("run/too_long", "a run of " + std::to_string (seconds) + " s would never end", "give a shorter --duration");
+        count = std::min (count.value_or (static_cast<std::size_t> (-1)), static_cast<std::size_t> (wanted));
+    }
+}
+
+void Session::tick() noexcept
+{
+    if (feed) (*feed) (now, running->plan().feeds);
+    ++now;
+    running->tick();
+}
+
+}   // namespace tactus::host

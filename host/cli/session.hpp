@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "feed.hpp"
+
+#include <framework/engine.hpp>
+#include <framework/file/graph_file.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tactus::host
+{
+
+/// What render and play are told on the command line.
+struct SessionOptions
+{
+    std::string graph, feed;
+    std::vector<std::string> records, outputs, sets, devices;
+    double rate_hz = 0.0, duration_s = 0.0;
+
+    void addTo (CLI::App&);
+};
+
+/// A graph with its devices, compiled and ready to tick.
+class Session
+{
+public:
+    /// Reads, compiles, binds. Says all that is wrong on stderr and throws Stop if something is.
+    explicit Session (const SessionOptions&);
+
+    Engine& engine() noexcept { return *running; }
+    double rate() const noexcept { return rate_hz; }
+
+    /// How long the run lasts; nothing if nobody said.
+    std::optional<std::size_t> ticks() const noexcept { return count; }
+
+    /// One sample. [tick thread]
+    void tick() noexcept;
+
+    const std::string& name() const noexcept { return loaded.graph.name; }
+
+private:
+    struct Bound
+    {
+        std::string role;
+        std::unique_ptr<Device> device;
+        GuardLimits limits;
+    };
+
+    LoadedGraph loaded;
+    std::optional<Feed> feed;
+    std::vector<Bound> devices;
+    std::unique_ptr<Engine> running;
+    double rate_hz = 0.0;
+    std::optional<std::size_t> count;
+    std::size_t now = 0;
+
+    void readFeed (const SessionOptions&);
+    void compileGraph (const SessionOptions&);
+    void bindDevices (const SessionOptions&);
+    void decideLength (const SessionOptions&);
+};
+
+}   // namespace tactus::host

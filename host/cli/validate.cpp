@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.hpp"
+#include "report.hpp"
+
+#include <framework/catalogue.hpp>
+#include <framework/plan/compile.hpp>
+#include <host/devices/make_device.hpp>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+namespace tactus::host
+{
+
+namespace
+{
+int checkDevices (const LoadedGraph& loaded, const std::string& file)
+{
+    int errors = 0;
+    for (const auto& [role, description] : loaded.graph.devices)
+    {
+        auto messages = makeDevice (description, std::filesystem::path (file).parent_path()).messages;
+        for (auto& m : messages)
+            m.where = "/devices/" + role + m.where;
+        errors += report (messages, loaded, file);
+    }
+    return errors;
+}
+
+std::string describe (const plan::PathDelay& d)
+{
+    auto text = "  " + d.source + " -> " + d.sink + ": ";
+    text += d.shortest == d.longest ? std::to_string (d.shortest) : std::to_string (d.shortest) + " to " + std::to_string (d.longest);
+    text += d.longest == 1 ? " tick" : " ticks";
+    return text + (d.recirculates ? ", with echoes\n" : "\n");
+}
+
+/// Reports all that is wrong with a file; true if nothing is.
+bool check (const std::string& file)
+{
+    const auto loaded = loadGraph (file);
+    int errors = report (loaded.messages, loaded, file);
+    if (errors > 0) return false;
+
+    const auto compiled = compile (loaded.graph, catalogue());
+    errors += report (compiled.messages, loaded, file) + checkDevices (loaded, file);
+    if (errors > 0) return false;
+
+    std::cout << file << ": ok\n";
+    for (const auto& d : compiled.plan->delays)
+        std::cout << describe (d);
+    return true;
+}
+}   // namespace
+
+void addValidate (CLI::App& app)
+{
+    const auto files = std::make_shared<std::vector<std::string>>();
+    auto* command = app.add_subcommand ("validate", "Check graph files: every problem of every file at once");
+    command->add_option ("graphs", *files, "Graph files")->required();
+    command->footer ("For each file without errors, the delay of every path from a device back to it is printed: each tick costs\n"
+                     "stiffness that the hand can feel.\n\n"
+                     "Examples:\n"
+                     "  tactus validate graphs/dry_wood.json\n"
+                     "  tactus validate graphs/*.json && echo fine");
+    command->callback ([files]
+                       {
+        bool all_fine = true;
+        for (const auto& file : *files) all_fine = check (file) && all_fine;
+        if (! all_fine) throw Stop {}; });
+}
+
+}   // namespace tactus::host
