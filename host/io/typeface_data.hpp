@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+
+namespace tactus::host
+{
+
+/// The font files built in by embed.cmake: Inter, or DejaVu Sans where Inter was not installed.
+std::span<const unsigned char> regularTypefaceData() noexcept;
+std::span<const unsigned char> boldTypefaceData() noexcept;
+
+}   // namespace tactus::host
