@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/io/wav.hpp>
+
+#include <host/io/atomic_file.hpp>
+
+#include <juce_audio_formats/juce_audio_formats.h>
+
+#include <bit>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <utility>
+
+namespace tactus::host
+{
+
+namespace
+{
+/// JUCE's reader takes frames from a buffer of this size, and a frame that does not fit is read for ever.
+constexpr std::size_t largest_frame_bytes = 480 * 3 * 4;
+constexpr std::size_t most_channels = largest_frame_bytes / sizeof (float);
+
+constexpr std::size_t frames_per_block = 1024;
+
+/// Lets JUCE write to a standard stream, which it neither owns nor closes.
+class StandardOutput final : public juce::OutputStream
+{
+public:
+    explicit StandardOutput (std::ostream& stream) : out (stream) {}
+
+    void flush() override { out.flush(); }
+    bool setPosition (juce::int64 position) override { return static_cast<bool> (out.seekp (position)); }
+    juce::int64 getPosition() override { return out.tellp(); }
+    bool write (const void* data, std::size_t size) override
+    {
+        return static_cast<bool> (out.write (static_cast<const char*> (data), static_cast<std::streamsize> (size)));
+    }
+
+private:
+    std::ostream& out;
+};
+
+tl::unexpected<Error> fail (std::string id, const std::filesystem::path& path, std::string what, std::string remedy)
+{
+    return tl::unexpected (Error { .id = std::move (id),
+                                   .where = path.string(),
+                                   .what = std::move (what),
+                                   .remedy = std::move (remedy) });
+}
+
+std::string inWords (double number)
+{
+    std::ostringstream text;
+    text << std::setprecision (12) << number;
+    return text.str();
+}
+
+bool isKnown (const juce::AudioFormatReader& reader)
+{
+    const auto bits = reader.bitsPerSample;
+    return bits == 32 || (! reader.usesFloatingPointData && (bits == 8 || bits == 16 || bits == 24));
+}
+
+/// The reader hands out the bits of a float, or an integer of 32 bits whatever their number in the file.
+double sampleFrom (int raw, const juce::AudioFormatReader& reader)
+{
+    return reader.usesFloatingPointData ? double { std::bit_cast<float> (raw) } : std::ldexp (raw, -31);
+}
+}   // namespace
+
+tl::expected<Recording, Error> readWav (const std::filesystem::path& path)
+{
+    const auto full_path = std::filesystem::absolute (path).string();
+    auto stream = juce::File (juce::String::fromUTF8 (full_path.c_str())).createInputStream();
+    if (stream == nullptr)
+        return fail ("wav/unreadable", path, "there is no such file, or it may not be read",
+                     "check the path and the permissions");
+
+    const auto bytes_in_file = stream->getTotalLength();
+    const std::unique_ptr<juce::AudioFormatReader> reader (juce::WavAudioFormat().createReaderFor (stream.release(), true));
+
+    if (reader == nullptr || ! isKnown (*reader))
+        return fail ("wav/not_a_wav", path, "it is not a WAV file of a kind that is understood",
+                     "save it as WAV, 32-bit float or 8-, 16-, 24- or 32-bit integer");
+
+    const std::size_t bytes_per_frame = reader->numChannels * reader->bitsPerSample / 8;
+    if (bytes_per_frame > largest_frame_bytes)
+        return fail ("wav/too_many_channels", path, "it has " + std::to_string (reader->numChannels) + " channels",
+                     "save fewer channels in it");
+
+    // Checked before memory is asked for: a header may claim anything.
+    if (reader->lengthInSamples < 0 || reader->lengthInSamples > bytes_in_file / static_cast<juce::int64> (bytes_per_frame))
+        return fail ("wav/truncated", path, "its header promises more samples than there are in it",
+                     "make the file again; whatever wrote it stopped half way");
+
+    const auto frames = static_cast<std::size_t> (reader->lengthInSamples);
+    const std::size_t channels = reader->numChannels;
+    Recording recording { .sample_rate_hz = reader->sampleRate,
+                          .channels = std::vector (channels, std::vector<double> (frames)) };
+
+    std::vector<std::vector<int>> block (channels, std::vector<int> (frames_per_block));
+    std::vector<int*> pointers;
+    for (auto& channel : block)
+        pointers.push_back (channel.data());
+
+    for (std::size_t done = 0; done < frames; done += frames_per_block)
+    {
+        const auto now = std::min (frames_per_block, frames - done);
+        if (! reader->read (pointers.data(), static_cast<int> (channels), static_cast<juce::int64> (done),
+                            static_cast<int> (now), false))
+            return fail ("wav/unreadable", path, "reading stopped half way", "check the disk it is on");
+
+        for (std::size_t channel = 0; channel < channels; ++channel)
+            for (std::size_t i = 0; i < now; ++i)
+                recording.channels[channel][done + i] = sampleFrom (block[channel][i], *reader);
+    }
+    return recording;
+}
+
+struct WavWriter::Impl
+{
+    Impl (AtomicFile opened, std::size_t channels)
+        : file (std::move (opened)), block (channels, std::vector<float> (frames_per_block))
+    {
+    }
+
+    AtomicFile file;
+    std::unique_ptr<juce::AudioFormatWriter> writer;   // after the file it writes to
+    std::vector<std::vector<float>> block;             // a vector a channel
+    std::size_t filled = 0;
+
+    tl::expected<void, Error> writeBlock()
+    {
+        std::vector<const float*> pointers;
+        for (const auto& channel : block)
+            pointers.push_back (channel.data());
+
+        const bool written = writer->writeFromFloatArrays (pointers.data(), static_cast<int> (block.size()), static_cast<int> (filled));
+        filled = 0;
+        if (! written)
+            return tl::unexpected (file.writeFailed());
+        return {};
+    }
+};
+
+tl::expected<WavWriter, Error> WavWriter::create (const std::filesystem::path& path, double sample_rate_hz, std::size_t channels)
+{
+    if (channels == 0 || channels > most_channels)
+        return fail ("wav/channels", path, "a WAV cannot have " + std::to_string (channels) + " channels",
+                     "record 1 to " + std::to_string (most_channels) + " components, or write a CSV");
+
+    // The header holds the rate and the bytes a second as whole numbers of 32 bits.
+    const auto highest = std::floor (std::numeric_limits<int>::max() / static_cast<double> (channels * sizeof (float)));
+    if (! (sample_rate_hz >= 1.0 && sample_rate_hz <= highest) || std::floor (sample_rate_hz) != sample_rate_hz)
+        return fail ("wav/sample_rate", path, "a WAV cannot have a sample rate of " + inWords (sample_rate_hz) + " Hz",
+                     "choose a rate in whole Hz, or write a CSV");
+
+    auto file = AtomicFile::create (path);
+    if (! file)
+        return tl::unexpected (file.error());
+    if (file->stream().tellp() < 0)
+        return fail ("output/unwritable", path,
+                     "cannot be written: a WAV's header is filled in at the end, and in a pipe there is no way back",
+                     "write to a file");
+
+    auto impl = std::make_unique<Impl> (std::move (*file), channels);
+
+    // Discrete channels: components of forces are not loudspeakers, and beyond stereo the layout would make them such.
+    auto output = std::make_unique<StandardOutput> (impl->file.stream());
+    const auto layout = juce::AudioChannelSet::discreteChannels (static_cast<int> (channels));
+    impl->writer.reset (juce::WavAudioFormat().createWriterFor (output.release(), sample_rate_hz, layout, 32, {}, 0));
+    jassert (impl->writer != nullptr);   // discrete channels and 32 bits are always supported
+
+    return WavWriter (std::move (impl));
+}
+
+WavWriter::WavWriter (std::unique_ptr<Impl> opened) noexcept : impl (std::move (opened)) {}
+WavWriter::WavWriter (WavWriter&&) noexcept = default;
+WavWriter& WavWriter::operator= (WavWriter&&) noexcept = default;
+WavWriter::~WavWriter() = default;
+
+tl::expected<void, Error> WavWriter::frame (std::span<const double> samples)
+{
+    if (samples.size() != impl->block.size())
+        return fail ("wav/channels", "the frame to write",
+                     "it has " + std::to_string (samples.size()) + " samples for " + std::to_string (impl->block.size()) + " channels",
+                     "give one sample a channel");
+
+    for (std::size_t channel = 0; channel < samples.size(); ++channel)
+        impl->block[channel][impl->filled] = static_cast<float> (samples[channel]);
+
+    if (++impl->filled == frames_per_block)
+        return impl->writeBlock();
+    return {};
+}
+
+tl::expected<void, Error> WavWriter::commit()
+{
+    if (auto written = impl->writeBlock(); ! written)
+        return written;
+
+    impl->writer.reset();   // fills in the header
+    return impl->file.commit();
+}
+
+}   // namespace tactus::host
