@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace tactus::host
+{
+
+/// From data to pixels: low lies at first, high at last.
+struct PixelMap
+{
+    double low = 0.0, high = 1.0;
+    float first = 0.0f, last = 1.0f;
+
+    float operator() (double value) const noexcept
+    {
+        return first + static_cast<float> ((value - low) / (high - low)) * (last - first);
+    }
+};
+
+struct PixelPoint
+{
+    float x = 0.0f, y = 0.0f;
+
+    bool operator== (const PixelPoint&) const = default;
+};
+
+using Polyline = std::vector<PixelPoint>;
+
+/// The lines to draw through the points, broken where a coordinate cannot be plotted.
+///
+/// Of the points that follow each other within one column of pixels only the first, lowest, highest and last are kept,
+/// in their order: what is drawn covers the same pixels, and no peak is lost. Where the curve runs through the same
+/// pixels again and again, as a loop does, what has been drawn is not drawn again.
+std::vector<Polyline> linesThrough (std::span<const double> x, std::span<const double> y, const PixelMap& to_x, const PixelMap& to_y);
+
+/// The dots to draw, at most one each half pixel.
+std::vector<PixelPoint> dotsAt (std::span<const double> x, std::span<const double> y, const PixelMap& to_x, const PixelMap& to_y);
+
+}   // namespace tactus::host
