@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/io/plot.hpp>
+
+#include <host/io/atomic_file.hpp>
+#include <host/io/figure_layout.hpp>
+#include <host/io/polyline.hpp>
+
+#include <juce_events/juce_events.h>
+#include <juce_graphics/juce_graphics.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+namespace tactus::host
+{
+
+namespace
+{
+namespace ink
+{
+const juce::Colour text { 0xff1b1f25 };
+const juce::Colour faint_text { 0xff5a6470 };
+const juce::Colour axis { 0xff3a424c };
+const juce::Colour zero { 0xffaab3bd };
+const juce::Colour grid { 0xffe4e8ec };
+}   // namespace ink
+
+juce::Colour inkOf (Colour colour)
+{
+    const auto legible = onPaper (colour);
+    return { legible.red, legible.green, legible.blue };
+}
+
+class Painter
+{
+public:
+    explicit Painter (const FigureLayout& arranged) : layout (arranged), style (arranged.style) {}
+
+    juce::Image paint()
+    {
+        juce::Image image (juce::Image::RGB, layout.width, juce::roundToInt (layout.height), true, juce::SoftwareImageType());
+        juce::Graphics graphics (image);
+        graphics.fillAll (juce::Colours::white);
+
+        graphics.setColour (ink::text);
+        float y = style.px (21);
+        for (const auto& line : layout.title)
+        {
+            style.title.draw (graphics, line, { layout.panels[0].plot.getX(), y }, Align::left);
+            y += style.titleRow();
+        }
+
+        for (const auto& panel : layout.panels)
+        {
+            drawTitle (graphics, panel);
+            drawLegend (graphics, panel);
+            drawGrid (graphics, panel);
+            drawAxes (graphics, panel);
+            drawSeries (graphics, panel);
+        }
+        return image;
+    }
+
+private:
+    static PixelMap mapX (const Panel& panel)
+    {
+        return { panel.x_range.low, panel.x_range.high, panel.plot.getX(), panel.plot.getRight() };
+    }
+
+    static PixelMap mapY (const Panel& panel)
+    {
+        return { panel.y_range.low, panel.y_range.high, panel.plot.getBottom(), panel.plot.getY() };
+    }
+
+    /// Along pixels, so that hairlines are sharp.
+    static void fill (juce::Graphics& graphics, float x, float y, float width, float height)
+    {
+        graphics.fillRect (juce::Rectangle<float> (std::floor (x), std::floor (y), width, height).toNearestInt());
+    }
+
+    float firstRow (const Panel& panel) const
+    {
+        return panel.plot.getY() - panel.header + style.px (2) + 0.5f * style.headerRow();
+    }
+
+    void drawTitle (juce::Graphics& graphics, const Panel& panel) const
+    {
+        graphics.setColour (ink::text);
+        for (const auto& line : style.panel_title.wrapped (textOf (panel.axes->title), panel.plot.getWidth(), 1))
+            style.panel_title.draw (graphics, line, { panel.plot.getX(), firstRow (panel) }, Align::left);
+    }
+
+    void drawLegend (juce::Graphics& graphics, const Panel& panel) const
+    {
+        const bool below_title = ! panel.axes->title.empty() && ! panel.title_in_legend_row;
+        float y = firstRow (panel) + (below_title ? style.headerRow() : 0.0f);
+
+        for (const auto& row : panel.legend)
+        {
+            float x = panel.plot.getX();
+            if (panel.title_in_legend_row)
+            {
+                x = panel.plot.getRight() + style.px (18);   // the gap behind the last entry
+                for (const auto& entry : row)
+                    x -= entry.width;
+            }
+
+            for (const auto& entry : row)
+            {
+                graphics.setColour (inkOf (entry.colour));
+                if (entry.style == Series::Style::line)
+                    graphics.fillRect (juce::Rectangle<float> (x, y - 0.5f * style.stroke(), style.swatch(), style.stroke()));
+                else
+                    drawDot (graphics, { x + 0.5f * style.swatch(), y });
+
+                graphics.setColour (ink::text);
+                style.small.draw (graphics, entry.label, { x + style.swatch() + style.px (6), y }, Align::left);
+                x += entry.width;
+            }
+            y += style.headerRow();
+        }
+
+        if (panel.not_in_legend > 0)
+        {
+            const auto more = "and " + juce::String (panel.not_in_legend) + " more";
+            graphics.setColour (ink::faint_text);
+            style.small.draw (graphics, more, { panel.plot.getRight(), y - style.headerRow() }, Align::right);
+        }
+    }
+
+    void drawGrid (juce::Graphics& graphics, const Panel& panel) const
+    {
+        const auto& plot = panel.plot;
+
+        // Not beside the axes, which would look twice as thick.
+        if (panel.has_x)
+            for (const auto& tick : panel.x_ticks)
+                if (const float x = mapX (panel) (tick.at); x > plot.getX() + 1.0f)
+                {
+                    graphics.setColour (tick.at == 0.0 ? ink::zero : ink::grid);
+                    fill (graphics, x, plot.getY(), style.hairline(), plot.getHeight());
+                }
+        if (panel.has_data)
+            for (const auto& tick : panel.y_ticks)
+                if (const float y = mapY (panel) (tick.at); y < plot.getBottom() - 1.0f)
+                {
+                    graphics.setColour (tick.at == 0.0 ? ink::zero : ink::grid);
+                    fill (graphics, plot.getX(), y, plot.getWidth(), style.hairline());
+                }
+    }
+
+    void drawAxes (juce::Graphics& graphics, const Panel& panel) const
+    {
+        const auto& plot = panel.plot;
+        const float line = style.hairline();
+        graphics.setColour (ink::axis);
+        fill (graphics, plot.getX() - line, plot.getY(), line, plot.getHeight() + line);
+        fill (graphics, plot.getX() - line, plot.getBottom(), plot.getWidth() + line, line);
+
+        if (panel.has_x)
+            drawXTicks (graphics, panel);
+        if (panel.has_data)
+            drawYTicks (graphics, panel);
+        else
+        {
+            graphics.setColour (ink::faint_text);
+            style.label.draw (graphics, "no data", plot.getCentre(), Align::centre);
+        }
+
+        graphics.setColour (ink::text);
+        float x = plot.getX() - style.tickGap() - layout.tick_numbers - style.px (8) + 0.5f * style.label.height();
+        x -= static_cast<float> (panel.y_label.size()) * style.label.height();
+        for (const auto& text : panel.y_label)
+        {
+            style.label.drawUpwards (graphics, text, { x, plot.getCentreY() });
+            x += style.label.height();
+        }
+
+        if (! panel.shows_x)
+            return;
+        const float y = plot.getBottom() + style.tickGap() + style.small.height() + style.px (4) + 0.5f * style.label.height();
+        for (const auto& text : style.label.wrapped (textOf (panel.x_scale.label), plot.getWidth(), 1))
+            style.label.draw (graphics, text, { plot.getCentreX(), y }, Align::centre);
+    }
+
+    void drawXTicks (juce::Graphics& graphics, const Panel& panel) const
+    {
+        const float numbers = panel.plot.getBottom() + style.tickGap() + 0.5f * style.small.height();
+
+        for (const auto& tick : panel.x_ticks)
+        {
+            const float x = mapX (panel) (tick.at);
+            graphics.setColour (ink::axis);
+            fill (graphics, x, panel.plot.getBottom(), style.hairline(), style.tickLength());
+            if (panel.shows_x)
+                style.small.draw (graphics, textOf (tick.text), { x, numbers }, Align::centre);
+        }
+    }
+
+    void drawYTicks (juce::Graphics& graphics, const Panel& panel) const
+    {
+        for (const auto& tick : panel.y_ticks)
+        {
+            const float y = mapY (panel) (tick.at);
+            graphics.setColour (ink::axis);
+            fill (graphics, panel.plot.getX() - style.tickLength(), y, style.tickLength(), style.hairline());
+            style.small.draw (graphics, textOf (tick.text), { panel.plot.getX() - style.tickGap(), y }, Align::right);
+        }
+    }
+
+    void drawSeries (juce::Graphics& graphics, const Panel& panel) const
+    {
+        const juce::Graphics::ScopedSaveState restore (graphics);
+        graphics.reduceClipRegion (panel.plot.expanded (style.dot()).toNearestInt());
+
+        // From data to pixels in one step, without a copy in shown units.
+        const auto fromData = [] (PixelMap map, const AxisScale& axis)
+        {
+            map.low = map.low * axis.unit + axis.origin;
+            map.high = map.high * axis.unit + axis.origin;
+            return map;
+        };
+        const auto to_x = fromData (mapX (panel), panel.x_scale);
+        const auto to_y = fromData (mapY (panel), panel.y_scale);
+
+        for (std::size_t i = 0; i < panel.axes->series.size(); ++i)
+        {
+            const auto& series = panel.axes->series[i];
+            graphics.setColour (inkOf (series.colour.value_or (colourFor (panel.axes->y.name, i))));
+
+            if (series.style == Series::Style::points)
+                for (const auto& [x, y] : dotsAt (series.x, series.y, to_x, to_y))
+                    drawDot (graphics, { x, y });
+            else
+                for (const auto& line : linesThrough (series.x, series.y, to_x, to_y))
+                    drawLine (graphics, line);
+        }
+    }
+
+    void drawDot (juce::Graphics& graphics, juce::Point<float> at) const
+    {
+        graphics.fillEllipse (juce::Rectangle<float> (style.dot(), style.dot()).withCentre (at));
+    }
+
+    void drawLine (juce::Graphics& graphics, std::span<const PixelPoint> line) const
+    {
+        if (line.size() == 1)
+        {
+            drawDot (graphics, { line[0].x, line[0].y });   // alone between gaps, a line through it would be invisible
+            return;
+        }
+
+        // In pieces: the time to fill a path grows faster than its length.
+        constexpr std::size_t piece = 256;
+        for (std::size_t begin = 0; begin + 1 < line.size(); begin += piece)
+        {
+            juce::Path path;
+            path.startNewSubPath (line[begin].x, line[begin].y);
+            for (const auto& [x, y] : line.subspan (begin + 1, std::min (piece, line.size() - begin - 1)))
+                path.lineTo (x, y);
+            graphics.strokePath (path, { style.stroke(), juce::PathStrokeType::curved, juce::PathStrokeType::rounded });
+        }
+    }
+
+    const FigureLayout& layout;
+    const FigureStyle& style;
+};
+
+tl::unexpected<Error> fail (std::string id, const std::filesystem::path& path, std::string what, std::string remedy)
+{
+    return tl::unexpected (Error { .id = std::move (id),
+                                   .where = path.string(),
+                                   .what = std::move (what),
+                                   .remedy = std::move (remedy) });
+}
+
+tl::expected<void, Error> check (const Figure& figure, const std::filesystem::path& path)
+{
+    constexpr int smallest = 200, largest = 16'384;
+
+    if (figure.panels.empty())
+        return fail ("plot/no_panels", path, "the figure has no panels", "record something to plot");
+
+    if (figure.width < smallest || figure.width > largest || figure.height < 0 || figure.height > largest)
+        return fail ("plot/size", path,
+                     "a figure cannot be " + std::to_string (figure.width) + " by " + std::to_string (figure.height) + " pixels",
+                     "choose " + std::to_string (smallest) + " to " + std::to_string (largest) + " pixels");
+
+    for (const auto& axes : figure.panels)
+        for (const auto& [label, x, y, colour, style] : axes.series)
+            if (x.size() != y.size())
+                return fail ("plot/ragged_series", path,
+                             "series '" + label + "' has " + std::to_string (x.size()) + " x and " + std::to_string (y.size()) + " y",
+                             "give one y for each x");
+    return {};
+}
+}   // namespace
+
+tl::expected<void, Error> writePng (const Figure& figure, const std::filesystem::path& path)
+{
+    if (const auto checked = check (figure, path); ! checked)
+        return checked;
+
+    // JUCE's fonts live between its start and its end; nested in a program that has started it, this does nothing.
+    const juce::ScopedJuceInitialiser_GUI juce_is_up;
+
+    FigureLayout layout (figure);
+    if (! layout.arrange())
+        return fail ("plot/size", path, "its size does not fit " + std::to_string (figure.panels.size()) + " panels",
+                     "plot fewer, make the figure higher, or leave its height out");
+
+    juce::MemoryOutputStream png;
+    juce::PNGImageFormat().writeImageToStream (Painter (layout).paint(), png);
+
+    auto file = AtomicFile::create (path);
+    if (! file)
+        return tl::unexpected (file.error());
+    if (! file->stream().write (static_cast<const char*> (png.getData()), static_cast<std::streamsize> (png.getDataSize())))
+        return tl::unexpected (file->writeFailed());
+    return file->commit();
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/io/plot.hpp>
+
+#include "temporary_folder.hpp"
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <juce_graphics/juce_graphics.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <set>
+#include <utility>
+
+using namespace tactus::host;
+
+namespace
+{
+Series sine (std::string label, double amplitude)
+{
+    Series series { .label = std::move (label) };
+    for (int k = 0; k < 400; ++k)
+    {
+        series.x.push_back (k * 1e-3);
+        series.y.push_back (amplitude * std::sin (0.05 * k));
+    }
+    return series;
+}
+
+Axes forceOverTime (std::vector<Series> series)
+{
+    return { .x = { "time", "s" }, .y = { "force", "N" }, .series = std::move (series) };
+}
+
+juce::Image draw (const Figure& figure)
+{
+    const TemporaryFolder folder;
+    const auto written = writePng (figure, folder / "plot.png");
+    INFO ((written ? "" : describe (written.error())));
+    REQUIRE (written.has_value());
+    return juce::PNGImageFormat::loadFrom (juce::File ((folder / "plot.png").string()));
+}
+
+int pixelsOf (const juce::Image& image, Colour colour)
+{
+    int count = 0;
+    for (int y = 0; y < image.getHeight(); ++y)
+        for (int x = 0; x < image.getWidth(); ++x)
+            if (image.getPixelAt (x, y) == juce::Colour (colour.red, colour.green, colour.blue))
+                ++count;
+    return count;
+}
+
+std::string errorOf (const Figure& figure, const std::filesystem::path& path)
+{
+    const auto written = writePng (figure, path);
+    return written ? "" : written.error().id;
+}
+}   // namespace
+
+TEST_CASE ("plot: a quantity has the same colour in print as on its port", "[host][io][plot]")
+{
+    CHECK (colourFor ("force") == Colour { 0xD5, 0x5E, 0x00 });
+    CHECK (colourFor ("position") == Colour { 0x56, 0xB4, 0xE9 });
+    CHECK (colourFor ("something else") == colourFor ("gain"));
+
+    const auto image = draw ({ .panels = { forceOverTime ({ sine ("", 1.0) }) } });
+    CHECK (pixelsOf (image, colourFor ("force")) > 1000);
+}
+
+TEST_CASE ("plot: seven traces of one panel have seven colours, its own first", "[host][io][plot]")
+{
+    for (const auto* quantity : { "force", "position", "gain", "state" })
+    {
+        std::set<int> colours;
+        for (std::size_t n = 0; n < 7; ++n)
+        {
+            const auto colour = colourFor (quantity, n);
+            colours.insert (colour.red << 16 | colour.green << 8 | colour.blue);
+        }
+        CHECK (colours.size() == 7);
+    }
+    CHECK (colourFor ("force", 0) == colourFor ("force"));
+}
+
+TEST_CASE ("plot: yellow is darkened on paper, the others stay", "[host][io][plot]")
+{
+    CHECK_FALSE (onPaper (colourFor ("hit")) == colourFor ("hit"));
+    for (const auto* quantity : { "position", "force", "value", "gain", "energy", "torque", "rate" })
+        CHECK (onPaper (colourFor (quantity)) == colourFor (quantity));
+    CHECK_FALSE (onPaper ({ 255, 255, 255 }) == Colour { 255, 255, 255 });
+}
+
+TEST_CASE ("plot: a figure has the size asked for, or one that suits its panels", "[host][io][plot]")
+{
+    const auto axes = forceOverTime ({ sine ("x", 1.0), sine ("y", 2.0) });
+
+    const auto image = draw ({ .panels = { axes }, .width = 700, .height = 400 });
+    CHECK (image.getWidth() == 700);
+    CHECK (image.getHeight() == 400);
+
+    const auto one = draw ({ .panels = { axes } });
+    const auto four = draw ({ .panels = { axes, axes, axes, axes } });
+    CHECK (one.getWidth() == 1600);
+    CHECK (four.getHeight() > one.getHeight());
+}
+
+TEST_CASE ("plot: the same figure is the same file", "[host][io][plot]")
+{
+    const TemporaryFolder folder;
+    const Figure figure { .title = "Twice", .panels = { forceOverTime ({ sine ("x", 1.0) }) } };
+    REQUIRE (writePng (figure, folder / "one.png").has_value());
+    REQUIRE (writePng (figure, folder / "two.png").has_value());
+
+    CHECK (folder.textOf ("one.png") == folder.textOf ("two.png"));
+}
+
+TEST_CASE ("plot: a peak of one sample among a million is seen", "[host][io][plot]")
+{
+    Series series;
+    for (int k = 0; k < 1'000'000; ++k)
+    {
+        series.x.push_back (k);
+        series.y.push_back (k == 700'000 ? 100.0 : 0.0);
+    }
+    const auto image = draw ({ .panels = { forceOverTime ({ series }) } });
+
+    // The flat line is some pixels thick; only the peak colours the upper half.
+    CHECK (pixelsOf (image.getClippedImage ({ 0, 0, image.getWidth(), image.getHeight() / 2 }), colourFor ("force")) > 300);
+}
+
+TEST_CASE ("plot: nothing, constants, gaps and extremes are drawn without complaint", "[host][io][plot]")
+{
+    const auto inf = std::numeric_limits<double>::infinity();
+    const auto nan = std::nan ("");
+
+    for (const auto& y : { std::vector<double> {},
+                           { 0.0 },
+                           { 3.0, 3.0, 3.0 },
+                           { nan, nan },
+                           { 1.0, nan, 2.0, inf, -inf, 3.0 },
+                           { 1e308, -1e308 },
+                           { 1e299, -1e299 },
+                           { 5e-324, 1e-320 },
+                           { 1.0, 1.0 + 1e-15 },
+                           { 1e9, 1e9 + 1.0 } })
+    {
+        Series series { .label = "series", .y = y };
+        for (std::size_t k = 0; k < y.size(); ++k)
+            series.x.push_back (static_cast<double> (k));
+        auto dots = series;
+        dots.style = Series::Style::points;
+        draw ({ .panels = { forceOverTime ({ series, dots }), forceOverTime ({}) }, .width = 400 });
+    }
+}
+
+TEST_CASE ("plot: no text breaks a figure", "[host][io][plot]")
+{
+    const std::vector<std::string> texts {
+        std::string (5000, 'm'),
+        std::string (300, ' '),
+        "two\nlines\tand\1 more",
+        "\xff\xfe bytes",
+        "力 σ → ½",
+    };
+    for (const auto& text : texts)
+    {
+        auto axes = forceOverTime (std::vector<Series> (30, sine (text, 1.0)));
+        axes.title = axes.x.name = axes.y.name = axes.y.unit = text;
+        draw ({ .title = text, .panels = { axes, axes }, .width = 500 });
+    }
+}
+
+TEST_CASE ("plot: any values are drawn", "[host][io][plot]")
+{
+    const auto drawn = [] (const std::vector<std::pair<std::uint64_t, std::uint64_t>>& bits)
+    {
+        const TemporaryFolder folder;
+        Series series { .label = "any" };
+        for (const auto& [x, y] : bits)
+        {
+            series.x.push_back (std::bit_cast<double> (x));
+            series.y.push_back (std::bit_cast<double> (y));
+        }
+        RC_ASSERT (writePng ({ .panels = { forceOverTime ({ series }) }, .width = 200 }, folder / "plot.png").has_value());
+    };
+    rc::prop ("any bit pattern", drawn);
+}
+
+TEST_CASE ("plot: a figure that cannot be drawn is refused, each fault with its id", "[host][io][plot]")
+{
+    const TemporaryFolder folder;
+    const auto axes = forceOverTime ({ sine ("x", 1.0) });
+    auto ragged = axes;
+    ragged.series[0].y.pop_back();
+
+    CHECK (errorOf ({}, folder / "plot.png") == "plot/no_panels");
+    CHECK (errorOf ({ .panels = { ragged } }, folder / "plot.png") == "plot/ragged_series");
+    CHECK (errorOf ({ .panels = { axes }, .width = 10 }, folder / "plot.png") == "plot/size");
+    CHECK (errorOf ({ .panels = { axes }, .width = 100'000 }, folder / "plot.png") == "plot/size");
+    CHECK (errorOf ({ .panels = std::vector (20, axes), .width = 800, .height = 400 }, folder / "plot.png") == "plot/size");
+    CHECK (errorOf ({ .panels = std::vector (200, axes) }, folder / "plot.png") == "plot/size");
+    CHECK (errorOf ({ .panels = { axes } }, folder / "missing/plot.png") == "output/unwritable");
+    CHECK (folder.isEmpty());
+}
