@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Properties that hold for any graph that compiles.
+
+#include "support/interpreter.hpp"
+#include "support/no_allocation.hpp"
+#include "support/random_graph.hpp"
+#include "support/sketch.hpp"
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <bit>
+#include <map>
+#include <random>
+
+using namespace tactus;
+
+namespace
+{
+constexpr int ticks = 24;
+
+/// Every output of every node, as names to record.
+std::vector<std::string> everyOutput (const graph::Graph& g)
+{
+    std::vector<std::string> names;
+    for (const auto& [name, value] : test::Interpreter { g, g.rate_hz }.outputs())
+        names.push_back (name);
+    return names;
+}
+
+/// A hand that moves by chance, now and then with values that are not finite.
+class Hand
+{
+public:
+    explicit Hand (unsigned seed) : random (seed) {}
+
+    Reading next()
+    {
+        std::normal_distribution<double> step { 0.0, 1e-3 };
+        position += Vec3 { step (random), step (random), step (random) };
+        Reading r;
+        r.position = r.true_position = position;
+        r.pressure = std::abs (100.0 * position.z());
+        if (random() % 50 == 0) r.position.x() = std::nan ("");
+        return r;
+    }
+
+private:
+    std::mt19937 random;
+    Vec3 position = Vec3::Zero();
+};
+
+using Run = std::vector<std::map<std::string, std::uint64_t>>;   // bits of each output, tick by tick
+
+std::uint64_t bits (double v) { return v == v ? std::bit_cast<std::uint64_t> (v) : ~0ull; }
+
+Run runPlan (const graph::Graph& g, unsigned seed)
+{
+    auto [plan, messages] = compile (g, catalogue(), { .records = everyOutput (g) });
+    RC_LOG (test::text (messages));
+    RC_ASSERT (plan != nullptr);
+    Hand left { seed }, right { seed + 1 };
+    Run run;
+    for (int k = 0; k < ticks; ++k)
+    {
+        const auto l = left.next(), r = right.next();
+        for (auto& role : plan->roles)
+            role.state->reading = role.name == "left" ? l : r;
+        plan->tick();
+        auto& row = run.emplace_back();
+        for (const auto& tap : plan->taps)
+            row[tap.name] = bits (*tap.value);
+    }
+    return run;
+}
+
+Run interpret (const graph::Graph& g, unsigned seed)
+{
+    test::Interpreter interpreter { g, g.rate_hz };
+    Hand left { seed }, right { seed + 1 };
+    Run run;
+    for (int k = 0; k < ticks; ++k)
+    {
+        const auto l = left.next();
+        interpreter.tick ({ { "left", l }, { "right", right.next() } });
+        auto& row = run.emplace_back();
+        for (const auto& [name, value] : interpreter.outputs())
+            row[name] = bits (value);
+    }
+    return run;
+}
+
+std::string difference (const Run& a, const Run& b)
+{
+    for (std::size_t k = 0; k < a.size(); ++k)
+        for (const auto& [name, value] : a[k])
+            if (const auto other = b[k].find (name); other == b[k].end() || other->second != value)
+                return name + " on tick " + std::to_string (k) + ": " + std::to_string (std::bit_cast<double> (value)) + " and " + (other == b[k].end() ? "nothing" : std::to_string (std::bit_cast<double> (other->second)));
+    return "";
+}
+}   // namespace
+
+TEST_CASE ("a plan computes to the bit what the graph means", "[plan][property]")
+{
+    rc::prop ("on random graphs of up to 200 nodes", []
+              {
+        const auto seed = *rc::gen::arbitrary<unsigned>();
+        const auto g = test::randomGraph (seed, *rc::gen::inRange (2, 200));
+        RC_LOG (difference (interpret (g, seed), runPlan (g, seed)));
+        RC_ASSERT (interpret (g, seed) == runPlan (g, seed)); });
+}
+
+TEST_CASE ("no bit depends on the order in which nodes and wires were written", "[plan][property]")
+{
+    rc::prop ("on random graphs of up to 200 nodes", []
+              {
+        const auto seed = *rc::gen::arbitrary<unsigned>();
+        const auto g = test::randomGraph (seed, *rc::gen::inRange (2, 200));
+        const auto other = test::shuffled (g, seed + 1);
+        RC_LOG (difference (runPlan (g, seed), runPlan (other, seed)));
+        RC_ASSERT (runPlan (g, seed) == runPlan (other, seed)); });
+}
+
+TEST_CASE ("a tick allocates nothing and takes no lock, whatever the graph", "[plan][property]")
+{
+    if (! NoAllocation::watches)
+    {
+        WARN ("skipped: a sanitizer has its own allocator");
+        return;
+    }
+    for (unsigned seed = 0; seed < 40; ++seed)
+    {
+        const auto g = test::randomGraph (seed, 60);
+        auto plan = compile (g, catalogue()).plan;
+        REQUIRE (plan);
+        Engine engine { plan, g.rate_hz };
+        const NoAllocation guard;
+        for (int k = 0; k < 50; ++k)
+            engine.tick();
+        CHECK (guard.allocations() == 0);
+        CHECK (guard.locks() == 0);
+    }
+}

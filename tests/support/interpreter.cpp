@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+#include "interpreter.hpp"
+
+#include <framework/units.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace tactus::test
+{
+
+namespace
+{
+std::string entryName (const PortSheet& row, int entry) { return std::string (row.id) + (row.list ? "[" + std::to_string (entry) + "]" : ""); }
+
+double sorted (std::vector<double> values)
+{
+    std::ranges::sort (values);
+    double total = values[0];
+    for (std::size_t i = 1; i < values.size(); ++i)
+        total += values[i];
+    return total;
+}
+}   // namespace
+
+Interpreter::Interpreter (const graph::Graph& graph_, double rate_hz) : g (graph_) { expand (g.root, "", rate_hz); }
+
+void Interpreter::expand (const graph::Patch& patch, const std::string& prefix, double rate_hz)
+{
+    for (const auto& n : patch.nodes)
+    {
+        if (n.type.starts_with ("graph:"))
+        {
+            expand (*g.find (n.type.substr (6)), prefix + n.name + "/", rate_hz);
+            continue;
+        }
+        auto& i = instances[prefix + n.name];
+        i.type = catalogue().find (n.type);
+        i.source = &n;
+        i.node = i.type->make();
+        i.outputs.assign (i.type->outputs_size / sizeof (double) + 1, 0.0);
+        i.type->initialiseOutputs (i.outputs.data());
+
+        for (const auto& s : i.type->settings)
+        {
+            if (s.id == "inputs") i.entries = n.settings.value ("inputs", static_cast<int> (std::get<double> (s.initial)));
+            if (! n.settings.contains (s.id)) continue;
+            const auto& v = n.settings.at (std::string (s.id));
+            if (v.is_number()) s.set (i.node.get(), v.get<double>());
+            if (v.is_string()) s.set (i.node.get(), v.get<std::string>());
+            if (v.is_array()) s.set (i.node.get(), Records { { v[0]["frequency"], v[0]["decay"], v[0]["amplitude"] } });
+        }
+        for (const auto& p : i.type->params)
+        {
+            i.params.emplace_back (static_cast<std::size_t> (p.list ? i.entries : p.width), p.initial[0]);
+            if (p.width == 3) i.params.back().assign (p.initial, p.initial + 3);
+            if (! p.choices.empty() && n.params.contains (p.id))
+            {
+                const int chosen = static_cast<int> (std::ranges::find (p.choices, n.params.at (std::string (p.id)).get<std::string>()) - p.choices.begin());
+                std::memcpy (static_cast<char*> (i.type->paramsOf (i.node.get())) + p.offset, &chosen, sizeof chosen);
+            }
+        }
+        if (i.type->bind && ! n.bypass)
+        {
+            auto& state = roles[n.role];
+            if (! state) state = std::make_unique<DeviceState>();
+            i.type->bind (i.node.get(), *state);
+        }
+        if (i.type->prepare) i.type->prepare (i.node.get(), { .rate_hz = rate_hz });
+        if (i.type->update) i.type->update (i.node.get());
+    }
+    for (const auto& w : patch.wires)
+    {
+        double gain = 1.0;
+        if (w.gain.is_number()) gain = w.gain.get<double>();
+        if (w.gain.is_string()) gain = std::get<Measure> (parseMeasure (w.gain.get<std::string>())).value;
+        wires.push_back ({ resolve (patch, prefix, w.from, true), resolve (patch, prefix, w.to, false), &w, gain, {} });
+    }
+}
+
+Interpreter::End Interpreter::resolve (const graph::Patch& patch, const std::string& prefix, const graph::Endpoint& e, bool start) const
+{
+    const auto& n = *patch.find (e.node);
+    if (! n.type.starts_with ("graph:"))
+        return { prefix + e.node, e.port + (e.index >= 0 ? "[" + std::to_string (e.index) + "]" : ""), e.component };
+
+    const auto& inside = *g.find (n.type.substr (6));
+    for (const auto* list : start ? std::vector { &inside.expose.outputs } : std::vector { &inside.expose.inputs, &inside.expose.params })
+        for (const auto& [name, to] : *list)
+            if (name == e.port)
+            {
+                auto end = resolve (inside, prefix + e.node + "/", to, start);
+                if (e.component >= 0) end.component = e.component;
+                return end;
+            }
+    return {};
+}
+
+double Interpreter::output (const End& end, int component)
+{
+    evaluate (end.node);
+    const auto& i = instances.at (end.node);
+    const auto bracket = end.port.find ('[');
+    const auto& row = *std::ranges::find (i.type->outputs, end.port.substr (0, bracket), &PortSheet::id);
+    const auto entry = bracket == std::string::npos ? std::max (component, 0) : std::stoi (end.port.substr (bracket + 1));
+    return i.outputs[row.offset / sizeof (double) + static_cast<std::size_t> (entry)];
+}
+
+/// Sums what is wired to one component of a port; false if nothing is.
+bool Interpreter::driven (const std::string& path, const std::string& port, int component, bool add, double& value)
+{
+    std::vector<double> terms;
+    for (auto& w : wires)
+    {
+        if (w.to.node != path || w.to.port != port || w.wire->add != add || (w.to.component >= 0 && w.to.component != component)) continue;
+        const int from = w.from.component >= 0 ? w.from.component : w.to.component >= 0 ? 0
+                                                                                        : component;
+        double v = 0.0;
+        if (w.wire->delay == 0)
+            v = output (w.from, from);
+        else
+        {
+            auto& line = w.line[component];
+            if (line.empty()) line.assign (static_cast<std::size_t> (w.wire->delay), 0.0);
+            v = line.front();
+        }
+        terms.push_back (v * w.gain);
+    }
+    if (! terms.empty()) value = sorted (terms);
+    return ! terms.empty();
+}
+
+void Interpreter::evaluate (const std::string& path)
+{
+    auto& i = instances.at (path);
+    if (i.done) return;
+    i.done = true;   // a peeking node may be asked for within its own inputs; its outputs stand already
+
+    std::vector<double> in;
+    for (const auto& row : i.type->inputs)
+        for (int entry = 0; entry < (row.list ? i.entries : 1); ++entry)
+            for (int c = 0; c < row.width; ++c)
+            {
+                in.push_back (row.list ? row.initial[0] : row.initial[c]);
+                driven (path, entryName (row, entry), c, false, in.back());
+            }
+
+    bool moved = false, fault = false;
+    for (std::size_t p = 0; p < i.params.size(); ++p)
+        for (std::size_t k = 0; k < i.params[p].size(); ++k)
+        {
+            const auto& row = i.type->params[p];
+            double value = i.params[p][k], added = 0.0;
+            const auto entry = entryName (row, static_cast<int> (k));
+            const int component = row.list ? 0 : static_cast<int> (k);
+            const bool replaced = driven (path, entry, component, false, value), plus = driven (path, entry, component, true, added);
+            if (! replaced && ! plus) continue;
+            value = row.limits.hard.clamp (value + added);
+            auto& target = reinterpret_cast<double*> (static_cast<char*> (i.type->paramsOf (i.node.get())) + row.offset)[k];
+            if (! std::isfinite (value))
+                fault = true;
+            else if (value != target)
+            {
+                target = value;
+                moved = true;
+            }
+        }
+
+    if (i.source->bypass)
+    {
+        for (const auto& out : i.type->outputs)
+            for (int c = 0; c < out.width; ++c)
+            {
+                double value = out.unit.kind == UnitRule::Kind::fixed && out.unit.unit.quantity == Quantity::gain ? 1.0 : 0.0;
+                for (std::size_t first = 0; const auto& row : i.type->inputs)
+                {
+                    const auto n = static_cast<std::size_t> (row.list ? i.entries : 1), width = static_cast<std::size_t> (row.width);
+                    if (row.width == out.width && ! out.list && (row.id == out.id || (row.id == "in" && out.id == "out")))
+                    {
+                        std::vector<double> values;
+                        for (std::size_t e = 0; e < n; ++e)
+                            values.push_back (in[first + e * width + static_cast<std::size_t> (c)]);
+                        value = sorted (values);
+                    }
+                    first += n * width;
+                }
+                i.outputs[out.offset / sizeof (double) + static_cast<std::size_t> (c)] = value;
+            }
+        return;
+    }
+
+    if (moved && i.type->update) i.type->update (i.node.get());
+    std::vector<const double*> sources;
+    const double nan = std::nan ("");
+    for (const auto& v : in)
+        sources.push_back (fault ? &nan : &v);
+    i.type->tick (i.node.get(), sources.data(), i.outputs.data());
+    if (fault && in.empty()) i.type->initialiseOutputs (i.outputs.data());
+}
+
+void Interpreter::tick (const std::map<std::string, Reading>& readings)
+{
+    for (auto& [role, state] : roles)
+        if (const auto r = readings.find (role); r != readings.end()) state->reading = r->second;
+    for (auto& [path, i] : instances)
+    {
+        i.done = false;
+        if (i.type->peek && ! i.source->bypass) i.type->peek (i.node.get(), nullptr, i.outputs.data());
+    }
+    for (auto& [path, i] : instances)
+        evaluate (path);
+    for (auto& w : wires)
+        for (auto& [component, line] : w.line)
+        {
+            line.push_back (output (w.from, w.from.component >= 0 ? w.from.component : w.to.component >= 0 ? 0
+                                                                                                           : component));
+            line.pop_front();
+        }
+}
+
+std::map<std::string, double> Interpreter::outputs() const
+{
+    std::map<std::string, double> all;
+    for (const auto& [path, i] : instances)
+        for (const auto& row : i.type->outputs)
+            for (int k = 0; k < (row.list ? i.entries : row.width); ++k)
+            {
+                const char* components[] = { ".x", ".y", ".z" };
+                const auto name = path + "." + entryName (row, k) + (row.width == 3 ? components[k] : "");
+                all[name] = i.outputs[row.offset / sizeof (double) + static_cast<std::size_t> (k)];
+            }
+    return all;
+}
+
+}   // namespace tactus::test

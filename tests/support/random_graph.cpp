@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "random_graph.hpp"
+
+#include <framework/catalogue.hpp>
+#include <framework/graph/text.hpp>
+#include <framework/plan/compile.hpp>
+#include <framework/units.hpp>
+
+#include <algorithm>
+#include <set>
+
+namespace tactus::test
+{
+
+namespace
+{
+class Generator
+{
+public:
+    explicit Generator (unsigned seed) : random (seed) {}
+
+    graph::Graph make (int size)
+    {
+        graph::Graph g;
+        g.name = "Chance";
+        const int kinds = size > 12 ? below (4) : 0;
+        for (int k = 0; k < kinds; ++k)
+        {
+            graph::Patch patch;
+            fill (patch, 1 + below (size / 8), g);
+            expose (patch);
+            g.graphs.emplace_back ("sub" + std::to_string (k), std::move (patch));
+        }
+        fill (g.root, std::max (2, size - count (g)), g);
+        mend (g);
+        return g;
+    }
+
+private:
+    std::mt19937 random;
+
+    int below (int n) { return std::uniform_int_distribution { 0, std::max (n, 1) - 1 }(random); }
+    bool oneIn (int n) { return below (n) == 0; }
+
+    static int count (const graph::Graph& g)
+    {
+        int n = 0;
+        for (const auto& [name, patch] : g.graphs)
+            n += static_cast<int> (patch.nodes.size());
+        return n;
+    }
+
+    void fill (graph::Patch& patch, int size, const graph::Graph& g)
+    {
+        for (int i = 0; i < size; ++i)
+        {
+            graph::Node n;
+            n.name = "n" + std::to_string (i);
+            if (! g.graphs.empty() && oneIn (8))
+                n.type = "graph:" + g.graphs[static_cast<std::size_t> (below (static_cast<int> (g.graphs.size())))].first;
+            else
+            {
+                const auto& type = *(catalogue().begin() + below (static_cast<int> (std::distance (catalogue().begin(), catalogue().end()))));
+                n.type = type.info.id;
+                if (type.bind) n.role = oneIn (2) ? "left" : "right";
+                for (const auto& s : type.settings)
+                {
+                    if (s.id == "inputs") n.settings["inputs"] = 1 + below (4);
+                    if (s.id == "text") n.settings["text"] = "in[0] * 0.5";
+                    if (s.id == "ticks") n.settings["ticks"] = 1 + below (5);
+                    if (s.id == "modes") n.settings["modes"] = { { { "frequency", 180.0 }, { "decay", 20.0 }, { "amplitude", 0.5 } } };
+                }
+                for (const auto& p : type.params)
+                    if (p.choices.size() > 1 && ! p.list) n.params[std::string (p.id)] = p.choices[static_cast<std::size_t> (below (static_cast<int> (p.choices.size())))];
+            }
+            n.bypass = oneIn (20);
+            patch.nodes.push_back (std::move (n));
+        }
+        for (int i = 0; i < 2 * size; ++i)
+            addWire (patch, g);
+    }
+
+    struct Port
+    {
+        graph::Endpoint endpoint;
+        int width;
+    };
+
+    /// A port of a node by chance, seen from the start or end of a wire.
+    std::optional<Port> port (const graph::Node& n, bool start, const graph::Graph& g)
+    {
+        if (n.type.starts_with ("graph:"))
+        {
+            const auto& e = g.find (n.type.substr (6))->expose;
+            const auto& list = start ? e.outputs : oneIn (4) && ! e.params.empty() ? e.params
+                                                                                   : e.inputs;
+            if (list.empty()) return {};
+            return Port { { n.name, list[static_cast<std::size_t> (below (static_cast<int> (list.size())))].first }, 0 };
+        }
+        const auto& type = *catalogue().find (n.type);
+        const auto& rows = start ? type.outputs : oneIn (4) && ! type.params.empty() ? type.params
+                                                                                     : type.inputs;
+        if (rows.empty()) return {};
+        const auto& row = rows[static_cast<std::size_t> (below (static_cast<int> (rows.size())))];
+        Port p { { n.name, std::string (row.id) }, row.width };
+        if (row.list) p.endpoint.index = below (n.settings.value ("inputs", 2));
+        if (row.width == 3 && oneIn (3))
+        {
+            p.endpoint.component = below (3);
+            p.width = 1;
+        }
+        return p;
+    }
+
+    void addWire (graph::Patch& patch, const graph::Graph& g)
+    {
+        const auto& a = patch.nodes[static_cast<std::size_t> (below (static_cast<int> (patch.nodes.size())))];
+        const auto& b = patch.nodes[static_cast<std::size_t> (below (static_cast<int> (patch.nodes.size())))];
+        const auto from = port (a, true, g), to = port (b, false, g);
+        if (! from || ! to || (from->width != 0 && to->width != 0 && from->width != to->width)) return;
+
+        graph::Wire w;
+        w.from = from->endpoint;
+        w.to = to->endpoint;
+        if (oneIn (6)) w.delay = 1 + below (4);
+        if (oneIn (5)) w.gain = 0.25 * (1 + below (8)) - 1.0;
+        w.add = oneIn (3);
+        patch.wires.push_back (std::move (w));
+    }
+
+    void expose (graph::Patch& patch)
+    {
+        for (const auto& n : patch.nodes)
+        {
+            if (n.type.starts_with ("graph:")) continue;
+            const auto& type = *catalogue().find (n.type);
+            const auto add = [&] (auto& list, const std::vector<PortSheet>& rows)
+            {
+                for (const auto& row : rows)
+                    if (! row.list && row.choices.empty() && oneIn (2)) list.emplace_back (n.name + "_" + std::string (row.id), graph::Endpoint { n.name, std::string (row.id) });
+            };
+            add (patch.expose.inputs, type.inputs);
+            add (patch.expose.outputs, type.outputs);
+            add (patch.expose.params, type.params);
+        }
+    }
+
+    static graph::Patch& patchOf (graph::Graph& g, const std::string& pointer)
+    {
+        if (pointer.starts_with ("/wires/")) return g.root;
+        const auto name = pointer.substr (8, pointer.find ('/', 8) - 8);   // "/graphs/NAME/…"
+        return std::ranges::find (g.graphs, name, &std::pair<std::string, graph::Patch>::first)->second;
+    }
+
+    /// Takes away what does not compile, or mends it: a delay into a loop, a gain with a unit where dimensions differ.
+    void mend (graph::Graph& g)
+    {
+        for (;;)
+        {
+            const auto messages = compile (g, catalogue()).messages;
+            std::set<std::pair<graph::Patch*, std::size_t>> doomed;
+            for (const auto& m : messages)
+            {
+                if (m.severity != Message::Severity::error) continue;
+                const auto at = m.where.rfind ("/wires/");
+                if (at == std::string::npos)
+                {
+                    unwire (g, m.where, doomed);
+                    continue;
+                }
+                auto& patch = patchOf (g, m.where);
+                const auto index = static_cast<std::size_t> (std::stoul (m.where.substr (at + 7)));
+                if (m.id == "graph/loop")
+                    patch.wires[index].delay = 1 + below (3);
+                else if (m.id == "wire/add_to_input")
+                    patch.wires[index].add = false;
+                else if (m.id == "wire/unit" && patch.wires[index].gain.is_null() && oneIn (2))
+                    patch.wires[index].gain = "0.5 " + m.remedy.substr (m.remedy.rfind (' ') + 1);
+                else
+                    doomed.emplace (&patch, index);
+            }
+            if (! hasErrors (messages)) return;
+            for (auto i = doomed.rbegin(); i != doomed.rend(); ++i)
+                i->first->wires.erase (i->first->wires.begin() + static_cast<std::ptrdiff_t> (i->second));
+        }
+    }
+
+    /// A node whose units clash loses a wire.
+    static void unwire (graph::Graph& g, const std::string& node_pointer, std::set<std::pair<graph::Patch*, std::size_t>>& doomed)
+    {
+        const auto name = node_pointer.substr (node_pointer.rfind ('/') + 1);
+        auto& patch = node_pointer.starts_with ("/graphs/") ? patchOf (g, node_pointer) : g.root;
+        for (std::size_t i = patch.wires.size(); i-- > 0;)
+            if (patch.wires[i].to.node == name || patch.wires[i].from.node == name)
+            {
+                doomed.emplace (&patch, i);
+                return;
+            }
+    }
+};
+}   // namespace
+
+graph::Graph randomGraph (unsigned seed, int size) { return Generator { seed }.make (size); }
+
+graph::Graph shuffled (graph::Graph g, unsigned seed)
+{
+    std::mt19937 random { seed };
+    const auto shuffle = [&] (graph::Patch& p)
+    {
+        std::ranges::shuffle (p.nodes, random);
+        std::ranges::shuffle (p.wires, random);
+    };
+    shuffle (g.root);
+    for (auto& [name, patch] : g.graphs)
+        shuffle (patch);
+    return g;
+}
+
+}   // namespace tactus::test
