@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <framework/node.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace tactus::nodes
+{
+
+/// Tells when the tool strikes, once per contact, and how fast: the trigger of vibrations and shocks.
+///
+/// Contact begins when depth goes above 0 and ends when it is `release` below. On the first tick of a contact
+///
+///     hit = rate of depth over the last samples before and at contact
+///
+/// How many samples is decided by their noise, for which `release` stands: as many as lie within it of the straight
+/// line from the first to the last, at least three where there are three, at most seventeen. So a slow approach in
+/// steps of an encoder's quantum is averaged, one that brakes is not, and a steady one is exact either way.
+///
+/// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 6 ("initial value of d^z" reads its rate);
+/// the window is that of Janabi-Sharifi, Hayward & Chen 2000.
+///
+/// Good to know
+///  - `release` should be at least the resolution of the position, or one touch may count as several and the speed is noisy.
+///  - Of a position in quanta q the speed is within 2 q / (n T) of the truth, n the ticks the window spans.
+///  - A tool that is inside on the first sample, or after a fault, is in contact but has not struck. A contact that
+///    begins within `refractory` of a hit, or slower than `min_speed`, makes none, also not later.
+struct Impact
+{
+    struct Inputs
+    {
+        double depth = 0.0;
+    };
+
+    struct Params
+    {
+        double release = 1e-5;
+        double min_speed = 0.0;
+        double refractory = 0.0;
+    };
+
+    struct Outputs
+    {
+        double hit = 0.0;
+        double contact = 0.0;
+    };
+
+    static constexpr Info info {
+        .id = "contact.impact",
+        .name = "Impact",
+        .summary = "One hit per contact, with the speed of the approach.",
+        .source = "Hayward 2007, section 6; Janabi-Sharifi et al. 2000",
+    };
+
+    static constexpr std::tuple ports {
+        input (&Inputs::depth, "depth", unit::metre, "of the tool in the object, negative while apart"),
+        param (&Params::release, "release", unit::metre, "how far apart a contact ends; at least the noise of depth", { .hard = { 0, inf }, .usual = { 0, 1e-3 } }),
+        param (&Params::min_speed, "min_speed", unit::speed, "a softer touch makes no hit", { .hard = { 0, inf }, .usual = { 0, 0.5 } }),
+        param (&Params::refractory, "refractory", unit::second, "for so long after a hit there is no other", { .hard = { 0, inf }, .usual = { 0, 0.2 } }),
+        output (&Outputs::hit, "hit", unit::hit, "impact speed on the first tick of a contact, else 0"),
+        output (&Outputs::contact, "contact", unit::state, "1 in contact, 0 apart"),
+    };
+
+    Params params;
+
+    void prepare (const Setup& setup) noexcept
+    {
+        dt = setup.dt_s();
+        known = 0;
+        touching = false;
+        since_hit = inf;
+    }
+
+    Outputs tick (const Inputs& in) noexcept
+    {
+        since_hit += 1.0;
+        if (! isFinite (in.depth))
+        {
+            known = 0;
+            touching = false;
+            return {};
+        }
+
+        if (touching && in.depth <= -params.release)
+        {
+            touching = false;
+            known = 0;   // what was inside is no approach
+        }
+        remember (in.depth);
+        if (touching || in.depth <= 0.0) return { .contact = touching ? 1.0 : 0.0 };
+
+        touching = true;
+        const double v = approach();
+        const bool rested = since_hit * dt >= params.refractory * (1.0 - 1e-12);
+        if (! (v > 0.0 && v >= params.min_speed && rested && isFinite (v))) return { .contact = 1.0 };
+
+        since_hit = 0.0;
+        return { .hit = v, .contact = 1.0 };
+    }
+
+private:
+    static constexpr int capacity = 17;
+
+    void remember (double depth) noexcept
+    {
+        newest = (newest + 1) % capacity;
+        depths[static_cast<std::size_t> (newest)] = depth;
+        if (known < capacity) ++known;
+    }
+
+    double ago (int ticks) const noexcept { return depths[static_cast<std::size_t> ((newest + capacity - ticks) % capacity)]; }
+
+    /// Rate of depth up to now, m/s; 0 if there is no sample before.
+    double approach() const noexcept
+    {
+        if (known < 2) return 0.0;
+
+        int n = 1;
+        while (n + 1 < known && (n == 1 || straight (n + 1)))
+            ++n;
+        if (n == 2 && ago (0) <= ago (2)) n = 1;   // it turned back only just now
+        return (ago (0) - ago (n)) / (n * dt);
+    }
+
+    /// True if all samples since lie within the noise of the line from n ticks ago to now.
+    bool straight (int n) const noexcept
+    {
+        const double slope = (ago (0) - ago (n)) / n;
+        for (int i = 1; i < n; ++i)
+            if (! (std::abs (ago (0) - slope * i - ago (i)) <= params.release)) return false;
+        return true;
+    }
+
+    std::array<double, capacity> depths {};   // ring of the last depths, m
+    int newest = 0, known = 0;
+    bool touching = false;
+    double since_hit = inf;               // ticks
+    double dt = 1.0 / Setup {}.rate_hz;   // s
+};
+
+}   // namespace tactus::nodes
+
+TACTUS_NODE (tactus::nodes::Impact);

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <framework/node.hpp>
+
+#include <algorithm>
+
+namespace tactus::nodes
+{
+
+/// Fades a texture in over the first fraction of a millimetre, so that touching it does not step the force.
+///
+///     gain = clamp (depth / window, 0, 1)
+///
+/// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 5, superposition on a nominal force.
+///
+/// Beware: times a force that depends on lateral position this is no potential any more. What it gives on a loop that
+/// goes in here and out there is at most the work of the bare texture over the way between; a thin window keeps it
+/// small against the friction of any real contact.
+struct ContactWindow
+{
+    struct Inputs
+    {
+        double depth = 0.0;
+    };
+
+    struct Params
+    {
+        double window = 5e-4;
+    };
+
+    struct Outputs
+    {
+        double gain = 0.0;
+    };
+
+    static constexpr Info info {
+        .id = "contact.window",
+        .name = "Contact window",
+        .summary = "A gain from 0 at the surface to 1 at a small depth.",
+        .source = "Hayward 2007, section 5",
+    };
+
+    static constexpr std::tuple ports {
+        input (&Inputs::depth, "depth", unit::metre, "of the tool in the object"),
+        param (&Params::window, "window", unit::metre, "depth at which the gain is 1", { .hard = { 1e-9, inf }, .usual = { 1e-5, 5e-3 } }),
+        output (&Outputs::gain, "gain", unit::gain, "0 apart to 1 deep inside"),
+    };
+
+    Params params;
+
+    Claims claims() const { return { .amplitude = 1.0 }; }
+
+    Outputs tick (const Inputs& in) noexcept
+    {
+        if (! isFinite (in.depth)) return {};
+        return { .gain = std::clamp (in.depth / params.window, 0.0, 1.0) };
+    }
+};
+
+}   // namespace tactus::nodes
+
+TACTUS_NODE (tactus::nodes::ContactWindow);

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include <nodes/contact/impact.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+using tactus::nodes::Impact;
+
+namespace
+{
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+Impact impact (const Impact::Params& params = {}, double rate_hz = 1000.0)
+{
+    Impact node;
+    node.params = params;
+    node.prepare ({ .rate_hz = rate_hz });
+    return node;
+}
+
+double quantised (double x, double quantum) { return quantum > 0.0 ? quantum * std::floor (x / quantum + 0.5) : x; }
+
+struct Strike
+{
+    int hits = 0;
+    double speed = 0.0;
+};
+
+/// What the node says of depths d (0), d (1), …
+template <typename Depth>
+Strike strike (Impact node, int ticks, Depth depth)
+{
+    Strike s;
+    for (int k = 0; k < ticks; ++k)
+        if (const auto out = node.tick ({ .depth = depth (k) }); out.hit != 0.0)
+        {
+            CHECK (out.contact == 1.0);
+            ++s.hits;
+            s.speed = out.hit;
+        }
+    return s;
+}
+}   // namespace
+
+TEST_CASE ("impact: a steady approach is one hit of exactly its speed, at any rate", "[nodes][contact]")
+{
+    for (const double rate : { 500.0, 1000.0, 4000.0, 10'000.0 })
+        for (const double v : { 1e-3, 0.05, 2.0 })
+        {
+            const auto [hits, speed] = strike (impact ({}, rate), 3000, [&] (int k)
+                                               { return v * (k - 1000.3) / rate; });
+            CHECK (hits == 1);
+            CHECK (speed == Approx (v).epsilon (1e-9));
+        }
+}
+
+TEST_CASE ("impact: on a quantised ramp there is one hit, of the speed within the quantum's bound", "[nodes][contact]")
+{
+    const double q = 1e-5, T = 1e-3;
+    std::mt19937 random (3);
+    std::uniform_real_distribution<double> uniform;
+    double worst_fast = 0.0, worst_slow = 0.0;
+    for (int trial = 0; trial < 2000; ++trial)
+    {
+        const double v = 0.005 * std::pow (200.0, uniform (random)), start = -0.05 - q * uniform (random);
+        const auto [hits, speed] = strike (impact(), int (0.06 / (v * T)), [&] (int k)
+                                           { return quantised (start + v * T * k, q); });
+        REQUIRE (hits == 1);
+        (v > 0.03 ? worst_fast : worst_slow) = std::max (v > 0.03 ? worst_fast : worst_slow, std::abs (speed / v - 1.0));
+        REQUIRE (std::abs (speed - v) <= 2.0 * q / (16.0 * T) + 1e-12);
+    }
+    CHECK (worst_fast < 0.03);
+    CHECK (worst_slow < 0.15);
+}
+
+TEST_CASE ("impact: quantised positions that flicker at the surface are one contact", "[nodes][contact]")
+{
+    // A hand that hovers at the surface, with a tremor of a third of a quantum on either side.
+    const double q = 1e-5;
+    const auto [hits, speed] = strike (impact ({ .release = 2e-5 }), 5000, [&] (int k)
+                                       { return quantised (k < 100 ? 1e-5 * (k - 100) : 0.5 * q + 0.4 * q * std::sin (0.7 * k), q); });
+    CHECK (hits == 1);
+    CHECK (speed > 0.0);
+}
+
+TEST_CASE ("impact: the speed is that of the end, not of the whole approach", "[nodes][contact]")
+{
+    const double T = 1e-3;
+    SECTION ("a tool that falls")
+    {
+        const double drop = 0.05, v = std::sqrt (2.0 * 9.81 * drop);
+        const auto [hits, speed] = strike (impact(), 200, [&] (int k)
+                                           { return 0.5 * 9.81 * T * T * k * k - drop; });
+        CHECK (hits == 1);
+        CHECK (speed == Approx (v).epsilon (0.03));
+    }
+    SECTION ("a tool that was at rest until just now")
+    {
+        const auto [hits, speed] = strike (impact(), 400, [&] (int k)
+                                           { return k < 300 ? -1e-3 : -1e-3 + 0.4 * T * (k - 300); });
+        CHECK (hits == 1);
+        CHECK (speed == Approx (0.4).epsilon (0.05));
+    }
+    SECTION ("a tool that went away and turned round")
+    {
+        const std::vector<double> depths { -1e-5, -4e-4, 1e-4 };
+        const auto [hits, speed] = strike (impact(), 3, [&] (int k)
+                                           { return depths[std::size_t (k)]; });
+        CHECK (hits == 1);
+        CHECK (speed > 0.0);
+    }
+}
+
+TEST_CASE ("impact: a contact ends only `release` below the surface", "[nodes][contact]")
+{
+    auto node = impact ({ .release = 1e-3 });
+    node.tick ({ .depth = -2e-3 });
+    CHECK (node.tick ({ .depth = 1e-3 }).hit > 0.0);
+    CHECK (node.tick ({ .depth = -0.9e-3 }).contact == 1.0);
+    CHECK (node.tick ({ .depth = 1e-3 }).hit == 0.0);
+    CHECK (node.tick ({ .depth = -1.1e-3 }).contact == 0.0);
+    CHECK (node.tick ({ .depth = 1e-3 }).hit == Approx (2.1));
+}
+
+TEST_CASE ("impact: within the refractory time there is no second hit, and none is made up for", "[nodes][contact]")
+{
+    const auto hits = [] (double refractory)
+    {
+        // Taps every 20 ms.
+        return strike (impact ({ .refractory = refractory }), 1000, [] (int k)
+                       { return 1e-3 * std::sin (2.0 * M_PI * k / 20.0 - 1.0); })
+            .hits;
+    };
+    CHECK (hits (0.0) == 50);
+    CHECK (hits (0.020) == 50);
+    CHECK (hits (0.021) == 25);
+    CHECK (hits (0.2) == 5);
+
+    auto node = impact ({ .refractory = 0.01 });
+    node.tick ({ .depth = -1e-3 });
+    CHECK (node.tick ({ .depth = 1e-3 }).hit > 0.0);
+    node.tick ({ .depth = -1e-3 });
+    for (int k = 0; k < 100; ++k)
+        CHECK (node.tick ({ .depth = 1e-3 }).hit == 0.0);
+}
+
+TEST_CASE ("impact: a softer touch than min_speed is a contact without a hit", "[nodes][contact]")
+{
+    const auto hits = [] (double v)
+    { return strike (impact ({ .min_speed = 0.1 }), 1000, [&] (int k)
+                     { return v * 1e-3 * (k - 500.5); })
+          .hits; };
+    CHECK (hits (0.0999) == 0);
+    CHECK (hits (0.1001) == 1);
+}
+
+TEST_CASE ("impact: what is inside from the start, or after a fault, has not struck", "[nodes][contact]")
+{
+    auto node = impact();
+    CHECK (node.tick ({ .depth = 1e-3 }).hit == 0.0);
+    CHECK (node.tick ({ .depth = 1e-3 }).contact == 1.0);
+    node.tick ({ .depth = -1e-3 });
+
+    const auto fault = node.tick ({ .depth = not_a_number });
+    CHECK (fault.hit == 0.0);
+    CHECK (fault.contact == 0.0);
+    CHECK (node.tick ({ .depth = 1e-3 }).hit == 0.0);
+    CHECK (node.tick ({ .depth = 1e-3 }).contact == 1.0);
+}
+
+TEST_CASE ("impact: no number breaks it", "[nodes][contact]")
+{
+    rc::prop ("hits are finite and not negative", []
+              {
+                  auto node = impact ({ .release = *rc::gen::element (0.0, 1e-5, 1e300), .refractory = *rc::gen::element (0.0, 0.01, 1e300) });
+                  for (int k = 0; k < 60; ++k)
+                  {
+                      const auto out = node.tick ({ .depth = *rc::gen::element (0.0, 1e-3, -1e-3, 1e-320, -1e300, 1e300, 1.7e308, -1.7e308, not_a_number, tactus::inf) });
+                      RC_ASSERT (tactus::isFinite (out.hit) && out.hit >= 0.0);
+                      RC_ASSERT (out.contact == 0.0 || out.contact == 1.0);
+                  } });
+}
