@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <framework/node.hpp>
+
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+namespace tactus::nodes
+{
+
+/// The ring of a struck object: what tells wood from steel in a tap.
+///
+///     value = gain sum_i a_i v e^(-decay_i t) sin (2 pi frequency_i t)      t since a hit of speed v; hits add up
+///
+/// Each mode is a phasor z that turns and shrinks by a fixed complex factor each tick; a hit adds a_i v to its real
+/// part, and the sine is its imaginary part. So modes are exact at any rate, a hit starts without a click, and a
+/// second one while the first still rings is the exact sum of both.
+///
+/// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 6, after Okamura, Cutkosky & Dennerlein 2001.
+/// Printed is e^(b t) with b < 0; here `decay` is -b, positive.
+///
+/// Good to know
+///  - `pitch` and `damping` multiply all frequencies and decays; wired, they bend a ring while it sounds, without a click.
+///  - Modes at or above half the sampling rate, and such as do not decay, are silent.
+///  - Published amplitudes are often accelerations per impact speed: multiply by the mass of the tip.
+///  - Hits of no or not a number's speed are none. This adds energy at each hit: keep it small against the contact's own force.
+struct Modal
+{
+    struct Mode
+    {
+        double frequency = 200.0;
+        double decay = 60.0;
+        double amplitude = 0.5;
+
+        static constexpr std::tuple fields {
+            field (&Mode::frequency, "frequency", unit::hertz, "of the mode", { .hard = { 0, inf }, .usual = { 10, 2000 } }),
+            field (&Mode::decay, "decay", unit::per_second, "how fast it dies away; 1 / decay is its time constant", { .hard = { 0, inf }, .usual = { 1, 500 } }),
+            field (&Mode::amplitude, "amplitude", Unit { Quantity::any, { 0, 1, -1 }, "N*s/m" }, "force per impact speed", { .usual = { 0, 10 } }),
+        };
+    };
+
+    struct Inputs
+    {
+        double hit = 0.0;
+    };
+
+    struct Params
+    {
+        double gain = 1.0;
+        double pitch = 1.0;
+        double damping = 1.0;
+    };
+
+    struct Settings
+    {
+        std::vector<Mode> modes = std::vector<Mode> (1);
+    };
+
+    struct Outputs
+    {
+        double value = 0.0;
+    };
+
+    static constexpr Info info {
+        .id = "vibration.modal",
+        .name = "Modal vibration",
+        .summary = "Decaying tones that a hit excites.",
+        .source = "Hayward 2007, section 6; Okamura et al. 2001",
+    };
+
+    static constexpr std::tuple ports {
+        input (&Inputs::hit, "hit", unit::hit, "impact speed v"),
+        param (&Params::gain, "gain", unit::gain, "of the output", { .usual = { 0, 4 } }),
+        param (&Params::pitch, "pitch", unit::gain, "multiplies all frequencies", { .hard = { 0, inf }, .usual = { 0.25, 4 } }),
+        param (&Params::damping, "damping", unit::gain, "multiplies all decays", { .hard = { 0, inf }, .usual = { 0.1, 10 } }),
+        setting (&Settings::modes, "modes", unit::count, "the tones of the object"),
+        output (&Outputs::value, "value", unit::newton, "force of the vibration"),
+    };
+
+    Params params;
+    Settings settings;
+
+    void prepare (const Setup& setup)
+    {
+        dt = setup.dt_s();
+        voices.assign (settings.modes.size(), {});
+        update();
+    }
+
+    void update() noexcept
+    {
+        for (std::size_t i = 0; i < voices.size(); ++i)
+        {
+            const Mode& mode = settings.modes[i];
+            const double turn = 2.0 * std::numbers::pi * mode.frequency * params.pitch * dt;
+            const double shrink = mode.decay * params.damping * dt;
+            const bool sounds = turn < std::numbers::pi && shrink > 0.0;
+            voices[i].factor = sounds ? std::polar (std::exp (-shrink), turn) : Phasor {};
+        }
+    }
+
+    /// A mode rings on if the new list has its frequency, in the same place or elsewhere.
+    void adopt (const Modal& old) noexcept
+    {
+        for (std::size_t i = 0; i < old.voices.size(); ++i)
+            if (const std::size_t heir = find (old.settings.modes[i].frequency, i); heir < voices.size())
+                voices[heir].z += old.voices[i].z;
+    }
+
+    Outputs tick (const Inputs& in) noexcept
+    {
+        const double v = in.hit > 0.0 && isFinite (in.hit) ? in.hit : 0.0;
+        double sum = 0.0;
+        for (std::size_t i = 0; i < voices.size(); ++i)
+        {
+            auto& [z, factor] = voices[i];
+            z = times (z, factor);
+            if (factor != Phasor {}) z += settings.modes[i].amplitude * v;
+            if (std::norm (z) < flush * flush) z = {};
+            sum += z.imag();
+        }
+
+        const double value = params.gain * sum;
+        if (isFinite (value)) return { .value = value };
+
+        for (auto& voice : voices)
+            voice.z = {};
+        return {};
+    }
+
+private:
+    using Phasor = std::complex<double>;
+
+    struct Voice
+    {
+        Phasor z, factor;
+    };
+
+    static constexpr double flush = 1e-18;   // N; a tail that no one feels would end in slow denormal numbers
+
+    /// The product, without the detour that std::complex takes for infinities.
+    static Phasor times (Phasor a, Phasor b) noexcept
+    {
+        return { a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real() };
+    }
+
+    /// Index of the mode of that frequency, at `preferred` if it is there; the number of modes if there is none.
+    std::size_t find (double frequency, std::size_t preferred) const noexcept
+    {
+        const auto& modes = settings.modes;
+        if (preferred < modes.size() && modes[preferred].frequency == frequency) return preferred;
+        std::size_t i = 0;
+        while (i < modes.size() && modes[i].frequency != frequency)
+            ++i;
+        return i;
+    }
+
+    std::vector<Voice> voices;
+    double dt = 1.0 / Setup {}.rate_hz;   // s
+};
+
+}   // namespace tactus::nodes
+
+TACTUS_NODE (tactus::nodes::Modal);
