@@ -242,7 +242,7 @@ private:
         if (! error.empty()) return;
         program.push_back (step);
         stacked += 1 - Expression::operandsOf (step.op);
-        if (stacked > Expression::max_depth) fail (at, "too many values are put by");
+        if (stacked > Expression::max_depth) fail (at, "nested too deeply");
     }
 
     bool take (std::string_view token)
