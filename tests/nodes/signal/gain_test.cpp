@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#include <nodes/signal/gain.hpp>
+
+#include <catch2/catch.hpp>
+
+TEST_CASE ("gain: passes a signal unchanged as delivered, and turns it over with a negative factor", "[nodes][signal]")
+{
+    tactus::nodes::SignalGain node;
+    CHECK (node.tick ({ .in = 0.3 }).out == 0.3);
+    node.params.gain = -2.0;
+    CHECK (node.tick ({ .in = 0.3 }).out == -0.6);
+}
+
+TEST_CASE ("gain: what a double cannot hold is silence", "[nodes][signal]")
+{
+    tactus::nodes::SignalGain node { .params = { .gain = 1e300 } };
+    CHECK (node.tick ({ .in = 1e300 }).out == 0.0);
+}

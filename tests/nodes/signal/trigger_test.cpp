@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include <nodes/signal/trigger.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+using tactus::nodes::SignalTrigger;
+
+TEST_CASE ("trigger: hits once when the signal rises, and again after it fell", "[nodes][signal]")
+{
+    SignalTrigger node;
+    node.params = { .threshold = 0.5, .speed = 2.0 };
+    CHECK (node.tick ({ .in = 0.0 }).hit == 0.0);
+    CHECK (node.tick ({ .in = 0.5 }).hit == 0.0);
+    CHECK (node.tick ({ .in = 0.6 }).hit == 2.0);
+    CHECK (node.tick ({ .in = 0.7 }).hit == 0.0);
+    CHECK (node.tick ({ .in = 0.7 }).gate == 1.0);
+    CHECK (node.tick ({ .in = 0.5 }).gate == 0.0);
+    CHECK (node.tick ({ .in = 0.6 }).hit == 2.0);
+}
+
+TEST_CASE ("trigger: a gate of 0 and 1 works as delivered", "[nodes][signal]")
+{
+    SignalTrigger node;
+    double hits = 0.0;
+    for (const double in : { 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0 })
+        hits += node.tick ({ .in = in }).hit;
+    CHECK (hits == 2.0);
+}
+
+TEST_CASE ("trigger: noise narrower than the hysteresis makes no second hit", "[nodes][signal]")
+{
+    rc::prop ("any jitter", [] (const std::vector<signed char>& jitter)
+              {
+        SignalTrigger node;
+        node.params = { .threshold = 1.0, .hysteresis = 0.3 };
+        node.tick ({ .in = 0.0 });
+        RC_ASSERT (node.tick ({ .in = 1.2 }).hit == 1.0);
+        for (const auto j : jitter)
+        {
+            const auto out = node.tick ({ .in = 1.0 + j / 128.0 * 0.149 });
+            RC_ASSERT (out.hit == 0.0);
+            RC_ASSERT (out.gate == 1.0);
+        } });
+}
+
+TEST_CASE ("trigger: a signal that is high from the start has not risen", "[nodes][signal]")
+{
+    SignalTrigger node;
+    const auto first = node.tick ({ .in = 1.0 });
+    CHECK (first.hit == 0.0);
+    CHECK (first.gate == 1.0);
+
+    CHECK (node.tick ({ .in = tactus::inf }).gate == 0.0);
+    CHECK (node.tick ({ .in = 1.0 }).hit == 0.0);
+    node.tick ({ .in = 0.0 });
+    CHECK (node.tick ({ .in = 1.0 }).hit == 1.0);
+}
