@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include <nodes/vector/along.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+namespace
+{
+tactus::Vec3 anyVector()
+{
+    const auto part = rc::gen::map (rc::gen::arbitrary<int>(), [] (int i)
+                                    { return i / 1e5; });
+    return { *part, *part, *part };
+}
+}   // namespace
+
+using tactus::nodes::VectorAlong;
+
+TEST_CASE ("along: the parts make up the vector, and lie where they should", "[nodes][vector]")
+{
+    rc::prop ("any vector and direction", []
+              {
+        const auto in = anyVector(), direction = anyVector();
+        const auto out = VectorAlong {}.tick ({ .in = in, .direction = direction });
+        const auto u = tactus::direction (direction);
+        RC_ASSERT ((out.along * u + out.across - in).norm() <= 1e-12 * in.norm());
+        RC_ASSERT (std::abs (out.across.dot (u)) <= 1e-12 * in.norm()); });
+}
+
+TEST_CASE ("along: parts height from plane as delivered", "[nodes][vector]")
+{
+    const auto out = VectorAlong {}.tick ({ .in = { 1.0, 2.0, 3.0 } });
+    CHECK (out.along == 3.0);
+    CHECK (out.across == tactus::Vec3 { 1.0, 2.0, 0.0 });
+}
+
+TEST_CASE ("along: only where the direction points matters", "[nodes][vector]")
+{
+    const double size = GENERATE (1e-200, 1.0, 1e200);
+    CHECK (VectorAlong {}.tick ({ .in = { 1.0, 2.0, 3.0 }, .direction = { 0.0, -size, 0.0 } }).along == -2.0);
+}
+
+TEST_CASE ("along: without a direction all is across", "[nodes][vector]")
+{
+    const auto out = VectorAlong {}.tick ({ .in = { 1.0, 2.0, 3.0 }, .direction = tactus::Vec3::Zero() });
+    CHECK (out.along == 0.0);
+    CHECK (out.across == tactus::Vec3 { 1.0, 2.0, 3.0 });
+}
