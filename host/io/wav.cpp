@@ -31,7 +31,12 @@ public:
     explicit StandardOutput (std::ostream& stream) : out (stream) {}
 
     void flush() override { out.flush(); }
-    bool setPosition (juce::int64 position) override { return static_cast<bool> (out.seekp (position)); }
+    bool setPosition (juce::int64 position) override
+    {
+        // JUCE wants to fill in the header even of a file that it could not write; that one is given up.
+        const bool is_given_up = ! out;
+        return is_given_up || out.seekp (position);
+    }
     juce::int64 getPosition() override { return out.tellp(); }
     bool write (const void* data, std::size_t size) override
     {
@@ -168,6 +173,7 @@ tl::expected<WavWriter, Error> WavWriter::create (const std::filesystem::path& p
     auto impl = std::make_unique<Impl> (std::move (*file), channels);
 
     // Discrete channels: components of forces are not loudspeakers, and beyond stereo the layout would make them such.
+    // From the 129th on JUCE counts beyond its enum, which is harmless, but which UBSan's `enum` check reports.
     auto output = std::make_unique<StandardOutput> (impl->file.stream());
     const auto layout = juce::AudioChannelSet::discreteChannels (static_cast<int> (channels));
     impl->writer.reset (juce::WavAudioFormat().createWriterFor (output.release(), sample_rate_hz, layout, 32, {}, 0));
