@@ -45,9 +45,9 @@ public:
 
         std::array kept { first, low, high, last };
         std::ranges::sort (kept, {}, &Numbered::number);
-        const auto same = std::ranges::unique (kept, {}, &Numbered::number);
-        for (auto it = kept.begin(); it != same.begin(); ++it)
-            line.push_back (it->point);
+        for (std::size_t i = 0; i < kept.size(); ++i)
+            if (i == 0 || kept[i].number != kept[i - 1].number)
+                line.push_back (kept[i].point);
         count = 0;
     }
 
