@@ -403,6 +403,42 @@ TEST_CASE ("every node answers a non-finite input with 0 and goes on", "[nodes][
         }
 }
 
+TEST_CASE ("every node lives on after a fault", "[nodes][contract]")
+{
+    for (const auto& type : catalogue())
+    {
+        if (type.inputs.empty()) continue;
+        DYNAMIC_SECTION (type.info.id)
+        {
+            // What moves on a node that had no fault, sooner or later moves again on one that had.
+            std::vector<char> lives, lives_on;
+            Dice dice { 1 };
+            for (int trial = 0; trial < 50; ++trial)
+            {
+                Rig rig = prepared (type), twin = prepared (type);
+                lives.resize (rig.outputs.size());
+                lives_on.resize (rig.outputs.size());
+                const auto at = static_cast<std::size_t> (dice.below (static_cast<int> (rig.in.size())));
+                for (int k = 0; k < 40; ++k)
+                {
+                    drawTameInputs (rig, dice);
+                    twin.in = rig.in;
+                    if (k == 20) rig.in[at] = inf;
+                    rig.tick();
+                    twin.tick();
+                    rig.in = twin.in;
+                    for (std::size_t i = 0; k > 20 && i < rig.outputs.size(); ++i)
+                    {
+                        lives[i] |= twin.out (i) != 0.0;
+                        lives_on[i] |= rig.out (i) != 0.0;
+                    }
+                }
+            }
+            CHECK (lives == lives_on);
+        }
+    }
+}
+
 TEST_CASE ("a node without a memory does not remember a fault", "[nodes][contract]")
 {
     for (const auto& type : catalogue())
