@@ -19,7 +19,7 @@ fs::path temporaryFor (const fs::path& target)
 {
     std::random_device random;
     auto name = target.filename();
-    name += "." + std::to_string (random()) + ".tmp";
+    name += std::to_string (random()).insert (0, 1, '.') + ".tmp";
     return target.parent_path() / name;
 }
 }   // namespace

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include <framework/file/graph_file.hpp>
+#include <framework/file/json_writer.hpp>
+
+#include <tests/framework/graph/random_graph.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <charconv>
+#include <cstring>
+
+using namespace tactus;
+
+TEST_CASE ("a graph is written in one order, a node and a wire a line")
+{
+    const auto loaded = readGraph (R"({ "ui": {}, "format": "tactus-graph", "wires": [ { "wire": "a.out->b.in" }, { "gain": 0.5, "wire": "a.out -> b.in", "note": 1 } ],
+        "nodes": { "b": { "ui": { "at": [1, 2] }, "note": "kept", "params": { "gain": "2 N" }, "type": "signal.gain" }, "a": { "type": "signal.lfo" } },
+        "version": 1, "author": "me", "name": "Two" })");
+    REQUIRE (loaded.messages.empty());
+    CHECK (writeGraph (loaded.graph) == R"({
+  "format": "tactus-graph",
+  "version": 1,
+  "name": "Two",
+  "rate_hz": 4000,
+  "nodes": {
+    "b": { "type": "signal.gain", "params": { "gain": "2 N" }, "note": "kept", "ui": { "at": [1, 2] } },
+    "a": { "type": "signal.lfo" }
+  },
+  "wires": [
+    "a.out -> b.in",
+    { "wire": "a.out -> b.in", "gain": 0.5, "note": 1 }
+  ],
+  "author": "me",
+  "ui": {}
+}
+)");
+}
+
+TEST_CASE ("what does not fit on a line is broken, numbers are packed")
+{
+    Json table = Json::array(), rows = Json::array();
+    for (int i = 0; i < 60; ++i)
+        table.push_back (i * 0.25);
+    for (int i = 0; i < 20; ++i)
+        rows.push_back (Json::array ({ i, 0.0, 1e-7 }));
+    const auto text = writeJson (Json { { "table", table }, { "rows", rows }, { "short", Json::array ({ 1, 2 }) } });
+    CHECK (Json::parse (text) == (Json { { "table", table }, { "rows", rows }, { "short", Json::array ({ 1, 2 }) } }));
+    CHECK (text.find ("\n    [3, 0.0, 1e-7],\n") != std::string::npos);
+    CHECK (text.find ("\n  \"short\": [1, 2]\n") != std::string::npos);
+    std::size_t longest = 0;
+    for (std::size_t begin = 0, end; (end = text.find ('\n', begin)) != std::string::npos; begin = end + 1)
+        longest = std::max (longest, end - begin);
+    CHECK (longest <= 120);
+    CHECK (longest > 100);
+}
+
+TEST_CASE ("numbers are short and read back to the same double")
+{
+    CHECK (numberText (0.0) == "0.0");
+    CHECK (numberText (-0.0) == "-0.0");
+    CHECK (numberText (100.0) == "100.0");
+    CHECK (numberText (0.0004) == "0.0004");
+    CHECK (numberText (1e-5) == "1e-5");
+    CHECK (numberText (1.5e-12) == "1.5e-12");
+    CHECK (numberText (1e22) == "1e22");
+    CHECK (numberText (-2.5e100) == "-2.5e100");
+    CHECK (numberText (5e-324) == "5e-324");
+    rc::prop ("any finite double", []
+              {
+                  const auto bits = *rc::gen::arbitrary<std::uint64_t>();
+                  double value = 0.0, back = 0.0;
+                  std::memcpy (&value, &bits, sizeof value);
+                  RC_PRE (value - value == 0.0);
+                  const auto text = numberText (value);
+                  std::from_chars (text.data(), text.data() + text.size(), back);
+                  RC_ASSERT (std::memcmp (&value, &back, sizeof value) == 0);
+                  RC_ASSERT (Json::parse (text).is_number_float()); });
+}
+
+TEST_CASE ("files are stable under load and save, byte for byte")
+{
+    rc::prop ("random graphs", []
+              {
+                  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+                  const auto text = writeGraph (test::randomGraph (seed));
+                  const auto loaded = readGraph (text);
+                  RC_ASSERT (! hasErrors (loaded.messages));
+                  RC_ASSERT (writeGraph (loaded.graph) == text); });
+}
+
+TEST_CASE ("text that is not UTF-8 cannot break a file")
+{
+    graph::Graph g;
+    g.name = "\xFF broken";
+    const auto text = writeGraph (g);
+    CHECK (readGraph (text).messages.empty());
+    CHECK (writeGraph (readGraph (text).graph) == text);
+}
