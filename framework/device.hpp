@@ -3,6 +3,8 @@
 
 #include "list.hpp"
 
+#include <cstdint>
+
 namespace tactus
 {
 
@@ -12,6 +14,7 @@ struct Reading
     Vec3 position = Vec3::Zero();        ///< m, as measured: quantised
     Vec3 rotation = Vec3::Zero();        ///< rotation vector, rad
     double pressure = 0.0;               ///< N, where the device has it
+    std::uint32_t buttons = 0;           ///< bit i: button i is down
     double age = 0.0;                    ///< s since the device took this reading
     bool valid = true;                   ///< false while the device has nothing to say
     Vec3 true_position = Vec3::Zero();   ///< m, only known to a simulated device
