@@ -13,6 +13,7 @@ using namespace tactus;
 namespace
 {
 constexpr double dt = 1e-3;
+constexpr double endless = std::numeric_limits<double>::infinity();
 const double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 const Reading fresh;
@@ -49,7 +50,7 @@ rc::Gen<double> anyFinite()
 
 rc::Gen<double> anyNumber()
 {
-    return rc::gen::weightedOneOf<double> ({ { 30, anyFinite() }, { 1, rc::gen::element (inf, -inf, not_a_number) } });
+    return rc::gen::weightedOneOf<double> ({ { 30, anyFinite() }, { 1, rc::gen::element (endless, -endless, not_a_number) } });
 }
 
 rc::Gen<Vec3> vectorOf (const rc::Gen<double>& part)
@@ -69,7 +70,7 @@ rc::Gen<Tick> anyTick()
 {
     const auto rarely = rc::gen::map (rc::gen::inRange (0, 12), [] (int i)
                                       { return i == 0; });
-    const auto age = rc::gen::weightedOneOf<double> ({ { 20, rc::gen::just (0.0) }, { 1, rc::gen::element (0.004, 0.1, inf, not_a_number, -1.0) } });
+    const auto age = rc::gen::weightedOneOf<double> ({ { 20, rc::gen::just (0.0) }, { 1, rc::gen::element (0.004, 0.1, endless, not_a_number, -1.0) } });
 
     return rc::gen::map (rc::gen::tuple (vectorOf (anyNumber()), vectorOf (anyNumber()), age, rarely, rarely),
                          [] (const auto& t)
@@ -85,10 +86,10 @@ rc::Gen<Tick> anyTick()
 
 rc::Gen<GuardLimits> anyLimits()
 {
-    const auto limit = rc::gen::element (inf, inf, 0.0, 0.1, 3.0, 12.0);
-    const auto slew = rc::gen::element (inf, inf, 0.0, 10.0, 500.0, 1e5);
-    const auto ramp = rc::gen::element (0.0, 0.0, 0.002, 0.5, inf);
-    const auto watchdog = rc::gen::element (inf, 0.02, 0.0);
+    const auto limit = rc::gen::element (endless, endless, 0.0, 0.1, 3.0, 12.0);
+    const auto slew = rc::gen::element (endless, endless, 0.0, 10.0, 500.0, 1e5);
+    const auto ramp = rc::gen::element (0.0, 0.0, 0.002, 0.5, endless);
+    const auto watchdog = rc::gen::element (endless, 0.02, 0.0);
 
     return rc::gen::map (rc::gen::tuple (limit, limit, slew, slew, ramp, watchdog),
                          [] (const auto& t)
@@ -151,7 +152,7 @@ TEST_CASE ("guard: what is not a number never reaches a device", "[framework][gu
     rc::prop ("limits, periods and ages that are no numbers themselves",
               []
               {
-                  const auto wild = rc::gen::element (not_a_number, -1.0, inf, -inf, 0.0, 1.0, 1.7e308);
+                  const auto wild = rc::gen::element (not_a_number, -1.0, endless, -endless, 0.0, 1.0, 1.7e308);
                   Guard guard;
                   guard.prepare ({ *wild, *wild, *wild, *wild, *wild, *wild }, *wild);
                   play (guard, anyRun(), [] (const Tick&, const Effort&, const Effort& now)
@@ -239,7 +240,7 @@ TEST_CASE ("guard: a stop is no step, also where no limit was set", "[framework]
 {
     const auto [bad, seen, why] = GENERATE (table<Effort, Reading, Guard::Stop> ({
         { pushing (not_a_number), fresh, Guard::Stop::not_finite },
-        { { .torque = { 0, inf, 0 } }, fresh, Guard::Stop::not_finite },
+        { { .torque = { 0, endless, 0 } }, fresh, Guard::Stop::not_finite },
         { pushing (4.0), silent, Guard::Stop::stale },
     }));
 
