@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/devices/problem.hpp>
+#include <host/devices/trace.hpp>
+
+#include <framework/in_quotes.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace tactus::host
+{
+namespace
+{
+constexpr int most_buttons = 32;
+
+// Times in files are rounded, to microseconds at the coarsest; a row that is late by less than this share of a tick
+// belongs to the tick.
+constexpr double slack = 1e-3;
+
+/// The button a column is about: 3 for "button3".
+std::optional<int> buttonOf (std::string_view column)
+{
+    constexpr std::string_view prefix = "button";
+    if (! column.starts_with (prefix)) return {};
+
+    const auto digits = column.substr (prefix.size());
+    int number = -1;
+    const auto [end, failure] = std::from_chars (digits.data(), digits.data() + digits.size(), number);
+    const bool whole = failure == std::errc() && end == digits.data() + digits.size();
+    if (! whole || number < 0 || number >= most_buttons) return {};
+    return number;
+}
+
+double* partOf (TraceData::Row& row, std::string_view column)
+{
+    const std::pair<std::string_view, double*> parts[] {
+        { "t", &row.t },
+        { "x", &row.position.x() },
+        { "y", &row.position.y() },
+        { "z", &row.position.z() },
+        { "rx", &row.rotation.x() },
+        { "ry", &row.rotation.y() },
+        { "rz", &row.rotation.z() },
+        { "pressure", &row.pressure },
+    };
+    for (const auto& [name, part] : parts)
+        if (name == column) return part;
+    return nullptr;
+}
+
+std::string rowName (std::size_t index) { return "row " + std::to_string (index + 1); }
+std::string seconds (double t) { return std::to_string (t) + " s"; }
+
+Messages checkColumns (std::span<const std::string> columns, std::size_t values)
+{
+    Messages messages;
+    const auto add = [&] (const char* id, const char* where, std::string text, const char* remedy) -> Message&
+    { return messages.emplace_back (problem (id, where, std::move (text), remedy)); };
+    const auto first = [&] (const auto& name)
+    { return std::find (columns.begin(), columns.end(), name); };
+
+    TraceData::Row row;
+    for (auto it = columns.begin(); it != columns.end(); ++it)
+    {
+        if (first (*it) != it)
+            add ("trace/duplicate_column", "header", "the column " + inQuotes (*it) + " is there twice", "leave one of them out");
+        else if (partOf (row, *it) == nullptr && ! buttonOf (*it))
+            add ("trace/unknown_column", "header", "the column " + inQuotes (*it) + " is no part of a trace and is left out",
+                 "a trace has t,x,y,z and may have rx,ry,rz,pressure,button0 to button31")
+                .severity = Message::Severity::warning;
+    }
+
+    for (const char* needed : { "t", "x", "y", "z" })
+        if (first (needed) == columns.end())
+            add ("trace/missing_column", "header", "a trace needs a column " + inQuotes (needed), "write t (s), x, y, z (m), with these names in the first line");
+
+    if (columns.empty() || values == 0)
+        add ("trace/empty", "row 1", "the trace has no rows", "a trace needs at least one");
+    else if (values % columns.size() != 0)
+        add ("trace/ragged", "last row", "the last row is not complete", "give each row as many values as there are columns");
+
+    return messages;
+}
+
+/// The first thing wrong with the times, if any: where one is wrong, mostly all that follow are.
+Messages checkTimes (const std::vector<TraceData::Row>& rows)
+{
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (! isFinite (rows[i].t))
+            return { problem ("trace/bad_time", rowName (i), "the time of " + rowName (i) + " is not a finite number", "give every row its time; only the other columns may be nan") };
+
+    for (std::size_t i = 1; i < rows.size(); ++i)
+        if (rows[i].t <= rows[i - 1].t)
+            return { problem ("trace/time_order", rowName (i), "the time does not rise: " + seconds (rows[i].t) + " in " + rowName (i) + " after " + seconds (rows[i - 1].t),
+                              "sort the rows by t and keep one of those at the same time") };
+
+    return {};
+}
+}   // namespace
+
+double TraceData::step() const
+{
+    if (rows.size() < 2) return 0.0;
+
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < rows.size(); ++i)
+        steps.push_back (rows[i].t - rows[i - 1].t);
+
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t> (steps.size() / 2);
+    std::nth_element (steps.begin(), middle, steps.end());
+    return *middle;
+}
+
+double TraceData::duration() const { return rows.empty() ? 0.0 : rows.back().t + step(); }
+
+TraceResult readTrace (std::span<const std::string> columns, std::span<const double> values)
+{
+    TraceResult result { .trace = {}, .messages = checkColumns (columns, values.size()) };
+    if (hasErrors (result.messages)) return result;
+
+    const auto width = columns.size();
+    result.trace.rows.resize (values.size() / width);
+
+    for (std::size_t i = 0; i < result.trace.rows.size(); ++i)
+    {
+        auto& row = result.trace.rows[i];
+        for (std::size_t c = 0; c < width; ++c)
+        {
+            const double value = values[i * width + c];
+            if (double* part = partOf (row, columns[c]))
+                *part = value;
+            else if (const auto button = buttonOf (columns[c]); button && value >= 0.5)
+                row.buttons |= std::uint32_t { 1 } << *button;
+        }
+    }
+
+    auto wrong = checkTimes (result.trace.rows);
+    result.messages.insert (result.messages.end(), wrong.begin(), wrong.end());
+    if (! wrong.empty()) return result;
+
+    const double start = result.trace.rows.front().t;
+    for (auto& row : result.trace.rows)
+        row.t -= start;
+    return result;
+}
+
+TraceDevice::TraceDevice (std::shared_ptr<const TraceData> data) : trace (std::move (data)), lasts (trace->duration()) {}
+
+void TraceDevice::prepare (double dt_s)
+{
+    dt = dt_s;
+    tick = 0;
+    row = 0;
+}
+
+Reading TraceDevice::read() noexcept
+{
+    const auto& rows = trace->rows;
+    if (rows.empty()) return { .valid = false };
+
+    const double now = static_cast<double> (tick) * dt;
+    while (row + 1 < rows.size() && rows[row + 1].t <= now + slack * dt)
+        ++row;
+
+    const auto& held = rows[row];
+    Reading reading;
+    reading.position = held.position;
+    reading.rotation = held.rotation;
+    reading.pressure = held.pressure;
+    reading.buttons = held.buttons;
+    reading.age = std::max (0.0, now - held.t);
+    reading.valid = isFinite (held.position, held.rotation);
+    return reading;
+}
+
+void TraceDevice::write (const Effort&) noexcept { ++tick; }
+
+}   // namespace tactus::host
