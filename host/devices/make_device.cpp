@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/devices/fields.hpp>
+#include <host/devices/gesture_device.hpp>
+#include <host/devices/guard_limits.hpp>
+#include <host/devices/make_device.hpp>
+#include <host/devices/problem.hpp>
+#include <host/devices/sim.hpp>
+#include <host/io/csv.hpp>
+
+#include <framework/graph/text.hpp>
+#include <framework/in_quotes.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+namespace tactus::host
+{
+namespace
+{
+using Folder = std::filesystem::path;
+
+std::vector<std::string> gestureNames()
+{
+    std::vector<std::string> names;
+    for (const auto& gesture : gestures())
+        names.emplace_back (gesture.id);
+    return names;
+}
+
+bool isFile (std::string_view path) { return path.find_first_of ("./\\") != path.npos; }
+
+/// Messages of a file, told where the description refers to it.
+void adopt (const Messages& from, const std::string& where, const std::string& file, Messages& messages)
+{
+    for (auto message : from)
+    {
+        message.text = file + ", " + message.where + ": " + message.text;
+        message.where = where;
+        messages.push_back (std::move (message));
+    }
+}
+
+std::shared_ptr<const TraceData> loadTrace (const std::string& file, const Folder& folder, const std::string& where, Messages& messages)
+{
+    const auto table = readTable (folder / file);
+    if (! table)
+    {
+        const auto& [id, place, what, remedy] = table.error();
+        messages.push_back (problem (id, where, place + ": " + what, remedy));
+        return nullptr;
+    }
+
+    auto [trace, found] = readTrace (table->columns, table->values);
+    adopt (found, where, file, messages);
+    if (hasErrors (found)) return nullptr;
+    return std::make_shared<const TraceData> (std::move (trace));
+}
+
+const Gesture* gestureNamed (const std::string& name, const std::string& where, Messages& messages)
+{
+    const auto* gesture = findGesture (name);
+    if (gesture == nullptr)
+        messages.push_back (problem ("device/unknown_gesture", where, "there is no gesture " + inQuotes (name), suggestion (name, gestureNames())));
+    return gesture;
+}
+
+Placement readPlacement (Fields& in)
+{
+    return { .offset = in.vector ("offset", unit::metre, Vec3::Zero()), .scale = in.number ("scale", unit::gain, Bounds::positive(), 1.0) };
+}
+
+Simulation::Hand readHand (const Json& json, const std::string& where, const Folder& folder, Messages& messages)
+{
+    Fields in (json, where, messages);
+    Simulation::Hand hand;
+    hand.stiffness = in.number ("stiffness", unit::stiffness, Bounds::notNegative(), 100.0);
+    hand.damping = in.number ("damping", unit::damping, Bounds::notNegative(), 2.0);
+    const auto placement = readPlacement (in);
+
+    in.require ("path", "write the name of a gesture, such as \"stroke\", or of a CSV file");
+    if (const auto path = in.text ("path"); isFile (path))
+    {
+        if (const auto trace = loadTrace (path, folder, where + "/path", messages))
+            hand.path = std::make_shared<TracePath> (*trace, placement);
+    }
+    else if (! path.empty())
+    {
+        if (const auto* gesture = gestureNamed (path, where + "/path", messages))
+            hand.path = std::make_shared<GesturePath> (*gesture, placement);
+    }
+
+    in.finish();
+    return hand;
+}
+
+std::unique_ptr<Device> makeSimulated (Fields& in, const Folder& folder, Messages& messages, std::string& about)
+{
+    // Seconds of delay are a mistake, and no device.
+    constexpr int longest_delay = 10'000;
+
+    Simulation sim;
+    sim.mass = in.number ("mass", unit::kilogram, Bounds::positive(), sim.mass);
+    sim.damping = in.number ("damping", unit::damping, Bounds::notNegative(), sim.damping);
+    sim.quantum = in.number ("quantum", unit::metre, Bounds::notNegative(), sim.quantum);
+    sim.force_quantum = in.number ("force_quantum", unit::newton, Bounds::notNegative(), sim.force_quantum);
+    sim.delay = in.whole ("delay", 0, longest_delay, sim.delay);
+    sim.first_mode = in.number ("first_mode", unit::hertz, Bounds::positive(), sim.first_mode);
+    if (in.has ("hand")) sim.hand = readHand (in.object ("hand"), "/hand", folder, messages);
+    sim.position = in.vector ("position", unit::metre, sim.hand.path ? sim.hand.path->at (0.0).position : Vec3 (Vec3::Zero()));
+    sim.velocity = in.vector ("velocity", unit::speed, sim.velocity);
+    sim.rotation = in.vector ("rotation", unit::radian, sim.rotation);
+    sim.hand_force = in.vector ("hand_force", unit::newton, sim.hand_force);
+
+    std::array<char, 96> text {};
+    std::snprintf (text.data(), text.size(), "A simulated tool of %g kg with a damping of %g N*s/m, ", sim.mass, sim.damping);
+    about = text.data();
+    about += sim.hand.path ? "in a hand that follows " + in.object ("hand").value ("path", std::string()) + "." : std::string ("held by no hand.");
+    return std::make_unique<SimulatedDevice> (std::move (sim));
+}
+
+std::unique_ptr<Device> makeTrace (Fields& in, const Folder& folder, Messages& messages, std::string& about)
+{
+    in.require ("path", "write the name of a CSV file with t,x,y,z");
+    const auto file = in.text ("path");
+    const auto placement = readPlacement (in);
+    if (file.empty()) return nullptr;
+
+    const auto trace = loadTrace (file, folder, "/path", messages);
+    if (! trace) return nullptr;
+
+    auto placed = std::make_shared<TraceData> (*trace);
+    for (auto& row : placed->rows)
+        row.position = placement.offset + placement.scale * row.position;
+
+    about = "The recording " + file + ", " + std::to_string (placed->rows.size()) + " rows.";
+    return std::make_unique<TraceDevice> (std::move (placed));
+}
+
+std::unique_ptr<Device> makeGesture (Fields& in, const Folder&, Messages& messages, std::string& about)
+{
+    in.require ("path", "write the name of a gesture, such as \"stroke\"");
+    const auto name = in.text ("path");
+    const auto placement = readPlacement (in);
+    if (name.empty()) return nullptr;
+
+    const auto* gesture = gestureNamed (name, "/path", messages);
+    if (gesture == nullptr) return nullptr;
+
+    about = "A hand that does not yield. " + std::string (gesture->about);
+    return std::make_unique<GestureDevice> (*gesture, placement);
+}
+
+struct Driver
+{
+    const char* id;
+    std::unique_ptr<Device> (*make) (Fields&, const Folder&, Messages&, std::string& about);
+};
+
+constexpr Driver drivers[] {
+    { "sim", makeSimulated },
+    { "trace", makeTrace },
+    { "gesture", makeGesture },
+};
+
+std::vector<std::string> driverNames()
+{
+    std::vector<std::string> names;
+    for (const auto& driver : drivers)
+        names.emplace_back (driver.id);
+    return names;
+}
+
+// What a simulated device can take over from the description of a real one.
+constexpr std::string_view known_to_sim[] { "mass", "damping", "quantum", "force_quantum", "delay", "first_mode", "position",
+                                            "velocity", "rotation", "hand_force", "hand", "guard", "about", "ui" };
+}   // namespace
+
+MadeDevice makeDevice (const Json& description, const Folder& folder)
+{
+    MadeDevice made;
+    Fields in (description, "", made.messages);
+    if (! description.is_object()) return made;
+
+    in.ignore ("about");
+    in.ignore ("ui");
+    in.require ("driver", "write one of: sim, trace, gesture");
+    const auto id = in.text ("driver");
+
+    const auto* driver = std::ranges::find_if (drivers, [&] (const Driver& d)
+                                               { return d.id == id; });
+    if (driver == std::end (drivers))
+    {
+        // Without the driver nobody knows which keys are right, so only this is told.
+        if (! id.empty()) in.error ("driver", "device/unknown_driver", "there is no driver " + inQuotes (id), suggestion (id, driverNames()));
+        return made;
+    }
+
+    made.device = driver->make (in, folder, made.messages, made.about);
+    if (in.has ("guard")) made.limits = readGuardLimits (in.object ("guard"), "/guard", made.messages);
+    in.ignore ("guard");
+    in.finish();
+
+    if (hasErrors (made.messages)) made.device.reset();
+    return made;
+}
+
+Json defaultDevice()
+{
+    return { { "driver", "sim" }, { "mass", "100 g" }, { "damping", 1.0 }, { "hand", { { "stiffness", 100.0 }, { "damping", 2.0 }, { "path", "stroke" } } } };
+}
+
+namespace
+{
+Message badOption (std::string_view text, std::string what)
+{
+    return problem ("device/option", "--device " + std::string (text), std::move (what), "write ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv or ROLE=gesture:NAME");
+}
+
+Json simulated (std::string_view role, const std::vector<std::pair<std::string, Json>>& described)
+{
+    for (const auto& [name, description] : described)
+        if (name == role && description.is_object())
+        {
+            Json sim { { "driver", "sim" } };
+            for (const auto key : known_to_sim)
+                if (const auto it = description.find (key); it != description.end()) sim[std::string (key)] = *it;
+            return sim;
+        }
+    return defaultDevice();
+}
+
+std::variant<DeviceOption, Message> fromFile (std::string_view option, std::string role, const Folder& path)
+{
+    std::ifstream file (path, std::ios::binary);
+    std::ostringstream content;
+    if (! file || ! (content << file.rdbuf()))
+        return problem ("device/unreadable", path.string(), "the device file cannot be read", badOption (option, {}).remedy);
+
+    try
+    {
+        return DeviceOption { .role = std::move (role), .description = Json::parse (content.str()), .folder = path.parent_path() };
+    }
+    catch (const Json::exception& failure)
+    {
+        // "[json.exception.parse_error.101] parse error at line 1, column 2: …"
+        const std::string_view what = failure.what();
+        return problem ("device/syntax", path.string(), std::string (what.substr (what.find ("] ") + 2)), "mend the JSON");
+    }
+}
+}   // namespace
+
+std::variant<DeviceOption, Message> parseDeviceOption (std::string_view text, const std::vector<std::pair<std::string, Json>>& described,
+                                                       const Folder& folder_of_graph)
+{
+    const auto equals = text.find ('=');
+    if (equals == text.npos) return badOption (text, "there is no '='");
+
+    std::string role (text.substr (0, equals));
+    const auto what = text.substr (equals + 1);
+    if (! graph::isId (role)) return badOption (text, inQuotes (role) + " is not the name of a role: lower case letters, digits and _, a letter first");
+
+    if (what == "sim") return DeviceOption { .role = role, .description = simulated (role, described), .folder = folder_of_graph };
+
+    for (const std::string_view driver : { "trace", "gesture" })
+        if (what.starts_with (driver) && what.substr (driver.size()).starts_with (':'))
+        {
+            const auto path = what.substr (driver.size() + 1);
+            if (path.empty()) return badOption (text, "nothing stands after '" + std::string (driver) + ":'");
+            return DeviceOption { .role = role, .description = { { "driver", driver }, { "path", path } }, .folder = {} };
+        }
+
+    if (! what.ends_with (".json")) return badOption (text, what.empty() ? "nothing stands after '='" : inQuotes (what) + " is neither sim nor trace: nor gesture: nor a .json file");
+    return fromFile (text, std::move (role), Folder (what));
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/devices/gestures.hpp>
+#include <host/devices/make_device.hpp>
+#include <host/devices/sim.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+using namespace tactus;
+using namespace tactus::host;
+
+namespace
+{
+using Described = std::vector<std::pair<std::string, Json>>;
+
+/// A folder with files of its own, gone at the end.
+class Folder
+{
+public:
+    Folder() : path (std::filesystem::temp_directory_path() / "tactus_make_device_test") { std::filesystem::create_directories (path); }
+    ~Folder() { std::filesystem::remove_all (path); }
+    Folder (const Folder&) = delete;
+    Folder& operator= (const Folder&) = delete;
+
+    void write (const std::string& name, const std::string& text) const { std::ofstream (path / name) << text; }
+
+    std::filesystem::path path;
+};
+
+MadeDevice made (const std::string& json, const std::filesystem::path& folder = {}) { return makeDevice (Json::parse (json), folder); }
+
+const Simulation& simulationOf (const MadeDevice& m)
+{
+    const auto* sim = dynamic_cast<const SimulatedDevice*> (m.device.get());
+    REQUIRE (sim != nullptr);
+    return sim->simulation();
+}
+
+/// "id where" of every message, in order.
+std::vector<std::string> found (const MadeDevice& m)
+{
+    std::vector<std::string> out;
+    for (const auto& message : m.messages)
+        out.push_back (message.id + " " + message.where);
+    return out;
+}
+
+DeviceOption optionOf (std::string_view text, const Described& described = {})
+{
+    auto option = parseDeviceOption (text, described, "graphs");
+    if (const auto* message = std::get_if<Message> (&option)) FAIL (message->text);
+    return std::get<DeviceOption> (option);
+}
+
+Message refused (std::string_view text)
+{
+    const auto option = parseDeviceOption (text, {}, {});
+    REQUIRE (std::holds_alternative<Message> (option));
+    return std::get<Message> (option);
+}
+}   // namespace
+
+TEST_CASE ("device description: units are read and converted", "[host][devices]")
+{
+    const auto m = made (R"({"driver": "sim", "mass": "50 g", "damping": 2.0, "quantum": "10 um", "force_quantum": "1 mN", "delay": 2,
+        "first_mode": "0.4 kHz", "position": [0, "2 mm", 0.01], "velocity": ["0.1 m/s", 0, 0], "rotation": [0, 0, "180 deg"],
+        "hand_force": [0, 0, "-0.5 N"], "hand": {"stiffness": "0.1 N/mm", "damping": 2.0, "path": "stroke"},
+        "guard": {"max_force": "3.3 N", "max_torque": "20 N*mm", "max_slew": "0.5 kN/s", "ramp": "0.2 s", "watchdog": "20 ms"}})");
+    REQUIRE (m.messages.empty());
+
+    const auto& sim = simulationOf (m);
+    CHECK (sim.mass == Approx (0.05));
+    CHECK (sim.damping == 2.0);
+    CHECK (sim.quantum == Approx (1e-5));
+    CHECK (sim.force_quantum == Approx (1e-3));
+    CHECK (sim.delay == 2);
+    CHECK (sim.first_mode == Approx (400.0));
+    CHECK ((sim.position - Vec3 (0, 0.002, 0.01)).norm() < 1e-15);
+    CHECK (sim.velocity.x() == Approx (0.1));
+    CHECK (sim.rotation.z() == Approx (3.14159265358979));
+    CHECK (sim.hand_force.z() == Approx (-0.5));
+    CHECK (sim.hand.stiffness == Approx (100.0));
+    CHECK (m.device->duration() == findGesture ("stroke")->duration_s);
+
+    CHECK (m.limits.max_force == Approx (3.3));
+    CHECK (m.limits.max_torque == Approx (0.02));
+    CHECK (m.limits.max_slew == Approx (500.0));
+    CHECK (m.limits.ramp == Approx (0.2));
+    CHECK (m.limits.watchdog == Approx (0.02));
+    CHECK (m.about == "A simulated tool of 0.05 kg with a damping of 2 N*s/m, in a hand that follows stroke.");
+}
+
+TEST_CASE ("device description: a simulated device needs nothing but its driver, and has no guard limits", "[host][devices]")
+{
+    const auto m = made (R"({"driver": "sim"})");
+    REQUIRE (m.messages.empty());
+    CHECK (simulationOf (m).mass == 0.1);
+    CHECK (simulationOf (m).damping == 1.0);
+    CHECK (m.limits == GuardLimits {});
+    CHECK (m.device->duration() == 0.0);
+    CHECK (m.about.ends_with ("held by no hand."));
+}
+
+TEST_CASE ("device description: the tool starts in the hand, unless it is put elsewhere", "[host][devices]")
+{
+    const Vec3 start = findGesture ("circle")->position (0.0);
+    CHECK (simulationOf (made (R"({"driver": "sim", "hand": {"path": "circle"}})")).position == start);
+    CHECK (simulationOf (made (R"({"driver": "sim", "hand": {"path": "circle", "offset": [0, 0, 1], "scale": 2}})")).position == Vec3 (Vec3 (0, 0, 1) + 2 * start));
+    CHECK (simulationOf (made (R"({"driver": "sim", "position": [0, 0, 0], "hand": {"path": "circle"}})")).position == Vec3 (0, 0, 0));
+}
+
+TEST_CASE ("device description: every problem is told at once, with its place", "[host][devices]")
+{
+    const auto m = made (R"({"driver": "sim", "mass": 0, "damping": "-1 N*s/m", "quantum": "1 N", "delay": 1.5, "first_mode": [1], "dampign": 1,
+        "position": [0, 0], "velocity": [0, "1 m", "fast"], "hand_force": "1 N", "hand": {"stifness": 5, "path": "strok"},
+        "guard": {"max_force": -1, "watchdog": 0, "ramp": "1 m", "max_speed": 3}})");
+
+    CHECK (m.device == nullptr);
+    CHECK (found (m) == std::vector<std::string> {
+               "device/out_of_range /mass",
+               "device/out_of_range /damping",
+               "device/unit /quantum",
+               "device/kind /delay",
+               "device/kind /first_mode",
+               "device/unknown_gesture /hand/path",
+               "device/unknown_key /hand/stifness",
+               "device/kind /position",
+               "device/unit /velocity/1",
+               "device/unit /velocity/2",
+               "device/kind /hand_force",
+               "device/out_of_range /guard/max_force",
+               "device/unit /guard/ramp",
+               "device/out_of_range /guard/watchdog",
+               "device/unknown_key /guard/max_speed",
+               "device/unknown_key /dampign",
+           });
+
+    const auto remedy = [&] (std::string_view where)
+    { return std::ranges::find (m.messages, where, &Message::where)->remedy; };
+    CHECK (remedy ("/mass") == "it has to be more than 0 kg");
+    CHECK (remedy ("/quantum") == "write a number in m, or a text such as \"1 m\"");
+    CHECK (remedy ("/dampign") == "did you mean 'damping'?");
+    CHECK (remedy ("/hand/stifness") == "did you mean 'stiffness'?");
+    CHECK (remedy ("/hand/path") == "did you mean 'stroke'?");
+    CHECK (remedy ("/guard/max_speed").find ("max_slew") != std::string::npos);
+}
+
+TEST_CASE ("device description: a gesture that does not exist names those that do", "[host][devices]")
+{
+    const auto m = made (R"({"driver": "gesture", "path": "handshake"})");
+    REQUIRE (found (m) == std::vector<std::string> { "device/unknown_gesture /path" });
+    for (const auto& gesture : gestures())
+        CHECK (m.messages[0].remedy.find (gesture.id) != std::string::npos);
+}
+
+TEST_CASE ("device description: whatever it is, it is answered", "[host][devices]")
+{
+    CHECK (found (made ("[]")) == std::vector<std::string> { "device/kind " });
+    CHECK (found (made ("null")) == std::vector<std::string> { "device/kind " });
+    CHECK (found (made ("{}")) == std::vector<std::string> { "device/missing " });
+    CHECK (found (made (R"({"driver": 3})")) == std::vector<std::string> { "device/kind /driver" });
+    CHECK (found (made (R"({"driver": "sym"})")) == std::vector<std::string> { "device/unknown_driver /driver" });
+    CHECK (found (made (R"({"driver": "trace"})")) == std::vector<std::string> { "device/missing " });
+    CHECK (found (made (R"({"driver": "gesture", "path": ""})")) == std::vector<std::string> { "device/kind /path" });
+    CHECK (found (made (R"({"driver": "sim", "hand": 5})")) == std::vector<std::string> { "device/kind /hand", "device/missing /hand" });
+    CHECK (found (made (R"({"driver": "sim", "hand": {"path": 5}})")) == std::vector<std::string> { "device/kind /hand/path" });
+    CHECK (found (made (R"({"driver": "sim", "delay": -1, "a/b~c": 0, "guard": []})")) == std::vector<std::string> { "device/out_of_range /delay", "device/kind /guard", "device/unknown_key /a~1b~0c" });
+    CHECK (found (made (R"({"driver": "sim", "ui": {"x": 1}, "about": "mine"})")).empty());
+
+    Json infinite { { "driver", "sim" }, { "mass", std::numeric_limits<double>::infinity() }, { "damping", std::numeric_limits<double>::quiet_NaN() } };
+    CHECK (found (makeDevice (infinite, {})) == std::vector<std::string> { "device/out_of_range /mass", "device/out_of_range /damping" });
+}
+
+TEST_CASE ("device description: a trace is read from beside the graph and put where it is told", "[host][devices]")
+{
+    const Folder folder;
+    folder.write ("pen.csv", "t,x,y,z\n0,1,2,3\n0.5,4,5,6\n");
+
+    auto m = made (R"({"driver": "trace", "path": "pen.csv", "offset": ["1 m", 0, 0], "scale": 2})", folder.path);
+    REQUIRE (m.messages.empty());
+    m.device->prepare (0.5);
+    CHECK (m.device->read().position == Vec3 (3, 4, 6));
+    CHECK (m.device->duration() == 1.0);
+
+    m = made (R"({"driver": "sim", "hand": {"path": "pen.csv"}})", folder.path);
+    REQUIRE (m.messages.empty());
+    CHECK (simulationOf (m).hand.path->at (0.25).position == Vec3 (2.5, 3.5, 4.5));
+}
+
+TEST_CASE ("device description: what is wrong with a trace is told where the description names it", "[host][devices]")
+{
+    const Folder folder;
+    folder.write ("backwards.csv", "t,x,y,z\n1,0,0,0\n0,0,0,0\n");
+    folder.write ("words.csv", "t,x,y,z\n1,0,here,0\n");
+
+    const auto backwards = made (R"({"driver": "trace", "path": "backwards.csv"})", folder.path);
+    CHECK (found (backwards) == std::vector<std::string> { "trace/time_order /path" });
+    CHECK (backwards.messages.at (0).text.starts_with ("backwards.csv, row 2: "));
+
+    CHECK (found (made (R"({"driver": "sim", "hand": {"path": "words.csv"}})", folder.path)) == std::vector<std::string> { "csv/not_a_number /hand/path" });
+    CHECK (found (made (R"({"driver": "trace", "path": "nowhere.csv"})", folder.path)) == std::vector<std::string> { "csv/unreadable /path" });
+}
+
+TEST_CASE ("--device: a role is bound to a gesture, a recording, a file or a simulation", "[host][devices]")
+{
+    CHECK (optionOf ("stylus=gesture:tap").description == Json { { "driver", "gesture" }, { "path", "tap" } });
+    CHECK (optionOf ("stylus=trace:runs/a=b.csv").description == Json { { "driver", "trace" }, { "path", "runs/a=b.csv" } });
+    CHECK (optionOf ("stylus=trace:a.csv").folder.empty());
+    CHECK (optionOf ("finger_2=sim").role == "finger_2");
+
+    const Folder folder;
+    folder.write ("omni.json", R"({"driver": "sim", "hand": {"path": "pen.csv"}})");
+    const auto option = optionOf ("stylus=" + (folder.path / "omni.json").string());
+    CHECK (option.description["hand"]["path"] == "pen.csv");
+    CHECK (option.folder == folder.path);
+}
+
+TEST_CASE ("--device ROLE=sim: the graph's own description is taken, as far as a simulation knows it", "[host][devices]")
+{
+    const Described described { { "stylus", { { "driver", "hid" }, { "vendor", 1133 }, { "mass", "45 g" }, { "guard", { { "max_force", 3 } } } } } };
+
+    const auto own = optionOf ("stylus=sim", described);
+    CHECK (own.description == Json { { "driver", "sim" }, { "mass", "45 g" }, { "guard", { { "max_force", 3 } } } });
+    CHECK (own.folder == "graphs");
+
+    const auto other = optionOf ("thumb=sim", described);
+    CHECK (other.description == defaultDevice());
+    const auto m = makeDevice (other.description, {});
+    CHECK (m.messages.empty());
+    CHECK (m.device->duration() > 0.0);
+}
+
+TEST_CASE ("--device: what cannot be read is refused with the forms there are", "[host][devices]")
+{
+    for (const char* text : { "", "stylus", "=sim", "Stylus=sim", "a.b=sim", "stylus=", "stylus=simulation", "stylus=trace", "stylus=trace:", "stylus=gesture:" })
+    {
+        CAPTURE (text);
+        const auto message = refused (text);
+        CHECK (message.id == "device/option");
+        CHECK (message.remedy.find ("ROLE=gesture:NAME") != std::string::npos);
+    }
+
+    const Folder folder;
+    folder.write ("broken.json", "{\"driver\": }");
+    CHECK (refused ("stylus=" + (folder.path / "broken.json").string()).id == "device/syntax");
+    CHECK (refused ("stylus=" + (folder.path / "none.json").string()).id == "device/unreadable");
+}
