@@ -12,7 +12,12 @@ namespace tactus::test
 
 namespace
 {
-std::string entryName (const PortSheet& row, int entry) { return std::string (row.id) + (row.list ? "[" + std::to_string (entry) + "]" : ""); }
+std::string entryName (const PortSheet& row, int entry)
+{
+    std::string name (row.id);
+    if (row.list) name.append ("[").append (std::to_string (entry)).append ("]");
+    return name;
+}
 
 double sorted (std::vector<double> values)
 {
