@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "atomic_file.hpp"
 #include "graph_file.hpp"
+#include "graph_parts.hpp"
 #include "json_text.hpp"
 #include "json_writer.hpp"
 #include "migrate.hpp"
@@ -46,74 +47,18 @@ void appendExtra (Json& object, const Json& extra)
     if (ui != nullptr) append (object, "ui", *ui);
 }
 
-Json nodeJson (const Node& node)
-{
-    auto object = Json::object();
-    append (object, "type", node.type);
-    appendText (object, "role", node.role);
-    appendUnlessEmpty (object, "roles", node.roles);
-    appendUnlessEmpty (object, "params", node.params);
-    appendUnlessEmpty (object, "settings", node.settings);
-    appendUnlessEmpty (object, "overrides", node.overrides);
-    if (node.bypass) append (object, "bypass", true);
-    appendExtra (object, node.extra);
-    return object;
-}
-
-Json wireJson (const Wire& wire)
-{
-    const auto text = toText (wire);
-    if (wire.gain.is_null() && ! wire.enabled && wire.extra.empty()) return text;
-    auto object = Json::object();
-    append (object, "wire", text);
-    if (! wire.gain.is_null()) append (object, "gain", wire.gain);
-    if (wire.enabled) append (object, "enabled", *wire.enabled);
-    appendExtra (object, wire.extra);
-    return object;
-}
-
-Json exposeJson (const Expose& expose)
-{
-    auto object = Json::object();
-    const auto ports = [&] (std::string key, const std::vector<std::pair<std::string, Endpoint>>& list)
-    {
-        auto shown = Json::object();
-        for (const auto& [id, end] : list)
-            append (shown, id, toText (end));
-        appendUnlessEmpty (object, std::move (key), shown);
-    };
-    ports ("inputs", expose.inputs);
-    ports ("outputs", expose.outputs);
-    ports ("params", expose.params);
-    appendExtra (object, expose.extra);
-    return object;
-}
-
 void appendPatch (Json& object, const Patch& patch)
 {
     auto nodes = Json::object();
     for (const auto& node : patch.nodes)
-        append (nodes, node.name, nodeJson (node));
+        append (nodes, node.name, toJson (node));
     append (object, "nodes", std::move (nodes));
 
     auto wires = Json::array();
     for (const auto& wire : patch.wires)
-        wires.push_back (wireJson (wire));
+        wires.push_back (toJson (wire));
     append (object, "wires", std::move (wires));
-    appendUnlessEmpty (object, "expose", exposeJson (patch.expose));
-}
-
-Json controlJson (const Control& control)
-{
-    auto object = Json::object();
-    appendText (object, "name", control.name);
-    append (object, "value", plainNumber (control.value));
-    auto to = Json::object();
-    for (const auto& target : control.to)
-        append (to, target.path, Json::array ({ target.low, target.high }));
-    append (object, "to", std::move (to));
-    appendExtra (object, control.extra);
-    return object;
+    appendUnlessEmpty (object, "expose", toJson (patch.expose));
 }
 
 Json graphJson (const Graph& graph)
@@ -135,22 +80,81 @@ Json graphJson (const Graph& graph)
 
     auto controls = Json::object();
     for (const auto& control : graph.controls)
-        append (controls, control.id, controlJson (control));
+        append (controls, control.id, toJson (control));
     appendUnlessEmpty (file, "controls", controls);
 
     auto subgraphs = Json::object();
     for (const auto& [name, patch] : graph.graphs)
-    {
-        auto object = Json::object();
-        appendPatch (object, patch);
-        appendExtra (object, patch.extra);
-        append (subgraphs, name, std::move (object));
-    }
+        append (subgraphs, name, toJson (patch));
     appendUnlessEmpty (file, "graphs", subgraphs);
     appendExtra (file, graph.extra);
     return file;
 }
 }   // namespace
+
+Json toJson (const graph::Node& node)
+{
+    auto object = Json::object();
+    append (object, "type", node.type);
+    appendText (object, "role", node.role);
+    appendUnlessEmpty (object, "roles", node.roles);
+    appendUnlessEmpty (object, "params", node.params);
+    appendUnlessEmpty (object, "settings", node.settings);
+    appendUnlessEmpty (object, "overrides", node.overrides);
+    if (node.bypass) append (object, "bypass", true);
+    appendExtra (object, node.extra);
+    return object;
+}
+
+Json toJson (const graph::Wire& wire)
+{
+    const auto text = toText (wire);
+    if (wire.gain.is_null() && ! wire.enabled && wire.extra.empty()) return text;
+    auto object = Json::object();
+    append (object, "wire", text);
+    if (! wire.gain.is_null()) append (object, "gain", wire.gain);
+    if (wire.enabled) append (object, "enabled", *wire.enabled);
+    appendExtra (object, wire.extra);
+    return object;
+}
+
+Json toJson (const graph::Expose& expose)
+{
+    auto object = Json::object();
+    const auto ports = [&] (std::string key, const std::vector<std::pair<std::string, Endpoint>>& list)
+    {
+        auto shown = Json::object();
+        for (const auto& [id, end] : list)
+            append (shown, id, toText (end));
+        appendUnlessEmpty (object, std::move (key), shown);
+    };
+    ports ("inputs", expose.inputs);
+    ports ("outputs", expose.outputs);
+    ports ("params", expose.params);
+    appendExtra (object, expose.extra);
+    return object;
+}
+
+Json toJson (const graph::Control& control)
+{
+    auto object = Json::object();
+    appendText (object, "name", control.name);
+    append (object, "value", plainNumber (control.value));
+    auto to = Json::object();
+    for (const auto& target : control.to)
+        append (to, target.path, Json::array ({ target.low, target.high }));
+    append (object, "to", std::move (to));
+    appendExtra (object, control.extra);
+    return object;
+}
+
+Json toJson (const graph::Patch& patch)
+{
+    auto object = Json::object();
+    appendPatch (object, patch);
+    appendExtra (object, patch.extra);
+    return object;
+}
 
 std::string writeGraph (const Graph& graph)
 {

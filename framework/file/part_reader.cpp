@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+#include "part_reader.hpp"
+
+#include <framework/graph/text.hpp>
+#include <framework/in_quotes.hpp>
+#include <framework/units.hpp>
+
+#include <cmath>
+
+namespace tactus
+{
+using namespace graph;
+
+bool PartReader::checkId (const std::string& id, const std::string& where, std::string_view what)
+{
+    if (isId (id)) return true;
+    error ("graph/bad_id", where, inQuotes (id) + " is not an id for " + std::string (what), "ids are small letters, digits and _, and begin with a letter");
+    return false;
+}
+
+void PartReader::addPatch (std::vector<Field>& fields, Patch& patch)
+{
+    fields.push_back ({ "nodes", Kind::object, [&] (Json& v, const std::string& at)
+                        { eachId (v, at, "a node", [&] (const std::string& name, Json& node, const std::string& where)
+                                  { readNode (name, node, where, patch.nodes.emplace_back()); }); } });
+    fields.push_back ({ "wires", Kind::list, [&] (Json& v, const std::string& at)
+                        {
+                            for (std::size_t i = 0; i < v.size(); ++i)
+                                readWire (v[i], at + '/' + std::to_string (i), patch);
+                        } });
+    fields.push_back ({ "expose", Kind::object, [&] (Json& v, const std::string& at)
+                        { readExpose (v, at, patch.expose); } });
+}
+
+void PartReader::readSubgraph (Json& object, const std::string& where, Patch& patch)
+{
+    std::vector<Field> fields { { "ui", Kind::object, keep ("ui", patch.extra) } };
+    addPatch (fields, patch);
+    read (object, where, fields, patch.extra);
+}
+
+void PartReader::readNode (const std::string& name, Json& object, const std::string& where, graph::Node& node)
+{
+    node.name = name;
+    const auto number = [&] (std::string_view key) -> Field
+    {
+        return { key, Kind::number, [this, &node, key] (Json& v, const std::string& at)
+                 { readCount (std::string (key), v, at, node.extra); } };
+    };
+    read (object, where,
+          { { "type", Kind::text, [&] (Json& v, const std::string& at)
+              { readType (v.get_ref<std::string&>(), at, node); } },
+            { "role", Kind::text, [&] (Json& v, const std::string& at)
+              {
+                  node.role = v.get_ref<std::string&>();
+                  checkId (node.role, at, "a role");
+              } },
+            { "params", Kind::object, [&] (Json& v, const std::string& at)
+              { readValues (v, at, "a parameter", node.params); } },
+            { "settings", Kind::object, [&] (Json& v, const std::string& at)
+              { readValues (v, at, "a setting", node.settings); } },
+            { "roles", Kind::object, [&] (Json& v, const std::string& at)
+              { readRoles (v, at, node); } },
+            { "overrides", Kind::object, [&] (Json& v, const std::string& at)
+              { readOverrides (v, at, node); } },
+            { "bypass", Kind::truth, [&] (Json& v, const std::string&)
+              { node.bypass = v.get<bool>(); } },
+            number ("count"),
+            number ("every"),
+            number ("times"),
+            { "hold", Kind::text, [&] (Json& v, const std::string& at)
+              {
+                  if (v != "latch" && v != "linear") error ("file/bad_value", at, "'hold' is " + inQuotes (v.get_ref<std::string&>()) + "; it should be \"latch\" or \"linear\"", "write \"latch\"");
+                  append (node.extra, "hold", std::move (v));
+              } },
+            { "ui", Kind::object, keep ("ui", node.extra) } },
+          node.extra);
+    if (! object.contains ("type"))
+        error ("file/missing_key", where, "the node " + inQuotes (name) + " has no 'type'", "add \"type\", with an id from the catalogue or \"graph:\" and the name of a subgraph");
+}
+
+void PartReader::readType (std::string& type, const std::string& where, graph::Node& node)
+{
+    constexpr std::string_view subgraph = "graph:", file = "file:";
+    if (type.empty() || type == file)
+        error ("file/bad_value", where, type.empty() ? "the type is empty" : "there is no path after 'file:'", "write an id from the catalogue, \"graph:name\" or \"file:path.json\"");
+    else if (type.starts_with (subgraph))
+        checkId (type.substr (subgraph.size()), where, "a subgraph");
+    node.type = std::move (type);
+}
+
+void PartReader::readValues (Json& object, const std::string& where, std::string_view what, Json& values)
+{
+    for (const auto& [id, value] : object.get_ref<Json::object_t&>())
+        checkId (id, where + '/' + pointerPart (id), what);
+    values = std::move (object);
+}
+
+void PartReader::readRoles (Json& object, const std::string& where, graph::Node& node)
+{
+    for (auto& [inner, outer] : object.get_ref<Json::object_t&>())
+    {
+        const auto at = where + '/' + pointerPart (inner);
+        checkId (inner, at, "a role");
+        if (outer.is_string())
+            checkId (outer.get_ref<std::string&>(), at, "a role");
+        else if (outer.is_array())
+        {
+            for (std::size_t i = 0; i < outer.size(); ++i)
+            {
+                const auto entry = at + '/' + std::to_string (i);
+                if (isKind (outer[i], Kind::text, entry)) checkId (outer[i].get_ref<std::string&>(), entry, "a role");
+            }
+        }
+        else
+            error ("file/wrong_kind", at, "the role " + inQuotes (inner) + " should be mapped to a role, or to a list of roles, one for each instance", "write \"thumb\" or [\"thumb\", \"index\"]");
+    }
+    node.roles = std::move (object);
+}
+
+void PartReader::readOverrides (Json& object, const std::string& where, graph::Node& node)
+{
+    for (const auto& [path, value] : object.get_ref<Json::object_t&>())
+        if (const auto parsed = parseOverride (path); parsed.index() == 1)
+            error ("graph/bad_path", where + '/' + pointerPart (path), std::get<std::string> (parsed), "write node.param, or [3]/node.param for one instance");
+    node.overrides = std::move (object);
+}
+
+void PartReader::readCount (const std::string& key, Json& value, const std::string& where, Json& extra)
+{
+    constexpr double most = 1e6;
+    const double n = value.get<double>();
+    if (! (n >= 1.0 && n <= most && n == std::floor (n)))
+        error ("file/bad_value", where, inQuotes (key) + " is " + value.dump() + "; it should be a whole number from 1 to 1000000", "write 1, or leave it out");
+    append (extra, key, std::move (value));
+}
+
+void PartReader::readWire (Json& value, const std::string& where, Patch& patch)
+{
+    if (value.is_string())
+    {
+        if (auto wire = parse (value, where)) patch.wires.push_back (std::move (*wire));
+        return;
+    }
+    if (! value.is_object())
+    {
+        error ("file/wrong_kind", where, "a wire should be a text or an object with a 'wire'", "write \"node.port -> node.port\"");
+        return;
+    }
+
+    std::optional<Wire> wire;
+    Wire rest;
+    read (value, where,
+          { { "wire", Kind::text, [&] (Json& v, const std::string& at)
+              { wire = parse (v, at); } },
+            { "gain", Kind::any, [&] (Json& v, const std::string& at)
+              {
+                  checkNumber (v, at);
+                  rest.gain = std::move (v);
+              } },
+            { "enabled", Kind::truth, [&] (Json& v, const std::string&)
+              { rest.enabled = v.get<bool>(); } },
+            { "ui", Kind::object, keep ("ui", rest.extra) } },
+          rest.extra);
+    if (! value.contains ("wire")) error ("file/missing_key", where, "the wire has no 'wire' that says what it joins", "add \"wire\": \"node.port -> node.port\"");
+    if (! wire) return;
+    wire->gain = std::move (rest.gain);
+    wire->enabled = rest.enabled;
+    wire->extra = std::move (rest.extra);
+    patch.wires.push_back (std::move (*wire));
+}
+
+std::optional<Wire> PartReader::parse (const Json& text, const std::string& where)
+{
+    auto parsed = parseWire (text.get_ref<const std::string&>());
+    if (auto* wire = std::get_if<Wire> (&parsed)) return std::move (*wire);
+    error ("wire/syntax", where, std::get<std::string> (parsed), "write \"node.port -> node.port\"");
+    return std::nullopt;
+}
+
+void PartReader::checkNumber (const Json& value, const std::string& where)
+{
+    if (value.is_number()) return;
+    if (! value.is_string())
+        error ("file/wrong_kind", where, "a number, or a text with a number and a unit, should stand here", "write 0.5 or \"0.5 N\"");
+    else if (const auto measure = parseMeasure (value.get_ref<const std::string&>()); measure.index() == 1)
+        error ("unit/syntax", where, std::get<std::string> (measure), "write a number and a unit, as in \"0.4 mm\"");
+}
+
+std::optional<Endpoint> PartReader::readEndpoint (const std::string& text, const std::string& where, std::string remedy)
+{
+    auto parsed = parseEndpoint (text);
+    if (auto* end = std::get_if<Endpoint> (&parsed)) return std::move (*end);
+    error ("graph/bad_path", where, std::get<std::string> (parsed), std::move (remedy));
+    return std::nullopt;
+}
+
+void PartReader::readExpose (Json& object, const std::string& where, Expose& expose)
+{
+    const auto ports = [&] (std::vector<std::pair<std::string, Endpoint>>& list) -> Read
+    {
+        return [this, &list] (Json& v, const std::string& at)
+        {
+            for (auto& [id, target] : v.get_ref<Json::object_t&>())
+            {
+                const auto entry = at + '/' + pointerPart (id);
+                checkId (id, entry, "a port");
+                if (! isKind (target, Kind::text, entry)) continue;
+                if (auto end = readEndpoint (target.get_ref<std::string&>(), entry, "write the node.port inside that is shown outside"))
+                    list.emplace_back (id, std::move (*end));
+            }
+        };
+    };
+    read (object, where,
+          { { "inputs", Kind::object, ports (expose.inputs) },
+            { "outputs", Kind::object, ports (expose.outputs) },
+            { "params", Kind::object, ports (expose.params) } },
+          expose.extra);
+}
+
+void PartReader::readControl (const std::string& id, Json& object, const std::string& where, Control& control)
+{
+    control.id = id;
+    read (object, where,
+          { { "name", Kind::text, into (control.name) },
+            { "value", Kind::number, [&] (Json& v, const std::string& at)
+              {
+                  control.value = v.get<double>();
+                  if (! (control.value >= 0.0 && control.value <= 1.0))
+                      error ("file/bad_value", at, "the value of a control is from 0 to 1, and is " + v.dump(), "the ranges in 'to' say what 0 and 1 mean");
+              } },
+            { "to", Kind::object, [&] (Json& v, const std::string& at)
+              {
+                  for (auto& [path, range] : v.get_ref<Json::object_t&>())
+                      readTarget (path, range, at + '/' + pointerPart (path), control);
+              } },
+            { "ui", Kind::object, keep ("ui", control.extra) } },
+          control.extra);
+}
+
+void PartReader::readTarget (const std::string& path, Json& range, const std::string& where, Control& control)
+{
+    readEndpoint (path, where, "write node.param, or subgraph/node.param");
+    if (! range.is_array() || range.size() != 2)
+    {
+        error ("file/wrong_kind", where, "the range of " + inQuotes (path) + " should be a list of two values", "write [value at 0, value at 1], as in [0, \"0.12 N\"]");
+        return;
+    }
+    checkNumber (range[0], where + "/0");
+    checkNumber (range[1], where + "/1");
+    control.to.push_back ({ path, std::move (range[0]), std::move (range[1]) });
+}
+
+}   // namespace tactus
