@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: MIT
+#include <framework/file/graph_file.hpp>
+#include <framework/graph/edit.hpp>
+#include <framework/graph/history.hpp>
+#include <framework/graph/text.hpp>
+
+#include "random_graph.hpp"
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <random>
+
+using namespace tactus;
+using namespace tactus::graph;
+using Catch::Matchers::Contains;
+
+namespace
+{
+Graph woodGraph()
+{
+    auto loaded = readGraph (R"({ "format": "tactus-graph", "version": 1,
+  "nodes": {
+    "hand": { "type": "device.position", "role": "stylus" },
+    "drag": { "type": "friction.elasto_plastic", "params": { "mu": 0.4, "d_max": "0.4 mm" } },
+    "grain": { "type": "graph:grain", "count": 2, "overrides": { "wave.phase": 1, "[1]/wave.angle": 2 } },
+    "motor": { "type": "device.force", "role": "stylus" }
+  },
+  "wires": [ "hand.position -> drag.position", "hand.position -> grain[1]/wave.position", "drag.force -> motor.force", "grain.force -> motor.force" ],
+  "controls": { "roughness": { "value": 0.5, "to": { "grain/wave.amplitude": [0, 1], "drag.mu": [0, 1] } } },
+  "graphs": { "grain": { "nodes": { "wave": { "type": "texture.grating" }, "gain": { "type": "signal.gain" } }, "wires": [ "wave.value -> gain.in" ],
+      "expose": { "inputs": { "position": "wave.position" }, "outputs": { "force": "wave.force" } } } } })");
+    REQUIRE (loaded.messages.empty());
+    return std::move (loaded.graph);
+}
+
+/// All that must come back: the bytes of the file, and the ids, which are not in it.
+std::string fingerprint (const Graph& g)
+{
+    auto text = writeGraph (g);
+    const auto ids = [&] (const Patch& patch)
+    {
+        for (const auto& n : patch.nodes)
+            text.append (std::to_string (n.id)).append (1, ' ');
+        for (const auto& w : patch.wires)
+            text.append (std::to_string (w.id)).append (1, ' ');
+        text += '\n';
+    };
+    ids (g.root);
+    for (const auto& [name, patch] : g.graphs)
+        ids (patch);
+    return text;
+}
+
+/// Carries out a command, undoes and redoes it, and leaves it done.
+void perform (Graph& g, const Command& command)
+{
+    const auto before = fingerprint (g);
+    auto result = apply (g, command);
+    if (const auto* refused = std::get_if<Message> (&result)) FAIL (refused->text);
+    const auto after = fingerprint (g);
+    CHECK (after != before);
+    auto forward = apply (g, std::get<Command> (result), Checks::none);
+    CHECK (fingerprint (g) == before);
+    apply (g, std::get<Command> (forward), Checks::none);
+    CHECK (fingerprint (g) == after);
+}
+
+/// The id of the message with which a command is refused; the graph stays as it is.
+std::string refusal (Graph& g, const Command& command)
+{
+    const auto before = fingerprint (g);
+    const auto result = apply (g, command);
+    CHECK (fingerprint (g) == before);
+    const auto* message = std::get_if<Message> (&result);
+    return message ? message->id : "";
+}
+
+graph::Node node (std::string name)
+{
+    graph::Node n;
+    n.name = std::move (name);
+    n.type = "signal.gain";
+    return n;
+}
+
+Wire wire (const char* text) { return std::get<Wire> (parseWire (text)); }
+
+bool contains (const Graph& g, const char* text) { return writeGraph (g).find (text) != std::string::npos; }
+
+//==============================================================================
+/// Edits that a person or a program might try; a third of them are wrong.
+class Meddler
+{
+public:
+    explicit Meddler (std::uint64_t seed) : engine (seed) {}
+
+    Command any (const Graph& g, int depth = 2)
+    {
+        const auto patch = anyPatch (g);
+        const auto* p = patch.empty() ? &g.root : g.find (patch);
+        switch (upTo (depth > 0 ? 17 : 16))
+        {
+        case 0:
+            return AddNode { patch, anyNode (g), place() };
+        case 1:
+            return RemoveNode { patch, nodeIn (p) };
+        case 2:
+            return RenameNode { patch, nodeIn (p), name() };
+        case 3:
+            return SetParam { patch, nodeIn (p), oneOf ({ "mu", "gain", "position", "No" }), maybe (0.5) };
+        case 4:
+            return SetSetting { patch, nodeIn (p), oneOf ({ "curve", "table" }), maybe (Json::array ({ 1, 2 })) };
+        case 5:
+            return SetNodeKey { patch, nodeIn (p), oneOf ({ "role", "type" }), maybe (oneOf ({ "stylus", "graph:sub1", "Bad" })) };
+        case 6:
+            return SetNodeKey { patch, nodeIn (p), oneOf ({ "count", "ui", "note", "bypass" }), maybe (oneIn (2) ? Json (2) : oneIn (2) ? Json (true)
+                                                                                                                                        : Json::object()) };
+        case 7:
+            return SetNodeKey { patch, nodeIn (p), "overrides", maybe (Json { { "n1.mu", 1 }, { "[1]/n1.mu", 2 }, { "n2/n1.x", 3 } }) };
+        case 8:
+            return AddWire { patch, anyWire (p), place() };
+        case 9:
+            return RemoveWire { patch, wireIn (p) };
+        case 10:
+            return ChangeWire { patch, wireIn (p), anyWire (p) };
+        case 11:
+            return AddControl { anyControl (g), place() };
+        case 12:
+            return RemoveControl { oneOf ({ "control1", "control2" }) };
+        case 13:
+            return ChangeControl { oneOf ({ "control1", "control2" }), anyControl (g) };
+        case 14:
+        {
+            if (oneIn (2)) return RemoveSubgraph { oneOf ({ "sub1", "sub2", "new" }) };
+            Patch fresh;
+            fresh.nodes.push_back (anyNode (g));
+            return AddSubgraph { oneOf ({ "sub1", "new", "No" }), fresh, place() };
+        }
+        case 15:
+        {
+            Expose expose;
+            if (oneIn (2)) expose.inputs.emplace_back (oneOf ({ "in", "No" }), Endpoint { nodeIn (p), "x", -1, -1 });
+            return ChangeExpose { patch, expose };
+        }
+        case 16:
+        {
+            if (oneIn (2)) return SetDevice { oneOf ({ "stylus", "thumb" }), maybe (Json { { "driver", "sim" } }), place() };
+            SetHeader header { patch };
+            if (oneIn (2)) header.name = "Name";
+            if (oneIn (2)) header.rate_hz = oneIn (4) ? -1.0 : 1000.0;
+            if (oneIn (2)) header.ui = maybe (Json { { "zoom", 2 } }).value_or (Json());
+            return header;
+        }
+        default:
+        {
+            Batch batch { "several", {} };
+            for (int i = upTo (3); i > 0; --i)
+                batch.commands.push_back (any (g, depth - 1));
+            return batch;
+        }
+        }
+    }
+
+private:
+    int upTo (int n) { return std::uniform_int_distribution<int> (0, n) (engine); }
+    bool oneIn (int n) { return upTo (n - 1) == 0; }
+    std::string oneOf (std::initializer_list<const char*> list) { return *(list.begin() + upTo (static_cast<int> (list.size()) - 1)); }
+    std::optional<Json> maybe (Json value) { return oneIn (3) ? std::nullopt : std::optional (std::move (value)); }
+    Place place() { return oneIn (2) ? std::nullopt : Place (static_cast<std::size_t> (upTo (4))); }
+    std::string name() { return oneOf ({ "n1", "n2", "n3", "n7", "ghost", "fresh", "Bad Name" }); }
+
+    std::string anyPatch (const Graph& g)
+    {
+        if (g.graphs.empty() || oneIn (2)) return oneIn (10) ? "nowhere" : "";
+        return g.graphs[static_cast<std::size_t> (upTo (static_cast<int> (g.graphs.size()) - 1))].first;
+    }
+
+    std::string nodeIn (const Patch* p)
+    {
+        if (p == nullptr || p->nodes.empty() || oneIn (5)) return name();
+        return p->nodes[static_cast<std::size_t> (upTo (static_cast<int> (p->nodes.size()) - 1))].name;
+    }
+
+    Id wireIn (const Patch* p)
+    {
+        if (p == nullptr || p->wires.empty() || oneIn (5)) return 1;
+        return p->wires[static_cast<std::size_t> (upTo (static_cast<int> (p->wires.size()) - 1))].id;
+    }
+
+    graph::Node anyNode (const Graph& g)
+    {
+        if (! g.root.nodes.empty() && oneIn (5)) return g.root.nodes[0];   // with an id that is taken
+        auto n = node (name());
+        n.type = oneOf ({ "signal.gain", "graph:sub1" });
+        if (oneIn (3)) n.params["gain"] = 2;
+        return n;
+    }
+
+    Wire anyWire (const Patch* p)
+    {
+        Wire w;
+        w.from = { nodeIn (p) + (oneIn (4) ? "/n1" : ""), oneOf ({ "out", "x", "Bad" }), -1, -1 };
+        w.to = { nodeIn (p) + (oneIn (4) ? "[2]" : ""), "in", oneIn (3) ? 1 : -1, oneIn (3) ? 2 : -1 };
+        if (oneIn (4)) w.gain = oneOf ({ "2 N", "many" });
+        return w;
+    }
+
+    Control anyControl (const Graph& g)
+    {
+        Control c;
+        c.id = oneOf ({ "control1", "control2", "control3", "No" });
+        for (int i = upTo (2); i > 0; --i)
+            c.to.push_back ({ nodeIn (&g.root) + (oneIn (3) ? "/n1" : "") + ".mu", 0, 1 });
+        return c;
+    }
+
+    std::mt19937_64 engine;
+};
+}   // namespace
+
+TEST_CASE ("a node goes with everything that refers to it, and comes back with it")
+{
+    auto g = woodGraph();
+    perform (g, RemoveNode { "", "drag" });
+    CHECK (g.root.wires.size() == 2);
+    CHECK (g.controls[0].to.size() == 1);
+
+    perform (g, RemoveNode { "grain", "wave" });
+    CHECK_FALSE (contains (g, "wave"));
+    CHECK (g.find ("grain")->expose.inputs.empty());
+    CHECK (g.find ("grain")->wires.empty());
+    CHECK (g.root.find ("grain")->overrides.empty());
+    CHECK (g.controls[0].to.empty());
+    CHECK (g.root.wires.size() == 1);
+}
+
+TEST_CASE ("what refers to a node follows its new name, also through the instances of its subgraph")
+{
+    auto g = woodGraph();
+    perform (g, RenameNode { "grain", "wave", "ripple" });
+    CHECK_FALSE (contains (g, "wave"));
+    CHECK (toText (g.root.wires[1]) == "hand.position -> grain[1]/ripple.position");
+    CHECK (g.controls[0].to[0].path == "grain/ripple.amplitude");
+    CHECK (g.root.find ("grain")->overrides.contains ("[1]/ripple.angle"));
+    CHECK (g.find ("grain")->expose.outputs[0].second.node == "ripple");
+
+    perform (g, RenameNode { "", "grain", "texture" });
+    CHECK (toText (g.root.wires[1]) == "hand.position -> texture[1]/ripple.position");
+    CHECK (g.controls[0].to[0].path == "texture/ripple.amplitude");
+    CHECK (g.root.find ("texture")->type == "graph:grain");
+}
+
+TEST_CASE ("an edit of one thing leaves the rest in its place")
+{
+    auto g = woodGraph();
+    perform (g, AddNode { "", node ("fresh"), 1 });
+    CHECK (g.root.nodes[1].name == "fresh");
+    perform (g, AddWire { "", wire ("fresh.out -> (+) drag.mu"), 0 });
+    CHECK (toText (g.root.wires[0]) == "fresh.out -> (+) drag.mu");
+    perform (g, ChangeWire { "", g.root.wires[0].id, wire ("fresh.out -> [1] -> drag.mu") });
+    perform (g, RemoveWire { "", g.root.wires[0].id });
+    perform (g, SetParam { "", "drag", "mu", std::nullopt });
+    CHECK_FALSE (g.root.find ("drag")->params.contains ("mu"));
+    perform (g, SetParam { "", "drag", "mu", 0.6 });
+    perform (g, SetParam { "grain", "wave", "amplitude", "60 mN" });
+    perform (g, SetSetting { "", "drag", "adhesion_curve", Json::array() });
+    perform (g, SetNodeKey { "", "drag", "bypass", true });
+    perform (g, SetNodeKey { "", "hand", "role", "thumb" });
+    perform (g, SetNodeKey { "", "grain", "roles", Json { { "tip", "thumb" } } });
+    perform (g, SetNodeKey { "", "grain", "count", std::nullopt });
+    perform (g, SetNodeKey { "", "grain", "overrides", std::nullopt });
+    perform (g, SetNodeKey { "", "grain", "ui", Json { { "at", Json::array ({ 1, 2 }) } } });
+    perform (g, ChangeControl { "roughness", Control { "feel", "Feel", 1.0, {}, Json::object() } });
+    perform (g, RemoveControl { "feel" });
+    perform (g, AddControl { Control { "feel", "Feel", 1.0, {}, Json::object() } });
+    perform (g, AddSubgraph { "other", Patch {}, 0 });
+    perform (g, RemoveSubgraph { "other" });
+    perform (g, ChangeExpose { "grain", {} });
+    perform (g, SetDevice { "stylus", Json { { "driver", "sim" } } });
+    perform (g, SetDevice { "stylus", std::nullopt });
+    perform (g, SetHeader { "", "Wood", "About wood", std::vector<std::string> { "wood" }, 1000.0, Json { { "zoom", 2 } } });
+    perform (g, SetHeader { .patch = "grain", .ui = Json { { "zoom", 2 } } });
+}
+
+TEST_CASE ("a bad edit is refused with a reason, and changes nothing")
+{
+    auto g = woodGraph();
+    const auto first = g.root.wires[0].id;
+    CHECK (refusal (g, AddNode { "none", node ("a") }) == "edit/unknown_patch");
+    CHECK (refusal (g, AddNode { "", node ("drag") }) == "edit/name_taken");
+    CHECK (refusal (g, AddNode { "", node ("Drag") }) == "graph/bad_id");
+    CHECK (refusal (g, AddNode { "", graph::Node {} }) == "graph/bad_id");
+    auto copy = g.root.nodes[0];
+    copy.name = "copy";
+    CHECK (refusal (g, AddNode { "grain", copy }) == "edit/id_taken");
+    CHECK (refusal (g, RemoveNode { "", "wave" }) == "edit/unknown_node");
+    CHECK (refusal (g, RenameNode { "", "drag", "hand" }) == "edit/name_taken");
+    CHECK (refusal (g, RenameNode { "", "drag", "2d" }) == "graph/bad_id");
+    CHECK (refusal (g, SetParam { "", "drag", "d max", 1 }) == "graph/bad_id");
+    CHECK (refusal (g, SetParam { "", "drag", "mu", std::numeric_limits<double>::quiet_NaN() }) == "edit/bad_value");
+    CHECK (refusal (g, SetNodeKey { "", "drag", "role", "Left Hand" }) == "graph/bad_id");
+    CHECK (refusal (g, SetNodeKey { "", "drag", "bypass", 1 }) == "file/wrong_kind");
+    CHECK (refusal (g, SetNodeKey { "", "drag", "count", 0 }) == "file/bad_value");
+    CHECK (refusal (g, SetNodeKey { "", "drag", "params", Json::object() }) == "edit/bad_value");
+    CHECK (refusal (g, SetNodeKey { "", "drag", "type", std::nullopt }) == "edit/bad_value");
+    CHECK (refusal (g, AddWire { "", wire ("none.out -> drag.mu") }) == "edit/unknown_node");
+    CHECK (refusal (g, AddWire { "", g.root.wires[0] }) == "edit/id_taken");
+    CHECK (refusal (g, RemoveWire { "grain", first }) == "edit/unknown_wire");
+    auto bad = wire ("hand.position -> drag.position");
+    bad.gain = "much";
+    CHECK (refusal (g, ChangeWire { "", first, bad }) == "unit/syntax");
+    bad.gain = nullptr;
+    bad.to.port = "a.b";
+    CHECK (refusal (g, ChangeWire { "", first, bad }) == "wire/syntax");
+    CHECK (refusal (g, RemoveControl { "none" }) == "edit/unknown_control");
+    CHECK (refusal (g, AddControl { g.controls[0] }) == "edit/name_taken");
+    CHECK (refusal (g, ChangeControl { "roughness", Control { "roughness", "", 2.0, {}, Json::object() } }) == "file/bad_value");
+    CHECK (refusal (g, ChangeControl { "roughness", Control { "roughness", "", 0.5, { { "none.mu", 0, 1 } }, Json::object() } }) == "edit/unknown_node");
+    CHECK (refusal (g, RemoveSubgraph { "grain" }) == "edit/in_use");
+    CHECK (refusal (g, RemoveSubgraph { "none" }) == "edit/unknown_patch");
+    CHECK (refusal (g, SetDevice { "none", std::nullopt }) == "edit/unknown_device");
+    CHECK (refusal (g, SetHeader { .rate_hz = 0.0 }) == "file/bad_value");
+    CHECK (refusal (g, SetHeader { .patch = "grain", .name = "x" }) == "edit/bad_value");
+    CHECK (refusal (g, Batch { "two", { RemoveNode { "", "drag" }, RemoveNode { "", "drag" } } }) == "edit/unknown_node");
+}
+
+TEST_CASE ("a node may take a name that wires wait for, and undo lets them wait again")
+{
+    auto g = woodGraph();
+    apply (g, AddWire { "", wire ("ghost.out -> motor.force") }, Checks::none);
+    perform (g, RenameNode { "", "drag", "ghost" });
+    auto other = woodGraph();
+    apply (other, AddWire { "", wire ("ghost.out -> motor.force") }, Checks::none);
+    perform (other, AddNode { "", node ("ghost") });
+
+    g = woodGraph();
+    g.controls[0].to.push_back ({ "ghost.mu", 0, 1 });
+    CHECK (refusal (g, RenameNode { "", "drag", "ghost" }) == "edit/name_taken");
+}
+
+TEST_CASE ("history names its steps, and a turned knob is one of them")
+{
+    History history (woodGraph());
+    const auto before = fingerprint (history.graph());
+    REQUIRE_FALSE (history.perform (RenameNode { "", "drag", "stick" }));
+    REQUIRE_FALSE (history.perform (SetParam { "", "stick", "mu", 0.1 }));
+    for (int i = 2; i < 1000; ++i)
+        REQUIRE_FALSE (history.perform (SetParam { "", "stick", "mu", 0.001 * i }, Step::joined));
+    REQUIRE_FALSE (history.perform (Batch { "tidy up", { RemoveNode { "", "stick" } } }));
+    CHECK (history.perform (RemoveNode { "", "stick" }));
+    CHECK (history.names() == std::vector<std::string> { "rename 'drag' to 'stick'", "set 'stick.mu'", "tidy up" });
+    CHECK (history.undo());
+    CHECK (history.undo());
+    CHECK (history.graph().root.find ("stick")->params["mu"] == 0.4);
+    CHECK (history.position() == 1);
+    CHECK (history.redo());
+    CHECK (history.graph().root.find ("stick")->params["mu"] == 0.999);
+    CHECK (history.undo());
+    CHECK (history.undo());
+    CHECK_FALSE (history.undo());
+    CHECK (fingerprint (history.graph()) == before);
+
+    REQUIRE_FALSE (history.perform (RemoveNode { "", "drag" }));
+    CHECK_FALSE (history.redo());
+    CHECK (history.names().size() == 1);
+}
+
+TEST_CASE ("whatever is done can be undone and redone, to the byte and to the id")
+{
+    rc::prop ("random edits of random graphs", []
+              {
+                  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+                  auto start = test::randomGraph (seed);
+                  if (! start.root.nodes.empty() && seed % 3 == 0) start.root.nodes[0].name = "ghost";   // its wires now wait for a node
+
+                  History history (std::move (start));
+                  Meddler meddler (seed);
+                  std::vector<std::string> states { fingerprint (history.graph()) };
+                  for (int i = 0; i < 30; ++i)
+                  {
+                      const auto before = fingerprint (history.graph());
+                      if (history.perform (meddler.any (history.graph())))
+                          RC_ASSERT (fingerprint (history.graph()) == before);
+                      else
+                          states.push_back (fingerprint (history.graph()));
+                  }
+                  RC_ASSERT (! hasErrors (readGraph (writeGraph (history.graph())).messages));
+
+                  RC_ASSERT (history.position() + 1 == states.size());
+                  for (auto i = states.size() - 1; i > 0; --i)
+                  {
+                      RC_ASSERT (history.undo());
+                      RC_ASSERT (fingerprint (history.graph()) == states[i - 1]);
+                  }
+                  for (std::size_t i = 1; i < states.size(); ++i)
+                  {
+                      RC_ASSERT (history.redo());
+                      RC_ASSERT (fingerprint (history.graph()) == states[i]);
+                  } });
+}
