@@ -2,7 +2,7 @@
 #include "guard.hpp"
 
 #include <algorithm>
-#include <cstdio>
+#include <charconv>
 
 namespace tactus
 {
@@ -43,21 +43,15 @@ double perTick (double rate, double dt_s) noexcept { return rate == GuardLimits:
 double orNothing (double limit) noexcept { return limit >= 0.0 ? limit : 0.0; }
 double orForever (double ramp) noexcept { return ramp >= 0.0 ? ramp : GuardLimits::none; }
 
-std::string inUnits (double value, const char* unit)
+/// Four digits, whatever the locale.
+std::string inWords (double value)
 {
-    char text[64];
-    std::snprintf (text, sizeof text, "%.4g %s", value, unit);
-    return text;
+    char text[32];
+    return { text, std::to_chars (text, text + sizeof text, value, std::chars_format::general, 4).ptr };
 }
 
-std::string inMilliseconds (double seconds) { return inUnits (seconds * 1e3, "ms"); }
-
-std::string inWords (const Vec3& v)
-{
-    char text[96];
-    std::snprintf (text, sizeof text, "(%g, %g, %g)", v.x(), v.y(), v.z());
-    return text;
-}
+std::string inWords (const Vec3& v) { return "(" + inWords (v.x()) + ", " + inWords (v.y()) + ", " + inWords (v.z()) + ")"; }
+std::string inMilliseconds (double seconds) { return inWords (seconds * 1e3) + " ms"; }
 }   // namespace
 
 GuardLimits tightest (const GuardLimits& a, const GuardLimits& b) noexcept

@@ -60,6 +60,9 @@ private:
     std::vector<std::string> known;
 };
 
+/// The shortest text that reads back to the same double, whatever the locale.
+std::string shortest (double);
+
 /// "did you mean 'damping'?", or the whole list where nothing is near.
 std::string suggestion (std::string_view name, std::span<const std::string> names);
 

@@ -11,8 +11,6 @@
 #include <framework/in_quotes.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <fstream>
 #include <sstream>
 
@@ -114,9 +112,7 @@ std::unique_ptr<Device> makeSimulated (Fields& in, const Folder& folder, Message
     sim.rotation = in.vector ("rotation", unit::radian, sim.rotation);
     sim.hand_force = in.vector ("hand_force", unit::newton, sim.hand_force);
 
-    std::array<char, 96> text {};
-    std::snprintf (text.data(), text.size(), "A simulated tool of %g kg with a damping of %g N*s/m, ", sim.mass, sim.damping);
-    about = text.data();
+    about = "A simulated tool of " + shortest (sim.mass) + " kg with a damping of " + shortest (sim.damping) + " N*s/m, ";
     about += sim.hand.path ? "in a hand that follows " + in.object ("hand").value ("path", std::string()) + "." : std::string ("held by no hand.");
     return std::make_unique<SimulatedDevice> (std::move (sim));
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/devices/fields.hpp>
 #include <host/devices/problem.hpp>
 #include <host/devices/trace.hpp>
 
@@ -53,7 +54,7 @@ double* partOf (TraceData::Row& row, std::string_view column)
 }
 
 std::string rowName (std::size_t index) { return "row " + std::to_string (index + 1); }
-std::string seconds (double t) { return std::to_string (t) + " s"; }
+std::string seconds (double t) { return shortest (t) + " s"; }
 
 Messages checkColumns (std::span<const std::string> columns, std::size_t values)
 {
