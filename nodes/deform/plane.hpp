@@ -122,7 +122,7 @@ struct Plane
             .stored_energy = inside ? energy (depth) : 0.0,
             .state = inside ? 1.0 : 0.0,
         };
-        if (n.isZero (0.0) || ! isFinite (in.position, rate, out.force, out.resistance, out.stored_energy))
+        if (n.isZero (0.0) || ! isFinite (in.position, depth, rate, out.force, out.resistance, out.stored_energy))
         {
             last = {};
             return { .state = -1.0 };

@@ -223,8 +223,8 @@ TEST_CASE ("plane: a fault is silent, and the next sample is a first one", "[nod
         CHECK (node.tick ({ .position = { 0, 0, -0.003 } }).hit == 0.0);
     }
 
-    auto node = plane ({ .normal = Vec3::Zero() });
-    CHECK (node.tick ({ .position = { 0, 0, -0.001 } }).state == -1.0);
+    CHECK (plane ({ .normal = Vec3::Zero() }).tick ({ .position = { 0, 0, -0.001 } }).state == -1.0);
+    CHECK (plane ({ .offset = -1.7e308 }).tick ({ .position = { 0, 0, 1.7e308 } }).depth == 0.0);   // further apart than a number can say
 }
 
 TEST_CASE ("plane: no number breaks it", "[nodes][deform]")
