@@ -40,13 +40,13 @@ void checkFanIn (Flat& flat, const PortUnits& units)
     }
 }
 
-Outside findOutside (Flat& flat, const Directory& directory, const CompileOptions& options)
+Outside findOutside (Flat& flat, const Scope& top, const CompileOptions& options)
 {
     Outside outside;
     for (const auto& name : options.feeds)
     {
         const Origin origin { "", "feed column " + name };
-        const auto port = directory.find (name, Side::end, origin, flat);
+        const auto port = find (name, Side::end, top, origin, flat);
         if (! port) continue;
         const auto& sheet = flat.sheet (*port);
         if (! sheet.choices.empty())
@@ -62,7 +62,7 @@ Outside findOutside (Flat& flat, const Directory& directory, const CompileOption
     for (const auto& name : options.records)
     {
         const Origin origin { "", "record " + name };
-        const auto port = directory.find (name, Side::record, origin, flat);
+        const auto port = find (name, Side::record, top, origin, flat);
         if (! port) continue;
         if (flat.sheet (*port).choices.empty())
             outside.records.push_back (*port);
@@ -80,7 +80,7 @@ Outside findOutside (Flat& flat, const Directory& directory, const CompileOption
 
 Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const CompileOptions& options)
 {
-    auto [flat, directory] = flatten (g, catalogue, options.overrides);
+    auto [flat, top] = flatten (g, catalogue, options.overrides);
     const double rate = options.rate_hz > 0.0 ? options.rate_hz : g.rate_hz;
     if (! (rate >= 1.0 && rate <= 1e6))
         flat.error ("graph/rate", { "", "/rate_hz" }, "the rate must be from 1 Hz to 1 MHz", "haptic graphs run at 1000 to 10000 Hz");
@@ -88,7 +88,7 @@ Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const Compi
     const auto units = checkUnits (flat);
     checkFanIn (flat, units);
     const auto ordered = order (flat);
-    const auto outside = findOutside (flat, directory, options);
+    const auto outside = findOutside (flat, *top, options);
 
     std::shared_ptr<Plan> made;
     if (runs (flat.messages)) made = build (flat, units, ordered, outside, { .rate_hz = rate });

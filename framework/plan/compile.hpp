@@ -3,11 +3,12 @@
 
 /// From graph to plan, in steps that each stand in a file of their own:
 ///
-///   flatten      subgraphs expanded, names resolved, values read      flat.hpp, values.hpp
+///   flatten      subgraphs expanded, names resolved, values read      flatten.hpp, directory.hpp, values.hpp
 ///   unit_check   units of wires and values, generic nodes typed       unit_check.hpp
 ///   order        running order, loops, delays                         order.hpp
 ///   build        nodes made, storage laid out, records written        build.hpp
 
+#include "flatten.hpp"
 #include "plan.hpp"
 
 #include <framework/graph/graph.hpp>

@@ -2,17 +2,15 @@
 #pragma once
 
 /// A graph with its subgraphs expanded, its names resolved against the catalogue and its values read: what the later
-/// steps of compiling work on. See compile.hpp for the whole.
+/// steps of compiling work on. See compile.hpp for the whole, flatten.hpp for how it is made.
 
 #include <framework/catalogue.hpp>
 #include <framework/graph/graph.hpp>
 #include <framework/message.hpp>
 
 #include <deque>
-#include <memory>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 namespace tactus::plan
@@ -97,49 +95,5 @@ struct Flat
     void error (std::string id, const Origin&, std::string text, std::string remedy);
     void warn (std::string id, const Origin&, std::string text, std::string remedy);
 };
-
-/// Which roles a name may be looked up among, in this order.
-enum class Side
-{
-    start,   ///< of a wire: outputs
-    end,     ///< of a wire, or a feed: inputs, then params
-    param,   ///< params
-    record   ///< outputs, then inputs, then params
-};
-
-/// Finds ports by the names people use, from the top of the graph. Made by flatten; lives as long as the graph.
-class Directory
-{
-public:
-    struct Scope;
-
-    Directory();
-    Directory (Directory&&) noexcept;
-    Directory& operator= (Directory&&) noexcept;
-    ~Directory();
-
-    /// A port of the top level or below; nothing, with a message added, if there is none. A placeholder's port gives
-    /// nothing too, without a message.
-    std::optional<PortRef> find (const graph::Endpoint&, Side, const Origin&, Flat&) const;
-    std::optional<PortRef> find (std::string_view text, Side, const Origin&, Flat&) const;
-
-    std::unique_ptr<Scope> top;
-};
-
-struct Flattened
-{
-    Flat flat;
-    Directory directory;
-};
-
-/// A value given from outside, as by --set: "drag.mu" to "0.3", or a control's id to 0…1. It outranks the file.
-struct Override
-{
-    std::string name;
-    Json value;
-};
-
-/// Expands, resolves and reads. Unknown node types become placeholders, with the message node/unknown_type.
-Flattened flatten (const graph::Graph&, const Catalogue&, const std::vector<Override>&);
 
 }   // namespace tactus::plan

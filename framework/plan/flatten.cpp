@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "flat.hpp"
+#include "flatten.hpp"
 #include "values.hpp"
 
 #include <framework/graph/text.hpp>
@@ -10,41 +10,9 @@
 namespace tactus::plan
 {
 
-struct Directory::Scope
-{
-    /// What a name in a patch stands for: a node, a placeholder (neither), or a subgraph. A bypassed subgraph is both.
-    struct Member
-    {
-        int node = -1;
-        std::unique_ptr<Scope> inside;
-    };
-
-    struct Exposed
-    {
-        Role role;
-        std::string name;
-        std::optional<PortRef> to;
-    };
-
-    const graph::Graph* owner = nullptr;
-    const graph::Patch* patch = nullptr;
-    std::string prefix;   // of paths
-    Origin origin;        // of the patch
-    std::unordered_map<std::string, Member> members;
-    std::vector<Exposed> exposed;
-};
-
-Directory::Directory() = default;
-Directory::Directory (Directory&&) noexcept = default;
-Directory& Directory::operator= (Directory&&) noexcept = default;
-Directory::~Directory() = default;
-
 namespace
 {
-using Scope = Directory::Scope;
-
 constexpr int max_depth = 32;
-constexpr const char* component_names[] = { ".x", ".y", ".z" };
 
 Origin at (const Origin& base, std::string_view key)
 {
@@ -57,158 +25,6 @@ Origin at (const Origin& base, std::string_view key)
 
 Origin at (const Origin& base, std::string_view key, std::string_view inner) { return at (at (base, key), inner); }
 
-std::vector<Role> rolesOf (Side side)
-{
-    switch (side)
-    {
-    case Side::start:
-        return { Role::output };
-    case Side::end:
-        return { Role::input, Role::param };
-    case Side::param:
-        return { Role::param };
-    case Side::record:
-        break;
-    }
-    return { Role::output, Role::input, Role::param };
-}
-
-const char* withArticle (Role role) { return role == Role::input ? "an input" : role == Role::param ? "a parameter"
-                                                                                                    : "an output"; }
-
-std::string listed (const std::vector<std::string>& names)
-{
-    std::string all;
-    for (const auto& n : names)
-        all += (all.empty() ? "" : ", ") + n;
-    return all.empty() ? "none" : all;
-}
-
-/// Looks a port up by name among the rows of a node, or among what a subgraph exposes.
-struct Finder
-{
-    Flat& flat;
-    const Origin& origin;
-    Side side;
-
-    std::optional<PortRef> in (const Scope& scope, const graph::Endpoint& e) const
-    {
-        const auto slash = e.node.find ('/');
-        const std::string head = e.node.substr (0, slash);
-        const auto member = scope.members.find (head);
-        if (member == scope.members.end())
-        {
-            if (head.find ('[') != std::string::npos)
-                flat.error ("graph/not_yet", origin, "'" + scope.prefix + head + "' addresses one of several instances, which this version does not run", "give each a node of its own");
-            else
-            {
-                std::vector<std::string> names;
-                for (const auto& n : scope.patch->nodes)
-                    names.push_back (n.name);
-                flat.error ("port/unknown_node", origin, "there is no node '" + scope.prefix + head + "'" + didYouMean (head, names), "nodes here: " + listed (names));
-            }
-            return {};
-        }
-
-        const auto& [node, inside] = member->second;
-        if (slash != std::string::npos)
-        {
-            if (inside) return in (*inside, { e.node.substr (slash + 1), e.port, e.index, e.component });
-            if (node >= 0)
-                flat.error ("port/not_a_subgraph", origin, "'" + scope.prefix + head + "' is a node, so nothing lies inside it", "address it as " + head + "." + e.port);
-            return {};
-        }
-        if (node >= 0) return amongRows (node, e);
-        return inside ? amongExposed (*inside, e) : std::nullopt;
-    }
-
-private:
-    std::optional<PortRef> amongRows (int node, const graph::Endpoint& e) const
-    {
-        const auto& n = flat.nodes[static_cast<std::size_t> (node)];
-        for (const auto role : rolesOf (side))
-        {
-            const auto& rows = n.ports (role);
-            const auto row = std::ranges::find (rows, e.port, &PortSheet::id);
-            if (row != rows.end())
-                return narrow ({ node, role, static_cast<int> (row - rows.begin()), -1, -1 }, e);
-        }
-
-        std::vector<std::string> names;
-        for (const auto role : rolesOf (side))
-            for (const auto& row : n.ports (role))
-                names.emplace_back (row.id);
-        unknownPort (n.path, std::string (n.type->info.id), e.port, names, [&] (Role role)
-                     { return std::ranges::count (n.ports (role), e.port, &PortSheet::id) > 0; });
-        return {};
-    }
-
-    std::optional<PortRef> amongExposed (const Scope& inside, const graph::Endpoint& e) const
-    {
-        for (const auto role : rolesOf (side))
-            for (const auto& x : inside.exposed)
-                if (x.role == role && x.name == e.port)
-                    return x.to ? narrow (*x.to, e) : std::nullopt;
-
-        std::vector<std::string> names;
-        for (const auto role : rolesOf (side))
-            for (const auto& x : inside.exposed)
-                if (x.role == role) names.push_back (x.name);
-        unknownPort (inside.prefix.substr (0, inside.prefix.size() - 1), "subgraph", e.port, names, [&] (Role role)
-                     { return std::ranges::any_of (inside.exposed, [&] (const auto& x)
-                                                   { return x.role == role && x.name == e.port; }); });
-        return {};
-    }
-
-    template <typename Has>
-    void unknownPort (const std::string& path, const std::string& type, const std::string& port, const std::vector<std::string>& names, Has has) const
-    {
-        const std::string wanted = side == Side::start ? "output" : side == Side::end ? "input or parameter"
-                                                                : side == Side::param ? "parameter"
-                                                                                      : "port";
-        for (const auto role : { Role::output, Role::input, Role::param })
-            if (has (role))
-            {
-                flat.error ("port/wrong_side", origin, "'" + path + "." + port + "' is " + withArticle (role) + "; what belongs here is " + (side == Side::start ? "an output" : side == Side::end ? "an input or a parameter"
-                                                                                                                                                                                                   : "a parameter"),
-                            "it has: " + listed (names));
-                return;
-            }
-        flat.error ("port/unknown", origin, "'" + path + "' (" + type + ") has no " + wanted + " '" + port + "'" + didYouMean (port, names), "it has: " + listed (names));
-    }
-
-    /// Applies the index and component of an endpoint to the port it names.
-    std::optional<PortRef> narrow (PortRef r, const graph::Endpoint& e) const
-    {
-        const auto& sheet = flat.sheet (r);
-        const auto& node = flat.node (r);
-        if (e.index >= 0)
-        {
-            if (! sheet.list || r.index >= 0)
-            {
-                flat.error ("port/bad_index", origin, "'" + flat.nameOf (r) + "' is not an array port", "leave out [" + std::to_string (e.index) + "]");
-                return {};
-            }
-            r.index = e.index;
-        }
-        if (sheet.list && r.index >= node.list_size)
-        {
-            flat.error ("port/bad_index", origin, "'" + flat.nameOf (r) + "' does not exist: '" + node.path + "' has " + std::to_string (node.list_size) + " entries, counted from 0", "raise its setting `inputs`, or use a smaller index");
-            return {};
-        }
-        if (e.component >= 0)
-        {
-            if (sheet.width != 3 || r.component >= 0)
-            {
-                flat.error ("port/not_a_vector", origin, "'" + flat.nameOf (r) + "' is a scalar and has no component " + component_names[e.component], "leave out " + std::string (component_names[e.component]));
-                return {};
-            }
-            r.component = e.component;
-        }
-        return r;
-    }
-};
-
 class Flattener
 {
 public:
@@ -216,7 +32,7 @@ public:
 
     void run (const graph::Graph& g)
     {
-        auto& top = result.directory.top;
+        auto& top = result.top;
         top = std::make_unique<Scope>();
         top->owner = &g;
         top->patch = &g.root;
@@ -432,7 +248,7 @@ private:
             for (const auto& [name, endpoint] : entries)
             {
                 const auto origin = at (at (at (scope.origin, "expose"), key), name);
-                scope.exposed.push_back ({ role, name, Finder { flat, origin, side }.in (scope, endpoint) });
+                scope.exposed.push_back ({ role, name, find (endpoint, side, scope, origin, flat) });
             }
         };
         add (Role::input, Side::end, "inputs", scope.patch->expose.inputs);
@@ -447,9 +263,9 @@ private:
             const auto& wire = scope.patch->wires[i];
             const auto origin = at (scope.origin, "wires", std::to_string (i));
             const auto before = flat.messages.size();
-            const auto from = Finder { flat, origin, Side::start }.in (scope, wire.from);
+            const auto from = find (wire.from, Side::start, scope, origin, flat);
             const bool from_failed = flat.messages.size() > before;
-            const auto to = Finder { flat, origin, Side::end }.in (scope, wire.to);
+            const auto to = find (wire.to, Side::end, scope, origin, flat);
             if (from_failed || ! to) continue;
 
             FlatWire w { .from = from, .to = *to, .delay = wire.delay, .add = wire.add, .text = graph::toText (wire), .origin = origin };
@@ -516,7 +332,7 @@ private:
             flat.error ("param/name", origin, *problem, "name a parameter, as in drag.mu");
             return {};
         }
-        return Finder { flat, origin, Side::param }.in (scope, std::get<graph::Endpoint> (parsed));
+        return find (std::get<graph::Endpoint> (parsed), Side::param, scope, origin, flat);
     }
 
     void readControls (const graph::Graph& g)
@@ -538,51 +354,20 @@ private:
                 flat.error ("control/value", at (origin, "value"), "control '" + control.id + "' is out of its range", "a number from 0 to 1");
 
             for (const auto& t : control.to)
-                if (const auto to = target (*result.directory.top, t.path, at (at (origin, "to"), t.path)))
+                if (const auto to = target (*result.top, t.path, at (at (origin, "to"), t.path)))
                     flat.assignments.push_back ({ *to, t.low, t.high, value, at (at (origin, "to"), t.path) });
         }
     }
 
     void readOverrides()
     {
-        const auto& controls = result.directory.top->owner->controls;
+        const auto& controls = result.top->owner->controls;
         for (const auto& o : overrides)
             if (std::ranges::count (controls, o.name, &graph::Control::id) == 0)
-                assign (*result.directory.top, o.name, o.value, { "", "--set " + o.name }, flat.assignments);
+                assign (*result.top, o.name, o.value, { "", "--set " + o.name }, flat.assignments);
     }
 };
 }   // namespace
-
-std::string Flat::nameOf (const PortRef& r) const
-{
-    auto name = node (r).path + "." + std::string (sheet (r).id);
-    if (r.index >= 0) name += "[" + std::to_string (r.index) + "]";
-    if (r.component >= 0) name += component_names[r.component];
-    return name;
-}
-
-void Flat::error (std::string id, const Origin& origin, std::string text, std::string remedy)
-{
-    messages.push_back ({ Message::Severity::error, std::move (id), origin.pointer, std::move (text), std::move (remedy), origin.file, 0, 0 });
-}
-
-void Flat::warn (std::string id, const Origin& origin, std::string text, std::string remedy)
-{
-    messages.push_back ({ Message::Severity::warning, std::move (id), origin.pointer, std::move (text), std::move (remedy), origin.file, 0, 0 });
-}
-
-std::optional<PortRef> Directory::find (const graph::Endpoint& e, Side side, const Origin& origin, Flat& flat) const
-{
-    return Finder { flat, origin, side }.in (*top, e);
-}
-
-std::optional<PortRef> Directory::find (std::string_view text, Side side, const Origin& origin, Flat& flat) const
-{
-    const auto parsed = graph::parseEndpoint (text);
-    if (const auto* endpoint = std::get_if<graph::Endpoint> (&parsed)) return find (*endpoint, side, origin, flat);
-    flat.error ("port/syntax", origin, std::get<std::string> (parsed), "name a port, as in drag.force or hand.position.x");
-    return {};
-}
 
 Flattened flatten (const graph::Graph& g, const Catalogue& catalogue, const std::vector<Override>& overrides)
 {

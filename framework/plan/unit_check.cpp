@@ -2,26 +2,19 @@
 #include "unit_check.hpp"
 #include "values.hpp"
 
-#include <map>
 #include <numeric>
+#include <set>
 
 namespace tactus::plan
 {
 
 namespace
 {
-/// What is known of a set of ports that must carry the same: its dimension, its quantity, and who said so.
-struct Class
-{
-    std::optional<Dimension> dimension;
-    Quantity quantity = Quantity::any;
-};
-
 /// Sets of ports joined by wires and `same as`. Each port carries its set's dimension times a factor of its own.
 class Joined
 {
 public:
-    explicit Joined (int size) : parent (static_cast<std::size_t> (size)), factor (static_cast<std::size_t> (size)), classes (static_cast<std::size_t> (size))
+    explicit Joined (int size) : parent (static_cast<std::size_t> (size)), factor (static_cast<std::size_t> (size)), known (static_cast<std::size_t> (size))
     {
         std::iota (parent.begin(), parent.end(), 0);
     }
@@ -50,29 +43,29 @@ public:
 
     std::optional<Dimension> dimension (int v)
     {
-        const auto& c = classes[static_cast<std::size_t> (root (v))];
-        if (! c.dimension) return {};
-        return *c.dimension * factorOf (v);
+        const auto& d = known[static_cast<std::size_t> (root (v))];
+        if (! d) return {};
+        return *d * factorOf (v);
     }
 
     /// True, or false if v is known to carry another dimension.
     bool state (int v, Dimension d)
     {
-        auto& c = classes[static_cast<std::size_t> (root (v))];
-        if (! c.dimension) c.dimension = d / factorOf (v);
-        return *c.dimension == d / factorOf (v);
+        auto& k = known[static_cast<std::size_t> (root (v))];
+        if (! k) k = d / factorOf (v);
+        return *k == d / factorOf (v);
     }
 
     /// States dimension (b) = dimension (a) times `times`. False if both are known and disagree.
     bool join (int a, int b, Dimension times)
     {
         const int ra = root (a), rb = root (b);
-        const auto shift = factorOf (a) * times / factorOf (b);   // of rb's class over ra's
+        const auto shift = factorOf (a) * times / factorOf (b);   // of rb's set over ra's
         if (ra == rb) return shift == Dimension {};
-        auto& ca = classes[static_cast<std::size_t> (ra)];
-        const auto& cb = classes[static_cast<std::size_t> (rb)];
-        if (ca.dimension && cb.dimension && *cb.dimension != *ca.dimension * shift) return false;
-        if (! ca.dimension && cb.dimension) ca.dimension = *cb.dimension / shift;
+        auto& of_a = known[static_cast<std::size_t> (ra)];
+        const auto& of_b = known[static_cast<std::size_t> (rb)];
+        if (of_a && of_b && *of_b != *of_a * shift) return false;
+        if (! of_a && of_b) of_a = *of_b / shift;
         parent[static_cast<std::size_t> (rb)] = ra;
         factor[static_cast<std::size_t> (rb)] = shift;
         return true;
@@ -80,8 +73,8 @@ public:
 
 private:
     std::vector<int> parent;
-    std::vector<Dimension> factor;   // to the parent
-    std::vector<Class> classes;      // of roots
+    std::vector<Dimension> factor;                 // to the parent
+    std::vector<std::optional<Dimension>> known;   // of roots
 
     int up (int v) const { return parent[static_cast<std::size_t> (v)]; }
     Dimension factorOf (int v) const { return up (v) == v ? Dimension {} : factor[static_cast<std::size_t> (v)]; }   // after root (v)
@@ -90,19 +83,18 @@ private:
 class UnitCheck
 {
 public:
-    explicit UnitCheck (Flat& f) : flat (f), variable (f), dimensions (variable.count()), quantity (static_cast<std::size_t> (variable.count()), Quantity::any) {}
+    explicit UnitCheck (Flat& f) : flat (f), variable (f), dimensions (variable.count()), quantity (static_cast<std::size_t> (variable.count()), Quantity::any), generic (static_cast<std::size_t> (variable.count()), false) {}
 
     PortUnits run()
     {
         for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
             stateDatasheet (n);
-        spreadQuantities();
         for (const auto& w : flat.wires)
             wire (w);
         for (const auto& a : flat.assignments)
             assignment (a);
         multiply();
-        spreadQuantities();
+        nameQuantities();
         return result();
     }
 
@@ -111,7 +103,15 @@ private:
     PortNumbers variable;
     Joined dimensions;
     std::vector<Quantity> quantity;
-    std::vector<std::pair<int, int>> alike;   // ports of one quantity: generic nodes and the wires at them
+    std::vector<bool> generic;   // takes its quantity from what is wired
+
+    /// Two ports that carry the same quantity: joined by a wire, or by a generic node.
+    struct Link
+    {
+        int a, b;
+        const FlatWire* wire;
+    };
+    std::vector<Link> links;
 
     struct Product
     {
@@ -139,6 +139,8 @@ private:
             {
                 const auto& row = n.ports (role)[static_cast<std::size_t> (i)];
                 const int v = variable ({ node, role, i, -1, -1 });
+                if (row.unit.kind != UnitRule::Kind::fixed && row.unit.kind != UnitRule::Kind::product)
+                    std::fill_n (generic.begin() + v, PortNumbers::entries (n, row), true);
                 if (row.unit.kind == UnitRule::Kind::fixed)
                 {
                     dimensions.state (v, row.unit.unit.dimension);
@@ -149,7 +151,7 @@ private:
                     if (const auto a = named (node, row.unit.a))
                     {
                         dimensions.join (variable (*a), v, row.unit.unit.dimension);
-                        if (row.unit.unit.dimension == Dimension {}) alike.emplace_back (variable (*a), v);
+                        if (row.unit.unit.dimension == Dimension {}) links.push_back ({ variable (*a), v, nullptr });
                     }
                 }
                 else if (row.unit.kind == UnitRule::Kind::product)
@@ -178,14 +180,7 @@ private:
                         "wire something that fits, or give the wire a gain in " + symbolOf (needed));
             return;
         }
-        if (gain != Dimension {}) return;
-
-        const auto a = quantity[static_cast<std::size_t> (from)], b = quantity[static_cast<std::size_t> (to)];
-        if (a != Quantity::any && b != Quantity::any && a != b)
-            flat.warn ("wire/quantity", w.origin, "'" + flat.nameOf (*w.from) + "' is a " + std::string (name (a)) + " and '" + flat.nameOf (w.to) + "' a " + std::string (name (b)) + "; both are in " + symbolOf (dimensions.dimension (from).value_or (Dimension {})),
-                       "fine if it is meant; else wire another port");
-        alike.emplace_back (from, to);
-        spread (from, to);
+        if (gain == Dimension {}) links.push_back ({ from, to, &w });
     }
 
     void assignment (const Assignment& a)
@@ -251,37 +246,55 @@ private:
         }
     }
 
-    void spread (int a, int b)
-    {
-        auto& qa = quantity[static_cast<std::size_t> (a)];
-        auto& qb = quantity[static_cast<std::size_t> (b)];
-        if (qa == Quantity::any) qa = qb;
-        if (qb == Quantity::any) qb = qa;
-    }
-
-    /// Lets quantities flow along wires and through generic nodes until nothing changes.
-    void spreadQuantities()
+    /// Generic ports that hang together carry the one quantity that is wired to them. If there are several, they carry
+    /// none, and each wire that brings another than the first (in the order of the enum) is a warning, as is a wire that
+    /// joins two by itself. Nothing here depends on the order of the wires.
+    void nameQuantities()
     {
         std::vector<std::vector<int>> neighbours (static_cast<std::size_t> (variable.count()));
-        for (const auto& [a, b] : alike)
+        for (const auto& l : links)
         {
-            neighbours[static_cast<std::size_t> (a)].push_back (b);
-            neighbours[static_cast<std::size_t> (b)].push_back (a);
+            neighbours[static_cast<std::size_t> (l.a)].push_back (l.b);
+            neighbours[static_cast<std::size_t> (l.b)].push_back (l.a);
         }
-        std::vector<int> open;
-        for (int v = 0; v < variable.count(); ++v)
-            if (quantity[static_cast<std::size_t> (v)] != Quantity::any) open.push_back (v);
-        while (! open.empty())
+
+        std::vector<Quantity> expected (static_cast<std::size_t> (variable.count()), Quantity::any);
+        std::vector<bool> seen = generic;
+        seen.flip();
+        for (int start = 0; start < variable.count(); ++start)
         {
-            const int v = open.back();
-            open.pop_back();
-            for (const int n : neighbours[static_cast<std::size_t> (v)])
-                if (quantity[static_cast<std::size_t> (n)] == Quantity::any)
+            if (seen[static_cast<std::size_t> (start)]) continue;
+            seen[static_cast<std::size_t> (start)] = true;
+            std::vector<int> together { start };
+            std::set<Quantity> found;
+            for (std::size_t i = 0; i < together.size(); ++i)
+                for (const int n : neighbours[static_cast<std::size_t> (together[i])])
                 {
-                    quantity[static_cast<std::size_t> (n)] = quantity[static_cast<std::size_t> (v)];
-                    open.push_back (n);
+                    if (! generic[static_cast<std::size_t> (n)]) found.insert (quantity[static_cast<std::size_t> (n)]);
+                    if (seen[static_cast<std::size_t> (n)]) continue;
+                    seen[static_cast<std::size_t> (n)] = true;
+                    together.push_back (n);
                 }
+            found.erase (Quantity::any);
+            for (const int v : together)
+            {
+                expected[static_cast<std::size_t> (v)] = found.empty() ? Quantity::any : *found.begin();
+                quantity[static_cast<std::size_t> (v)] = found.size() == 1 ? *found.begin() : Quantity::any;
+            }
         }
+        for (const auto& l : links)
+            if (l.wire) compareQuantities (l, expected);
+    }
+
+    void compareQuantities (const Link& l, const std::vector<Quantity>& expected)
+    {
+        const auto of = [&] (int v)
+        { return generic[static_cast<std::size_t> (v)] ? expected[static_cast<std::size_t> (v)] : quantity[static_cast<std::size_t> (v)]; };
+        const auto a = of (l.a), b = of (l.b);
+        if (a == Quantity::any || b == Quantity::any || a == b) return;
+        const auto& w = *l.wire;
+        flat.warn ("wire/quantity", w.origin, "'" + flat.nameOf (*w.from) + "' carries a " + std::string (name (a)) + " and '" + flat.nameOf (w.to) + "' a " + std::string (name (b)) + "; both are in " + symbolOf (dimensions.dimension (l.a).value_or (Dimension {})),
+                   "fine if it is meant; else wire another port");
     }
 
     PortUnits result()

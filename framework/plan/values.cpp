@@ -218,7 +218,9 @@ private:
             const auto read = readNumber (i == 0 ? low : high);
             if (const auto* problem = std::get_if<std::string> (&read))
             {
-                flat.error ("param/value", a.origin, "'" + flat.nameOf (a.to) + "': " + *problem, std::string (sheet.about));
+                const std::string symbol (sheet.unit.kind == UnitRule::Kind::fixed ? sheet.unit.unit.symbol : "1");
+                flat.error (a.low.is_string() ? "unit/syntax" : "param/value", a.origin, "'" + flat.nameOf (a.to) + "': " + *problem,
+                            "give a plain number" + (symbol == "1" ? "" : " in " + symbol) + ", or text with a unit");
                 return;
             }
             ends[i] = std::get<Number> (read).value;

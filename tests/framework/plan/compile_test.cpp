@@ -218,7 +218,7 @@ TEST_CASE ("every mistake is reported, each with its id, all at once", "[plan]")
                       .wire ("b.out -> (+) b.in");
     const auto messages = problems (sketch);
     INFO (tactus::test::text (messages));
-    for (const auto* id : { "node/unknown_type", "port/unknown", "param/value", "param/unknown_choice", "setting/value", "port/unknown_node",
+    for (const auto* id : { "node/unknown_type", "port/unknown", "param/unknown", "unit/syntax", "param/unknown_choice", "setting/value", "port/unknown_node",
                             "port/wrong_side", "wire/width", "port/not_a_vector", "wire/which_entry", "port/bad_index", "wire/onto_choice", "wire/add_to_input" })
     {
         INFO (id);
@@ -256,4 +256,22 @@ TEST_CASE ("the delay of each path from hand to motor is known", "[plan]")
     CHECK (d.shortest == 0);
     CHECK (d.longest == 5);
     CHECK_FALSE (d.recirculates);
+}
+
+TEST_CASE ("what a generic port carries does not depend on the order of wires: a hit and a speed do not add up", "[plan]")
+{
+    const auto twice = Sketch {}.node ("knock", "contact.impact").node ("amp", "signal.gain").wire ("knock.hit -> amp.in").wire ("knock.hit -> amp.in");
+    CHECK (problems (twice).empty());
+
+    const auto mixed = [] (bool hit_first)
+    {
+        auto sketch = Sketch {}.node ("knock", "contact.impact").node ("hand", "device.truth").node ("amp", "signal.gain");
+        hit_first ? sketch.wire ("knock.hit -> amp.in").wire ("hand.velocity.x -> amp.in") : sketch.wire ("hand.velocity.x -> amp.in").wire ("knock.hit -> amp.in");
+        return problems (sketch);
+    };
+    for (const bool hit_first : { true, false })
+    {
+        CHECK (has (mixed (hit_first), "wire/two_into_one"));
+        CHECK (has (mixed (hit_first), "wire/quantity"));
+    }
 }

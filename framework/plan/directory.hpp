@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "flat.hpp"
+
+#include <memory>
+#include <unordered_map>
+
+namespace tactus::plan
+{
+
+/// Which roles a name may be looked up among, in this order.
+enum class Side
+{
+    start,   ///< of a wire: outputs
+    end,     ///< of a wire, or a feed: inputs, then params
+    param,   ///< params
+    record   ///< outputs, then inputs, then params
+};
+
+/// A patch in place: what its names stand for, and what it shows of its inside.
+struct Scope
+{
+    /// What a name in a patch stands for: a node, a placeholder (neither), or a subgraph. A bypassed subgraph is both.
+    struct Member
+    {
+        int node = -1;
+        std::unique_ptr<Scope> inside;
+    };
+
+    struct Exposed
+    {
+        Role role;
+        std::string name;
+        std::optional<PortRef> to;
+    };
+
+    const graph::Graph* owner = nullptr;
+    const graph::Patch* patch = nullptr;
+    std::string prefix;   // of paths
+    Origin origin;        // of the patch
+    std::unordered_map<std::string, Member> members;
+    std::vector<Exposed> exposed;
+};
+
+/// Finds a port by the names people use, from a patch and downwards; nothing, with a message added, if there is none.
+/// A placeholder's port gives nothing too, without a message.
+std::optional<PortRef> find (const graph::Endpoint&, Side, const Scope&, const Origin&, Flat&);
+std::optional<PortRef> find (std::string_view text, Side, const Scope&, const Origin&, Flat&);
+
+/// "a, b, c", or "none".
+std::string listed (const std::vector<std::string>& names);
+
+}   // namespace tactus::plan
