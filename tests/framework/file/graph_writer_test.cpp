@@ -2,7 +2,7 @@
 #include <framework/file/graph_file.hpp>
 #include <framework/file/json_writer.hpp>
 
-#include <tests/framework/graph/random_graph.hpp>
+#include <tests/framework/graph/wild_graph.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -83,7 +83,7 @@ TEST_CASE ("files are stable under load and save, byte for byte")
     rc::prop ("random graphs", []
               {
                   const auto seed = *rc::gen::arbitrary<std::uint64_t>();
-                  const auto text = writeGraph (test::randomGraph (seed));
+                  const auto text = writeGraph (test::wildGraph (seed));
                   const auto loaded = readGraph (text);
                   RC_ASSERT (! hasErrors (loaded.messages));
                   RC_ASSERT (writeGraph (loaded.graph) == text); });

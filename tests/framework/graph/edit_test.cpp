@@ -4,7 +4,7 @@
 #include <framework/graph/history.hpp>
 #include <framework/graph/text.hpp>
 
-#include "random_graph.hpp"
+#include "wild_graph.hpp"
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -371,7 +371,7 @@ TEST_CASE ("whatever is done can be undone and redone, to the byte and to the id
     rc::prop ("random edits of random graphs", []
               {
                   const auto seed = *rc::gen::arbitrary<std::uint64_t>();
-                  auto start = test::randomGraph (seed);
+                  auto start = test::wildGraph (seed);
                   if (! start.root.nodes.empty() && seed % 3 == 0) start.root.nodes[0].name = "ghost";   // its wires now wait for a node
 
                   History history (std::move (start));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "random_graph.hpp"
+#include "wild_graph.hpp"
 
 #include <limits>
 #include <random>
@@ -200,6 +200,6 @@ private:
 };
 }   // namespace
 
-Graph randomGraph (std::uint64_t seed) { return Maker (seed).graph(); }
+Graph wildGraph (std::uint64_t seed) { return Maker (seed).graph(); }
 
 }   // namespace tactus::test
