@@ -12,12 +12,13 @@ namespace tactus::test
 
 namespace
 {
-std::string entryName (const PortSheet& row, int entry)
+std::string withIndex (std::string name, int index)
 {
-    std::string name (row.id);
-    if (row.list) name.append ("[").append (std::to_string (entry)).append ("]");
+    if (index >= 0) name.append ("[").append (std::to_string (index)).append ("]");
     return name;
 }
+
+std::string entryName (const PortSheet& row, int entry) { return withIndex (std::string (row.id), row.list ? entry : -1); }
 
 double sorted (std::vector<double> values)
 {
@@ -88,7 +89,7 @@ Interpreter::End Interpreter::resolve (const graph::Patch& patch, const std::str
 {
     const auto& n = *patch.find (e.node);
     if (! n.type.starts_with ("graph:"))
-        return { prefix + e.node, e.port + (e.index >= 0 ? "[" + std::to_string (e.index) + "]" : ""), e.component };
+        return { prefix + e.node, withIndex (e.port, e.index), e.component };
 
     const auto& inside = *g.find (n.type.substr (6));
     for (const auto* list : start ? std::vector { &inside.expose.outputs } : std::vector { &inside.expose.inputs, &inside.expose.params })
@@ -104,8 +105,8 @@ Interpreter::End Interpreter::resolve (const graph::Patch& patch, const std::str
 
 double Interpreter::output (const End& end, int component)
 {
-    evaluate (end.node);
     const auto& i = instances.at (end.node);
+    if (! i.type->peek || i.source->bypass) evaluate (end.node);   // a peeking node's outputs stand since the tick began
     const auto bracket = end.port.find ('[');
     const auto& row = *std::ranges::find (i.type->outputs, end.port.substr (0, bracket), &PortSheet::id);
     const auto entry = bracket == std::string::npos ? std::max (component, 0) : std::stoi (end.port.substr (bracket + 1));
@@ -140,7 +141,7 @@ void Interpreter::evaluate (const std::string& path)
 {
     auto& i = instances.at (path);
     if (i.done) return;
-    i.done = true;   // a peeking node may be asked for within its own inputs; its outputs stand already
+    i.done = true;
 
     std::vector<double> in;
     for (const auto& row : i.type->inputs)

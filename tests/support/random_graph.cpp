@@ -73,7 +73,7 @@ private:
                 for (const auto& p : type.params)
                     if (p.choices.size() > 1 && ! p.list) n.params[std::string (p.id)] = p.choices[static_cast<std::size_t> (below (static_cast<int> (p.choices.size())))];
             }
-            n.bypass = oneIn (20);
+            n.bypass = ! n.type.starts_with ("graph:") && oneIn (20);
             patch.nodes.push_back (std::move (n));
         }
         for (int i = 0; i < 2 * size; ++i)

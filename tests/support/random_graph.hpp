@@ -9,7 +9,7 @@ namespace tactus::test
 {
 
 /// A graph that compiles, drawn by chance: up to `size` nodes of any type, some inside subgraphs (nested, shared), wires
-/// between whole ports and components, delays, gains with units, wires onto parameters with and without (+), bypasses.
+/// between whole ports and components, delays, gains with units, wires onto parameters with and without (+), bypassed nodes.
 graph::Graph randomGraph (unsigned seed, int size);
 
 /// The same graph, its nodes and wires written in another order.
