@@ -16,9 +16,15 @@ Quantity axisOf (const Tap& tap)
 {
     return { tap.quantity == tactus::Quantity::any ? tap.name : std::string (name (tap.quantity)), tap.unit };
 }
+
+bool isSilent (const Axes& panel)
+{
+    return std::ranges::all_of (panel.series, [] (const Series& s)
+                                { return std::ranges::count (s.y, 0.0) == static_cast<std::ptrdiff_t> (s.y.size()); });
+}
 }   // namespace
 
-Plotter::Plotter (std::string f, const std::vector<Tap>& t, const std::string& over_name, double rate) : file (std::move (f)), taps (t), rate_hz (rate), columns (t.size())
+Plotter::Plotter (std::string f, const std::vector<Tap>& t, const std::string& over_name, double rate, bool silent) : file (std::move (f)), taps (t), rate_hz (rate), leave_out_silent (silent), columns (t.size())
 {
     if (taps.empty()) fail ("record/nothing", "there is nothing to plot: the graph has no sink", "name ports with --record, as in --record drag.force");
     if (over_name.empty()) return;
@@ -55,6 +61,7 @@ void Plotter::draw (const std::string& title)
         }
         panel->series.push_back ({ .label = taps[i].name, .x = x, .y = columns[i] });
     }
+    if (leave_out_silent && ! std::ranges::all_of (figure.panels, isSilent)) std::erase_if (figure.panels, isSilent);
     orFail (writePng (figure, file));
 }
 

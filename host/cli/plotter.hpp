@@ -14,8 +14,9 @@ namespace tactus::host
 class Plotter
 {
 public:
-    /// `over` names the tap for the x axis; empty is time. A name that is not recorded ends the command.
-    Plotter (std::string file, const std::vector<Tap>&, const std::string& over, double rate_hz);
+    /// `over` names the tap for the x axis; empty is time. A name that is not recorded ends the command. Quantities that
+    /// stay 0 throughout may be left out: a sink's torque that nothing is wired to.
+    Plotter (std::string file, const std::vector<Tap>&, const std::string& over, double rate_hz, bool leave_out_silent);
 
     void frame (std::span<const double> values);
     void draw (const std::string& title);
@@ -25,6 +26,7 @@ private:
     const std::vector<Tap>& taps;
     std::ptrdiff_t over = -1;   // index of the tap, or time
     double rate_hz;
+    bool leave_out_silent;
     std::vector<std::vector<double>> columns;
 };
 

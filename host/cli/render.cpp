@@ -28,7 +28,7 @@ void run (const Options& options)
     const auto& taps = session.engine().plan().taps;
     Recorder recorder { options.outputs, taps, session.rate(), options.plot.empty() };
     std::optional<Plotter> plotter;
-    if (! options.plot.empty()) plotter.emplace (options.plot, taps, options.over, session.rate());
+    if (! options.plot.empty()) plotter.emplace (options.plot, taps, options.over, session.rate(), options.records.empty());
 
     std::vector<double> values (taps.size());
     Progress progress { *session.ticks() };
