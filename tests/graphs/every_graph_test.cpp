@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What every preset promises. A new one is held to this without anyone writing a test for it.
+
+#include "support/sketch.hpp"
+
+#include <framework/engine.hpp>
+#include <framework/file/graph_file.hpp>
+#include <host/devices/make_device.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+using namespace tactus;
+namespace fs = std::filesystem;
+
+namespace
+{
+const fs::path folder = fs::path (TACTUS_SOURCE_DIR) / "graphs";
+
+std::vector<fs::path> presets()
+{
+    std::vector<fs::path> all;
+    for (const auto& entry : fs::directory_iterator (folder))
+        if (entry.path().extension() == ".json") all.push_back (entry.path());
+    std::ranges::sort (all);
+    return all;
+}
+
+std::string textOf (const fs::path& path)
+{
+    std::ostringstream text;
+    text << std::ifstream (path).rdbuf();
+    return text.str();
+}
+
+struct Run
+{
+    std::vector<double> forces;   // on the tools, all components, tick after tick
+    double largest = 0.0, last = 0.0;
+    bool stopped = false;
+};
+
+Run run (const graph::Graph& g, const std::vector<plan::Override>& overrides = {})
+{
+    auto compiled = compile (g, catalogue(), { .overrides = overrides });
+    INFO (test::text (compiled.messages));
+    REQUIRE (compiled.plan);
+    Engine engine { compiled.plan, g.rate_hz };
+
+    std::vector<host::MadeDevice> devices;
+    double duration = 0.0;
+    for (const auto& role : engine.plan().roles)
+    {
+        const auto described = std::ranges::find (g.devices, role.name, &std::pair<std::string, Json>::first);
+        REQUIRE (described != g.devices.end());
+        devices.push_back (host::makeDevice (described->second, folder));
+        INFO (test::text (devices.back().messages));
+        REQUIRE (devices.back().device);
+        duration = std::max (duration, devices.back().device->duration());
+    }
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        engine.attach (engine.plan().roles[i].name, *devices[i].device, devices[i].limits);
+    REQUIRE (duration > 0.0);
+
+    Run result;
+    for (int k = 0; k < static_cast<int> (duration * g.rate_hz); ++k)
+    {
+        engine.tick();
+        result.last = 0.0;
+        for (const auto& role : engine.plan().roles)
+        {
+            const auto& f = role.state->applied.force;
+            result.forces.insert (result.forces.end(), f.data(), f.data() + 3);
+            result.last = std::max (result.last, f.norm());
+            result.stopped = result.stopped || engine.guardOf (role.name).stop() != Guard::Stop::none;
+        }
+        result.largest = std::max (result.largest, result.last);
+    }
+    return result;
+}
+
+std::string readme()
+{
+    std::string text = "# Presets\n\nMade from the files themselves; `TACTUS_UPDATE=1 build/release/bin/tactus_tests \"the list of presets*\"` writes it anew.\n\n"
+                       "| preset | what it feels like | controls | tags |\n|---|---|---|---|\n";
+    for (const auto& path : presets())
+    {
+        const auto g = loadGraph (path).graph;
+        std::string controls, tags;
+        for (const auto& c : g.controls)
+            controls += (controls.empty() ? "" : ", ") + c.name;
+        for (const auto& t : g.tags)
+            tags += (tags.empty() ? "" : ", ") + t;
+        text += "| [" + g.name + "](" + path.filename().string() + ") | " + g.about + " | " + controls + " | " + tags + " |\n";
+    }
+    return text;
+}
+}   // namespace
+
+TEST_CASE ("every preset is written as it would be saved, says what it feels like, and has nothing to warn about", "[graphs]")
+{
+    REQUIRE (presets().size() >= 4);
+    for (const auto& path : presets())
+    {
+        DYNAMIC_SECTION (path.stem().string())
+        {
+            const auto loaded = loadGraph (path);
+            INFO (test::text (loaded.messages));
+            CHECK (loaded.messages.empty());
+            CHECK (loaded.graph.name.size() > 3);
+            CHECK (loaded.graph.about.size() > 30);
+            CHECK_FALSE (loaded.graph.tags.empty());
+            if (std::getenv ("TACTUS_UPDATE")) CHECK (saveGraph (loaded.graph, path).empty());
+            CHECK (writeGraph (loaded.graph) == textOf (path));
+
+            const auto compiled = compile (loaded.graph, catalogue());
+            INFO (test::text (compiled.messages));
+            CHECK (compiled.messages.empty());
+        }
+    }
+}
+
+TEST_CASE ("every preset answers the hand on the same tick", "[graphs]")
+{
+    for (const auto& path : presets())
+    {
+        DYNAMIC_SECTION (path.stem().string())
+        {
+            const auto plan = compile (loadGraph (path).graph, catalogue()).plan;
+            REQUIRE (plan);
+            REQUIRE_FALSE (plan->delays.empty());
+            for (const auto& d : plan->delays)
+                CHECK (d.shortest == 0);
+        }
+    }
+}
+
+TEST_CASE ("every preset is felt, stays within its guard, lets go at the end, and repeats to the bit", "[graphs]")
+{
+    for (const auto& path : presets())
+    {
+        DYNAMIC_SECTION (path.stem().string())
+        {
+            const auto g = loadGraph (path).graph;
+            const auto first = run (g);
+            CHECK (first.largest > 0.05);
+            CHECK (first.largest < 10.0);
+            CHECK (first.last < 0.05);
+            CHECK_FALSE (first.stopped);
+            for (const double f : first.forces)
+                REQUIRE (std::isfinite (f));
+            CHECK (run (g).forces == first.forces);
+        }
+    }
+}
+
+TEST_CASE ("every control of every preset may be turned to its ends, and is felt", "[graphs]")
+{
+    for (const auto& path : presets())
+    {
+        const auto g = loadGraph (path).graph;
+        CHECK_FALSE (g.controls.empty());
+        for (const auto& c : g.controls)
+        {
+            DYNAMIC_SECTION (path.stem().string() << ": " << c.id)
+            {
+                const auto low = run (g, { { c.id, 0.0 } }), high = run (g, { { c.id, 1.0 } });
+                CHECK (low.forces != high.forces);
+                CHECK_FALSE (low.stopped);
+                CHECK_FALSE (high.stopped);
+                CHECK (high.largest < 10.0);
+            }
+        }
+    }
+}
+
+TEST_CASE ("the list of presets tells what is there", "[graphs]")
+{
+    const auto path = folder / "README.md";
+    if (std::getenv ("TACTUS_UPDATE")) std::ofstream (path) << readme();
+    CHECK (textOf (path) == readme());
+}
