@@ -205,7 +205,7 @@ TEST_CASE ("device description: what is wrong with a trace is told where the des
     CHECK (found (made (R"({"driver": "trace", "path": "nowhere.csv"})", folder.path)) == std::vector<std::string> { "csv/unreadable /path" });
 }
 
-TEST_CASE ("--device: a role is bound to a gesture, a recording, a file or a simulation", "[host][devices]")
+TEST_CASE ("the option --device: a role is bound to a gesture, a recording, a file or a simulation", "[host][devices]")
 {
     CHECK (optionOf ("stylus=gesture:tap").description == Json { { "driver", "gesture" }, { "path", "tap" } });
     CHECK (optionOf ("stylus=trace:runs/a=b.csv").description == Json { { "driver", "trace" }, { "path", "runs/a=b.csv" } });
@@ -219,7 +219,7 @@ TEST_CASE ("--device: a role is bound to a gesture, a recording, a file or a sim
     CHECK (option.folder == folder.path);
 }
 
-TEST_CASE ("--device ROLE=sim: the graph's own description is taken, as far as a simulation knows it", "[host][devices]")
+TEST_CASE ("the option --device ROLE=sim: the graph's own description is taken, as far as a simulation knows it", "[host][devices]")
 {
     const Described described { { "stylus", { { "driver", "hid" }, { "vendor", 1133 }, { "mass", "45 g" }, { "guard", { { "max_force", 3 } } } } } };
 
@@ -234,7 +234,7 @@ TEST_CASE ("--device ROLE=sim: the graph's own description is taken, as far as a
     CHECK (m.device->duration() > 0.0);
 }
 
-TEST_CASE ("--device: what cannot be read is refused with the forms there are", "[host][devices]")
+TEST_CASE ("the option --device: what cannot be read is refused with the forms there are", "[host][devices]")
 {
     for (const char* text : { "", "stylus", "=sim", "Stylus=sim", "a.b=sim", "stylus=", "stylus=simulation", "stylus=trace", "stylus=trace:", "stylus=gesture:" })
     {

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The reference vectors, through the whole program: a graph file, a feed, `tactus render`, the table it writes.
+
+#include "program.hpp"
+
+#include <golden/golden.hpp>
+#include <host/io/csv.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+
+using namespace tactus;
+using test::Golden;
+
+namespace
+{
+using Map = std::map<std::string, std::string>;   // port to column
+
+/// Renders the graph, its ports fed from columns of the set, and holds what it records to other columns.
+void reproduce (const std::string& set, const std::string& graph, const Map& feeds, const Map& records, std::size_t rows = 0)
+{
+    const test::Scratch scratch;
+    const Golden golden { set };
+
+    std::vector<std::string> arguments { "render", scratch.write ("graph.json", graph), "--out", scratch.path ("out.csv") };
+    if (! feeds.empty())
+    {
+        std::vector<std::string> names { "t" };
+        for (const auto& [port, column] : feeds)
+            names.push_back (port);
+        auto feed = host::TableWriter::create (scratch.path ("feed.csv"), names);
+        REQUIRE (feed);
+        for (std::size_t r = 0; r < golden.rows(); ++r)
+        {
+            std::vector<double> row { golden (r, "t") };
+            for (const auto& [port, column] : feeds)
+                row.push_back (golden (r, column));
+            REQUIRE (feed->row (row));
+        }
+        REQUIRE (feed->commit());
+        arguments.insert (arguments.end(), { "--feed", scratch.path ("feed.csv") });
+    }
+    else
+        arguments.insert (arguments.end(), { "--duration", std::to_string (static_cast<double> (golden.rows()) * golden.dt_s()) });
+    for (const auto& [port, column] : records)
+        arguments.insert (arguments.end(), { "--record", port });
+
+    const auto ran = test::runTactus (arguments);
+    INFO (ran.err);
+    REQUIRE (ran.status == 0);
+
+    const auto table = host::readTable (std::filesystem::path (scratch.path ("out.csv")));
+    REQUIRE (table);
+    REQUIRE (table->rows() == golden.rows());
+    for (const auto& [port, column] : records)
+    {
+        const auto at = table->column (port);
+        REQUIRE (at);
+        INFO (column);
+        double most = 0.0;
+        for (std::size_t r = 0; r < (rows ? rows : golden.rows()); ++r)
+        {
+            const double error = std::abs (table->at (r, *at) - golden (r, column));
+            const double allowed = column.find ("quant") != std::string::npos ? std::max (1e-6, golden.tolerance (column)) : golden.tolerance (column);
+            REQUIRE (error <= allowed);
+            most = std::max (most, allowed > 0.0 ? error / allowed : error);
+        }
+        CHECK (most <= 1.0);
+    }
+}
+
+std::string graph (const std::string& nodes, const std::string& rest = R"("wires": [])")
+{
+    return R"({ "format": "tactus-graph", "version": 1, "name": "Reference", "rate_hz": 1000, "nodes": {)" + nodes + "}, " + rest + "}";
+}
+
+std::string friction (const std::string& name, const std::string& params)
+{
+    return "\"" + name + R"(": { "type": "friction.elasto_plastic", "params": {)" + params + "} }";
+}
+}   // namespace
+
+TEST_CASE ("render reproduces the friction of a point on a line", "[golden]")
+{
+    const std::string common = R"("mu": 0.4, "d_max": "10 um")", scaled = common + R"(, "load": "scale")";
+    const Map nodes { { "eq3", scaled },
+                      { "euler2", scaled + R"(, "adhesion": "dupont", "integrator": "euler")" },
+                      { "euler3", scaled + R"(, "adhesion": "ramp", "integrator": "euler")" },
+                      { "euler4", scaled + R"(, "adhesion": "dahl", "integrator": "euler")" },
+                      { "etd4", scaled + R"(, "adhesion": "dahl")" },
+                      { "etd2", scaled + R"(, "adhesion": "dupont")" },
+                      { "stickslip", scaled + R"(, "static_ratio": 2.5)" },
+                      { "passive", common } };
+    std::string all;
+    Map feeds, records { { "eq3.force.x", "f_eq3" }, { "eq3.state", "state_eq3" }, { "passive.force.x", "f_passive" } };
+    for (const auto& [name, params] : nodes)
+    {
+        all += (all.empty() ? "" : ", ") + friction (name, params);
+        feeds[name + ".position.x"] = "p";
+        feeds[name + ".normal_force"] = "fn";
+        if (name != "passive") records[name + ".deflection.x"] = "d_" + name;
+    }
+    reproduce ("friction_1d", graph (all), feeds, records);
+}
+
+TEST_CASE ("render reproduces the friction of a point on a turning surface", "[golden]")
+{
+    const std::string common = R"("mu": 0.6, "d_max": "50 um", "load": "scale")";
+    const Map nodes { { "eq3", common }, { "euler2", common + R"(, "adhesion": "dupont", "integrator": "euler")" }, { "etd4", common + R"(, "adhesion": "dahl")" } };
+    std::string all;
+    Map feeds, records { { "eq3.state", "state_eq3" } };
+    for (const auto& [name, params] : nodes)
+    {
+        all += (all.empty() ? "" : ", ") + friction (name, params);
+        feeds[name + ".normal_force"] = "fn";
+        for (const std::string axis : { "x", "y", "z" })
+        {
+            feeds[name + ".position." + axis] = "p_" + axis;
+            feeds[name + ".normal." + axis] = "n_" + axis;
+            records[name + ".force." + axis] = "f_" + name + "_" + axis;
+            if (name == "eq3") records["eq3.deflection." + axis] = "d_eq3_" + axis;
+        }
+    }
+    reproduce ("friction_3d", graph (all), feeds, records);
+}
+
+TEST_CASE ("render reproduces modes that are hit", "[golden]")
+{
+    reproduce ("modal", graph (R"("bar": { "type": "vibration.modal", "settings": { "modes": [
+        { "frequency": 100, "decay": 80, "amplitude": 1 }, { "frequency": 230, "decay": 30, "amplitude": 0.4 } ] } })"),
+               { { "bar.hit", "hit_v" } }, { { "bar.value", "y_modal" } });
+}
+
+TEST_CASE ("render reproduces gratings on a line and in the plane", "[golden]")
+{
+    reproduce ("texture", graph (R"("line": { "type": "texture.grating", "params": { "amplitude": "0.3 N", "spatial_frequency": "200 1/m" } },
+                                    "plane": { "type": "texture.grating", "params": { "amplitude": "0.3 N", "spatial_frequency": "500 1/m", "angle": 0.9272952180016122 } })"),
+               { { "line.position.x", "x" }, { "plane.position.x", "x" }, { "plane.position.y", "y" } },
+               { { "line.value", "grating1d" }, { "plane.force.x", "grating2d_x" }, { "plane.force.y", "grating2d_y" } });
+}
+
+TEST_CASE ("render reproduces a tool pushed against a sampled wall", "[golden]")
+{
+    const auto wall = [] (const std::string& device, const std::string& params)
+    {
+        return graph (R"("hand": { "type": "device.position", "role": "tool" }, "truth": { "type": "device.truth", "role": "tool" },
+                         "wall": { "type": "deform.plane", "params": { "normal": [-1, 0, 0], )"
+                          + params + R"( } }, "motor": { "type": "device.force", "role": "tool" })",
+                      R"("wires": [ "hand.position -> wall.position", "wall.force -> motor.force" ],
+                         "devices": { "tool": { "driver": "sim", "mass": 0.1, "damping": 2, "position": [-1e-3, 0, 0], "velocity": [0.1, 0, 0], "hand_force": [0.5, 0, 0])"
+                          + device + "} }");
+    };
+    const auto records = [] (const std::string& name) -> Map
+    {
+        return { { "truth.position.x", "x_" + name }, { "truth.velocity.x", "v_" + name }, { "motor.force.x", "f_" + name } };
+    };
+    constexpr std::size_t compared_tightly = 300;
+    reproduce ("wallsim", wall ("", R"("stiffness": 3600)"), {}, records ("smooth"), compared_tightly);
+    reproduce ("wallsim", wall ("", R"("stiffness": 1800, "damping": 0.4)"), {}, records ("damped"), compared_tightly);
+    reproduce ("wallsim", wall (R"(, "quantum": 1e-5)", R"("stiffness": 1800)"), {}, { { "truth.position.x", "x_quant" } }, compared_tightly);
+}

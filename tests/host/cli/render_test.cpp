@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "program.hpp"
+
+#include <framework/json.hpp>
+#include <host/io/csv.hpp>
+#include <host/io/wav.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+
+using namespace tactus;
+using tactus::test::runTactus;
+using tactus::test::Scratch;
+
+namespace
+{
+const std::string wood = TACTUS_SOURCE_DIR "/graphs/dry_wood.json";
+
+/// A gain of 2 whose input is fed.
+const std::string amplifier = R"({ "format": "tactus-graph", "version": 1, "name": "Amplifier", "rate_hz": 500,
+  "nodes": { "amp": { "type": "signal.gain", "params": { "gain": 2 } } }, "wires": [] })";
+
+host::Table render (const Scratch& scratch, std::vector<std::string> arguments)
+{
+    arguments.insert (arguments.begin(), "render");
+    arguments.insert (arguments.end(), { "--out", scratch.path ("out.csv") });
+    const auto ran = runTactus (arguments);
+    INFO (ran.err);
+    REQUIRE (ran.status == 0);
+    auto table = host::readTable (std::filesystem::path (scratch.path ("out.csv")));
+    REQUIRE (table);
+    return *table;
+}
+}   // namespace
+
+TEST_CASE ("a feed without times is a row a tick, at the graph's rate or the one asked for", "[cli]")
+{
+    const Scratch scratch;
+    const auto graph = scratch.write ("g.json", amplifier), feed = scratch.write ("f.csv", "amp.in\n1\nnan\ninf\n4\n");
+
+    const auto table = render (scratch, { graph, "--feed", feed, "--record", "amp.out,amp.in" });
+    CHECK (table.columns == std::vector<std::string> { "t", "amp.out", "amp.in" });
+    REQUIRE (table.rows() == 4);
+    CHECK (table.at (3, 0) == 3.0 / 500);
+    CHECK (table.at (0, 1) == 2.0);
+    CHECK (table.at (1, 1) == 0.0);
+    CHECK (std::isnan (table.at (1, 2)));
+    CHECK (table.at (3, 1) == 8.0);
+
+    CHECK (render (scratch, { graph, "--feed", feed, "--record", "amp.out", "--rate", "100" }).at (3, 0) == 0.03);
+}
+
+TEST_CASE ("a feed with times sets the rate, or is held to the grid of the rate asked for", "[cli]")
+{
+    const Scratch scratch;
+    const auto graph = scratch.write ("g.json", amplifier), feed = scratch.write ("f.csv", "t,amp.in\n5,1\n5.01,2\n5.02,3\n");
+
+    const auto own = render (scratch, { graph, "--feed", feed, "--record", "amp.out" });
+    REQUIRE (own.rows() == 3);
+    CHECK (own.at (1, 0) == 0.01);
+
+    const auto held = render (scratch, { graph, "--feed", feed, "--record", "amp.in", "--rate", "400" });
+    REQUIRE (held.rows() == 9);
+    const double expected[] { 1, 1, 1, 1, 2, 2, 2, 2, 3 };
+    for (std::size_t k = 0; k < 9; ++k)
+        CHECK (held.at (k, 1) == expected[k]);
+}
+
+TEST_CASE ("a feed outranks the wire, the parameter and --set; --duration ends it early", "[cli]")
+{
+    const Scratch scratch;
+    const auto graph = scratch.write ("g.json", amplifier), feed = scratch.write ("f.csv", "amp.in,amp.gain\n1,5\n1,6\n1,7\n");
+    const auto table = render (scratch, { graph, "--feed", feed, "--record", "amp.out", "--set", "amp.gain=9", "--duration", "0.004" });
+    REQUIRE (table.rows() == 2);
+    CHECK (table.at (1, 1) == 6.0);
+}
+
+TEST_CASE ("the same run gives the same bytes", "[cli]")
+{
+    const Scratch scratch;
+    const auto a = runTactus ({ "render", wood, "--duration", "0.8" }), b = runTactus ({ "render", wood, "--duration", "0.8" });
+    CHECK (a.status == 0);
+    CHECK (a.out.size() > 10000);
+    CHECK (a.out == b.out);
+}
+
+TEST_CASE ("a run may write a table, a wave and a picture at once, one channel a component", "[cli]")
+{
+    const Scratch scratch;
+    const auto ran = runTactus ({ "render", wood, "--record", "drag.force,drag.state", "--duration", "0.8", "--out", scratch.path ("w.csv"), "--out", scratch.path ("w.wav"), "--plot", scratch.path ("w.png") });
+    INFO (ran.err);
+    REQUIRE (ran.status == 0);
+    CHECK (ran.out.empty());
+    const auto table = host::readTable (std::filesystem::path (scratch.path ("w.csv")));
+    const auto wave = host::readWav (scratch.path ("w.wav"));
+    REQUIRE (table);
+    REQUIRE (wave);
+    CHECK (wave->sample_rate_hz == 4000.0);
+    REQUIRE (wave->channels.size() == 4);
+    REQUIRE (wave->channels[0].size() == table->rows());
+    for (std::size_t r = 0; r < table->rows(); ++r)
+        REQUIRE (wave->channels[0][r] == static_cast<double> (static_cast<float> (table->at (r, 1))));
+    CHECK (std::filesystem::file_size (scratch.path ("w.png")) > 5000);
+}
+
+TEST_CASE ("devices come from the graph, a gesture, a trace or a file", "[cli]")
+{
+    const Scratch scratch;
+    const auto trace = scratch.write ("t.csv", "t,x,y,z,pressure\n0,0,0,0.001,0\n0.5,0.01,0,-0.001,1\n1,0.02,0,0.001,0\n");
+    const auto device = scratch.write ("d.json", R"({ "driver": "trace", "path": "t.csv" })");
+    const auto rows = [&] (const std::string& choice)
+    { return render (scratch, { wood, "--device", choice, "--record", "hand.position" }); };
+
+    CHECK (rows ("stylus=trace:" + trace).at (2500, 1) == 0.01);
+    CHECK (rows ("stylus=" + device).at (2500, 3) == -0.001);
+    CHECK (rows ("stylus=gesture:circle").rows() > 4000);
+    CHECK (rows ("stylus=sim").rows() == render (scratch, { wood }).rows());
+}
+
+TEST_CASE ("the option --set takes numbers, units, choices, vectors and controls", "[cli]")
+{
+    const Scratch scratch;
+    const auto plain = runTactus ({ "render", wood, "--duration", "0.8" }).out;
+    for (const auto* set : { "drag.mu=0.1", "drag.d_max=1 mm", "drag.adhesion=dahl", "board.normal=[0.1,0,1]", "roughness=1" })
+    {
+        const auto ran = runTactus ({ "render", wood, "--duration", "0.8", "--set", set });
+        INFO (set);
+        INFO (ran.err);
+        CHECK (ran.status == 0);
+        CHECK (ran.out != plain);
+    }
+}
+
+TEST_CASE ("play runs in real time and brings the force to zero at its end", "[cli]")
+{
+    const Scratch scratch;
+    const auto ran = runTactus ({ "play", wood, "--duration", "1", "--record", "drag.force", "--out", scratch.path ("p.csv") });
+    INFO (ran.err);
+    CHECK (ran.status == 0);
+    CHECK (ran.err.find ("force  0.000 N") != std::string::npos);
+    const auto table = host::readTable (std::filesystem::path (scratch.path ("p.csv")));
+    REQUIRE (table);
+    CHECK (table->rows() == 4000);
+}
+
+TEST_CASE ("play records to the bit what render computes", "[cli]")
+{
+    const Scratch scratch;
+    CHECK (runTactus ({ "play", wood, "--duration", "0.8", "--out", scratch.path ("p.csv") }).status == 0);
+    CHECK (runTactus ({ "render", wood, "--duration", "0.8", "--out", scratch.path ("r.csv") }).status == 0);
+    CHECK (test::textOf (scratch.path ("p.csv")) == test::textOf (scratch.path ("r.csv")));
+}
+
+TEST_CASE ("the catalogue is listed for people and for programs", "[cli]")
+{
+    CHECK (runTactus ({ "nodes" }).out.find ("friction.elasto_plastic") != std::string::npos);
+    CHECK (runTactus ({ "nodes", "friction.elasto_plastic" }).out.find ("d_max") != std::string::npos);
+    CHECK (runTactus ({ "nodes", "friction.elastoplastic" }).err.find ("did you mean 'friction.elasto_plastic'") != std::string::npos);
+
+    const auto all = Json::parse (runTactus ({ "nodes", "--json" }).out);
+    CHECK (all.size() > 30);
+    for (const auto& node : all)
+        for (const auto* key : { "id", "name", "summary", "source", "inputs", "params", "settings", "outputs" })
+            CHECK (node.contains (key));
+}
