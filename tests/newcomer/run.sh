@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# A newcomer drops one header and one test into the tree and touches nothing else: the node builds, is listed, and is
+# held to what every node promises. Both files are taken away again.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+
+header=nodes/texture/washboard.hpp
+test=tests/nodes/texture/washboard_test.cpp
+clean () { rm -f "$header" "$test"; }
+trap 'clean; cmake --build --preset release --target tactus tactus_tests >/dev/null' EXIT
+
+cp tests/newcomer/washboard.hpp.txt "$header"
+cp tests/newcomer/washboard_test.cpp.txt "$test"
+others=$(git status --porcelain 2>/dev/null | grep -vE "washboard" || true)
+
+cmake --build --preset release --target tactus tactus_tests
+
+build/release/bin/tactus nodes | grep -q 'texture\.washboard'
+build/release/bin/tactus nodes texture.washboard | grep -q 'ridge height'
+build/release/bin/tactus_tests 'washboard*'
+build/release/bin/tactus_tests 'every node*' -c texture.washboard
+[ "$others" = "$(git status --porcelain 2>/dev/null | grep -vE "washboard" || true)" ]
+echo "texture.washboard: built, listed, held to the contract; no other file was touched"
