@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: MIT
+# Sourced by demo.sh and test.sh: what a fresh Debian 12 needs, and the build.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+packages=(build-essential cmake ninja-build pkg-config
+          juce-modules-source libjack-jackd2-dev libeigen3-dev libhidapi-dev catch2
+          nlohmann-json3-dev libcli11-dev libexpected-dev librapidcheck-dev
+          fonts-inter fonts-dejavu-core)
+
+say () { printf '\n== %s\n' "$*"; }
+
+install_packages ()
+{
+    if ! command -v dpkg-query >/dev/null; then
+        say "This is no Debian: please see that these are installed: ${packages[*]}"
+        return
+    fi
+    local missing=() package
+    for package in "${packages[@]}"; do
+        [ "$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null)" = "install ok installed" ] || missing+=("$package")
+    done
+    [ ${#missing[@]} -eq 0 ] && return
+    say "Installing ${missing[*]}"
+    local root=()
+    [ "$(id -u)" -eq 0 ] || root=(sudo)
+    "${root[@]}" apt-get update
+    "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "${missing[@]}"
+}
+
+# build PRESET [TARGET…]
+build ()
+{
+    local preset=$1
+    shift
+    say "Building $preset${*:+: $*} (the first time takes minutes, most of them for JUCE)"
+    [ -f "build/$preset/build.ninja" ] || cmake --preset "$preset"
+    cmake --build --preset "$preset" ${*:+--target "$@"}
+}

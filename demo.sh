@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# From a fresh Debian 12 to forces, vibration and pictures under out/. May be run again.
+. "$(dirname "$0")/.ci/setup.sh"
+
+install_packages
+build release tactus evemu_to_trace
+export PATH="$PWD/build/release/bin:$PATH"
+mkdir -p out
+made=()
+
+# render NAME GRAPH [OPTIONS…]: CSV, WAV and PNG
+render ()
+{
+    local name=$1 graph=$2
+    shift 2
+    echo "  $name"
+    tactus render "$graph" "$@" --out "out/$name.csv" --out "out/$name.wav" --plot "out/$name.png"
+    made+=("out/$name.csv" "out/$name.wav" "out/$name.png")
+}
+
+say "Rendering presets, each moved by a simulated hand"
+render dry_wood graphs/dry_wood.json --record hand.position.x,board.resistance,drag.force.x,grain_felt.out.x
+render soft_pad graphs/soft_pad.json --record hand.position.z,pad.resistance
+render aluminium_bar graphs/aluminium_bar.json --record hand.position.z,bar.resistance,ring.value
+render layered_cloth graphs/layered_cloth.json --record hand.position.x,hand.position.y,drag.force,felt.out
+render squealing_rubber graphs/squealing_rubber.json --record hand.position.x,foot.force.x,tone.value
+
+say "The same wood, under the same hand moving in circles"
+render dry_wood_circle graphs/dry_wood.json --device stylus=gesture:circle --record hand.position.x,hand.position.y,drag.force
+
+strokes=../shared/data/strokes_evemu
+if [ -d "$strokes" ]; then
+    say "The same wood, under strokes that somebody else drew on a tablet"
+    for recording in "$strokes"/*.events; do
+        name=$(basename "${recording%.events}" | tr -c "A-Za-z0-9\n" _)
+        evemu_to_trace "$recording" --out "out/trace_$name.csv"
+        render "wood_$name" graphs/dry_wood.json --device "stylus=trace:out/trace_$name.csv" --record hand.position,drag.force,board.resistance
+    done
+fi
+
+say "Made:"
+printf '  %s\n' "${made[@]}"
