@@ -13,7 +13,6 @@
 #include <filesystem>
 #include <limits>
 #include <random>
-#include <regex>
 #include <set>
 #include <sstream>
 
@@ -156,6 +155,15 @@ std::vector<double> onFault (const Rig& rig, const std::vector<double>& before)
     return expected;
 }
 
+/// [a-z][a-z0-9_]*
+bool isName (std::string_view s)
+{
+    const auto isLetter = [] (char c)
+    { return c >= 'a' && c <= 'z'; };
+    return ! s.empty() && isLetter (s.front()) && std::ranges::all_of (s, [&] (char c)
+                                                                       { return isLetter (c) || (c >= '0' && c <= '9') || c == '_'; });
+}
+
 bool isHit (const PortSheet& port) { return port.unit.kind == UnitRule::Kind::fixed && port.unit.unit.quantity == Quantity::hit; }
 
 Rig prepared (const NodeType& type, double rate_hz = 4000.0)
@@ -171,7 +179,6 @@ Rig prepared (const NodeType& type, double rate_hz = 4000.0)
 
 TEST_CASE ("every node has an id of its own, family.name, as its header is called", "[nodes][contract]")
 {
-    const std::regex wanted { "[a-z][a-z0-9_]*\\.[a-z][a-z0-9_]*" };
     std::set<std::string> ids;
 
     for (const auto& type : catalogue())
@@ -179,8 +186,10 @@ TEST_CASE ("every node has an id of its own, family.name, as its header is calle
         const std::string id { type.info.id };
         INFO (id);
         CHECK (ids.insert (id).second);
-        CHECK (std::regex_match (id, wanted));
         const auto dot = id.find ('.');
+        REQUIRE (dot != std::string::npos);
+        CHECK (isName (id.substr (0, dot)));
+        CHECK (isName (id.substr (dot + 1)));
         CHECK (std::filesystem::exists (std::filesystem::path { TACTUS_SOURCE_DIR } / "nodes" / id.substr (0, dot) / (id.substr (dot + 1) + ".hpp")));
         CHECK (catalogue().find (id) == &type);
     }
@@ -199,8 +208,6 @@ TEST_CASE ("every node says what it is and where it comes from", "[nodes][contra
 
 TEST_CASE ("every row of a datasheet has a name, a sentence and a default in range", "[nodes][contract]")
 {
-    const std::regex wanted { "[a-z][a-z0-9_]*" };
-
     for (const auto& type : catalogue())
     {
         std::set<std::string> in_names, out_names;
@@ -208,7 +215,7 @@ TEST_CASE ("every row of a datasheet has a name, a sentence and a default in ran
         {
             const std::string name { id };
             CHECK (names.insert (name).second);
-            CHECK (std::regex_match (name, wanted));
+            CHECK (isName (name));
             CHECK_FALSE (about.empty());
         };
         const auto checkRange = [] (const Limits& limits, double v)
