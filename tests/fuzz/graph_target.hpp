@@ -2,13 +2,15 @@
 #pragma once
 
 #include <framework/file/graph_file.hpp>
+#include <framework/plan/compile.hpp>
 
 #include <cstdlib>
 
 namespace tactus::fuzz
 {
 
-/// A text is a graph that is written and read without a change, or a list of problems that all have a place. Aborts if not.
+/// A text is a graph that is written and read without a change, and that runs or is refused; or it is a list of problems
+/// that all have a place. Aborts if not.
 inline void tryGraph (std::string_view text)
 {
     const auto loaded = readGraph (text);
@@ -19,6 +21,11 @@ inline void tryGraph (std::string_view text)
     const auto written = writeGraph (loaded.graph);
     const auto again = readGraph (written);
     if (hasErrors (again.messages) || writeGraph (again.graph) != written) std::abort();
+
+    const auto compiled = compile (loaded.graph, catalogue());
+    if (! compiled.plan && ! hasErrors (compiled.messages)) std::abort();
+    for (int k = 0; compiled.plan && k < 3; ++k)
+        compiled.plan->tick();
 }
 
 }   // namespace tactus::fuzz

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/corpus.hpp"
+
+#include <tests/fuzz/csv_target.hpp>
+
+#include <catch2/catch.hpp>
+
+TEST_CASE ("every text of the csv corpus is read or refused") { CHECK (tactus::test::replay ("csv", tactus::fuzz::tryCsv) > 20); }
