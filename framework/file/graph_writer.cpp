@@ -164,7 +164,13 @@ std::string writeGraph (const Graph& graph)
 
 Messages saveGraph (const Graph& graph, const std::filesystem::path& path)
 {
-    const auto reason = writeWhole (path, writeGraph (graph));
+    AtomicFile file (path);
+    auto reason = file.refused();
+    if (! reason)
+    {
+        file.stream() << writeGraph (graph);
+        reason = file.commit();
+    }
     if (! reason) return {};
     Message m;
     m.id = "output/unwritable";

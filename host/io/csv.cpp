@@ -320,7 +320,7 @@ tl::expected<TableWriter, Error> TableWriter::create (const std::filesystem::pat
                                        .what = "a column name has a line break, or spaces around it",
                                        .remedy = "write it as words on one line" });
 
-    auto opened = AtomicFile::create (path);
+    auto opened = createFile (path);
     if (! opened)
         return tl::unexpected (opened.error());
 
@@ -358,14 +358,14 @@ tl::expected<void, Error> TableWriter::row (std::span<const double> values)
 
 tl::expected<void, Error> TableWriter::commit()
 {
-    return file.commit();
+    return commitFile (file);
 }
 
 tl::expected<void, Error> TableWriter::writeLine()
 {
     line += '\n';
     if (! file.stream().write (line.data(), static_cast<std::streamsize> (line.size())))
-        return tl::unexpected (file.writeFailed());
+        return tl::unexpected (writeFailed (file));
     return {};
 }
 

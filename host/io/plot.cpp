@@ -314,12 +314,12 @@ tl::expected<void, Error> writePng (const Figure& figure, const std::filesystem:
     juce::MemoryOutputStream png;
     juce::PNGImageFormat().writeImageToStream (Painter (layout).paint(), png);
 
-    auto file = AtomicFile::create (path);
+    auto file = createFile (path);
     if (! file)
         return tl::unexpected (file.error());
     if (! file->stream().write (static_cast<const char*> (png.getData()), static_cast<std::streamsize> (png.getDataSize())))
-        return tl::unexpected (file->writeFailed());
-    return file->commit();
+        return tl::unexpected (writeFailed (*file));
+    return commitFile (*file);
 }
 
 }   // namespace tactus::host

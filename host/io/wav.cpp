@@ -145,7 +145,7 @@ struct WavWriter::Impl
         const bool written = writer->writeFromFloatArrays (pointers.data(), static_cast<int> (block.size()), static_cast<int> (filled));
         filled = 0;
         if (! written)
-            return tl::unexpected (file.writeFailed());
+            return tl::unexpected (writeFailed (file));
         return {};
     }
 };
@@ -162,7 +162,7 @@ tl::expected<WavWriter, Error> WavWriter::create (const std::filesystem::path& p
         return fail ("wav/sample_rate", path, "a WAV cannot have a sample rate of " + inWords (sample_rate_hz) + " Hz",
                      "choose a rate in whole Hz, or write a CSV");
 
-    auto file = AtomicFile::create (path);
+    auto file = createFile (path);
     if (! file)
         return tl::unexpected (file.error());
     if (file->stream().tellp() < 0)
@@ -208,7 +208,7 @@ tl::expected<void, Error> WavWriter::commit()
         return written;
 
     impl->writer.reset();   // fills in the header
-    return impl->file.commit();
+    return commitFile (impl->file);
 }
 
 }   // namespace tactus::host

@@ -6,20 +6,20 @@
 #include <catch2/catch.hpp>
 
 namespace fs = std::filesystem;
-using tactus::host::AtomicFile;
+using namespace tactus::host;
 
 TEST_CASE ("atomic file: the target changes on commit and not before", "[host][io]")
 {
     const TemporaryFolder folder;
     folder.write ("out.txt", "old");
 
-    auto file = AtomicFile::create (folder / "out.txt");
+    auto file = createFile (folder / "out.txt");
     REQUIRE (file.has_value());
     file->stream() << "new";
     file->stream().flush();
     CHECK (folder.textOf ("out.txt") == "old");
 
-    REQUIRE (file->commit().has_value());
+    REQUIRE (commitFile (*file).has_value());
     CHECK (folder.textOf ("out.txt") == "new");
     CHECK (std::distance (fs::directory_iterator (folder.path()), {}) == 1);
 }
@@ -28,7 +28,7 @@ TEST_CASE ("atomic file: without a commit the target stays as it was", "[host][i
 {
     const TemporaryFolder folder;
     {
-        auto file = AtomicFile::create (folder / "out.txt");
+        auto file = createFile (folder / "out.txt");
         REQUIRE (file.has_value());
         auto moved = std::move (*file);
         moved.stream() << "half";
@@ -39,13 +39,13 @@ TEST_CASE ("atomic file: without a commit the target stays as it was", "[host][i
 TEST_CASE ("atomic file: a file assigned to gives up what it was writing", "[host][io]")
 {
     const TemporaryFolder folder;
-    auto first = AtomicFile::create (folder / "first.txt");
-    auto second = AtomicFile::create (folder / "second.txt");
+    auto first = createFile (folder / "first.txt");
+    auto second = createFile (folder / "second.txt");
     REQUIRE ((first.has_value() && second.has_value()));
 
     *first = std::move (*second);
     first->stream() << "2";
-    REQUIRE (first->commit().has_value());
+    REQUIRE (commitFile (*first).has_value());
 
     CHECK_FALSE (fs::exists (folder / "first.txt"));
     CHECK (folder.textOf ("second.txt") == "2");
@@ -55,15 +55,15 @@ TEST_CASE ("atomic file: a file assigned to gives up what it was writing", "[hos
 TEST_CASE ("atomic file: two writers of one target do not disturb each other", "[host][io]")
 {
     const TemporaryFolder folder;
-    auto one = AtomicFile::create (folder / "out.txt");
-    auto other = AtomicFile::create (folder / "out.txt");
+    auto one = createFile (folder / "out.txt");
+    auto other = createFile (folder / "out.txt");
     REQUIRE ((one.has_value() && other.has_value()));
     one->stream() << "one";
     other->stream() << "other";
 
-    REQUIRE (one->commit().has_value());
+    REQUIRE (commitFile (*one).has_value());
     CHECK (folder.textOf ("out.txt") == "one");
-    REQUIRE (other->commit().has_value());
+    REQUIRE (commitFile (*other).has_value());
     CHECK (folder.textOf ("out.txt") == "other");
 }
 
@@ -73,7 +73,7 @@ TEST_CASE ("atomic file: a target that cannot be written is refused at once, wit
 
     for (const auto& target : { folder.path(), folder / "missing/out.txt" })
     {
-        const auto file = AtomicFile::create (target);
+        const auto file = createFile (target);
         REQUIRE_FALSE (file.has_value());
         CHECK (file.error().id == "output/unwritable");
         CHECK (file.error().where == target.string());
@@ -85,9 +85,9 @@ TEST_CASE ("atomic file: a name too long is an error on commit and leaves nothin
 {
     const TemporaryFolder folder;
     {
-        auto file = AtomicFile::create (folder / std::string (300, 'x'));
+        auto file = createFile (folder / std::string (300, 'x'));
         REQUIRE (file.has_value());
-        CHECK (file->commit().error().id == "output/unwritable");
+        CHECK (commitFile (*file).error().id == "output/unwritable");
     }
     CHECK (folder.isEmpty());
 }
@@ -100,10 +100,10 @@ TEST_CASE ("atomic file: permissions of the old file are kept, and a link stays 
     fs::permissions (folder / "real.txt", owner_only);
     fs::create_symlink (folder / "real.txt", folder / "link.txt");
 
-    auto file = AtomicFile::create (folder / "link.txt");
+    auto file = createFile (folder / "link.txt");
     REQUIRE (file.has_value());
     file->stream() << "new";
-    REQUIRE (file->commit().has_value());
+    REQUIRE (commitFile (*file).has_value());
 
     CHECK (fs::is_symlink (folder / "link.txt"));
     CHECK (folder.textOf ("real.txt") == "new");
@@ -115,9 +115,9 @@ TEST_CASE ("atomic file: a device is written to, not replaced", "[host][io]")
     if (! fs::is_character_file ("/dev/null"))
         return;
 
-    auto file = AtomicFile::create ("/dev/null");
+    auto file = createFile ("/dev/null");
     REQUIRE (file.has_value());
     file->stream() << "gone";
-    CHECK (file->commit().has_value());
+    CHECK (commitFile (*file).has_value());
     CHECK (fs::is_character_file ("/dev/null"));
 }
