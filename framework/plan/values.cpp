@@ -2,8 +2,8 @@
 #include "values.hpp"
 
 #include <framework/near_miss.hpp>
+#include <framework/number_text.hpp>
 
-#include <charconv>
 #include <cmath>
 
 namespace tactus::plan
@@ -11,18 +11,12 @@ namespace tactus::plan
 
 namespace
 {
-std::string text (double v)
-{
-    char buffer[32];
-    return { buffer, std::to_chars (buffer, buffer + sizeof buffer, v).ptr };
-}
-
 /// "at least 1e-9", "from 0 to 1".
 std::string rangeText (const Interval& i)
 {
-    if (i.min == -inf) return "at most " + text (i.max);
-    if (i.max == inf) return "at least " + text (i.min);
-    return "from " + text (i.min) + " to " + text (i.max);
+    if (i.min == -inf) return "at most " + numberText (i.max);
+    if (i.max == inf) return "at least " + numberText (i.min);
+    return "from " + numberText (i.min) + " to " + numberText (i.max);
 }
 
 std::string joined (const std::vector<std::string>& parts)
@@ -59,7 +53,7 @@ struct SettingReader
 
     static double inRange (double v, const Interval& hard, const std::string& key)
     {
-        if (! hard.contains (v)) throw Problem { text (v) + " is out of range: it must be " + rangeText (hard), key };
+        if (! hard.contains (v)) throw Problem { numberText (v) + " is out of range: it must be " + rangeText (hard), key };
         return v;
     }
 
@@ -76,7 +70,7 @@ struct SettingReader
             const auto index = std::to_string (i);
             c.x.push_back (number (json[0][i], x, key + "/0/" + index));
             c.y.push_back (number (json[1][i], y, key + "/1/" + index));
-            if (i > 0 && ! (c.x[i] > c.x[i - 1])) throw Problem { "x must increase, but " + text (c.x[i]) + " follows " + text (c.x[i - 1]), key + "/0/" + index };
+            if (i > 0 && ! (c.x[i] > c.x[i - 1])) throw Problem { "x must increase, but " + numberText (c.x[i]) + " follows " + numberText (c.x[i - 1]), key + "/0/" + index };
         }
         return c;
     }
@@ -142,7 +136,7 @@ struct SettingReader
         case Kind::integer:
         {
             const double v = inRange (number (json, sheet.unit, ""), sheet.limits.hard, "");
-            if (v != std::floor (v) || std::abs (v) > 1e9) throw Problem { text (v) + " is not a whole number", "" };
+            if (v != std::floor (v) || std::abs (v) > 1e9) throw Problem { numberText (v) + " is not a whole number", "" };
             return v;
         }
         case Kind::text:
@@ -226,7 +220,7 @@ private:
             ends[i] = std::get<Number> (read).value;
             if (! sheet.limits.hard.contains (ends[i]))
             {
-                flat.error ("param/out_of_range", a.origin, "'" + flat.nameOf (a.to) + "' is " + text (ends[i]) + ", where the model has no meaning", "it must be " + rangeText (sheet.limits.hard) + (sheet.unit.unit.symbol == "1" ? "" : " " + std::string (sheet.unit.unit.symbol)));
+                flat.error ("param/out_of_range", a.origin, "'" + flat.nameOf (a.to) + "' is " + numberText (ends[i]) + ", where the model has no meaning", "it must be " + rangeText (sheet.limits.hard) + (sheet.unit.unit.symbol == "1" ? "" : " " + std::string (sheet.unit.unit.symbol)));
                 return;
             }
         }

@@ -5,9 +5,9 @@
 #include <framework/catalogue.hpp>
 #include <framework/json.hpp>
 #include <framework/near_miss.hpp>
+#include <framework/number_text.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <iostream>
 #include <memory>
 
@@ -16,12 +16,6 @@ namespace tactus::host
 
 namespace
 {
-std::string text (double v)
-{
-    char buffer[32];
-    return { buffer, std::to_chars (buffer, buffer + sizeof buffer, v).ptr };
-}
-
 std::string unitText (const UnitRule& u)
 {
     switch (u.kind)
@@ -42,16 +36,16 @@ std::string unitText (const UnitRule& u)
 std::string initialText (const PortSheet& p)
 {
     if (! p.choices.empty()) return std::string (p.choices[static_cast<std::size_t> (p.initial[0])]);
-    if (p.width == 1) return text (p.initial[0]);
-    return "(" + text (p.initial[0]) + ", " + text (p.initial[1]) + ", " + text (p.initial[2]) + ")";
+    if (p.width == 1) return numberText (p.initial[0]);
+    return "(" + numberText (p.initial[0]) + ", " + numberText (p.initial[1]) + ", " + numberText (p.initial[2]) + ")";
 }
 
 std::string rangeText (const Interval& i)
 {
     if (i == Interval {}) return "";
-    if (i.max == inf) return "from " + text (i.min);
-    if (i.min == -inf) return "up to " + text (i.max);
-    return text (i.min) + " … " + text (i.max);
+    if (i.max == inf) return "from " + numberText (i.min);
+    if (i.min == -inf) return "up to " + numberText (i.max);
+    return numberText (i.min) + " … " + numberText (i.max);
 }
 
 constexpr std::string_view kind_names[] = { "number", "whole number", "text", "curve", "law", "records" };
@@ -119,7 +113,7 @@ void printDatasheet (const NodeType& t)
                 about += (&f == &s.fields.front() ? "; each with " : ", ") + std::string (f.id) + " (" + std::string (f.unit.symbol) + ")";
             if (const auto hard = rangeText (s.limits.hard); ! hard.empty()) about += "; only " + hard;
             const auto* initial = std::get_if<double> (&s.initial);
-            rows.push_back ({ std::string (s.id), std::string (kind_names[static_cast<int> (s.kind)]), initial ? text (*initial) : "", about });
+            rows.push_back ({ std::string (s.id), std::string (kind_names[static_cast<int> (s.kind)]), initial ? numberText (*initial) : "", about });
         }
         print (rows);
     }

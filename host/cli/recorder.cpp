@@ -2,7 +2,8 @@
 #include "recorder.hpp"
 #include "report.hpp"
 
-#include <charconv>
+#include <framework/number_text.hpp>
+
 #include <filesystem>
 #include <iostream>
 
@@ -14,11 +15,10 @@ namespace
 void printRow (std::span<const double> values)
 {
     std::string line;
-    char number[32];
     for (const double v : values)
     {
         if (! line.empty()) line += ',';
-        line.append (number, std::to_chars (number, number + sizeof number, v).ptr);
+        line += numberText (v);
     }
     std::cout << line << '\n';
 }

@@ -7,8 +7,6 @@
 #include <framework/units.hpp>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <utility>
 #include <variant>
@@ -59,12 +57,6 @@ std::string example (const Unit& unit)
     return symbol == "1" ? "a number" : "a number in " + symbol + ", or a text such as \"1 " + symbol + "\"";
 }
 }   // namespace
-
-std::string shortest (double value)
-{
-    std::array<char, 32> text {};
-    return { text.data(), std::to_chars (text.data(), text.data() + text.size(), value).ptr };
-}
 
 std::string suggestion (std::string_view name, std::span<const std::string> names)
 {
@@ -131,8 +123,8 @@ double Fields::number (std::string_view key, const Unit& unit, Bounds bounds, do
     const bool too_small = bounds.without_min ? value <= bounds.min : value < bounds.min;
     if (! too_small && value <= bounds.max) return value;
 
-    const auto limit = too_small ? std::string (bounds.without_min ? "more than " : "at least ") + shortest (bounds.min) : "at most " + shortest (bounds.max);
-    error (key, "device/out_of_range", std::string (key) + " is " + shortest (value) + " " + std::string (unit.symbol) + ", which is out of range", "it has to be " + limit + " " + std::string (unit.symbol));
+    const auto limit = too_small ? std::string (bounds.without_min ? "more than " : "at least ") + numberText (bounds.min) : "at most " + numberText (bounds.max);
+    error (key, "device/out_of_range", std::string (key) + " is " + numberText (value) + " " + std::string (unit.symbol) + ", which is out of range", "it has to be " + limit + " " + std::string (unit.symbol));
     return otherwise;
 }
 
@@ -145,9 +137,9 @@ int Fields::whole (std::string_view key, int min, int max, int otherwise)
     if (! json->is_number())
         error (key, "device/kind", "expected a whole number, found " + kindOf (*json), remedy);
     else if (const auto value = json->get<double>(); value != std::floor (value))
-        error (key, "device/kind", std::string (key) + " is " + shortest (value) + ", which is not a whole number", remedy);
+        error (key, "device/kind", std::string (key) + " is " + numberText (value) + ", which is not a whole number", remedy);
     else if (value < min || value > max)
-        error (key, "device/out_of_range", std::string (key) + " is " + shortest (value) + ", which is out of range", remedy);
+        error (key, "device/out_of_range", std::string (key) + " is " + numberText (value) + ", which is out of range", remedy);
     else
         return static_cast<int> (value);
     return otherwise;

@@ -4,6 +4,7 @@
 #include <framework/json.hpp>
 #include <framework/list.hpp>
 #include <framework/message.hpp>
+#include <framework/number_text.hpp>
 #include <framework/quantity.hpp>
 
 #include <limits>
@@ -59,9 +60,6 @@ private:
     Messages& messages;
     std::vector<std::string> known;
 };
-
-/// The shortest text that reads back to the same double, whatever the locale.
-std::string shortest (double);
 
 /// "did you mean 'damping'?", or the whole list where nothing is near.
 std::string suggestion (std::string_view name, std::span<const std::string> names);

@@ -112,7 +112,7 @@ std::unique_ptr<Device> makeSimulated (Fields& in, const Folder& folder, Message
     sim.rotation = in.vector ("rotation", unit::radian, sim.rotation);
     sim.hand_force = in.vector ("hand_force", unit::newton, sim.hand_force);
 
-    about = "A simulated tool of " + shortest (sim.mass) + " kg with a damping of " + shortest (sim.damping) + " N*s/m, ";
+    about = "A simulated tool of " + numberText (sim.mass) + " kg with a damping of " + numberText (sim.damping) + " N*s/m, ";
     about += sim.hand.path ? "in a hand that follows " + in.object ("hand").value ("path", std::string()) + "." : std::string ("held by no hand.");
     return std::make_unique<SimulatedDevice> (std::move (sim));
 }

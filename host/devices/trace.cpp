@@ -54,7 +54,7 @@ double* partOf (TraceData::Row& row, std::string_view column)
 }
 
 std::string rowName (std::size_t index) { return "row " + std::to_string (index + 1); }
-std::string seconds (double t) { return shortest (t) + " s"; }
+std::string seconds (double t) { return numberText (t) + " s"; }
 
 Messages checkColumns (std::span<const std::string> columns, std::size_t values)
 {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/io/csv.hpp>
 
+#include <framework/number_text.hpp>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -344,14 +346,7 @@ tl::expected<void, Error> TableWriter::row (std::span<const double> values)
     {
         if (! line.empty())
             line += ',';
-
-        if (std::isnan (value))
-        {
-            line += "nan";   // the sign of a nan means nothing
-            continue;
-        }
-        std::array<char, 32> text;
-        line.append (text.data(), std::to_chars (text.data(), text.data() + text.size(), value).ptr);
+        line += numberText (value);
     }
     return writeLine();
 }

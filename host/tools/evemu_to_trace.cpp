@@ -53,7 +53,7 @@ bool print (const TraceData& trace)
     for (const auto& row : trace.rows)
     {
         for (const double value : valuesOf (row))
-            text += shortest (value) + ',';
+            text += numberText (value) + ',';
         text.back() = '\n';
     }
     std::cout << text << std::flush;
