@@ -98,7 +98,8 @@ Effort Guard::operator() (const Effort& wanted, const Reading& reading) noexcept
 
     if (cause != Stop::none && reason == Stop::none)
     {
-        event = { .why = cause, .wanted = wanted, .age = reading.age, .watchdog = limits.watchdog, .valid = reading.valid };
+        const bool ends_a_run = cause == Stop::halted && event.why != Stop::none;   // the stop before it is what is asked for
+        if (! ends_a_run) event = { .why = cause, .wanted = wanted, .age = reading.age, .watchdog = limits.watchdog, .valid = reading.valid };
         at_stop = last;
         withheld = 1.0;
         enabled = 0.0;

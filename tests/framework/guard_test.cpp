@@ -373,3 +373,15 @@ TEST_CASE ("guard: a session can tighten a profile's limits, never loosen them",
     CHECK (tightest (profile, {}) == profile);
     CHECK (tightest (profile, { .max_force = not_a_number, .ramp = not_a_number }).max_force == 0.0);
 }
+
+TEST_CASE ("guard: the halt that ends a run does not hide why the force was withheld before", "[framework][guard]")
+{
+    Guard guard;
+    guard.prepare ({}, dt);
+    guard ({ .force = Vec3 (not_a_number, 0, 0) }, fresh);
+    guard ({}, fresh);
+    guard.halt();
+    guard ({}, fresh);
+    CHECK (guard.stop() == Guard::Stop::halted);
+    CHECK (guard.latest().why == Guard::Stop::not_finite);
+}
