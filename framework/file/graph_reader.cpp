@@ -19,27 +19,27 @@ public:
     void readFile (Json& file, Graph& graph)
     {
         const auto ignore = [] (Json&, const std::string&) {};
-        std::vector<Field> fields {
-            { "format", Kind::any, ignore },
-            { "version", Kind::any, ignore },
-            { "name", Kind::text, into (graph.name) },
-            { "about", Kind::text, into (graph.about) },
-            { "tags", Kind::list, [&] (Json& v, const std::string& at)
+        std::vector<KnownKey> fields {
+            { "format", JsonKind::any, ignore },
+            { "version", JsonKind::any, ignore },
+            { "name", JsonKind::text, into (graph.name) },
+            { "about", JsonKind::text, into (graph.about) },
+            { "tags", JsonKind::list, [&] (Json& v, const std::string& at)
               { readTags (v, at, graph.tags); } },
-            { "rate_hz", Kind::number, [&] (Json& v, const std::string& at)
+            { "rate_hz", JsonKind::number, [&] (Json& v, const std::string& at)
               {
                   graph.rate_hz = v.get<double>();
                   if (! (graph.rate_hz > 0.0)) error ("file/bad_value", at, "the rate is " + v.dump() + " Hz; it should be more than 0", "4000 suits most devices");
               } },
-            { "devices", Kind::object, [&] (Json& v, const std::string& at)
+            { "devices", JsonKind::object, [&] (Json& v, const std::string& at)
               { readDevices (v, at, graph); } },
-            { "controls", Kind::object, [&] (Json& v, const std::string& at)
+            { "controls", JsonKind::object, [&] (Json& v, const std::string& at)
               { eachId (v, at, "a control", [&] (const std::string& id, Json& control, const std::string& where)
                         { readControl (id, control, where, graph.controls.emplace_back()); }); } },
-            { "graphs", Kind::object, [&] (Json& v, const std::string& at)
+            { "graphs", JsonKind::object, [&] (Json& v, const std::string& at)
               { eachId (v, at, "a subgraph", [&] (const std::string& id, Json& patch, const std::string& where)
                         { readSubgraph (patch, where, graph.graphs.emplace_back (id, Patch {}).second); }); } },
-            { "ui", Kind::object, keep ("ui", graph.extra) },
+            { "ui", JsonKind::object, keep ("ui", graph.extra) },
         };
         addPatch (fields, graph.root);
         read (file, "", fields, graph.extra);
@@ -49,7 +49,7 @@ private:
     void readTags (Json& list, const std::string& where, std::vector<std::string>& tags)
     {
         for (std::size_t i = 0; i < list.size(); ++i)
-            if (isKind (list[i], Kind::text, where + '/' + std::to_string (i)))
+            if (isKind (list[i], JsonKind::text, where + '/' + std::to_string (i)))
                 tags.push_back (std::move (list[i].get_ref<std::string&>()));
     }
 
@@ -81,7 +81,7 @@ std::optional<int> readHeader (const Json& file, ObjectReader& problems)
         problems.error ("file/missing_key", "", "the file does not say its 'version'", "add \"version\": " + std::to_string (graph_format.version));
         return std::nullopt;
     }
-    if (! problems.isKind (*version, Kind::number, "/version")) return std::nullopt;
+    if (! problems.isKind (*version, JsonKind::number, "/version")) return std::nullopt;
     const double n = version->get<double>();
     constexpr double most = 1e6;
     if (! (n >= 0.0 && n <= most && n == std::floor (n)))

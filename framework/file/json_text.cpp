@@ -193,7 +193,7 @@ private:
         if (result.messages.size() >= most) return;
         Message m;
         m.id = std::move (id);
-        m.where = std::move (where);
+        m.where = where.substr (0, 1000);
         m.text = std::move (text);
         m.remedy = std::move (remedy);
         m.line = p.line;
@@ -215,8 +215,9 @@ private:
 
     void place (TextPosition position)
     {
-        constexpr std::size_t most = 500'000;   // a hostile file fills no more memory than this many entries
-        if (result.positions.size() < most) result.positions.emplace (path, position);
+        constexpr std::size_t most = 64u << 20u;   // bytes of paths: a hostile file has long keys over long lists
+        place_bytes += path.size() + 1;
+        if (place_bytes < most) result.positions.emplace (path, position);
     }
 
     /// An element of an array gets its position here; a member of an object has it from its key.
@@ -407,6 +408,7 @@ private:
     std::vector<Frame> frames;
     std::string path;
     std::vector<std::size_t> path_sizes;
+    std::size_t place_bytes = 0;
     bool done = false;
 };
 }   // namespace

@@ -12,41 +12,41 @@ namespace tactus
 {
 namespace
 {
-bool matches (const Json& value, Kind kind)
+bool matches (const Json& value, JsonKind kind)
 {
     switch (kind)
     {
-    case Kind::object:
+    case JsonKind::object:
         return value.is_object();
-    case Kind::list:
+    case JsonKind::list:
         return value.is_array();
-    case Kind::text:
+    case JsonKind::text:
         return value.is_string();
-    case Kind::number:
+    case JsonKind::number:
         return value.is_number();
-    case Kind::truth:
+    case JsonKind::truth:
         return value.is_boolean();
-    case Kind::any:
+    case JsonKind::any:
         break;
     }
     return true;
 }
 
-constexpr std::string_view nameOf (Kind kind)
+constexpr std::string_view nameOf (JsonKind kind)
 {
     switch (kind)
     {
-    case Kind::object:
+    case JsonKind::object:
         return "an object, {…}";
-    case Kind::list:
+    case JsonKind::list:
         return "a list, […]";
-    case Kind::text:
+    case JsonKind::text:
         return "a text in double quotes";
-    case Kind::number:
+    case JsonKind::number:
         return "a number";
-    case Kind::truth:
+    case JsonKind::truth:
         return "true or false";
-    case Kind::any:
+    case JsonKind::any:
         break;
     }
     return "a value";
@@ -102,7 +102,7 @@ void ObjectReader::add (Message::Severity severity, std::string id, const std::s
     messages.push_back (std::move (m));
 }
 
-bool ObjectReader::isKind (const Json& value, Kind kind, const std::string& where)
+bool ObjectReader::isKind (const Json& value, JsonKind kind, const std::string& where)
 {
     if (matches (value, kind)) return true;
     const auto wanted = std::string (nameOf (kind));
@@ -110,19 +110,19 @@ bool ObjectReader::isKind (const Json& value, Kind kind, const std::string& wher
     return false;
 }
 
-void ObjectReader::read (Json& object, const std::string& where, const std::vector<Field>& fields, Json& extra)
+void ObjectReader::read (Json& object, const std::string& where, const std::vector<KnownKey>& fields, Json& extra)
 {
     for (auto& [key, value] : object.get_ref<Json::object_t&>())
     {
         const auto member = where + '/' + pointerPart (key);
-        const auto field = std::ranges::find (fields, key, &Field::key);
+        const auto field = std::ranges::find (fields, key, &KnownKey::key);
         if (field != fields.end())
         {
             if (isKind (value, field->kind, member)) field->read (value, member);
             continue;
         }
         std::vector<std::string_view> known (fields.size());
-        std::ranges::transform (fields, known.begin(), &Field::key);
+        std::ranges::transform (fields, known.begin(), &KnownKey::key);
         if (const auto meant = nearMiss (key, known); ! meant.empty())
             warning ("file/unknown_key", member, "the key " + inQuotes (key) + " means nothing here and is only kept; is '" + std::string (meant) + "' meant?", "write '" + std::string (meant) + "', or leave it");
         append (extra, key, std::move (value));

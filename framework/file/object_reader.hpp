@@ -14,7 +14,7 @@
 namespace tactus
 {
 
-enum class Kind
+enum class JsonKind
 {
     object,
     list,
@@ -25,10 +25,10 @@ enum class Kind
 };
 
 /// A key that is known in an object, and what becomes of its value.
-struct Field
+struct KnownKey
 {
     std::string_view key;
-    Kind kind;
+    JsonKind kind;
     std::function<void (Json& value, const std::string& where)> read;
 };
 
@@ -40,11 +40,11 @@ public:
     void error (std::string id, const std::string& where, std::string text, std::string remedy = {});
     void warning (std::string id, const std::string& where, std::string text, std::string remedy = {});
 
-    bool isKind (const Json&, Kind, const std::string& where);
+    bool isKind (const Json&, JsonKind, const std::string& where);
 
     /// Every member of an object in the order of the file: a known key goes to its field, if the value is of its kind;
     /// any other is kept in `extra`.
-    void read (Json& object, const std::string& where, const std::vector<Field>&, Json& extra);
+    void read (Json& object, const std::string& where, const std::vector<KnownKey>&, Json& extra);
 
     Messages messages;
 

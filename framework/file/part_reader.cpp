@@ -18,23 +18,23 @@ bool PartReader::checkId (const std::string& id, const std::string& where, std::
     return false;
 }
 
-void PartReader::addPatch (std::vector<Field>& fields, Patch& patch)
+void PartReader::addPatch (std::vector<KnownKey>& fields, Patch& patch)
 {
-    fields.push_back ({ "nodes", Kind::object, [&] (Json& v, const std::string& at)
+    fields.push_back ({ "nodes", JsonKind::object, [&] (Json& v, const std::string& at)
                         { eachId (v, at, "a node", [&] (const std::string& name, Json& node, const std::string& where)
                                   { readNode (name, node, where, patch.nodes.emplace_back()); }); } });
-    fields.push_back ({ "wires", Kind::list, [&] (Json& v, const std::string& at)
+    fields.push_back ({ "wires", JsonKind::list, [&] (Json& v, const std::string& at)
                         {
                             for (std::size_t i = 0; i < v.size(); ++i)
                                 readWire (v[i], at + '/' + std::to_string (i), patch);
                         } });
-    fields.push_back ({ "expose", Kind::object, [&] (Json& v, const std::string& at)
+    fields.push_back ({ "expose", JsonKind::object, [&] (Json& v, const std::string& at)
                         { readExpose (v, at, patch.expose); } });
 }
 
 void PartReader::readSubgraph (Json& object, const std::string& where, Patch& patch)
 {
-    std::vector<Field> fields { { "ui", Kind::object, keep ("ui", patch.extra) } };
+    std::vector<KnownKey> fields { { "ui", JsonKind::object, keep ("ui", patch.extra) } };
     addPatch (fields, patch);
     read (object, where, fields, patch.extra);
 }
@@ -42,38 +42,38 @@ void PartReader::readSubgraph (Json& object, const std::string& where, Patch& pa
 void PartReader::readNode (const std::string& name, Json& object, const std::string& where, graph::Node& node)
 {
     node.name = name;
-    const auto number = [&] (std::string_view key) -> Field
+    const auto number = [&] (std::string_view key) -> KnownKey
     {
-        return { key, Kind::number, [this, &node, key] (Json& v, const std::string& at)
+        return { key, JsonKind::number, [this, &node, key] (Json& v, const std::string& at)
                  { readCount (std::string (key), v, at, node.extra); } };
     };
     read (object, where,
-          { { "type", Kind::text, [&] (Json& v, const std::string& at)
+          { { "type", JsonKind::text, [&] (Json& v, const std::string& at)
               { readType (v.get_ref<std::string&>(), at, node); } },
-            { "role", Kind::text, [&] (Json& v, const std::string& at)
+            { "role", JsonKind::text, [&] (Json& v, const std::string& at)
               {
                   node.role = v.get_ref<std::string&>();
                   checkId (node.role, at, "a role");
               } },
-            { "params", Kind::object, [&] (Json& v, const std::string& at)
+            { "params", JsonKind::object, [&] (Json& v, const std::string& at)
               { readValues (v, at, "a parameter", node.params); } },
-            { "settings", Kind::object, [&] (Json& v, const std::string& at)
+            { "settings", JsonKind::object, [&] (Json& v, const std::string& at)
               { readValues (v, at, "a setting", node.settings); } },
-            { "roles", Kind::object, [&] (Json& v, const std::string& at)
+            { "roles", JsonKind::object, [&] (Json& v, const std::string& at)
               { readRoles (v, at, node); } },
-            { "overrides", Kind::object, [&] (Json& v, const std::string& at)
+            { "overrides", JsonKind::object, [&] (Json& v, const std::string& at)
               { readOverrides (v, at, node); } },
-            { "bypass", Kind::truth, [&] (Json& v, const std::string&)
+            { "bypass", JsonKind::truth, [&] (Json& v, const std::string&)
               { node.bypass = v.get<bool>(); } },
             number ("count"),
             number ("every"),
             number ("times"),
-            { "hold", Kind::text, [&] (Json& v, const std::string& at)
+            { "hold", JsonKind::text, [&] (Json& v, const std::string& at)
               {
                   if (v != "latch" && v != "linear") error ("file/bad_value", at, "'hold' is " + inQuotes (v.get_ref<std::string&>()) + "; it should be \"latch\" or \"linear\"", "write \"latch\"");
                   append (node.extra, "hold", std::move (v));
               } },
-            { "ui", Kind::object, keep ("ui", node.extra) } },
+            { "ui", JsonKind::object, keep ("ui", node.extra) } },
           node.extra);
     if (! object.contains ("type"))
         error ("file/missing_key", where, "the node " + inQuotes (name) + " has no 'type'", "add \"type\", with an id from the catalogue or \"graph:\" and the name of a subgraph");
@@ -109,7 +109,7 @@ void PartReader::readRoles (Json& object, const std::string& where, graph::Node&
             for (std::size_t i = 0; i < outer.size(); ++i)
             {
                 const auto entry = at + '/' + std::to_string (i);
-                if (isKind (outer[i], Kind::text, entry)) checkId (outer[i].get_ref<std::string&>(), entry, "a role");
+                if (isKind (outer[i], JsonKind::text, entry)) checkId (outer[i].get_ref<std::string&>(), entry, "a role");
             }
         }
         else
@@ -151,16 +151,16 @@ void PartReader::readWire (Json& value, const std::string& where, Patch& patch)
     std::optional<Wire> wire;
     Wire rest;
     read (value, where,
-          { { "wire", Kind::text, [&] (Json& v, const std::string& at)
+          { { "wire", JsonKind::text, [&] (Json& v, const std::string& at)
               { wire = parse (v, at); } },
-            { "gain", Kind::any, [&] (Json& v, const std::string& at)
+            { "gain", JsonKind::any, [&] (Json& v, const std::string& at)
               {
                   checkNumber (v, at);
                   rest.gain = std::move (v);
               } },
-            { "enabled", Kind::truth, [&] (Json& v, const std::string&)
+            { "enabled", JsonKind::truth, [&] (Json& v, const std::string&)
               { rest.enabled = v.get<bool>(); } },
-            { "ui", Kind::object, keep ("ui", rest.extra) } },
+            { "ui", JsonKind::object, keep ("ui", rest.extra) } },
           rest.extra);
     if (! value.contains ("wire")) error ("file/missing_key", where, "the wire has no 'wire' that says what it joins", "add \"wire\": \"node.port -> node.port\"");
     if (! wire) return;
@@ -205,16 +205,16 @@ void PartReader::readExpose (Json& object, const std::string& where, Expose& exp
             {
                 const auto entry = at + '/' + pointerPart (id);
                 checkId (id, entry, "a port");
-                if (! isKind (target, Kind::text, entry)) continue;
+                if (! isKind (target, JsonKind::text, entry)) continue;
                 if (auto end = readEndpoint (target.get_ref<std::string&>(), entry, "write the node.port inside that is shown outside"))
                     list.emplace_back (id, std::move (*end));
             }
         };
     };
     read (object, where,
-          { { "inputs", Kind::object, ports (expose.inputs) },
-            { "outputs", Kind::object, ports (expose.outputs) },
-            { "params", Kind::object, ports (expose.params) } },
+          { { "inputs", JsonKind::object, ports (expose.inputs) },
+            { "outputs", JsonKind::object, ports (expose.outputs) },
+            { "params", JsonKind::object, ports (expose.params) } },
           expose.extra);
 }
 
@@ -222,19 +222,19 @@ void PartReader::readControl (const std::string& id, Json& object, const std::st
 {
     control.id = id;
     read (object, where,
-          { { "name", Kind::text, into (control.name) },
-            { "value", Kind::number, [&] (Json& v, const std::string& at)
+          { { "name", JsonKind::text, into (control.name) },
+            { "value", JsonKind::number, [&] (Json& v, const std::string& at)
               {
                   control.value = v.get<double>();
                   if (! (control.value >= 0.0 && control.value <= 1.0))
                       error ("file/bad_value", at, "the value of a control is from 0 to 1, and is " + v.dump(), "the ranges in 'to' say what 0 and 1 mean");
               } },
-            { "to", Kind::object, [&] (Json& v, const std::string& at)
+            { "to", JsonKind::object, [&] (Json& v, const std::string& at)
               {
                   for (auto& [path, range] : v.get_ref<Json::object_t&>())
                       readTarget (path, range, at + '/' + pointerPart (path), control);
               } },
-            { "ui", Kind::object, keep ("ui", control.extra) } },
+            { "ui", JsonKind::object, keep ("ui", control.extra) } },
           control.extra);
 }
 

@@ -29,7 +29,7 @@ protected:
     using Read = std::function<void (Json&, const std::string&)>;
 
     /// The fields of a patch, for an object that has others too.
-    void addPatch (std::vector<Field>&, graph::Patch&);
+    void addPatch (std::vector<KnownKey>&, graph::Patch&);
 
     /// The members of an object of ids and objects.
     template <typename F>
@@ -39,7 +39,7 @@ protected:
         {
             const auto at = where + '/' + pointerPart (id);
             checkId (id, at, what);
-            if (isKind (value, Kind::object, at)) each (id, value, at);
+            if (isKind (value, JsonKind::object, at)) each (id, value, at);
         }
     }
 

@@ -156,7 +156,7 @@ TEST_CASE ("a graph is saved whole or not at all")
         const auto messages = saveGraph (g, folder.path / "nowhere" / "graph.json");
         REQUIRE (messages.size() == 1);
         CHECK (messages[0].id == "output/unwritable");
-        CHECK_THAT (messages[0].text, Contains ("nowhere") && Contains ("No such file"));
+        CHECK_THAT (messages[0].text, Contains ("nowhere") && Contains ("there is no folder"));
     }
     SECTION ("not over a folder, and nothing is left behind")
     {
