@@ -258,6 +258,9 @@ template <typename Owner, typename R>
 PortSheet portSheet (const Owner& owner, const R& row)
 {
     using T = typename R::Value;
+    static_assert (std::is_same_v<T, double> || std::is_same_v<T, Vec3> || Shape<T>::list || (std::is_enum_v<T> && R::role == Role::param),
+                   "a port is a double, a Vec3, an InputList (inputs) or a List (params, outputs); a choice is an enum");
+    static_assert (R::role == Role::input || ! std::is_same_v<T, InputList<double>>, "an InputList is for inputs");
     const auto& value = owner.*row.member;
     PortSheet s { R::role, row.id, row.unit, row.about, row.limits, row.choices, Shape<T>::width, Shape<T>::list, static_cast<std::size_t> (reinterpret_cast<const char*> (&value) - reinterpret_cast<const char*> (&owner)), { 0.0, 0.0, 0.0 } };
     if constexpr (std::is_enum_v<T>)
@@ -285,6 +288,7 @@ NodeType describe()
     using E = detail::Erased<N>;
     NodeType t {};
     t.info = N::info;
+    static_assert (std::is_trivially_destructible_v<typename N::Outputs>, "outputs are written anew each tick, without a destructor");
     t.outputs_size = sizeof (typename N::Outputs);
     t.outputs_align = alignof (typename N::Outputs);
 

@@ -14,15 +14,13 @@ struct Dimension
     constexpr bool operator== (const Dimension&) const = default;
 };
 
-constexpr Dimension operator* (Dimension a, Dimension b) noexcept
-{
-    return { static_cast<signed char> (a.m + b.m), static_cast<signed char> (a.kg + b.kg), static_cast<signed char> (a.s + b.s) };
-}
+/// An exponent that is too large for anything physical stays there, so that it never wraps around to one that fits.
+constexpr signed char exponent (int e) noexcept { return static_cast<signed char> (e > 100 ? 100 : e < -100 ? -100
+                                                                                                            : e); }
 
-constexpr Dimension operator/ (Dimension a, Dimension b) noexcept
-{
-    return { static_cast<signed char> (a.m - b.m), static_cast<signed char> (a.kg - b.kg), static_cast<signed char> (a.s - b.s) };
-}
+constexpr Dimension operator* (Dimension a, Dimension b) noexcept { return { exponent (a.m + b.m), exponent (a.kg + b.kg), exponent (a.s + b.s) }; }
+
+constexpr Dimension operator/ (Dimension a, Dimension b) noexcept { return { exponent (a.m - b.m), exponent (a.kg - b.kg), exponent (a.s - b.s) }; }
 
 /// What a number stands for. Two quantities may share a dimension (torque and energy); a wire between them is a
 /// warning, a wire between dimensions an error. `any` has a dimension only, and never warns.
