@@ -36,11 +36,11 @@ Effort total (const Plan::RoleUse& role, double* scratch) noexcept
 }
 }   // namespace
 
-Engine::Engine (std::shared_ptr<Plan> p, double rate_hz) : current (std::move (p)), attached (current->roles.size()), rate (rate_hz)
+Engine::Engine (std::shared_ptr<Plan> p) : current (std::move (p)), attached (current->roles.size())
 {
     for (std::size_t i = 0; i < attached.size(); ++i)
     {
-        attached[i].guard.prepare ({}, 1.0 / rate);
+        attached[i].guard.prepare ({}, 1.0 / current->rate_hz);
         attached[i].scratch.resize (current->roles[i].sinks.size());
     }
 }
@@ -49,8 +49,8 @@ void Engine::attach (std::string_view role, Device& device, const GuardLimits& l
 {
     auto& a = attached[indexOf (*current, role)];
     a.device = &device;
-    a.guard.prepare (limits, 1.0 / rate);
-    device.prepare (1.0 / rate);
+    a.guard.prepare (limits, 1.0 / current->rate_hz);
+    device.prepare (1.0 / current->rate_hz);
 }
 
 void Engine::tick() noexcept

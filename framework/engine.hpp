@@ -17,7 +17,7 @@ class Engine
 {
 public:
     /// [main thread] The plan must not be null. A role without a device reads rest at the origin and acts on nothing.
-    Engine (std::shared_ptr<Plan>, double rate_hz);
+    explicit Engine (std::shared_ptr<Plan>);
 
     /// Gives a role its device, which must outlive the engine, and the limits of its guard. [main thread, before ticking]
     void attach (std::string_view role, Device&, const GuardLimits& = {});
@@ -33,7 +33,7 @@ public:
 
     Plan& plan() noexcept { return *current; }
     const Guard& guardOf (std::string_view role) const;
-    double time_s() const noexcept { return static_cast<double> (ticks) / rate; }
+    double time_s() const noexcept { return static_cast<double> (ticks) / current->rate_hz; }
 
 private:
     struct Attached
@@ -45,7 +45,6 @@ private:
 
     std::shared_ptr<Plan> current;
     std::vector<Attached> attached;   // as plan().roles
-    double rate;
     std::uint64_t ticks = 0;
 };
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <new>
+#include <set>
 
 namespace tactus::plan
 {
@@ -37,7 +38,6 @@ struct Storage
     explicit Storage (std::size_t outputs_size) : outputs (outputs_size) {}
 
     std::vector<std::shared_ptr<void>> nodes;
-    std::deque<NodeType> made_types;
     Arena outputs;
     std::vector<double> defaults;   // of unconnected input components, one per source
     std::vector<const double*> sources;
@@ -57,11 +57,12 @@ struct Drivers
 class Builder
 {
 public:
-    Builder (Flat& f, const PortUnits& u, std::span<const int> o, const Outside& out, const Setup& s) : flat (f), units (u), order (o), outside (out), setup (s) {}
+    Builder (const Flat& f, const PortUnits& u, std::span<const int> o, const Outside& out, const Setup& s) : flat (f), units (u), order (o), outside (out), setup (s) {}
 
     std::shared_ptr<Plan> run()
     {
         layOut();
+        plan->rate_hz = setup.rate_hz;
         plan->feeds.assign (outside.feeds.size(), 0.0);
         makeNodes();
         connectDrivers();
@@ -75,13 +76,12 @@ public:
         plan->records.insert (plan->records.end(), writes.begin(), writes.end());
         addTaps();
         plan->delays = pathDelays (flat, nodeDelays());
-        storage->made_types = std::move (flat.made_types);
         plan->storage = storage;
         return std::move (plan);
     }
 
 private:
-    Flat& flat;
+    const Flat& flat;
     const PortUnits& units;
     std::span<const int> order;
     const Outside& outside;
@@ -92,6 +92,7 @@ private:
     std::vector<std::size_t> output_at, source_at;                // of each node: into the arena, into sources
     std::map<std::tuple<int, Role, int, int>, Drivers> drivers;   // by node, role, port, slot within the port
     std::vector<Record> peeks, writes;
+    std::set<std::string> tap_names;
 
     std::byte* outputsOf (int n) { return storage->outputs.bytes + output_at[at (n)]; }
     void* nodeOf (int n) { return storage->nodes[at (n)].get(); }
@@ -124,13 +125,14 @@ private:
         for (int i = 0; i < static_cast<int> (flat.nodes.size()); ++i)
         {
             const auto& n = flat.nodes[at (i)];
-            const bool made = n.type->make != nullptr;
-            storage->nodes.push_back (made ? n.type->make() : nullptr);
-            if (made)
-                n.type->initialiseOutputs (outputsOf (i));
-            else
+            storage->nodes.push_back (makeNode (n));
+            if (! storage->nodes.back())
+            {
                 std::memset (outputsOf (i), 0, n.type->outputs_size);
-            if (made) prepare (i);
+                continue;
+            }
+            n.type->initialiseOutputs (outputsOf (i));
+            prepare (i);
         }
         std::ranges::sort (plan->roles, {}, &Plan::RoleUse::name);
     }
@@ -139,27 +141,6 @@ private:
     {
         const auto& n = flat.nodes[at (i)];
         void* node = nodeOf (i);
-        for (std::size_t p = 0; p < n.params.size(); ++p)
-            for (std::size_t k = 0; k < n.params[p].size(); ++k)
-            {
-                if (n.type->params[p].choices.empty())
-                    *param (i, p, k) = n.params[p][k];
-                else
-                {
-                    const int chosen = static_cast<int> (n.params[p][k]);
-                    std::memcpy (static_cast<std::byte*> (n.type->paramsOf (node)) + n.type->params[p].offset, &chosen, sizeof chosen);
-                }
-            }
-        for (std::size_t s = 0; s < n.settings.size(); ++s)
-            n.type->settings[s].set (node, n.settings[s]);
-
-        if (n.type->problem)
-            if (const auto problem = n.type->problem (node); ! problem.empty())
-            {
-                flat.error ("node/problem", n.origin, "'" + n.path + "' (" + std::string (n.type->info.id) + "): " + problem, std::string (n.type->info.summary));
-                return;
-            }
-
         if (n.type->bind && ! n.muted && ! n.bypass) use (i);
         if (n.type->prepare) n.type->prepare (node, setup);
         if (n.type->update) n.type->update (node);
@@ -207,7 +188,7 @@ private:
             }
         }
         for (std::size_t f = 0; f < outside.feeds.size(); ++f)
-            driversOf (outside.feeds[f], outside.feeds[f].component).feed = &plan->feeds[f];
+            if (const auto& port = outside.feeds[f]) driversOf (*port, port->component).feed = &plan->feeds[f];
     }
 
     const double* delayed (const double* from, int ticks)
@@ -298,7 +279,7 @@ private:
             {
                 if (in.width == out.width && ! out.list && (in.id == out.id || (in.id == "in" && out.id == "out")))
                     for (int c = 0; c < out.width; ++c)
-                        bypass.copies.push_back ({ to + c, first + at (c), in.list ? at (n.list_size) : 1, at (in.width) });
+                        bypass.copies.push_back ({ to + c, passedOn (i, static_cast<int> (&in - n.type->inputs.data()), c, first) });
                 first += at (slots (n, in));
             }
             if (out.unit.kind == UnitRule::Kind::fixed && out.unit.unit.quantity == Quantity::gain) *to = 1.0;
@@ -306,25 +287,45 @@ private:
         plan->records.push_back ({ &Bypass::step, &bypass, storage->sources.data() + source_at[at (i)], nullptr });
     }
 
+    /// The sources that make up one component of what a bypassed input passes on.
+    std::vector<std::size_t> passedOn (int i, int port, int component, std::size_t first)
+    {
+        const auto& n = flat.nodes[at (i)];
+        const auto& in = n.type->inputs[at (port)];
+        std::vector<std::size_t> slots_passed;
+        for (int k = component; k < slots (n, in); k += in.width)
+            if (! in.list || drivers.contains ({ i, Role::input, port, k })) slots_passed.push_back (first + at (k));
+        return slots_passed;
+    }
+
     void addTaps()
     {
-        for (const auto& r : outside.records)
+        for (const auto& [name, port] : outside.records)
         {
-            const auto& n = flat.node (r);
-            const auto& row = flat.sheet (r);
-            const int first_index = r.index, last_index = row.list && r.index < 0 ? n.list_size - 1 : r.index;
-            for (int index = row.list ? std::max (first_index, 0) : -1; index <= last_index; ++index)
-                for (int c = r.component >= 0 ? r.component : row.width == 3 ? 0
-                                                                             : -1;
-                     c < (r.component >= 0 ? r.component + 1 : row.width == 3 ? 3
-                                                                              : 0);
-                     ++c)
+            if (! port)
+            {
+                addTap (name, {}, &zero);
+                continue;
+            }
+            const auto& row = flat.sheet (*port);
+            const bool every_entry = row.list && port->index < 0;
+            for (int i = every_entry ? 0 : port->index; i <= (every_entry ? flat.node (*port).list_size - 1 : port->index); ++i)
+            {
+                const auto entry = every_entry ? name + "[" + std::to_string (i) + "]" : name;
+                const bool every_component = row.width == 3 && port->component < 0;
+                for (int c = every_component ? 0 : port->component; c <= (every_component ? 2 : port->component); ++c)
                 {
-                    const PortRef one { r.node, r.role, r.port, index, c };
-                    const auto& unit = units (one);
-                    plan->taps.push_back ({ flat.nameOf (one), unit.quantity, unit.symbol, valueOf (one) });
+                    const PortRef one { port->node, port->role, port->port, i, c };
+                    addTap (every_component ? entry + "." + "xyz"[c] : entry, units (one), valueOf (one));
                 }
+            }
         }
+    }
+
+    /// Nobody wants a column twice.
+    void addTap (const std::string& name, const PortUnits::Found& unit, const double* value)
+    {
+        if (tap_names.insert (name).second) plan->taps.push_back ({ name, unit.quantity, unit.symbol, value });
     }
 
     const double* valueOf (const PortRef& r)
@@ -356,7 +357,27 @@ private:
 };
 }   // namespace
 
-std::shared_ptr<Plan> build (Flat& flat, const PortUnits& units, std::span<const int> order, const Outside& outside, const Setup& setup)
+std::shared_ptr<void> makeNode (const FlatNode& n)
+{
+    if (! n.type->make) return nullptr;
+    auto node = n.type->make();
+    for (std::size_t p = 0; p < n.params.size(); ++p)
+    {
+        auto* target = static_cast<std::byte*> (n.type->paramsOf (node.get())) + n.type->params[p].offset;
+        if (n.type->params[p].choices.empty())
+            std::ranges::copy (n.params[p], reinterpret_cast<double*> (target));
+        else
+        {
+            const int chosen = static_cast<int> (n.params[p][0]);
+            std::memcpy (target, &chosen, sizeof chosen);
+        }
+    }
+    for (std::size_t i = 0; i < n.settings.size(); ++i)
+        n.type->settings[i].set (node.get(), n.settings[i]);
+    return node;
+}
+
+std::shared_ptr<Plan> build (const Flat& flat, const PortUnits& units, std::span<const int> order, const Outside& outside, const Setup& setup)
 {
     return Builder { flat, units, order, outside, setup }.run();
 }

@@ -11,15 +11,24 @@
 namespace tactus::plan
 {
 
-/// What is driven and read from outside the graph, resolved.
+/// What is driven and read from outside the graph, resolved. A placeholder's port is nothing: driven in vain, read as 0.
 struct Outside
 {
-    std::vector<PortRef> feeds;     ///< one component each
-    std::vector<PortRef> records;   ///< whole ports or parts of them
+    /// A port or a part of it, under the name that was asked for.
+    struct Read
+    {
+        std::string name;
+        std::optional<PortRef> port;
+    };
+
+    std::vector<std::optional<PortRef>> feeds;   ///< one component each
+    std::vector<Read> records;
 };
 
-/// Makes the nodes, lays out their outputs, and writes the records in the given order. Problems that only a made node
-/// can tell (a setting it cannot work with) are added to the flat graph's messages.
-std::shared_ptr<Plan> build (Flat&, const PortUnits&, std::span<const int> order, const Outside&, const Setup&);
+/// A node with its params and settings in place, not yet prepared; null for a bypassed subgraph.
+std::shared_ptr<void> makeNode (const FlatNode&);
+
+/// Makes the nodes, lays out their outputs, and writes the records in the given order. For a graph without errors.
+std::shared_ptr<Plan> build (const Flat&, const PortUnits&, std::span<const int> order, const Outside&, const Setup&);
 
 }   // namespace tactus::plan

@@ -18,6 +18,16 @@ bool runs (const Messages& messages)
                                  { return m.severity == Message::Severity::error && m.id != "node/unknown_type"; });
 }
 
+/// Delayed wires are memory: a short file may ask for more than there is.
+void checkDelays (Flat& flat)
+{
+    constexpr double most = 5e7;   // samples, 400 MB
+    double total = 0.0;
+    for (const auto& w : flat.wires)
+        total += static_cast<double> (w.delay) * flat.widthOf (w.to);
+    if (total > most) flat.error ("graph/too_large", { "", "/wires" }, "the delays of all wires together hold " + std::to_string (static_cast<long long> (total)) + " samples", "shorten them");
+}
+
 bool addsUp (Quantity q) { return q == Quantity::force || q == Quantity::torque || q == Quantity::hit; }
 
 /// Several wires into one place add up if the quantity does; else it is an error that names both.
@@ -40,6 +50,29 @@ void checkFanIn (Flat& flat, const PortUnits& units)
     }
 }
 
+/// Nodes that look at their own settings are asked what is wrong with them.
+void askNodes (Flat& flat)
+{
+    for (const auto& n : flat.nodes)
+    {
+        if (! n.type->problem) continue;
+        const std::string id (n.type->info.id);
+        if (const auto problem = n.type->problem (makeNode (n).get()); ! problem.empty())
+            flat.error ("node/problem", n.origin, "'" + n.path + "' (" + id + "): " + problem, "`tactus nodes " + id + "` says what it takes");
+    }
+}
+
+/// All that can be said of a flat graph without what is outside of it.
+PortUnits check (Flat& flat, std::vector<int>& ordered)
+{
+    auto units = checkUnits (flat);
+    checkFanIn (flat, units);
+    checkDelays (flat);
+    askNodes (flat);
+    ordered = order (flat);
+    return units;
+}
+
 Outside findOutside (Flat& flat, const Scope& top, const CompileOptions& options)
 {
     Outside outside;
@@ -47,6 +80,7 @@ Outside findOutside (Flat& flat, const Scope& top, const CompileOptions& options
     {
         const Origin origin { "", "feed column " + name };
         const auto port = find (name, Side::end, top, origin, flat);
+        outside.feeds.push_back (port);
         if (! port) continue;
         const auto& sheet = flat.sheet (*port);
         if (! sheet.choices.empty())
@@ -55,39 +89,45 @@ Outside findOutside (Flat& flat, const Scope& top, const CompileOptions& options
             flat.error ("feed/width", origin, "'" + name + "' is a vector", "feed its components: " + name + ".x, " + name + ".y, " + name + ".z");
         else if (sheet.list && port->index < 0)
             flat.error ("feed/width", origin, "'" + name + "' is an array port", "feed its entries: " + name + "[0], …");
-        else
-            outside.feeds.push_back (*port);
     }
 
     for (const auto& name : options.records)
     {
         const Origin origin { "", "record " + name };
         const auto port = find (name, Side::record, top, origin, flat);
-        if (! port) continue;
-        if (flat.sheet (*port).choices.empty())
-            outside.records.push_back (*port);
-        else
+        if (port && ! flat.sheet (*port).choices.empty())
             flat.error ("record/choice", origin, "'" + name + "' is a choice among names and has no number to record", "record a port that carries a number");
+        outside.records.push_back ({ name, port });
     }
     if (options.records.empty())
         for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
             if (const auto& node = flat.nodes[static_cast<std::size_t> (n)]; node.type->effort && ! node.muted)
                 for (int p = 0; p < static_cast<int> (node.type->inputs.size()); ++p)
-                    outside.records.push_back ({ n, Role::input, p, -1, -1 });
+                {
+                    const PortRef port { n, Role::input, p, -1, -1 };
+                    outside.records.push_back ({ flat.nameOf (port), port });
+                }
     return outside;
 }
 }   // namespace
 
 Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const CompileOptions& options)
 {
-    auto [flat, top] = flatten (g, catalogue, options.overrides);
+    auto [flat, top, used] = flatten (g, catalogue, options.overrides);
     const double rate = options.rate_hz > 0.0 ? options.rate_hz : g.rate_hz;
     if (! (rate >= 1.0 && rate <= 1e6))
         flat.error ("graph/rate", { "", "/rate_hz" }, "the rate must be from 1 Hz to 1 MHz", "haptic graphs run at 1000 to 10000 Hz");
 
-    const auto units = checkUnits (flat);
-    checkFanIn (flat, units);
-    const auto ordered = order (flat);
+    std::vector<int> ordered;
+    const auto units = check (flat, ordered);
+    for (const auto& [name, patch] : g.graphs)   // a subgraph nobody uses yet is checked by itself
+        if (! used.contains (&patch))
+        {
+            auto alone = flattenUnused (g, name, catalogue);
+            std::vector<int> unneeded;
+            check (alone.flat, unneeded);
+            flat.messages.insert (flat.messages.end(), alone.flat.messages.begin(), alone.flat.messages.end());
+        }
     const auto outside = findOutside (flat, *top, options);
 
     std::shared_ptr<Plan> made;

@@ -60,6 +60,7 @@ struct Finder
         const auto member = scope.members.find (head);
         if (member == scope.members.end())
         {
+            if (flat.isFull()) return {};
             if (head.find ('[') != std::string::npos)
                 flat.error ("graph/not_yet", origin, "'" + scope.prefix + head + "' addresses one of several instances, which this version does not run", "give each a node of its own");
             else
@@ -96,6 +97,7 @@ private:
                 return narrow ({ node, role, static_cast<int> (row - rows.begin()), -1, -1 }, e);
         }
 
+        if (flat.isFull()) return {};
         if (side == Side::param && std::ranges::count (n.type->settings, e.port, &SettingSheet::id) > 0)
         {
             flat.error ("param/unknown", origin, "'" + n.path + "." + e.port + "' is a setting of " + std::string (n.type->info.id), "move it to settings");
@@ -176,9 +178,11 @@ private:
 
 std::string listed (const std::vector<std::string>& names)
 {
+    constexpr std::size_t most = 24;
     std::string all;
-    for (const auto& n : names)
-        all += (all.empty() ? "" : ", ") + n;
+    for (std::size_t i = 0; i < std::min (names.size(), most); ++i)
+        all += (all.empty() ? "" : ", ") + names[i];
+    if (names.size() > most) all += " and " + std::to_string (names.size() - most) + " more";
     return all.empty() ? "none" : all;
 }
 

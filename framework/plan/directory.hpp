@@ -48,7 +48,7 @@ struct Scope
 std::optional<PortRef> find (const graph::Endpoint&, Side, const Scope&, const Origin&, Flat&);
 std::optional<PortRef> find (std::string_view text, Side, const Scope&, const Origin&, Flat&);
 
-/// "a, b, c", or "none".
+/// "a, b, c", or "none"; of many, the first.
 std::string listed (const std::vector<std::string>& names);
 
 }   // namespace tactus::plan

@@ -14,11 +14,13 @@ std::string Flat::nameOf (const PortRef& r) const
 
 void Flat::error (std::string id, const Origin& origin, std::string text, std::string remedy)
 {
+    if (isFull()) return;
     messages.push_back ({ Message::Severity::error, std::move (id), origin.pointer, std::move (text), std::move (remedy), origin.file, 0, 0 });
 }
 
 void Flat::warn (std::string id, const Origin& origin, std::string text, std::string remedy)
 {
+    if (isFull()) return;
     messages.push_back ({ Message::Severity::warning, std::move (id), origin.pointer, std::move (text), std::move (remedy), origin.file, 0, 0 });
 }
 

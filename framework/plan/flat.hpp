@@ -92,6 +92,9 @@ struct Flat
     /// How many components a reference stands for.
     int widthOf (const PortRef& r) const { return r.component >= 0 ? 1 : sheet (r).width; }
 
+    /// True once so much is wrong that nobody reads on; what is found beyond is not kept, so need not be put in words.
+    bool isFull() const noexcept { return messages.size() >= 1000; }
+
     void error (std::string id, const Origin&, std::string text, std::string remedy);
     void warn (std::string id, const Origin&, std::string text, std::string remedy);
 };

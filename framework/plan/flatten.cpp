@@ -13,6 +13,7 @@ namespace tactus::plan
 namespace
 {
 constexpr int max_depth = 32;
+constexpr std::size_t max_nodes = 1'000'000;   // subgraphs within subgraphs multiply: a small file can ask for 2^32
 
 Origin at (const Origin& base, std::string_view key)
 {
@@ -28,7 +29,16 @@ Origin at (const Origin& base, std::string_view key, std::string_view inner) { r
 class Flattener
 {
 public:
-    Flattener (const Catalogue& c, const std::vector<Override>& o, Flattened& r) : nodes (c), overrides (o), result (r), flat (r.flat) {}
+    Flattener (const Catalogue& c, std::vector<Override> o, Flattened& r) : nodes (c), overrides (std::move (o)), result (r), flat (r.flat) {}
+
+    void runAlone (const graph::Graph& g, const std::string& subgraph)
+    {
+        result.top = std::make_unique<Scope>();
+        result.top->owner = &g;
+        result.top->patch = g.find (subgraph);
+        result.top->origin = at (at ({}, "graphs"), subgraph);
+        expand (*result.top, {}, false);
+    }
 
     void run (const graph::Graph& g)
     {
@@ -37,6 +47,8 @@ public:
         top->owner = &g;
         top->patch = &g.root;
         expand (*top, {}, false);
+        if (flat.nodes.size() >= max_nodes)
+            flat.error ("graph/too_large", { "", "/nodes" }, "with its subgraphs expanded the graph has more than " + std::to_string (max_nodes) + " nodes", "use a subgraph fewer times");
         readControls (g);
         readOverrides();
     }
@@ -45,7 +57,7 @@ private:
     using Roles = std::unordered_map<std::string, std::string>;
 
     const Catalogue& nodes;
-    const std::vector<Override>& overrides;
+    std::vector<Override> overrides;
     Flattened& result;
     Flat& flat;
     std::vector<const graph::Patch*> open;   // the patches we are inside of
@@ -53,8 +65,10 @@ private:
     void expand (Scope& scope, const Roles& roles, bool muted)
     {
         open.push_back (scope.patch);
+        result.used.insert (scope.patch);
         for (const auto& node : scope.patch->nodes)
         {
+            if (flat.nodes.size() >= max_nodes || flat.isFull()) break;
             const auto here = at (scope.origin, "nodes", node.name);
             refuseUnsupported (node, here);
             auto& member = scope.members[node.name];
@@ -128,7 +142,7 @@ private:
             auto origin = at (here, "settings", key);
             const auto read = readSetting (value, *sheet, origin.pointer);
             if (const auto* problem = std::get_if<std::string> (&read))
-                flat.error ("setting/value", origin, "setting '" + key + "' of '" + made.path + "': " + *problem, std::string (sheet->about));
+                flat.error ("setting/value", origin, "setting '" + key + "' of '" + made.path + "': " + *problem, "`tactus nodes " + node.type + "` says what it takes");
             else
                 made.settings[static_cast<std::size_t> (sheet - made.type->settings.begin())] = std::get<SettingValue> (read);
         }
@@ -149,7 +163,12 @@ private:
         auto inside = std::make_unique<Scope>();
         if (! findSubgraph (scope, node, here, *inside)) return;
 
-        if (std::ranges::count (open, inside->patch) > 0 || open.size() >= max_depth)
+        if (open.size() >= max_depth)
+        {
+            flat.error ("graph/too_deep", at (here, "type"), "'" + scope.prefix + node.name + "' lies " + std::to_string (max_depth) + " subgraphs deep", "nest them less deeply");
+            return;
+        }
+        if (std::ranges::count (open, inside->patch) > 0)
         {
             flat.error ("graph/recursive", at (here, "type"), "'" + scope.prefix + node.name + "' contains itself through '" + node.type + "'", "a subgraph may hold others, but not one it is inside of");
             return;
@@ -160,6 +179,8 @@ private:
         if (node.roles.is_object())
             for (const auto& [inner, outer] : node.roles.items())
             {
+                if (! hasRole (*inside->patch, inner))
+                    flat.warn ("node/unknown_role", at (at (here, "roles"), inner), "nothing in '" + scope.prefix + node.name + "' has the role '" + inner + "'", "name a role of the subgraph's device nodes");
                 if (outer.is_string())
                 {
                     const auto through = roles.find (outer.get<std::string>());
@@ -179,6 +200,13 @@ private:
         for (const auto& [key, value] : node.overrides.items())
             assign (*member.inside, key, value, at (here, "overrides", key), flat.assignments);
         if (node.bypass) bypassSubgraph (scope, node, here, muted, member);
+    }
+
+    /// True if a device node of the patch, or of a subgraph it hands the role on to, has the role.
+    static bool hasRole (const graph::Patch& patch, const std::string& role)
+    {
+        return std::ranges::any_of (patch.nodes, [&] (const graph::Node& n)
+                                    { return n.role == role || n.type.find (':') != std::string::npos; });
     }
 
     bool findSubgraph (const Scope& scope, const graph::Node& node, const Origin& here, Scope& inside)
@@ -213,6 +241,7 @@ private:
         NodeType type {};
         type.info = { .id = "subgraph", .name = "Bypassed subgraph", .summary = "", .source = "" };
         std::size_t offset = 0;
+        int list_size = 0;
         for (const auto& x : member.inside->exposed)
         {
             if (! x.to) continue;
@@ -221,11 +250,12 @@ private:
             row.id = x.name;
             if (row.unit.kind != UnitRule::Kind::fixed) row.unit = each_its_unit;
             row.width = flat.widthOf (*x.to);
-            row.list = false;
+            row.list = row.list && x.to->index < 0;
+            if (row.list) list_size = std::max (list_size, flat.node (*x.to).list_size);
             if (x.role == Role::output)
             {
                 row.offset = offset;
-                offset += sizeof (double) * static_cast<std::size_t> (row.width);
+                offset += sizeof (double) * static_cast<std::size_t> (row.list ? list_capacity : row.width);
             }
             (x.role == Role::input ? type.inputs : x.role == Role::param ? type.params
                                                                          : type.outputs)
@@ -237,8 +267,9 @@ private:
 
         member.node = static_cast<int> (flat.nodes.size());
         flat.nodes.push_back ({ .path = scope.prefix + node.name, .type = &flat.made_types.back(), .origin = here, .bypass = true, .muted = muted });
+        flat.nodes.back().list_size = list_size;
         for (const auto& row : flat.made_types.back().params)
-            flat.nodes.back().params.emplace_back (static_cast<std::size_t> (row.width), row.initial[0]);
+            flat.nodes.back().params.emplace_back (static_cast<std::size_t> (row.list ? list_size : row.width), row.initial[0]);
     }
 
     void expose (Scope& scope)
@@ -373,6 +404,14 @@ Flattened flatten (const graph::Graph& g, const Catalogue& catalogue, const std:
 {
     Flattened result;
     Flattener { catalogue, overrides, result }.run (g);
+    readParams (result.flat);
+    return result;
+}
+
+Flattened flattenUnused (const graph::Graph& g, const std::string& subgraph, const Catalogue& catalogue)
+{
+    Flattened result;
+    Flattener { catalogue, {}, result }.runAlone (g, subgraph);
     readParams (result.flat);
     return result;
 }

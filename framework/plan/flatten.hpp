@@ -3,6 +3,8 @@
 
 #include "directory.hpp"
 
+#include <set>
+
 namespace tactus::plan
 {
 
@@ -16,10 +18,14 @@ struct Override
 struct Flattened
 {
     Flat flat;
-    std::unique_ptr<Scope> top;   ///< to find ports by name; lives as long as the graph
+    std::unique_ptr<Scope> top;           ///< to find ports by name; lives as long as the graph
+    std::set<const graph::Patch*> used;   ///< the patches that were expanded
 };
 
 /// Expands, resolves and reads. Unknown node types become placeholders, with the message node/unknown_type.
 Flattened flatten (const graph::Graph&, const Catalogue&, const std::vector<Override>&);
+
+/// The same for a subgraph that no node uses, as if it stood alone.
+Flattened flattenUnused (const graph::Graph&, const std::string& subgraph, const Catalogue&);
 
 }   // namespace tactus::plan

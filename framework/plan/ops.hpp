@@ -98,13 +98,14 @@ struct DrivenNode
     }
 };
 
-/// Stands in for a bypassed node: passes inputs on to outputs.
+/// Stands in for a bypassed node: passes inputs on to outputs. Of an array port, what is wired adds up; the default of
+/// an entry that is not (1 for a product) is nothing that came in.
 struct Bypass
 {
     struct Copy
     {
         double* to;
-        std::size_t first, count, stride;   // among the sources; their sum
+        std::vector<std::size_t> slots;   // among the sources; their sum
     };
 
     std::vector<Copy> copies;
@@ -114,9 +115,9 @@ struct Bypass
         for (const auto& c : static_cast<const Bypass*> (self)->copies)
         {
             double values[list_capacity];
-            for (std::size_t i = 0; i < c.count; ++i)
-                values[i] = *sources[c.first + i * c.stride];
-            *c.to = c.count == 1 ? values[0] : sum (values, static_cast<int> (c.count));
+            for (std::size_t i = 0; i < c.slots.size(); ++i)
+                values[i] = *sources[c.slots[i]];
+            *c.to = c.slots.size() == 1 ? values[0] : sum (values, static_cast<int> (c.slots.size()));
         }
     }
 };

@@ -2,6 +2,7 @@
 #include "order.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <queue>
 
@@ -95,33 +96,24 @@ std::vector<int> distances (const Flat& flat, const std::vector<std::vector<int>
     return distance;
 }
 
-/// The shortest loop through `start` that stays within its component, as wires.
-std::vector<const FlatWire*> loopThrough (int start, const Flat& flat, const std::vector<int>& component)
-{
-    std::vector<std::vector<const FlatWire*>> out (flat.nodes.size());
-    for (const auto& w : flat.wires)
-        if (binds (flat, w) && component[at (w.from->node)] == component[at (start)] && component[at (w.to.node)] == component[at (start)])
-            out[at (w.from->node)].push_back (&w);
+/// Wires that bind, by the node they start from.
+using Outgoing = std::vector<std::vector<const FlatWire*>>;
 
-    std::vector<const FlatWire*> by (flat.nodes.size(), nullptr);
+/// The shortest loop through `start` that stays within its component, as wires.
+std::vector<const FlatWire*> loopThrough (int start, const Outgoing& out, const std::vector<int>& component)
+{
+    std::map<int, const FlatWire*> by;   // how each node was reached
     std::queue<int> open;
     open.push (start);
-    while (! open.empty() && by[at (start)] == nullptr)
-    {
+    for (; ! open.empty() && ! by.contains (start); open.pop())
         for (const auto* w : out[at (open.front())])
-            if (by[at (w->to.node)] == nullptr)
-            {
-                by[at (w->to.node)] = w;
-                open.push (w->to.node);
-            }
-        open.pop();
-    }
+            if (component[at (w->to.node)] == component[at (start)] && by.try_emplace (w->to.node, w).second) open.push (w->to.node);
 
     std::vector<const FlatWire*> loop;
     for (int n = start; loop.empty() || n != start;)
     {
-        loop.push_back (by[at (n)]);
-        n = by[at (n)]->from->node;
+        loop.push_back (by.at (n));
+        n = by.at (n)->from->node;
     }
     std::ranges::reverse (loop);
     return loop;
@@ -133,6 +125,9 @@ void reportLoops (Flat& flat, const std::vector<std::vector<int>>& next)
 {
     const auto component = components (next);
     const auto distance = distances (flat, next);
+    Outgoing outgoing (flat.nodes.size());
+    for (const auto& w : flat.wires)
+        if (binds (flat, w)) outgoing[at (w.from->node)].push_back (&w);
     std::vector<int> members (flat.nodes.size(), 0);
     for (const int c : component)
         ++members[at (c)];
@@ -150,7 +145,7 @@ void reportLoops (Flat& flat, const std::vector<std::vector<int>>& next)
         if (! loops || reported[c]) continue;
         reported[c] = true;
 
-        const auto loop = loopThrough (n, flat, component);
+        const auto loop = loopThrough (n, outgoing, component);
         std::string chain;
         for (const auto* w : loop)
             chain += (chain.empty() ? "" : ", then ") + textOf (flat, *w);

@@ -57,6 +57,7 @@ public:
             r.step (r.self, r.sources, r.outputs);
     }
 
+    double rate_hz = 0.0;   ///< what the nodes were prepared for
     std::vector<Record> records;
     std::vector<RoleUse> roles;            ///< sorted by name
     std::vector<Tap> taps;                 ///< what CompileOptions::records asked for, in order

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 namespace tactus::plan
@@ -10,21 +11,14 @@ namespace tactus::plan
 /// does not depend on the order in which wires were drawn, or nodes named. Sorts `values` in place.
 inline double sum (double* values, int n) noexcept
 {
-    if (n == 2) return values[0] + values[1];
+    for (int i = 0; i < n; ++i)
+        if (values[i] != values[i]) return std::numeric_limits<double>::quiet_NaN();
 
-    double total = 0.0;
-    for (int i = 1; i < n; ++i)
-    {
-        const double v = values[i];
-        int j = i;
-        for (; j > 0 && values[j - 1] > v; --j)
-            values[j] = values[j - 1];
-        values[j] = v;
-    }
-    if (n > 0) total = values[0];
+    if (n > 2) std::sort (values, values + n);
+    double total = n > 0 ? values[0] : 0.0;
     for (int i = 1; i < n; ++i)
         total += values[i];
-    return total == total ? total : std::numeric_limits<double>::quiet_NaN();
+    return total == total ? total : std::numeric_limits<double>::quiet_NaN();   // of inf and -inf
 }
 
 }   // namespace tactus::plan

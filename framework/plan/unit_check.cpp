@@ -196,7 +196,7 @@ private:
                 const int v = variable (a.to);
                 if (! dimensions.state (v, *number->dimension))
                 {
-                    flat.error ("param/unit", a.origin, "'" + flat.nameOf (a.to) + "' is in " + symbolOf (*dimensions.dimension (v)) + ", but " + part.dump() + " is in " + symbolOf (*number->dimension),
+                    flat.error ("param/unit", a.origin, "'" + flat.nameOf (a.to) + "' is in " + symbolOf (*dimensions.dimension (v)) + ", but " + shown (part) + " is in " + symbolOf (*number->dimension),
                                 "give it in " + symbolOf (*dimensions.dimension (v)) + ", or as a plain SI number");
                     return;
                 }
@@ -204,15 +204,19 @@ private:
     }
 
     /// Products carry dimensions forward, and backward where a single factor is unknown. Each pass that changes
-    /// something may let others go on; a pass without change ends it.
+    /// something may let others go on; a pass without change ends it. Passes alternate in direction, so that a chain is
+    /// done in two, whichever way round it was written.
     void multiply()
     {
         std::vector<bool> done (products.size(), false);
+        bool forwards = false;
         for (bool changed = true; changed;)
         {
             changed = false;
-            for (std::size_t i = 0; i < products.size(); ++i)
+            forwards = ! forwards;
+            for (std::size_t k = 0; k < products.size(); ++k)
             {
+                const auto i = forwards ? k : products.size() - 1 - k;
                 if (done[i]) continue;
                 const auto& p = products[i];
                 Dimension known;

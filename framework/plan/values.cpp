@@ -5,6 +5,7 @@
 #include <framework/number_text.hpp>
 
 #include <cmath>
+#include <limits>
 
 namespace tactus::plan
 {
@@ -136,7 +137,7 @@ struct SettingReader
         case Kind::integer:
         {
             const double v = inRange (number (json, sheet.unit, ""), sheet.limits.hard, "");
-            if (v != std::floor (v) || std::abs (v) > 1e9) throw Problem { numberText (v) + " is not a whole number", "" };
+            if (v != std::floor (v) || std::abs (v) > std::numeric_limits<int>::max()) throw Problem { numberText (v) + " is not a whole number", "" };
             return v;
         }
         case Kind::text:
@@ -186,7 +187,7 @@ private:
         std::vector<std::string> names (sheet.choices.begin(), sheet.choices.end());
         const auto chosen = a.low.is_string() ? std::ranges::find (names, a.low.get_ref<const std::string&>()) : names.end();
         if (chosen == names.end())
-            flat.error ("param/unknown_choice", a.origin, "'" + flat.nameOf (a.to) + "' cannot be " + a.low.dump() + (a.low.is_string() ? didYouMean (a.low.get<std::string>(), names) : ""), "one of: " + joined (names));
+            flat.error ("param/unknown_choice", a.origin, "'" + flat.nameOf (a.to) + "' cannot be " + shown (a.low) + (a.low.is_string() ? didYouMean (a.low.get<std::string>(), names) : ""), "one of: " + joined (names));
         else
             value = static_cast<double> (chosen - names.begin());
     }
@@ -196,7 +197,7 @@ private:
         const bool lists = a.low.is_array() && a.high.is_array();
         if (! lists || a.low.size() != a.high.size() || (sheet.list ? a.low.size() > values.size() : a.low.size() != 3))
         {
-            flat.error ("param/shape", a.origin, "'" + flat.nameOf (a.to) + "' cannot be " + a.low.dump(),
+            flat.error ("param/shape", a.origin, "'" + flat.nameOf (a.to) + "' cannot be " + shown (a.low),
                         sheet.list ? "a list of at most " + std::to_string (values.size()) + " numbers" : "three numbers, as in [0, 0, 1]");
             return;
         }
@@ -229,6 +230,12 @@ private:
 };
 }   // namespace
 
+std::string shown (const Json& json)
+{
+    if (json.is_structured()) return json.is_array() ? "a list of " + std::to_string (json.size()) : "an object";
+    return json.dump (-1, ' ', false, Json::error_handler_t::replace).substr (0, 60);
+}
+
 std::variant<Number, std::string> readNumber (const Json& json)
 {
     if (json.is_number())
@@ -237,7 +244,7 @@ std::variant<Number, std::string> readNumber (const Json& json)
         if (! isFinite (v)) return "it is not a finite number";
         return Number { v, {} };
     }
-    if (! json.is_string()) return json.dump().substr (0, 40) + " is not a number, nor text with a unit";
+    if (! json.is_string()) return shown (json) + " is not a number, nor text with a unit";
 
     const auto parsed = parseMeasure (json.get_ref<const std::string&>());
     if (const auto* problem = std::get_if<std::string> (&parsed)) return *problem;

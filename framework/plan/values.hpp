@@ -15,6 +15,9 @@ struct Number
     std::optional<Dimension> dimension;
 };
 
+/// A value as it was written, cut where it grows long. Text from the command line may be any bytes.
+std::string shown (const Json&);
+
 /// Reads a number, or says what is wrong with it.
 std::variant<Number, std::string> readNumber (const Json&);
 

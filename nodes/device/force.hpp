@@ -9,7 +9,8 @@ namespace tactus::nodes
 /// Where forces leave the graph: the force and torque a device puts on the tool in the hand.
 ///
 /// Several sinks of one role add up. After the sum stands the role's guard, always; `applied` shows what it let
-/// through on the last tick. A sink fed with a non-finite value asks for nothing.
+/// through on the last tick. A non-finite value makes
+/// the guard bring the device to zero.
 struct DeviceForce
 {
     struct Inputs

@@ -49,7 +49,7 @@ Run run (const graph::Graph& g, const std::vector<plan::Override>& overrides = {
     auto compiled = compile (g, catalogue(), { .overrides = overrides });
     INFO (test::text (compiled.messages));
     REQUIRE (compiled.plan);
-    Engine engine { compiled.plan, g.rate_hz };
+    Engine engine { compiled.plan };
 
     std::vector<host::MadeDevice> devices;
     double duration = 0.0;

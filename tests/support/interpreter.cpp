@@ -144,12 +144,13 @@ void Interpreter::evaluate (const std::string& path)
     i.done = true;
 
     std::vector<double> in;
+    std::vector<bool> wired;
     for (const auto& row : i.type->inputs)
         for (int entry = 0; entry < (row.list ? i.entries : 1); ++entry)
             for (int c = 0; c < row.width; ++c)
             {
                 in.push_back (row.list ? row.initial[0] : row.initial[c]);
-                driven (path, entryName (row, entry), c, false, in.back());
+                wired.push_back (driven (path, entryName (row, entry), c, false, in.back()));
             }
 
     bool moved = false, fault = false;
@@ -186,8 +187,8 @@ void Interpreter::evaluate (const std::string& path)
                     {
                         std::vector<double> values;
                         for (std::size_t e = 0; e < n; ++e)
-                            values.push_back (in[first + e * width + static_cast<std::size_t> (c)]);
-                        value = sorted (values);
+                            if (const auto slot = first + e * width + static_cast<std::size_t> (c); ! row.list || wired[slot]) values.push_back (in[slot]);
+                        value = values.empty() ? 0.0 : sorted (values);
                     }
                     first += n * width;
                 }

@@ -275,3 +275,96 @@ TEST_CASE ("what a generic port carries does not depend on the order of wires: a
         CHECK (has (mixed (hit_first), "wire/quantity"));
     }
 }
+
+TEST_CASE ("feeds keep their places beside a placeholder, and its ports are recorded as 0", "[plan]")
+{
+    auto sketch = Sketch {}.node ("who", "acme.magic").node ("amp", "signal.gain");
+    const auto plan = sketch.compile ({ .feeds = { "who.in", "amp.in" }, .records = { "who.out", "amp.out" } }).plan;
+    REQUIRE (plan);
+    REQUIRE (plan->feeds.size() == 2);
+    plan->feeds = { 5.0, 7.0 };
+    plan->tick();
+    REQUIRE (plan->taps.size() == 2);
+    CHECK (plan->taps[0].name == "who.out");
+    CHECK (*plan->taps[0].value == 0.0);
+    CHECK (*plan->taps[1].value == 7.0);
+}
+
+TEST_CASE ("a record keeps the name that was asked for, also through what a subgraph exposes", "[plan]")
+{
+    Sketch sketch;
+    auto& inside = sketch.subgraph ("grain");
+    sketch.add (inside, "wave", "texture.grating");
+    inside.expose.outputs = { { "force", { "wave", "force" } } };
+    sketch.node ("grain", "graph:grain").node ("mix", "signal.mix");
+    const auto names = [&] (std::vector<std::string> records)
+    {
+        std::vector<std::string> all;
+        const auto plan = sketch.compile ({ .records = std::move (records) }).plan;
+        for (const auto& tap : plan->taps)
+            all.push_back (tap.name);
+        return all;
+    };
+    CHECK (names ({ "grain.force", "grain.force" }) == std::vector<std::string> { "grain.force.x", "grain.force.y", "grain.force.z" });
+    CHECK (names ({ "grain/wave.force.z", "mix.in" }) == std::vector<std::string> { "grain/wave.force.z", "mix.in[0]", "mix.in[1]" });
+    sketch.graph.root.nodes[0].bypass = true;
+    CHECK (names ({ "grain.force" }) == std::vector<std::string> { "grain.force.x", "grain.force.y", "grain.force.z" });
+}
+
+TEST_CASE ("a subgraph that nobody uses yet is checked too, under its own pointer", "[plan]")
+{
+    Sketch sketch;
+    auto& inside = sketch.subgraph ("grain");
+    sketch.add (inside, "wave", "texture.grating", { { "amplitude", "3 m" } }).add (inside, "z.force -> wave.position");
+    const auto messages = problems (sketch);
+    INFO (tactus::test::text (messages));
+    REQUIRE (has (messages, "port/unknown_node"));
+    CHECK (has (messages, "param/unit"));
+    CHECK (messages[0].where == "/graphs/grain/wires/0");
+}
+
+TEST_CASE ("a small file cannot ask for a billion nodes, nor for all the memory there is", "[plan]")
+{
+    Sketch sketch;
+    for (int depth = 0; depth < 28; ++depth)
+    {
+        auto& patch = sketch.subgraph ("g" + std::to_string (depth));
+        const auto inner = depth == 27 ? std::string ("signal.constant") : "graph:g" + std::to_string (depth + 1);
+        sketch.add (patch, "a", inner).add (patch, "b", inner);
+    }
+    sketch.node ("top", "graph:g0");
+    CHECK (has (problems (sketch), "graph/too_large"));
+
+    auto delays = Sketch {}.node ("a", "signal.constant").node ("b", "signal.expression", Json::object(), { { "inputs", 64 } });
+    for (int i = 0; i < 64; ++i)
+        delays.wire ("a.out -> [1000000] -> b.in[" + std::to_string (i) + "]");
+    CHECK (has (problems (delays), "graph/too_large"));
+}
+
+TEST_CASE ("a bypassed subgraph keeps the array ports it exposes", "[plan]")
+{
+    Sketch sketch;
+    auto& inside = sketch.subgraph ("mixer");
+    sketch.add (inside, "mix", "signal.add", Json::object(), { { "inputs", 3 } });
+    inside.expose.inputs = { { "in", { "mix", "in" } } };
+    inside.expose.outputs = { { "out", { "mix", "out" } } };
+    sketch.node ("one", "signal.constant", { { "value", 1.0 } }).node ("mixer", "graph:mixer").wire ("one.out -> mixer.in[0]").wire ("one.out -> mixer.in[2]");
+    CHECK (run (sketch, "mixer.out") == 2.0);
+    sketch.graph.root.nodes[1].bypass = true;
+    CHECK (run (sketch, "mixer.out") == 2.0);
+}
+
+TEST_CASE ("a bypassed product passes on what is wired, and not the 1 of an entry that is not", "[plan]")
+{
+    auto sketch = Sketch {}.node ("three", "signal.constant", { { "value", 3.0 } }).node ("times", "signal.multiply").wire ("three.out -> times.in[0]");
+    sketch.graph.root.nodes[1].bypass = true;
+    CHECK (run (sketch, "times.out") == 3.0);
+}
+
+TEST_CASE ("ten thousand mistakes are a thousand messages, and no long wait", "[plan]")
+{
+    Sketch sketch;
+    for (int i = 0; i < 10000; ++i)
+        sketch.wire ("x" + std::to_string (i) + ".out -> y.in");
+    CHECK (problems (sketch).size() == 1000);
+}

@@ -133,11 +133,32 @@ TEST_CASE ("a tick allocates nothing and takes no lock, whatever the graph", "[p
         const auto g = test::randomGraph (seed, 60);
         auto plan = compile (g, catalogue()).plan;
         REQUIRE (plan);
-        Engine engine { plan, g.rate_hz };
+        Engine engine { plan };
         const NoAllocation guard;
         for (int k = 0; k < 50; ++k)
             engine.tick();
         CHECK (guard.allocations() == 0);
         CHECK (guard.locks() == 0);
     }
+}
+
+TEST_CASE ("random graphs have wires, loops through delays, and parameters that are driven", "[plan][property]")
+{
+    int wires = 0, delayed = 0, driven = 0, inside = 0;
+    for (unsigned seed = 0; seed < 20; ++seed)
+    {
+        const auto g = test::randomGraph (seed, 100);
+        for (const auto& [name, patch] : g.graphs)
+            inside += static_cast<int> (patch.wires.size());
+        for (const auto& w : g.root.wires)
+        {
+            ++wires;
+            delayed += w.delay > 0;
+            if (const auto* node = g.root.find (w.to.node); const auto* type = catalogue().find (node->type)) driven += std::ranges::count (type->params, w.to.port, &PortSheet::id) > 0;
+        }
+    }
+    CHECK (wires > 20 * 30);
+    CHECK (delayed > 20 * 3);
+    CHECK (driven > 20 * 3);
+    CHECK (inside > 20);
 }
