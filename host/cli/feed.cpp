@@ -49,6 +49,9 @@ tl::expected<Feed, Error> Feed::make (Table t, const std::string& name, double r
     {
         f.held = true;
         const double last = f.table.at (rows - 1, *f.time) - f.table.at (0, *f.time);
+        constexpr double most = 1e10;
+        if (! (last * rate_hz < most))
+            return tl::unexpected (Error { "run/too_long", name, "its times span more than 10^10 ticks at this rate", "t is in seconds; give a lower --rate, or fewer rows" });
         f.count = static_cast<std::size_t> (std::floor (last * rate_hz + 1e-6)) + 1;
     }
     else if (! steps.empty())

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <iostream>
 
 int main (int argc, char** argv)
 {
@@ -17,6 +18,7 @@ int main (int argc, char** argv)
                 "  tactus render graphs/dry_wood.json --out wood.csv --plot wood.png\n"
                 "  tactus play graphs/dry_wood.json --duration 4  in real time\n"
                 "\n`tactus COMMAND --help` shows the options and more examples.");
+    app.set_version_flag ("--version", TACTUS_VERSION);
     app.require_subcommand (1);
     addNodes (app);
     addValidate (app);
@@ -40,6 +42,11 @@ int main (int argc, char** argv)
     catch (const std::exception& e)
     {
         std::fprintf (stderr, "tactus: error: %s\n    this should not happen; please report it with the command and its files\n", e.what());
+        return fault_of_input;
+    }
+    if (! std::cout.flush())
+    {
+        std::fprintf (stderr, "tactus: error: the standard output could not be written\n    check the disk, or the program it is piped into [output/unwritable]\n");
         return fault_of_input;
     }
     return fine;

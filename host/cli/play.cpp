@@ -5,11 +5,11 @@
 #include "report.hpp"
 #include "session.hpp"
 
+#include <host/platform/signals.hpp>
 #include <host/platform/terminal.hpp>
 
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -22,14 +22,15 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 
-std::atomic<bool> stop_requested { false };
-static_assert (std::atomic<bool>::is_always_lock_free, "a signal handler may set it");
+/// A slew limit may make the way to zero long; a device that still has force on it after this is let go, with a warning.
+constexpr double longest_halt_s = 30.0;
 
 /// What the tick thread tells the others.
 struct Status
 {
     std::atomic<std::size_t> ticks { 0 }, misses { 0 };
     std::atomic<double> force { 0.0 }, peak { 0.0 }, latest_s { 0.0 };
+    std::atomic<bool> let_go_under_force { false };
     std::atomic<bool> done { false };
 };
 
@@ -41,17 +42,22 @@ void runTicks (Session& session, FrameRing* ring, Status& status)
     const auto& plan = session.engine().plan();
     auto deadline = Clock::now();
     bool halting = false;
-    const auto longest_halt = static_cast<std::size_t> (session.rate());
+    const auto longest_halt = static_cast<std::size_t> (longest_halt_s * session.rate());
 
     for (std::size_t k = 0, halted_at = 0;; ++k)
     {
-        if (! halting && (stop_requested.load (std::memory_order_relaxed) || (session.ticks() && k >= *session.ticks())))
+        if (! halting && (stopRequested() || (session.ticks() && k >= *session.ticks())))
         {
             halting = true;
             halted_at = k;
             session.engine().halt();
         }
-        if (halting && (session.engine().isAtRest() || k - halted_at > longest_halt)) break;
+        if (halting && session.engine().isAtRest()) break;
+        if (halting && k - halted_at > longest_halt)
+        {
+            status.let_go_under_force = true;
+            break;
+        }
 
         std::this_thread::sleep_until (deadline);
         const auto now = Clock::now();
@@ -83,15 +89,18 @@ void runTicks (Session& session, FrameRing* ring, Status& status)
     status.done.store (true, std::memory_order_release);
 }
 
-void printStatus (const Status& s, double rate, const char* end)
+void printStatus (const Status& s, double rate, bool over_the_last, const char* end)
 {
-    std::fprintf (stderr, "\r%8.2f s   force %6.3f N, peak %6.3f N   %zu missed of %zu ticks, latest by %.3f ms\033[K%s", static_cast<double> (s.ticks) / rate,
+    std::fprintf (stderr, "%s%8.2f s   force %6.3f N, peak %6.3f N   %zu missed of %zu ticks, latest by %.3f ms%s", over_the_last ? "\r\033[K" : "", static_cast<double> (s.ticks) / rate,
                   s.force.load(), s.peak.load(), s.misses.load(), s.ticks.load(), 1e3 * s.latest_s.load(), end);
     std::fflush (stderr);
 }
 
 void run (const SessionOptions& options)
 {
+    if (! options.records.empty() && options.outputs.empty())
+        throw CLI::RequiredError ("--record names what to record, but not where to: --out FILE");
+    watchForStop();
     Session session { options };
     const auto& taps = session.engine().plan().taps;
     std::optional<Recorder> recorder;
@@ -102,10 +111,6 @@ void run (const SessionOptions& options)
         ring.emplace (taps.size(), static_cast<int> (session.rate()) + 1);   // one second
     }
 
-    std::signal (SIGINT, [] (int)
-                 { stop_requested = true; });
-    std::signal (SIGTERM, [] (int)
-                 { stop_requested = true; });
     const bool terminal = stderrIsTerminal();
     if (terminal) std::fprintf (stderr, "%s at %g Hz; Ctrl-C stops\n", session.name().c_str(), session.rate());
 
@@ -123,21 +128,21 @@ void run (const SessionOptions& options)
         {
             std::this_thread::sleep_for (std::chrono::milliseconds (20));
             drain();
-            if (terminal && i % 5 == 0) printStatus (status, session.rate(), "");
+            if (terminal && i % 5 == 0) printStatus (status, session.rate(), true, "");
         }
     }
     catch (...)
     {
-        stop_requested = true;   // forces go to zero before the message ends the program
+        requestStop();   // forces go to zero before the message ends the program
         throw;
     }
     ticking.join();
     drain();
-    printStatus (status, session.rate(), "\n");
+    printStatus (status, session.rate(), terminal, "\n");
 
-    for (const auto& role : session.engine().plan().roles)
-        if (const auto& event = session.engine().guardOf (role.name).latest(); event.why != Guard::Stop::none && event.why != Guard::Stop::halted)
-            std::fprintf (stderr, "%s was stopped: %s\n", role.name.c_str(), describe (event).c_str());
+    session.reportStops();
+    if (status.let_go_under_force)
+        std::fprintf (stderr, "warning: the slew limit kept force on a device for %g s, so it was let go under force\n", longest_halt_s);
     if (ring && ring->lost() > 0)
         std::fprintf (stderr, "warning: %zu ticks were not recorded, because writing could not keep up\n", ring->lost());
     if (recorder) recorder->commit();

@@ -6,6 +6,9 @@
 #include "report.hpp"
 #include "session.hpp"
 
+#include <host/io/atomic_file.hpp>
+#include <host/platform/signals.hpp>
+
 #include <memory>
 #include <optional>
 
@@ -21,6 +24,9 @@ struct Options : SessionOptions
 
 void run (const Options& options)
 {
+    if (! options.plot.empty() && ! options.plot.ends_with (".png"))
+        throw CLI::ValidationError ("--plot", "'" + options.plot + "' should end in .png");
+    watchForStop();
     Session session { options };
     if (! session.ticks())
         fail ("run/no_length", "nothing says how long to run: there is no feed, trace or gesture", "give --duration S, --feed IN.csv, or --device ROLE=gesture:NAME");
@@ -28,6 +34,7 @@ void run (const Options& options)
     const auto& taps = session.engine().plan().taps;
     Recorder recorder { options.outputs, taps, session.rate(), options.plot.empty() };
     std::optional<Plotter> plotter;
+    if (! options.plot.empty()) orFail (createFile (options.plot));   // refused now, not after an hour
     if (! options.plot.empty()) plotter.emplace (options.plot, taps, options.over, session.rate(), options.records.empty());
 
     std::vector<double> values (taps.size());
@@ -40,9 +47,11 @@ void run (const Options& options)
         recorder.frame (values);
         if (plotter) plotter->frame (values);
         progress (k);
+        if (stopRequested()) fail ("run/interrupted", "stopped after " + std::to_string (k + 1) + " of " + std::to_string (*session.ticks()) + " ticks; nothing was written", "run it again, or with a shorter --duration");
     }
     recorder.commit();
     if (plotter) plotter->draw (session.name());
+    session.reportStops();
 }
 }   // namespace
 

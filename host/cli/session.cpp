@@ -2,12 +2,15 @@
 #include "session.hpp"
 #include "report.hpp"
 
+#include <framework/file/json_text.hpp>
 #include <framework/near_miss.hpp>
+#include <framework/number_text.hpp>
 #include <framework/plan/compile.hpp>
 #include <host/devices/make_device.hpp>
 
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 
 namespace tactus::host
 {
@@ -17,7 +20,7 @@ namespace
 /// The value of --set: a number, a list of numbers, or text with a unit or the name of a choice.
 Json readValue (const std::string& text)
 {
-    const auto json = Json::parse (text, nullptr, false);
+    const auto json = readJson (text).root;   // which does not recurse, whatever somebody types
     return json.is_number() || json.is_array() ? json : Json (text);
 }
 
@@ -28,6 +31,17 @@ plan::Override readSet (const std::string& text)
         throw CLI::ValidationError ("--set", "'" + text + "' is not NODE.PARAM=VALUE, as in drag.mu=0.3 or board.stiffness=\"2 N/mm\"");
     return { text.substr (0, equals), readValue (text.substr (equals + 1)) };
 }
+/// CLI::Range lets nan pass, which is neither below nor above.
+CLI::Validator finiteWithin (double min, double max)
+{
+    const auto range = "from " + numberText (min) + " to " + numberText (max);
+    return CLI::Validator ([=] (std::string& text)
+                           {
+        double value = 0.0;
+        const bool fits = CLI::detail::lexical_cast (text, value) && value >= min && value <= max;
+        return fits ? std::string() : "'" + text + "' is not a number " + range; },
+                           range);
+}
 }   // namespace
 
 void SessionOptions::addTo (CLI::App& app)
@@ -36,8 +50,8 @@ void SessionOptions::addTo (CLI::App& app)
     app.add_option ("--feed", feed, "CSV whose columns drive ports: node.port or node.port.x, and t in s");
     app.add_option ("--record", records, "Ports to record, separated by commas; default: the inputs of every sink")->delimiter (',');
     app.add_option ("--out", outputs, "Where to: a .csv or a .wav; may be given more than once");
-    app.add_option ("--rate", rate_hz, "Ticks per second; default: the feed's, else the graph's")->check (CLI::Range (1.0, 1e6));
-    app.add_option ("--duration", duration_s, "Length of the run in s")->check (CLI::PositiveNumber);
+    app.add_option ("--rate", rate_hz, "Ticks per second; default: the feed's, else the graph's")->check (finiteWithin (1.0, 1e6));
+    app.add_option ("--duration", duration_s, "Length of the run in s")->check (finiteWithin (1e-9, 1e9));
     app.add_option ("--set", sets, "NODE.PARAM=VALUE, or CONTROL=0…1; may be given more than once");
     app.add_option ("--device", devices, "ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv or ROLE=gesture:NAME");
 }
@@ -67,9 +81,12 @@ void Session::compileGraph (const SessionOptions& options)
         wanted.overrides.push_back (readSet (set));
 
     auto compiled = compile (loaded.graph, catalogue(), wanted);
+    if (compiled.plan)   // a placeholder does not keep the rest from running
+        for (auto& m : compiled.messages)
+            m.severity = Message::Severity::warning;
     report (compiled.messages, loaded, options.graph);
     if (! compiled.plan) throw Stop {};
-    running = std::make_unique<Engine> (std::move (compiled.plan), rate_hz);
+    running = std::make_unique<Engine> (std::move (compiled.plan));
 }
 
 void Session::bindDevices (const SessionOptions& options)
@@ -103,6 +120,9 @@ void Session::bindDevices (const SessionOptions& options)
         const Json description = option != chosen.end() ? option->description : in_graph ? described->second
                                                                                          : Json { { "driver", "sim" } };
 
+        if (option == chosen.end() && ! in_graph)
+            std::cerr << "warning: nobody says which device role '" << role << "' is; a simulated tool at rest stands in for it\n    describe it under `devices`, or give --device " << role << "=gesture:stroke [device/undescribed]\n";
+
         auto made = makeDevice (description, option != chosen.end() ? option->folder : folder);
         for (auto& m : made.messages)
             m.where = in_graph ? "/devices/" + role + m.where : "--device " + role + m.where;
@@ -125,9 +145,16 @@ void Session::decideLength (const SessionOptions& options)
     if (options.duration_s > 0.0 || (! feed && seconds > 0.0))
     {
         const double wanted = std::ceil (seconds * rate_hz - 1e-6);
-        if (wanted > 1e12) fail ("run/too_long", "a run of " + std::to_string (seconds) + " s would never end", "give a shorter --duration");
+        if (wanted > 1e10) fail ("run/too_long", "a run of more than 10^10 ticks would hardly end", "give a shorter --duration or a lower --rate");
         count = std::min (count.value_or (static_cast<std::size_t> (-1)), static_cast<std::size_t> (wanted));
     }
+}
+
+void Session::reportStops() const
+{
+    for (const auto& d : devices)
+        if (const auto& event = running->guardOf (d.role).latest(); event.why != Guard::Stop::none && event.why != Guard::Stop::halted)
+            std::cerr << d.role << ": warning: the guard withheld the force: " << describe (event) << '\n';
 }
 
 void Session::tick() noexcept

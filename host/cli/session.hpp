@@ -34,13 +34,16 @@ public:
     explicit Session (const SessionOptions&);
 
     Engine& engine() noexcept { return *running; }
-    double rate() const noexcept { return rate_hz; }
+    double rate() const noexcept { return rate_hz; }   ///< Hz
 
     /// How long the run lasts; nothing if nobody said.
     std::optional<std::size_t> ticks() const noexcept { return count; }
 
     /// One sample. [tick thread]
     void tick() noexcept;
+
+    /// Says on stderr why the guards withheld forces, if they did. [after the run]
+    void reportStops() const;
 
     const std::string& name() const noexcept { return loaded.graph.name; }
 

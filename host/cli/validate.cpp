@@ -41,12 +41,15 @@ bool check (const std::string& file)
 {
     const auto loaded = loadGraph (file);
     int errors = report (loaded.messages, loaded, file);
-    if (errors > 0) return false;
+    if (errors > 0 && loaded.graph.root.nodes.empty()) return false;   // what could not be read at all has no more to say
 
     const auto compiled = compile (loaded.graph, catalogue());
     errors += report (compiled.messages, loaded, file) + checkDevices (loaded, file);
     if (errors > 0) return false;
 
+    for (const auto& role : compiled.plan->roles)
+        if (std::ranges::count (loaded.graph.devices, role.name, &std::pair<std::string, Json>::first) == 0)
+            std::cerr << file << ": warning: no device is described for the role '" << role.name << "'\n    describe it under `devices`, or give --device when it runs [device/undescribed]\n";
     std::cout << file << ": ok\n";
     for (const auto& d : compiled.plan->delays)
         std::cout << describe (d);

@@ -7,6 +7,7 @@
 #include <host/devices/sim.hpp>
 #include <host/io/csv.hpp>
 
+#include <framework/file/json_text.hpp>
 #include <framework/graph/text.hpp>
 #include <framework/in_quotes.hpp>
 
@@ -235,16 +236,13 @@ std::variant<DeviceOption, Message> fromFile (std::string_view option, std::stri
     if (! file || ! (content << file.rdbuf()))
         return problem ("device/unreadable", path.string(), "the device file cannot be read", badOption (option, {}).remedy);
 
-    try
+    auto read = readJson (content.str());
+    if (! read.messages.empty())
     {
-        return DeviceOption { .role = std::move (role), .description = Json::parse (content.str()), .folder = path.parent_path() };
+        const auto& m = read.messages.front();
+        return problem ("device/syntax", path.string() + ":" + std::to_string (m.line) + ":" + std::to_string (m.column), m.text, m.remedy);
     }
-    catch (const Json::exception& failure)
-    {
-        // "[json.exception.parse_error.101] parse error at line 1, column 2: …"
-        const std::string_view what = failure.what();
-        return problem ("device/syntax", path.string(), std::string (what.substr (what.find ("] ") + 2)), "mend the JSON");
-    }
+    return DeviceOption { .role = std::move (role), .description = std::move (read.root), .folder = path.parent_path() };
 }
 }   // namespace
 

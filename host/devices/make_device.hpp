@@ -43,7 +43,7 @@ struct MadeDevice
 /// device/unknown_gesture, and those of trace/ and csv/.
 MadeDevice makeDevice (const Json& description, const std::filesystem::path& folder);
 
-/// A simulated device for a role that nobody described: a hand that strokes.
+/// What `--device ROLE=sim` means for a role that the graph does not describe: a hand that strokes.
 Json defaultDevice();
 
 /// `--device ROLE=FILE.json|sim|trace:FILE.csv|gesture:NAME`, turned into a description.

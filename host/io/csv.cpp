@@ -298,6 +298,9 @@ tl::expected<Table, Error> readTable (const std::filesystem::path& path)
     if (std::filesystem::is_directory (path, ignored))
         return tl::unexpected (unreadable (path.string(), "it is a folder, not a table"));
 
+    if (std::filesystem::exists (path, ignored) && ! std::filesystem::is_regular_file (path, ignored) && ! std::filesystem::is_fifo (path, ignored))
+        return tl::unexpected (unreadable (path.string(), "it is no file, and may never end"));
+
     std::ifstream in (path, std::ios::binary);
     if (! in)
         return tl::unexpected (unreadable (path.string(), "there is no such file, or it may not be read"));

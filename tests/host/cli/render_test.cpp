@@ -164,3 +164,41 @@ TEST_CASE ("the catalogue is listed for people and for programs", "[cli]")
         for (const auto* key : { "id", "name", "summary", "source", "inputs", "params", "settings", "outputs" })
             CHECK (node.contains (key));
 }
+
+TEST_CASE ("a run that is stopped leaves no file, not even a hidden one, and says so", "[cli]")
+{
+    const Scratch scratch;
+    const auto ran = test::runProgram ("timeout", { "-s", "INT", "0.5", TACTUS_PROGRAM, "render", wood, "--duration", "100000", "--out", scratch.path ("w.csv") });
+    INFO (ran.err);
+    CHECK (ran.err.find ("[run/interrupted]") != std::string::npos);
+    CHECK (std::filesystem::is_empty (std::filesystem::path (scratch.path ("w.csv")).parent_path()));
+}
+
+TEST_CASE ("play that is stopped, or whose terminal is closed, brings the force to zero and keeps its recording", "[cli]")
+{
+    const auto signal = GENERATE (std::string ("INT"), std::string ("TERM"), std::string ("HUP"));
+    const Scratch scratch;
+    const auto ran = test::runProgram ("timeout", { "-s", signal, "0.9", TACTUS_PROGRAM, "play", wood, "--duration", "60", "--out", scratch.path ("p.csv") });
+    INFO (ran.err);
+    CHECK (ran.err.find ("force  0.000 N") != std::string::npos);
+    const auto table = host::readTable (std::filesystem::path (scratch.path ("p.csv")));
+    REQUIRE (table);
+    CHECK (table->rows() > 1000);
+}
+
+TEST_CASE ("a force that is not a number is withheld by the guard, and said", "[cli]")
+{
+    const Scratch scratch;
+    const auto graph = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 1, "name": "Nan", "rate_hz": 1000, "devices": { "tip": { "driver": "sim" } },
+        "nodes": { "motor": { "type": "device.force", "role": "tip" } }, "wires": [] })");
+    const auto feed = scratch.write ("f.csv", "motor.force.x\n1\nnan\n1\n");
+    const auto ran = runTactus ({ "render", graph, "--feed", feed });
+    CHECK (ran.status == 0);
+    CHECK (ran.err.find ("the guard withheld the force") != std::string::npos);
+}
+
+TEST_CASE ("what the standard output cannot take is an error", "[cli]")
+{
+    if (! std::filesystem::exists ("/dev/full")) return;
+    CHECK (test::runProgram ("sh", { "-c", std::string (TACTUS_PROGRAM) + " nodes > /dev/full" }).status == 1);
+}
