@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+#include <nodes/safety/passivity.hpp>
+
+#include <golden/golden.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using tactus::Vec3;
+using tactus::nodes::PassivityObserver;
+using tactus::test::Golden;
+using Pairing = PassivityObserver::Pairing;
+
+namespace
+{
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+PassivityObserver observer (const PassivityObserver::Params& params, double rate_hz = 1000.0)
+{
+    PassivityObserver node;
+    node.params = params;
+    node.prepare ({ .rate_hz = rate_hz });
+    return node;
+}
+
+PassivityObserver::Outputs step (PassivityObserver& node, double p, double f, double contact = 1.0)
+{
+    return node.tick ({ .position = { p, 0, 0 }, .force = { f, 0, 0 }, .contact = contact });
+}
+
+/// A wall of stiffness K at x > 0, a mass with a damper, and a hand that pushes.
+struct Wall
+{
+    double K, B, hand;
+    double M = 0.1, T = 1e-3;
+};
+
+struct Course
+{
+    double buzz = 0.0;     // peak to peak in the last fifth, m
+    double force = 0.0;    // largest, N
+    double lowest = 0.0;   // energy, J
+};
+
+/// Three seconds against the wall; without an observer if there is none.
+Course against (const Wall& wall, PassivityObserver* node)
+{
+    const auto [K, B, hand, M, T] = wall;
+    const double a = std::exp (-B * T / M), g = M * (1.0 - a) / B;
+    double x = -1e-3, v = 0.1, low = tactus::inf, high = -tactus::inf;
+    Course course;
+    for (int k = 0; k < 3000; ++k)
+    {
+        double f = x > 0.0 ? -K * x : 0.0;
+        if (node != nullptr)
+        {
+            const auto out = step (*node, x, f);
+            f = out.force.x();
+            course.lowest = std::min (course.lowest, out.energy);
+        }
+        course.force = std::max (course.force, std::abs (f));
+        x += g * v + (T - g) / B * (f + hand);
+        v = a * v + (1.0 - a) / B * (f + hand);
+        if (k < 2400) continue;
+        low = std::min (low, x);
+        high = std::max (high, x);
+    }
+    course.buzz = high - low;
+    return course;
+}
+}   // namespace
+
+TEST_CASE ("passivity: both pairings meet the golden columns", "[nodes][safety][golden]")
+{
+    const Golden golden ("passivity");
+    for (const auto& [pairing, suffix] : { std::pair { Pairing::zoh, "_zoh" }, std::pair { Pairing::backward, "_hr" } })
+    {
+        auto node = observer ({ .alpha_max = golden.param ("alpha_max"), .pairing = pairing }, 1.0 / golden.dt_s());
+        std::vector<PassivityObserver::Outputs> outs;
+        for (std::size_t i = 0; i < golden.rows(); ++i)
+            outs.push_back (step (node, golden (i, "p"), golden (i, "f_env")));
+
+        INFO (suffix);
+        CHECK (golden.worst (std::string ("f_out") + suffix, [&] (std::size_t i)
+                             { return outs[i].force.x(); })
+               <= 1.0);
+        CHECK (golden.worst (std::string ("E") + suffix, [&] (std::size_t i)
+                             { return outs[i].energy; })
+               <= 1.0);
+        CHECK (golden.worst (std::string ("alpha") + suffix, [&] (std::size_t i)
+                             { return outs[i].alpha; })
+               <= 1.0);
+    }
+}
+
+TEST_CASE ("passivity: a wall that buzzes is calmed, whatever its stiffness, and nothing diverges", "[nodes][safety]")
+{
+    int buzzing = 0;
+    for (const double K : { 600.0, 1000.0, 1500.0, 2000.0, 3000.0, 4000.0, 6000.0, 8000.0 })
+        for (const double B : { 0.2, 0.5 })
+            for (const double hand : { 0.3, 1.5 })
+                for (const double alpha_max : { 0.0, 10.0, 50.0, 180.0 })
+                {
+                    const Wall wall { K, B, hand };
+                    const auto bare = against (wall, nullptr);
+                    auto node = observer ({ .alpha_max = alpha_max, .mass = wall.M });
+                    const auto braked = against (wall, &node);
+
+                    INFO (K << " " << B << " " << hand << " " << alpha_max << ": " << bare.buzz << " " << braked.buzz << " m, " << braked.force << " N, " << braked.lowest << " J");
+                    CHECK (braked.force < 100.0);
+                    CHECK (braked.lowest > -5e-3);
+                    if (K <= 2.0 * B / wall.T)   // it settles by itself, sooner or later
+                        CHECK (braked.buzz <= std::max (bare.buzz, 1e-4));
+                    else
+                    {
+                        ++buzzing;
+                        CHECK (braked.buzz < 0.2 * bare.buzz);
+                    }
+                }
+    CHECK (buzzing == 14 * 2 * 4);
+}
+
+TEST_CASE ("passivity: the backward pairing is blind to the leak of the hold", "[nodes][safety]")
+{
+    for (const double K : { 600.0, 2000.0, 8000.0 })
+        for (const double B : { 0.2, 0.5 })
+        {
+            const Wall wall { K, B, 0.5 };
+            auto node = observer ({ .mass = wall.M, .pairing = Pairing::backward });
+            INFO (K << " " << B);
+            CHECK (against (wall, &node).buzz == against (wall, nullptr).buzz);
+        }
+}
+
+TEST_CASE ("passivity: no alpha_max takes the damper over what the mass can bear", "[nodes][safety]")
+{
+    auto node = observer ({ .alpha_max = 1e9, .mass = 0.1 });
+    step (node, 0.0, 10.0);
+    CHECK (step (node, 1e-6, 0.0).alpha == Approx (2.0 * 0.1 / 1e-3));
+
+    auto silent = observer ({ .mass = 0.1 });   // 0 stands for mass / (2 T)
+    step (silent, 0.0, 10.0);
+    CHECK (step (silent, 1e-4, 0.0).alpha == Approx (50.0));
+
+    for (const double K : { 600.0, 3000.0, 8000.0 })
+    {
+        auto greedy = observer ({ .alpha_max = 1e9, .mass = 0.1 });
+        const auto course = against ({ K, 0.5, 0.5 }, &greedy);
+        INFO (K);
+        CHECK (course.force < 200.0);
+    }
+}
+
+TEST_CASE ("passivity: what takes energy passes to the bit", "[nodes][safety]")
+{
+    rc::prop ("a damper, moved any way", []
+              {
+                  auto node = observer ({});
+                  double p = 0.0, before = 0.0;
+                  for (int k = 0; k < 50; ++k)
+                  {
+                      const double next = 1e-5 * *rc::gen::inRange (-100, 100);
+                      // as strong as the last one, against the motion now and before: held or not, it takes
+                      const double f = (next - p) * before > 0.0 ? -100.0 * std::min (std::abs (next - p), std::abs (before)) * (next > p ? 1.0 : -1.0) : 0.0;
+                      const auto out = step (node, next, f);
+                      if (out.energy >= 0.0) RC_ASSERT (out.force.x() == f);
+                      if (out.energy >= 0.0) RC_ASSERT (out.alpha == 0.0);
+                      before = next - p;
+                      p = next;
+                  } });
+}
+
+TEST_CASE ("passivity: the energy is the work of the hand on the force as it was held", "[nodes][safety][energy]")
+{
+    rc::prop ("any motion and force", []
+              {
+                  auto node = observer ({ .alpha_max = 20.0 });
+                  double work = 0.0;
+                  Vec3 p = Vec3::Zero(), held = Vec3::Zero();
+                  for (int k = 0; k < 60; ++k)
+                  {
+                      const int x = *rc::gen::inRange (-100, 100), y = *rc::gen::inRange (-100, 100), f = *rc::gen::inRange (-100, 100);
+                      const Vec3 next { 1e-5 * x, 1e-5 * y, 0 };
+                      if (k > 0) work -= held.dot (next - p);
+                      const auto out = node.tick ({ .position = next, .force = { 0.01 * f, -0.02 * f, 1.0 }, .contact = 1.0 });
+                      RC_ASSERT (std::abs (out.energy - work) < 1e-12);
+                      RC_ASSERT (out.alpha >= 0.0);
+                      RC_ASSERT (out.alpha <= 20.0);
+                      if (out.energy >= 0.0) RC_ASSERT (out.alpha == 0.0);
+                      p = next;
+                      held = out.force;
+                  } });
+}
+
+TEST_CASE ("passivity: the damper only ever brakes", "[nodes][safety]")
+{
+    auto node = observer ({ .alpha_max = 12.0 });
+    step (node, 0.0, 5.0);
+    const auto out = step (node, 1e-3, 5.0);   // it pushed along: overdrawn by 5 mJ
+    CHECK (out.energy == Approx (-5e-3));
+    CHECK (out.alpha == Approx (5e-3 * 1e-3 / 1e-6));
+    CHECK (out.force.x() == Approx (5.0 - 5.0).margin (1e-12));   // alpha dp / T
+    CHECK (step (node, 1e-3, 5.0).alpha == 0.0);                  // at rest there is nothing to brake
+    CHECK (step (node, 1e-3 + 5e-10, 5.0).alpha == 0.0);
+}
+
+TEST_CASE ("passivity: apart from the object the energy is forgotten", "[nodes][safety]")
+{
+    auto node = observer ({});
+    step (node, 0.0, -10.0);
+    CHECK (step (node, 1e-3, 0.0).energy == Approx (1e-2));
+    const auto out = step (node, 2e-3, 0.3, 0.0);
+    CHECK (out.energy == 0.0);
+    CHECK (out.alpha == 0.0);
+    CHECK (out.force.x() == 0.3);
+    CHECK (step (node, 3e-3, 0.0).energy == Approx (-0.3e-3));   // and what it gave meanwhile counts
+    CHECK (step (node, 3e-3, 0.0, -1.0).energy == Approx (-0.3e-3).epsilon (1e-6));
+}
+
+TEST_CASE ("passivity: the first sample passes, and counts", "[nodes][safety]")
+{
+    auto node = observer ({ .alpha_max = 7.0 });
+    const auto first = step (node, 0.5, -3.0);
+    CHECK (first.force.x() == -3.0);
+    CHECK (first.energy == 0.0);
+    CHECK (first.alpha == 0.0);
+    CHECK (step (node, 0.501, 0.0).energy == Approx (3e-3));
+}
+
+TEST_CASE ("passivity: a fault gives no force, keeps the energy and forgets the motion", "[nodes][safety]")
+{
+    for (const Pairing pairing : { Pairing::zoh, Pairing::backward })
+        for (const double bad : { not_a_number, tactus::inf })
+            for (const int which : { 0, 1, 2 })
+            {
+                auto node = observer ({ .alpha_max = 12.0, .pairing = pairing });
+                step (node, 0.0, 5.0);
+                const double energy = step (node, 1e-3, 5.0).energy;
+                CHECK (energy == Approx (-5e-3));
+                const auto out = step (node, which == 0 ? bad : 0.0, which == 1 ? bad : 0.0, which == 2 ? bad : 1.0);
+                CHECK (out.force.isZero (0.0));
+                CHECK (out.alpha == 0.0);
+                CHECK (out.energy == energy);
+
+                const auto next = step (node, 0.1, 2.0);   // a first sample again
+                CHECK (next.force.x() == 2.0);
+                CHECK (next.alpha == 0.0);
+                CHECK (next.energy == energy);
+            }
+}
+
+TEST_CASE ("passivity: a change of pairing waits for the end of the contact", "[nodes][safety]")
+{
+    auto node = observer ({ .alpha_max = 1.0 });
+    step (node, 0.0, 0.0);
+    node.params.pairing = Pairing::backward;
+    CHECK (step (node, 1e-3, -1.0).energy == 0.0);   // the held force was 0
+    step (node, 1e-3, 0.0, 0.0);
+    CHECK (step (node, 2e-3, -1.0).energy == Approx (1e-3));
+}
+
+TEST_CASE ("passivity: no number breaks it", "[nodes][safety]")
+{
+    rc::prop ("outputs are finite", []
+              {
+                  const auto number = rc::gen::element (0.0, 1.0, -1.0, 1e-3, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
+                  const auto size = rc::gen::element (0.0, 1e-320, 0.1, 12.0, 1e300);
+                  const double alpha_max = *size, mass = *size;
+                  auto node = observer ({ .alpha_max = alpha_max, .mass = mass, .pairing = *rc::gen::element (Pairing::zoh, Pairing::backward) });
+                  for (int k = 0; k < 20; ++k)
+                  {
+                      const double x = *number, y = *number, fx = *number, fy = *number, contact = *number;
+                      const auto out = node.tick ({ .position = { x, y, 0 }, .force = { fx, fy, 0 }, .contact = contact });
+                      RC_ASSERT (tactus::isFinite (out.force, out.energy, out.alpha));
+                  } });
+}
+
+TEST_CASE ("passivity: an instance that takes over knows the account", "[nodes][safety]")
+{
+    auto old = observer ({}), next = observer ({});
+    step (old, 0.0, 5.0);
+    step (old, 1e-3, 2.0);
+    next.adopt (old);
+    const auto a = step (old, 2e-3, 1.0), b = step (next, 2e-3, 1.0);
+    CHECK (a.energy == b.energy);
+    CHECK (a.force == b.force);
+}
