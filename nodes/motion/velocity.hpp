@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <framework/node.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace tactus::nodes
+{
+
+/// Velocity from positions that come in steps: quick when the hand is, quiet when it is not.
+///
+/// The difference of two samples turns one quantum q of an encoder into a speed of q / T. Averaging over n samples
+/// divides this by n, and lags. So the window adapts, per axis and per sample:
+///
+///     velocity = (p_k - p_(k-n)) / (n T)
+///
+/// n the largest, up to `max_window`, for which the line through p_(k-n) and p_k passes within `noise` of every sample
+/// between. A hand that brakes shortens the window at once; a steady one is averaged as long as it is steady.
+///
+/// Source: Janabi-Sharifi, Hayward & Chen 2000, first-order adaptive windowing, end-fit.
+///
+/// Departures from the paper
+///  - Rest. Where all samples of the full window lie within `noise` of each other, their line is noise too, and a tool at
+///    rest would creep by up to q / (n T). There the velocity is 0, unless they lie on a line to 1e-6: a true ramp is
+///    told exactly, however slow. So the resolution is noise / (max_window T), as it is anyway.
+///  - `noise` 0 means the quantum of the device. No wire tells the node, so it takes for it, per axis, the smallest step it
+///    has seen. Of quantised positions this is the quantum, once the tool has moved slowly; of exact ones it is the slowest
+///    moment so far, and the window soon a tick or two. Steps below 1e-10 m are rounding.
+///
+/// Good to know
+///  - Noise that is not in steps, or steps turned out of their axes, must be told: noise is the largest distance of two
+///    samples of a tool at rest. What the node has learnt by itself would be too small.
+///  - Exact on ramps, from the second sample on if its steps exceed the noise, else from the third. Of quantised positions
+///    the error is below 2 noise / (n T). The lag is n T / 2: under an acceleration a, n T is about sqrt (8 noise / a).
+///    So it is worth most where the hand is slow; with noise told too large it lags.
+///  - Cost grows with max_window.
+///  - On the first sample, and after a fault, it is 0. What it has learnt of the quantum stays.
+struct Velocity
+{
+    struct Inputs
+    {
+        Vec3 position = Vec3::Zero();
+    };
+
+    struct Params
+    {
+        double noise = 0.0;
+    };
+
+    struct Settings
+    {
+        int max_window = 16;
+    };
+
+    struct Outputs
+    {
+        Vec3 velocity = Vec3::Zero();
+        double speed = 0.0;
+    };
+
+    static constexpr Info info {
+        .id = "motion.velocity",
+        .name = "Velocity",
+        .summary = "Velocity from quantised positions, over a window that adapts to the motion.",
+        .source = "Janabi-Sharifi, Hayward & Chen 2000",
+    };
+
+    static constexpr int longest_window = 256;
+
+    static constexpr std::tuple ports {
+        input (&Inputs::position, "position", unit::metre, "tool position p"),
+        param (&Params::noise, "noise", unit::metre, "how far samples at rest are apart; 0: the quantum, learnt", { .hard = { 0, inf }, .usual = { 0, 1e-3 } }),
+        setting (&Settings::max_window, "max_window", unit::count, "longest window, in ticks", { .hard = { 1, longest_window }, .usual = { 1, 64 } }),
+        output (&Outputs::velocity, "velocity", unit::speed, "of the tool"),
+        output (&Outputs::speed, "speed", unit::speed, "its amount"),
+    };
+
+    Params params;
+    Settings settings;
+
+    void prepare (const Setup& setup) noexcept
+    {
+        dt = setup.dt_s();
+        axes = {};
+        known = 0;
+    }
+
+    void adopt (const Velocity& old) noexcept
+    {
+        axes = old.axes;
+        newest = old.newest;
+        known = old.known;
+    }
+
+    Outputs tick (const Inputs& in) noexcept
+    {
+        if (! isFinite (in.position))
+        {
+            known = 0;
+            return {};
+        }
+
+        newest = (newest + 1) % capacity;
+        known = std::min (known + 1, capacity);
+        Vec3 v;
+        for (int i = 0; i < 3; ++i)
+        {
+            Axis& axis = axes[static_cast<std::size_t> (i)];
+            axis.past[static_cast<std::size_t> (newest)] = in.position[i];
+            learn (axis);
+            v[i] = slope (axis) / dt;
+        }
+
+        const Outputs out { .velocity = v, .speed = v.stableNorm() };
+        if (! isFinite (out.velocity, out.speed))
+        {
+            known = 0;
+            return {};
+        }
+        return out;
+    }
+
+private:
+    static constexpr int capacity = longest_window + 1;
+    static constexpr double rounding = 1e-10;   // m; no encoder is finer
+
+    struct Axis
+    {
+        std::array<double, capacity> past {};   // ring of the last positions, m
+        double quantum = inf;                   // smallest step seen, m
+    };
+
+    double ago (const Axis& axis, int ticks) const noexcept { return axis.past[static_cast<std::size_t> ((newest + capacity - ticks) % capacity)]; }
+
+    void learn (Axis& axis) const noexcept
+    {
+        if (known < 2) return;
+        const double step = std::abs (ago (axis, 0) - ago (axis, 1));
+        if (step > rounding) axis.quantum = std::min (axis.quantum, step);
+    }
+
+    /// End-fit slope over the longest window that fits, in m per tick.
+    double slope (const Axis& axis) const noexcept
+    {
+        const int longest = std::min (settings.max_window, known - 1);
+        if (longest < 1) return 0.0;
+
+        const bool told = params.noise > 0.0;
+        const double noise = (told ? params.noise : axis.quantum < inf ? axis.quantum
+                                                                       : 0.0)
+                             * (1.0 + 1e-6);   // quanta that were computed are not all alike to the last bit
+        const double now = ago (axis, 0);
+
+        // Slopes whose line from now into the past has met every sample so far; and how far these lie apart.
+        double least = -inf, most = inf, lowest = now, highest = now, best = 0.0;
+        for (int n = 1; n <= longest && least <= most; ++n)
+        {
+            const double then = ago (axis, n), step = (now - then) / n;
+            if (step >= least && step <= most) best = step;
+            least = std::max (least, step - noise / n);
+            most = std::min (most, step + noise / n);
+            lowest = std::min (lowest, then);
+            highest = std::max (highest, then);
+        }
+
+        const bool rests = least <= most && highest - lowest <= noise && (told || longest > 1);
+        return rests && ! isRamp (axis, longest) ? 0.0 : best;
+    }
+
+    /// True if the samples of a window lie on a line.
+    bool isRamp (const Axis& axis, int n) const noexcept
+    {
+        const double now = ago (axis, 0), rise = now - ago (axis, n);
+        if (n < 2) return false;
+        for (int i = 1; i < n; ++i)
+            if (! (std::abs (now - rise * i / n - ago (axis, i)) <= 1e-6 * std::abs (rise))) return false;
+        return true;
+    }
+
+    std::array<Axis, 3> axes;
+    int newest = 0, known = 0;
+    double dt = 1.0 / Setup {}.rate_hz;   // s
+};
+
+}   // namespace tactus::nodes
+
+TACTUS_NODE (tactus::nodes::Velocity);

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include <nodes/motion/velocity.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+using tactus::Vec3;
+using tactus::nodes::Velocity;
+
+namespace
+{
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double T = 1e-3, q = 1e-5;
+
+Velocity velocity (double noise = 0.0, int max_window = 16)
+{
+    Velocity node;
+    node.params.noise = noise;
+    node.settings.max_window = max_window;
+    node.prepare ({ .rate_hz = 1.0 / T });
+    return node;
+}
+
+double along (Velocity& node, double x) { return node.tick ({ .position = { x, 0, 0 } }).velocity.x(); }
+
+double quantised (double x) { return q * std::floor (x / q + 0.5); }
+}   // namespace
+
+TEST_CASE ("velocity: exact on ramps, whatever it is told of the noise", "[nodes][motion]")
+{
+    rc::prop ("any speed, place, noise and window", []
+              {
+                  const double v = 1e-4 * *rc::gen::inRange (-10'000, 10'000), from = 1e-3 * *rc::gen::inRange (-200, 200);
+                  auto node = velocity (*rc::gen::element (0.0, 1e-6, 1e-5, 1e-3), *rc::gen::inRange (2, 64));
+                  for (int k = 0; k < 100; ++k)
+                  {
+                      const double measured = along (node, from + v * T * k);
+                      if (k >= 2) RC_ASSERT (std::abs (measured - v) <= 1e-6 * std::abs (v) + 1e-12);
+                  } });
+}
+
+TEST_CASE ("velocity: a ramp is told on the second sample if it is out of the noise", "[nodes][motion]")
+{
+    for (const double noise : { 0.0, 1e-5, 1e-4 })
+    {
+        auto node = velocity (noise);
+        CHECK (along (node, 0.1) == 0.0);
+        CHECK (along (node, 0.1 + 0.2 * T) == Approx (0.2));
+    }
+}
+
+TEST_CASE ("velocity: half a quantum of noise never becomes speed", "[nodes][motion]")
+{
+    rc::prop ("a tool at rest, with noise", [] (unsigned seed)
+              {
+                  std::mt19937 random { seed };
+                  std::uniform_real_distribution noise { -0.5 * q, 0.5 * q };
+                  auto node = velocity (q);
+                  for (int k = 0; k < 500; ++k)
+                      RC_ASSERT (along (node, 0.03 + noise (random)) == 0.0); });
+}
+
+TEST_CASE ("velocity: nor does a position between two quanta, without being told the quantum", "[nodes][motion]")
+{
+    rc::prop ("a tool at rest between two quanta, with noise", [] (unsigned seed)
+              {
+                  std::mt19937 random { seed };
+                  std::uniform_real_distribution noise { -0.5 * q, 0.5 * q };
+                  auto node = velocity();
+                  for (int k = 0; k < 500; ++k)
+                  {
+                      const double v = along (node, quantised (3000.5 * q + noise (random)));
+                      if (k >= 2) RC_ASSERT (v == 0.0);
+                  } });
+}
+
+TEST_CASE ("velocity: of a steady motion in steps it knows the speed to a quantum in the window", "[nodes][motion]")
+{
+    rc::prop ("any speed", []
+              {
+                  const double v = 1e-5 * *rc::gen::inRange (-20'000, 20'000);
+                  const int window = *rc::gen::inRange (4, 33);
+                  auto told = velocity (q, window);
+                  for (int k = 0; k < 300; ++k)
+                  {
+                      const double measured = along (told, quantised (v * T * k));
+                      const int n = std::min (k, window);
+                      if (k >= 1) RC_ASSERT (std::abs (measured - v) <= 2.0 * q / (n * T) * (1.0 + 1e-6));
+                  } });
+}
+
+TEST_CASE ("velocity: it learns the quantum from a hand that starts slowly", "[nodes][motion]")
+{
+    auto told = velocity (q), untold = velocity();
+    double x = 0.0;
+    for (int k = 0; k < 3000; ++k)
+    {
+        x += 0.15 * std::sin (2.0 * M_PI * 1.0 * k * T) * T;
+        const double a = along (told, quantised (x)), b = along (untold, quantised (x));
+        if (k > 100) CHECK (a == Approx (b).margin (1e-9));
+    }
+}
+
+TEST_CASE ("velocity: of a hand that moves slowly to and fro it is far quieter than the plain difference", "[nodes][motion]")
+{
+    auto node = velocity();
+    double error = 0.0, plain = 0.0, before = 0.0;
+    for (int k = 0; k < 4000; ++k)
+    {
+        const double w = 2.0 * M_PI * 0.3, x = 0.02 * std::sin (w * k * T), v = 0.02 * w * std::cos (w * k * T), p = quantised (x);
+        const double measured = along (node, p);
+        if (k > 1000)
+        {
+            error += std::pow (measured - v, 2.0);
+            plain += std::pow ((p - before) / T - v, 2.0);
+        }
+        before = p;
+    }
+    CHECK (std::sqrt (error) < 0.25 * std::sqrt (plain));
+}
+
+TEST_CASE ("velocity: a hand that stops is known to have stopped on the next sample", "[nodes][motion]")
+{
+    auto node = velocity (q);
+    for (int k = 0; k < 50; ++k)
+        along (node, quantised (0.2 * T * k));
+    CHECK (along (node, quantised (0.2 * T * 49)) == 0.0);
+    CHECK (along (node, quantised (0.2 * T * 48)) < -0.1);   // and to have turned
+}
+
+TEST_CASE ("velocity: what is exact lags by no more than a tick", "[nodes][motion]")
+{
+    auto node = velocity();
+    double worst = 0.0;
+    for (int k = 0; k < 3000; ++k)
+    {
+        const double w = 2.0 * M_PI * 3.0;
+        const double v = along (node, 0.02 * (1.0 - std::cos (w * k * T)));
+        if (k > 10) worst = std::max (worst, std::abs (v - 0.02 * w * std::sin (w * (k - 0.5) * T)));
+    }
+    CHECK (worst < 0.02 * std::pow (2.0 * M_PI * 3.0, 2.0) * T);
+}
+
+TEST_CASE ("velocity: each axis has a window and a quantum of its own", "[nodes][motion]")
+{
+    auto node = velocity();
+    Velocity::Outputs out;
+    for (int k = 0; k < 100; ++k)
+        out = node.tick ({ .position = { 0.3 * T * k, k % 2 == 0 ? 0.0 : q, -0.4 * T * k } });
+    CHECK (out.velocity.x() == Approx (0.3));
+    CHECK (out.velocity.y() == 0.0);
+    CHECK (out.velocity.z() == Approx (-0.4));
+    CHECK (out.speed == Approx (0.5));
+}
+
+TEST_CASE ("velocity: a window of one tick is the plain difference", "[nodes][motion]")
+{
+    auto node = velocity (0.0, 1);
+    along (node, 0.0);
+    CHECK (along (node, q) == Approx (q / T));
+    CHECK (along (node, q) == 0.0);
+    CHECK (along (node, 5 * q) == Approx (4 * q / T));
+}
+
+TEST_CASE ("velocity: a fault gives nothing, and the motion across it is no motion", "[nodes][motion]")
+{
+    for (const Vec3& bad : { Vec3 { not_a_number, 0, 0 }, Vec3 { 0, tactus::inf, 0 } })
+    {
+        auto node = velocity();
+        along (node, 0.0);
+        along (node, 0.001);
+        CHECK (node.tick ({ .position = bad }).velocity.isZero (0.0));
+        CHECK (along (node, 0.5) == 0.0);
+        CHECK (along (node, 0.502) == Approx (2.0));
+    }
+}
+
+TEST_CASE ("velocity: no number breaks it", "[nodes][motion]")
+{
+    rc::prop ("outputs are finite", []
+              {
+                  const auto number = rc::gen::element (0.0, 1.0, -1.0, 1e-3, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
+                  auto node = velocity (*rc::gen::element (0.0, 1e-320, 1e-5, 1e300), *rc::gen::element (1, 2, 16, Velocity::longest_window));
+                  for (int k = 0; k < 20; ++k)
+                  {
+                      const double x = *number, y = *number, z = *number;
+                      const auto out = node.tick ({ .position = { x, y, z } });
+                      RC_ASSERT (tactus::isFinite (out.velocity, out.speed));
+                      RC_ASSERT (out.speed >= 0.0);
+                  } });
+}
+
+TEST_CASE ("velocity: an instance that takes over knows the past", "[nodes][motion]")
+{
+    auto old = velocity(), next = velocity();
+    for (int k = 0; k < 30; ++k)
+        along (old, quantised (0.013 * T * k));
+    next.adopt (old);
+    const double x = quantised (0.013 * T * 30);
+    CHECK (along (next, x) == along (old, x));
+}
