@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <framework/node.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+namespace tactus::nodes
+{
+
+/// A mixing desk for the layers of an effect: contact, texture, shock, each on a channel of its own.
+///
+/// Per tick, in this order:
+///
+///     gain       x_i = gain[i] in[i]
+///     mute       times m_i: 0 if mute[i] is on, else 1
+///     solo       m_i is 0, too, if any solo is on and solo[i] is not; it goes up and down in a straight ramp of 10 ms
+///     level      level[i] = max (|m_i x_i|, level[i] e^(-T / 50 ms)): rises at once, falls with 50 ms
+///     ducking    times d_i: goes to 10^(-duck_db / 20) with 5 ms while a channel of higher priority sounds, else
+///                to 1 with 100 ms. Once, however many sound.
+///     sum        s = sum of d_i m_i x_i
+///     ceiling    out = s within -ceiling…ceiling, cut hard; reduction = 20 log10 |s / out|, dB
+///
+/// A channel sounds if its level is above 1 % of the loudest there was of late (a peak that falls with 2 s). So the desk
+/// needs no threshold in a unit it does not know, and mixes millinewtons as it mixes newtons.
+///
+/// Source: definition; the order is that of an audio mixing desk.
+///
+/// Good to know
+///  - mute and solo are switches: on above 0.5. A channel in solo that is also muted is silent. Channels that are muted
+///    duck nobody.
+///  - Equal priorities, as delivered, do not duck each other. A higher number goes first.
+///  - A channel that is open, not ducked, and below the ceiling passes to the bit.
+///  - The ceiling has no memory and no knee: it cannot overshoot or pump, and a force that only depends on position stays
+///    so. What is above it is lost, so a reduction other than 0 says: turn the gains down.
+///  - Ducking depends on time. A spring that is ducked while pressed and not on release gives energy.
+///  - The first tick starts without ramps, and so does the one after a fault: one non-finite input silences all.
+///  - `names` are the labels of the channels for people and hosts, separated by commas: "contact, texture, shock".
+///  - It mixes numbers. For forces in three axes, mix before vector.scale, or use one desk per axis.
+struct LayerMix
+{
+    struct Inputs
+    {
+        InputList<double> in;
+    };
+
+    struct Params
+    {
+        List gain { 1.0 };
+        List mute;
+        List solo;
+        List priority;
+        double duck_db = 12.0;
+        double ceiling = 0.0;
+    };
+
+    struct Settings
+    {
+        int inputs = 2;
+        std::string names;
+    };
+
+    struct Outputs
+    {
+        double out = 0.0;
+        List level;
+        double reduction = 0.0;
+    };
+
+    static constexpr Info info {
+        .id = "layer.mix",
+        .name = "Layer mixer",
+        .summary = "Mixes the layers of an effect: gain, mute, solo, priority, ceiling.",
+        .source = "definition",
+    };
+
+    static constexpr std::tuple ports {
+        input (&Inputs::in, "in", any_unit, "layers", 0.0),
+        param (&Params::gain, "gain", unit::gain, "factor on the layer of the same number", { .usual = { 0, 2 } }),
+        param (&Params::mute, "mute", unit::state, "on above 0.5: the layer is silent", { .hard = { 0, 1 } }),
+        param (&Params::solo, "solo", unit::state, "on above 0.5: only layers in solo are heard", { .hard = { 0, 1 } }),
+        param (&Params::priority, "priority", unit::count, "while a layer of a higher one sounds, this one is ducked", { .usual = { 0, 10 } }),
+        param (&Params::duck_db, "duck_db", unit::decibel, "how far a ducked layer is lowered", { .hard = { 0, inf }, .usual = { 0, 60 } }),
+        param (&Params::ceiling, "ceiling", sameAs ("in"), "the mix never exceeds it, up or down; 0: none", { .hard = { 0, inf }, .usual = { 0, 20 } }),
+        setting (&Settings::inputs, "inputs", unit::count, "number of layers", { .hard = { 1, list_capacity }, .usual = { 1, 8 } }),
+        setting (&Settings::names, "names", unit::count, "labels of the layers, separated by commas"),
+        output (&Outputs::out, "out", sameAs ("in"), "the mix"),
+        output (&Outputs::level, "level", sameAs ("in"), "peak of each layer after gain, mute and solo, before ducking"),
+        output (&Outputs::reduction, "reduction", unit::decibel, "how much the ceiling takes away now"),
+    };
+
+    Params params;
+    Settings settings;
+
+    void prepare (const Setup& setup) noexcept
+    {
+        const double dt = setup.dt_s();
+        ramp = dt / 10e-3;
+        attack = -std::expm1 (-dt / 5e-3);
+        release = -std::expm1 (-dt / 100e-3);
+        decay = std::exp (-dt / 50e-3);
+        fading = std::exp (-dt / 2.0);
+        forget();
+    }
+
+    void update() noexcept
+    {
+        any_solo = false;
+        for (int i = 0; i < settings.inputs; ++i)
+            any_solo = any_solo || params.solo[i] > 0.5;
+        ducked = std::pow (10.0, -params.duck_db / 20.0);
+    }
+
+    void adopt (const LayerMix& old) noexcept
+    {
+        channels = old.channels;
+        loudest = old.loudest;
+        started = old.started;
+    }
+
+    Outputs tick (const Inputs& in) noexcept;
+
+private:
+    struct Channel
+    {
+        double open = 1.0;    // m
+        double level = 0.0;   // of m x
+        double duck = 1.0;    // d
+    };
+
+    bool isOpen (int i) const noexcept { return ! (params.mute[i] > 0.5) && (! any_solo || params.solo[i] > 0.5); }
+    bool isDucked (int i, int size) const noexcept;
+
+    void forget() noexcept
+    {
+        channels = {};
+        loudest = 0.0;
+        started = false;
+    }
+
+    /// A peak on its way down; ends in 0 rather than among the subnormals.
+    static double fall (double level, double factor) noexcept { return level > 1e-300 ? level * factor : 0.0; }
+
+    static constexpr double audible = 0.01;   // of the loudest
+
+    std::array<Channel, list_capacity> channels;
+    double loudest = 0.0;
+    double ramp = 1.0, attack = 1.0, release = 1.0, decay = 0.0, fading = 0.0;   // per tick
+    double ducked = 1.0;
+    bool any_solo = false;
+    bool started = false;
+};
+
+//==============================================================================
+// Implementation below.
+
+inline LayerMix::Outputs LayerMix::tick (const Inputs& in) noexcept
+{
+    const int size = in.in.size();
+    const auto fault = [this]() -> Outputs
+    {
+        forget();
+        return {};
+    };
+    if (! isFinite (in.in)) return fault();
+
+    std::array<double, list_capacity> heard;
+    Outputs out;
+    loudest = fall (loudest, fading);
+    for (int i = 0; i < size; ++i)
+    {
+        Channel& c = channels[static_cast<std::size_t> (i)];
+        const double target = isOpen (i) ? 1.0 : 0.0;
+        c.open = started ? std::clamp (target, c.open - ramp, c.open + ramp) : target;
+
+        const double x = c.open * (params.gain[i] * in.in[i]);
+        heard[static_cast<std::size_t> (i)] = x;
+        c.level = std::max (std::abs (x), fall (c.level, decay));
+        loudest = std::max (loudest, c.level);
+        out.level[i] = c.level;
+        if (! isFinite (x)) return fault();
+    }
+
+    double sum = 0.0;
+    for (int i = 0; i < size; ++i)
+    {
+        Channel& c = channels[static_cast<std::size_t> (i)];
+        const double target = isDucked (i, size) ? ducked : 1.0;
+        c.duck += (target < c.duck ? attack : release) * (target - c.duck);
+        if (std::abs (target - c.duck) < 1e-9) c.duck = target;
+        sum += c.duck * heard[static_cast<std::size_t> (i)];
+    }
+    if (! isFinite (sum)) return fault();
+
+    started = true;
+    out.out = sum;
+    if (params.ceiling > 0.0 && std::abs (sum) > params.ceiling)
+    {
+        out.out = std::copysign (params.ceiling, sum);
+        out.reduction = 20.0 * (std::log10 (std::abs (sum)) - std::log10 (params.ceiling));
+    }
+    return out;
+}
+
+/// True if a layer of higher priority sounds.
+inline bool LayerMix::isDucked (int i, int size) const noexcept
+{
+    for (int j = 0; j < size; ++j)
+        if (params.priority[j] > params.priority[i] && channels[static_cast<std::size_t> (j)].level > audible * loudest) return true;
+    return false;
+}
+
+}   // namespace tactus::nodes
+
+TACTUS_NODE (tactus::nodes::LayerMix);
