@@ -36,6 +36,7 @@ std::string unitText (const UnitRule& u)
 std::string initialText (const PortSheet& p)
 {
     if (! p.choices.empty()) return std::string (p.choices[static_cast<std::size_t> (p.initial[0])]);
+    if (p.initial[0] != p.initial[0]) return "unwired";
     if (p.width == 1) return numberText (p.initial[0]);
     return "(" + numberText (p.initial[0]) + ", " + numberText (p.initial[1]) + ", " + numberText (p.initial[2]) + ")";
 }

@@ -138,9 +138,10 @@ TEST_CASE ("render reproduces modes that are hit", "[golden]")
 TEST_CASE ("render reproduces gratings on a line and in the plane", "[golden]")
 {
     reproduce ("texture", graph (R"("line": { "type": "texture.grating", "params": { "amplitude": "0.3 N", "spatial_frequency": "200 1/m" } },
+                                    "guard": { "type": "texture.antialias", "params": { "spatial_frequency": "200 1/m", "f_max": "100 Hz" } },
                                     "plane": { "type": "texture.grating", "params": { "amplitude": "0.3 N", "spatial_frequency": "500 1/m", "angle": 0.9272952180016122 } })"),
-               { { "line.position.x", "x" }, { "plane.position.x", "x" }, { "plane.position.y", "y" } },
-               { { "line.value", "grating1d" }, { "plane.force.x", "grating2d_x" }, { "plane.force.y", "grating2d_y" } });
+               { { "line.position.x", "x" }, { "guard.position.x", "x" }, { "plane.position.x", "x" }, { "plane.position.y", "y" } },
+               { { "line.value", "grating1d" }, { "guard.gain", "guard" }, { "guard.speed", "v_diff" }, { "plane.force.x", "grating2d_x" }, { "plane.force.y", "grating2d_y" } });
 }
 
 TEST_CASE ("render reproduces a tool pushed against a sampled wall", "[golden]")
@@ -158,8 +159,32 @@ TEST_CASE ("render reproduces a tool pushed against a sampled wall", "[golden]")
     {
         return { { "truth.position.x", "x_" + name }, { "truth.velocity.x", "v_" + name }, { "motor.force.x", "f_" + name } };
     };
+    const std::string coupled = graph (R"("hand": { "type": "device.position", "role": "tool" }, "truth": { "type": "device.truth", "role": "tool" },
+                         "wall": { "type": "coupling.virtual", "params": { "normal": [-1, 0, 0], "stiffness": 2400, "damping": 0.2, "wall_stiffness": 1e6 } },
+                         "motor": { "type": "device.force", "role": "tool" })",
+                                       R"("wires": [ "hand.position -> wall.position", "wall.force -> motor.force" ],
+                         "devices": { "tool": { "driver": "sim", "mass": 0.1, "damping": 2, "position": [-1e-3, 0, 0], "velocity": [0.1, 0, 0], "hand_force": [0.5, 0, 0] } })");
     constexpr std::size_t compared_tightly = 300;
+    reproduce ("wallsim", coupled, {}, records ("vc"), compared_tightly);
     reproduce ("wallsim", wall ("", R"("stiffness": 3600)"), {}, records ("smooth"), compared_tightly);
     reproduce ("wallsim", wall ("", R"("stiffness": 1800, "damping": 0.4)"), {}, records ("damped"), compared_tightly);
     reproduce ("wallsim", wall (R"(, "quantum": 1e-5)", R"("stiffness": 1800)"), {}, { { "truth.position.x", "x_quant" } }, compared_tightly);
+}
+
+TEST_CASE ("render reproduces the passivity controller in both pairings, and the predictive hold", "[golden]")
+{
+    const auto controller = [] (const std::string& name, const std::string& pairing)
+    {
+        return "\"" + name + R"(": { "type": "safety.passivity", "params": { "alpha_max": 12, "pairing": ")" + pairing + R"(" } })";
+    };
+    Map feeds { { "ahead.in.x", "f_env" } }, records { { "ahead.out.x", "f_predictive" } };
+    for (const std::string name : { "zoh", "hr" })
+    {
+        feeds[name + ".position.x"] = "p";
+        feeds[name + ".force.x"] = "f_env";
+        records[name + ".force.x"] = "f_out_" + name;
+        records[name + ".energy"] = "E_" + name;
+        records[name + ".alpha"] = "alpha_" + name;
+    }
+    reproduce ("passivity", graph (controller ("zoh", "zoh") + ", " + controller ("hr", "backward") + R"(, "ahead": { "type": "hold.predictive" })"), feeds, records);
 }
