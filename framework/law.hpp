@@ -3,7 +3,9 @@
 
 #include "curve.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tactus
 {
@@ -60,6 +62,68 @@ struct Law
             return a * (std::expm1 (b * e) / b - e);
         case Kind::table:
             return along (e).energy;
+        case Kind::none:
+            break;
+        }
+        return 0.0;
+    }
+
+    /// The smallest deflection at which the force is f; 0 for f <= 0, infinite if the law never gets there.
+    double inverse (double f) const noexcept
+    {
+        constexpr double never = std::numeric_limits<double>::infinity();
+        if (! (f > 0.0)) return 0.0;
+        switch (kind)
+        {
+        case Kind::power:
+            return b == 1.0 ? f / a : std::pow (f / a, 1.0 / b);
+        case Kind::exponential:
+            return std::log1p (f / a) / b;
+        case Kind::table:
+        {
+            double x = 0.0, y = 0.0, slope = 0.0;
+            for (std::size_t i = 0; i < table.x.size() && y < f; ++i)
+            {
+                if (table.x[i] <= x) continue;
+                slope = (table.y[i] - y) / (table.x[i] - x);
+                if (table.y[i] >= f) break;
+                x = table.x[i];
+                y = table.y[i];
+            }
+            return slope > 0.0 ? x + (f - y) / slope : never;
+        }
+        case Kind::none:
+            break;
+        }
+        return never;
+    }
+
+    /// True if it never falls, nor pulls.
+    bool rises() const noexcept { return kind != Kind::table || (std::ranges::is_sorted (table.y) && (table.empty() || table.y.front() >= 0.0)); }
+
+    /// The largest slope between no deflection and this one.
+    double steepest (double to = std::numeric_limits<double>::infinity()) const noexcept
+    {
+        if (! (to > 0.0)) return 0.0;
+        switch (kind)
+        {
+        case Kind::power:
+            if (b == 1.0 || a == 0.0) return a;
+            return b > 1.0 ? a * b * std::pow (to, b - 1.0) : std::numeric_limits<double>::infinity();
+        case Kind::exponential:
+            return a == 0.0 ? 0.0 : a * b * std::exp (b * to);
+        case Kind::table:
+        {
+            double x = 0.0, y = 0.0, most = 0.0;
+            for (std::size_t i = 0; i < table.x.size() && x < to; ++i)
+            {
+                if (table.x[i] <= x) continue;
+                most = std::max (most, (table.y[i] - y) / (table.x[i] - x));
+                x = table.x[i];
+                y = table.y[i];
+            }
+            return most;
+        }
         case Kind::none:
             break;
         }

@@ -102,7 +102,7 @@ struct Plane
 
     Claims claims() const
     {
-        return { .passive = true, .stiffness = steepest(), .damping = params.damping };
+        return { .passive = true, .stiffness = settings.law ? settings.law.steepest() : params.stiffness, .damping = params.damping };
     }
 
     Outputs tick (const Inputs& in) noexcept
@@ -134,25 +134,6 @@ struct Plane
 private:
     double law (double depth) const noexcept { return settings.law ? settings.law (depth) : params.stiffness * depth; }
     double energy (double depth) const noexcept { return settings.law ? settings.law.energy (depth) : 0.5 * params.stiffness * depth * depth; }
-
-    /// The largest slope of the law; none but a line or a table has one.
-    double steepest() const
-    {
-        const Law& l = settings.law;
-        if (! l) return params.stiffness;
-        if (l.kind == Law::Kind::power && l.b == 1.0) return l.a;
-        if (l.kind != Law::Kind::table) return inf;
-
-        double x = 0.0, y = 0.0, slope = 0.0;
-        for (std::size_t i = 0; i < l.table.x.size(); ++i)
-        {
-            if (l.table.x[i] <= x) continue;
-            slope = std::max (slope, (l.table.y[i] - y) / (l.table.x[i] - x));
-            x = l.table.x[i];
-            y = l.table.y[i];
-        }
-        return slope;
-    }
 
     struct Sample
     {
