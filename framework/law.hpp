@@ -15,9 +15,11 @@ namespace tactus
 ///     power        f = k e^n                  energy = k e^(n+1) / (n+1)
 ///     exponential  f = a (exp (b e) - 1)      energy = a ((exp (b e) - 1) / b - e)
 ///     table        straight between points from (0, 0), the last slope continued
+///     dissipation  a law of damping only: a times the law of stiffness beside it, which the node multiplies with
 ///
-/// In files {"power": [k, n]}, {"exponential": [a, b]}, {"table": [[e…], [f…]]}. All are 0 for e <= 0.
-/// A law of kind `none` stands for "not given"; the node's doc block says what happens then.
+/// In files {"power": [k, n]}, {"exponential": [a, b]}, {"table": [[e…], [f…]]}, {"dissipation": a}. All are 0 for e <= 0.
+/// A law of kind `none` stands for "not given"; the node's doc block says what happens then. By itself it is 0 everywhere,
+/// and so is one of kind `dissipation`.
 struct Law
 {
     enum class Kind
@@ -25,11 +27,12 @@ struct Law
         none,
         power,
         exponential,
-        table
+        table,
+        dissipation
     };
 
     Kind kind = Kind::none;
-    double a = 0.0, b = 1.0;   ///< k and n, or a and b
+    double a = 0.0, b = 1.0;   ///< k and n, or a and b, or a
     Curve table {};
 
     explicit operator bool() const noexcept { return kind != Kind::none; }
@@ -46,6 +49,7 @@ struct Law
         case Kind::table:
             return along (e).force;
         case Kind::none:
+        case Kind::dissipation:
             break;
         }
         return 0.0;
@@ -63,6 +67,7 @@ struct Law
         case Kind::table:
             return along (e).energy;
         case Kind::none:
+        case Kind::dissipation:
             break;
         }
         return 0.0;
@@ -93,6 +98,7 @@ struct Law
             return slope > 0.0 ? x + (f - y) / slope : never;
         }
         case Kind::none:
+        case Kind::dissipation:
             break;
         }
         return never;
@@ -125,6 +131,7 @@ struct Law
             return most;
         }
         case Kind::none:
+        case Kind::dissipation:
             break;
         }
         return 0.0;

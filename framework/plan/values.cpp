@@ -78,7 +78,8 @@ struct SettingReader
 
     static Law law (const Json& json, const SettingSheet& sheet)
     {
-        constexpr auto shapes = "it must be {\"power\": [k, n]}, {\"exponential\": [a, b]} or {\"table\": [[e…], [f…]]}";
+        const bool damps = sheet.unit.kind == UnitRule::Kind::fixed && sheet.unit.unit.quantity == Quantity::damping;
+        const auto shapes = std::string ("it must be ") + (damps ? "{\"dissipation\": a}, " : "") + "{\"power\": [k, n]}, {\"exponential\": [a, b]} or {\"table\": [[e…], [f…]]}";
         if (! json.is_object() || json.size() != 1) throw Problem { shapes, "" };
 
         const auto& kind = json.begin().key();
@@ -92,6 +93,8 @@ struct SettingReader
             if (table.x.back() == 0.0) throw Problem { "it needs a point beyond 0", key };
             return { .kind = Law::Kind::table, .table = std::move (table) };
         }
+        if (kind == "dissipation" && damps)
+            return { .kind = Law::Kind::dissipation, .a = inRange (number (value, unit::second_per_metre, key), { 0.0, inf }, key) };
         if (kind != "power" && kind != "exponential") throw Problem { shapes, key };
         if (! value.is_array() || value.size() != 2) throw Problem { "it must be a list of two numbers", key };
 
