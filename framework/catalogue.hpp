@@ -80,6 +80,7 @@ struct NodeType
     void (*peek) (void* node, const double* const* sources, void* outputs) noexcept;
     int (*delay) (const void* node) noexcept;
     std::string (*problem) (const void* node);
+    std::string (*warning) (const void* node, const Setup&);
     void (*prepare) (void* node, const Setup&);
     void (*update) (void* node) noexcept;
     void (*adopt) (void* node, const void* old) noexcept;
@@ -332,6 +333,8 @@ NodeType describe()
     { return static_cast<const N*> (n)->delay(); };
     if constexpr (SelfChecking<N>) t.problem = [] (const void* n)
     { return static_cast<const N*> (n)->problem(); };
+    if constexpr (Warning<N>) t.warning = [] (const void* n, const Setup& s)
+    { return static_cast<const N*> (n)->warning (s); };
     if constexpr (Preparable<N>) t.prepare = [] (void* n, const Setup& s)
     { static_cast<N*> (n)->prepare (s); };
     if constexpr (Updatable<N>) t.update = [] (void* n) noexcept

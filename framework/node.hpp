@@ -15,6 +15,8 @@
 ///   problem() -> string       what is wrong with the settings, as a sentence for the user; empty if nothing is. Asked
 ///                             with params and settings in place, before prepare; a graph with a problem does not
 ///                             run. Only for what the limits in the datasheet cannot say.              [main thread]
+///   warning (setup) -> string what will not come out as it should at this rate, as a sentence; empty if nothing. Asked
+///                             after problem; the graph runs all the same.                                [main thread]
 ///   prepare (setup)           before the first tick, with params and settings in place; may allocate   [main thread]
 ///   update()                  after a parameter moved and before the tick: coefficients, so that a filter does not
 ///                             pay `tan` each tick; also once after prepare                              [tick thread]
@@ -83,6 +85,9 @@ concept Node = std::default_initializable<N>
 
 template <typename N>
 concept SelfChecking = requires (const N node) { { node.problem() } -> std::same_as<std::string>; };
+
+template <typename N>
+concept Warning = requires (const N node, Setup setup) { { node.warning (setup) } -> std::same_as<std::string>; };
 
 template <typename N>
 concept Preparable = requires (N node, Setup setup) { node.prepare (setup); };

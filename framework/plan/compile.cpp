@@ -50,25 +50,30 @@ void checkFanIn (Flat& flat, const PortUnits& units)
     }
 }
 
-/// Nodes that look at their own settings are asked what is wrong with them.
-void askNodes (Flat& flat)
+/// Nodes that look at their own settings are asked what is wrong with them, and what will not come out at this rate.
+void askNodes (Flat& flat, const Setup& setup)
 {
     for (const auto& n : flat.nodes)
     {
-        if (! n.type->problem) continue;
-        const std::string id (n.type->info.id);
-        if (const auto problem = n.type->problem (makeNode (n).get()); ! problem.empty())
-            flat.error ("node/problem", n.origin, "'" + n.path + "' (" + id + "): " + problem, "`tactus nodes " + id + "` says what it takes");
+        if (! n.type->problem && ! n.type->warning) continue;
+        const std::string id (n.type->info.id), remedy = "`tactus nodes " + id + "` says what it takes";
+        const auto node = makeNode (n);
+        const auto problem = n.type->problem ? n.type->problem (node.get()) : std::string {};
+        if (! problem.empty())
+            flat.error ("node/problem", n.origin, "'" + n.path + "' (" + id + "): " + problem, remedy);
+        else if (n.type->warning)
+            if (const auto warning = n.type->warning (node.get(), setup); ! warning.empty())
+                flat.warn ("node/warning", n.origin, "'" + n.path + "' (" + id + "): " + warning, remedy);
     }
 }
 
 /// All that can be said of a flat graph without what is outside of it.
-PortUnits check (Flat& flat, std::vector<int>& ordered)
+PortUnits check (Flat& flat, const Setup& setup, std::vector<int>& ordered)
 {
     auto units = checkUnits (flat);
     checkFanIn (flat, units);
     checkDelays (flat);
-    askNodes (flat);
+    askNodes (flat, setup);
     ordered = order (flat);
     return units;
 }
@@ -118,20 +123,21 @@ Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const Compi
     if (! (rate >= 1.0 && rate <= 1e6))
         flat.error ("graph/rate", { "", "/rate_hz" }, "the rate must be from 1 Hz to 1 MHz", "haptic graphs run at 1000 to 10000 Hz");
 
+    const Setup setup { .rate_hz = rate };
     std::vector<int> ordered;
-    const auto units = check (flat, ordered);
+    const auto units = check (flat, setup, ordered);
     for (const auto& [name, patch] : g.graphs)   // a subgraph nobody uses yet is checked by itself
         if (! used.contains (&patch))
         {
             auto alone = flattenUnused (g, name, catalogue);
             std::vector<int> unneeded;
-            check (alone.flat, unneeded);
+            check (alone.flat, setup, unneeded);
             flat.messages.insert (flat.messages.end(), alone.flat.messages.begin(), alone.flat.messages.end());
         }
     const auto outside = findOutside (flat, *top, options);
 
     std::shared_ptr<Plan> made;
-    if (runs (flat.messages)) made = build (flat, units, ordered, outside, { .rate_hz = rate });
+    if (runs (flat.messages)) made = build (flat, units, ordered, outside, setup);
     if (! runs (flat.messages)) made = nullptr;
     return { std::move (made), std::move (flat.messages) };
 }
