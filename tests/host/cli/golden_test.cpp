@@ -188,3 +188,24 @@ TEST_CASE ("render reproduces the passivity controller in both pairings, and the
     }
     reproduce ("passivity", graph (controller ("zoh", "zoh") + ", " + controller ("hr", "backward") + R"(, "ahead": { "type": "hold.predictive" })"), feeds, records);
 }
+
+TEST_CASE ("render reproduces a blade that ruptures a potato and cuts it", "[golden]")
+{
+    reproduce ("cutting", graph (R"("blade": { "type": "cut.blade", "params": { "width": 0.02, "toughness": 200, "rupture_force": 6 }, "settings": { "law": { "power": [2000, 1] } } })"),
+               { { "blade.depth", "delta" } },
+               { { "blade.resistance", "f" }, { "blade.crack", "crack" }, { "blade.stored_energy", "U" }, { "blade.dissipated_energy", "dissipated" }, { "blade.state", "state" } });
+}
+
+TEST_CASE ("render reproduces scissors that close on a plate", "[golden]")
+{
+    reproduce ("scissors", graph (R"("scissors": { "type": "cut.scissors", "params": { "thickness": "1 mm", "toughness": "2800 J/m2", "stiffness": 1e6, "pivot_distance": "1.5 mm" } })"),
+               { { "scissors.angle", "theta" } },
+               { { "scissors.torque", "torque" }, { "scissors.crack_front", "crack" }, { "scissors.stored_energy", "U" }, { "scissors.dissipated_energy", "dissipated" } });
+}
+
+TEST_CASE ("render reproduces impacts on a hard object", "[golden]")
+{
+    reproduce ("shock", graph (R"("shock": { "type": "shock.hunt_crossley", "params": { "mass": "50 g" },
+        "settings": { "stiffness": { "power": [5e5, 1.5] }, "damping": { "dissipation": 1 }, "substeps": 8, "voices": 4 } })"),
+               { { "shock.hit", "trigger_v" } }, { { "shock.resistance", "f_semi_implicit" } });
+}
