@@ -137,7 +137,7 @@ private:
         for (const auto role : { Role::output, Role::input, Role::param })
             if (has (role))
             {
-                flat.error ("port/wrong_side", origin, "'" + path + "." + port + "' is " + withArticle (role) + ", not " + (wanted.starts_with ('p') ? "a " : "an ") + wanted, "it has: " + listed (names));
+                flat.error ("port/wrong_side", origin, "'" + path + "." + port + "' is " + withArticle (role) + ", not " + (wanted.starts_with ('p') ? "a " : "an ") + wanted, side == Side::param && role == Role::input ? "wire something into it, such as a signal.constant" : "it has: " + listed (names));
                 return;
             }
         flat.error (side == Side::param ? "param/unknown" : "port/unknown", origin, "'" + path + "' (" + type + ") has no " + wanted + " '" + port + "'" + didYouMean (port, names), "it has: " + listed (names));
