@@ -138,7 +138,6 @@ Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const Compi
 
     std::shared_ptr<Plan> made;
     if (runs (flat.messages)) made = build (flat, units, ordered, outside, setup);
-    if (! runs (flat.messages)) made = nullptr;
     return { std::move (made), std::move (flat.messages) };
 }
 
