@@ -221,6 +221,13 @@ struct Erased
     }
 };
 
+/// A function of its own, because only some nodes have settings, and only here does that depend on the row.
+template <typename N, typename R>
+const auto& settingOf (const N& node, const R& row)
+{
+    return node.settings.*row.member;
+}
+
 template <typename T>
 SettingSheet settingSheet (const T& initial)
 {
@@ -308,7 +315,7 @@ NodeType describe()
             t.outputs.push_back (detail::portSheet (outputs, row));
         else
         {
-            auto s = detail::settingSheet (fresh.settings.*row.member);
+            auto s = detail::settingSheet (detail::settingOf (fresh, row));
             s.id = row.id;
             s.unit = row.unit;
             s.x_unit = row.x_unit;
