@@ -10,10 +10,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <random>
-#include <set>
 #include <sstream>
 
 using namespace tactus;
@@ -155,15 +153,6 @@ std::vector<double> onFault (const Rig& rig, const std::vector<double>& before)
     return expected;
 }
 
-/// [a-z][a-z0-9_]*
-bool isName (std::string_view s)
-{
-    const auto isLetter = [] (char c)
-    { return c >= 'a' && c <= 'z'; };
-    return ! s.empty() && isLetter (s.front()) && std::ranges::all_of (s, [&] (char c)
-                                                                       { return isLetter (c) || (c >= '0' && c <= '9') || c == '_'; });
-}
-
 bool isHit (const PortSheet& port) { return port.unit.kind == UnitRule::Kind::fixed && port.unit.unit.quantity == Quantity::hit; }
 
 Rig prepared (const NodeType& type, double rate_hz = 4000.0)
@@ -173,162 +162,6 @@ Rig prepared (const NodeType& type, double rate_hz = 4000.0)
     return rig;
 }
 }   // namespace
-
-//==============================================================================
-// The datasheet.
-
-TEST_CASE ("every node has an id of its own, family.name, as its header is called", "[nodes][contract]")
-{
-    std::set<std::string> ids;
-
-    for (const auto& type : catalogue())
-    {
-        const std::string id { type.info.id };
-        INFO (id);
-        CHECK (ids.insert (id).second);
-        const auto dot = id.find ('.');
-        REQUIRE (dot != std::string::npos);
-        CHECK (isName (id.substr (0, dot)));
-        CHECK (isName (id.substr (dot + 1)));
-        CHECK (std::filesystem::exists (std::filesystem::path { TACTUS_SOURCE_DIR } / "nodes" / id.substr (0, dot) / (id.substr (dot + 1) + ".hpp")));
-        CHECK (catalogue().find (id) == &type);
-    }
-}
-
-TEST_CASE ("every node says what it is and where it comes from", "[nodes][contract]")
-{
-    for (const auto& type : catalogue())
-    {
-        INFO (type.info.id);
-        CHECK_FALSE (type.info.name.empty());
-        CHECK_FALSE (type.info.source.empty());
-        CHECK (type.info.summary.ends_with ('.'));
-    }
-}
-
-TEST_CASE ("every row of a datasheet has a name, a sentence and a default in range", "[nodes][contract]")
-{
-    for (const auto& type : catalogue())
-    {
-        std::set<std::string> in_names, out_names;
-        const auto checkRow = [&] (std::string_view id, std::string_view about, auto& names)
-        {
-            const std::string name { id };
-            CHECK (names.insert (name).second);
-            CHECK (isName (name));
-            CHECK_FALSE (about.empty());
-        };
-        const auto checkRange = [] (const Limits& limits, double v)
-        {
-            CHECK (limits.hard.min <= limits.hard.max);
-            CHECK (limits.usual.min <= limits.usual.max);
-            CHECK (limits.hard.contains (v));
-            CHECK (limits.usual.contains (v));
-        };
-
-        for (const auto* ports : { &type.inputs, &type.params, &type.outputs })
-            for (const auto& p : *ports)
-            {
-                INFO (type.info.id << "." << p.id);
-                if (p.role == Role::output)
-                    checkRow (p.id, p.about, out_names);
-                else
-                    checkRow (p.id, p.about, in_names);
-                if (p.role != Role::param) continue;
-                if (p.choices.empty())
-                    for (int i = 0; i < p.width; ++i)
-                        checkRange (p.limits, p.initial[i]);
-                else
-                    CHECK (p.initial[0] < static_cast<double> (p.choices.size()));
-            }
-
-        for (const auto& s : type.settings)
-        {
-            INFO (type.info.id << "." << s.id);
-            checkRow (s.id, s.about, in_names);
-            if (const auto* v = std::get_if<double> (&s.initial)) checkRange (s.limits, *v);
-
-            std::set<std::string> field_names;
-            for (const auto& f : s.fields)
-            {
-                INFO (f.id);
-                checkRow (f.id, f.about, field_names);
-                CHECK (f.limits.hard.contains (f.initial));
-            }
-        }
-    }
-}
-
-TEST_CASE ("every choice has alternatives, each with a name of its own", "[nodes][contract]")
-{
-    for (const auto& type : catalogue())
-        for (const auto& p : type.params)
-        {
-            if (p.choices.empty()) continue;
-            INFO (type.info.id << "." << p.id);
-            CHECK (p.choices.size() > 1);
-            CHECK (std::set<std::string_view> (p.choices.begin(), p.choices.end()).size() == p.choices.size());
-            CHECK (std::ranges::none_of (p.choices, &std::string_view::empty));
-        }
-}
-
-TEST_CASE ("every unit that is taken from another port names one that exists", "[nodes][contract]")
-{
-    for (const auto& type : catalogue())
-    {
-        std::set<std::string_view> names;
-        for (const auto* ports : { &type.inputs, &type.params, &type.outputs })
-            for (const auto& p : *ports)
-                names.insert (p.id);
-
-        const auto checkUnit = [&] (const UnitRule& unit)
-        {
-            if (unit.kind != UnitRule::Kind::same && unit.kind != UnitRule::Kind::product) return;
-            CHECK (names.contains (unit.a));
-            if (! unit.b.empty()) CHECK (names.contains (unit.b));
-        };
-        for (const auto* ports : { &type.inputs, &type.params, &type.outputs })
-            for (const auto& p : *ports)
-            {
-                INFO (type.info.id << "." << p.id);
-                checkUnit (p.unit);
-            }
-        for (const auto& s : type.settings)
-        {
-            INFO (type.info.id << "." << s.id);
-            checkUnit (s.unit);
-            checkUnit (s.x_unit);
-        }
-    }
-}
-
-TEST_CASE ("every node with a list says how long it is", "[nodes][contract]")
-{
-    for (const auto& type : catalogue())
-    {
-        INFO (type.info.id);
-        const auto isList = [] (const PortSheet& p)
-        { return p.list; };
-        if (std::ranges::none_of (type.inputs, isList) && std::ranges::none_of (type.params, isList) && std::ranges::none_of (type.outputs, isList)) continue;
-
-        const auto at = std::ranges::find (type.settings, std::string_view { "inputs" }, &SettingSheet::id);
-        REQUIRE (at != type.settings.end());
-        CHECK (at->kind == SettingSheet::Kind::integer);
-        CHECK (at->limits.hard == Interval { 1, list_capacity });
-    }
-}
-
-TEST_CASE ("every node has no problem as delivered", "[nodes][contract]")
-{
-    for (const auto& type : catalogue())
-    {
-        INFO (type.info.id);
-        CHECK (Rig { type }.problem() == "");
-    }
-}
-
-//==============================================================================
-// What it does.
 
 TEST_CASE ("every node gives finite outputs for finite inputs", "[nodes][contract]")
 {
@@ -576,9 +409,6 @@ TEST_CASE ("no node allocates or locks within a tick", "[nodes][contract]")
             }
         }
 }
-
-//==============================================================================
-// What it claims.
 
 TEST_CASE ("a node that claims an amplitude never exceeds it", "[nodes][contract]")
 {
