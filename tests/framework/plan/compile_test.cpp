@@ -87,6 +87,15 @@ TEST_CASE ("a wire onto a parameter replaces it, (+) adds to it, both within its
         plan->tick();
         CHECK (*plan->taps[0].value == 7.0);
     }
+    SECTION ("what is driven beyond the hard range stops at its end")
+    {
+        auto [plan, messages] = Sketch {}.node ("drag", "friction.elasto_plastic").compile ({ .feeds = { "drag.mu", "drag.d_max" }, .records = { "drag.mu", "drag.d_max" } });
+        REQUIRE (plan);
+        plan->feeds = { -3.0, 0.0 };
+        plan->tick();
+        CHECK (*plan->taps[0].value == 0.0);
+        CHECK (*plan->taps[1].value == 1e-9);
+    }
     SECTION ("nan on a parameter is a fault of the node, and gone with the nan")
     {
         auto [plan, messages] = sketch.compile ({ .feeds = { "amp.gain" }, .records = { "amp.out" } });
