@@ -4,18 +4,14 @@
 /// The catalogue: every node in nodes/, by id, with its type forgotten. Filled by the build (catalogue.cmake).
 
 #include "node.hpp"
+#include "setting.hpp"
 
 #include <algorithm>
 #include <memory>
 #include <string>
-#include <variant>
 
 namespace tactus
 {
-
-/// The value of a setting, from the closed set that files, editors and generated code all know.
-using Records = std::vector<std::vector<double>>;   ///< one row a record, in the order of its fields
-using SettingValue = std::variant<double, std::string, Curve, Law, Records>;
 
 /// A row of the datasheet, as graphs and hosts see it.
 struct PortSheet
@@ -30,38 +26,6 @@ struct PortSheet
     bool list;            ///< an array port: as many entries as the setting `inputs`
     std::size_t offset;   ///< of the value in its Params or Outputs struct
     double initial[3];    ///< default of each component; of each entry, for a list
-};
-
-struct FieldSheet
-{
-    std::string_view id;
-    Unit unit;
-    std::string_view about;
-    Limits limits;
-    double initial;
-};
-
-struct SettingSheet
-{
-    enum class Kind
-    {
-        number,
-        integer,
-        text,
-        curve,
-        law,
-        records
-    };
-
-    Kind kind;
-    std::string_view id;
-    UnitRule unit;     ///< of the number; of the curve's or law's value
-    UnitRule x_unit;   ///< of the curve's or law's argument
-    std::string_view about;
-    Limits limits;
-    std::vector<FieldSheet> fields;
-    SettingValue initial;
-    void (*set) (void* node, const SettingValue&);   ///< the alternative that belongs to `kind`; integers as double
 };
 
 /// A node type. The functions take the node and outputs as void*; `sources` holds one pointer per input component, in
@@ -200,24 +164,7 @@ struct Erased
     static void set (void* node, const SettingValue& value)
     {
         constexpr auto& r = std::get<row> (N::ports);
-        auto& target = static_cast<N*> (node)->settings.*r.member;
-        using T = std::remove_cvref_t<decltype (target)>;
-        if constexpr (std::is_arithmetic_v<T>)
-            target = static_cast<T> (std::get<double> (value));
-        else if constexpr (requires { T::value_type::fields; })
-        {
-            target.clear();
-            for (const auto& record : std::get<Records> (value))
-            {
-                auto& made = target.emplace_back();
-                std::size_t i = 0;
-                std::apply ([&] (const auto&... f)
-                            { ((made.*f.member = record[i++]), ...); },
-                            T::value_type::fields);
-            }
-        }
-        else
-            target = std::get<T> (value);
+        assign (static_cast<N*> (node)->settings.*r.member, value);
     }
 };
 
@@ -226,40 +173,6 @@ template <typename N, typename R>
 const auto& settingOf (const N& node, const R& row)
 {
     return node.settings.*row.member;
-}
-
-template <typename T>
-SettingSheet settingSheet (const T& initial)
-{
-    using Kind = SettingSheet::Kind;
-    SettingSheet s {};
-    if constexpr (std::is_arithmetic_v<T>)
-    {
-        s.kind = std::is_integral_v<T> ? Kind::integer : Kind::number;
-        s.initial = static_cast<double> (initial);
-    }
-    else if constexpr (requires { T::value_type::fields; })
-    {
-        s.kind = Kind::records;
-        using Record = typename T::value_type;
-        const Record fresh;
-        std::apply ([&] (const auto&... f)
-                    { (s.fields.push_back ({ f.id, f.unit, f.about, f.limits, fresh.*f.member }), ...); },
-                    Record::fields);
-        Records rows;
-        for (const auto& record : initial)
-            std::apply ([&] (const auto&... f)
-                        { rows.push_back ({ record.*f.member... }); },
-                        Record::fields);
-        s.initial = std::move (rows);
-    }
-    else
-    {
-        s.kind = std::is_same_v<T, Curve> ? Kind::curve : std::is_same_v<T, Law> ? Kind::law
-                                                                                 : Kind::text;
-        s.initial = initial;
-    }
-    return s;
 }
 
 template <typename Owner, typename R>
@@ -316,11 +229,8 @@ NodeType describe()
         else
         {
             auto s = detail::settingSheet (detail::settingOf (fresh, row));
-            s.id = row.id;
-            s.unit = row.unit;
+            s.describe (row.id, row.unit, row.about, row.limits);
             s.x_unit = row.x_unit;
-            s.about = row.about;
-            s.limits = row.limits;
             s.set = &E::template set<i>;
             t.settings.push_back (std::move (s));
         }

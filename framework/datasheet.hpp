@@ -140,8 +140,7 @@ constexpr Row<Role::param, O, T> choice (T O::*m, std::string_view id, std::span
     return { m, id, unit::count, about, {}, names };
 }
 
-/// A setting shapes the node and is fixed while it runs: number (double, int), text, Curve, Law, or a list of records
-/// (std::vector of a struct with a `fields` table).
+/// A setting shapes the node and is fixed while it runs. Its type is one of a closed set, see framework/setting.hpp.
 template <typename O, typename T>
 constexpr Row<Role::setting, O, T> setting (T O::*m, std::string_view id, UnitRule u, std::string_view about, Limits l = {})
 {
@@ -161,19 +160,19 @@ constexpr Row<Role::output, O, T> output (T O::*m, std::string_view id, UnitRule
     return { m, id, u, about };
 }
 
-/// One field of a record; see Row. Records hold doubles only.
-template <typename Record>
+/// One member of a record, which is a struct with a table of these: `static constexpr std::tuple fields`. See Row.
+template <typename Record, typename T>
 struct Field
 {
-    double Record::*member;
+    T Record::*member;
     std::string_view id;
     Unit unit;
     std::string_view about;
     Limits limits {};
 };
 
-template <typename R>
-constexpr Field<R> field (double R::*m, std::string_view id, Unit u, std::string_view about, Limits l = {})
+template <typename R, typename T>
+constexpr Field<R, T> field (T R::*m, std::string_view id, Unit u, std::string_view about, Limits l = {})
 {
     return { m, id, u, about, l };
 }

@@ -36,6 +36,8 @@
 
 #include "datasheet.hpp"
 #include "device.hpp"
+#include "nearest_triangle.hpp"
+#include "slow_question.hpp"
 
 #include <concepts>
 #include <string>
@@ -44,10 +46,18 @@
 namespace tactus
 {
 
+/// What a host lends to the nodes of a graph. Each may be missing, and then a node does without.
+struct Services
+{
+    std::unique_ptr<NearestTriangle> (*nearest_triangle) (std::shared_ptr<const Mesh>) = nullptr;   ///< indexes a large mesh
+    SlowAnswers* answers = nullptr;                                                                 ///< the thread for slow questions
+};
+
 /// What the engine tells every node before it runs.
 struct Setup
 {
     double rate_hz = 4000.0;
+    Services services {};
 
     constexpr double dt_s() const noexcept { return 1.0 / rate_hz; }
 };

@@ -57,6 +57,23 @@ TEST_CASE ("every node says what it is and where it comes from", "[nodes][contra
     }
 }
 
+namespace
+{
+void checkFields (const SettingSheet& s)
+{
+    std::set<std::string_view> names;
+    for (const auto& f : s.fields)
+    {
+        INFO (f.id);
+        CHECK (names.insert (f.id).second);
+        CHECK (isName (std::string (f.id)));
+        CHECK_FALSE (f.about.empty());
+        if (const auto* v = std::get_if<double> (&f.initial)) CHECK (f.limits.hard.contains (*v));
+        checkFields (f);
+    }
+}
+}   // namespace
+
 TEST_CASE ("every row of a datasheet has a name, a sentence and a default in range", "[nodes][contract]")
 {
     for (const auto& type : catalogue())
@@ -99,13 +116,7 @@ TEST_CASE ("every row of a datasheet has a name, a sentence and a default in ran
             checkRow (s.id, s.about, in_names);
             if (const auto* v = std::get_if<double> (&s.initial)) checkRange (s.limits, *v);
 
-            std::set<std::string> field_names;
-            for (const auto& f : s.fields)
-            {
-                INFO (f.id);
-                checkRow (f.id, f.about, field_names);
-                CHECK (f.limits.hard.contains (f.initial));
-            }
+            checkFields (s);
         }
     }
 }

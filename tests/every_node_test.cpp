@@ -68,7 +68,7 @@ void drawParams (Rig& rig, Dice& dice, Span span)
     rig.moved();
 }
 
-/// Numbers and records within their usual ranges; texts, curves and laws stay as delivered.
+/// Numbers, also those of records, within their usual ranges; all else stays as delivered.
 void drawSettings (Rig& rig, Dice& dice)
 {
     for (const auto& s : rig.type().settings)
@@ -84,7 +84,7 @@ void drawSettings (Rig& rig, Dice& dice)
             Records records (static_cast<std::size_t> (dice.below (4)));
             for (auto& record : records)
                 for (const auto& f : s.fields)
-                    record.push_back (dice.within (f.limits.usual));
+                    record.push_back (f.kind == SettingSheet::Kind::number ? SettingValue { dice.within (f.limits.usual) } : f.initial);
             rig.set (s.id, records);
             if (! rig.problem().empty()) rig.set (s.id, s.initial);
         }

@@ -118,18 +118,18 @@ Outside findOutside (Flat& flat, const Scope& top, const CompileOptions& options
 
 Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const CompileOptions& options)
 {
-    auto [flat, top, used] = flatten (g, catalogue, options.overrides);
+    auto [flat, top, used] = flatten (g, catalogue, options.overrides, options.assets);
     const double rate = options.rate_hz > 0.0 ? options.rate_hz : g.rate_hz;
     if (! (rate >= 1.0 && rate <= 1e6))
         flat.error ("graph/rate", { "", "/rate_hz" }, "the rate must be from 1 Hz to 1 MHz", "haptic graphs run at 1000 to 10000 Hz");
 
-    const Setup setup { .rate_hz = rate };
+    const Setup setup { .rate_hz = rate, .services = options.services };
     std::vector<int> ordered;
     const auto units = check (flat, setup, ordered);
     for (const auto& [name, patch] : g.graphs)   // a subgraph nobody uses yet is checked by itself
         if (! used.contains (&patch))
         {
-            auto alone = flattenUnused (g, name, catalogue);
+            auto alone = flattenUnused (g, name, catalogue, options.assets);
             std::vector<int> unneeded;
             check (alone.flat, setup, unneeded);
             flat.messages.insert (flat.messages.end(), alone.flat.messages.begin(), alone.flat.messages.end());

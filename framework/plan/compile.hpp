@@ -23,6 +23,8 @@ struct CompileOptions
     std::vector<std::string> feeds {};          ///< ports driven from outside: "drag.position.x", "drag.mu"
     std::vector<std::string> records {};        ///< ports to tap; none: the inputs of every sink
     std::vector<plan::Override> overrides {};   ///< values that outrank the file's
+    Assets* assets = nullptr;                   ///< where the files that settings name come from
+    Services services {};                       ///< what is lent to the nodes
 };
 
 struct Compiled

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "flatten.hpp"
+#include "settings.hpp"
 #include "values.hpp"
 
 #include <framework/graph/text.hpp>
@@ -29,7 +30,7 @@ Origin at (const Origin& base, std::string_view key, std::string_view inner) { r
 class Flattener
 {
 public:
-    Flattener (const Catalogue& c, std::vector<Override> o, Flattened& r) : nodes (c), overrides (std::move (o)), result (r), flat (r.flat) {}
+    Flattener (const Catalogue& c, std::vector<Override> o, Assets* a, Flattened& r) : nodes (c), overrides (std::move (o)), assets (a), result (r), flat (r.flat) {}
 
     void runAlone (const graph::Graph& g, const std::string& subgraph)
     {
@@ -58,6 +59,7 @@ private:
 
     const Catalogue& nodes;
     std::vector<Override> overrides;
+    Assets* assets;
     Flattened& result;
     Flat& flat;
     std::vector<const graph::Patch*> open;   // the patches we are inside of
@@ -106,7 +108,7 @@ private:
         flat.nodes.push_back ({ .path = scope.prefix + node.name, .type = type, .origin = here, .bypass = node.bypass, .muted = muted });
         auto& made = flat.nodes.back();
         readRole (node, here, roles, made);
-        readSettings (node, here, made);
+        readSettings (scope, node, here, made);
         for (const auto& [key, value] : node.params.items())
             assign (scope, node.name + "." + key, value, at (here, "params", key), flat.assignments);
     }
@@ -121,7 +123,7 @@ private:
         made.role = outer == roles.end() ? node.role : outer->second;
     }
 
-    void readSettings (const graph::Node& node, const Origin& here, FlatNode& made)
+    void readSettings (const Scope& scope, const graph::Node& node, const Origin& here, FlatNode& made)
     {
         for (const auto& sheet : made.type->settings)
             made.settings.push_back (sheet.initial);
@@ -140,7 +142,7 @@ private:
                 continue;
             }
             auto origin = at (here, "settings", key);
-            const auto read = readSetting (value, *sheet, origin.pointer);
+            const auto read = readSetting (value, *sheet, { assets, scope.owner->folder }, origin.pointer);
             if (const auto* problem = std::get_if<std::string> (&read))
                 flat.error ("setting/value", origin, "setting '" + key + "' of '" + made.path + "': " + *problem, "`tactus nodes " + node.type + "` says what it takes");
             else
@@ -400,18 +402,18 @@ private:
 };
 }   // namespace
 
-Flattened flatten (const graph::Graph& g, const Catalogue& catalogue, const std::vector<Override>& overrides)
+Flattened flatten (const graph::Graph& g, const Catalogue& catalogue, const std::vector<Override>& overrides, Assets* assets)
 {
     Flattened result;
-    Flattener { catalogue, overrides, result }.run (g);
+    Flattener { catalogue, overrides, assets, result }.run (g);
     readParams (result.flat);
     return result;
 }
 
-Flattened flattenUnused (const graph::Graph& g, const std::string& subgraph, const Catalogue& catalogue)
+Flattened flattenUnused (const graph::Graph& g, const std::string& subgraph, const Catalogue& catalogue, Assets* assets)
 {
     Flattened result;
-    Flattener { catalogue, {}, result }.runAlone (g, subgraph);
+    Flattener { catalogue, {}, assets, result }.runAlone (g, subgraph);
     readParams (result.flat);
     return result;
 }

@@ -23,9 +23,9 @@ struct Flattened
 };
 
 /// Expands, resolves and reads. Unknown node types become placeholders, with the message node/unknown_type.
-Flattened flatten (const graph::Graph&, const Catalogue&, const std::vector<Override>&);
+Flattened flatten (const graph::Graph&, const Catalogue&, const std::vector<Override>&, Assets*);
 
 /// The same for a subgraph that no node uses, as if it stood alone.
-Flattened flattenUnused (const graph::Graph&, const std::string& subgraph, const Catalogue&);
+Flattened flattenUnused (const graph::Graph&, const std::string& subgraph, const Catalogue&, Assets*);
 
 }   // namespace tactus::plan

@@ -18,12 +18,11 @@ struct Number
 /// A value as it was written, cut where it grows long. Text from the command line may be any bytes.
 std::string shown (const Json&);
 
+/// "at least 1e-9", "from 0 to 1".
+std::string rangeText (const Interval&);
+
 /// Reads a number, or says what is wrong with it.
 std::variant<Number, std::string> readNumber (const Json&);
-
-/// Reads a setting of the given kind, with the units and ranges of its sheet checked; or says what is wrong.
-/// `where` is extended to the pointer of the culprit.
-std::variant<SettingValue, std::string> readSetting (const Json&, const SettingSheet&, std::string& where);
 
 /// Puts the assignments of a flat graph into its nodes' params: kinds, choices, shapes and ranges. Units are looked at
 /// by unit_check, which knows what generic nodes carry.

@@ -49,8 +49,6 @@ std::string rangeText (const Interval& i)
     return numberText (i.min) + " … " + numberText (i.max);
 }
 
-constexpr std::string_view kind_names[] = { "number", "whole number", "text", "curve", "law", "records" };
-
 /// A table whose columns are as wide as their widest cell; the last one is not padded.
 void print (const std::vector<std::vector<std::string>>& rows)
 {
@@ -111,10 +109,12 @@ void printDatasheet (const NodeType& t)
         {
             std::string about (s.about);
             for (const auto& f : s.fields)
-                about += (&f == &s.fields.front() ? "; each with " : ", ") + std::string (f.id) + " (" + std::string (f.unit.symbol) + ")";
+                about += (&f != &s.fields.front() ? ", " : s.kind == SettingSheet::Kind::record ? "; with "
+                                                                                                : "; each with ")
+                         + std::string (f.id) + " (" + (f.kind == SettingSheet::Kind::number ? unitText (f.unit) : std::string (name (f.kind))) + ")";
             if (const auto hard = rangeText (s.limits.hard); ! hard.empty()) about += "; only " + hard;
             const auto* initial = std::get_if<double> (&s.initial);
-            rows.push_back ({ std::string (s.id), std::string (kind_names[static_cast<int> (s.kind)]), initial ? numberText (*initial) : "", about });
+            rows.push_back ({ std::string (s.id), std::string (name (s.kind)), initial ? numberText (*initial) : "", about });
         }
         print (rows);
     }
@@ -154,17 +154,13 @@ Json toJson (const PortSheet& p)
 
 Json toJson (const SettingSheet& s)
 {
-    Json j = { { "id", s.id }, { "kind", kind_names[static_cast<int> (s.kind)] } };
+    Json j = { { "id", s.id }, { "kind", name (s.kind) } };
     if (const auto* v = std::get_if<double> (&s.initial)) j["default"] = number (*v);
     if (const auto* v = std::get_if<std::string> (&s.initial)) j["default"] = *v;
     j.update (toJson (s.unit));
     add (j, s.limits);
     for (const auto& f : s.fields)
-    {
-        Json field = { { "id", f.id }, { "unit", f.unit.symbol }, { "quantity", name (f.unit.quantity) }, { "default", number (f.initial) }, { "about", f.about } };
-        add (field, f.limits);
-        j["fields"].push_back (field);
-    }
+        j["fields"].push_back (toJson (f));
     j["about"] = s.about;
     return j;
 }

@@ -55,7 +55,7 @@ void Interpreter::expand (const graph::Patch& patch, const std::string& prefix, 
             const auto& v = n.settings.at (std::string (s.id));
             if (v.is_number()) s.set (i.node.get(), v.get<double>());
             if (v.is_string()) s.set (i.node.get(), v.get<std::string>());
-            if (v.is_array()) s.set (i.node.get(), Records { { v[0]["frequency"], v[0]["decay"], v[0]["amplitude"] } });
+            if (v.is_array()) s.set (i.node.get(), Records { { v[0]["frequency"].get<double>(), v[0]["decay"].get<double>(), v[0]["amplitude"].get<double>() } });
         }
         for (const auto& p : i.type->params)
         {

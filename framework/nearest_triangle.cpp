@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "nearest_triangle.hpp"
+
+#include <algorithm>
+
+namespace tactus
+{
+
+namespace
+{
+OnTriangle between (const Vec3& a, const Vec3& b, int i, int j, const Vec3& p) noexcept
+{
+    const Vec3 along = b - a;
+    const double length2 = along.squaredNorm();
+    const double t = length2 > 0.0 ? std::clamp (along.dot (p - a) / length2, 0.0, 1.0) : 0.0;
+    OnTriangle on { { 0.0, 0.0, 0.0 }, a + t * along };
+    on.weights[static_cast<std::size_t> (i)] = 1.0 - t;
+    on.weights[static_cast<std::size_t> (j)] += t;
+    return on;
+}
+}   // namespace
+
+OnTriangle nearestOn (const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) noexcept
+{
+    const Vec3 u = b - a, v = c - a, w = p - a;
+    const double uu = u.squaredNorm(), uv = u.dot (v), vv = v.squaredNorm(), wu = w.dot (u), wv = w.dot (v);
+    const double area2 = uu * vv - uv * uv;
+    if (area2 > 0.0)
+    {
+        const double second = (wu * vv - wv * uv) / area2, third = (wv * uu - wu * uv) / area2;
+        if (second >= 0.0 && third >= 0.0 && second + third <= 1.0)
+            return { { 1.0 - second - third, second, third }, a + second * u + third * v };
+    }
+    const OnTriangle edges[] { between (a, b, 0, 1, p), between (b, c, 1, 2, p), between (c, a, 2, 0, p) };
+    return *std::ranges::min_element (edges, {}, [&] (const OnTriangle& on)
+                                      { return (on.point - p).squaredNorm(); });
+}
+
+OnTriangle nearestOn (const Mesh& mesh, int triangle, const Vec3& p) noexcept
+{
+    const auto& corners = mesh.triangles[static_cast<std::size_t> (triangle)];
+    const auto at = [&] (std::size_t corner) -> const Vec3&
+    { return mesh.points[static_cast<std::size_t> (corners[corner])]; };
+    return nearestOn (at (0), at (1), at (2), p);
+}
+
+int nearestOfAll (const Mesh& mesh, const Vec3& p) noexcept
+{
+    int best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int t = 0; t < static_cast<int> (mesh.triangles.size()); ++t)
+        if (const double distance2 = (nearestOn (mesh, t, p).point - p).squaredNorm(); distance2 < least)
+        {
+            best = t;
+            least = distance2;
+        }
+    return best;
+}
+
+}   // namespace tactus

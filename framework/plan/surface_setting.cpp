@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "surface_setting.hpp"
+#include "files.hpp"
+
+namespace tactus::plan
+{
+
+namespace
+{
+constexpr std::string_view axis_names = "a triple of laws: of u^x, u^y and u^z";
+
+const Json* member (const Json& json, const char* name)
+{
+    const auto at = json.find (name);
+    return at == json.end() ? nullptr : &*at;
+}
+
+const Json& needed (const Json& json, const char* name, const std::string& key)
+{
+    const auto* found = member (json, name);
+    if (found == nullptr) throw Problem { std::string ("it needs `") + name + "`", key };
+    return *found;
+}
+
+std::shared_ptr<const Mesh> meshFrom (const Json& json, const Files& files, const std::string& key)
+{
+    if (const auto* path = member (json, "mesh"))
+    {
+        for (const auto* other : { "nodes", "triangles", "frames" })
+            if (json.contains (other)) throw Problem { std::string ("`mesh` and `") + other + "` exclude each other", under (key, other) };
+        return load (&Assets::mesh, *path, files, key + "/mesh");
+    }
+
+    Mesh mesh;
+    const auto& nodes = listFrom (needed (json, "nodes", key), 0, "a list of points", key + "/nodes");
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        mesh.points.push_back (vectorFrom (nodes[i], unit::metre, under (key + "/nodes", i)));
+
+    const Interval index { 0.0, static_cast<double> (mesh.points.size()) - 1.0 };
+    const auto& triangles = listFrom (needed (json, "triangles", key), 0, "a list of triangles", key + "/triangles");
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+    {
+        const auto here = under (key + "/triangles", i);
+        listFrom (triangles[i], 3, "three numbers of nodes, as in [0, 1, 2]", here);
+        auto& corners = mesh.triangles.emplace_back();
+        for (std::size_t c = 0; c < 3; ++c)
+            corners[c] = static_cast<int> (inRange (wholeNumberFrom (triangles[i][c], unit::count, under (here, c)), index, under (here, c)));
+    }
+    return std::make_shared<const Mesh> (std::move (mesh));
+}
+
+std::vector<Eigen::Matrix3d> framesFrom (const Json& json, std::size_t nodes, const std::string& key)
+{
+    listFrom (json, nodes, "one frame for each of the " + std::to_string (nodes) + " nodes", key);
+    std::vector<Eigen::Matrix3d> frames;
+    for (std::size_t i = 0; i < nodes; ++i)
+    {
+        const auto here = under (key, i);
+        listFrom (json[i], 3, "three rows: u^x, u^y and u^z", here);
+        auto& frame = frames.emplace_back();
+        for (std::size_t row = 0; row < 3; ++row)
+            frame.row (static_cast<Eigen::Index> (row)) = vectorFrom (json[i][row], unit::gain, under (here, row)).transpose();
+    }
+    return frames;
+}
+
+Surface::Curves axesFrom (const Json& json, const std::string& key)
+{
+    listFrom (json, 3, std::string (axis_names), key);
+    Surface::Curves curves;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        curves[axis] = lawFrom (json[axis], unit::metre, unit::newton, under (key, axis));
+    return curves;
+}
+
+std::vector<std::vector<Surface::Curves>> toolsFrom (const Json& json, std::size_t nodes, const std::string& key)
+{
+    listFrom (json, 0, "a list of tools, each with its curves", key);
+    if (json.empty()) throw Problem { "it needs the curves of at least one tool", key };
+
+    std::vector<std::vector<Surface::Curves>> tools;
+    for (std::size_t t = 0; t < json.size(); ++t)
+    {
+        const auto here = under (key, t);
+        const auto& tool = listFrom (json[t], 0, "the curves of a tool", here);
+        auto& made = tools.emplace_back();
+        if (tool.empty() || ! tool[0].is_array())
+        {
+            made.push_back (axesFrom (tool, here));
+            continue;
+        }
+        listFrom (tool, nodes, "the curves of each of the " + std::to_string (nodes) + " nodes, or " + std::string (axis_names), here);
+        for (std::size_t n = 0; n < nodes; ++n)
+            made.push_back (axesFrom (tool[n], under (here, n)));
+    }
+    return tools;
+}
+
+Ratio ratioFrom (const Json& json, const std::string& key)
+{
+    if (json.is_object()) return { .law = lawFrom (json, unit::metre, unit::gain, key) };
+    return { .number = inRange (numberFrom (json, unit::gain, key), { 0.0, inf }, key) };
+}
+
+std::vector<Ratio> ratiosFrom (const Json& json, std::size_t nodes, const std::string& key)
+{
+    if (! json.is_array()) return { ratioFrom (json, key) };
+    if (json.size() != 1) listFrom (json, nodes, "one ratio for each of the " + std::to_string (nodes) + " nodes, or one for all", key);
+
+    std::vector<Ratio> ratios;
+    for (std::size_t n = 0; n < json.size(); ++n)
+        ratios.push_back (ratioFrom (json[n], under (key, n)));
+    return ratios;
+}
+}   // namespace
+
+std::shared_ptr<const Surface> surfaceFrom (const Json& json, const Files& files, const std::string& key)
+{
+    objectFrom (json, { "nodes", "triangles", "frames", "mesh", "curves", "mu" }, "it", key);
+    Surface s;
+    s.mesh = meshFrom (json, files, key);
+    const auto nodes = s.mesh->points.size();
+    if (const auto* frames = member (json, "frames")) s.frames = framesFrom (*frames, nodes, key + "/frames");
+    s.curves = toolsFrom (needed (json, "curves", key), nodes, key + "/curves");
+    s.mu = ratiosFrom (needed (json, "mu", key), nodes, key + "/mu");
+    return std::make_shared<const Surface> (std::move (s));
+}
+
+}   // namespace tactus::plan

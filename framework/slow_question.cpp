@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "slow_question.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace tactus
+{
+
+SlowAnswers::SlowAnswers() : thread ([this]
+                                     { run(); })
+{
+}
+
+SlowAnswers::~SlowAnswers()
+{
+    stopping = true;
+    thread.join();
+}
+
+void SlowAnswers::add (Asker& asker)
+{
+    const std::scoped_lock lock (guard);
+    askers.push_back (&asker);
+}
+
+void SlowAnswers::remove (Asker& asker)
+{
+    const std::scoped_lock lock (guard);
+    std::erase (askers, &asker);
+}
+
+void SlowAnswers::run()
+{
+    // It polls, because to wake a thread is a system call, and who asks is on the tick.
+    constexpr std::chrono::microseconds pause { 200 };
+    while (! stopping)
+    {
+        bool any = false;
+        {
+            const std::scoped_lock lock (guard);
+            for (auto* asker : askers)
+                any = asker->answer() || any;
+        }
+        if (! any) std::this_thread::sleep_for (pause);
+    }
+}
+
+}   // namespace tactus
