@@ -30,6 +30,16 @@ struct Grid
     double operator() (int row, int column) const noexcept { return values[static_cast<std::size_t> (row) * static_cast<std::size_t> (columns) + static_cast<std::size_t> (column)]; }
 };
 
+/// The pixels of a picture, the numbers of a table: both a grid, but read from different files.
+struct Image
+{
+    std::shared_ptr<const Grid> grid;
+};
+struct Sheet
+{
+    std::shared_ptr<const Grid> grid;
+};
+
 /// Triangles between points, counted from 0, counter-clockwise as seen from outside.
 struct Mesh
 {

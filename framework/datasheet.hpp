@@ -15,6 +15,7 @@
 #include "law.hpp"
 #include "list.hpp"
 #include "quantity.hpp"
+#include "surface.hpp"
 
 #include <cstddef>
 #include <limits>

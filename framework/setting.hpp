@@ -17,7 +17,6 @@
 ///     std::shared_ptr<const Surface>    surface    {"mesh": "liver.obj", "curves": …, "mu": …}
 
 #include "datasheet.hpp"
-#include "surface.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -27,16 +26,6 @@
 
 namespace tactus
 {
-
-/// The pixels of a picture, the numbers of a table: both a grid, but read from different files.
-struct Image
-{
-    std::shared_ptr<const Grid> grid;
-};
-struct Sheet
-{
-    std::shared_ptr<const Grid> grid;
-};
 
 struct SettingValue;
 using Values = std::vector<SettingValue>;   ///< of a record, in the order of its fields

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "mesh_walk.hpp"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace tactus
+{
+
+MeshWalk::MeshWalk (Mesh m) : body (std::move (m)), first (body.points.size() + 1, 0), around (3 * body.triangles.size())
+{
+    for (const auto& corners : body.triangles)
+        for (const int c : corners)
+            ++first[static_cast<std::size_t> (c) + 1];
+    for (std::size_t i = 1; i < first.size(); ++i)
+        first[i] += first[i - 1];
+
+    auto next = first;
+    for (int t = 0; t < static_cast<int> (body.triangles.size()); ++t)
+        for (const int c : body.triangles[static_cast<std::size_t> (t)])
+            around[static_cast<std::size_t> (next[static_cast<std::size_t> (c)]++)] = t;
+}
+
+Spot MeshWalk::nearest (int from, const Vec3& p) const noexcept
+{
+    constexpr int most = 1000;         // steps: as far as a hand gets in a tick on any mesh, and an end to it
+    constexpr double nearer = 1e-12;   // relative: neighbours on a common edge are equally near but for rounding
+
+    Spot here = at (from, p);
+    for (int step = 0; step < most; ++step)
+    {
+        Spot best = here;
+        double least = (here.on.point - p).squaredNorm() * (1.0 - nearer);
+        for (std::size_t c = 0; c < 3; ++c)
+        {
+            if (here.on.weights[c] <= 0.0) continue;   // what is nearer lies beyond the corners of the edge we stand on
+            const auto corner = static_cast<std::size_t> (body.triangles[static_cast<std::size_t> (here.triangle)][c]);
+            for (int i = first[corner]; i < first[corner + 1]; ++i)
+            {
+                const Spot there = at (around[static_cast<std::size_t> (i)], p);
+                if (const double distance2 = (there.on.point - p).squaredNorm(); distance2 < least)
+                {
+                    best = there;
+                    least = distance2;
+                }
+            }
+        }
+        if (best.triangle == here.triangle) break;
+        here = best;
+    }
+    return here;
+}
+
+std::vector<Vec3> normalsOf (const Mesh& mesh)
+{
+    std::vector<Vec3> normals (mesh.points.size(), Vec3::Zero());
+    for (const auto& corners : mesh.triangles)
+        for (std::size_t c = 0; c < 3; ++c)
+        {
+            const auto at = [&] (std::size_t i) -> const Vec3&
+            { return mesh.points[static_cast<std::size_t> (corners[(c + i) % 3])]; };
+            const Vec3 u = at (1) - at (0), v = at (2) - at (0), n = u.cross (v);
+            normals[static_cast<std::size_t> (corners[c])] += direction (n) * std::atan2 (n.norm(), u.dot (v));
+        }
+    for (auto& n : normals)
+        n = direction (n);
+    return normals;
+}
+
+}   // namespace tactus

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "nearest_triangle.hpp"
+
+namespace tactus
+{
+
+/// A point on a mesh.
+struct Spot
+{
+    int triangle = -1;   ///< none, if negative
+    OnTriangle on {};
+};
+
+/// A mesh on which one gets about: from a triangle to its neighbours, a few at a time, without a search.
+class MeshWalk
+{
+public:
+    explicit MeshWalk (Mesh);   ///< its triangles must name points there are
+
+    const Mesh& mesh() const noexcept { return body; }
+
+    Spot at (int triangle, const Vec3& p) const noexcept { return { triangle, nearestOn (body, triangle, p) }; }
+
+    /// The point nearest to p among the places that are reached from a triangle by coming nearer with each step. On an
+    /// edge it stays where it is. [any thread]
+    Spot nearest (int from, const Vec3& p) const noexcept;
+
+    /// The nearest of all, by looking at each triangle.
+    Spot nearestOfAll (const Vec3& p) const noexcept { return at (tactus::nearestOfAll (body, p), p); }
+
+private:
+    Mesh body;
+    std::vector<int> first, around;   // around[first[i]] … around[first[i + 1]]: the triangles that share point i
+};
+
+/// At each point the mean of the normals of its triangles, weighted by their angles, out of the body. A point without
+/// triangles has none: 0. After Baerentzen & Aanaes 2005.
+std::vector<Vec3> normalsOf (const Mesh&);
+
+}   // namespace tactus
