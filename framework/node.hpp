@@ -36,8 +36,6 @@
 
 #include "datasheet.hpp"
 #include "device.hpp"
-#include "nearest_triangle.hpp"
-#include "slow_question.hpp"
 
 #include <concepts>
 #include <string>
@@ -45,6 +43,9 @@
 
 namespace tactus
 {
+
+class NearestTriangle;
+class SlowAnswers;
 
 /// What a host lends to the nodes of a graph. Each may be missing, and then a node does without.
 struct Services

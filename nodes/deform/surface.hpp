@@ -4,6 +4,7 @@
 #include <framework/mesh_walk.hpp>
 #include <framework/node.hpp>
 #include <framework/rotation.hpp>
+#include <framework/slow_question.hpp>
 
 #include <algorithm>
 #include <array>
@@ -164,6 +165,8 @@ struct ElasticSurface
         touch = {};
         near = {};
         last = {};
+        until_asked = 0;
+        search.reset();
         if (settings.search_ticks == 0) return;
 
         std::shared_ptr<const NearestTriangle> index;
@@ -361,12 +364,13 @@ private:
         if (isFinite (dissipated + energy)) dissipated += energy;
     }
 
-    /// The answer to where we were a while ago, while apart.
+    /// The answer to where we were a while ago, while apart. One question is asked at a time.
     std::optional<int> searched (const Vec3& p) noexcept
     {
         if (! search) return {};
-        const bool apart = touch.spot.triangle < 0;
-        const auto found = (*search) (apart ? std::optional<Vec3> (p) : std::nullopt);
+        const bool apart = touch.spot.triangle < 0, asks = apart && until_asked == 0;
+        until_asked = asks ? settings.search_ticks - 1 : std::max (0, until_asked - 1);
+        const auto found = (*search) (asks ? std::optional<Vec3> (p) : std::nullopt);
         return apart ? found : std::nullopt;
     }
 
@@ -570,6 +574,7 @@ private:
     double dt = 1.0 / Setup {}.rate_hz;   // s
     std::shared_ptr<const Body> body;
     std::shared_ptr<Search> search;   // none: within the tick
+    int until_asked = 0;              // ticks
     Touch touch;
     Spot near;   // the nearest point of the mesh while apart, as far as known
     Sample last;

@@ -3,6 +3,7 @@
 
 #include "program.hpp"
 
+#include <framework/json.hpp>
 #include <golden/golden.hpp>
 #include <host/io/csv.hpp>
 
@@ -10,6 +11,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 
@@ -142,6 +144,54 @@ TEST_CASE ("render reproduces gratings on a line and in the plane", "[golden]")
                                     "plane": { "type": "texture.grating", "params": { "amplitude": "0.3 N", "spatial_frequency": "500 1/m", "angle": 0.9272952180016122 } })"),
                { { "line.position.x", "x" }, { "guard.position.x", "x" }, { "plane.position.x", "x" }, { "plane.position.y", "y" } },
                { { "line.value", "grating1d" }, { "guard.gain", "guard" }, { "guard.speed", "v_diff" }, { "plane.force.x", "grating2d_x" }, { "plane.force.y", "grating2d_y" } });
+}
+
+TEST_CASE ("render reproduces a texture that fades in with depth, is filtered, and modulates friction", "[golden]")
+{
+    reproduce ("texture", graph (R"("grain": { "type": "texture.grating", "params": { "amplitude": "0.3 N", "spatial_frequency": "200 1/m" } },
+                                    "guard": { "type": "texture.antialias", "params": { "spatial_frequency": "200 1/m", "f_max": "100 Hz" } },
+                                    "window": { "type": "contact.window", "params": { "window": "0.5 mm" } },
+                                    "layer": { "type": "signal.multiply", "settings": { "inputs": 3 } },
+                                    "smooth": { "type": "filter.butterworth2", "params": { "cutoff": "120 Hz" } },
+                                    "wave": { "type": "texture.grating", "params": { "amplitude": "1 N", "spatial_frequency": "200 1/m" } },
+                                    "drag": { "type": "friction.elasto_plastic", "params": { "d_max": "0.1 mm", "stiffness": "4 N/mm" } })",
+                                 R"("wires": [ "grain.value -> layer.in[0]", "guard.gain -> layer.in[1]", "window.gain -> layer.in[2]", "layer.out -> smooth.in",
+                                               { "wire": "wave.value -> (+) drag.d_max", "gain": "35 um/N" } ])"),
+               { { "grain.position.x", "x" }, { "guard.position.x", "x" }, { "window.depth", "dz" }, { "wave.position.x", "x" }, { "drag.position.x", "x" }, { "drag.normal_force", "dz" } },
+               { { "layer.out", "windowed" }, { "smooth.out", "filtered" }, { "drag.force.x", "f_friction_mod" } });
+}
+
+TEST_CASE ("render reproduces an uneven patch that is pressed and stroked, with and without friction", "[golden]")
+{
+    std::ifstream file (std::string (TACTUS_SOURCE_DIR) + "/tests/golden/deformation.json");
+    const auto params = Json::parse (file)["params"];
+    Json surface { { "nodes", params["nodes"] }, { "triangles", params["triangles"] }, { "frames", params["frames_rows_ux_uy_uz"] }, { "mu", params["mu_deflection"] } };
+    for (const auto& tool : params["curves_tool_node_axis"])
+    {
+        auto& nodes = surface["curves"].emplace_back();
+        for (const auto& node : tool)
+        {
+            auto& axes = nodes.emplace_back();
+            for (const auto& law : node)
+                axes.push_back (Json::object ({ { law[0], { law[1], law[2] } } }));
+        }
+    }
+    const auto patch = [&] (const std::string& name, const std::string& friction)
+    {
+        return "\"" + name + R"(": { "type": "deform.surface", "params": { "friction": ")" + friction + R"(" }, "settings": { "surface": )" + surface.dump() + " } }";
+    };
+
+    Map feeds { { "rough.tool", "tool_weight" }, { "smooth.tool", "tool_weight" } };
+    Map records { { "rough.stored_energy", "U" }, { "rough.state", "state" }, { "rough.triangle", "tri" } };
+    for (const std::string axis : { "x", "y", "z" })
+    {
+        for (const std::string name : { "rough", "smooth" })
+            feeds[name + ".position." + axis] = "p_" + axis;
+        records["rough.force." + axis] = "f_" + axis;
+        records["rough.contact." + axis] = "c_" + axis;
+        records["smooth.force." + axis] = "g_" + axis;
+    }
+    reproduce ("deformation", graph (patch ("rough", "bound") + ", " + patch ("smooth", "frictionless")), feeds, records);
 }
 
 TEST_CASE ("render reproduces a tool pushed against a sampled wall", "[golden]")
