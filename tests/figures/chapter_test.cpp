@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The walk through the chapter: its pictures are there, and its commands run.
+
+#include "../host/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <regex>
+#include <sstream>
+
+using namespace tactus;
+namespace fs = std::filesystem;
+
+namespace
+{
+const std::string docs = TACTUS_SOURCE_DIR "/docs/";
+
+std::vector<std::string> found (const std::string& text, const std::string& pattern)
+{
+    const std::regex expression (pattern);
+    std::vector<std::string> all;
+    for (std::sregex_iterator at (text.begin(), text.end(), expression), end; at != end; ++at)
+        all.push_back ((*at)[1]);
+    return all;
+}
+}   // namespace
+
+TEST_CASE ("the walk through the chapter shows every figure there is, and none that is not", "[figures]")
+{
+    auto shown = found (test::textOf (docs + "chapter.md"), R"re(<img src="figures/(\w+\.png)")re");
+    std::vector<std::string> drawn;
+    for (const auto& entry : fs::directory_iterator (docs + "figures"))
+        if (entry.path().extension() == ".png")
+        {
+            drawn.push_back (entry.path().filename().string());
+            INFO (drawn.back());
+            CHECK (fs::file_size (entry.path()) < 60'000);
+        }
+    std::ranges::sort (shown);
+    std::ranges::sort (drawn);
+    CHECK (shown == drawn);
+
+    for (const auto& preset : found (test::textOf (docs + "chapter.md"), R"(\(\.\./(graphs/\w+\.json)\))"))
+    {
+        INFO (preset);
+        CHECK (fs::exists (docs + "../" + preset));
+    }
+}
+
+TEST_CASE ("the commands in the walk through the chapter run", "[figures]")
+{
+    const auto commands = found (test::textOf (docs + "chapter.md"), R"(build/release/bin/tactus (.+))");
+    REQUIRE (commands.size() >= 10);
+    for (const auto& command : commands)
+    {
+        INFO (command);
+        const test::Scratch scratch;
+        std::vector<std::string> arguments;
+        std::istringstream words (command);
+        for (std::string word; words >> word;)
+            arguments.push_back (word.starts_with ("docs/") ? docs + "../" + word : word.ends_with (".png") ? scratch.path (word)
+                                                                                                            : word);
+        const auto ran = test::runTactus (arguments);
+        INFO (ran.err);
+        CHECK (ran.status == 0);
+        CHECK (fs::file_size (arguments.back()) > 1000);
+    }
+}
