@@ -5,19 +5,31 @@
 #   ./test.sh           the tests, also under ASan and UBSan (framework and nodes), and a newcomer's node
 #   ./test.sh --quick   the tests only
 #   ./test.sh --long    before that: each fuzzer for 60 s, and the tests under TSan
+#   ./test.sh --figures draws docs/figures/ and counts docs/instructions.md anew, and does nothing else
 . "$(dirname "$0")/.ci/setup.sh"
 
 mode=${1:-}
 case $mode in
-    ''|--quick|--long) ;;
-    *) echo "usage: ./test.sh [--quick|--long]" >&2; exit 2 ;;
+    ''|--quick|--long|--figures) ;;
+    *) echo "usage: ./test.sh [--quick|--long|--figures]" >&2; exit 2 ;;
 esac
 
 packages+=(python3 python3-jsonschema)
 [ "$mode" = --long ] && packages+=(clang-14 libclang-rt-14-dev)
+[ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
 install_packages
 
 run_tests () { ctest --test-dir "build/$1" --output-on-failure --parallel "$(nproc)"; }
+
+if [ "$mode" = --figures ]; then
+    build release
+    say "Figures"
+    build/release/bin/tactus_tests "[figures]"
+    /usr/bin/python3 tests/figures/draw.py   # Debian's, to which its matplotlib belongs
+    say "Instructions per tick"
+    /usr/bin/python3 tests/bench/instructions.py build/release
+    exit
+fi
 
 if [ "$mode" = --long ]; then
     build fuzz
