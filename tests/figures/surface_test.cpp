@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "figure_data.hpp"
+
+#include "../host/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <sstream>
+
+using namespace tactus;
+
+namespace
+{
+std::vector<std::string> pressed (const std::vector<std::string>& settings, const std::string& ports)
+{
+    std::vector<std::string> options { "--duration", "1", "--record", ports };
+    for (const auto& s : settings)
+        options.insert (options.end(), { "--set", s });
+    return options;
+}
+
+std::string text (double value)
+{
+    std::ostringstream out;
+    out.precision (17);
+    out << value;
+    return out.str();
+}
+}   // namespace
+
+TEST_CASE ("figure: four times the width of a tool is two orders of magnitude of its response", "[figures]")
+{
+    std::vector<std::vector<double>> responses;
+    std::vector<double> depth;
+    for (const double tool : { 0.0, 0.25, 0.5, 0.75, 1.0 })
+    {
+        const auto run = test::renderOnce ("tools", pressed ({ "shape.value=" + text (tool) }, "pad.depth,pad.resistance"));
+        depth = run["pad.depth"];
+        responses.push_back (run["pad.resistance"]);
+    }
+
+    test::Columns rows;
+    for (std::size_t k = 0; k < depth.size(); ++k)
+    {
+        const double e = depth[k];
+        if (e <= 0.0) continue;
+        const double thin = 4e-3 * std::expm1 (700.0 * e), wide = 0.4 * std::expm1 (700.0 * e);   // as in the graph
+        std::vector<double> row { e };
+        for (std::size_t i = 0; i < responses.size(); ++i)
+        {
+            const double w = 0.25 * double (i);
+            CHECK (responses[i][k] == Approx ((1.0 - w) * thin + w * wide));
+            row.push_back (responses[i][k]);
+        }
+        rows.push_back (row);
+    }
+    REQUIRE (rows.size() > 500);
+    test::writeFigure ("tools", { "depth", "thin", "quarter", "half", "three_quarters", "wide" }, rows);
+}
+
+TEST_CASE ("figure: between the points of a patch the response is made of theirs, without a step at an edge", "[figures]")
+{
+    const struct
+    {
+        double x, y;        // m
+        double stiffness;   // of the law k e^1.6, N/m^1.6: at the four nodes, and by barycentric weights in between
+    } places[] { { 0.0, 0.0, 2.5e4 }, { 0.04, 0.0, 6e4 }, { 0.04, 0.04, 4.5e4 }, { 0.0, 0.04, 1.8e4 }, { 0.02, 0.02, 3.5e4 }, { 0.036, 0.012, 5.2e4 }, { 0.012, 0.028, 2.82e4 } };
+
+    test::Columns rows;
+    int number = 0;
+    for (const auto& p : places)
+    {
+        // a hair inside, where a node belongs to one triangle or two
+        const double x = 0.02 + (p.x - 0.02) * (1.0 - 1e-9), y = 0.02 + (p.y - 0.02) * (1.0 - 1e-9);
+        const auto run = test::renderOnce ("patch", pressed ({ "x.value=" + text (x), "y.value=" + text (y) }, "patch.depth,patch.resistance"));
+        INFO ("at " << p.x << ", " << p.y);
+        for (std::size_t k = 0; k < run.rows(); ++k)
+        {
+            const double e = run.at ("patch.depth", k);
+            if (e <= 0.0) continue;
+            CHECK (run.at ("patch.resistance", k) == Approx (p.stiffness * std::pow (e, 1.6)).epsilon (1e-6).margin (1e-9));
+            rows.push_back ({ double (number), p.x, p.y, e, run.at ("patch.resistance", k) });
+        }
+        ++number;
+    }
+    test::writeFigure ("patch", { "place", "x", "y", "depth", "resistance" }, rows);
+
+    // along the other diagonal, touched anew at each point
+    const test::Scratch scratch;
+    std::string feed = "patch.position.x,patch.position.y,patch.position.z\n";
+    constexpr int steps = 400;
+    for (int i = 0; i <= steps; ++i)
+    {
+        const double x = 0.04 * i / steps;
+        for (const double z : { 1e-3, -3e-3 })
+            feed += text (x) + "," + text (0.04 - x) + "," + text (z) + "\n";
+    }
+    const auto line = test::renderOnce ("patch", { "--feed", scratch.write ("feed.csv", feed), "--record", "patch.resistance" });
+    const auto f = line["patch.resistance"];
+    REQUIRE (f.size() == 2 * (steps + 1));
+    const double span = std::abs (f[f.size() - 1] - f[1]);
+    for (std::size_t i = 3; i < f.size(); i += 2)
+        CHECK (std::abs (f[i] - f[i - 2]) < 4.0 / steps * span);
+}
