@@ -55,8 +55,8 @@ TEST_CASE ("figure: what an impact returns of its speed falls with the speed as 
         const double felt = run.at ("motion.velocity.z", run.rows() - 1) / v, played = impulse / (mass * v) - 1.0;
 
         INFO (v << " m/s");
-        CHECK (felt == Approx (closedForm (v)).epsilon (0.01));
-        CHECK (played == Approx (closedForm (v)).epsilon (0.01));
+        CHECK (felt == Approx (closedForm (v)).epsilon (0.005));
+        CHECK (played == Approx (closedForm (v)).epsilon (1e-4));
         rows.push_back ({ v, felt, played });
     }
     test::writeFigure ("restitution", { "v", "felt", "played" }, rows);
