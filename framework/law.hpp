@@ -61,7 +61,7 @@ struct Law
         switch (kind)
         {
         case Kind::power:
-            return a * std::pow (e, b + 1.0) / (b + 1.0);
+            return b == 1.0 ? 0.5 * a * e * e : a * std::pow (e, b + 1.0) / (b + 1.0);
         case Kind::exponential:
             return a * (std::expm1 (b * e) / b - e);
         case Kind::table:
