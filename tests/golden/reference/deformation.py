@@ -1,0 +1,209 @@
+# SPDX-License-Identifier: MIT
+"""Elastic deformation of a surface with contact: Hayward 2007, eq. (5) to (9).
+
+At contact onset c is the point of the mesh nearest to p. With d = p - c and
+d^nu = d . u^nu, f^nu = sum n_i f_i^nu(d^nu), the force on the tool is
+-sum f^nu u^nu; c follows where |d_t| would pass mu_c d^z, once a tick, so that
+the ticks after a slip may still carry it on. Without friction c is always the
+nearest point, and -sum grad n_i Phi_i is added.
+"""
+
+import math
+
+import laws
+import table
+import vec
+
+EPS_SLIP = 1e-9
+ON_EDGE = 1e-9
+ZERO = (0.0, 0.0, 0.0)
+
+
+def placed(settings):
+    """The surface in the world: nodes, triangles, frames, curves [tool][node][axis], mu."""
+    surface = settings["surface"]
+    turn = vec.rotation(tuple(settings.get("rotation", ZERO)))
+    origin = tuple(settings.get("origin", ZERO))
+    size = settings.get("scale", 1.0)
+    nodes = [vec.add(origin, vec.times(turn, vec.scale(size, tuple(x))))
+             for x in surface["nodes"]]
+    frames = [[vec.times(turn, tuple(u)) for u in f] for f in surface["frames"]]
+    curves = [tool if isinstance(tool[0], list) else [tool] * len(nodes)
+              for tool in surface["curves"]]
+    return {"nodes": nodes, "triangles": surface["triangles"],
+            "frames": frames, "curves": curves, "mu": surface["mu"]}
+
+
+def nearest_weights(a, b, c, p):
+    """Weights of the point of a triangle nearest to p (regions of Ericson 2005, 5.1.5)."""
+    ab, ac, ap = vec.sub(b, a), vec.sub(c, a), vec.sub(p, a)
+    d1, d2 = vec.dot(ab, ap), vec.dot(ac, ap)
+    if d1 <= 0.0 and d2 <= 0.0:
+        return 1.0, 0.0, 0.0
+    bp = vec.sub(p, b)
+    d3, d4 = vec.dot(ab, bp), vec.dot(ac, bp)
+    if d3 >= 0.0 and d4 <= d3:
+        return 0.0, 1.0, 0.0
+    vc = d1 * d4 - d3 * d2
+    if vc <= 0.0 <= d1 and d3 <= 0.0:
+        t = d1 / (d1 - d3)
+        return 1.0 - t, t, 0.0
+    cp = vec.sub(p, c)
+    d5, d6 = vec.dot(ab, cp), vec.dot(ac, cp)
+    if d6 >= 0.0 and d5 <= d6:
+        return 0.0, 0.0, 1.0
+    vb = d5 * d2 - d1 * d6
+    if vb <= 0.0 <= d2 and d6 <= 0.0:
+        t = d2 / (d2 - d6)
+        return 1.0 - t, 0.0, t
+    va = d3 * d6 - d5 * d4
+    if va <= 0.0 and d4 - d3 >= 0.0 and d5 - d6 >= 0.0:
+        t = (d4 - d3) / ((d4 - d3) + (d5 - d6))
+        return 0.0, 1.0 - t, t
+    total = va + vb + vc
+    return va / total, vb / total, vc / total
+
+
+def projections(surface, p):
+    """(distance, triangle, weights, point) of every triangle, nearest first."""
+    found = []
+    for index, corners in enumerate(surface["triangles"]):
+        at = [surface["nodes"][i] for i in corners]
+        weights = nearest_weights(*at, p)
+        point = vec.combine(weights, at)
+        found.append((vec.norm(vec.sub(p, point)), index, weights, point))
+    return sorted(found)
+
+
+def frame(surface, triangle, weights):
+    """Eq. (5): weighted, z made a unit vector, x at right angles to it, y = z x x."""
+    corners = [surface["frames"][i] for i in surface["triangles"][triangle]]
+    z = vec.unit(vec.combine(weights, [f[2] for f in corners]))
+    x = vec.unit(vec.across(z, vec.combine(weights, [f[0] for f in corners])))
+    return x, vec.cross(z, x), z
+
+
+def tools(surface, tool):
+    """Eq. (8): the two nearest tools and their weights."""
+    last = len(surface["curves"]) - 1
+    tool = min(max(tool, 0.0), float(last))
+    low = min(int(tool), max(last - 1, 0))
+    share = tool - low
+    return [(low, 1.0 - share)] + ([(low + 1, share)] if share > 0.0 else [])
+
+
+def responses(surface, contact, d):
+    """Forces f^nu at the contact, and the potential Phi_i of each corner."""
+    corners = surface["triangles"][contact["triangle"]]
+    forces, potentials = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
+    for tool, share in contact["tools"]:
+        for i, node in enumerate(corners):
+            laws_of_node = surface["curves"][tool][node]
+            for axis in range(3):
+                value = laws.odd(laws_of_node[axis], d[axis])
+                forces[axis] += share * contact["weights"][i] * value
+                potentials[i] += share * laws.energy(laws_of_node[axis],
+                                                     abs(d[axis]))
+    return forces, potentials
+
+
+def gradients(surface, triangle):
+    """grad n_i of a triangle: from each edge to its corner, over the height squared."""
+    at = [surface["nodes"][i] for i in surface["triangles"][triangle]]
+    out = []
+    for i in range(3):
+        corner, b, c = at[i], at[(i + 1) % 3], at[(i + 2) % 3]
+        height = vec.across(vec.unit(vec.sub(c, b)), vec.sub(corner, b))
+        out.append(vec.scale(1.0 / vec.dot(height, height), height))
+    return out
+
+
+def touch(surface, p, near, latched):
+    """The contact at the nearest point of near, and the deflection in its frame."""
+    _, triangle, weights, c = near
+    axes = frame(surface, triangle, weights)
+    contact = {"triangle": triangle, "weights": weights, "c": c, "axes": axes,
+               "tools": latched}
+    return contact, deflection(contact, p)
+
+
+def deflection(contact, p):
+    away = vec.sub(p, contact["c"])
+    return tuple(vec.dot(away, u) for u in contact["axes"])
+
+
+def bound(surface, contact, depth):
+    """mu_c d^z, with mu_c = sum n_i mu_i."""
+    corners = surface["triangles"][contact["triangle"]]
+    mus = [surface["mu"][i] for i in corners]
+    mus = [laws.force(mu, depth) if isinstance(mu, dict) else mu for mu in mus]
+    return depth * sum(w * mu for w, mu in zip(contact["weights"], mus))
+
+
+def apart(p, state):
+    return {"force": ZERO, "resistance": 0.0, "depth": 0.0, "contact": p,
+            "triangle": -1, "stored_energy": 0.0, "state": state,
+            "normal": ZERO, "edge": False}
+
+
+def pressed(surface, contact, d, state, frictionless):
+    forces, potentials = responses(surface, contact, d)
+    f = vec.scale(-1.0, vec.combine(forces, contact["axes"]))
+    if frictionless:
+        slope = vec.combine(potentials, gradients(surface, contact["triangle"]))
+        f = vec.sub(f, slope)
+    stored = sum(w * phi for w, phi in zip(contact["weights"], potentials))
+    return {"force": f, "resistance": forces[2], "depth": d[2],
+            "contact": contact["c"], "triangle": contact["triangle"],
+            "stored_energy": stored, "state": state,
+            "normal": vec.scale(-1.0, contact["axes"][2]),
+            "edge": on_edge(surface, contact)}
+
+
+def slipped(surface, contact, d, p):
+    """Contact and deflection after the bound, and whether it was exceeded."""
+    most, reach = bound(surface, contact, d[2]), math.hypot(d[0], d[1])
+    if reach <= most * (1.0 + EPS_SLIP):
+        return contact, d, False
+    across = vec.combine(d[:2], contact["axes"][:2])
+    c = vec.add(contact["c"], vec.scale(1.0 - most / reach, across))
+    contact, d = touch(surface, p, projections(surface, c)[0],
+                       contact["tools"])
+    return contact, d, True
+
+
+def on_edge(surface, contact):
+    """Whether c is so near a second triangle that either may be meant."""
+    near = projections(surface, contact["c"])
+    return len(near) > 1 and near[1][0] < ON_EDGE
+
+
+def steps(settings, params, feed):
+    surface = placed(settings)
+    frictionless = params.get("friction", "bound") == "frictionless"
+    contact = None
+    for p, tool in zip(feed["position"], feed["tool"]):
+        if not vec.finite(p, tool):
+            contact = None
+            yield apart(ZERO, -1)
+            continue
+        slips = frictionless
+        if contact is None:
+            contact, d = touch(surface, p, projections(surface, p)[0],
+                               tools(surface, tool))
+        elif frictionless:
+            contact, d = touch(surface, p, projections(surface, p)[0],
+                               contact["tools"])
+        else:
+            d = deflection(contact, p)
+        if d[2] > 0.0 and not frictionless:
+            contact, d, slips = slipped(surface, contact, d, p)
+        if d[2] <= 0.0:
+            contact = None
+            yield apart(p, 0)
+            continue
+        yield pressed(surface, contact, d, 2 if slips else 1, frictionless)
+
+
+def run(settings, params, feed):
+    return table.collect(steps(settings, params, feed))

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: MIT
+"""Elasto-plastic friction of a point: Hayward 2007, eq. (1) to (4), Fig. 2.
+
+dc = zeta(|d|) |dp| d, with d = p - c and f = -sigma d, sigma = mu f_n / d_max.
+Adhesion "stick" follows eq. (3). The others follow eq. (4) with a factor that
+is at most 1 ("euler"), or eq. (2) solved over each straight step
+("exponential"): d = d0 e^(-z |dp|) + u (1 - e^(-z |dp|)) / z.
+"""
+
+import math
+
+import laws
+import table
+import vec
+
+EPS_SLIP = 1e-9
+ZERO = (0.0, 0.0, 0.0)
+DEFAULTS = {"position": ZERO, "normal": (0.0, 0.0, 1.0), "normal_force": 1.0,
+            "mu": 0.4, "d_max": 1e-4, "static_ratio": 1.0, "break_away": 0.7,
+            "stiffness": 0.0, "adhesion": "stick",
+            "integrator": "exponential", "load": "passive",
+            "adhesion_curve": None}
+NUMBERS = ("position", "normal", "normal_force", "mu", "d_max",
+           "static_ratio", "break_away", "stiffness")
+
+
+def zeta(now, r):
+    """The adhesion function of Fig. 2, in 1/m; r = |d|."""
+    d_max = now["d_max"]
+    d_stick, d_ba = now["static_ratio"] * d_max, now["break_away"] * d_max
+    kind = now["adhesion"]
+    if kind == "dahl":
+        return 1.0 / d_max
+    if kind == "ramp":
+        return min(r / d_stick, 1.0) / d_max
+    if kind == "curve":
+        return laws.linear(now["adhesion_curve"], r / d_max) / d_max
+    if r <= d_ba:
+        return 0.0
+    if r >= d_stick:
+        return 1.0 / d_max
+    middle, width = 0.5 * (d_stick + d_ba), d_stick - d_ba
+    return 0.5 / d_max * (1.0 + math.sin(math.pi * (r - middle) / width))
+
+
+def stiffness(now):
+    return now["stiffness"] or now["mu"] * now["normal_force"] / now["d_max"]
+
+
+def stretch(now, d0, dp):
+    """The new deflection, and whether the contact point has moved."""
+    d = vec.add(d0, dp)
+    r, step = vec.norm(d), vec.norm(dp)
+    if now["adhesion"] == "stick":
+        slips = r > now["static_ratio"] * now["d_max"] * (1.0 + EPS_SLIP)
+        return (vec.scale(now["d_max"] / r, d) if slips else d), slips
+    z = zeta(now, r)
+    if now["integrator"] == "euler":
+        if z * r > 1.0 + EPS_SLIP:
+            return vec.scale(now["d_max"] / r, d), True
+        return vec.scale(1.0 - min(1.0, step * z), d), step * z > 0.0
+    if step == 0.0:
+        return d0, False
+    reach = -math.expm1(-z * step) / z if z > 0.0 else step
+    return vec.add(vec.scale(math.exp(-z * step), d0),
+                   vec.scale(reach / step, dp)), step * z > 0.0
+
+
+def result(sigma, d, state):
+    return {"force": vec.scale(-sigma, d), "deflection": d,
+            "stored_energy": 0.5 * sigma * vec.dot(d, d), "state": state}
+
+
+def steps(params, feed):
+    last = None
+    for k in range(table.rows(feed)):
+        now = table.row(DEFAULTS, params, feed, k)
+        if not vec.finite(*(now[name] for name in NUMBERS)):
+            last = None
+            yield result(0.0, ZERO, -1)
+            continue
+        if now["normal_force"] <= 0.0:
+            last = None
+            yield result(0.0, ZERO, 0)
+            continue
+        p, n, sigma = now["position"], vec.unit(now["normal"]), stiffness(now)
+        d, slips = ZERO, False
+        if last:
+            p0, d, sigma0 = last
+            if now["load"] == "passive" and sigma > sigma0:
+                d = vec.scale(sigma0 / sigma, d)
+            d, slips = stretch(now, vec.across(n, d),
+                               vec.across(n, vec.sub(p, p0)))
+        last = p, d, sigma
+        yield result(sigma, d, 2 if slips else 1)
+
+
+def run(params, feed):
+    return table.collect(steps(params, feed))
