@@ -30,6 +30,13 @@ def stroke(rng, rows, size):
                 for a, w, phase in waves) for k in range(rows)]
 
 
+def ramps(rng, rows, size):
+    """To and fro at a steady speed, so that sliding becomes steady too."""
+    top, count = rng.uniform(0.3, 1.0) * size, rng.randint(1, 4)
+    return [top * abs((4.0 * count * k / rows) % 4.0 - 2.0) - top
+            for k in range(rows)]
+
+
 def steps_in(rng, rows, size, count):
     """A staircase of random jumps, some a hundred times the size."""
     level, out = 0.0, []
@@ -64,13 +71,16 @@ def spoil(rng, column, most=3):
 
 
 def motion(rng, rows, size, pauses=4):
-    """A stroke on a line, with tremor, jumps and repeats in some."""
-    out = stroke(rng, rows, size)
+    """A stroke on a line, with tremor, jumps, repeats and quanta in some."""
+    out = rng.choice((stroke, stroke, ramps))(rng, rows, size)
     if chance(rng, 0.4):
         out = [x + rng.gauss(0.0, 0.02 * size) for x in out]
     if chance(rng, 0.5):
         jumps = steps_in(rng, rows, size, rng.randint(1, 6))
         out = [x + jump for x, jump in zip(out, jumps)]
+    if chance(rng, 0.25):
+        quantum = size * spread(rng, 1e-4, 0.05)
+        out = [quantum * math.floor(x / quantum + 0.5) for x in out]
     hold(rng, [out], pauses)
     return out
 

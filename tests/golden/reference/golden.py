@@ -114,9 +114,9 @@ def modal(set_, about):
              for a, b, w in given["modes_a_b_omega"]]
     wave = {"modes": modes, "rate": given["table_rate"],
             "length": given["table_length"]}
+    table = {"samples": vibration.entries(wave, about["T"]), "rate": wave["rate"]}
     return {"y_modal": vibration.modal({"modes": modes}, feed, about["T"])["value"],
-            "y_wavetable": vibration.wavetable({"table": wave}, feed,
-                                               about["T"])["value"]}
+            "y_wavetable": vibration.wavetable(table, feed, about["T"])["value"]}
 
 
 def passivity(set_, about):

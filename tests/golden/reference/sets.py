@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: MIT
 """One random set of each model: a graph, what is fed, what is to come out."""
 
+import array
 import dataclasses
 import math
+import random
+import struct
 
 import cutting
 import deformation
@@ -30,13 +33,19 @@ class Expected:
 
 @dataclasses.dataclass
 class Set:
+    """clock is where the program reads the rate: the graph, the option --rate, or
+    the times of the feed. What is time-free stays as it is, bit by bit, while
+    its samples repeat."""
     rate: float
     rows: int
+    clock: str = "graph"
+    time_free: bool = False
     nodes: dict = dataclasses.field(default_factory=dict)
     wires: list = dataclasses.field(default_factory=list)
     devices: dict = dataclasses.field(default_factory=dict)
     feed: dict = dataclasses.field(default_factory=dict)
     expected: list = dataclasses.field(default_factory=list)
+    files: dict = dataclasses.field(default_factory=dict)
 
     @property
     def dt(self):
@@ -103,7 +112,7 @@ def moving(rng, params, name, rows):
 
 def friction_set(rng):
     rows = 400
-    set_ = Set(draw.rate(rng), rows)
+    set_ = Set(draw.rate(rng), rows, time_free=True)
     size = draw.spread(rng, 1e-5, 1e-2)
     feed = {"position": draw.motion3(rng, rows, size),
             "normal_force": load(rng, rows)}
@@ -113,6 +122,7 @@ def friction_set(rng):
         golden = "friction_1d"
     else:
         feed["normal"] = draw.normals(rng, rows)
+    draw.hold(rng, list(feed.values()))
     for column in feed.values():
         draw.spoil(rng, column)
     for i in range(4):
@@ -145,7 +155,7 @@ def latch(rng, value, states):
 
 def cutting_set(rng):
     rows = 500
-    set_ = Set(draw.rate(rng), rows)
+    set_ = Set(draw.rate(rng), rows, time_free=True)
     params = {"width": draw.spread(rng, 0.002, 0.05),
               "toughness": draw.spread(rng, 50.0, 3000.0)}
     resistance = params["width"] * params["toughness"]
@@ -186,7 +196,7 @@ def slow_opening(params, feed):
 
 def scissors_set(rng):
     rows = 500
-    set_ = Set(draw.rate(rng), rows)
+    set_ = Set(draw.rate(rng), rows, time_free=True)
     params = {"thickness": draw.spread(rng, 2e-4, 4e-3),
               "toughness": draw.spread(rng, 100.0, 5000.0),
               "stiffness": draw.spread(rng, 1e5, 5e6),
@@ -329,19 +339,41 @@ def modal_set(rng):
     return set_
 
 
+def recording(rng, rate):
+    """A .wav of 32-bit floats, and its samples by channel."""
+    channels = [array.array("f", (rng.uniform(-1.0, 1.0) for _ in
+                                  range(300))) for _ in range(rng.randint(1, 3))]
+    frames = array.array("f", (x for frame in zip(*channels) for x in frame))
+    data, count = frames.tobytes(), len(channels)
+    head = struct.pack("<4sI4s4sIHHIIHH4sI", b"RIFF", 36 + len(data), b"WAVE",
+                       b"fmt ", 16, 3, count, rate, 4 * count * rate,
+                       4 * count, 32, b"data", len(data))
+    return head + data, channels
+
+
 def wavetable_set(rng):
     rows = 600
     set_ = Set(draw.rate(rng), rows)
     params, feed = factors(rng, rows, ("gain", "pitch"))
     feed["hit"] = draw.hits(rng, rows, rng.choice((0.01, 0.1)))
-    settings = {"voices": rng.randint(1, 8),
-                "table": {"modes": modes(rng, set_.rate),
-                          "rate": set_.rate * rng.uniform(0.5, 8.0),
-                          "length": rng.randint(20, 800)}}
-    set_.node("bar", "vibration.wavetable", params, settings)
+    voices, rate = rng.randint(1, 8), round(set_.rate * rng.uniform(0.5, 8.0))
+    if draw.chance(rng, 0.3):
+        set_.files["hit.wav"], channels = recording(rng, rate)
+        channel = rng.randrange(len(channels))
+        wave = {"wav": "hit.wav"}
+        if channel:
+            wave["channel"] = channel + 1
+        samples = list(channels[channel][:-1]) + [0.0]
+    else:
+        wave = {"modes": modes(rng, set_.rate), "rate": rate,
+                "length": rng.randint(20, 800)}
+        samples = vibration.entries(wave, set_.dt)
+    set_.node("bar", "vibration.wavetable", params,
+              {"voices": voices, "table": wave})
     for port, column in feed.items():
         set_.drive(f"bar.{port}", column)
-    got = vibration.wavetable({**params, **settings}, feed, set_.dt)
+    got = vibration.wavetable({**params, "voices": voices, "rate": rate,
+                               "samples": samples}, feed, set_.dt)
     set_.expect("bar.value", got["value"], "modal", "y_wavetable")
     return set_
 
@@ -549,3 +581,12 @@ MODELS = {"friction": friction_set, "cutting": cutting_set,
           "hold": hold_set, "coupling": coupling_set,
           "plane": plane_set, "wall": wall_set,
           "deformation": deformation_set}
+
+
+def make(model, seed):
+    rng = random.Random(f"{model} {seed}")
+    set_ = MODELS[model](rng)
+    set_.clock = rng.choice(("graph", "option", "time"))
+    if set_.clock == "time" and not set_.feed:
+        set_.clock = "option"
+    return set_

@@ -49,11 +49,10 @@ def entries(wave, dt):
 
 
 def playing(params, feed, dt):
-    wave = params["table"]
-    samples, voices = entries(wave, dt), []
+    samples, voices = params["samples"], []
     for k in range(table.rows(feed)):
         now = table.row(WAVETABLE, params, feed, k)
-        step = wave["rate"] * dt * now["pitch"]
+        step = params["rate"] * dt * now["pitch"]
         moved = [(at + step, v) for at, v in voices]
         voices = [(at, v) for at, v in moved if at < len(samples) - 1]
         total = sum(v * between(samples, at) for at, v in voices)
