@@ -68,7 +68,7 @@ def render(program, set_, folder):
 
 
 def restless(set_, got):
-    """A sentence on the first output that changes while all inputs of its node repeat."""
+    """A sentence on an output that changes while all inputs of its node repeat."""
     for name in set_.nodes:
         fed = list(zip(*(column for port, column in set_.feed.items()
                          if port.startswith(name + "."))))

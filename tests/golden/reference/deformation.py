@@ -20,7 +20,7 @@ ZERO = (0.0, 0.0, 0.0)
 
 
 def placed(settings):
-    """The surface in the world: nodes, triangles, frames, curves [tool][node][axis], mu."""
+    """The surface in the world, its curves as [tool][node][axis]."""
     surface = settings["surface"]
     turn = vec.rotation(tuple(settings.get("rotation", ZERO)))
     origin = tuple(settings.get("origin", ZERO))
@@ -35,7 +35,7 @@ def placed(settings):
 
 
 def nearest_weights(a, b, c, p):
-    """Weights of the point of a triangle nearest to p (regions of Ericson 2005, 5.1.5)."""
+    """Weights of the point of a triangle nearest to p (Ericson 2005, 5.1.5)."""
     ab, ac, ap = vec.sub(b, a), vec.sub(c, a), vec.sub(p, a)
     d1, d2 = vec.dot(ab, ap), vec.dot(ac, ap)
     if d1 <= 0.0 and d2 <= 0.0:
@@ -108,7 +108,7 @@ def responses(surface, contact, d):
 
 
 def gradients(surface, triangle):
-    """grad n_i of a triangle: from each edge to its corner, over the height squared."""
+    """grad n_i of a triangle: from an edge to its corner, over height squared."""
     at = [surface["nodes"][i] for i in surface["triangles"][triangle]]
     out = []
     for i in range(3):
@@ -143,7 +143,7 @@ def bound(surface, contact, depth):
 def apart(p, state):
     return {"force": ZERO, "resistance": 0.0, "depth": 0.0, "contact": p,
             "triangle": -1, "stored_energy": 0.0, "state": state,
-            "normal": ZERO, "edge": False}
+            "normal": ZERO, "edge": False, "shared": False}
 
 
 def pressed(surface, contact, d, state, frictionless):
@@ -157,7 +157,8 @@ def pressed(surface, contact, d, state, frictionless):
             "contact": contact["c"], "triangle": contact["triangle"],
             "stored_energy": stored, "state": state,
             "normal": vec.scale(-1.0, contact["axes"][2]),
-            "edge": on_edge(surface, contact)}
+            "edge": on_edge(surface, contact),
+            "shared": shared(surface, contact)}
 
 
 def slipped(surface, contact, d, p):
@@ -173,6 +174,13 @@ def slipped(surface, contact, d, p):
 
 
 def on_edge(surface, contact):
+    """Whether c is on the rim of its triangle, where the gradient is left open."""
+    heights = (1.0 / vec.norm(g) for g in
+               gradients(surface, contact["triangle"]))
+    return any(w * h < ON_EDGE for w, h in zip(contact["weights"], heights))
+
+
+def shared(surface, contact):
     """Whether c is so near a second triangle that either may be meant."""
     near = projections(surface, contact["c"])
     return len(near) > 1 and near[1][0] < ON_EDGE

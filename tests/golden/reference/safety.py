@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Passivity controller, virtual coupling and predictive hold.
 
-Hannaford & Ryu 2002 with the pairing of a held force, E_n = E_(n-1) - f_out(n-1).dp_n,
+Hannaford & Ryu 2002, the force paired as it is held, E_n = E_(n-1) - f_out(n-1).dp_n,
 or backward, E_n = E_(n-1) - f_n.dp_n + alpha_(n-1) |dp_(n-1)|^2 / T;
 Adams & Hannaford 1999: kc e + bc (e - e^-)/T = sigma x_v in the wall;
 Ellis et al. 1997: 1.5 f_k - 0.5 f_(k-1).
@@ -40,8 +40,7 @@ def braking(params, feed, dt):
             energy = 0.0
         if last and energy < 0.0 and vec.norm(dp) > EPS_MOTION:
             most = now["alpha_max"] or 0.5 * now["mass"] / dt
-            alpha = min(-energy * dt / vec.dot(dp, dp), most,
-                        2.0 * now["mass"] / dt)
+            alpha = min(-energy * dt / vec.dot(dp, dp), most)
         out = vec.sub(f, vec.scale(alpha / dt, dp))
         last = p, out, alpha, dp
         yield {"force": out, "energy": energy, "alpha": alpha}

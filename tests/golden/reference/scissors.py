@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Scissors that cut a plate: after Mahvash & Okamura 2005, with Hayward 2007, section 3.
+"""Scissors that cut a plate: after Mahvash & Okamura 2005; Hayward 2007, section 3.
 
 delta = h/2 - x tan(theta/2), U = k delta^2/2, T = k delta x/(2 cos^2(theta/2));
 the crack front x grows where k delta tan(theta/2) would pass J_c h. The front

@@ -11,6 +11,7 @@ import cutting
 import deformation
 import draw
 import friction
+import laws
 import meshes
 import safety
 import scissors
@@ -51,9 +52,12 @@ class Set:
     def dt(self):
         return 1.0 / self.rate
 
-    def node(self, name, kind, params=None, settings=None):
+    def node(self, name, kind, params=None, settings=None, feed=None):
+        """Adds a node, its inputs and parameters driven by the columns of a feed."""
         self.nodes[name] = {"type": kind, "params": params or {},
                             "settings": settings or {}}
+        for port, column in (feed or {}).items():
+            self.drive(f"{name}.{port}", column)
 
     def drive(self, port, column):
         self.feed.update(parts(port, column))
@@ -134,10 +138,8 @@ def friction_set(rng):
         if params["adhesion"] == "curve":
             settings["adhesion_curve"] = [[0.0, 0.4, 0.9, 1.3], sorted(
                 rng.uniform(0.0, 1.0) for _ in range(3)) + [1.0]]
-        set_.node(name, "friction.elasto_plastic", params, settings)
+        set_.node(name, "friction.elasto_plastic", params, settings, own)
         got = friction.run({**params, **settings}, own)
-        for port, column in own.items():
-            set_.drive(f"{name}.{port}", column)
         for port, like in (("force", "f_eq3"), ("deflection", "d_eq3"),
                            ("stored_energy", "f_eq3"), ("state", "state_eq3")):
             set_.expect(f"{name}.{port}", got[port], golden, like)
@@ -164,15 +166,14 @@ def cutting_set(rng):
     params["rupture_force"] = resistance * rng.uniform(1.0, 3.5)
     if draw.chance(rng, 0.4):
         settings["cracked_law"] = draw.weaker(settings["law"], rng.uniform(0.3, 1.0))
-    d_r = cutting.laws.inverse(settings["law"], params["rupture_force"])
+    d_r = laws.inverse(settings["law"], params["rupture_force"])
     if draw.chance(rng, 0.4):
         params["thickness"] = d_r * rng.uniform(0.3, 4.0)
     deep = d_r * rng.choice((0.5, 2.0, 4.0))
     feed = [0.5 * deep + x for x in draw.motion(rng, rows, deep)]
     draw.spoil(rng, feed)
     got = cutting.run({**params, **settings}, {"depth": feed})
-    set_.node("blade", "cut.blade", params, settings)
-    set_.drive("blade.depth", feed)
+    set_.node("blade", "cut.blade", params, settings, {"depth": feed})
     if draw.chance(rng, 0.5):
         name = rng.choice(sorted(params))
         set_.drive(f"blade.{name}", latch(rng, params[name], got["state"]))
@@ -207,8 +208,7 @@ def scissors_set(rng):
     draw.spoil(rng, feed)
     feed = slow_opening(params, feed)
     got = scissors.run(params, {"angle": feed})
-    set_.node("scissors", "cut.scissors", params)
-    set_.drive("scissors.angle", feed)
+    set_.node("scissors", "cut.scissors", params, feed={"angle": feed})
     if draw.chance(rng, 0.5):
         name = rng.choice(sorted(params))
         set_.drive(f"scissors.{name}", latch(rng, params[name], got["state"]))
@@ -236,16 +236,14 @@ def texture_set(rng):
     guard = {**wave, "f_max": set_.rate * rng.uniform(0.02, 0.5)}
     width, cutoff = draw.spread(rng, 1e-5, 2e-3), set_.rate * rng.uniform(0.005, 0.4)
 
-    set_.node("wave", "texture.grating", grating)
-    set_.node("guard", "texture.antialias", guard)
-    set_.node("window", "contact.window", {"window": width})
+    set_.node("wave", "texture.grating", grating, feed=feed)
+    set_.node("guard", "texture.antialias", guard, feed=feed)
+    set_.node("window", "contact.window", {"window": width},
+              feed={"depth": depths})
     set_.node("product", "signal.multiply", {}, {"inputs": 3})
     set_.node("filter", "filter.butterworth2", {"cutoff": cutoff})
     set_.wires = ["wave.value -> product.in[0]", "guard.gain -> product.in[1]",
                   "window.gain -> product.in[2]", "product.out -> filter.in"]
-    set_.drive("wave.position", feed["position"])
-    set_.drive("guard.position", feed["position"])
-    set_.drive("window.depth", depths)
 
     ridges = texture.grating(grating, feed)
     guards = texture.antialias(guard, feed, set_.dt)
@@ -271,9 +269,7 @@ def ridged_friction(rng, set_, positions, k):
     xs = [p[0] if math.isfinite(p[0]) else 0.0 for p in positions]
     feed = {"position": positions, "d_max": [
         mean * (1.0 + m * math.sin(2.0 * math.pi * k * x)) for x in xs]}
-    set_.node("drag", "friction.elasto_plastic", params)
-    set_.drive("drag.position", positions)
-    set_.drive("drag.d_max", feed["d_max"])
+    set_.node("drag", "friction.elasto_plastic", params, feed=feed)
     set_.expect("drag.force", friction.run(params, feed)["force"],
                 "texture", "f_friction_mod")
 
@@ -297,9 +293,8 @@ def shock_set(rng):
         feed["gain"] = draw.stroke(rng, rows, 2.0)
     if draw.chance(rng, 0.4):
         feed["mass"] = [mass * rng.uniform(1.0, 2.0) for _ in range(rows)]
-    set_.node("shock", "shock.hunt_crossley", {"mass": mass}, settings)
-    for port, column in feed.items():
-        set_.drive(f"shock.{port}", column)
+    set_.node("shock", "shock.hunt_crossley", {"mass": mass}, settings,
+              feed=feed)
     got = shock.run({"mass": mass, **settings}, feed, set_.dt)
     set_.expect("shock.resistance", got["resistance"], "shock", "f_semi_implicit")
     return set_
@@ -331,9 +326,7 @@ def modal_set(rng):
         params["pitch"] = rng.uniform(0.5, 2.0)
     feed["hit"] = draw.hits(rng, rows, rng.choice((0.01, 0.1)))
     bank = {"modes": modes(rng, set_.rate)}
-    set_.node("bar", "vibration.modal", params, bank)
-    for port, column in feed.items():
-        set_.drive(f"bar.{port}", column)
+    set_.node("bar", "vibration.modal", params, bank, feed=feed)
     got = vibration.modal({**params, **bank}, feed, set_.dt)
     set_.expect("bar.value", got["value"], "modal", "y_modal")
     return set_
@@ -369,9 +362,7 @@ def wavetable_set(rng):
                 "length": rng.randint(20, 800)}
         samples = vibration.entries(wave, set_.dt)
     set_.node("bar", "vibration.wavetable", params,
-              {"voices": voices, "table": wave})
-    for port, column in feed.items():
-        set_.drive(f"bar.{port}", column)
+              {"voices": voices, "table": wave}, feed=feed)
     got = vibration.wavetable({**params, "voices": voices, "rate": rate,
                                "samples": samples}, feed, set_.dt)
     set_.expect("bar.value", got["value"], "modal", "y_wavetable")
@@ -402,9 +393,7 @@ def passivity_set(rng):
         mass = draw.spread(rng, 0.02, 0.5)
         params = {"mass": mass, "pairing": pairing,
                   "alpha_max": rng.choice((0.0, 1.8, 1.0, 0.2)) * mass * set_.rate}
-        set_.node(pairing, "safety.passivity", params)
-        for port, column in feed.items():
-            set_.drive(f"{pairing}.{port}", column)
+        set_.node(pairing, "safety.passivity", params, feed=feed)
         got = safety.passivity(params, feed, set_.dt)
         for port in ("force", "energy", "alpha"):
             set_.expect(f"{pairing}.{port}", got[port], "passivity", "*")
@@ -419,15 +408,13 @@ def hold_set(rng):
     if draw.chance(rng, 0.6):
         feed["contact"] = contacts(rng, rows)
     params = {"limit": rng.choice((100.0, 3.0, 0.5))}
-    set_.node("ahead", "hold.predictive", params)
-    for port, column in feed.items():
-        set_.drive(f"ahead.{port}", column)
+    set_.node("ahead", "hold.predictive", params, feed=feed)
     set_.expect("ahead.out", safety.hold(params, feed)["out"],
                 "passivity", "f_predictive")
     return set_
 
 
-def coupling_params(rng, rate):
+def coupling_params(rng):
     return {"stiffness": draw.spread(rng, 100.0, 5000.0),
             "damping": rng.choice((0.0, 0.1, 0.5, 2.0)),
             "wall_stiffness": draw.spread(rng, 1e3, 1e8)}
@@ -437,7 +424,7 @@ def coupling_set(rng):
     rows = 400
     set_ = Set(draw.rate(rng), rows)
     size = draw.spread(rng, 1e-4, 1e-2)
-    params = {**coupling_params(rng, set_.rate), "offset": rng.uniform(-size, size)}
+    params = {**coupling_params(rng), "offset": rng.uniform(-size, size)}
     feed = {"position": draw.motion3(rng, rows, size)}
     turned = draw.normals(rng, rows)
     if draw.chance(rng, 0.3):
@@ -445,9 +432,7 @@ def coupling_set(rng):
     else:
         params["normal"] = list(turned[0])
     draw.spoil(rng, feed["position"])
-    set_.node("wall", "coupling.virtual", params)
-    for port, column in feed.items():
-        set_.drive(f"wall.{port}", column)
+    set_.node("wall", "coupling.virtual", params, feed=feed)
     got = safety.coupling({**params, "normal": tuple(turned[0])}, feed, set_.dt)
     for port, like in (("proxy", "x_vc"), ("force", "f_vc"), ("depth", "x_vc")):
         set_.expect(f"wall.{port}", got[port], "wallsim", like)
@@ -455,7 +440,7 @@ def coupling_set(rng):
     return set_
 
 
-def plane_params(rng, rate):
+def plane_params(rng):
     params = {"stiffness": draw.spread(rng, 100.0, 3000.0)}
     if draw.chance(rng, 0.5):
         params["damping"] = rng.uniform(0.0, 1.0)
@@ -470,7 +455,7 @@ def plane_params(rng, rate):
 def plane_set(rng):
     rows = 400
     set_ = Set(draw.rate(rng), rows)
-    params, settings = plane_params(rng, set_.rate)
+    params, settings = plane_params(rng)
     params["offset"] = rng.uniform(-1e-3, 1e-3)
     feed = {"position": [tuple(max(-0.01, min(0.01, x)) for x in p)
                          for p in draw.motion3(rng, rows, 1e-3)]}
@@ -480,9 +465,7 @@ def plane_set(rng):
     else:
         params["normal"] = list(turned[0])
     draw.spoil(rng, feed["position"])
-    set_.node("wall", "deform.plane", params, settings)
-    for port, column in feed.items():
-        set_.drive(f"wall.{port}", column)
+    set_.node("wall", "deform.plane", params, settings, feed=feed)
     got = wall.plane({**params, **settings, "normal": tuple(turned[0])},
                      feed, set_.dt)
     for port, like in (("force", "f_smooth"), ("resistance", "f_smooth"),
@@ -510,11 +493,11 @@ def wall_set(rng):
     settings = {}
     if draw.chance(rng, 0.6):
         kind, defaults, tick = "deform.plane", wall.PLANE, wall.plane_tick(set_.dt)
-        params, settings = plane_params(rng, set_.rate)
+        params, settings = plane_params(rng)
     else:
         kind, defaults, tick = ("coupling.virtual", safety.COUPLING,
                                 safety.coupling_tick(set_.dt))
-        params = coupling_params(rng, set_.rate)
+        params = coupling_params(rng)
     set_.node("hand", "device.position")
     set_.node("truth", "device.truth")
     set_.node("motor", "device.force")
@@ -557,19 +540,18 @@ def deformation_set(rng):
     feed = {"position": positions, "tool": tool}
     for friction_ in ("bound", "frictionless"):
         params = {"friction": friction_}
-        set_.node(friction_, "deform.surface", params, settings)
-        for port, column in feed.items():
-            set_.drive(f"{friction_}.{port}", column)
+        set_.node(friction_, "deform.surface", params, settings, feed=feed)
         got = deformation.run(settings, params, feed)
-        edges = got.pop("edge")
-        free = {k for k in range(rows) if edges[k]}
+        rim = {k for k in range(rows) if got["edge"][k]}
+        shared = {k for k in range(rows) if got["shared"][k]}
         for port, like in (("force", "f_"), ("resistance", "f_"), ("depth", "c_"),
                            ("contact", "c_"), ("stored_energy", "U")):
-            open_ = free if port == "force" and friction_ == "frictionless" else ()
+            open_ = rim if port == "force" and friction_ == "frictionless" else ()
             set_.expect(f"{friction_}.{port}", got[port], "deformation", like, open_)
-        touching = {k for k, state in enumerate(got["state"]) if state <= 0}
-        set_.expect(f"{friction_}.normal", got["normal"], "deformation", "c_", touching)
-        set_.expect(f"{friction_}.triangle", got["triangle"], "deformation", "tri", free)
+        apart = {k for k, state in enumerate(got["state"]) if state <= 0}
+        set_.expect(f"{friction_}.normal", got["normal"], "deformation", "c_", apart)
+        set_.expect(f"{friction_}.triangle", got["triangle"], "deformation", "tri",
+                    shared)
         set_.expect(f"{friction_}.state", got["state"], "deformation", "state")
     return set_
 

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""How closely a column is to be met: the golden JSON's entry with the longest fitting prefix."""
+"""How closely a column is to be met.
+
+The entry of the golden JSON with the longest prefix that fits.
+"""
 
 import json
 import math
