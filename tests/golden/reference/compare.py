@@ -32,8 +32,6 @@ def write_graph(set_, path):
         "format": "tactus-graph", "version": 1, "name": "Random set",
         "rate_hz": rate, "devices": set_.devices, "nodes": set_.nodes,
         "wires": set_.wires}, indent=1))
-    for name, content in set_.files.items():
-        (path.parent / name).write_bytes(content)
 
 
 def write_feed(set_, path):
