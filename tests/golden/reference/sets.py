@@ -356,7 +356,8 @@ def wavetable_set(rng):
 
 
 def contacts(rng, rows):
-    return [float(x > -0.8) for x in draw.stroke(rng, rows, 1.0)]
+    level = rng.uniform(-0.8, 0.2)
+    return [float(x > level) for x in draw.stroke(rng, rows, 1.0)]
 
 
 def passivity_set(rng):
