@@ -3,8 +3,7 @@
 #include <host/devices/evemu.hpp>
 #include <host/devices/fields.hpp>
 #include <host/io/csv.hpp>
-
-#include <framework/units.hpp>
+#include <host/tools/measure_option.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -18,26 +17,6 @@ using namespace tactus::host;
 namespace
 {
 constexpr int input_at_fault = 1, usage = 2;
-
-/// An option in SI, or with a unit.
-void addMeasure (CLI::App& app, const char* option, double& value, const Unit& unit, const std::string& about)
-{
-    app.add_option_function<std::string> (
-           option,
-           [&value, unit, option] (const std::string& text)
-           {
-               const auto read = parseMeasure (text);
-               const auto* measure = std::get_if<Measure> (&read);
-               if (measure == nullptr) throw CLI::ValidationError (option, std::get<std::string> (read));
-
-               const bool bare = measure->dimension == Dimension {};
-               if (! bare && measure->dimension != unit.dimension) throw CLI::ValidationError (option, text + " is in " + symbolOf (measure->dimension) + ", not in " + std::string (unit.symbol));
-               if (! isFinite (measure->value) || measure->value <= 0.0) throw CLI::ValidationError (option, text + " is not more than 0");
-               value = measure->value;
-           },
-           about)
-        ->type_name (std::string (unit.symbol));
-}
 
 std::vector<double> valuesOf (const TraceData::Row& row) { return { row.t, row.position.x(), row.position.y(), row.position.z(), row.pressure }; }
 
