@@ -18,7 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numeric>
+#include <memory>
 
 using namespace tactus;
 using host::SwitchLoop;
