@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <optional>
 #include <set>
 #include <utility>
 
@@ -73,8 +72,9 @@ private:
 
 double rounded (double value, double steps_per_unit) { return std::round (value * steps_per_unit) / steps_per_unit; }
 
-/// Marks the points between two kept ones that straight lines need to stay within the tolerance.
-void keepBetween (const SwitchLoop& loop, std::size_t from, std::size_t to, double tolerance, std::vector<bool>& kept)
+/// The point between two others that lies furthest off the straight lines from one to the other; `from` if none is further
+/// off than the tolerance.
+std::size_t worstBetween (const SwitchLoop& loop, std::size_t from, std::size_t to, double tolerance)
 {
     double most = tolerance;
     std::size_t worst = from;
@@ -87,11 +87,7 @@ void keepBetween (const SwitchLoop& loop, std::size_t from, std::size_t to, doub
         most = off;
         worst = i;
     }
-    if (worst == from) return;
-
-    kept[worst] = true;
-    keepBetween (loop, from, worst, tolerance, kept);
-    keepBetween (loop, worst, to, tolerance, kept);
+    return worst;
 }
 
 /// The law of the plane; it ends in a point beyond the loop, from where its last slope goes on.
@@ -192,7 +188,17 @@ SwitchLoop simplified (const SwitchLoop& loop, double tolerance)
 {
     std::vector<bool> kept (loop.travel.size());
     kept.front() = kept.back() = true;
-    keepBetween (loop, 0, loop.travel.size() - 1, tolerance, kept);
+    std::vector<std::pair<std::size_t, std::size_t>> open { { 0, loop.travel.size() - 1 } };
+    while (! open.empty())
+    {
+        const auto [from, to] = open.back();
+        open.pop_back();
+        const auto worst = worstBetween (loop, from, to, tolerance);
+        if (worst == from) continue;
+        kept[worst] = true;
+        open.push_back ({ from, worst });
+        open.push_back ({ worst, to });
+    }
 
     SwitchLoop few;
     for (std::size_t i = 0; i < kept.size(); ++i)
