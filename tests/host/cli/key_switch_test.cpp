@@ -347,7 +347,7 @@ TEST_CASE ("the law of a plane may fall with depth: it stays a potential, and ne
 
 TEST_CASE ("the key among the presets clicks, comes back softer than it went, and gives no energy", "[graphs]")
 {
-    const auto loaded = loadGraph (std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs" / "key_switch.json");
+    const auto loaded = loadGraph (std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs" / "tactile_key.json");
     REQUIRE (loaded.messages.empty());
     constexpr double mm = 1e-3;
 
