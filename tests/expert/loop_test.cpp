@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+// What an expert tries first: the way from the hand to the motor.
+
+#include <expert/hands.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+using namespace tactus;
+using tactus::test::Dice;
+using tactus::test::felt;
+using tactus::test::has;
+using tactus::test::planOf;
+using tactus::test::Sketch;
+
+namespace
+{
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// A floor with friction and ridges on it: everything that answers the hand within the tick.
+Sketch floorboard()
+{
+    Sketch s;
+    s.node ("hand", "device.position").node ("motor", "device.force");
+    s.node ("floor", "deform.plane", { { "stiffness", "1 N/mm" } }).wire ("hand.position -> floor.position").wire ("floor.force -> sum.in[0]");
+    s.node ("drag", "friction.elasto_plastic", { { "d_max", "0.4 mm" } }).wire ("hand.position -> drag.position").wire ("floor.resistance -> drag.normal_force").wire ("drag.force -> sum.in[1]");
+    s.node ("grain", "texture.grating").node ("window", "contact.window").node ("faded", "vector.scale").wire ("hand.position -> grain.position").wire ("floor.depth -> window.depth").wire ("grain.force -> faded.in").wire ("window.gain -> faded.gain").wire ("faded.out -> sum.in[2]");
+    s.node ("sum", "vector.add", Json::object(), { { "inputs", 3 } }).node ("safe", "safety.passivity").wire ("hand.position -> safe.position").wire ("sum.out -> safe.force").wire ("floor.state -> safe.contact").wire ("safe.force -> motor.force");
+    return s;
+}
+
+bool sameBits (const std::vector<Vec3>& a, const std::vector<Vec3>& b)
+{
+    return std::ranges::equal (a, b, [] (const Vec3& u, const Vec3& v)
+                               { return std::ranges::equal (
+                                     u, v, {}, [] (double x)
+                                     { return std::bit_cast<std::uint64_t> (x); },
+                                     [] (double x)
+                                     { return std::bit_cast<std::uint64_t> (x); }); });
+}
+
+/// A hand that strokes, presses and lifts.
+Vec3 stroke (int k) { return { 0.02 * std::sin (0.01 * k), 0.01 * std::cos (0.007 * k), 2e-3 * std::sin (0.023 * k) }; }
+}   // namespace
+
+TEST_CASE ("expert 15: a hard wall and an encoder buzz, and the observer sees it", "[expert][safety]")
+{
+    const auto buzz = [] (double stiffness, double quantum, std::string pairing)
+    {
+        auto graph = Sketch {}.node ("hand", "device.position").node ("wall", "deform.plane", { { "normal", { -1, 0, 0 } }, { "stiffness", stiffness } }).node ("safe", "safety.passivity", { { "mass", 0.1 }, { "pairing", pairing } }).node ("motor", "device.force").wire ("hand.position -> wall.position").wire ("hand.position -> safe.position").wire ("wall.force -> safe.force").wire ("safe.force -> motor.force");
+        test::Mass tool;
+        tool.damping = 0.2;
+        tool.quantum = quantum;
+        tool.x = -1e-3;
+        tool.v = 0.1;
+        tool.hand = [] (double)
+        { return 0.5; };
+        Engine engine { planOf (graph, 1000.0) };
+        engine.attach ("stylus", tool);
+        double low = inf, high = -inf;
+        for (int k = 0; k < 10'000; ++k)
+        {
+            engine.tick();
+            if (k < 8000) continue;
+            low = std::min (low, tool.x);
+            high = std::max (high, tool.x);
+        }
+        return high - low;
+    };
+
+    for (const double stiffness : { 1000.0, 3000.0, 6000.0 })   // it bears 2 B / T = 400 N/m
+        for (const double quantum : { 1e-6, 1e-5, 3e-5 })
+        {
+            const double blind = buzz (stiffness, quantum, "backward"), braked = buzz (stiffness, quantum, "zoh");
+            INFO (stiffness << " N/m, " << quantum << " m: " << blind << " and " << braked << " m");
+            CHECK (blind > 1e-3);
+            CHECK (braked < 0.2 * blind);
+        }
+}
+
+TEST_CASE ("expert 16: millimetres are not metres, and radians are not cycles", "[expert][units]")
+{
+    const auto graph = [] (const Json& d_max, const Json& stiffness, const Json& ridges)
+    {
+        auto s = floorboard();
+        s.graph.root.nodes[2].params["stiffness"] = stiffness;
+        s.graph.root.nodes[3].params["d_max"] = d_max;
+        s.graph.root.nodes[4].params["spatial_frequency"] = ridges;
+        return s;
+    };
+    const auto plain = felt (graph (0.4e-3, 1000.0, 250.0), stroke, 1000);
+    CHECK (sameBits (plain, felt (graph ("0.4 mm", "1 N/mm", "0.25 1/mm"), stroke, 1000)));
+    CHECK (sameBits (plain, felt (graph ("400 um", "1 kN/m", "2.5 1/cm"), stroke, 1000)));
+    CHECK_FALSE (sameBits (plain, felt (graph (0.4e-3, 1000.0, 2.0 * M_PI * 250.0), stroke, 1000)));
+    for (const auto& wrong : { "4 mm", "250 1/s", "250 N/m" })
+        CHECK (has (graph (0.4e-3, 1000.0, wrong).compile().messages, "param/unit"));
+
+    // Of k cycles per metre one is 1 / k long: the force comes back after it, and not after 2 pi of it.
+    rc::prop ("any pitch, any place", [] (unsigned seed)
+              {
+        Dice dice { seed };
+        const double k = dice.size (20.0, 5000.0), x = dice.uniform (-0.1, 0.1);
+        const auto grain = Sketch {}.node ("hand", "device.position").node ("grain", "texture.grating", { { "spatial_frequency", k } }).node ("motor", "device.force").wire ("hand.position -> grain.position").wire ("grain.force -> motor.force");
+        const auto f = felt (
+            grain, [=] (int tick)
+            { return Vec3 { x + 0.5 * tick / k, 0, 0 }; },
+            3);
+        RC_ASSERT (std::abs (f[2].x() - f[0].x()) < 1e-9);
+        RC_ASSERT (std::abs (f[1].x() + f[0].x()) < 1e-9); });
+}
+
+TEST_CASE ("expert 17: a tenth of a nanometre, ten centimetres from the origin, arrives at the motor", "[expert]")
+{
+    // A float has steps of 7 nm there.
+    const double stiffness = 1e6, step = 1e-10;
+    rc::prop ("along each axis, at any place of a desk", [&] (unsigned seed)
+              {
+        Dice dice { seed };
+        const Vec3 axis = Vec3::Unit (dice.below (3)), from { dice.uniform (-0.2, 0.2), dice.uniform (-0.2, 0.2), dice.uniform (-0.2, 0.2) };
+        const auto graph = Sketch {}.node ("hand", "device.position").node ("wall", "deform.plane", { { "normal", { axis.x(), axis.y(), axis.z() } }, { "offset", 0.3 }, { "stiffness", stiffness } }).node ("motor", "device.force").wire ("hand.position -> wall.position").wire ("wall.force -> motor.force");
+        const auto f = felt (
+            graph, [&] (int k)
+            { return Vec3 { from + k * step * axis }; },
+            100);
+        for (std::size_t k = 1; k < f.size(); ++k)
+            RC_ASSERT (std::abs (axis.dot (f[k - 1] - f[k]) - stiffness * step) < 1e-3 * stiffness * step); });
+}
+
+TEST_CASE ("expert 18: the force of a sample is on the motor within its tick, however long the chain", "[expert]")
+{
+    const auto plan = planOf (floorboard(), 1000.0);
+    REQUIRE (plan->delays.size() == 1);
+    CHECK (plan->delays[0].shortest == 0);
+    CHECK (plan->delays[0].longest == 0);
+
+    rc::prop ("a hand that jumps in and out at any tick", [] (unsigned seed)
+              {
+        Dice dice { seed };
+        std::vector<double> z (64);
+        for (double& v : z)
+            v = dice.below (2) == 0 ? dice.uniform (-2e-3, 0.0) : dice.uniform (0.0, 2e-3);
+
+        Sketch chain;
+        chain.node ("hand", "device.position").node ("floor", "deform.plane").node ("motor", "device.force").wire ("hand.position -> floor.position");
+        std::string last = "floor.force";
+        for (int i = 0; i < 30; ++i)
+        {
+            const std::string name = "x" + std::to_string (i);
+            chain.node (name, "vector.scale").wire (last + " -> " + name + ".in");
+            last = name + ".out";
+        }
+        const auto f = felt (
+            chain.wire (last + " -> motor.force"), [&] (int k)
+            { return Vec3 { 0, 0, z[static_cast<std::size_t> (k)] }; },
+            64);
+        for (std::size_t k = 0; k < z.size(); ++k)
+            RC_ASSERT (f[k].z() == 1000.0 * std::max (0.0, -z[k])); });
+}
+
+TEST_CASE ("expert 19: at another rate everything is as fast, as deep and as safe as before", "[expert]")
+{
+    const auto graph = Sketch {}.node ("ring", "vibration.modal", Json::object(), { { "modes", { { { "frequency", 90.0 }, { "decay", 40.0 }, { "amplitude", 1.0 } } } } }).node ("low", "filter.one_pole", { { "cutoff", "20 Hz" } }).node ("butter", "filter.butterworth2", { { "cutoff", "50 Hz" } }).node ("speed", "motion.velocity").node ("wall", "deform.plane", { { "stiffness", 0.0 }, { "damping", 2.0 } }).node ("fade", "texture.antialias").node ("safe", "safety.passivity", { { "mass", 0.1 } }).node ("wave", "signal.lfo", { { "frequency", "7 Hz" } }).wire ("wave.out -> butter.in");
+
+    for (const double rate : { 1000.0, 4000.0, 10'000.0, 48'000.0 })
+    {
+        INFO (rate << " Hz");
+        auto options = CompileOptions {};
+        options.feeds = { "ring.hit", "low.in", "speed.position.z", "wall.position.z", "fade.position.x", "safe.position.x", "safe.force.x" };
+        options.records = { "ring.value", "low.out", "speed.velocity.z", "wall.resistance", "fade.speed", "safe.alpha", "butter.out" };
+        const auto plan = planOf (graph, rate, options);
+        const auto out = [&] (std::size_t i)
+        { return *plan->taps[i].value; };
+
+        const double v = -0.05;
+        double loudest = 0.0, alpha = 0.0;
+        for (int k = 0; k <= int (0.4 * rate); ++k)
+        {
+            const double t = k / rate;
+            plan->feeds = { k == 0 ? 1.0 : 0.0, 1.0, v * t, v * t, v * t, 1e-3 * t, 5.0 };
+            plan->tick();
+            if (k == 0) continue;
+            REQUIRE (out (0) == Approx (std::exp (-40.0 * t) * std::sin (2.0 * M_PI * 90.0 * t)).margin (1e-9));
+            REQUIRE (out (1) == Approx (1.0 - std::exp (-2.0 * M_PI * 20.0 * t)).margin (2.0 * M_PI * 20.0 / rate));
+            REQUIRE (out (3) == Approx (-2.0 * v));
+            REQUIRE (out (4) == Approx (v));
+            if (k >= 2) REQUIRE (out (2) == Approx (v));
+            alpha = std::max (alpha, out (5));
+            if (t > 0.2) loudest = std::max (loudest, out (6));
+        }
+        CHECK (alpha == Approx (0.5 * 0.1 * rate));
+        CHECK (loudest == Approx (1.0 / std::sqrt (1.0 + std::pow (7.0 / 50.0, 4.0))).epsilon (2e-3));
+    }
+}
+
+TEST_CASE ("expert 20: what a device reads as nan is neither kept nor sent to the motor", "[expert]")
+{
+    rc::prop ("lost for some ticks, valid or not, in any component", [] (unsigned seed)
+              {
+        Dice dice { seed };
+        const int from = 1 + dice.below (400), to = from + 1 + dice.below (20);
+        const int which = dice.below (3);
+        const bool admits = dice.below (2) == 0;
+        const double bad = dice.below (2) == 0 ? not_a_number : inf;
+        const auto way = [=] (int k)
+        {
+            Reading reading { .position = stroke (k) };
+            if (k >= from && k < to)
+            {
+                reading.position[which] = bad;
+                reading.valid = ! admits;
+            }
+            return reading;
+        };
+
+        Engine engine { planOf (floorboard(), 1000.0) };
+        test::Led hand { std::function<Reading (int)> { way } };
+        engine.attach ("stylus", hand);
+        for (int k = 0; k < 1000; ++k)
+            engine.tick();
+        for (const Vec3& f : hand.forces)
+            RC_ASSERT (isFinite (f));
+
+        // Once the contact has opened, nothing of it is left.
+        const auto well = felt (floorboard(), stroke, 1000);
+        for (std::size_t k = 700; k < well.size(); ++k)
+            RC_ASSERT (hand.forces[k] == well[k]); });
+}
