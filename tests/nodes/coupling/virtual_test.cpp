@@ -87,8 +87,8 @@ TEST_CASE ("coupling: walls of any hardness come to rest, up to 0.8 of the stiff
     for (const double wall : { 1e3, 1e4, 1e5, 1e6, 1e7, 1e8 })
     {
         INFO (wall);
-        CHECK (restlessness (0.4 * limit, wall) < 1e-15);
-        CHECK (restlessness (0.8 * limit, wall) < 1e-15);
+        CHECK (restlessness (0.4 * limit, wall) < 1e-17);
+        CHECK (restlessness (0.8 * limit, wall) < 1e-17);
     }
 }
 

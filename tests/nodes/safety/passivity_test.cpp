@@ -41,19 +41,21 @@ struct Wall
 
 struct Course
 {
-    double buzz = 0.0;     // peak to peak in the last fifth, m
+    double buzz = 0.0;     // peak to peak from 4/5 of the time on, m
     double force = 0.0;    // largest, N
     double lowest = 0.0;   // energy, J
 };
 
-/// Three seconds against the wall; without an observer if there is none.
-Course against (const Wall& wall, PassivityObserver* node)
+/// A hand presses against the wall for a while, without an observer if there is none. What buzzes needs seconds to grow
+/// to its full width, and what the observer leaves of it shrinks with one over the time.
+Course against (const Wall& wall, PassivityObserver* node, int seconds = 20)
 {
     const auto [K, B, hand, M, T] = wall;
     const double a = std::exp (-B * T / M), g = M * (1.0 - a) / B;
     double x = -1e-3, v = 0.1, low = tactus::inf, high = -tactus::inf;
     Course course;
-    for (int k = 0; k < 3000; ++k)
+    const int ticks = static_cast<int> (seconds / T);
+    for (int k = 0; k < ticks; ++k)
     {
         double f = x > 0.0 ? -K * x : 0.0;
         if (node != nullptr)
@@ -65,7 +67,7 @@ Course against (const Wall& wall, PassivityObserver* node)
         course.force = std::max (course.force, std::abs (f));
         x += g * v + (T - g) / B * (f + hand);
         v = a * v + (1.0 - a) / B * (f + hand);
-        if (k < 2400) continue;
+        if (k < ticks / 5 * 4) continue;
         low = std::min (low, x);
         high = std::max (high, x);
     }
@@ -112,7 +114,8 @@ TEST_CASE ("passivity: a wall that buzzes is calmed, whatever its stiffness, and
 
                     INFO (K << " " << B << " " << hand << " " << alpha_max << ": " << bare.buzz << " " << braked.buzz << " m, " << braked.force << " N, " << braked.lowest << " J");
                     CHECK (braked.force < 100.0);
-                    CHECK (braked.lowest > -5e-3);
+                    CHECK (braked.lowest > -2e-3);
+                    CHECK (braked.buzz < 3e-4);
                     if (K <= 2.0 * B / wall.T)   // it settles by itself, sooner or later
                         CHECK (braked.buzz <= std::max (bare.buzz, 1e-4));
                     else
@@ -124,16 +127,30 @@ TEST_CASE ("passivity: a wall that buzzes is calmed, whatever its stiffness, and
     CHECK (buzzing == 14 * 2 * 4);
 }
 
+TEST_CASE ("passivity: what is left of a buzz shrinks with one over the time", "[nodes][safety]")
+{
+    // 15.4 mm bare; with the observer 0.16 mm in the third second, 0.011 mm after sixteen.
+    const Wall wall { 3000.0, 0.2, 0.3 };
+    CHECK (against (wall, nullptr).buzz == Approx (15.4e-3).epsilon (0.01));
+    for (const auto& [seconds, left] : { std::pair { 3, 1.6e-4 }, { 5, 6.2e-5 }, { 10, 2.4e-5 }, { 20, 1.13e-5 } })
+    {
+        auto node = observer ({ .mass = wall.M });
+        INFO (seconds);
+        CHECK (against (wall, &node, seconds).buzz == Approx (left).epsilon (0.05));
+    }
+}
+
 TEST_CASE ("passivity: the backward pairing is blind to the leak of the hold", "[nodes][safety]")
 {
-    for (const double K : { 600.0, 2000.0, 8000.0 })
+    for (const double K : { 600.0, 1500.0, 3000.0, 8000.0 })
         for (const double B : { 0.2, 0.5 })
-        {
-            const Wall wall { K, B, 0.5 };
-            auto node = observer ({ .mass = wall.M, .pairing = Pairing::backward });
-            INFO (K << " " << B);
-            CHECK (against (wall, &node).buzz == against (wall, nullptr).buzz);
-        }
+            for (const double hand : { 0.3, 1.5 })
+            {
+                const Wall wall { K, B, hand };
+                auto node = observer ({ .mass = wall.M, .pairing = Pairing::backward });
+                INFO (K << " " << B << " " << hand);
+                CHECK (against (wall, &node, 3).buzz == against (wall, nullptr, 3).buzz);
+            }
 }
 
 TEST_CASE ("passivity: no alpha_max takes the damper over what the mass can bear", "[nodes][safety]")
@@ -149,7 +166,7 @@ TEST_CASE ("passivity: no alpha_max takes the damper over what the mass can bear
     for (const double K : { 600.0, 3000.0, 8000.0 })
     {
         auto greedy = observer ({ .alpha_max = 1e9, .mass = 0.1 });
-        const auto course = against ({ K, 0.5, 0.5 }, &greedy);
+        const auto course = against ({ K, 0.5, 0.5 }, &greedy, 3);
         INFO (K);
         CHECK (course.force < 200.0);
     }
