@@ -8,6 +8,8 @@
 
 #include <cmath>
 #include <cstring>
+#include <random>
+#include <utility>
 #include <vector>
 
 using tactus::nodes::Modal;
@@ -63,6 +65,38 @@ TEST_CASE ("modal: hits add up exactly, and none makes a click", "[nodes][vibrat
         const double together = both.tick ({ .hit = a + b }).value;
         REQUIRE (together == Approx (sum).margin (1e-15));
     }
+
+    rc::prop ("any modes, any number of hits: the sum of the closed forms", [] (unsigned seed)
+              {
+        std::mt19937 random { seed };
+        const auto uniform = [&] (double from, double to)
+        { return std::uniform_real_distribution { from, to }(random); };
+
+        const double rate = uniform (1000.0, 20'000.0);
+        std::vector<Modal::Mode> modes (1 + random() % 6);
+        double loudest = 0.0;
+        for (auto& mode : modes)
+        {
+            mode = { uniform (1.0, 0.49 * rate), uniform (1.0, 500.0), uniform (-2.0, 2.0) };
+            loudest += std::abs (mode.amplitude);
+        }
+        std::vector<std::pair<int, double>> hits (1 + random() % 8);   // tick and speed
+        for (auto& [tick, v] : hits)
+            tick = static_cast<int> (random() % 300), v = uniform (0.0, 2.0);
+
+        auto node = modal (modes, rate);
+        for (int k = 0; k < 600; ++k)
+        {
+            double hit = 0.0, sum = 0.0;
+            for (const auto& [tick, v] : hits)
+            {
+                if (tick == k) hit += v;
+                if (tick > k) continue;
+                for (const auto& mode : modes)
+                    sum += ring (mode, v, (k - tick) / rate);
+            }
+            RC_ASSERT (std::abs (node.tick ({ .hit = hit }).value - sum) <= 1e-11 * loudest);
+        } });
 
     // On the tick of a hit the output is what it would have been without it, to the bit.
     auto struck = modal (wood), left = modal (wood);
