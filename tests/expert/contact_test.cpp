@@ -4,12 +4,15 @@
 #include <expert/hands.hpp>
 #include <support/rig.hpp>
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <utility>
 
 using namespace tactus;
 using tactus::test::Dice;
@@ -73,7 +76,99 @@ Felt press (Rig& rig, double from, double to, int n)
     }
     return felt;
 }
+
+/// A square of 4 cm that faces upwards, of two triangles with the seam from corner to corner, soft at some corners and
+/// stiff at others; sideways half as stiff as along.
+std::shared_ptr<const Surface> flesh (Dice& dice, double mu, bool frames_lean)
+{
+    Surface s;
+    s.mesh = std::make_shared<const Mesh> (Mesh { { { -0.02, -0.02, 0 }, { 0.02, -0.02, 0 }, { 0.02, 0.02, 0 }, { -0.02, 0.02, 0 } }, { { 0, 1, 2 }, { 0, 2, 3 } } });
+    auto& corners = s.curves.emplace_back();
+    for (int i = 0; i < 4; ++i)
+    {
+        const double k = dice.size (500.0, 2000.0), n = 1.0 + 0.5 * dice.below (2), along = k * std::pow (1e-3, 1.0 - n);
+        const auto law = [&] (double share)
+        { return Law { .kind = Law::Kind::power, .a = share * along, .b = n }; };
+        corners.push_back ({ law (0.5), law (0.5), law (1.0) });
+        if (! frames_lean) continue;
+        const Eigen::Quaterniond lean { Eigen::AngleAxisd (dice.uniform (-0.2, 0.2), Vec3 { dice.uniform (-1.0, 1.0), dice.uniform (-1.0, 1.0), 0.1 }.normalized()) };
+        s.frames.push_back (Vec3 { 1, -1, -1 }.asDiagonal() * lean.toRotationMatrix());
+    }
+    s.mu.push_back ({ .number = mu });
+    return std::make_shared<const Surface> (std::move (s));
+}
+
+Rig skin (const std::shared_ptr<const Surface>& surface, bool rubs)
+{
+    Rig rig { "deform.surface" };
+    rig.set ("surface", surface).choose ("friction", rubs ? "bound" : "frictionless");
+    REQUIRE (rig.problem().empty());
+    rig.prepare();
+    return rig;
+}
 }   // namespace
+
+TEST_CASE ("expert 6: sliding over the edge of a triangle, from soft to stiff, steps no force and gives no energy", "[expert][deform]")
+{
+    rc::prop ("the finer the slide, the finer its steps of force: there is none in it", [] (unsigned seed)
+              {
+        Dice dice { seed };
+        const auto surface = flesh (dice, dice.uniform (0.2, 1.0), true);
+        const double depth = dice.uniform (0.2e-3, 2e-3), turn = dice.uniform (0.0, 2.0 * M_PI), off = dice.uniform (-3e-3, 3e-3);
+        const Vec3 way { std::cos (turn), std::sin (turn), 0 }, from { -off * way.y(), off * way.x(), -depth };
+        const auto steepest = [&] (int n)
+        {
+            Rig rig = skin (surface, true);
+            double most = 0.0;
+            Vec3 before = Vec3::Zero();
+            for (int k = 0; k <= n; ++k)
+            {
+                const double s = 2.0 * k / n - 1.0;
+                rig.input ("position", from + 0.012 * s * way);
+                rig.tick();
+                const Vec3 force = rig.vector ("force");
+                if (s > -0.6) most = std::max (most, (force - before).norm());   // it has been dragged along since long
+                before = force;
+            }
+            return most;
+        };
+        const double coarse = steepest (250);
+        RC_ASSERT (coarse > 0.0);
+        RC_ASSERT (steepest (1000) <= 0.35 * coarse); });
+
+    rc::prop ("round and round, in and out: without friction it costs nothing, with enough it costs something", [] (unsigned seed)
+              {
+        Dice dice { seed };
+        const double mu = dice.uniform (0.6, 1.0), depth = dice.uniform (0.2e-3, 2e-3), lift = dice.uniform (-0.8, 0.8), phase = dice.uniform (0.0, 2.0 * M_PI);
+        const double size[] { dice.uniform (1e-3, 0.012), dice.uniform (1e-3, 0.012) };
+        const int waves[] { 1 + dice.below (3), 1 + dice.below (3), 1 + dice.below (3) };
+        const auto surface = flesh (dice, mu, false);
+        const auto handled = [&] (bool rubs)
+        {
+            Rig rig = skin (surface, rubs);
+            constexpr int n = 1200;
+            double work = 0.0, moved = 0.0;
+            Vec3 p = Vec3::Zero(), before = Vec3::Zero();
+            for (int k = 0; k <= n; ++k)
+            {
+                const double s = 2.0 * M_PI * k / n;
+                const Vec3 next { size[0] * std::sin (waves[0] * s), size[1] * std::cos (waves[1] * s + phase), depth * (lift - std::cos (waves[2] * s)) };
+                rig.input ("position", next);
+                rig.tick();
+                const Vec3 force = rig.vector ("force");
+                const double step = k == 0 ? 0.0 : -0.5 * (force + before).dot (next - p);
+                work += step;
+                moved += std::abs (step);
+                p = next;
+                before = force;
+            }
+            return std::pair { work, moved };
+        };
+        const auto [glides, glided] = handled (false);
+        RC_ASSERT (std::abs (glides) <= 5e-3 * glided);
+        const auto [rubs, rubbed] = handled (true);
+        RC_ASSERT (rubs >= -1e-3 * rubbed); });
+}
 
 TEST_CASE ("expert 7: a touch, and the next one elsewhere, starts without a kick", "[expert][friction][deform]")
 {
