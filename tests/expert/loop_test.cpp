@@ -199,34 +199,44 @@ TEST_CASE ("expert 19: at another rate everything is as fast, as deep and as saf
 
 TEST_CASE ("expert 20: what a device reads as nan is neither kept nor sent to the motor", "[expert]")
 {
-    rc::prop ("lost for some ticks, valid or not, in any component", [] (unsigned seed)
+    // The object reaches over the origin: a tool that is put there while it is lost would strike it from inside.
+    auto graph = floorboard();
+    const Vec3 away { 0.05, -0.03, 0.06 };
+    graph.graph.root.nodes[2].params["offset"] = away.z();
+    graph.node ("ring", "vibration.modal").node ("up", "vector.join").wire ("floor.hit -> ring.hit").wire ("ring.value -> up.z").wire ("up.out -> motor.force");
+    const auto well = felt (
+        graph, [&] (int k)
+        { return Vec3 { away + stroke (k) }; },
+        1000);
+    const double most = std::ranges::max (well, {}, [] (const Vec3& f)
+                                          { return f.norm(); })
+                            .norm();
+
+    rc::prop ("lost for some ticks, told so or not, in any component", [&] (unsigned seed)
               {
         Dice dice { seed };
-        const int from = 1 + dice.below (400), to = from + 1 + dice.below (20);
-        const int which = dice.below (3);
-        const bool admits = dice.below (2) == 0;
+        const int from = 1 + dice.below (400), to = from + 1 + dice.below (4), which = dice.below (3);
+        const bool told = dice.below (2) == 0;
         const double bad = dice.below (2) == 0 ? not_a_number : inf;
-        const auto way = [=] (int k)
-        {
-            Reading reading { .position = stroke (k) };
-            if (k >= from && k < to)
-            {
-                reading.position[which] = bad;
-                reading.valid = ! admits;
-            }
-            return reading;
-        };
 
-        Engine engine { planOf (floorboard(), 1000.0) };
-        test::Led hand { std::function<Reading (int)> { way } };
+        Engine engine { planOf (graph, 1000.0) };
+        test::Led hand { std::function<Reading (int)> { [=] (int k)
+                                                        {
+                                                            Reading reading { .position = away + stroke (k) };
+                                                            if (k < from || k >= to) return reading;
+                                                            reading.position[which] = bad;
+                                                            reading.valid = ! told;
+                                                            return reading;
+                                                        } } };
         engine.attach ("stylus", hand);
         for (int k = 0; k < 1000; ++k)
             engine.tick();
-        for (const Vec3& f : hand.forces)
-            RC_ASSERT (isFinite (f));
 
-        // Once the contact has opened, nothing of it is left.
-        const auto well = felt (floorboard(), stroke, 1000);
-        for (std::size_t k = 700; k < well.size(); ++k)
-            RC_ASSERT (hand.forces[k] == well[k]); });
+        for (const Vec3& f : hand.forces)
+        {
+            RC_ASSERT (isFinite (f));
+            RC_ASSERT (f.norm() <= 1.5 * most);
+        }
+        for (std::size_t k = 700; k < well.size(); ++k)   // once the contact has opened, nothing of it is left
+            RC_ASSERT ((hand.forces[k] - well[k]).norm() < 1e-6 * most); });
 }
