@@ -97,8 +97,14 @@ TEST_CASE ("expert 16: millimetres are not metres, and radians are not cycles", 
     CHECK (sameBits (plain, felt (graph ("0.4 mm", "1 N/mm", "0.25 1/mm"), stroke, 1000)));
     CHECK (sameBits (plain, felt (graph ("400 um", "1 kN/m", "2.5 1/cm"), stroke, 1000)));
     CHECK_FALSE (sameBits (plain, felt (graph (0.4e-3, 1000.0, 2.0 * M_PI * 250.0), stroke, 1000)));
-    for (const auto& wrong : { "4 mm", "250 1/s", "250 N/m" })
+    for (const auto& wrong : { "4 mm", "250 1/s", "250 N/m", "1571 rad/m", "90000 deg/m" })
         CHECK (has (graph (0.4e-3, 1000.0, wrong).compile().messages, "param/unit"));
+
+    const auto rings = [] (const Json& frequency)
+    { return Sketch {}.node ("ring", "vibration.modal", Json::object(), { { "modes", { { { "frequency", frequency } } } } }).compile().messages; };
+    CHECK (rings ("0.1 kHz").empty());
+    CHECK (rings ("100 1/s").empty());
+    CHECK (has (rings ("628 rad/s"), "setting/value"));
 
     // Of k cycles per metre one is 1 / k long: the force comes back after it, and not after 2 pi of it.
     rc::prop ("any pitch, any place", [] (unsigned seed)
