@@ -87,7 +87,7 @@ void Guard::prepare (const GuardLimits& wanted, double dt_s) noexcept
 Guard::Stop Guard::causeOf (const Effort& wanted, const Reading& reading) const noexcept
 {
     if (! isFinite (wanted.force, wanted.torque)) return Stop::not_finite;
-    if (! reading.valid || ! (reading.age <= limits.watchdog)) return Stop::stale;
+    if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! (reading.age <= limits.watchdog)) return Stop::stale;
     if (asked_to_halt) return Stop::halted;
     return Stop::none;
 }

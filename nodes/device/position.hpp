@@ -10,7 +10,8 @@ namespace tactus::nodes
 ///
 /// The position is quantised as the device's encoders are. While the device has nothing to say, position and rotation
 /// stay at the last valid reading, so that a dropped packet moves nothing; `valid` and `age` tell. Before the first
-/// valid reading they are 0. A reading that is not finite is a fault: everything is 0 on that tick, and it is not kept.
+/// valid reading they are 0. A reading that is not finite is none: to put the tool at the origin for a tick would be a
+/// stroke through the world, and a hit at its end.
 struct DevicePosition
 {
     struct Inputs
@@ -50,14 +51,13 @@ struct DevicePosition
     Outputs tick (const Inputs&) noexcept
     {
         const Reading& now = device->reading;
-        if (! isFinite (now.position, now.rotation, now.age)) return {};
-
-        if (now.valid)
+        const bool tells = now.valid && isFinite (now.position, now.rotation, now.age);
+        if (tells)
         {
             position = now.position;
             rotation = now.rotation;
         }
-        return { .position = position, .rotation = rotation, .valid = now.valid ? 1.0 : 0.0, .age = now.age };
+        return { .position = position, .rotation = rotation, .valid = tells ? 1.0 : 0.0, .age = finiteOrZero (now.age) };
     }
 
 private:
