@@ -21,6 +21,7 @@ struct Known
     int decimals = 0;       ///< decimal exponent against SI
     double factor = 1.0;    ///< what is no power of ten
     bool prefixed = true;   ///< may carry a prefix
+    bool angle = false;
 };
 
 constexpr Known known[] = {
@@ -32,8 +33,8 @@ constexpr Known known[] = {
     { "W", { 2, 1, -3 } },
     { "Pa", { -1, 1, -2 } },
     { "Hz", { 0, 0, -1 } },
-    { "rad", {} },
-    { "deg", {}, 0, std::numbers::pi / 180.0, false },
+    { "rad", {}, 0, 1.0, true, true },
+    { "deg", {}, 0, std::numbers::pi / 180.0, false, true },
     { "%", {}, -2, 1.0, false },
 };
 
@@ -130,6 +131,7 @@ struct Product
 {
     int m = 0, kg = 0, s = 0, decimals = 0;
     double factor = 1.0;
+    bool angular = false;
 
     void multiply (const Known& unit, int power)
     {
@@ -137,6 +139,7 @@ struct Product
         kg += unit.dimension.kg * power;
         s += unit.dimension.s * power;
         decimals += unit.decimals * power;
+        angular = angular || (unit.angle && power != 0);
         if (unit.factor != 1.0) factor *= std::pow (unit.factor, power);
     }
 
@@ -223,7 +226,7 @@ std::variant<Measure, std::string> parseMeasure (std::string_view text)
     if (! std::isfinite (value)) return wrong (too_large);
     const auto narrow = [] (int p)
     { return static_cast<signed char> (p); };
-    return Measure { value, { narrow (product.m), narrow (product.kg), narrow (product.s) } };
+    return Measure { value, { narrow (product.m), narrow (product.kg), narrow (product.s) }, product.angular };
 }
 
 std::string symbolOf (Dimension d)

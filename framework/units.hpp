@@ -16,6 +16,7 @@ struct Measure
 {
     double value = 0.0;
     Dimension dimension;
+    bool angular = false;   ///< counts radians or degrees, which have no dimension: "6 rad/s" is not 6 Hz
 };
 
 /// Reads "0.4 mm", "1200 1/m", "2 N/mm", "60 mN", "1e-4 m/N", "5 %", "30 deg", "0.5" (a bare number has no dimension).

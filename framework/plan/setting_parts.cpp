@@ -21,6 +21,7 @@ double numberFrom (const Json& json, const UnitRule& unit, const std::string& ke
     const auto& n = std::get<Number> (read);
     if (unit.kind == UnitRule::Kind::fixed && n.dimension && *n.dimension != unit.unit.dimension)
         throw Problem { "its unit is " + symbolOf (*n.dimension) + ", but " + std::string (unit.unit.symbol) + " belongs here", key };
+    if (miscounts (n, unit)) throw Problem { miscount (json, unit), key };
     return n.value;
 }
 

@@ -200,6 +200,11 @@ private:
                                 "give it in " + symbolOf (*dimensions.dimension (v)) + ", or as a plain SI number");
                     return;
                 }
+                if (miscounts (*number, sheet.unit))
+                {
+                    flat.error ("param/unit", a.origin, "'" + flat.nameOf (a.to) + "': " + miscount (part, sheet.unit), "divide by that, and give it in " + std::string (sheet.unit.unit.symbol));
+                    return;
+                }
             }
     }
 

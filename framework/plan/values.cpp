@@ -105,14 +105,25 @@ std::variant<Number, std::string> readNumber (const Json& json)
     {
         const auto v = json.get<double>();
         if (! isFinite (v)) return "it is not a finite number";
-        return Number { v, {} };
+        return Number { .value = v, .dimension = {} };
     }
     if (! json.is_string()) return shown (json) + " is not a number, nor text with a unit";
 
     const auto parsed = parseMeasure (json.get_ref<const std::string&>());
     if (const auto* problem = std::get_if<std::string> (&parsed)) return *problem;
     const auto& m = std::get<Measure> (parsed);
-    return Number { m.value, m.dimension };
+    return Number { m.value, m.dimension, m.angular };
+}
+
+bool miscounts (const Number& n, const UnitRule& unit) noexcept
+{
+    const auto q = unit.unit.quantity;
+    return n.angular && unit.kind == UnitRule::Kind::fixed && (q == Quantity::frequency || q == Quantity::spatial_frequency || q == Quantity::rate);
+}
+
+std::string miscount (const Json& json, const UnitRule& unit)
+{
+    return shown (json) + " counts radians or degrees, " + std::string (unit.unit.symbol) + " whole cycles: 2 pi rad, 360 deg";
 }
 
 void readParams (Flat& flat)

@@ -13,7 +13,14 @@ struct Number
 {
     double value = 0.0;
     std::optional<Dimension> dimension;
+    bool angular = false;   ///< written in radians or degrees
 };
+
+/// True if the number counts radians where cycles are counted: "6 rad/s" given for 1 Hz.
+bool miscounts (const Number&, const UnitRule&) noexcept;
+
+/// What to say then.
+std::string miscount (const Json&, const UnitRule&);
 
 /// A value as it was written, cut where it grows long. Text from the command line may be any bytes.
 std::string shown (const Json&);
