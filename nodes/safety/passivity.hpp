@@ -26,8 +26,9 @@ namespace tactus::nodes
 ///    It credits sigma dp^2 / 2 per sample to a spring, as much as the hold leaks, so it does not see the leak: against
 ///    a wall that buzzes it does nothing (see the test).
 ///  - A cap. Without one the damper itself is too much for the sampled mass, and the controller diverges: 11 of 12 swept
-///    cases, to 1e6 N. The bound is B + 2 M / T. alpha_max 0 stands for mass / (2 T); more than 2 mass / T is not given,
-///    whatever alpha_max says.
+///    cases, to 1e6 N. The bound is B + 2 M / T, less with a wall behind it. alpha_max 0 stands for mass / (2 T); more
+///    than 1.8 mass / T is not given, whatever alpha_max says: at 2 a wall of 8000 N/m is calm for some seconds, and then
+///    throws the hand back with kilonewtons.
 ///
 /// What to expect: a buzz of millimetres shrinks to a tenth or less (K = 3000 N/m, B = 0.5 N s/m, M = 0.1 kg, T = 1 ms,
 /// a hand of 1.5 N: from 12 to 0.13 mm in 3 s), not to silence. With a cap E dips below 0 for a while: it recovers, that
@@ -84,7 +85,7 @@ struct PassivityObserver
         input (&Inputs::position, "position", unit::metre, "tool position p"),
         input (&Inputs::force, "force", unit::newton, "of the object on the tool f"),
         input (&Inputs::contact, "contact", unit::state, "0 resets the energy"),
-        param (&Params::alpha_max, "alpha_max", unit::damping, "most damping it adds; 0: mass / (2 T); never above 2 mass / T", { .hard = { 0, inf }, .usual = { 0, 200 } }),
+        param (&Params::alpha_max, "alpha_max", unit::damping, "most damping it adds; 0: mass / (2 T); never above 1.8 mass / T", { .hard = { 0, inf }, .usual = { 0, 200 } }),
         param (&Params::mass, "mass", unit::kilogram, "of the device, as the hand feels it", { .hard = { 0, inf }, .usual = { 0, 1 } }),
         choice (&Params::pairing, "pairing", pairing_names, "which force moves by dp: the held one, or the new one"),
         output (&Outputs::force, "force", unit::newton, "force on the tool, braked f_out"),
@@ -133,8 +134,8 @@ private:
 
     double cap() const noexcept
     {
-        const double critical = 2.0 * params.mass / dt;
-        return params.alpha_max > 0.0 ? std::min (params.alpha_max, critical) : 0.25 * critical;
+        const double momentum = params.mass / dt;   // of which 2, and the device's own damping, are too much
+        return params.alpha_max > 0.0 ? std::min (params.alpha_max, 1.8 * momentum) : 0.5 * momentum;
     }
 
     Outputs fault() noexcept
