@@ -3,12 +3,36 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace tactus
 {
 
-MeshWalk::MeshWalk (Mesh m) : body (std::move (m)), first (body.points.size() + 1, 0), around (3 * body.triangles.size())
+namespace
+{
+std::vector<std::array<bool, 3>> rimOf (const Mesh& mesh)
+{
+    std::map<std::pair<int, int>, int> sides;   // of each edge
+    const auto edge = [&] (std::size_t triangle, std::size_t opposite)
+    {
+        const auto& corners = mesh.triangles[triangle];
+        return std::minmax (corners[(opposite + 1) % 3], corners[(opposite + 2) % 3]);
+    };
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (std::size_t i = 0; i < 3; ++i)
+            ++sides[edge (t, i)];
+
+    std::vector<std::array<bool, 3>> rim (mesh.triangles.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (std::size_t i = 0; i < 3; ++i)
+            rim[t][i] = sides[edge (t, i)] == 1;
+    return rim;
+}
+}   // namespace
+
+MeshWalk::MeshWalk (Mesh m) : body (std::move (m)), rim (rimOf (body)), first (body.points.size() + 1, 0), around (3 * body.triangles.size())
 {
     for (const auto& corners : body.triangles)
         for (const int c : corners)
@@ -50,6 +74,38 @@ Spot MeshWalk::nearest (int from, const Vec3& p) const noexcept
         here = best;
     }
     return here;
+}
+
+bool MeshWalk::isBeyondRim (const Spot& spot, const Vec3& p) const noexcept
+{
+    constexpr double beyond = 1e-9;   // relative: what lies right above the rim is not past it
+    const Vec3 away = p - spot.on.point;
+    const auto passes = [&] (int triangle)
+    {
+        const auto t = static_cast<std::size_t> (triangle);
+        const auto& corners = body.triangles[t];
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+            if (! rim[t][i]) continue;
+            const auto& a = body.points[static_cast<std::size_t> (corners[(i + 1) % 3])];
+            const auto& b = body.points[static_cast<std::size_t> (corners[(i + 2) % 3])];
+            const Vec3 along = b - a, inward = body.points[static_cast<std::size_t> (corners[i])] - a;
+            if (along.cross (spot.on.point - a).norm() > beyond * along.squaredNorm()) continue;   // on another edge
+            const Vec3 outward = -direction (inward - along * (inward.dot (along) / along.squaredNorm()));
+            if (outward.dot (away) > beyond * away.norm()) return true;
+        }
+        return false;
+    };
+
+    const auto& weights = spot.on.weights;
+    const auto t = static_cast<std::size_t> (spot.triangle);
+    for (std::size_t i = 0; i < 3; ++i)
+        if (weights[i] == 1.0)
+        {
+            const auto corner = static_cast<std::size_t> (body.triangles[t][i]);
+            return std::any_of (around.begin() + first[corner], around.begin() + first[corner + 1], passes);
+        }
+    return std::ranges::count (weights, 0.0) > 0 && passes (spot.triangle);
 }
 
 std::vector<Vec3> normalsOf (const Mesh& mesh)

@@ -27,12 +27,16 @@ public:
     /// edge it stays where it is. [any thread]
     Spot nearest (int from, const Vec3& p) const noexcept;
 
+    /// True if the point lies on the rim of an open mesh and p beyond it: past the end, neither above nor below.
+    bool isBeyondRim (const Spot&, const Vec3& p) const noexcept;
+
     /// The nearest of all, by looking at each triangle.
     Spot nearestOfAll (const Vec3& p) const noexcept { return at (tactus::nearestOfAll (body, p), p); }
 
 private:
     Mesh body;
-    std::vector<int> first, around;   // around[first[i]] … around[first[i + 1]]: the triangles that share point i
+    std::vector<std::array<bool, 3>> rim;   // of each triangle, the edge opposite of each corner has nothing beyond it
+    std::vector<int> first, around;         // around[first[i]] … around[first[i + 1]]: the triangles that share point i
 };
 
 /// At each point the mean of the normals of its triangles, weighted by their angles, out of the body. A point without

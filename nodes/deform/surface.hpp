@@ -55,6 +55,7 @@ namespace tactus::nodes
 ///    the nearest patch.
 ///  - A slip is one step of eq. (7). Where mu_c or the frames change over the mesh it ends near the bound, not on it, and
 ///    the rest follows on the next ticks, also of a tool at rest: some ten of them.
+///  - Past the rim of an open mesh there is nothing: a contact that is dragged off lets go, and beyond it none begins.
 ///  - Energy in the sideways stretch at the moment the tool lets go is dissipated.
 struct ElasticSurface
 {
@@ -309,7 +310,7 @@ private:
 
         touch.tool = toolAt (in.tool);
         const double depth = feel (near, p, touch.tool).d.z();
-        if (! (depth > 0.0)) return;
+        if (! (depth > 0.0) || body->walk.isBeyondRim (near, p)) return;
         touch.spot = near;
         touch.frictionless = params.friction == Friction::frictionless || std::ranges::all_of (settings.surface->mu, [] (const Ratio& r)
                                                                                                { return ! r.law && r.number == 0.0; });
@@ -330,12 +331,14 @@ private:
     void glide (const Vec3& p) noexcept
     {
         touch.spot = body->walk.nearest (touch.spot.triangle, p);
-        if (! (feel (touch.spot, p, touch.tool).d.z() > 0.0)) letGo (p);
+        if (! (feel (touch.spot, p, touch.tool).d.z() > 0.0) || body->walk.isBeyondRim (touch.spot, p)) letGo (p);
     }
 
     void stick (const Vec3& p) noexcept
     {
-        constexpr double guard = 1e-9;   // relative: a steady slip ends exactly on the bound, where rounding would chatter
+        constexpr double guard = 1e-9;      // relative: a steady slip ends exactly on the bound, where rounding would chatter
+        constexpr double past_rim = 1e-3;   // relative: a rim that holds the contact back, not a turn of the frame
+        bool off = false;
         Felt felt = feel (touch.spot, p, touch.tool);
         const double bound = std::max (0.0, ratio (touch.spot, felt.d.z()) * felt.d.z());
         const double across = std::hypot (felt.d.x(), felt.d.y());
@@ -347,8 +350,9 @@ private:
             touch.slipped = true;
             felt = feel (touch.spot, p, touch.tool);
             dissipate (before - felt.energy);
+            off = std::hypot (felt.d.x(), felt.d.y()) > bound * (1.0 + past_rim) && body->walk.isBeyondRim (touch.spot, p);
         }
-        if (felt.d.z() > 0.0) return;
+        if (felt.d.z() > 0.0 && ! off) return;
         dissipate (felt.energy);
         letGo (p);
     }

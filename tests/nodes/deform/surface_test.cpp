@@ -503,3 +503,38 @@ TEST_CASE ("surface: a new instance on the same mesh keeps the contact", "[nodes
     other.adopt (old);
     CHECK (other.tick ({ .position = Vec3 (0.0205, 0.02, -0.002) }).force.isApprox (Vec3 (0.0, 0.0, 2.0), 1e-12));
 }
+
+TEST_CASE ("surface: past the rim of an open mesh there is nothing to touch", "[nodes][deform]")
+{
+    for (const auto friction : { Frictions::bound, Frictions::frictionless })
+    {
+        auto node = made (body (flat(), { { curves (400.0, 1000.0) } }, { { .number = 0.5 } }), friction);
+        CHECK (node.tick ({ .position = Vec3 (0.3, 0.02, -0.002) }).state == 0.0);
+        CHECK (node.tick ({ .position = Vec3 (0.05, 0.05, -0.002) }).state == 0.0);
+
+        double most = 0.0;
+        ElasticSurface::Outputs out;
+        for (int k = 0; k <= 1000; ++k)
+        {
+            out = node.tick ({ .position = Vec3 (0.02 + 3e-5 * k, 0.0213, -0.002) });
+            most = std::max (most, std::hypot (out.force.x(), out.force.y()));
+        }
+        CHECK (out.state == 0.0);
+        CHECK (most <= 400.0 * 0.001 + 1e-9);   // k_t mu d^z
+        CHECK (node.tick ({ .position = Vec3 (0.02, 0.02, -0.002) }).state > 0.0);
+    }
+}
+
+TEST_CASE ("surface: a closed body has no rim", "[nodes][deform]")
+{
+    rc::prop ("points inside and outside a ball", [] (unsigned seed)
+              {
+        std::mt19937 dice (seed);
+        std::normal_distribution<double> bell;
+        const MeshWalk walk { ball (0.03, 2) };
+        for (int k = 0; k < 50; ++k)
+        {
+            const Vec3 p = 0.03 * Vec3 (bell (dice), bell (dice), bell (dice));
+            RC_ASSERT (! walk.isBeyondRim (walk.nearestOfAll (p), p));
+        } });
+}
