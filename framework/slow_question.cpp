@@ -20,14 +20,23 @@ SlowAnswers::~SlowAnswers()
 
 void SlowAnswers::add (Asker& asker)
 {
-    const std::scoped_lock lock (guard);
+    const auto lock = turn();
     askers.push_back (&asker);
 }
 
 void SlowAnswers::remove (Asker& asker)
 {
-    const std::scoped_lock lock (guard);
+    const auto lock = turn();
     std::erase (askers, &asker);
+}
+
+/// A mutex is not fair: a busy thread would take it again at once, round after round.
+std::unique_lock<std::mutex> SlowAnswers::turn()
+{
+    ++waiting;
+    std::unique_lock lock (guard);
+    --waiting;
+    return lock;
 }
 
 void SlowAnswers::run()
@@ -43,6 +52,8 @@ void SlowAnswers::run()
                 any = asker->answer() || any;
         }
         if (! any) std::this_thread::sleep_for (pause);
+        while (waiting > 0)
+            std::this_thread::sleep_for (pause);
     }
 }
 

@@ -45,13 +45,15 @@ public:
     void add (Asker&);      // [main thread]
     void remove (Asker&);   // [main thread] waits until nothing of this asker is being answered
 
-    void noteLate() noexcept { late_ticks.fetch_add (1, std::memory_order_relaxed); }             // [tick thread]
-    std::uint64_t late() const noexcept { return late_ticks.load (std::memory_order_relaxed); }   ///< of all askers   [any thread]
+    void noteLate() noexcept { late_ticks.fetch_add (1, std::memory_order_relaxed); }                  // [tick thread]
+    std::uint64_t lateTicks() const noexcept { return late_ticks.load (std::memory_order_relaxed); }   ///< of all askers together [any thread]
 
 private:
     void run();
+    std::unique_lock<std::mutex> turn();
 
     std::mutex guard;   // of askers
+    std::atomic<int> waiting = 0;
     std::vector<Asker*> askers;
     std::atomic<bool> stopping = false;
     std::atomic<std::uint64_t> late_ticks = 0;
@@ -148,8 +150,8 @@ private:
     {
         slots[static_cast<std::size_t> (now % slots.size())].dropped = true;
         if (late_ticks.size() < late_capacity) late_ticks.push_back (now);
-        if (next_repeat < to_repeat.size()) ++next_repeat;
         if (answers) answers->noteLate();
+        if (next_repeat < to_repeat.size()) ++next_repeat;
     }
 
     static constexpr std::size_t late_capacity = 4096;

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+#include <framework/slow_question.hpp>
+
+#include "support/no_allocation.hpp"
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <chrono>
+#include <limits>
+
+using namespace tactus;
+
+namespace
+{
+using Question = long long;   // the tick it is asked on
+using Answer = long long;
+using Slow = SlowQuestion<Question, Answer>;
+
+Answer square (const Question& q) { return q * q; }
+
+/// Answers a question only when the gate is open for it.
+struct Gate
+{
+    std::atomic<Question> open_to = -1;
+
+    Answer operator() (const Question& q) const noexcept
+    {
+        while (q > open_to)
+            std::this_thread::yield();
+        return square (q);
+    }
+    void open() { open_to = std::numeric_limits<Question>::max(); }
+};
+
+/// Sees when the thread has been round once more, so that all it began before is done.
+struct Rounds final : Asker
+{
+    std::atomic<int> count = 0;
+
+    bool answer() noexcept override
+    {
+        ++count;
+        return false;
+    }
+    void wait()
+    {
+        for (const int before = count; count < before + 2;)
+            std::this_thread::yield();
+    }
+};
+
+struct Run
+{
+    std::vector<std::optional<Answer>> answers;
+    std::vector<std::uint64_t> late;
+
+    bool operator== (const Run&) const = default;
+};
+
+std::vector<std::uint64_t> copied (std::span<const std::uint64_t> s) { return { s.begin(), s.end() }; }
+
+std::vector<bool> asksFrom (const std::vector<int>& dice)
+{
+    std::vector<bool> asks;
+    for (const int d : dice)
+        asks.push_back (d != 0);
+    return asks;
+}
+
+std::optional<Question> asked (const std::vector<bool>& asks, std::size_t k) { return asks[k] ? std::optional (static_cast<Question> (k)) : std::nullopt; }
+
+void checkAnswers (const std::vector<bool>& asks, const Run& run, int ticks)
+{
+    for (std::size_t k = 0; k < run.answers.size(); ++k)
+        if (run.answers[k])
+        {
+            RC_ASSERT (k >= static_cast<std::size_t> (ticks));
+            const auto then = k - static_cast<std::size_t> (ticks);
+            RC_ASSERT (asks[then]);
+            RC_ASSERT (*run.answers[k] == square (static_cast<Question> (then)));
+        }
+}
+}   // namespace
+
+TEST_CASE ("without a thread a question is answered exactly so many ticks later, and nothing is late", "[slow]")
+{
+    rc::prop ("any questions", []
+              {
+        const int ticks = *rc::gen::inRange (1, 9);
+        const auto asks = asksFrom (*rc::gen::container<std::vector<int>> (rc::gen::inRange (0, 3)));
+        Slow slow { square, ticks, nullptr };
+        for (std::size_t k = 0; k < asks.size(); ++k)
+        {
+            const auto answer = slow (asked (asks, k));
+            const auto then = static_cast<long long> (k) - ticks;
+            const bool due = then >= 0 && asks[static_cast<std::size_t> (then)];
+            RC_ASSERT (answer == (due ? std::optional (square (then)) : std::nullopt));
+        }
+        RC_ASSERT (slow.lateTicks().empty()); });
+}
+
+TEST_CASE ("with a thread that is in time the answers are the same", "[slow]")
+{
+    SlowAnswers thread;
+    Rounds rounds;
+    Slow with { square, 3, &thread }, without { square, 3, nullptr };
+    thread.add (rounds);
+    for (Question k = 0; k < 100; ++k)
+    {
+        const auto ask = k % 3 == 1 ? std::nullopt : std::optional (k);
+        CHECK (with (ask) == without (ask));
+        rounds.wait();
+    }
+    thread.remove (rounds);
+    CHECK (with.lateTicks().empty());
+    CHECK (thread.lateTicks() == 0);
+}
+
+TEST_CASE ("an answer that is late is dropped, and its place stays taken until it is there", "[slow]")
+{
+    SlowAnswers thread;
+    Gate gate;
+    Rounds rounds;
+    Slow slow { std::ref (gate), 3, &thread };
+    thread.add (rounds);
+
+    Run run;
+    for (Question k = 0; k < 14; ++k)
+    {
+        if (k == 8)
+        {
+            gate.open();
+            rounds.wait();
+        }
+        run.answers.push_back (slow (k));
+        if (k >= 8) rounds.wait();
+    }
+    thread.remove (rounds);
+
+    // What was asked on ticks 0, 1, 2 fills all places until 8; their answers are not wanted any more.
+    CHECK (copied (slow.lateTicks()) == std::vector<std::uint64_t> { 3, 4, 5, 6, 7 });
+    CHECK (thread.lateTicks() == 5);
+    for (std::size_t k = 0; k < 11; ++k)
+        CHECK_FALSE (run.answers[k]);
+    CHECK (run.answers[11] == 64);
+    CHECK (run.answers[12] == 81);
+    CHECK (run.answers[13] == 100);
+}
+
+TEST_CASE ("whatever was late, a run is repeated exactly from its late ticks", "[slow]")
+{
+    int late_runs = 0, answered_runs = 0;
+    rc::prop ("any latenesses", [&]
+              {
+        const int ticks = *rc::gen::inRange (1, 7);
+        const auto asks = asksFrom (*rc::gen::container<std::vector<int>> (30, rc::gen::inRange (0, 4)));
+        const auto lags = *rc::gen::container<std::vector<Question>> (asks.size(), rc::gen::inRange<Question> (0, 8));
+
+        Run live;
+        {
+            SlowAnswers thread;
+            Gate gate;
+            Rounds rounds;
+            Slow slow { std::ref (gate), ticks, &thread };
+            thread.add (rounds);
+            for (std::size_t k = 0; k < asks.size(); ++k)
+            {
+                gate.open_to = std::max (gate.open_to.load(), static_cast<Question> (k) - lags[k]);
+                if (lags[k] <= 0) rounds.wait();
+                live.answers.push_back (slow (asked (asks, k)));
+            }
+            live.late = copied (slow.lateTicks());
+            RC_ASSERT (thread.lateTicks() == live.late.size());
+            gate.open();
+            thread.remove (rounds);
+        }
+        checkAnswers (asks, live, ticks);
+        late_runs += live.late.empty() ? 0 : 1;
+        answered_runs += std::ranges::any_of (live.answers, [] (const auto& a) { return a.has_value(); }) ? 1 : 0;
+
+        Run again;
+        Slow slow { square, ticks, nullptr };
+        slow.repeat (live.late);
+        for (std::size_t k = 0; k < asks.size(); ++k)
+            again.answers.push_back (slow (asked (asks, k)));
+        again.late = copied (slow.lateTicks());
+        RC_ASSERT (again == live); });
+    CHECK (late_runs > 10);
+    CHECK (answered_runs > 10);
+}
+
+TEST_CASE ("asking allocates nothing and takes no lock, however many ticks are late", "[slow]")
+{
+    if (! NoAllocation::watches)
+    {
+        WARN ("skipped: a sanitizer has its own allocator");
+        return;
+    }
+    SlowAnswers thread;
+    Gate gate;
+    Slow slow { std::ref (gate), 2, &thread }, alone { square, 2, nullptr };
+    int allocations = 0, locks = 0;
+    {
+        const NoAllocation watch;
+        for (Question k = 0; k < 10'000; ++k)
+        {
+            slow (k);
+            alone (k);
+        }
+        allocations = watch.allocations();
+        locks = watch.locks();
+    }
+    gate.open();
+    CHECK (allocations == 0);
+    CHECK (locks == 0);
+    CHECK (slow.lateTicks().size() == 4096);
+    CHECK (thread.lateTicks() == 9'998);
+}
+
+TEST_CASE ("an asker comes and goes while others keep the thread busy", "[slow]")
+{
+    struct Busy final : Asker
+    {
+        std::atomic<long long> answered = 0;
+        bool answer() noexcept override
+        {
+            for (const auto until = std::chrono::steady_clock::now() + std::chrono::microseconds (300); std::chrono::steady_clock::now() < until;)
+                ;
+            ++answered;
+            return true;
+        }
+    };
+    SlowAnswers thread;
+    Busy busy;
+    thread.add (busy);
+
+    long long longest = 0;
+    for (int i = 0; i < 20; ++i)
+    {
+        const auto before = busy.answered.load();
+        while (busy.answered == before)
+            std::this_thread::yield();
+        Rounds other;
+        const auto from = busy.answered.load();
+        thread.add (other);
+        longest = std::max (longest, busy.answered - from);
+        thread.remove (other);
+    }
+    thread.remove (busy);
+    CHECK (longest <= 2);   // the round that goes on, and one that began meanwhile
+}
+
+TEST_CASE ("what is asked last is answered even when the asker leaves at once", "[slow]")
+{
+    SlowAnswers thread;
+    for (int i = 0; i < 200; ++i)
+    {
+        Slow slow { square, 2, &thread };
+        for (Question k = 0; k < i % 5; ++k)
+            slow (k);
+    }
+    SUCCEED();
+}
