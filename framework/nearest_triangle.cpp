@@ -23,13 +23,14 @@ OnTriangle between (const Vec3& a, const Vec3& b, int i, int j, const Vec3& p) n
 OnTriangle nearestOn (const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) noexcept
 {
     const Vec3 u = b - a, v = c - a, w = p - a;
-    const double uu = u.squaredNorm(), uv = u.dot (v), vv = v.squaredNorm(), wu = w.dot (u), wv = w.dot (v);
-    const double area2 = uu * vv - uv * uv;
-    if (area2 > 0.0)
+    const double uu = u.squaredNorm(), lean = u.dot (v) / uu;
+    const Vec3 across = v - lean * u;   // the height over u; the way by products of edges loses all digits on slivers
+    const double height2 = across.squaredNorm();
+    if (height2 > 0.0)
     {
-        const double second = (wu * vv - wv * uv) / area2, third = (wv * uu - wu * uv) / area2;
+        const double third = w.dot (across) / height2, second = w.dot (u) / uu - third * lean;
         if (second >= 0.0 && third >= 0.0 && second + third <= 1.0)
-            return { { 1.0 - second - third, second, third }, a + second * u + third * v };
+            return { { std::max (0.0, 1.0 - second - third), second, third }, a + second * u + third * v };
     }
     const OnTriangle edges[] { between (a, b, 0, 1, p), between (b, c, 1, 2, p), between (c, a, 2, 0, p) };
     return *std::ranges::min_element (edges, {}, [&] (const OnTriangle& on)
