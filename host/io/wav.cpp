@@ -75,7 +75,7 @@ double sampleFrom (int raw, const juce::AudioFormatReader& reader)
 }
 }   // namespace
 
-tl::expected<Recording, Error> readWav (const std::filesystem::path& path)
+tl::expected<Signal, Error> readWav (const std::filesystem::path& path)
 {
     const auto full_path = std::filesystem::absolute (path).string();
     auto stream = juce::File (juce::String::fromUTF8 (full_path.c_str())).createInputStream();
@@ -102,8 +102,7 @@ tl::expected<Recording, Error> readWav (const std::filesystem::path& path)
 
     const auto frames = static_cast<std::size_t> (reader->lengthInSamples);
     const std::size_t channels = reader->numChannels;
-    Recording recording { .sample_rate_hz = reader->sampleRate,
-                          .channels = std::vector (channels, std::vector<double> (frames)) };
+    Signal recording { .rate_hz = reader->sampleRate, .channels = std::vector (channels, std::vector<double> (frames)) };
 
     std::vector<std::vector<int>> block (channels, std::vector<int> (frames_per_block));
     std::vector<int*> pointers;

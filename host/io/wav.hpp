@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <framework/assets.hpp>
 #include <host/io/error.hpp>
 
 #include <tl/expected.hpp>
@@ -9,21 +10,13 @@
 #include <filesystem>
 #include <memory>
 #include <span>
-#include <vector>
 
 namespace tactus::host
 {
 
-/// What readWav brings back, one vector of samples a channel, all of one length.
-struct Recording
-{
-    double sample_rate_hz = 0.0;
-    std::vector<std::vector<double>> channels;
-};
-
 /// Reads 32-bit float samples as they are, which in files of ours are SI values, and integer samples (8 to 32 bit)
 /// as -1…1. Ids of errors: wav/unreadable, wav/not_a_wav, wav/truncated, wav/too_many_channels.
-[[nodiscard]] tl::expected<Recording, Error> readWav (const std::filesystem::path& path);
+[[nodiscard]] tl::expected<Signal, Error> readWav (const std::filesystem::path& path);
 
 /// Writes 32-bit float samples, unscaled and unclipped, frame by frame; over 4 GB the file becomes an RF64.
 /// The file appears on commit() or not at all.

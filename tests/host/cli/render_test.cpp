@@ -96,7 +96,7 @@ TEST_CASE ("a run may write a table, a wave and a picture at once, one channel a
     const auto wave = host::readWav (scratch.path ("w.wav"));
     REQUIRE (table);
     REQUIRE (wave);
-    CHECK (wave->sample_rate_hz == 4000.0);
+    CHECK (wave->rate_hz == 4000.0);
     REQUIRE (wave->channels.size() == 4);
     REQUIRE (wave->channels[0].size() == table->rows());
     for (std::size_t r = 0; r < table->rows(); ++r)

@@ -83,7 +83,7 @@ TEST_CASE ("wav: every float comes back bit for bit, however large, in any numbe
 
         const auto recording = readWav (folder / "out.wav");
         RC_ASSERT (recording.has_value());
-        RC_ASSERT (recording->sample_rate_hz == rate);
+        RC_ASSERT (recording->rate_hz == rate);
         RC_ASSERT (recording->channels.size() == channels);
         for (std::size_t channel = 0; channel < channels; ++channel)
         {
