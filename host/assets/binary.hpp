@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+namespace tactus::host
+{
+
+/// Takes a number off the front of bytes, or nothing if there are too few.
+template <typename T>
+std::optional<T> takeNumber (std::string_view& bytes, std::endian order) noexcept
+{
+    if (bytes.size() < sizeof (T)) return std::nullopt;
+    std::array<char, sizeof (T)> raw;
+    std::copy_n (bytes.begin(), raw.size(), raw.begin());
+    if (order != std::endian::native) std::ranges::reverse (raw);
+    bytes.remove_prefix (raw.size());
+    return std::bit_cast<T> (raw);
+}
+
+}   // namespace tactus::host

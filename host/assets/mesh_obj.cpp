@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh_parts.hpp"
+
+namespace tactus::host
+{
+
+/// Points and faces; all else (normals, texture, groups, materials, curves) is passed over. A corner is written
+/// point/texture/normal, and counted from 1, or back from the last point if negative.
+void readObj (std::string_view bytes, MeshBuilder& mesh)
+{
+    Lines lines (bytes);
+    std::vector<long long> corners;
+    while (auto line = lines.next())
+    {
+        const auto keyword = takeWord (*line);
+        if (keyword == "v") mesh.point (takePoint (*line, lines.number()), lines.number());
+        if (keyword != "f") continue;
+
+        corners.clear();
+        for (auto word = takeWord (*line); ! word.empty() && word[0] != '#'; word = takeWord (*line))
+        {
+            const auto number = wholeNumber (word.substr (0, word.find ('/')), lines.number());
+            corners.push_back (number < 0 ? mesh.points() + number : number - 1);
+        }
+        mesh.face (corners, lines.number());
+    }
+}
+
+}   // namespace tactus::host

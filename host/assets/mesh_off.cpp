@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh_parts.hpp"
+
+namespace tactus::host
+{
+
+namespace
+{
+/// The next line that says something, without its comment.
+std::string_view nextLine (Lines& lines)
+{
+    while (const auto line = lines.next())
+    {
+        auto said = line->substr (0, line->find ('#')), first = said;
+        if (! takeWord (first).empty()) return said;
+    }
+    throw MeshProblem { "mesh/truncated", "it ends before the last of its points and faces", lines.number() };
+}
+}   // namespace
+
+/// OFF, also with the normals, colours and texture coordinates of NOFF, COFF and STOFF, which are passed over.
+void readOff (std::string_view bytes, MeshBuilder& mesh)
+{
+    Lines lines (bytes);
+    auto line = nextLine (lines), counts = line;
+    if (const auto keyword = takeWord (line); keyword.ends_with ("OFF"))
+    {
+        if (keyword.find_first_of ("4n") != std::string_view::npos) throw MeshProblem { "mesh/syntax", "its points have more than three dimensions", lines.number() };
+        auto rest = line;
+        counts = takeWord (rest).empty() ? nextLine (lines) : line;
+    }
+    if (auto rest = counts; takeWord (rest) == "BINARY") throw MeshProblem { "mesh/syntax", "a binary OFF is not understood; text is", lines.number() };
+    const auto points = wholeNumber (takeWord (counts), lines.number());
+    const auto faces = wholeNumber (takeWord (counts), lines.number());
+
+    for (long long i = 0; i < points; ++i)
+    {
+        auto at = nextLine (lines);
+        mesh.point (takePoint (at, lines.number()), lines.number());
+    }
+    std::vector<long long> corners;
+    for (long long i = 0; i < faces; ++i)
+    {
+        auto face = nextLine (lines);
+        corners.clear();
+        for (auto left = wholeNumber (takeWord (face), lines.number()); left > 0; --left)
+            corners.push_back (wholeNumber (takeWord (face), lines.number()));
+        mesh.face (corners, lines.number());
+    }
+}
+
+}   // namespace tactus::host

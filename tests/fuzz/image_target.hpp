@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "whole_error.hpp"
+
+#include <host/assets/image.hpp>
+
+namespace tactus::fuzz
+{
+
+/// Bytes are a picture from black to white, or an error. Aborts if not.
+inline void tryImage (std::string_view bytes)
+{
+    const auto grid = host::readImage (bytes, "fuzz.png");
+    if (! grid) return checkWhole (grid.error());
+    if (grid->rows < 1 || grid->columns < 1 || grid->values.size() != static_cast<std::size_t> (grid->rows) * static_cast<std::size_t> (grid->columns)) std::abort();
+    for (const double grey : grid->values)
+        if (! (grey >= 0.0 && grey <= 1.0)) std::abort();
+}
+
+}   // namespace tactus::fuzz

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "whole_error.hpp"
+
+#include <host/assets/mesh.hpp>
+
+#include <string>
+
+namespace tactus::fuzz
+{
+
+/// Bytes are, as a file of any kind, a mesh whose triangles have three different points of it, which are finite; or an
+/// error with a place. Aborts if not.
+inline void tryMesh (std::string_view bytes)
+{
+    for (const auto* name : { "fuzz.obj", "fuzz.off", "fuzz.ply", "fuzz.stl" })
+    {
+        const auto mesh = host::readMesh (bytes, name);
+        if (! mesh)
+        {
+            checkWhole (mesh.error());
+            continue;
+        }
+        if (mesh->triangles.empty()) std::abort();
+        for (const auto& p : mesh->points)
+            if (! isFinite (p)) std::abort();
+        for (const auto& t : mesh->triangles)
+        {
+            if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) std::abort();
+            for (const int corner : t)
+                if (corner < 0 || corner >= static_cast<int> (mesh->points.size())) std::abort();
+        }
+    }
+}
+
+}   // namespace tactus::fuzz

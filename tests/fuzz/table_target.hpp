@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "whole_error.hpp"
+
+#include <host/assets/table.hpp>
+
+#include <algorithm>
+
+namespace tactus::fuzz
+{
+
+/// A text is a full grid of finite numbers, or an error with a place. Aborts if not.
+inline void tryTable (std::string_view text)
+{
+    const auto grid = host::readGrid (text, "fuzz.csv");
+    if (! grid) return checkWhole (grid.error());
+    if (grid->rows < 1 || grid->columns < 1 || grid->values.size() != static_cast<std::size_t> (grid->rows) * static_cast<std::size_t> (grid->columns)) std::abort();
+    if (! std::ranges::all_of (grid->values, [] (double v)
+                               { return isFinite (v); })) std::abort();
+}
+
+}   // namespace tactus::fuzz

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/assets/table.hpp>
+
+#include "host/cli/program.hpp"
+
+#include <framework/number_text.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+using namespace tactus;
+using host::readGrid;
+
+namespace
+{
+void checkGrid (const std::string& text, int rows, int columns, const std::vector<double>& values)
+{
+    INFO (text);
+    const auto grid = readGrid (text, "a.csv");
+    INFO ((grid ? "" : describe (grid.error())));
+    REQUIRE (grid);
+    CHECK (grid->rows == rows);
+    CHECK (grid->columns == columns);
+    CHECK (grid->values == values);
+}
+
+std::string problem (const std::string& text)
+{
+    const auto grid = readGrid (text, "a.csv");
+    return grid ? "" : grid.error().id + " at " + grid.error().where;
+}
+}   // namespace
+
+TEST_CASE ("a table is read as spreadsheets, instruments and programs write it", "[host][assets][table]")
+{
+    const std::vector<double> six { 1, -2.5, 3e-3, 4, 5, 6 };
+    checkGrid ("1,-2.5,3e-3\n4,5,6\n", 2, 3, six);
+    checkGrid ("\xef\xbb\xbf"
+               "1;-2.5; 3e-3;\r\n4;5;6;\r\n",
+               2, 3, six);
+    checkGrid ("# Channel: Height\n# Width: 3 um\n1\t-2.5\t3e-3\n4\t5\t6", 2, 3, six);
+    checkGrid ("% of Matlab\n   1  -2.5 3e-3  \n\n  +4   5  6  \n\n", 2, 3, six);
+    checkGrid ("Scan Parameters\nScan Type,Standard Scan\nStylus,Radius: 2.5 \xb5m\n\nx,y,z\n1,-2.5,3e-3,,\n4,5,6,,\n", 2, 3, six);
+    checkGrid ("7\n", 1, 1, { 7 });
+    checkGrid ("1\n2\n3\n", 3, 1, { 1, 2, 3 });
+}
+
+TEST_CASE ("positions and heights become a row of heights, if the positions are even", "[host][assets][table]")
+{
+    checkGrid ("Lateral um,Raw Micrometer,\n0.0,-9,,\n0.2,-7,,\n0.3,-6,,\n0.5,1,,\n", 1, 4, { -9, -7, -6, 1 });
+    checkGrid ("0 5\n0 6\n0 7\n", 3, 2, { 0, 5, 0, 6, 0, 7 });   // two columns of heights
+    CHECK (problem ("x y\n0 1\n1 2\n2 3\n7 4\n") == "table/uneven at a.csv:2");
+}
+
+TEST_CASE ("a table that cannot be read says where and why", "[host][assets][table]")
+{
+    CHECK (problem ("") == "table/empty at a.csv:0");
+    CHECK (problem ("a,b\nc,d\n") == "table/empty at a.csv:2");
+    CHECK (problem ("1,2\n3\n") == "table/ragged_row at a.csv:2");
+    CHECK (problem ("1,2\n\n3,4 N\n") == "table/not_a_number at a.csv:3");
+    CHECK (problem ("1,2\n,,\n") == "table/ragged_row at a.csv:2");
+    CHECK (problem ("1,,2\n") == "table/not_a_number at a.csv:1");
+    CHECK (problem ("1,nan\n") == "table/not_a_number at a.csv:1");
+    CHECK (problem ("1,1e999\n") == "table/not_a_number at a.csv:1");
+    CHECK (problem ("1,2\nthree,4\n") == "table/not_a_number at a.csv:2");
+    CHECK (problem (std::string ("1\0002\n", 4)) == "table/binary at a.csv:1");
+
+    const auto commas = readGrid ("1;2,5\n", "a.csv");
+    REQUIRE_FALSE (commas);
+    CHECK (commas.error().remedy == "write decimal points instead of commas");
+}
+
+TEST_CASE ("what is written as text is read back to the bit", "[host][assets][table]")
+{
+    rc::prop ("any grid, any separator", []
+              {
+        const int rows = *rc::gen::inRange (1, 6), columns = *rc::gen::inRange (3, 6);
+        const auto separator = *rc::gen::element<std::string> (",", ";", "\t", " ", " , ", "; ");
+        const auto end = *rc::gen::element<std::string> ("\n", "\r\n", "\r", "\n\n");
+        std::vector<double> values;
+        std::string text;
+        for (int i = 0; i < rows * columns; ++i)
+        {
+            values.push_back (*rc::gen::arbitrary<double>() * std::pow (10.0, *rc::gen::inRange (-300, 300)));
+            if (! isFinite (values.back())) values.back() = 0.0;
+            text += numberText (values.back()) + ((i + 1) % columns == 0 ? end : separator);
+        }
+        const auto grid = readGrid (text, "a.csv");
+        RC_ASSERT (grid);
+        RC_ASSERT (grid->rows == rows);
+        RC_ASSERT (grid->columns == columns);
+        RC_ASSERT (grid->values == values); });
+}
+
+TEST_CASE ("files of profilometers are read as they come", "[host][assets][table][data]")
+{
+    const auto folder = test::sharedData ("topography_contactengineering");
+    if (folder.empty()) return;
+
+    const auto dektak = readGrid (test::textOf (folder + "/dektak-1.csv"), "dektak-1.csv"), xy = readGrid (test::textOf (folder + "/xy-4.txt"), "xy-4.txt");
+    INFO ((dektak ? "" : describe (dektak.error())));
+    INFO ((xy ? "" : describe (xy.error())));
+    REQUIRE (dektak);
+    CHECK (dektak->rows == 1);
+    CHECK (dektak->columns > 9000);
+    CHECK (dektak->values.front() == -0.00933);
+    REQUIRE (xy);
+    CHECK (xy->rows == 1);
+    CHECK (xy->columns > 9000);
+    CHECK (xy->values.front() == 0.003581);
+}
