@@ -101,7 +101,7 @@ void run (const SessionOptions& options)
     if (! options.records.empty() && options.outputs.empty())
         throw CLI::RequiredError ("--record names what to record, but not where to: --out FILE");
     watchForStop();
-    Session session { options };
+    Session session { options, Session::Pace::live };
     const auto& taps = session.engine().plan().taps;
     std::optional<Recorder> recorder;
     std::optional<FrameRing> ring;
@@ -140,7 +140,7 @@ void run (const SessionOptions& options)
     drain();
     printStatus (status, session.rate(), terminal, "\n");
 
-    session.reportStops();
+    session.reportRun();
     if (status.let_go_under_force)
         std::fprintf (stderr, "warning: the slew limit kept force on a device for %g s, so it was let go under force\n", longest_halt_s);
     if (ring && ring->lost() > 0)

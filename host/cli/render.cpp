@@ -27,7 +27,7 @@ void run (const Options& options)
     if (! options.plot.empty() && ! options.plot.ends_with (".png"))
         throw CLI::ValidationError ("--plot", "'" + options.plot + "' should end in .png");
     watchForStop();
-    Session session { options };
+    Session session { options, Session::Pace::offline };
     if (! session.ticks())
         fail ("run/no_length", "nothing says how long to run: there is no feed, trace or gesture", "give --duration S, --feed IN.csv, or --device ROLE=gesture:NAME");
 
@@ -51,7 +51,7 @@ void run (const Options& options)
     }
     recorder.commit();
     if (plotter) plotter->draw (session.name());
-    session.reportStops();
+    session.reportRun();
 }
 }   // namespace
 

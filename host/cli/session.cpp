@@ -6,6 +6,7 @@
 #include <framework/near_miss.hpp>
 #include <framework/number_text.hpp>
 #include <framework/plan/compile.hpp>
+#include <host/assets/nearest_by_embree.hpp>
 #include <host/devices/make_device.hpp>
 
 #include <cmath>
@@ -56,8 +57,9 @@ void SessionOptions::addTo (CLI::App& app)
     app.add_option ("--device", devices, "ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv or ROLE=gesture:NAME");
 }
 
-Session::Session (const SessionOptions& options) : loaded (loadGraph (options.graph))
+Session::Session (const SessionOptions& options, Pace pace) : loaded (loadGraph (options.graph))
 {
+    if (pace == Pace::live) answers = std::make_unique<SlowAnswers>();
     if (report (loaded.messages, loaded, options.graph) > 0) throw Stop {};
     readFeed (options);
     compileGraph (options);
@@ -75,7 +77,7 @@ void Session::readFeed (const SessionOptions& options)
 
 void Session::compileGraph (const SessionOptions& options)
 {
-    CompileOptions wanted { .rate_hz = rate_hz, .records = options.records };
+    CompileOptions wanted { .rate_hz = rate_hz, .records = options.records, .assets = &assets, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() } };
     if (feed) wanted.feeds = feed->ports();
     for (const auto& set : options.sets)
         wanted.overrides.push_back (readSet (set));
@@ -150,11 +152,13 @@ void Session::decideLength (const SessionOptions& options)
     }
 }
 
-void Session::reportStops() const
+void Session::reportRun() const
 {
     for (const auto& d : devices)
         if (const auto& event = running->guardOf (d.role).latest(); event.why != Guard::Stop::none && event.why != Guard::Stop::halted)
             std::cerr << d.role << ": warning: the guard withheld the force: " << describe (event) << '\n';
+    if (const auto late = answers ? answers->lateTicks() : 0; late > 0)
+        std::cerr << "warning: on " << late << (late == 1 ? " tick" : " ticks") << " a slow answer (search of a large surface) was not there yet and was done without\n    give it more ticks in the settings of the node, as search_ticks [run/late_answers]\n";
 }
 
 void Session::tick() noexcept

@@ -5,6 +5,7 @@
 
 #include <framework/engine.hpp>
 #include <framework/file/graph_file.hpp>
+#include <host/assets/file_assets.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -30,8 +31,14 @@ struct SessionOptions
 class Session
 {
 public:
+    enum class Pace
+    {
+        offline,   ///< each tick takes what it takes
+        live       ///< slow questions are answered on a thread of their own
+    };
+
     /// Reads, compiles, binds. Says all that is wrong on stderr and throws Stop if something is.
-    explicit Session (const SessionOptions&);
+    Session (const SessionOptions&, Pace);
 
     Engine& engine() noexcept { return *running; }
     double rate() const noexcept { return rate_hz; }   ///< Hz
@@ -42,8 +49,8 @@ public:
     /// One sample. [tick thread]
     void tick() noexcept;
 
-    /// Says on stderr why the guards withheld forces, if they did. [after the run]
-    void reportStops() const;
+    /// Says on stderr why the guards withheld forces, if they did, and how many slow answers were late. [after the run]
+    void reportRun() const;
 
     const std::string& name() const noexcept { return loaded.graph.name; }
 
@@ -56,8 +63,10 @@ private:
     };
 
     LoadedGraph loaded;
+    FileAssets assets;
     std::optional<Feed> feed;
     std::vector<Bound> devices;
+    std::unique_ptr<SlowAnswers> answers;   // before the engine, whose nodes ask it
     std::unique_ptr<Engine> running;
     double rate_hz = 0.0;
     std::optional<std::size_t> count;

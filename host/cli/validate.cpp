@@ -4,6 +4,8 @@
 
 #include <framework/catalogue.hpp>
 #include <framework/plan/compile.hpp>
+#include <host/assets/file_assets.hpp>
+#include <host/assets/nearest_by_embree.hpp>
 #include <host/devices/make_device.hpp>
 
 #include <filesystem>
@@ -43,7 +45,8 @@ bool check (const std::string& file)
     int errors = report (loaded.messages, loaded, file);
     if (errors > 0 && loaded.graph.root.nodes.empty()) return false;   // what could not be read at all has no more to say
 
-    const auto compiled = compile (loaded.graph, catalogue());
+    FileAssets assets;
+    const auto compiled = compile (loaded.graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } });
     errors += report (compiled.messages, loaded, file) + checkDevices (loaded, file);
     if (errors > 0) return false;
 

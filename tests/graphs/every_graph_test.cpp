@@ -5,6 +5,8 @@
 
 #include <framework/engine.hpp>
 #include <framework/file/graph_file.hpp>
+#include <host/assets/file_assets.hpp>
+#include <host/assets/nearest_by_embree.hpp>
 #include <host/devices/make_device.hpp>
 
 #include <catch2/catch.hpp>
@@ -37,6 +39,13 @@ std::string textOf (const fs::path& path)
     return text.str();
 }
 
+/// As the program compiles it, when it renders.
+Compiled compiled (const graph::Graph& g, std::vector<plan::Override> overrides = {})
+{
+    static host::FileAssets assets;
+    return compile (g, catalogue(), { .overrides = std::move (overrides), .assets = &assets, .services = { .nearest_triangle = host::nearestByEmbree } });
+}
+
 struct Run
 {
     std::vector<double> forces;   // on the tools, all components, tick after tick
@@ -46,10 +55,10 @@ struct Run
 
 Run run (const graph::Graph& g, const std::vector<plan::Override>& overrides = {})
 {
-    auto compiled = compile (g, catalogue(), { .overrides = overrides });
-    INFO (test::text (compiled.messages));
-    REQUIRE (compiled.plan);
-    Engine engine { compiled.plan };
+    auto [plan, messages] = compiled (g, overrides);
+    INFO (test::text (messages));
+    REQUIRE (plan);
+    Engine engine { plan };
 
     std::vector<host::MadeDevice> devices;
     double duration = 0.0;
@@ -117,9 +126,9 @@ TEST_CASE ("every preset is written as it would be saved, says what it feels lik
             if (std::getenv ("TACTUS_UPDATE")) CHECK (saveGraph (loaded.graph, path).empty());
             CHECK (writeGraph (loaded.graph) == textOf (path));
 
-            const auto compiled = compile (loaded.graph, catalogue());
-            INFO (test::text (compiled.messages));
-            CHECK (compiled.messages.empty());
+            const auto messages = compiled (loaded.graph).messages;
+            INFO (test::text (messages));
+            CHECK (messages.empty());
         }
     }
 }
@@ -130,7 +139,7 @@ TEST_CASE ("every preset answers the hand on the same tick", "[graphs]")
     {
         DYNAMIC_SECTION (path.stem().string())
         {
-            const auto plan = compile (loadGraph (path).graph, catalogue()).plan;
+            const auto plan = compiled (loadGraph (path).graph).plan;
             REQUIRE (plan);
             REQUIRE_FALSE (plan->delays.empty());
             for (const auto& d : plan->delays)
