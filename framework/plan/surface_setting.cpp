@@ -35,6 +35,7 @@ std::shared_ptr<const Mesh> meshFrom (const Json& json, const Files& files, cons
     const auto& nodes = listFrom (needed (json, "nodes", key), 0, "a list of points", key + "/nodes");
     for (std::size_t i = 0; i < nodes.size(); ++i)
         mesh.points.push_back (vectorFrom (nodes[i], unit::metre, under (key + "/nodes", i)));
+    if (mesh.points.size() < 3) throw Problem { "it needs at least three nodes", key + "/nodes" };
 
     const Interval index { 0.0, static_cast<double> (mesh.points.size()) - 1.0 };
     const auto& triangles = listFrom (needed (json, "triangles", key), 0, "a list of triangles", key + "/triangles");
@@ -46,6 +47,7 @@ std::shared_ptr<const Mesh> meshFrom (const Json& json, const Files& files, cons
         for (std::size_t c = 0; c < 3; ++c)
             corners[c] = static_cast<int> (inRange (wholeNumberFrom (triangles[i][c], unit::count, under (here, c)), index, under (here, c)));
     }
+    if (mesh.triangles.empty()) throw Problem { "it needs at least one triangle", key + "/triangles" };
     return std::make_shared<const Mesh> (std::move (mesh));
 }
 
