@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <framework/mode.hpp>
 #include <framework/node.hpp>
 
 #include <cmath>
@@ -30,18 +31,7 @@ namespace tactus::nodes
 ///  - Hits of no or not a number's speed are none. This adds energy at each hit: keep it small against the contact's own force.
 struct Modal
 {
-    struct Mode
-    {
-        double frequency = 200.0;
-        double decay = 60.0;
-        double amplitude = 0.5;
-
-        static constexpr std::tuple fields {
-            field (&Mode::frequency, "frequency", unit::hertz, "of the mode", { .hard = { 0, inf }, .usual = { 10, 2000 } }),
-            field (&Mode::decay, "decay", unit::per_second, "how fast it dies away; 1 / decay is its time constant", { .hard = { 0, inf }, .usual = { 1, 500 } }),
-            field (&Mode::amplitude, "amplitude", Unit { Quantity::any, { 0, 1, -1 }, "N*s/m" }, "force per impact speed", { .usual = { 0, 10 } }),
-        };
-    };
+    using Mode = tactus::Mode;
 
     struct Inputs
     {
