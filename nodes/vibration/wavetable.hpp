@@ -50,7 +50,7 @@ struct Wavetable
     {
         std::vector<Mode> modes = std::vector<Mode> (1);
         double rate = 8000.0;
-        int length = 4000;
+        int length = 2000;
         std::shared_ptr<const Signal> wav = nullptr;
         int channel = 1;
 
