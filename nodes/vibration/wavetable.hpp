@@ -34,8 +34,8 @@ namespace tactus::nodes
 ///    that of the graph.
 ///  - A recording that does not begin and end at 0 is bent there over its first and last 2 ms, so that it never clicks.
 ///  - Nothing at or above half the tick rate sounds: such modes are left out, and a recording is low-passed, 6 dB down at
-///    0.3 of the tick rate and 71 dB at 0.5 (Butterworth of order 8, forth and back, so that nothing comes late). A mode
-///    also needs a table of more than twice its frequency as rate.
+///    0.3 of the tick rate and 71 dB at 0.5 (Butterworth of order 8, forth and back, so that nothing comes late). A mode of
+///    half the table's rate or more sounds, but as another: give the table more than twice its frequency.
 ///  - Each octave of `pitch` above 1 has a table of its own with half of that band. A hit takes its table as the pitch
 ///    then is, so a pitch bent up while it sounds may fold back.
 ///  - The tick of a hit gives nothing of it, nor does the end of the table: a table that is too short for its slowest
@@ -107,6 +107,7 @@ struct Wavetable
     Settings settings;
 
     std::string problem() const;
+    std::string warning (const Setup&) const;
 
     void prepare (const Setup& setup)
     {
@@ -228,6 +229,16 @@ inline std::string Wavetable::problem() const
     return {};
 }
 
+inline std::string Wavetable::warning (const Setup& setup) const
+{
+    const Table& t = settings.table;
+    if (t.wav) return {};
+    for (const Mode& m : t.modes)
+        if (m.frequency >= 0.5 * t.rate && m.frequency < 0.5 * setup.rate_hz)
+            return "the table has too low a rate for the mode at " + std::to_string (std::lround (m.frequency)) + " Hz, which will sound as another: it needs more than twice that frequency";
+    return {};
+}
+
 inline std::shared_ptr<const Wavetable::Tables> Wavetable::make (double tick_rate_hz) const
 {
     auto made = std::make_shared<Tables>();
@@ -246,7 +257,7 @@ inline Wavetable::Samples Wavetable::ofModes (double below_hz) const
     Samples samples (static_cast<std::size_t> (t.length));
     for (const Mode& m : t.modes)
     {
-        if (! (m.decay > 0.0 && m.frequency < std::min (below_hz, 0.5 * t.rate))) continue;
+        if (! (m.decay > 0.0 && m.frequency < below_hz)) continue;
         for (std::size_t i = 0; i < samples.size(); ++i)
         {
             const double time = static_cast<double> (i) / t.rate;
