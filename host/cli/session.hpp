@@ -5,6 +5,7 @@
 
 #include <framework/engine.hpp>
 #include <framework/file/graph_file.hpp>
+#include <framework/slow_question.hpp>
 #include <host/assets/file_assets.hpp>
 
 #include <CLI/CLI.hpp>
