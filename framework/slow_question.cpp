@@ -14,7 +14,11 @@ SlowAnswers::SlowAnswers() : thread ([this]
 
 SlowAnswers::~SlowAnswers()
 {
-    stopping = true;
+    {
+        const auto lock = turn();
+        stopping = true;
+    }
+    woken.notify_one();
     thread.join();
 }
 
@@ -22,6 +26,7 @@ void SlowAnswers::add (Asker& asker)
 {
     const auto lock = turn();
     askers.push_back (&asker);
+    woken.notify_one();
 }
 
 void SlowAnswers::remove (Asker& asker)
@@ -41,13 +46,15 @@ std::unique_lock<std::mutex> SlowAnswers::turn()
 
 void SlowAnswers::run()
 {
-    // It polls, because to wake a thread is a system call, and who asks is on the tick.
+    // It polls while there is somebody who may ask, because to wake a thread is a system call, and who asks is on the tick.
     constexpr std::chrono::microseconds pause { 200 };
     while (! stopping)
     {
         bool any = false;
         {
-            const std::scoped_lock lock (guard);
+            std::unique_lock lock (guard);
+            woken.wait (lock, [this]
+                        { return stopping || ! askers.empty(); });
             for (auto* asker : askers)
                 any = asker->answer() || any;
         }

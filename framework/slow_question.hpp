@@ -11,6 +11,7 @@
 
 #include <atomic>
 #include <concepts>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -53,6 +54,7 @@ private:
     std::unique_lock<std::mutex> turn();
 
     std::mutex guard;   // of askers
+    std::condition_variable woken;
     std::atomic<int> waiting = 0;
     std::vector<Asker*> askers;
     std::atomic<bool> stopping = false;
