@@ -158,7 +158,7 @@ void Session::reportRun() const
         if (const auto& event = running->guardOf (d.role).latest(); event.why != Guard::Stop::none && event.why != Guard::Stop::halted)
             std::cerr << d.role << ": warning: the guard withheld the force: " << describe (event) << '\n';
     if (const auto late = answers ? answers->lateTicks() : 0; late > 0)
-        std::cerr << "warning: on " << late << (late == 1 ? " tick" : " ticks") << " a slow answer (search of a large surface) was not there yet and was done without\n    give it more ticks in the settings of the node, as search_ticks [run/late_answers]\n";
+        std::cerr << "warning: " << late << (late == 1 ? " time" : " times") << " a slow answer (the search of a large surface) was not there when it was due\n    give it more ticks in the settings of the node, as in search_ticks [run/late_answers]\n";
 }
 
 void Session::tick() noexcept
