@@ -57,9 +57,9 @@ public:
 
     virtual ~Assets() = default;
     virtual Loaded<Signal> signal (const std::string& path) = 0;   ///< a WAV
-    virtual Loaded<Grid> image (const std::string& path) = 0;      ///< grey from 0, black, to 1, white
+    virtual Loaded<Grid> image (const std::string& path) = 0;      ///< PNG or JPEG: grey from 0, black, to 1, white
     virtual Loaded<Grid> table (const std::string& path) = 0;      ///< a CSV
-    virtual Loaded<Mesh> mesh (const std::string& path) = 0;       ///< OBJ, OFF or PLY
+    virtual Loaded<Mesh> mesh (const std::string& path) = 0;       ///< OBJ, OFF, PLY or STL
 };
 
 }   // namespace tactus
