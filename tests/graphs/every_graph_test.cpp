@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 using namespace tactus;
@@ -129,6 +130,35 @@ TEST_CASE ("every preset is written as it would be saved, says what it feels lik
             const auto messages = compiled (loaded.graph).messages;
             INFO (test::text (messages));
             CHECK (messages.empty());
+        }
+    }
+}
+
+TEST_CASE ("every preset says where the numbers of its materials come from, and calls a guess a guess", "[graphs]")
+{
+    const std::set<std::string> materials { "friction", "cut", "deform", "texture", "vibration", "shock" };
+    for (const auto& path : presets())
+    {
+        DYNAMIC_SECTION (path.stem().string())
+        {
+            const auto g = loadGraph (path).graph;
+            const auto sources = g.extra.value ("ui", Json::object()).value ("sources", Json::object());
+            for (const auto& node : g.root.nodes)
+            {
+                if (! materials.contains (node.type.substr (0, node.type.find ('.'))) || node.type == "texture.antialias") continue;
+                INFO (node.name);
+                CHECK (std::ranges::any_of (sources.items(), [&] (const auto& entry)
+                                            { return entry.key().starts_with (node.name + "."); }));
+            }
+            for (const auto& [name, source] : sources.items())
+            {
+                INFO (name);
+                REQUIRE (source.is_string());
+                CHECK (source.get<std::string>().size() >= 5);
+                const auto node = name.substr (0, name.find_first_of ("./"));
+                CHECK (std::ranges::any_of (g.root.nodes, [&] (const graph::Node& n)
+                                            { return n.name == node; }));
+            }
         }
     }
 }
