@@ -43,7 +43,9 @@ namespace tactus::nodes
 ///    last, so that it lies as one sees it from above. One row alone is a profile along x, the same for all y.
 ///  - Outside the map it goes on as in a mirror, and so never ends in a step.
 ///  - `height` is that of white over black, or of 1 in a table. Left at 0, it is 0.1 mm for a picture, and a table has its
-///    heights in m.
+///    heights in m; "1 um" is for one of an instrument that writes micrometres.
+///  - At a speed v waves shorter than about v / f_max are gone: at 4 kHz and 0.1 m/s those below 0.1 mm, at 1 kHz below
+///    0.4 mm. A finer map is of use only to a slower hand.
 ///  - Speed is the difference of two samples, 0 on the first and after a fault. When it rises it counts at once, when it
 ///    falls late and slowly (after 20 ms, in 50 ms): so a quantum q of the position counts as a speed q / T throughout,
 ///    and nothing flutters. Detail finer than that is not there (Table 1, high speed: alpha k q < 1).

@@ -13,8 +13,11 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdio>
+#include <fstream>
 #include <limits>
 #include <random>
+#include <string>
 #include <vector>
 
 using namespace tactus;
@@ -309,6 +312,40 @@ TEST_CASE ("height map: one row is a profile, the same for all y", "[nodes][text
     CHECK (at (column, 1.0, 3e-4).value == at (node, 3e-4, 1.0).value);
     auto point = over (rough (9, 1, 1));
     CHECK (at (point, 3.0, 4.0).force.norm() == 0.0);
+}
+
+TEST_CASE ("height map: a measured line is felt as it was measured, and at the speed of a hand without a buzz", "[nodes][texture][data]")
+{
+    std::ifstream file (TACTUS_SHARED_DATA "/topography_contactengineering/dektak-1.csv");
+    if (! file)
+    {
+        std::printf ("skipped: there is no profilometer line\n");
+        return;
+    }
+    std::vector<double> across, heights;   // um
+    double position = 0.0, height = 0.0;
+    for (std::string line; std::getline (file, line);)
+        if (std::sscanf (line.c_str(), "%lf,%lf,,", &position, &height) == 2)
+        {
+            across.push_back (position);
+            heights.push_back (height);
+        }
+    REQUIRE (heights.size() > 9000);
+
+    HeightMap node;
+    const auto columns = static_cast<int> (heights.size());
+    const double step = 1e-6 * (across.back() - across.front()) / (columns - 1);
+    node.settings.map = { .csv = { std::make_shared<const Grid> (Grid { 1, columns, heights }) }, .pitch = step, .height = 1e-6 };
+    REQUIRE (node.problem() == "");
+    node.prepare ({ .rate_hz = 4000.0 });
+    for (int i = 0; i < columns; i += 7)
+        REQUIRE (at (node, i * step, 0.0).value == Approx (1e-6 * heights[static_cast<std::size_t> (i)]).margin (1e-15));
+
+    for (const double speed : { 1e-4, 1e-3, 1e-2, 0.1 })
+    {
+        const auto forces = scan (node, Vec3::Zero(), { speed / 4000.0, 0.0, 0.0 }, 2048);
+        CHECK (energyFrom (0.255, forces) < 3e-5 * energyFrom (0.0, forces));
+    }
 }
 
 TEST_CASE ("height map: a picture lies as one sees it, a table as it is numbered", "[nodes][texture]")
