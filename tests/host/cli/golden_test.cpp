@@ -137,6 +137,13 @@ TEST_CASE ("render reproduces modes that are hit", "[golden]")
                { { "bar.hit", "hit_v" } }, { { "bar.value", "y_modal" } });
 }
 
+TEST_CASE ("render reproduces a wavetable that is hit", "[golden]")
+{
+    reproduce ("modal", graph (R"("bar": { "type": "vibration.wavetable", "settings": { "table": { "modes": [
+        { "frequency": 100, "decay": 80, "amplitude": 1 }, { "frequency": 230, "decay": 30, "amplitude": 0.4 } ], "rate": 8000, "length": 1200 } } })"),
+               { { "bar.hit", "hit_v" } }, { { "bar.value", "y_wavetable" } });
+}
+
 TEST_CASE ("render reproduces gratings on a line and in the plane", "[golden]")
 {
     reproduce ("texture", graph (R"("line": { "type": "texture.grating", "params": { "amplitude": "0.3 N", "spatial_frequency": "200 1/m" } },
