@@ -78,7 +78,7 @@ Spot MeshWalk::nearest (int from, const Vec3& p) const noexcept
 
 bool MeshWalk::isBeyondRim (const Spot& spot, const Vec3& p) const noexcept
 {
-    constexpr double beyond = 1e-9;   // relative: what lies right above the rim is not past it
+    constexpr double further = 0.7071;   // of the way there: more outwards than up or down
     const Vec3 away = p - spot.on.point;
     const auto passes = [&] (int triangle)
     {
@@ -90,9 +90,9 @@ bool MeshWalk::isBeyondRim (const Spot& spot, const Vec3& p) const noexcept
             const auto& a = body.points[static_cast<std::size_t> (corners[(i + 1) % 3])];
             const auto& b = body.points[static_cast<std::size_t> (corners[(i + 2) % 3])];
             const Vec3 along = b - a, inward = body.points[static_cast<std::size_t> (corners[i])] - a;
-            if (along.cross (spot.on.point - a).norm() > beyond * along.squaredNorm()) continue;   // on another edge
+            if (along.cross (spot.on.point - a).norm() > 1e-9 * along.squaredNorm()) continue;   // on another edge
             const Vec3 outward = -direction (inward - along * (inward.dot (along) / along.squaredNorm()));
-            if (outward.dot (away) > beyond * away.norm()) return true;
+            if (outward.dot (away) > further * away.norm()) return true;
         }
         return false;
     };

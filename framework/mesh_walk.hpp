@@ -27,7 +27,7 @@ public:
     /// edge it stays where it is. [any thread]
     Spot nearest (int from, const Vec3& p) const noexcept;
 
-    /// True if the point lies on the rim of an open mesh and p beyond it: past the end, neither above nor below.
+    /// True if the point lies on the rim of an open mesh and p beyond it: further past the end than above or below.
     bool isBeyondRim (const Spot&, const Vec3& p) const noexcept;
 
     /// The nearest of all, by looking at each triangle.

@@ -16,7 +16,7 @@ bool isContainer (const Json& value) { return (value.is_object() || value.is_arr
 
 std::string scalarText (const Json& value)
 {
-    if (value.is_number_float()) return numberText (value.get<double>());
+    if (value.is_number_float()) return jsonNumber (value.get<double>());
     // Text that did not come from a file may hold anything; what is not UTF-8 is replaced, since the file must be.
     return value.dump (-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -154,7 +154,7 @@ std::string writeJson (const Json& json, std::span<const std::string_view> one_a
     return writer.out + '\n';
 }
 
-std::string numberText (double value)
+std::string jsonNumber (double value)
 {
     if (! std::isfinite (value)) return "null";   // JSON has no other word; the reader of a graph has refused it before
 

@@ -16,6 +16,6 @@ namespace tactus
 std::string writeJson (const Json&, std::span<const std::string_view> one_a_line = {});
 
 /// The shortest text that reads back to the same double; with a point or an exponent, so that it stays one.
-std::string numberText (double);
+std::string jsonNumber (double);
 
 }   // namespace tactus

@@ -55,7 +55,8 @@ namespace tactus::nodes
 ///    the nearest patch.
 ///  - A slip is one step of eq. (7). Where mu_c or the frames change over the mesh it ends near the bound, not on it, and
 ///    the rest follows on the next ticks, also of a tool at rest: some ten of them.
-///  - Past the rim of an open mesh there is nothing: a contact that is dragged off lets go, and beyond it none begins.
+///  - Past the rim of an open mesh, by more than the depth, there is nothing: a contact dragged there lets go, and none
+///    begins.
 ///  - Energy in the sideways stretch at the moment the tool lets go is dissipated.
 struct ElasticSurface
 {
@@ -120,7 +121,7 @@ struct ElasticSurface
         output (&Outputs::force, "force", unit::newton, "force on the tool"),
         output (&Outputs::resistance, "resistance", unit::newton, "the part along the inward normal, f^z"),
         output (&Outputs::depth, "depth", unit::metre, "deflection along it, d^z; 0 while apart"),
-        output (&Outputs::normal, "normal", unit::gain, "out of the body at the contact point, -u^z"),
+        output (&Outputs::normal, "normal", unit::count, "out of the body at the contact point, -u^z"),
         output (&Outputs::contact, "contact", unit::metre, "contact point c; while apart the tool's position"),
         output (&Outputs::triangle, "triangle", unit::count, "where the contact point lies; -1 while apart"),
         output (&Outputs::hit, "hit", unit::hit, "impact speed on the tick of the first touch"),
@@ -314,7 +315,7 @@ private:
         touch.spot = near;
         touch.frictionless = params.friction == Friction::frictionless || std::ranges::all_of (settings.surface->mu, [] (const Ratio& r)
                                                                                                { return ! r.law && r.number == 0.0; });
-        touch.hit = last.known ? (depth - last.depth) / dt : 0.0;
+        touch.hit = last.known ? finiteOrZero ((depth - last.depth) / dt) : 0.0;
         if (! touch.frictionless) stick (p);
     }
 

@@ -121,7 +121,9 @@ TEST_CASE ("a liver drawn by others is pressed and stroked live, with the search
                                                 { return p.y(); });
 
     const test::Scratch scratch;
-    const auto tip = strokeOver (body, top + Vec3 (-0.02, 0.0, 0.0), Vec3 (0.03, 0.0, 0.0));
+    const auto tip = strokeOver (body, top + Vec3 (-0.006, 0.0, 0.0), Vec3 (0.016, 0.0, 0.0));
+    for (std::size_t k = 1; k < tip.size(); ++k)
+        REQUIRE ((tip[k] - tip[k - 1]).norm() < 1e-4);   // else the nearest point jumped, and the hand with it
     writeTrace (scratch.path ("stroke.csv"), tip);
     const std::string records = "liver.force,liver.depth,liver.triangle,liver.state,liver.stored_energy,liver.dissipated_energy,hand.position";
     const auto arguments = [&] (const std::string& command, int search_ticks, const std::string& out) -> std::vector<std::string>
@@ -143,8 +145,8 @@ TEST_CASE ("a liver drawn by others is pressed and stroked live, with the search
         const auto live = test::runTactus (arguments ("play", search_ticks, "live.csv"));
         INFO (live.err);
         REQUIRE (live.status == 0);
-        if (live.err.find ("late") != std::string::npos && search_ticks < 400) continue;
-        CHECK (live.err.find ("late") == std::string::npos);
+        if (live.err.find ("late_answers") != std::string::npos && search_ticks < 400) continue;
+        CHECK (live.err.find ("late_answers") == std::string::npos);
         const auto again = test::runTactus (arguments ("render", search_ticks, "again.csv"));
         INFO (again.err);
         REQUIRE (again.status == 0);
