@@ -271,6 +271,7 @@ private:
     {
         const auto& n = flat.nodes[at (i)];
         auto& bypass = storage->bypasses.emplace_back();
+        std::memset (outputsOf (i), 0, n.type->outputs_size);
         for (const auto& out : n.type->outputs)
         {
             auto* to = reinterpret_cast<double*> (outputsOf (i) + out.offset);
@@ -282,7 +283,8 @@ private:
                         bypass.copies.push_back ({ to + c, passedOn (i, static_cast<int> (&in - n.type->inputs.data()), c, first) });
                 first += at (slots (n, in));
             }
-            if (out.unit.kind == UnitRule::Kind::fixed && out.unit.unit.quantity == Quantity::gain) *to = 1.0;
+            const bool is_factor = out.width == 1 && out.unit.kind == UnitRule::Kind::fixed && out.unit.unit.quantity == Quantity::gain;   // a vector in 1 is a direction
+            if (is_factor) *to = 1.0;
         }
         plan->records.push_back ({ &Bypass::step, &bypass, storage->sources.data() + source_at[at (i)], nullptr });
     }

@@ -179,7 +179,7 @@ void Interpreter::evaluate (const std::string& path)
         for (const auto& out : i.type->outputs)
             for (int c = 0; c < out.width; ++c)
             {
-                double value = out.unit.kind == UnitRule::Kind::fixed && out.unit.unit.quantity == Quantity::gain ? 1.0 : 0.0;
+                double value = out.width == 1 && out.unit.kind == UnitRule::Kind::fixed && out.unit.unit.quantity == Quantity::gain ? 1.0 : 0.0;
                 for (std::size_t first = 0; const auto& row : i.type->inputs)
                 {
                     const auto n = static_cast<std::size_t> (row.list ? i.entries : 1), width = static_cast<std::size_t> (row.width);

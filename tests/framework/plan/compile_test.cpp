@@ -153,6 +153,16 @@ TEST_CASE ("a bypassed node passes `in` on to `out`", "[plan]")
     CHECK (run (sketch, "sum.out") == 2.0);
 }
 
+TEST_CASE ("a bypassed node gives 1 for a gain and 0 for all else, also for a direction and for what is -1 at rest", "[plan]")
+{
+    auto sketch = Sketch {}.node ("body", "deform.surface").node ("edge", "contact.window");
+    for (auto& n : sketch.graph.root.nodes)
+        n.bypass = true;
+    CHECK (run (sketch, "edge.gain") == 1.0);
+    CHECK (run (sketch, "body.normal.x") == 0.0);
+    CHECK (run (sketch, "body.triangle") == 0.0);
+}
+
 TEST_CASE ("controls set what they point at, and are outranked by --set and wires", "[plan]")
 {
     auto sketch = Sketch {}.node ("one", "signal.constant", { { "value", 1.0 } }).node ("amp", "signal.gain", { { "gain", 9.0 } }).wire ("one.out -> amp.in");
