@@ -15,6 +15,7 @@ struct Curve
     std::vector<double> x, y;
 
     bool empty() const noexcept { return x.empty(); }
+    bool operator== (const Curve&) const = default;
 
     double operator() (double at) const noexcept
     {

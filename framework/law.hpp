@@ -36,6 +36,7 @@ struct Law
     Curve table {};
 
     explicit operator bool() const noexcept { return kind != Kind::none; }
+    bool operator== (const Law&) const = default;
 
     double operator() (double e) const noexcept
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "build.hpp"
 #include "ops.hpp"
+#include "succession.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -37,7 +38,6 @@ struct Storage
 
     explicit Storage (std::size_t outputs_size) : outputs (outputs_size) {}
 
-    std::vector<std::shared_ptr<void>> nodes;
     Arena outputs;
     std::vector<double> defaults;   // of unconnected input components, one per source
     std::vector<const double*> sources;
@@ -57,13 +57,17 @@ struct Drivers
 class Builder
 {
 public:
-    Builder (const Flat& f, const PortUnits& u, std::span<const int> o, const Outside& out, const Setup& s) : flat (f), units (u), order (o), outside (out), setup (s) {}
+    Builder (Flat& f, const PortUnits& u, std::span<const int> o, const Outside& out, const Setup& s, const Plan* b)
+        : flat (f), units (u), order (o), outside (out), setup (s), before (b), succession (f, b, s.rate_hz)
+    {
+    }
 
     std::shared_ptr<Plan> run()
     {
         layOut();
         plan->rate_hz = setup.rate_hz;
         plan->feeds.assign (outside.feeds.size(), 0.0);
+        plan->fed = outside.feeds;
         makeNodes();
         connectDrivers();
         for (const int n : order)
@@ -77,15 +81,19 @@ public:
         addTaps();
         plan->delays = pathDelays (flat, nodeDelays());
         plan->storage = storage;
+        keepFlat();
+        succession.compare (*plan);
         return std::move (plan);
     }
 
 private:
-    const Flat& flat;
+    Flat& flat;
     const PortUnits& units;
     std::span<const int> order;
     const Outside& outside;
     const Setup& setup;
+    const Plan* before;
+    Succession succession;
 
     std::shared_ptr<Plan> plan = std::make_shared<Plan>();
     std::shared_ptr<Storage> storage;
@@ -95,7 +103,7 @@ private:
     std::set<std::string> tap_names;
 
     std::byte* outputsOf (int n) { return storage->outputs.bytes + output_at[at (n)]; }
-    void* nodeOf (int n) { return storage->nodes[at (n)].get(); }
+    void* nodeOf (int n) { return plan->instances[at (n)].node.get(); }
 
     static int slots (const FlatNode& n, const PortSheet& row) { return row.width * (row.list ? n.list_size : 1); }
 
@@ -122,41 +130,66 @@ private:
 
     void makeNodes()
     {
+        if (before)
+            for (const auto& role : before->roles)
+                plan->roles.push_back ({ role.name, role.state, {} });
+        plan->instances.resize (flat.nodes.size());
         for (int i = 0; i < static_cast<int> (flat.nodes.size()); ++i)
-        {
-            const auto& n = flat.nodes[at (i)];
-            storage->nodes.push_back (makeNode (n));
-            if (! storage->nodes.back())
-            {
-                std::memset (outputsOf (i), 0, n.type->outputs_size);
-                continue;
-            }
-            n.type->initialiseOutputs (outputsOf (i));
-            prepare (i);
-        }
+            makeNode (i);
         std::ranges::sort (plan->roles, {}, &Plan::RoleUse::name);
+        plan->ramps.prepare (plan->instances, setup.rate_hz);
+    }
+
+    void makeNode (int i)
+    {
+        const auto& n = flat.nodes[at (i)];
+        auto& instance = plan->instances[at (i)];
+        const bool goes_on = succession.goesOn (at (i));
+        if (goes_on)
+        {
+            const auto& old = *succession.heritageOf (at (i));
+            instance.serial = old.serial;
+            instance.node = old.node;
+            instance.delay = old.delay;
+        }
+        else
+        {
+            instance.serial = newSerial();
+            instance.node = plan::makeNode (n);
+        }
+        instance.knobs = succession.knobsOf (at (i), plan->takeover);
+
+        if (! instance.node)
+        {
+            std::memset (outputsOf (i), 0, n.type->outputs_size);
+            return;
+        }
+        n.type->initialiseOutputs (outputsOf (i));
+        if (n.type->bind && n.runs()) use (i, goes_on);
+        if (! goes_on) prepare (i);
     }
 
     void prepare (int i)
     {
         const auto& n = flat.nodes[at (i)];
-        void* node = nodeOf (i);
-        if (n.type->bind && ! n.muted && ! n.bypass) use (i);
-        if (n.type->prepare) n.type->prepare (node, setup);
-        if (n.type->update) n.type->update (node);
+        auto& instance = plan->instances[at (i)];
+        if (n.type->prepare) n.type->prepare (instance.node.get(), setup);
+        if (n.type->update) n.type->update (instance.node.get());
+        if (n.type->delay) instance.delay = n.type->delay (instance.node.get());
+        succession.succeed (at (i), plan->takeover);
     }
 
-    void use (int i)
+    void use (int i, bool is_bound)
     {
         const auto& n = flat.nodes[at (i)];
         auto role = std::ranges::find (plan->roles, n.role, &Plan::RoleUse::name);
         if (role == plan->roles.end())
         {
-            plan->roles.push_back ({ n.role, std::make_unique<DeviceState>(), {} });
+            plan->roles.push_back ({ n.role, std::make_shared<DeviceState>(), {} });
             role = std::prev (plan->roles.end());
         }
-        n.type->bind (nodeOf (i), *role->state);
-        if (n.type->effort) role->sinks.push_back ({ n.type->effort, nodeOf (i) });
+        if (! is_bound) n.type->bind (nodeOf (i), *role->state);
+        if (n.type->effort) role->sinks.push_back ({ n.type->effort, nodeOf (i), at (i) });
     }
 
     double* param (int i, std::size_t p, std::size_t k)
@@ -174,15 +207,16 @@ private:
 
     void connectDrivers()
     {
-        for (const auto& w : flat.wires)
+        for (int i = 0; i < static_cast<int> (flat.wires.size()); ++i)
         {
+            const auto& w = flat.wires[at (i)];
             const int width = flat.widthOf (w.to);
             for (int c = 0; c < width; ++c)
             {
                 const int from_component = w.from && w.from->component >= 0 ? w.from->component : c;
                 const int to_component = w.to.component >= 0 ? w.to.component : c;
                 const double* from = w.from ? output (*w.from, from_component) : &zero;
-                if (w.delay > 0) from = delayed (from, w.delay);
+                if (w.delay > 0) from = delayed (from, i, c);
                 auto& d = driversOf (w.to, to_component);
                 (w.add ? d.add : d.replace).push_back ({ from, w.gain });
             }
@@ -191,11 +225,11 @@ private:
             if (const auto& port = outside.feeds[f]) driversOf (*port, port->component).feed = &plan->feeds[f];
     }
 
-    const double* delayed (const double* from, int ticks)
+    const double* delayed (const double* from, int wire, int component)
     {
-        auto& d = storage->delays.emplace_back();
-        d.from = from;
-        d.line.assign (at (ticks), 0.0);
+        auto line = succession.lineOf (wire, component, flat.wires[at (wire)].delay, plan->takeover);
+        auto& d = storage->delays.emplace_back (DelayLine { from, line.get() });
+        plan->lines.push_back ({ wire, component, std::move (line) });
         peeks.push_back ({ &DelayLine::read, &d, nullptr, nullptr });
         writes.push_back ({ &DelayLine::write, &d, nullptr, nullptr });
         return &d.out;
@@ -255,6 +289,7 @@ private:
     std::vector<DrivenNode::Drive> drivesOf (int i)
     {
         const auto& n = flat.nodes[at (i)];
+        auto& instance = plan->instances[at (i)];
         std::vector<DrivenNode::Drive> drives;
         for (std::size_t p = 0; p < n.params.size(); ++p)
             for (std::size_t k = 0; k < n.params[p].size(); ++k)
@@ -262,7 +297,10 @@ private:
                 const auto found = drivers.find ({ i, Role::param, static_cast<int> (p), static_cast<int> (k) });
                 if (found == drivers.end()) continue;
                 const auto& d = found->second;
-                drives.push_back ({ param (i, p, k), n.params[p][k], d.feed ? d.feed : joined (d.replace), d.feed ? nullptr : joined (d.add), n.type->params[p].limits.hard });
+                const auto knob = Knobs::indexOf (*n.type, p, k);
+                instance.driven.resize (instance.knobs->all.size());
+                instance.driven[knob] = true;
+                drives.push_back ({ param (i, p, k), &instance.knobs->all[knob].value, d.feed ? d.feed : joined (d.replace), d.feed ? nullptr : joined (d.add), n.type->params[p].limits.hard });
             }
         return drives;
     }
@@ -343,6 +381,20 @@ private:
         return n.muted ? &zero : storage->sources[first + at (slot)];
     }
 
+    /// For the plan after this one; without what only messages were in need of.
+    void keepFlat()
+    {
+        plan->flat = std::move (flat);
+        plan->flat.assignments = {};
+        for (auto& n : plan->flat.nodes)
+            n.origin = {};
+        for (auto& w : plan->flat.wires)
+        {
+            w.text = {};
+            w.origin = {};
+        }
+    }
+
     std::vector<int> nodeDelays()
     {
         std::vector<int> delays;
@@ -351,8 +403,7 @@ private:
             const auto& n = flat.nodes[at (i)];
             const bool source = n.type->bind && ! n.type->effort;
             const bool waits = n.type->peek && ! n.bypass && ! source;
-            delays.push_back (! waits ? 0 : n.type->delay ? n.type->delay (nodeOf (i))
-                                                          : 1);
+            delays.push_back (waits ? plan->instances[at (i)].delay : 0);
         }
         return delays;
     }
@@ -379,9 +430,9 @@ std::shared_ptr<void> makeNode (const FlatNode& n)
     return node;
 }
 
-std::shared_ptr<Plan> build (const Flat& flat, const PortUnits& units, std::span<const int> order, const Outside& outside, const Setup& setup)
+std::shared_ptr<Plan> build (Flat& flat, const PortUnits& units, std::span<const int> order, const Outside& outside, const Setup& setup, const Plan* before)
 {
-    return Builder { flat, units, order, outside, setup }.run();
+    return Builder { flat, units, order, outside, setup, before }.run();
 }
 
 }   // namespace tactus::plan

@@ -28,7 +28,8 @@ struct Outside
 /// A node with its params and settings in place, not yet prepared; null for a bypassed subgraph.
 std::shared_ptr<void> makeNode (const FlatNode&);
 
-/// Makes the nodes, lays out their outputs, and writes the records in the given order. For a graph without errors.
-std::shared_ptr<Plan> build (const Flat&, const PortUnits&, std::span<const int> order, const Outside&, const Setup&);
+/// Makes the nodes, lays out their outputs, and writes the records in the given order. For a graph without errors, which
+/// goes over into the plan. The plan before is null, or the one this is to take over from.
+std::shared_ptr<Plan> build (Flat&, const PortUnits&, std::span<const int> order, const Outside&, const Setup&, const Plan* before);
 
 }   // namespace tactus::plan

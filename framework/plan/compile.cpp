@@ -78,6 +78,21 @@ PortUnits check (Flat& flat, const Setup& setup, std::vector<int>& ordered)
     return units;
 }
 
+/// The params that subgraphs show, by their names from the top.
+std::map<std::string, PortRef, std::less<>> shownParams (const Scope& scope)
+{
+    std::map<std::string, PortRef, std::less<>> all;
+    for (const auto& [name, member] : scope.members)
+    {
+        if (! member.inside || member.node >= 0) continue;
+        const auto& inside = *member.inside;
+        for (const auto& x : inside.exposed)
+            if (x.role == Role::param && x.to) all.emplace (inside.prefix.substr (0, inside.prefix.size() - 1) + "." + x.name, *x.to);
+        all.merge (shownParams (inside));
+    }
+    return all;
+}
+
 Outside findOutside (Flat& flat, const Scope& top, const CompileOptions& options)
 {
     Outside outside;
@@ -136,9 +151,13 @@ Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const Compi
         }
     const auto outside = findOutside (flat, *top, options);
 
-    std::shared_ptr<Plan> made;
-    if (runs (flat.messages)) made = build (flat, units, ordered, outside, setup);
-    return { std::move (made), std::move (flat.messages) };
+    auto messages = std::move (flat.messages);
+    if (! runs (messages)) return { nullptr, std::move (messages) };
+
+    auto shown = shownParams (*top);
+    auto made = build (flat, units, ordered, outside, setup, options.before);
+    made->shown = std::move (shown);
+    return { std::move (made), std::move (messages) };
 }
 
 }   // namespace tactus

@@ -7,6 +7,7 @@
 ///   unit_check   units of wires and values, generic nodes typed       unit_check.hpp
 ///   order        running order, loops, delays                         order.hpp
 ///   build        nodes made, storage laid out, records written        build.hpp
+///   succession   what goes on from the plan before                    succession.hpp, heirs.hpp, takeover.hpp
 
 #include "flatten.hpp"
 #include "plan.hpp"
@@ -25,6 +26,7 @@ struct CompileOptions
     std::vector<plan::Override> overrides {};   ///< values that outrank the file's
     Assets* assets = nullptr;                   ///< where the files that settings name come from
     Services services {};                       ///< what is lent to the nodes
+    const Plan* before = nullptr;               ///< the plan that the new one is to take over from, by Plan::takeOver
 };
 
 struct Compiled
@@ -35,7 +37,7 @@ struct Compiled
 
 /// Pure: the same graph and options give the same plan, whatever the order its nodes and wires were written in.
 /// All problems are reported at once. A node of an unknown type is an error of the list, but the plan still runs with a
-/// placeholder in its place. [main thread]
+/// placeholder in its place. The plan before may tick meanwhile. [main thread]
 Compiled compile (const graph::Graph&, const Catalogue&, const CompileOptions& = {});
 
 }   // namespace tactus

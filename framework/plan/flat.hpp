@@ -23,6 +23,9 @@ struct Origin
     std::string pointer;   ///< JSON pointer
 };
 
+/// Identity in a graph with its subgraphs expanded: the ids of the subgraph nodes around, then one's own.
+using Chain = std::vector<graph::Id>;
+
 /// A port of a flat node, or an entry or a component of it.
 struct PortRef
 {
@@ -47,6 +50,7 @@ struct Assignment
 struct FlatNode
 {
     std::string path;   ///< "grain/wave"
+    Chain chain {};
     const NodeType* type = nullptr;
     std::string role {};
     Origin origin {};
@@ -55,6 +59,8 @@ struct FlatNode
     std::vector<SettingValue> settings {};
     std::vector<std::vector<double>> params {};   ///< by row; components of a vector, entries of an array port
     int list_size = 0;
+
+    bool runs() const noexcept { return ! muted && ! bypass; }
 
     const std::vector<PortSheet>& ports (Role role_) const noexcept
     {
@@ -73,6 +79,7 @@ struct FlatWire
     std::optional<Dimension> gain_dimension {};   ///< if the gain has a unit
     std::string text;
     Origin origin;
+    Chain chain {};
 };
 
 struct Flat

@@ -25,6 +25,13 @@ Origin at (const Origin& base, std::string_view key)
     return { base.file, base.pointer + "/" + escaped };
 }
 
+Chain within (const Scope& scope, graph::Id id)
+{
+    auto chain = scope.chain;
+    chain.push_back (id);
+    return chain;
+}
+
 Origin at (const Origin& base, std::string_view key, std::string_view inner) { return at (at (base, key), inner); }
 
 class Flattener
@@ -105,7 +112,7 @@ private:
         }
 
         member.node = static_cast<int> (flat.nodes.size());
-        flat.nodes.push_back ({ .path = scope.prefix + node.name, .type = type, .origin = here, .bypass = node.bypass, .muted = muted });
+        flat.nodes.push_back ({ .path = scope.prefix + node.name, .chain = within (scope, node.id), .type = type, .origin = here, .bypass = node.bypass, .muted = muted });
         auto& made = flat.nodes.back();
         readRole (node, here, roles, made);
         readSettings (scope, node, here, made);
@@ -177,6 +184,7 @@ private:
         }
 
         inside->prefix = scope.prefix + node.name + "/";
+        inside->chain = within (scope, node.id);
         Roles mapped;
         if (node.roles.is_object())
             for (const auto& [inner, outer] : node.roles.items())
@@ -268,7 +276,7 @@ private:
         flat.made_types.push_back (std::move (type));
 
         member.node = static_cast<int> (flat.nodes.size());
-        flat.nodes.push_back ({ .path = scope.prefix + node.name, .type = &flat.made_types.back(), .origin = here, .bypass = true, .muted = muted });
+        flat.nodes.push_back ({ .path = scope.prefix + node.name, .chain = within (scope, node.id), .type = &flat.made_types.back(), .origin = here, .bypass = true, .muted = muted });
         flat.nodes.back().list_size = list_size;
         for (const auto& row : flat.made_types.back().params)
             flat.nodes.back().params.emplace_back (static_cast<std::size_t> (row.list ? list_size : row.width), row.initial[0]);
@@ -301,7 +309,7 @@ private:
             const auto to = find (wire.to, Side::end, scope, origin, flat);
             if (from_failed || ! to) continue;
 
-            FlatWire w { .from = from, .to = *to, .delay = wire.delay, .add = wire.add, .text = graph::toText (wire), .origin = origin };
+            FlatWire w { .from = from, .to = *to, .delay = wire.delay, .add = wire.add, .text = graph::toText (wire), .origin = origin, .chain = within (scope, wire.id) };
             if (readGain (wire, w) && wireFits (w) && ! muted && wire.enabled.value_or (true))
                 flat.wires.push_back (std::move (w));
         }

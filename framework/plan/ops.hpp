@@ -4,6 +4,7 @@
 /// The steps of a plan that are not nodes: sums, delayed wires, driven parameters, bypassed nodes. Each has the shape
 /// of a node's thunk, so that a tick is one loop over records.
 
+#include "instance.hpp"
 #include "sum.hpp"
 
 #include <framework/catalogue.hpp>
@@ -40,21 +41,20 @@ struct Sum
 struct DelayLine
 {
     const double* from = nullptr;
-    std::vector<double> line;
-    std::size_t now = 0;
+    Line* line = nullptr;
     double out = 0.0;
 
     static void read (void* self, const double* const*, void*) noexcept
     {
         auto& d = *static_cast<DelayLine*> (self);
-        d.out = d.line[d.now];
+        d.out = d.line->samples[d.line->now];
     }
 
     static void write (void* self, const double* const*, void*) noexcept
     {
-        auto& d = *static_cast<DelayLine*> (self);
-        d.line[d.now] = *d.from;
-        if (++d.now == d.line.size()) d.now = 0;
+        auto& [from, line, out] = *static_cast<DelayLine*> (self);
+        line->samples[line->now] = *from;
+        if (++line->now == line->samples.size()) line->now = 0;
     }
 };
 
@@ -65,7 +65,7 @@ struct DrivenNode
     struct Drive
     {
         double* target;
-        double stored;
+        const double* stored;              // its knob
         const double* replace = nullptr;   // instead of the stored value
         const double* add = nullptr;       // to it
         Interval hard {};
@@ -82,7 +82,7 @@ struct DrivenNode
         bool moved = false, fault = false;
         for (const auto& drive : d.drives)
         {
-            const double wanted = (drive.replace ? *drive.replace : drive.stored) + (drive.add ? *drive.add : 0.0);
+            const double wanted = *(drive.replace ? drive.replace : drive.stored) + (drive.add ? *drive.add : 0.0);
             const double value = drive.hard.clamp (wanted);
             if (! isFinite (value))
                 fault = true;

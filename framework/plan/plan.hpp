@@ -2,11 +2,14 @@
 #pragma once
 
 #include "order.hpp"
+#include "ramps.hpp"
 #include "sum.hpp"
+#include "takeover.hpp"
 
 #include <framework/catalogue.hpp>
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,7 +36,8 @@ struct Tap
 };
 
 /// What compiling a graph results in: contiguous records in running order, and the storage they point into. It never
-/// changes shape; only the values of its nodes, wires and feeds move. One thread ticks it.
+/// changes shape; only the values of its nodes, wires and feeds move. One thread ticks it. A plan that was compiled to
+/// follow another shares with it the nodes that go on, and from the moment it takes over only it may tick.
 class Plan
 {
 public:
@@ -42,13 +46,23 @@ public:
     {
         Effort (*effort) (const void* node) noexcept;
         const void* node;
+        std::size_t instance;   ///< its number
     };
 
+    /// A role stays when its last node goes, so that what is on its device can be taken off.
     struct RoleUse
     {
         std::string name;
-        std::unique_ptr<DeviceState> state;   ///< written by the engine before the tick; nodes point at it
+        std::shared_ptr<DeviceState> state;   ///< written by the engine before the tick; nodes of all plans point at it
         std::vector<SinkUse> sinks;
+        bool untouched = false;   ///< the same sinks as in the plan before, and nothing that leads to them is changed
+    };
+
+    /// One component of a delayed wire.
+    struct LineUse
+    {
+        int wire, component;
+        std::shared_ptr<plan::Line> line;
     };
 
     void tick() noexcept   // [tick thread]
@@ -57,13 +71,29 @@ public:
             r.step (r.self, r.sources, r.outputs);
     }
 
+    /// Goes on where the plan it was compiled to follow stands now. Before the first tick. [tick thread]
+    void takeOver (const Plan& before) noexcept
+    {
+        if (feeds.size() == before.feeds.size()) std::ranges::copy (before.feeds, feeds.begin());
+        takeover.carryOut (instances, ramps);
+    }
+
     double rate_hz = 0.0;   ///< what the nodes were prepared for
     std::vector<Record> records;
     std::vector<RoleUse> roles;            ///< sorted by name
     std::vector<Tap> taps;                 ///< what CompileOptions::records asked for, in order
     std::vector<double> feeds;             ///< one value per CompileOptions::feeds, set before each tick
     std::vector<plan::PathDelay> delays;   ///< between devices' sources and sinks
-    std::shared_ptr<void> storage;         ///< nodes, outputs, wires, constants: what all pointers point into
+    std::shared_ptr<void> storage;         ///< outputs, wires, constants: what all pointers point into
+
+    // For the plan that follows, and for those who turn knobs.
+    plan::Flat flat;                                           ///< what it was built from
+    std::vector<plan::Instance> instances;                     ///< as flat.nodes
+    std::vector<LineUse> lines;                                ///< by wire, then component
+    std::vector<std::optional<plan::PortRef>> fed;             ///< as feeds
+    std::map<std::string, plan::PortRef, std::less<>> shown;   ///< params by the names under which subgraphs show them
+    plan::Ramps ramps;
+    plan::Takeover takeover;
 };
 
 }   // namespace tactus

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "flat.hpp"
+
+namespace tactus::plan
+{
+
+/// Which node and which delayed wire of the graph before each of a graph is: its number there, or -1.
+struct Heirs
+{
+    std::vector<int> nodes, wires;
+};
+
+/// By the ids of the subgraph nodes around them and their own. Of these ids only those count which both graphs have, so
+/// that to collapse or expand changes nothing; and what still has no like, but occurs only once here and there, has been
+/// moved.
+Heirs findHeirs (const Flat& now, const Flat& before);
+
+}   // namespace tactus::plan

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "instance.hpp"
+
+#include <cstring>
+
+namespace tactus::plan
+{
+
+namespace
+{
+struct Place
+{
+    const PortSheet* sheet;
+    std::size_t component;
+};
+
+Place placeOf (const NodeType& type, std::size_t knob) noexcept
+{
+    std::size_t p = 0;
+    for (; knob >= Knobs::roomOf (type.params[p]); ++p)
+        knob -= Knobs::roomOf (type.params[p]);
+    return { &type.params[p], knob };
+}
+}   // namespace
+
+bool isChoice (const NodeType& type, std::size_t knob) noexcept { return ! placeOf (type, knob).sheet->choices.empty(); }
+
+void turn (const ParamRef& param, double value) noexcept
+{
+    if (! isFinite (value)) return;
+    auto& knob = param.knobs->all[param.index];
+    knob.target.store (param.sheet->limits.hard.clamp (value), std::memory_order_relaxed);
+    knob.touched.store (true, std::memory_order_release);
+    param.knobs->touched.store (true, std::memory_order_release);
+}
+
+double* Instance::param (std::size_t knob) const noexcept
+{
+    const auto [sheet, component] = placeOf (knobs->type, knob);
+    return reinterpret_cast<double*> (static_cast<std::byte*> (knobs->type.paramsOf (node.get())) + sheet->offset) + component;
+}
+
+void Instance::write (std::size_t knob, double value) const noexcept
+{
+    const auto [sheet, component] = placeOf (knobs->type, knob);
+    auto* place = static_cast<std::byte*> (knobs->type.paramsOf (node.get())) + sheet->offset;
+    if (sheet->choices.empty())
+        reinterpret_cast<double*> (place)[component] = value;
+    else
+    {
+        const int chosen = static_cast<int> (value);
+        std::memcpy (place, &chosen, sizeof chosen);
+    }
+}
+
+std::uint64_t newSerial() noexcept
+{
+    static std::atomic<std::uint64_t> last { 0 };
+    return ++last;
+}
+
+}   // namespace tactus::plan

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// The parameters of a running node as they are turned live. A target may be set from any thread; the tick thread goes
+/// there in a straight line, each parameter on its own. Choices are taken at once.
+
+#include <framework/catalogue.hpp>
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace tactus::plan
+{
+
+/// One component of a parameter, or one entry of a list.
+struct Knob
+{
+    std::atomic<double> target = 0.0;
+    std::atomic<bool> touched = false;   ///< a target was set that nobody has seen yet
+
+    // Of the tick thread.
+    int left = 0;         ///< ticks of the ramp
+    double to = 0.0;      ///< its end
+    double value = 0.0;   ///< where it stands: the stored value, before wires
+};
+
+/// All knobs of a node. They outlive the plan they were made for: a later one that holds the node holds these too.
+struct Knobs
+{
+    explicit Knobs (const NodeType& t) : type (t), all (indexOf (t, t.params.size(), 0)) {}
+
+    /// A list has room for all entries it can ever have, so that none moves.
+    static std::size_t roomOf (const PortSheet& row) noexcept { return static_cast<std::size_t> (row.list ? list_capacity : row.width); }
+
+    /// Where a component of a param stands.
+    static std::size_t indexOf (const NodeType& t, std::size_t param, std::size_t component) noexcept
+    {
+        for (std::size_t p = 0; p < param; ++p)
+            component += roomOf (t.params[p]);
+        return component;
+    }
+
+    const NodeType& type;
+    std::vector<Knob> all;
+    std::atomic<bool> touched = false;   ///< one of them is
+
+    // Of the tick thread.
+    bool started = false;   ///< the node has ticked: from now on, values are ramped
+    bool ramping = false;   ///< is in the list of those that are
+};
+
+bool isChoice (const NodeType&, std::size_t knob) noexcept;
+
+/// A parameter as those who turn it hold it. What it names may be gone from the plan; then turning it does nothing.
+struct ParamRef
+{
+    std::shared_ptr<Knobs> knobs;
+    std::size_t index = 0;
+    const PortSheet* sheet = nullptr;
+};
+
+/// Of a choice, the number of the alternative. A value that is not finite is passed over, one beyond the range of the
+/// model stops at its end. [any thread]
+void turn (const ParamRef&, double) noexcept;
+
+}   // namespace tactus::plan

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "succession.hpp"
+#include "same_settings.hpp"
+
+#include <algorithm>
+#include <compare>
+
+namespace tactus::plan
+{
+
+namespace
+{
+std::size_t at (int i) { return static_cast<std::size_t> (i); }
+
+/// Something that enters a node.
+struct Entry
+{
+    Role role;
+    int port, index, component;
+    std::uint64_t from;   ///< serial of the node, or a feed; 0 for nothing
+    int from_port, from_index, from_component;
+    std::uint64_t line;   ///< serial, if there is a delay
+    bool add;
+    double gain;
+
+    auto operator<=> (const Entry&) const = default;
+};
+
+using Entries = std::vector<std::vector<Entry>>;
+
+/// What enters each node of a plan, whatever the order it was written in.
+Entries entriesOf (const Plan& plan)
+{
+    const auto& flat = plan.flat;
+    Entries all (flat.nodes.size());
+    auto line = plan.lines.begin();
+    for (std::size_t i = 0; i < flat.wires.size(); ++i)
+    {
+        const auto& w = flat.wires[i];
+        while (line != plan.lines.end() && at (line->wire) < i)
+            ++line;
+        Entry e { w.to.role, w.to.port, w.to.index, w.to.component, 0, 0, 0, 0, w.delay > 0 ? line->line->serial : 0, w.add, w.gain };
+        if (w.from)
+        {
+            e.from = plan.instances[at (w.from->node)].serial;
+            e.from_port = w.from->port;
+            e.from_index = w.from->index;
+            e.from_component = w.from->component;
+        }
+        all[at (w.to.node)].push_back (e);
+    }
+    for (std::size_t f = 0; f < plan.fed.size(); ++f)
+        if (const auto& port = plan.fed[f]) all[at (port->node)].push_back ({ port->role, port->port, port->index, port->component, ~f, 0, 0, 0, 0, false, 1.0 });
+    for (auto& entries : all)
+        std::ranges::sort (entries, [] (const Entry& a, const Entry& b)
+                           { return (a <=> b) == std::partial_ordering::less; });
+    return all;
+}
+
+bool sameShape (const NodeType& a, const NodeType& b)
+{
+    const auto alike = [] (const std::vector<PortSheet>& x, const std::vector<PortSheet>& y)
+    {
+        return std::ranges::equal (x, y, [] (const PortSheet& p, const PortSheet& q)
+                                   { return p.id == q.id && p.width == q.width && p.list == q.list && p.initial[0] == q.initial[0]; });
+    };
+    return alike (a.inputs, b.inputs) && alike (a.params, b.params) && alike (a.outputs, b.outputs);
+}
+
+bool choosesOtherwise (const FlatNode& a, const FlatNode& b)
+{
+    for (std::size_t p = 0; p < a.params.size(); ++p)
+        if (! a.type->params[p].choices.empty() && a.params[p] != b.params[p]) return true;
+    return false;
+}
+
+std::vector<std::uint64_t> serialsOf (const Plan::RoleUse& role, const Plan& plan)
+{
+    std::vector<std::uint64_t> all;
+    for (const auto& sink : role.sinks)
+        all.push_back (plan.instances[sink.instance].serial);
+    std::ranges::sort (all);
+    return all;
+}
+}   // namespace
+
+Succession::Succession (const Flat& f, const Plan* b, double rate) : flat (f), before (b), rate_hz (rate), going (f.nodes.size(), false)
+{
+    if (before == nullptr)
+    {
+        heirs = { std::vector<int> (flat.nodes.size(), -1), std::vector<int> (flat.wires.size(), -1) };
+        return;
+    }
+    heirs = findHeirs (flat, before->flat);
+    for (std::size_t i = 0; i < going.size(); ++i)
+        going[i] = heirs.nodes[i] >= 0 && isSame (i);
+}
+
+/// A node that did not tick may not go on where it stopped some time ago: it starts afresh.
+bool Succession::isSame (std::size_t i) const
+{
+    const auto& now = flat.nodes[i];
+    const auto& then = before->flat.nodes[at (heirs.nodes[i])];
+    if (now.type->make == nullptr) return then.type->make == nullptr && now.list_size == then.list_size && sameShape (*now.type, *then.type);
+    return now.type == then.type && rate_hz == before->rate_hz && now.role == then.role && (then.runs() || ! now.runs()) && same (now.settings, then.settings);
+}
+
+const Instance* Succession::heritageOf (std::size_t i) const noexcept
+{
+    if (heirs.nodes[i] < 0) return nullptr;
+    const auto heir = at (heirs.nodes[i]);
+    return going[i] || before->flat.nodes[heir].type == flat.nodes[i].type ? &before->instances[heir] : nullptr;
+}
+
+std::shared_ptr<Knobs> Succession::knobsOf (std::size_t i, Takeover& takeover) const
+{
+    const auto& n = flat.nodes[i];
+    if (n.type->make == nullptr || n.params.empty()) return nullptr;
+
+    const auto* heritage = heritageOf (i);
+    if (heritage == nullptr)
+    {
+        auto knobs = std::make_shared<Knobs> (*n.type);
+        std::size_t k = 0;
+        for (std::size_t p = 0; p < n.params.size(); ++p)
+            for (std::size_t c = 0; c < Knobs::roomOf (n.type->params[p]); ++c, ++k)
+            {
+                auto& knob = knobs->all[k];
+                knob.value = c < n.params[p].size() ? n.params[p][c] : n.type->params[p].initial[0];
+                knob.target.store (knob.value, std::memory_order_relaxed);
+            }
+        return knobs;
+    }
+
+    const auto& old = before->flat.nodes[at (heirs.nodes[i])].params;
+    std::size_t first = 0;
+    for (std::size_t p = 0; p < n.params.size(); first += Knobs::roomOf (n.type->params[p++]))
+        for (std::size_t c = 0; c < n.params[p].size(); ++c)
+            if (const bool fresh = c >= old[p].size(); fresh || n.params[p][c] != old[p][c]) takeover.changes.push_back ({ i, first + c, n.params[p][c], fresh });
+    return heritage->knobs;
+}
+
+void Succession::succeed (std::size_t i, Takeover& takeover) const
+{
+    const auto* heritage = heritageOf (i);
+    if (heritage == nullptr || flat.nodes[i].type->make == nullptr) return;
+    const bool ran = before->flat.nodes[at (heirs.nodes[i])].runs() && flat.nodes[i].runs();
+    takeover.successors.push_back ({ i, ran ? flat.nodes[i].type->adopt : nullptr, heritage->node.get() });
+}
+
+std::shared_ptr<Line> Succession::lineOf (int wire, int component, int ticks, Takeover& takeover) const
+{
+    const Line* old = nullptr;
+    if (const int heir = heirs.wires[at (wire)]; heir >= 0)
+    {
+        const auto key = [] (const Plan::LineUse& use)
+        { return std::pair { use.wire, use.component }; };
+        const auto use = std::ranges::lower_bound (before->lines, std::pair { heir, component }, {}, key);
+        if (use != before->lines.end() && key (*use) == std::pair { heir, component })
+        {
+            if (use->line->samples.size() == at (ticks)) return use->line;
+            old = use->line.get();
+        }
+    }
+    auto line = std::make_shared<Line>();
+    line->serial = newSerial();
+    line->samples.assign (at (ticks), 0.0);
+    if (old) takeover.relays.push_back ({ line.get(), old });
+    return line;
+}
+
+std::vector<bool> Succession::changed (const Plan& plan) const
+{
+    const auto now = entriesOf (plan), then = entriesOf (*before);
+    std::vector<bool> all (going.size(), true);
+    for (std::size_t i = 0; i < going.size(); ++i)
+    {
+        if (! going[i]) continue;
+        const auto heir = at (heirs.nodes[i]);
+        const auto &n = plan.flat.nodes[i], &o = before->flat.nodes[heir];
+        all[i] = n.runs() != o.runs() || n.bypass != o.bypass || choosesOtherwise (n, o) || now[i] != then[heir];
+    }
+    return all;
+}
+
+void Succession::compare (Plan& plan) const
+{
+    if (before == nullptr) return;
+
+    std::vector<std::vector<int>> next (going.size());
+    for (const auto& w : plan.flat.wires)
+        if (w.from) next[at (w.from->node)].push_back (w.to.node);
+
+    const auto dirty = changed (plan);
+    std::vector<int> open;
+    for (std::size_t i = 0; i < dirty.size(); ++i)
+        if (! dirty[i])
+            plan.instances[i].dirty = false;
+        else
+            open.push_back (static_cast<int> (i));
+    while (! open.empty())
+    {
+        const int from = open.back();
+        open.pop_back();
+        for (const int to : next[at (from)])
+            if (! std::exchange (plan.instances[at (to)].dirty, true)) open.push_back (to);
+    }
+
+    for (auto& role : plan.roles)
+    {
+        const auto old = std::ranges::find (before->roles, role.name, &Plan::RoleUse::name);
+        role.untouched = old != before->roles.end() && serialsOf (role, plan) == serialsOf (*old, *before)
+                         && std::ranges::none_of (role.sinks, [&] (const Plan::SinkUse& s)
+                                                  { return plan.instances[s.instance].dirty; });
+    }
+
+    for (std::size_t i = 0; i < going.size(); ++i)
+        if (going[i])
+        {
+            const auto &now = plan.instances[i], &then = before->instances[at (heirs.nodes[i])];
+            for (std::size_t k = 0; k < then.driven.size(); ++k)
+                if (then.isDriven (k) && ! now.isDriven (k)) plan.takeover.releases.push_back ({ i, k });
+        }
+}
+
+}   // namespace tactus::plan

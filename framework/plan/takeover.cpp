@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "takeover.hpp"
+
+namespace tactus::plan
+{
+
+void Takeover::carryOut (std::span<const Instance> instances, Ramps& ramps) const noexcept
+{
+    for (const auto& [line, old] : relays)
+        line->adopt (*old);
+
+    for (const auto& [i, adopt, old] : successors)
+    {
+        const auto& instance = instances[i];
+        if (instance.knobs)
+        {
+            for (std::size_t k = 0; k < instance.knobs->all.size(); ++k)
+                if (! instance.isDriven (k)) instance.write (k, instance.knobs->all[k].value);
+            if (const auto update = instance.knobs->type.update) update (instance.node.get());
+        }
+        if (adopt) adopt (instance.node.get(), old);
+    }
+
+    ramps.goOn();
+    for (const auto& [i, k] : releases)
+    {
+        auto& knob = instances[i].knobs->all[k];
+        const double stored = knob.left > 0 ? knob.to : knob.value;
+        knob.value = *instances[i].param (k);
+        ramps.head (i, k, stored);
+    }
+    for (const auto& [i, k, value, at_once] : changes)
+    {
+        instances[i].knobs->all[k].target.store (value, std::memory_order_relaxed);
+        ramps.head (i, k, value, at_once);
+    }
+}
+
+}   // namespace tactus::plan

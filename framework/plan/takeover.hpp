@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "ramps.hpp"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace tactus::plan
+{
+
+/// What is to be done when a plan takes over from another, worked out beforehand. Nodes that go on unchanged are the
+/// same in both plans and need nothing. What is old here lives in the plan before.
+struct Takeover
+{
+    /// A node made anew in the place of an old one of its type: takes over where the knobs stand and, if it ran and
+    /// has a way to, the state.
+    struct Successor
+    {
+        std::size_t instance;
+        void (*adopt) (void* node, const void* old) noexcept;   ///< null: it starts afresh
+        const void* old;
+    };
+
+    /// A value that is another one in the file.
+    struct Change
+    {
+        std::size_t instance, knob;
+        double value;
+        bool at_once;
+    };
+
+    /// A parameter that a wire drove, and none does now: goes back to its stored value.
+    struct Release
+    {
+        std::size_t instance, knob;
+    };
+
+    /// A wire with another delay.
+    struct Relay
+    {
+        Line* line;
+        const Line* old;
+    };
+
+    std::vector<Successor> successors;
+    std::vector<Change> changes;
+    std::vector<Release> releases;
+    std::vector<Relay> relays;
+
+    void carryOut (std::span<const Instance>, Ramps&) const noexcept;   // [tick thread]
+};
+
+}   // namespace tactus::plan
