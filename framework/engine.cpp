@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine.hpp"
 
+#include "plan/find_param.hpp"
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -9,13 +11,6 @@ namespace tactus
 
 namespace
 {
-std::size_t indexOf (const Plan& plan, std::string_view role)
-{
-    const auto at = std::ranges::find (plan.roles, role, &Plan::RoleUse::name);
-    if (at == plan.roles.end()) throw std::out_of_range ("the plan has no role '" + std::string (role) + "'");
-    return static_cast<std::size_t> (at - plan.roles.begin());
-}
-
 /// What all sinks of a role ask for together, whatever their order.
 Effort total (const Plan::RoleUse& role, double* scratch) noexcept
 {
@@ -36,51 +31,134 @@ Effort total (const Plan::RoleUse& role, double* scratch) noexcept
 }
 }   // namespace
 
-Engine::Engine (std::shared_ptr<Plan> p) : current (std::move (p)), attached (current->roles.size())
+Engine::Engine (std::shared_ptr<Plan> p) : rate_hz (p->rate_hz), handover (makeRunning (std::move (p))), running (&handover.newest()) {}
+
+Engine::Channel& Engine::channelOf (const std::string& role)
 {
-    for (std::size_t i = 0; i < attached.size(); ++i)
+    const auto at = std::ranges::find (channels, role, [] (const auto& c) -> const std::string&
+                                       { return c->role; });
+    if (at != channels.end()) return **at;
+    channels.push_back (std::make_unique<Channel> (Channel { role }));
+    channels.back()->guard.prepare ({}, 1.0 / rate_hz);
+    channels.back()->bumpless.prepare (1.0 / rate_hz);
+    return *channels.back();
+}
+
+std::unique_ptr<Engine::Running> Engine::makeRunning (std::shared_ptr<Plan> p)
+{
+    auto made = std::make_unique<Running> (Running { std::move (p), {}, {} });
+    std::size_t most = 0;
+    for (const auto& role : made->plan->roles)
     {
-        attached[i].guard.prepare ({}, 1.0 / current->rate_hz);
-        attached[i].scratch.resize (current->roles[i].sinks.size());
+        made->channels.push_back (&channelOf (role.name));
+        most = std::max (most, role.sinks.size());
     }
+    made->scratch.resize (most);
+    return made;
 }
 
 void Engine::attach (std::string_view role, Device& device, const GuardLimits& limits)
 {
-    auto& a = attached[indexOf (*current, role)];
-    a.device = &device;
-    a.guard.prepare (limits, 1.0 / current->rate_hz);
-    device.prepare (1.0 / current->rate_hz);
+    const auto& roles = newest().roles;
+    if (std::ranges::find (roles, role, &Plan::RoleUse::name) == roles.end()) throw std::out_of_range ("the plan has no role '" + std::string (role) + "'");
+    auto& channel = channelOf (std::string (role));
+    channel.device = &device;
+    channel.guard.prepare (limits, 1.0 / rate_hz);
+    device.prepare (1.0 / rate_hz);
+}
+
+std::shared_ptr<Plan> Engine::withdraw()
+{
+    const auto back = handover.takeBack();
+    return back ? back->plan : nullptr;
+}
+
+void Engine::submit (std::shared_ptr<Plan> next)
+{
+    if (next)
+    {
+        if (next->rate_hz != rate_hz) throw std::invalid_argument ("a plan for another rate cannot take over");
+        handover.takeBack();
+        handover.give (makeRunning (std::move (next)));
+    }
+    clear();
+}
+
+std::size_t Engine::clear()
+{
+    handover.clear();
+    return handover.size();
+}
+
+std::variant<plan::ParamRef, Message> Engine::param (std::string_view name) { return plan::findParam (newest(), name); }
+
+void Engine::set (const plan::ParamRef& param, double value) noexcept
+{
+    plan::turn (param, value);
+    touched.store (true, std::memory_order_release);
+}
+
+void Engine::takeOver (Running& next) noexcept
+{
+    next.plan->takeOver (*running->plan);
+    for (std::size_t i = 0; i < next.channels.size(); ++i)
+        if (! next.plan->roles[i].untouched) next.channels[i]->bumpless.begin();
+    running = &next;
+    handover.done (running);
+    fresh = true;
+}
+
+/// What was set for a plan that had not come yet waits in its knobs, so a fresh one is looked through as well.
+void Engine::turnKnobs() noexcept
+{
+    touched.exchange (false, std::memory_order_acquire);
+    auto& ramps = running->plan->ramps;
+    ramps.look();
+    if (fresh) ramps.startAll();
+    fresh = false;
 }
 
 void Engine::tick() noexcept
 {
-    for (std::size_t i = 0; i < attached.size(); ++i)
-        if (attached[i].device) current->roles[i].state->reading = attached[i].device->read();
+    if (auto* next = handover.take()) takeOver (*next);
+    if (fresh || touched.load (std::memory_order_relaxed)) turnKnobs();
 
-    current->tick();
+    auto& [plan, used, scratch] = *running;
+    for (std::size_t i = 0; i < used.size(); ++i)
+        if (used[i]->device) plan->roles[i].state->reading = used[i]->device->read();
 
-    for (std::size_t i = 0; i < attached.size(); ++i)
+    plan->ramps.step();
+    plan->tick();
+
+    for (std::size_t i = 0; i < used.size(); ++i)
     {
-        auto& role = current->roles[i];
-        role.state->applied = attached[i].guard (total (role, attached[i].scratch.data()), role.state->reading);
-        if (attached[i].device) attached[i].device->write (role.state->applied);
+        const auto& role = plan->roles[i];
+        auto& channel = *used[i];
+        const auto wanted = channel.bumpless (total (role, scratch.data()));
+        role.state->applied = channel.guard (wanted, role.state->reading);
+        if (channel.guard.stop() != Guard::Stop::none) channel.bumpless.stop (role.state->applied);
+        if (channel.device) channel.device->write (role.state->applied);
     }
     ++ticks;
 }
 
 void Engine::halt() noexcept
 {
-    for (auto& a : attached)
-        a.guard.halt();
+    for (auto* channel : running->channels)
+        channel->guard.halt();
 }
 
 bool Engine::isAtRest() const noexcept
 {
-    return std::ranges::all_of (attached, [] (const Attached& a)
-                                { return a.guard.isAtRest(); });
+    return std::ranges::all_of (running->channels, [] (const Channel* c)
+                                { return c->guard.isAtRest(); });
 }
 
-const Guard& Engine::guardOf (std::string_view role) const { return attached[indexOf (*current, role)].guard; }
+const Guard& Engine::guardOf (std::string_view role) const
+{
+    for (const auto& channel : channels)
+        if (channel->role == role) return channel->guard;
+    throw std::out_of_range ("the plan has no role '" + std::string (role) + "'");
+}
 
 }   // namespace tactus

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "bumpless.hpp"
 #include "guard.hpp"
+#include "handover.hpp"
+#include "message.hpp"
 #include "plan/plan.hpp"
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace tactus
 {
 
-/// Runs a plan against devices: read, tick, sum, guard, write. The same engine runs live and offline.
+/// Runs a plan against devices: read, tick, sum, guard, write. The same engine runs live and offline. Another plan may
+/// take over between two ticks; nodes that are in both go on, and no role's effort steps.
 class Engine
 {
 public:
@@ -22,6 +28,33 @@ public:
     /// Gives a role its device, which must outlive the engine, and the limits of its guard. [main thread, before ticking]
     void attach (std::string_view role, Device&, const GuardLimits& = {});
 
+    //==========================================================================
+    // Another plan. It is compiled with newest() as CompileOptions::before, so that it is built on the one it replaces:
+    //
+    //     auto waiting = engine.withdraw();
+    //     auto compiled = compile (graph, catalogue(), { .before = &engine.newest() });
+    //     engine.submit (compiled.plan ? compiled.plan : waiting);
+
+    /// Takes back the plan that was submitted last, if no tick has taken it yet; else null. [main thread]
+    std::shared_ptr<Plan> withdraw();
+
+    /// The plan that ticks, or is about to. [main thread]
+    const Plan& newest() noexcept { return *handover.newest().plan; }
+
+    /// The next tick takes it. Null changes nothing. Its rate must be that of the first. [main thread]
+    void submit (std::shared_ptr<Plan>);
+
+    /// Frees plans that are used no more, as submit does too. Returns how many there still are. [main thread]
+    std::size_t clear();
+
+    //==========================================================================
+    /// A parameter of the newest plan by its name: one component of a vector, one entry of a list. [main thread]
+    std::variant<plan::ParamRef, Message> param (std::string_view name);
+
+    /// Turns a parameter; a ramp leads there (plan/ramps.hpp). [any thread]
+    void set (const plan::ParamRef&, double) noexcept;
+
+    //==========================================================================
     /// One sample. Allocates nothing, takes no lock, asks no clock. [tick thread]
     void tick() noexcept;
 
@@ -31,20 +64,40 @@ public:
     /// True once nothing is on any device, so that it can be let go without a step. [tick thread]
     bool isAtRest() const noexcept;
 
-    Plan& plan() noexcept { return *current; }
+    Plan& plan() noexcept { return *running->plan; }   ///< the one that ticks   [tick thread]
     const Guard& guardOf (std::string_view role) const;
-    double time_s() const noexcept { return static_cast<double> (ticks) / current->rate_hz; }
+    double time_s() const noexcept { return static_cast<double> (ticks) / rate_hz; }
 
 private:
-    struct Attached
+    struct Channel
     {
+        std::string role;
         Device* device = nullptr;
-        Guard guard;
-        std::vector<double> scratch;   // to sum the sinks in
+        Guard guard {};
+        Bumpless bumpless {};
     };
 
-    std::shared_ptr<Plan> current;
-    std::vector<Attached> attached;   // as plan().roles
+    /// A plan with what the engine keeps beside it.
+    struct Running
+    {
+        std::shared_ptr<Plan> plan;
+        std::vector<Channel*> channels;   // as plan->roles
+        std::vector<double> scratch;      // to sum the sinks of a role in
+    };
+
+    Channel& channelOf (const std::string& role);
+    std::unique_ptr<Running> makeRunning (std::shared_ptr<Plan>);
+    void takeOver (Running&) noexcept;
+    void turnKnobs() noexcept;
+
+    double rate_hz;
+    std::vector<std::unique_ptr<Channel>> channels;   // of all roles there ever were   [main thread]
+    Handover<Running> handover;
+    std::atomic<bool> touched = true;   // some knob is, or a plan is new
+
+    // Of the tick thread.
+    Running* running;
+    bool fresh = true;   // the plan has not ticked yet
     std::uint64_t ticks = 0;
 };
 
