@@ -17,7 +17,7 @@ namespace
 class Generator
 {
 public:
-    explicit Generator (unsigned seed) : random (seed) {}
+    explicit Generator (std::mt19937& r) : random (r) {}
 
     graph::Graph make (int size)
     {
@@ -36,8 +36,48 @@ public:
         return g;
     }
 
+    /// A node of any type, or of one of the graph's subgraphs.
+    graph::Node node (std::string name, const graph::Graph& g)
+    {
+        graph::Node n;
+        n.name = std::move (name);
+        if (! g.graphs.empty() && oneIn (8))
+            n.type = "graph:" + g.graphs[static_cast<std::size_t> (below (static_cast<int> (g.graphs.size())))].first;
+        else
+        {
+            const auto& type = *(catalogue().begin() + below (static_cast<int> (std::distance (catalogue().begin(), catalogue().end()))));
+            n.type = type.info.id;
+            if (type.bind) n.role = oneIn (2) ? "left" : "right";
+            for (const auto& s : type.settings)
+            {
+                if (s.id == "inputs") n.settings["inputs"] = 1 + below (4);
+                if (s.id == "text") n.settings["text"] = "in[0] * 0.5";
+                if (s.id == "ticks") n.settings["ticks"] = 1 + below (5);
+                if (s.id == "modes") n.settings["modes"] = { { { "frequency", 180.0 }, { "decay", 20.0 }, { "amplitude", 0.5 } } };
+            }
+            for (const auto& p : type.params)
+                if (p.choices.size() > 1 && ! p.list) n.params[std::string (p.id)] = p.choices[static_cast<std::size_t> (below (static_cast<int> (p.choices.size())))];
+        }
+        n.bypass = ! n.type.starts_with ("graph:") && oneIn (20);
+        return n;
+    }
+
+    std::optional<graph::Wire> wire (const graph::Node& a, const graph::Node& b, const graph::Graph& g)
+    {
+        const auto from = port (a, true, g), to = port (b, false, g);
+        if (! from || ! to || (from->width != 0 && to->width != 0 && from->width != to->width)) return {};
+
+        graph::Wire w;
+        w.from = from->endpoint;
+        w.to = to->endpoint;
+        if (oneIn (6)) w.delay = 1 + below (4);
+        if (oneIn (5)) w.gain = 0.25 * (1 + below (8)) - 1.0;
+        w.add = oneIn (3);
+        return w;
+    }
+
 private:
-    std::mt19937 random;
+    std::mt19937& random;
 
     int below (int n) { return std::uniform_int_distribution { 0, std::max (n, 1) - 1 }(random); }
     bool oneIn (int n) { return below (n) == 0; }
@@ -54,27 +94,7 @@ private:
     {
         for (int i = 0; i < size; ++i)
         {
-            graph::Node n;
-            n.name = "n" + std::to_string (i);
-            if (! g.graphs.empty() && oneIn (8))
-                n.type = "graph:" + g.graphs[static_cast<std::size_t> (below (static_cast<int> (g.graphs.size())))].first;
-            else
-            {
-                const auto& type = *(catalogue().begin() + below (static_cast<int> (std::distance (catalogue().begin(), catalogue().end()))));
-                n.type = type.info.id;
-                if (type.bind) n.role = oneIn (2) ? "left" : "right";
-                for (const auto& s : type.settings)
-                {
-                    if (s.id == "inputs") n.settings["inputs"] = 1 + below (4);
-                    if (s.id == "text") n.settings["text"] = "in[0] * 0.5";
-                    if (s.id == "ticks") n.settings["ticks"] = 1 + below (5);
-                    if (s.id == "modes") n.settings["modes"] = { { { "frequency", 180.0 }, { "decay", 20.0 }, { "amplitude", 0.5 } } };
-                }
-                for (const auto& p : type.params)
-                    if (p.choices.size() > 1 && ! p.list) n.params[std::string (p.id)] = p.choices[static_cast<std::size_t> (below (static_cast<int> (p.choices.size())))];
-            }
-            n.bypass = ! n.type.starts_with ("graph:") && oneIn (20);
-            patch.nodes.push_back (std::move (n));
+            patch.nodes.push_back (node ("n" + std::to_string (i), g));
         }
         for (int i = 0; i < 2 * size; ++i)
             addWire (patch, g);
@@ -116,16 +136,7 @@ private:
     {
         const auto& a = patch.nodes[static_cast<std::size_t> (below (static_cast<int> (patch.nodes.size())))];
         const auto& b = patch.nodes[static_cast<std::size_t> (below (static_cast<int> (patch.nodes.size())))];
-        const auto from = port (a, true, g), to = port (b, false, g);
-        if (! from || ! to || (from->width != 0 && to->width != 0 && from->width != to->width)) return;
-
-        graph::Wire w;
-        w.from = from->endpoint;
-        w.to = to->endpoint;
-        if (oneIn (6)) w.delay = 1 + below (4);
-        if (oneIn (5)) w.gain = 0.25 * (1 + below (8)) - 1.0;
-        w.add = oneIn (3);
-        patch.wires.push_back (std::move (w));
+        if (auto w = wire (a, b, g)) patch.wires.push_back (std::move (*w));
     }
 
     void expose (graph::Patch& patch)
@@ -200,7 +211,18 @@ private:
 };
 }   // namespace
 
-graph::Graph randomGraph (unsigned seed, int size) { return Generator { seed }.make (size); }
+graph::Graph randomGraph (unsigned seed, int size)
+{
+    std::mt19937 random { seed };
+    return Generator { random }.make (size);
+}
+
+graph::Node randomNode (std::mt19937& random, std::string name, const graph::Graph& g) { return Generator { random }.node (std::move (name), g); }
+
+std::optional<graph::Wire> randomWire (std::mt19937& random, const graph::Node& from, const graph::Node& to, const graph::Graph& g)
+{
+    return Generator { random }.wire (from, to, g);
+}
 
 graph::Graph shuffled (graph::Graph g, unsigned seed)
 {

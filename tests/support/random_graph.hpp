@@ -3,7 +3,9 @@
 
 #include <framework/graph/graph.hpp>
 
+#include <optional>
 #include <random>
+#include <string>
 
 namespace tactus::test
 {
@@ -11,6 +13,12 @@ namespace tactus::test
 /// A graph that compiles, drawn by chance: up to `size` nodes of any type, some inside subgraphs (nested, shared), wires
 /// between whole ports and components, delays, gains with units, wires onto parameters with and without (+), bypassed nodes.
 graph::Graph randomGraph (unsigned seed, int size);
+
+/// A node of any type, subgraphs of the graph among them, as randomGraph draws them.
+graph::Node randomNode (std::mt19937&, std::string name, const graph::Graph&);
+
+/// A wire between two nodes, if they have ports of one width; it need not compile.
+std::optional<graph::Wire> randomWire (std::mt19937&, const graph::Node& from, const graph::Node& to, const graph::Graph&);
 
 /// The same graph, its nodes and wires written in another order.
 graph::Graph shuffled (graph::Graph, unsigned seed);

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine.hpp"
+#include "graph/history.hpp"
+#include "plan/compile.hpp"
+
+namespace tactus
+{
+
+/// A graph that is edited while it runs. Each edit is compiled and handed to the engine, whose tick thread takes it over
+/// between two ticks. What does not compile leaves the plan before running; the graph keeps the edit, so that the next
+/// one can mend it. All but engine().tick() is for the main thread.
+class Live
+{
+public:
+    /// The plan is what compile gives for the graph with these options; it must not be null.
+    Live (graph::Graph, const Catalogue&, CompileOptions, std::shared_ptr<Plan>);
+
+    Engine& engine() noexcept { return running; }
+    const graph::Graph& graph() const noexcept { return edits.graph(); }
+    const graph::History& history() const noexcept { return edits; }
+
+    /// Each returns what there is to say about the graph as it is now, or why the edit was refused.
+    Messages perform (graph::Command, graph::Step = graph::Step::own);
+    Messages undo();
+    Messages redo();
+
+    /// Turns parameters without an edit, by a value as a file would have it: 0.4, "0.4 mm", "stick", [0, 0, 1].
+    std::optional<Message> set (std::string_view name, const Json& value);
+
+private:
+    Messages compileAndSubmit();
+
+    graph::History edits;
+    const Catalogue& catalogue;
+    CompileOptions options;
+    Engine running;
+};
+
+}   // namespace tactus

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// What is felt while a graph is edited under the hand.
+
+#include "support/chance_hand.hpp"
+#include "support/interpreter.hpp"
+#include "support/no_allocation.hpp"
+#include "support/random_edit.hpp"
+#include "support/random_graph.hpp"
+#include "support/sketch.hpp"
+
+#include <framework/live.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+using namespace tactus;
+
+namespace
+{
+constexpr double rate_hz = 4000.0;
+constexpr std::size_t ten_seconds = 40000;
+
+/// A hand on a wall that rubs and rings, and beside it whatever chance drew, which is felt too.
+graph::Graph touchable (unsigned seed, int size)
+{
+    test::Sketch s;
+    s.graph = test::randomGraph (seed, size);
+    s.node ("hand", "device.position").node ("wall", "deform.plane").node ("drag", "friction.elasto_plastic").node ("bar", "vibration.modal", Json::object(), { { "modes", { { { "frequency", 180.0 }, { "decay", 20.0 }, { "amplitude", 0.5 } } } } }).node ("motor", "device.force");
+    s.wire ("hand.position -> wall.position").wire ("hand.position -> drag.position").wire ("wall.resistance -> drag.normal_force").wire ("wall.hit -> bar.hit");
+    s.wire ("wall.force -> motor.force").wire ("drag.force -> motor.force").wire ("bar.value -> motor.force.z").wire ("motor.applied -> [3] -> drag.normal");
+    s.graph.root.wires.back().gain = "1 1/N";
+    return s.graph;
+}
+
+/// What both hands felt, and the bits of all that was recorded.
+struct Felt
+{
+    std::vector<Effort> left, right;
+    std::vector<std::uint64_t> recorded;
+    int taken = 0, refused = 0;
+};
+
+/// The largest step that the bumpless rule does not allow, over the size of what steps.
+class BumplessRule
+{
+public:
+    void look (const Plan& plan, bool taken_over, const Effort& applied, bool stopped)
+    {
+        const auto role = std::ranges::find (plan.roles, "right", &Plan::RoleUse::name);
+        Effort wanted;
+        for (const auto& sink : role->sinks)
+        {
+            const auto e = sink.effort (sink.node);
+            wanted.force += e.force;
+            wanted.torque += e.torque;
+        }
+        if (taken_over && ! role->untouched)
+        {
+            difference = (last.force - wanted.force).cwiseAbs() + (last.torque - wanted.torque).cwiseAbs();
+            own = { Vec3::Zero(), Vec3::Zero() };
+            since = 0;
+        }
+        else
+            own = { wanted.force - last_wanted.force, wanted.torque - last_wanted.torque };
+        const double per_tick = std::numbers::pi / (2.0 * Bumpless::fade_s * rate_hz);
+        const bool fading = since > 0 && since <= static_cast<int> (Bumpless::fade_s * rate_hz);
+        const Vec3 allowed = own.force.cwiseAbs() + own.torque.cwiseAbs() + (fading ? per_tick : 0.0) * difference;
+        const Vec3 step = (applied.force - last.force).cwiseAbs() + (applied.torque - last.torque).cwiseAbs();
+        const double size = std::max ({ 1e-3, difference.maxCoeff(), applied.force.cwiseAbs().maxCoeff(), last_wanted.force.cwiseAbs().maxCoeff(), wanted.force.cwiseAbs().maxCoeff() });
+        if (! stopped && ! was_stopped && isFinite (step, allowed)) worst = std::max (worst, (step - allowed).maxCoeff() / size);
+        was_stopped = stopped;
+        last = applied;
+        last_wanted = wanted;
+        ++since;
+    }
+
+    double worst = 0.0;
+
+private:
+    Effort last, last_wanted, own;
+    Vec3 difference = Vec3::Zero();
+    int since = 1 << 20;
+    bool was_stopped = false;
+};
+
+/// Ten seconds; before a tick, `edit` may do what it likes.
+template <typename Edit>
+Felt play (const graph::Graph& g, const std::vector<std::string>& records, unsigned seed, std::size_t ticks, BumplessRule* rule, Edit edit)
+{
+    const CompileOptions options { .rate_hz = rate_hz, .records = records };
+    auto [plan, messages] = compile (g, catalogue(), options);
+    INFO (test::text (messages));
+    REQUIRE (plan);
+    Live live { g, catalogue(), options, plan };
+    test::ChanceHand left { seed, ticks }, right { seed + 1, ticks };
+    live.engine().attach ("left", left);
+    live.engine().attach ("right", right);
+
+    Felt felt;
+    felt.recorded.reserve (ticks * plan->taps.size());
+    int unclean = 0;
+    for (std::size_t k = 0; k < ticks; ++k)
+    {
+        edit (live, felt);
+        const auto* before = &live.engine().plan();
+        {
+            const NoAllocation watch;
+            live.engine().tick();
+            unclean += watch.allocations() + watch.locks();
+        }
+        const bool taken = before != &live.engine().plan();
+        felt.taken += taken;
+        if (rule) rule->look (live.engine().plan(), taken, right.last, live.engine().guardOf ("right").stop() != Guard::Stop::none);
+        for (const auto& tap : live.engine().plan().taps)
+            felt.recorded.push_back (*tap.value == *tap.value ? std::bit_cast<std::uint64_t> (*tap.value) : ~0ull);
+    }
+    CHECK (unclean == 0);
+    felt.left = std::move (left.efforts);
+    felt.right = std::move (right.efforts);
+    return felt;
+}
+
+std::vector<std::string> everyOutput (const graph::Graph& g)
+{
+    std::vector<std::string> names;
+    for (const auto& [name, value] : test::Interpreter { g, rate_hz }.outputs())
+        names.push_back (name);
+    return names;
+}
+
+std::size_t differing (const std::vector<Effort>& a, const std::vector<Effort>& b)
+{
+    std::size_t n = a.size() == b.size() ? 0 : 1000000;
+    for (std::size_t k = 0; k < std::min (a.size(), b.size()); ++k)
+        n += ! test::operator== (a[k], b[k]);
+    return n;
+}
+}   // namespace
+
+TEST_CASE ("ten seconds of edits on one side are not felt on the other, and without steps on their own", "[live]")
+{
+    for (const unsigned seed : { 1u, 2u, 3u, 4u })
+    {
+        const auto steady = test::prefixed (touchable (seed, 20), "s_", "left"), wild = test::prefixed (touchable (seed + 100, 30), "e_", "right");
+        const auto both = test::besides (steady, wild);
+        const auto records = everyOutput (steady);
+        const auto ticks = seed == 1 ? ten_seconds : ten_seconds / 8;
+
+        std::mt19937 random { seed };
+        BumplessRule rule;
+        int failing = 0;
+        const auto edited = play (both, records, seed, ticks, &rule, [&] (Live& live, Felt& felt)
+                                  {
+            for (auto edits = random() % 8 == 0 ? 1 + random() % 3 : 0; edits > 0; --edits)
+            {
+                const auto messages = random() % 8 == 0 ? (random() % 2 ? live.undo() : live.redo()) : live.perform (test::randomEdit (random, live.graph(), "e_", "right"));
+                felt.refused += hasErrors (messages);
+                failing = hasErrors (messages) ? failing + 1 : 0;
+                while (failing > 1)
+                    failing = hasErrors (live.undo()) ? failing : 0;
+            } });
+        const auto quiet = play (both, records, seed, ticks, nullptr, [] (Live&, Felt&) {});
+
+        INFO ("seed " << seed << ", " << edited.taken << " plans taken, " << edited.refused << " refused");
+        CHECK (edited.taken > static_cast<int> (ticks) / 20);
+        CHECK (differing (edited.left, quiet.left) == 0);
+        CHECK (edited.recorded == quiet.recorded);
+        CHECK (differing (edited.right, quiet.right) > ticks / 10);
+        CHECK (rule.worst < 1e-9);
+    }
+}

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <framework/device.hpp>
+
+#include <random>
+#include <vector>
+
+namespace tactus::test
+{
+
+/// A hand that trembles about the origin, the same for the same seed, and remembers what it was asked for. It does not
+/// yield, so that two runs can be compared.
+class ChanceHand final : public Device
+{
+public:
+    /// There is room for so many efforts; later ones are let go.
+    explicit ChanceHand (unsigned seed, std::size_t room = 0) : random (seed) { efforts.reserve (room); }
+
+    void prepare (double) override {}
+
+    Reading read() noexcept override
+    {
+        const auto next = [this]
+        { return static_cast<double> (random()) / 2147483648.0 - 1.0; };
+        for (int c = 0; c < 3; ++c)
+            speed[c] = 0.98 * speed[c] + 2e-5 * next();
+        position = 0.999 * position + speed;
+        Reading r;
+        r.position = r.true_position = position;
+        r.pressure = 100.0 * std::abs (position.z());
+        return r;
+    }
+
+    void write (const Effort& e) noexcept override
+    {
+        if (efforts.size() < efforts.capacity()) efforts.push_back (e);
+        last = e;
+    }
+
+    std::vector<Effort> efforts;
+    Effort last;
+
+private:
+    std::mt19937 random;
+    Vec3 position = Vec3::Zero(), speed = Vec3::Zero();
+};
+
+inline bool operator== (const Effort& a, const Effort& b) { return a.force == b.force && a.torque == b.torque; }
+
+}   // namespace tactus::test
