@@ -65,21 +65,29 @@ Messages Live::compileAndSubmit()
 
 std::optional<Message> Live::set (std::string_view name, const Json& value)
 {
-    const auto turn = [&] (const std::string& one, const Json& to) -> std::optional<Message>
+    std::vector<std::pair<plan::ParamRef, double>> turns;   // all of them, or none
+    const auto add = [&] (const std::string& one, const Json& to) -> std::optional<Message>
     {
         auto found = running.param (one);
         if (auto* message = std::get_if<Message> (&found)) return std::move (*message);
-        const auto& param = std::get<plan::ParamRef> (found);
+        auto& param = std::get<plan::ParamRef> (found);
         auto number = read (to, *param.sheet, one);
         if (auto* message = std::get_if<Message> (&number)) return std::move (*message);
-        running.set (param, std::get<double> (number));
+        turns.emplace_back (std::move (param), std::get<double> (number));
         return std::nullopt;
     };
-    if (! value.is_array()) return turn (std::string (name), value);
 
-    const bool vector = value.size() == 3 && std::holds_alternative<plan::ParamRef> (running.param (std::string (name) + ".x"));
-    for (std::size_t i = 0; i < value.size(); ++i)
-        if (auto message = turn (std::string (name) + (vector ? std::string (".") + "xyz"[i] : "[" + std::to_string (i) + "]"), value[i])) return message;
+    if (value.is_array())
+    {
+        const bool vector = value.size() == 3 && std::holds_alternative<plan::ParamRef> (running.param (std::string (name) + ".x"));
+        for (std::size_t i = 0; i < value.size(); ++i)
+            if (auto message = add (std::string (name) + (vector ? std::string (".") + "xyz"[i] : "[" + std::to_string (i) + "]"), value[i])) return message;
+    }
+    else if (auto message = add (std::string (name), value))
+        return message;
+
+    for (const auto& [param, number] : turns)
+        running.set (param, number);
     return std::nullopt;
 }
 

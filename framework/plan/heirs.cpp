@@ -85,11 +85,13 @@ std::vector<int> match (const Flat& now, const Flat& before, List Flat::*list, T
     if (! anyLeft (here) || ! anyLeft (there)) return found;
 
     const auto ids = idsOf (now), ids_before = idsOf (before);
+    const auto inBoth = [&] (graph::Id id)
+    { return ids.contains (id) && ids_before.contains (id); };
     pair (here, there, found, [&] (const Chain& c)
           {
+              if (! inBoth (c.back())) return c;
               Chain common;
-              std::ranges::copy_if (c, std::back_inserter (common), [&] (graph::Id id)
-                                    { return ids.contains (id) && ids_before.contains (id); });
+              std::ranges::copy_if (c, std::back_inserter (common), inBoth);
               return common; });
     pair (here, there, found, [] (const Chain& c)
           { return Chain { c.back() }; });
