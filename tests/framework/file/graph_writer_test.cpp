@@ -57,22 +57,22 @@ TEST_CASE ("what does not fit on a line is broken, numbers are packed")
 
 TEST_CASE ("numbers are short and read back to the same double")
 {
-    CHECK (numberText (0.0) == "0.0");
-    CHECK (numberText (-0.0) == "-0.0");
-    CHECK (numberText (100.0) == "100.0");
-    CHECK (numberText (0.0004) == "0.0004");
-    CHECK (numberText (1e-5) == "1e-5");
-    CHECK (numberText (1.5e-12) == "1.5e-12");
-    CHECK (numberText (1e22) == "1e22");
-    CHECK (numberText (-2.5e100) == "-2.5e100");
-    CHECK (numberText (5e-324) == "5e-324");
+    CHECK (jsonNumber (0.0) == "0.0");
+    CHECK (jsonNumber (-0.0) == "-0.0");
+    CHECK (jsonNumber (100.0) == "100.0");
+    CHECK (jsonNumber (0.0004) == "0.0004");
+    CHECK (jsonNumber (1e-5) == "1e-5");
+    CHECK (jsonNumber (1.5e-12) == "1.5e-12");
+    CHECK (jsonNumber (1e22) == "1e22");
+    CHECK (jsonNumber (-2.5e100) == "-2.5e100");
+    CHECK (jsonNumber (5e-324) == "5e-324");
     rc::prop ("any finite double", []
               {
                   const auto bits = *rc::gen::arbitrary<std::uint64_t>();
                   double value = 0.0, back = 0.0;
                   std::memcpy (&value, &bits, sizeof value);
                   RC_PRE (value - value == 0.0);
-                  const auto text = numberText (value);
+                  const auto text = jsonNumber (value);
                   std::from_chars (text.data(), text.data() + text.size(), back);
                   RC_ASSERT (std::memcmp (&value, &back, sizeof value) == 0);
                   RC_ASSERT (Json::parse (text).is_number_float()); });
