@@ -2,6 +2,7 @@
 #include "edit.hpp"
 
 #include "references.hpp"
+#include "regroup.hpp"
 #include "text.hpp"
 
 #include <framework/file/graph_parts.hpp>
@@ -298,21 +299,62 @@ public:
         if (at == graph.graphs.end()) return noPatch (c.name);
         if (checked())
         {
-            std::string users;
-            const auto search = [&] (const std::string& name, const Patch& patch)
-            {
-                if (name == c.name) return;   // what stands inside goes with it
-                for (const auto& node : patch.nodes)
-                    if (node.type == "graph:" + c.name) users += (users.empty() ? "" : ", ") + (name.empty() ? "" : name + "/") + node.name;
-            };
-            search ("", graph.root);
-            for (const auto& [name, patch] : graph.graphs)
-                search (name, patch);
+            const auto users = usersOf (c.name);
             if (! users.empty()) return refused ("edit/in_use", "the subgraph " + inQuotes (c.name) + " is the type of " + users, "remove these nodes first");
         }
         AddSubgraph back { c.name, std::move (at->second), placeOf (at, graph.graphs) };
         graph.graphs.erase (at);
         return back;
+    }
+
+    Result operator() (const RenameSubgraph& c)
+    {
+        const auto at = std::ranges::find (graph.graphs, c.name, [] (const auto& g) -> const std::string&
+                                           { return g.first; });
+        if (at == graph.graphs.end()) return noPatch (c.name);
+        if (graph.find (c.to) != nullptr || ! usersOf (c.to).empty()) return taken ("a subgraph, or a node of one,", c.to);
+        if (checked() && ! isId (c.to)) return badId (c.to);
+        at->first = c.to;
+        const auto follow = [&] (Patch& patch)
+        {
+            for (auto& node : patch.nodes)
+                if (node.type == "graph:" + c.name) node.type = "graph:" + c.to;
+        };
+        follow (graph.root);
+        for (auto& [name, patch] : graph.graphs)
+            follow (patch);
+        return RenameSubgraph { c.to, c.name };
+    }
+
+    Result operator() (const CollapseNodes& c)
+    {
+        auto* patch = find (c.patch);
+        if (patch == nullptr) return noPatch (c.patch);
+        for (const auto& name : c.nodes)
+            if (patch->find (name) == nullptr) return noNode (c.patch, name);
+        if (c.nodes.empty()) return refused ("edit/bad_value", "there are no nodes to collapse");
+        if (patch->find (c.name) != nullptr) return taken ("a node", c.name);
+        if (graph.find (c.subgraph) != nullptr || ! usersOf (c.subgraph).empty()) return taken ("a subgraph, or a node of one,", c.subgraph);
+        for (const auto& name : { c.name, c.subgraph })
+            if (! isId (name)) return badId (name);
+        return regrouped ([&]
+                          { return collapse (graph, c); });
+    }
+
+    Result operator() (const ExpandNode& c)
+    {
+        auto* patch = find (c.patch);
+        if (patch == nullptr) return noPatch (c.patch);
+        if (patch->find (c.name) == nullptr) return noNode (c.patch, c.name);
+        return regrouped ([&]
+                          { return expand (graph, c); });
+    }
+
+    Result operator() (const ReplaceGraph& c)
+    {
+        auto before = std::make_shared<Graph> (std::move (graph));
+        graph = *c.to;
+        return ReplaceGraph { std::move (before) };
     }
 
     //==============================================================================
@@ -416,6 +458,34 @@ private:
         }
         auto old = exchangeMember (node->*object, id, c.value, c.place);
         return C { c.patch, c.node, id, std::move (old.value), old.place };
+    }
+
+    /// The nodes of a subgraph, but for those inside of it, as a sentence lists them.
+    std::string usersOf (const std::string& subgraph) const
+    {
+        std::string users;
+        const auto search = [&] (const std::string& name, const Patch& patch)
+        {
+            if (name == subgraph) return;
+            for (const auto& node : patch.nodes)
+                if (node.type == "graph:" + subgraph) users += (users.empty() ? "" : ", ") + (name.empty() ? "" : name + "/") + node.name;
+        };
+        search ("", graph.root);
+        for (const auto& [name, patch] : graph.graphs)
+            search (name, patch);
+        return users;
+    }
+
+    /// Carries out an edit that touches much, all of it or nothing.
+    template <typename Edit>
+    Result regrouped (Edit edit)
+    {
+        auto before = std::make_shared<Graph> (graph);
+        auto problem = edit();
+        if (! problem && checked() && anythingTwice()) problem = refused ("edit/name_taken", "a control or an override would refer to one thing twice");
+        if (! problem) return ReplaceGraph { std::move (before) };
+        graph = std::move (*before);
+        return std::move (*problem);
     }
 
     /// Carries out what undoes a half-done edit.

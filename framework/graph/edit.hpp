@@ -10,6 +10,7 @@
 ///     edit/name_taken       a node, control, subgraph or target of that name is there already
 ///     edit/id_taken         a node or wire was copied with its id; give it a new one
 ///     edit/in_use           a subgraph that nodes still have as their type
+///     edit/cannot_expand    a node of no subgraph, or one whose subgraph does not stand in its place as it is
 ///     edit/bad_value        a key that this command cannot set, or a value that a file could not hold
 
 #include "graph.hpp"
@@ -18,6 +19,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -124,6 +126,35 @@ struct RemoveSubgraph
     std::string name;
 };
 
+struct RenameSubgraph
+{
+    std::string name, to;
+};
+
+/// Nodes of a patch, with the wires among them, become a new subgraph, and one node of it takes their place. Wires from
+/// outside reach them through ports that it shows; whatever else names them follows. Nodes and wires keep their ids.
+struct CollapseNodes
+{
+    std::string patch;
+    std::vector<std::string> nodes;
+    std::string name;       ///< of the node
+    std::string subgraph;   ///< that it is of
+};
+
+/// The reverse: what is in its subgraph takes the node's place, with the params, overrides and roles that the node gave
+/// it. A subgraph that no other node is of goes; of one that is shared, copies are made, which know their origin. A node
+/// whose name is taken outside is given another one that begins with the name of the subgraph node.
+struct ExpandNode
+{
+    std::string patch, name;
+};
+
+/// All of it: the way back from edits that change much. Nodes and wires that were there under the same ids are the same.
+struct ReplaceGraph
+{
+    std::shared_ptr<const Graph> to;
+};
+
 struct ChangeExpose
 {
     std::string patch;
@@ -160,7 +191,7 @@ struct Batch
 /// Any of these. No variant itself, since apply would then find std::apply.
 struct Command
 {
-    using Edit = std::variant<AddNode, RemoveNode, RenameNode, SetParam, SetSetting, SetNodeKey, AddWire, RemoveWire, ChangeWire, AddControl, RemoveControl, ChangeControl, AddSubgraph, RemoveSubgraph, ChangeExpose, SetDevice, SetHeader, Batch>;
+    using Edit = std::variant<AddNode, RemoveNode, RenameNode, SetParam, SetSetting, SetNodeKey, AddWire, RemoveWire, ChangeWire, AddControl, RemoveControl, ChangeControl, AddSubgraph, RemoveSubgraph, RenameSubgraph, CollapseNodes, ExpandNode, ReplaceGraph, ChangeExpose, SetDevice, SetHeader, Batch>;
 
     template <typename T>
     requires (! std::same_as<T, Command>)

@@ -24,6 +24,10 @@ struct Namer
     std::string operator() (const ChangeControl& c) const { return "change control " + inQuotes (c.control); }
     std::string operator() (const AddSubgraph& c) const { return "add subgraph " + inQuotes (c.name); }
     std::string operator() (const RemoveSubgraph& c) const { return "remove subgraph " + inQuotes (c.name); }
+    std::string operator() (const RenameSubgraph& c) const { return "rename subgraph " + inQuotes (c.name) + " to " + inQuotes (c.to); }
+    std::string operator() (const CollapseNodes& c) const { return "collapse to " + inQuotes (c.name); }
+    std::string operator() (const ExpandNode& c) const { return "expand " + inQuotes (c.name); }
+    std::string operator() (const ReplaceGraph&) const { return "replace the graph"; }
     std::string operator() (const ChangeExpose&) const { return "change shown ports"; }
     std::string operator() (const SetDevice& c) const { return (c.description ? "set device " : "remove device ") + inQuotes (c.role); }
     std::string operator() (const SetHeader&) const { return "change the graph's header"; }

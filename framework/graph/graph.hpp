@@ -36,6 +36,7 @@ struct Endpoint
 struct Wire
 {
     Id id = newId();
+    std::vector<Id> origin {};   ///< of a copy that expanding made: the subgraph node, and what it is a copy of; state follows
     Endpoint from, to;
     int delay = 0;                 ///< ticks; 0 is no delay
     bool add = false;              ///< `(+)`: onto a parameter's stored value instead of replacing it
@@ -47,6 +48,7 @@ struct Wire
 struct Node
 {
     Id id = newId();
+    std::vector<Id> origin {};   ///< as of a wire
     std::string name;
     std::string type;               ///< id in the catalogue, "graph:NAME" or "file:path.json"
     std::string role;               ///< of a device node

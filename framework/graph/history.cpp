@@ -39,9 +39,9 @@ std::optional<Message> History::perform (Command command, Step step)
 bool History::undo()
 {
     if (done == 0) return false;
-    const auto& inverses = steps[--done].inverses;
-    for (auto inverse = inverses.rbegin(); inverse != inverses.rend(); ++inverse)
-        apply (edited, *inverse, Checks::none);
+    auto& [name, commands, inverses] = steps[--done];
+    for (auto i = inverses.size(); i-- > 0;)
+        commands[i] = std::get<Command> (apply (edited, inverses[i], Checks::none));   // the way forth again, to the same ids
     return true;
 }
 
@@ -49,7 +49,7 @@ bool History::redo()
 {
     if (done == steps.size()) return false;
     for (const auto& command : steps[done++].commands)
-        apply (edited, command);
+        apply (edited, command, Checks::none);
     return true;
 }
 

@@ -11,6 +11,7 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace tactus::plan
@@ -86,8 +87,9 @@ struct Flat
 {
     std::vector<FlatNode> nodes;   ///< in file order, a subgraph's nodes where it stands
     std::vector<FlatWire> wires;
-    std::vector<Assignment> assignments;   ///< in order of precedence, lowest first
-    std::deque<NodeType> made_types;       ///< of bypassed subgraphs
+    std::vector<Assignment> assignments;            ///< in order of precedence, lowest first
+    std::deque<NodeType> made_types;                ///< of bypassed subgraphs
+    std::unordered_map<graph::Id, Chain> origins;   ///< of copies
     Messages messages;
 
     const PortSheet& sheet (const PortRef& r) const { return nodes[static_cast<std::size_t> (r.node)].ports (r.role)[static_cast<std::size_t> (r.port)]; }

@@ -80,6 +80,7 @@ private:
             if (flat.nodes.size() >= max_nodes || flat.isFull()) break;
             const auto here = at (scope.origin, "nodes", node.name);
             refuseUnsupported (node, here);
+            if (! node.origin.empty()) flat.origins.emplace (node.id, node.origin);
             auto& member = scope.members[node.name];
             if (node.type.starts_with ("graph:") || node.type.starts_with ("file:"))
                 addSubgraph (scope, node, here, roles, muted, member);
@@ -303,6 +304,7 @@ private:
         {
             const auto& wire = scope.patch->wires[i];
             const auto origin = at (scope.origin, "wires", std::to_string (i));
+            if (! wire.origin.empty()) flat.origins.emplace (wire.id, wire.origin);
             const auto before = flat.messages.size();
             const auto from = find (wire.from, Side::start, scope, origin, flat);
             const bool from_failed = flat.messages.size() > before;

@@ -50,13 +50,48 @@ void pair (Chains& now, Chains& before, std::vector<int>& found, Key key)
     }
 }
 
-std::unordered_set<graph::Id> idsOf (const Flat& flat)
+/// Chains in terms of what copies were made from.
+class Descent
+{
+public:
+    Descent (const Flat& a, const Flat& b) : flats { &a, &b } {}
+
+    Chain operator() (const Chain& chain) const
+    {
+        Chain all;
+        for (const auto id : chain)
+            add (id, all);
+        return all;
+    }
+
+private:
+    void add (graph::Id id, Chain& to) const
+    {
+        for (const auto* flat : flats)
+            if (const auto copy = flat->origins.find (id); copy != flat->origins.end())
+            {
+                for (const auto from : copy->second)
+                    add (from, to);
+                return;
+            }
+        to.push_back (id);
+    }
+
+    const Flat* flats[2];
+};
+
+std::unordered_set<graph::Id> idsOf (const Flat& flat, const Descent& descent)
 {
     std::unordered_set<graph::Id> ids;
+    const auto add = [&] (const Chain& chain)
+    {
+        const auto all = descent (chain);
+        ids.insert (all.begin(), all.end());
+    };
     for (const auto& n : flat.nodes)
-        ids.insert (n.chain.begin(), n.chain.end());
+        add (n.chain);
     for (const auto& w : flat.wires)
-        ids.insert (w.chain.begin(), w.chain.end());
+        add (w.chain);
     return ids;
 }
 
@@ -84,17 +119,22 @@ std::vector<int> match (const Flat& now, const Flat& before, List Flat::*list, T
           { return c; });
     if (! anyLeft (here) || ! anyLeft (there)) return found;
 
-    const auto ids = idsOf (now), ids_before = idsOf (before);
+    const Descent descent { now, before };
+    pair (here, there, found, descent);
+    if (! anyLeft (here) || ! anyLeft (there)) return found;
+
+    const auto ids = idsOf (now, descent), ids_before = idsOf (before, descent);
     const auto inBoth = [&] (graph::Id id)
     { return ids.contains (id) && ids_before.contains (id); };
     pair (here, there, found, [&] (const Chain& c)
           {
-              if (! inBoth (c.back())) return c;
+              const auto all = descent (c);
+              if (! inBoth (all.back())) return all;
               Chain common;
-              std::ranges::copy_if (c, std::back_inserter (common), inBoth);
+              std::ranges::copy_if (all, std::back_inserter (common), inBoth);
               return common; });
-    pair (here, there, found, [] (const Chain& c)
-          { return Chain { c.back() }; });
+    pair (here, there, found, [&] (const Chain& c)
+          { return Chain { descent (c).back() }; });
     return found;
 }
 }   // namespace

@@ -12,9 +12,9 @@ struct Heirs
     std::vector<int> nodes, wires;
 };
 
-/// By the ids of the subgraph nodes around them and their own. Of these ids only those count which both graphs have, so
-/// that to collapse or expand changes nothing; and what still has no like, but occurs only once here and there, has been
-/// moved.
+/// By the ids of the subgraph nodes around them and their own. Copies go by what they were made from. Of the ids around
+/// only those count which both graphs have, so that to collapse or expand changes nothing; and what still has no like,
+/// but occurs only once here and there, has been moved.
 Heirs findHeirs (const Flat& now, const Flat& before);
 
 }   // namespace tactus::plan

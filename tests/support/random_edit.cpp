@@ -183,4 +183,41 @@ graph::Graph besides (graph::Graph a, graph::Graph b)
 
 graph::Command randomEdit (std::mt19937& random, const graph::Graph& g, const std::string& prefix, const std::string& role) { return Editor { random, g, prefix, role }.any(); }
 
+graph::Command randomRegrouping (std::mt19937& random, const graph::Graph& g)
+{
+    const auto below = [&] (std::size_t n)
+    { return std::uniform_int_distribution<std::size_t> { 0, n - 1 }(random); };
+    const auto fresh = [&] (const char* prefix)
+    { return prefix + std::to_string (random() % 100000); };
+    std::string in;
+    const graph::Patch* patch = &g.root;
+    if (! g.graphs.empty() && below (2) == 0)
+    {
+        const auto& [name, inside] = g.graphs[below (g.graphs.size())];
+        in = name;
+        patch = &inside;
+    }
+    if (patch->nodes.empty()) return graph::SetHeader { .about = fresh ("about ") };
+
+    const auto& node = patch->nodes[below (patch->nodes.size())];
+    switch (below (6))
+    {
+    case 0:
+        return graph::RenameNode { in, node.name, fresh ("r") };
+    case 1:
+        if (in.empty()) return graph::SetHeader { .name = fresh ("name ") };
+        return graph::RenameSubgraph { in, fresh ("s") };
+    case 2:
+    case 3:
+        for (const auto& n : patch->nodes)
+            if (n.type.starts_with ("graph:") && below (2) == 0) return graph::ExpandNode { in, n.name };
+        return graph::RenameNode { in, node.name, fresh ("r") };
+    default:
+        graph::CollapseNodes collapse { in, {}, fresh ("c"), fresh ("g") };
+        for (const auto& n : patch->nodes)
+            if (below (4) == 0 || &n == &node) collapse.nodes.push_back (n.name);
+        return collapse;
+    }
+}
+
 }   // namespace tactus::test

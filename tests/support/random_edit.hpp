@@ -19,4 +19,8 @@ graph::Graph besides (graph::Graph, graph::Graph);
 /// anything else is only ever listened to. New device nodes have the role that is given.
 graph::Command randomEdit (std::mt19937&, const graph::Graph&, const std::string& prefix, const std::string& role);
 
+/// An edit that changes how a graph is written and not what it means: renames, nodes collapsed to subgraphs, subgraphs
+/// expanded. It may be refused.
+graph::Command randomRegrouping (std::mt19937&, const graph::Graph&);
+
 }   // namespace tactus::test

@@ -99,7 +99,7 @@ public:
     {
         const auto patch = anyPatch (g);
         const auto* p = patch.empty() ? &g.root : g.find (patch);
-        switch (upTo (depth > 0 ? 17 : 16))
+        switch (upTo (depth > 0 ? 20 : 19))
         {
         case 0:
             return AddNode { patch, anyNode (g), place() };
@@ -152,6 +152,17 @@ public:
             if (oneIn (2)) header.ui = maybe (Json { { "zoom", 2 } }).value_or (Json());
             return header;
         }
+        case 17:
+            return RenameSubgraph { oneOf ({ "sub1", "sub2", "new" }), oneOf ({ "sub1", "fresh", "No" }) };
+        case 18:
+        {
+            CollapseNodes collapse { patch, {}, oneOf ({ "group", "n1", "No" }), oneOf ({ "new", "newer", "sub1" }) };
+            for (int i = 1 + upTo (2); i > 0; --i)
+                if (const auto n = nodeIn (p); std::ranges::count (collapse.nodes, n) == 0) collapse.nodes.push_back (n);
+            return collapse;
+        }
+        case 19:
+            return ExpandNode { patch, nodeIn (p) };
         default:
         {
             Batch batch { "several", {} };
@@ -249,6 +260,123 @@ TEST_CASE ("what refers to a node follows its new name, also through the instanc
     CHECK (toText (g.root.wires[1]) == "hand.position -> texture[1]/ripple.position");
     CHECK (g.controls[0].to[0].path == "texture/ripple.amplitude");
     CHECK (g.root.find ("texture")->type == "graph:grain");
+}
+
+TEST_CASE ("nodes collapse to a subgraph, and all that names them finds them there")
+{
+    auto g = woodGraph();
+    const auto drag = g.root.find ("drag")->id;
+    const auto ends_inside = g.root.wires[0].id;
+    perform (g, CollapseNodes { "", { "drag", "grain" }, "wood", "block" });
+    REQUIRE (g.root.nodes.size() == 3);
+    CHECK (g.root.nodes[1].name == "wood");
+    CHECK (g.root.nodes[1].type == "graph:block");
+    const auto* block = g.find ("block");
+    REQUIRE (block);
+    CHECK (block->find ("drag")->id == drag);
+    CHECK (g.root.wires[0].id == ends_inside);
+    CHECK (toText (g.root.wires[0]) == "hand.position -> wood.position");
+    CHECK (toText (g.root.wires[1]) == "hand.position -> wood.grain_position");
+    CHECK (toText (g.root.wires[2]) == "wood.force -> motor.force");
+    CHECK (toText (g.root.wires[3]) == "wood.grain_force -> motor.force");
+    CHECK (toText (block->expose.inputs[1].second) == "grain[1]/wave.position");
+    CHECK (g.controls[0].to[0].path == "wood/grain/wave.amplitude");
+    CHECK (g.controls[0].to[1].path == "wood/drag.mu");
+
+    perform (g, CollapseNodes { "grain", { "wave" }, "inner", "wavelet" });
+    CHECK (toText (g.find ("grain")->wires[0]) == "inner.value -> gain.in");
+    CHECK (toText (g.find ("grain")->expose.inputs[0].second) == "inner/wave.position");
+    CHECK (g.controls[0].to[0].path == "wood/grain/inner/wave.amplitude");
+    CHECK (g.find ("block")->find ("grain")->overrides.contains ("[1]/inner/wave.angle"));
+    CHECK (toText (g.find ("block")->expose.inputs[1].second) == "grain[1]/inner/wave.position");
+
+    perform (g, ExpandNode { "grain", "inner" });
+    perform (g, ExpandNode { "", "wood" });
+    CHECK (g.find ("block") == nullptr);
+    CHECK (g.find ("wavelet") == nullptr);
+    CHECK (g.root.find ("drag")->id == drag);
+    auto as_it_was = woodGraph();
+    const auto wiresOf = [] (const Graph& graph)
+    {
+        std::vector<std::string> all;
+        for (const auto& w : graph.root.wires)
+            all.push_back (toText (w));
+        std::ranges::sort (all);
+        return all;
+    };
+    CHECK (wiresOf (g) == wiresOf (as_it_was));
+    CHECK (g.controls[0].to[0].path == "grain/wave.amplitude");
+    CHECK (g.root.find ("grain")->overrides == as_it_was.root.find ("grain")->overrides);
+}
+
+TEST_CASE ("expanding gives params, overrides and roles to what is inside, and leaves a shared subgraph to the others")
+{
+    auto loaded = readGraph (R"({ "format": "tactus-graph", "version": 1,
+  "nodes": {
+    "amp": { "type": "signal.gain" },
+    "a": { "type": "graph:pair", "params": { "factor": 3 }, "overrides": { "deep/amp.gain": 4, "amp.bias": 5 }, "roles": { "tip": "thumb" } },
+    "b": { "type": "graph:pair" }
+  },
+  "wires": [ "amp.out -> a.x", "a.y -> b.x", "a/deep/amp.out -> amp.bias" ],
+  "controls": { "loud": { "value": 0.5, "to": { "a.factor": [0, 1], "a/deep/amp.bias": [0, 1] } } },
+  "graphs": {
+    "pair": { "nodes": { "amp": { "type": "signal.gain", "params": { "gain": 1 } }, "hand": { "type": "device.position", "role": "tip" }, "deep": { "type": "graph:deep", "overrides": { "amp.gain": 2 } } },
+      "wires": [ "amp.out -> deep.x" ],
+      "expose": { "inputs": { "x": "amp.in" }, "outputs": { "y": "deep/amp.out" }, "params": { "factor": "amp.gain" } } },
+    "deep": { "nodes": { "amp": { "type": "signal.gain" } }, "expose": { "inputs": { "x": "amp.in" } } } } })");
+    REQUIRE (loaded.messages.empty());
+    auto g = std::move (loaded.graph);
+    const auto shared = g.find ("pair")->nodes[0].id;
+
+    perform (g, ExpandNode { "", "a" });
+    REQUIRE (g.root.find ("a_amp"));
+    CHECK (g.root.find ("a_amp")->params == Json { { "gain", 3 }, { "bias", 5 } });
+    CHECK (g.root.find ("deep")->overrides == Json { { "amp.gain", 4 } });
+    CHECK (g.root.find ("hand")->role == "thumb");
+    CHECK (g.root.find ("deep")->roles == Json { { "tip", "thumb" } });
+    CHECK (toText (g.root.wires[0]) == "amp.out -> a_amp.in");
+    CHECK (toText (g.root.wires[1]) == "deep/amp.out -> b.x");
+    CHECK (toText (g.root.wires[2]) == "deep/amp.out -> amp.bias");
+    CHECK (toText (g.root.wires[3]) == "a_amp.out -> deep.x");
+    CHECK (g.controls[0].to[0].path == "a_amp.gain");
+    CHECK (g.controls[0].to[1].path == "deep/amp.bias");
+    REQUIRE (g.find ("pair"));
+    CHECK (g.find ("pair")->nodes[0].id == shared);
+    CHECK (g.root.find ("a_amp")->id != shared);
+    CHECK (g.root.find ("a_amp")->origin.back() == shared);
+
+    perform (g, ExpandNode { "", "b" });
+    CHECK (g.find ("pair") == nullptr);
+    CHECK (g.root.find ("b_amp")->id == shared);
+}
+
+TEST_CASE ("a subgraph takes another name, and its nodes follow")
+{
+    auto g = woodGraph();
+    perform (g, RenameSubgraph { "grain", "fibre" });
+    CHECK (g.root.find ("grain")->type == "graph:fibre");
+    CHECK (refusal (g, RenameSubgraph { "fibre", "Fibre" }) == "graph/bad_id");
+    CHECK (refusal (g, RenameSubgraph { "grain", "x" }) == "edit/unknown_patch");
+    CHECK (refusal (g, RenameSubgraph { "fibre", "fibre" }) == "edit/name_taken");
+}
+
+TEST_CASE ("what cannot be collapsed or expanded is refused, and nothing is changed")
+{
+    auto g = woodGraph();
+    CHECK (refusal (g, CollapseNodes { "", {}, "a", "b" }) == "edit/bad_value");
+    CHECK (refusal (g, CollapseNodes { "", { "none" }, "a", "b" }) == "edit/unknown_node");
+    CHECK (refusal (g, CollapseNodes { "", { "drag" }, "hand", "b" }) == "edit/name_taken");
+    CHECK (refusal (g, CollapseNodes { "", { "drag" }, "a", "grain" }) == "edit/name_taken");
+    CHECK (refusal (g, CollapseNodes { "", { "drag" }, "A", "b" }) == "graph/bad_id");
+    CHECK (refusal (g, ExpandNode { "", "drag" }) == "edit/cannot_expand");
+    CHECK (refusal (g, ExpandNode { "", "grain" }) == "edit/cannot_expand");   // it is two instances
+    perform (g, SetNodeKey { "", "grain", "count", std::nullopt });
+    perform (g, SetNodeKey { "", "grain", "overrides", std::nullopt });
+    perform (g, RemoveWire { "", g.root.wires[1].id });
+    apply (g, AddWire { "", wire ("grain.nothing -> motor.force") }, Checks::none);
+    CHECK (refusal (g, ExpandNode { "", "grain" }) == "edit/cannot_expand");
+    g.root.wires.pop_back();
+    perform (g, ExpandNode { "", "grain" });
 }
 
 TEST_CASE ("an edit of one thing leaves the rest in its place")

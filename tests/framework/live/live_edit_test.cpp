@@ -147,14 +147,14 @@ TEST_CASE ("ten seconds of edits on one side are not felt on the other, and with
         const auto steady = test::prefixed (touchable (seed, 20), "s_", "left"), wild = test::prefixed (touchable (seed + 100, 30), "e_", "right");
         const auto both = test::besides (steady, wild);
         const auto records = everyOutput (steady);
-        const auto ticks = seed == 1 ? ten_seconds : ten_seconds / 8;
+        const auto ticks = seed == 1 ? ten_seconds : ten_seconds / 16;
 
         std::mt19937 random { seed };
         BumplessRule rule;
         int failing = 0;
         const auto edited = play (both, records, seed, ticks, &rule, [&] (Live& live, Felt& felt)
                                   {
-            for (auto edits = random() % 8 == 0 ? 1 + random() % 3 : 0; edits > 0; --edits)
+            for (auto edits = random() % 16 == 0 ? 1 + random() % 3 : 0; edits > 0; --edits)
             {
                 const auto messages = random() % 8 == 0 ? (random() % 2 ? live.undo() : live.redo()) : live.perform (test::randomEdit (random, live.graph(), "e_", "right"));
                 felt.refused += hasErrors (messages);
@@ -165,10 +165,45 @@ TEST_CASE ("ten seconds of edits on one side are not felt on the other, and with
         const auto quiet = play (both, records, seed, ticks, nullptr, [] (Live&, Felt&) {});
 
         INFO ("seed " << seed << ", " << edited.taken << " plans taken, " << edited.refused << " refused");
-        CHECK (edited.taken > static_cast<int> (ticks) / 20);
+        CHECK (edited.taken > static_cast<int> (ticks) / 40);
         CHECK (differing (edited.left, quiet.left) == 0);
         CHECK (edited.recorded == quiet.recorded);
         CHECK (differing (edited.right, quiet.right) > ticks / 10);
         CHECK (rule.worst < 1e-9);
+    }
+}
+
+TEST_CASE ("renamed, collapsed and expanded while they play, graphs give the same bits at all sinks and in all nodes", "[live]")
+{
+    for (unsigned seed = 1; seed <= 12; ++seed)
+    {
+        const auto g = test::besides (test::prefixed (touchable (seed, 30), "s_", "left"), test::prefixed (touchable (seed + 100, 30), "e_", "right"));
+        constexpr std::size_t ticks = 1200;
+        std::mt19937 random { seed };
+        int done = 0, broken = 0, collapsed = 0, expanded = 0;
+        const auto regroup = [&] (Live& live, Felt&)
+        {
+            if (random() % 8 != 0) return;
+            const bool back = random() % 8 == 0;
+            const auto command = test::randomRegrouping (random, live.graph());
+            const auto messages = back ? live.undo() : live.perform (command);
+            const bool refused = ! messages.empty() && messages[0].id.starts_with ("edit/");
+            broken += ! refused && hasErrors (messages);
+            done += ! refused;
+            collapsed += ! back && ! refused && std::holds_alternative<graph::CollapseNodes> (command.edit);
+            expanded += ! back && ! refused && std::holds_alternative<graph::ExpandNode> (command.edit);
+            if (hasErrors (messages) && ! refused) UNSCOPED_INFO (graph::nameOf (command) << ": " << test::text (messages));
+            if (live.graph().root.nodes.size() + live.graph().graphs.size() > 150)
+                while (live.history().position() > 0)
+                    live.undo();
+        };
+        const auto regrouped = play (g, {}, seed, ticks, nullptr, regroup), quiet = play (g, {}, seed, ticks, nullptr, [] (Live&, Felt&) {});
+        INFO ("seed " << seed << ", " << done << " edits, " << collapsed << " collapsed, " << expanded << " expanded");
+        CHECK (broken == 0);
+        CHECK (regrouped.taken > 80);
+        CHECK (collapsed > 10);
+        CHECK (expanded > 5);
+        CHECK (differing (regrouped.left, quiet.left) == 0);
+        CHECK (differing (regrouped.right, quiet.right) == 0);
     }
 }
