@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// A long run with edits without end. TACTUS_SOAK_TICKS makes it longer.
+
+#include "support/chance_hand.hpp"
+#include "support/no_allocation.hpp"
+#include "support/random_edit.hpp"
+#include "support/sketch.hpp"
+
+#include <framework/live.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <bit>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+
+#include <unistd.h>
+
+using namespace tactus;
+
+namespace
+{
+/// Resident memory in bytes; 0 where the system does not say.
+std::size_t memory()
+{
+    std::ifstream statm ("/proc/self/statm");
+    std::size_t total = 0, resident = 0;
+    statm >> total >> resident;
+    return resident * static_cast<std::size_t> (sysconf (_SC_PAGESIZE));
+}
+
+/// A small model whose every bit is felt, and something beside it.
+test::Sketch wood()
+{
+    test::Sketch s;
+    s.node ("hand", "device.position").node ("wall", "deform.plane").node ("drag", "friction.elasto_plastic").node ("motor", "device.force");
+    s.wire ("hand.position -> wall.position").wire ("hand.position -> drag.position").wire ("wall.resistance -> drag.normal_force").wire ("wall.force -> motor.force").wire ("drag.force -> motor.force");
+    s.node ("e_a", "signal.noise").node ("e_b", "filter.one_pole").node ("e_motor", "device.force").wire ("e_a.out -> e_b.in");
+    s.graph.root.nodes.back().role = "right";
+    return s;
+}
+
+void mix (std::uint64_t& digest, const Effort& e)
+{
+    for (const auto* v : { &e.force, &e.torque })
+        for (const double x : *v)
+            digest = (digest ^ std::bit_cast<std::uint64_t> (x)) * 0x100000001b3ull;
+}
+}   // namespace
+
+TEST_CASE ("a million ticks with edits beside it give the same bits, and no memory is lost", "[live]")
+{
+    const auto* wanted = std::getenv ("TACTUS_SOAK_TICKS");
+    const auto ticks = wanted ? std::strtoull (wanted, nullptr, 10) : 1'000'000ull;
+    constexpr std::uint64_t step = 500;   // ticks between edits
+
+    const auto sketch = wood();
+    Live live { sketch.graph, catalogue(), {}, sketch.compile().plan };
+    Engine alone { sketch.compile().plan };
+    test::ChanceHand hand { 1 }, other { 1 };
+    live.engine().attach ("stylus", hand);
+    alone.attach ("stylus", other);
+
+    std::mt19937 random { 1 };
+    std::uint64_t digest = 0, expected = 0;
+    std::size_t settled = 0;
+    int edits = 0;
+    for (std::uint64_t k = 0; k < ticks; ++k)
+    {
+        if (k % step == 0)
+        {
+            // What is done is undone after a while, so that the graph and its history stay of one size.
+            if (live.history().position() > 20)
+                while (live.history().position() > 0)
+                    live.undo();
+            auto messages = live.perform (test::randomEdit (random, live.graph(), "e_", "right"));
+            while (hasErrors (messages))
+                messages = live.undo();
+            ++edits;
+        }
+        if (k == ticks / 2) settled = memory();
+        live.engine().tick();
+        alone.tick();
+        mix (digest, hand.last);
+        mix (expected, other.last);
+    }
+    CHECK (digest == expected);
+    const auto grown = static_cast<double> (memory()) - static_cast<double> (settled);
+    if (wanted) std::cout << ticks << " ticks, " << edits << " edits, memory " << settled << " bytes at half time, " << grown << " bytes more at the end\n";
+    if (NoAllocation::watches) CHECK (grown < 2e6);   // a sanitizer keeps what was freed
+}

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// An editor, a hand on the knobs and the tick at the same time. What TSan is to look at.
+
+#include "support/chance_hand.hpp"
+#include "support/random_edit.hpp"
+#include "support/random_graph.hpp"
+#include "support/sketch.hpp"
+
+#include <framework/live.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+using namespace tactus;
+
+TEST_CASE ("edited and turned from other threads, a graph ticks on, and what was not touched gives the same bits", "[live]")
+{
+    auto steady = test::prefixed (test::randomGraph (5, 20), "s_", "left"), wild = test::prefixed (test::randomGraph (6, 30), "e_", "right");
+    test::Sketch sketch { test::besides (std::move (steady), std::move (wild)) };
+    sketch.node ("s_hand", "device.position").node ("s_wall", "deform.plane").node ("s_motor", "device.force").wire ("s_hand.position -> s_wall.position").wire ("s_wall.force -> s_motor.force");
+    sketch.node ("e_amp", "signal.gain").node ("turned", "signal.gain").node ("one", "signal.constant", { { "value", 1.0 } }).wire ("one.out -> turned.in");
+    const CompileOptions options { .rate_hz = 4000.0, .records = { "turned.out" } };
+    const auto first = sketch.compile (options);
+    INFO (test::text (first.messages));
+    REQUIRE (first.plan);
+    Live live { sketch.graph, catalogue(), options, first.plan };
+    const auto turned = std::get<plan::ParamRef> (live.engine().param ("turned.gain"));
+
+    constexpr std::size_t most = 100000;
+    test::ChanceHand hand { 1, most };
+    live.engine().attach ("stylus", hand);
+
+    std::atomic<bool> stop = false;
+    std::atomic<int> taken = 0;
+    std::size_t ticks = 0;
+    std::thread ticker { [&]
+                         {
+                             const Plan* last = nullptr;
+                             for (; ! stop && ticks < most; ++ticks)
+                             {
+                                 live.engine().tick();
+                                 if (last != &live.engine().plan()) ++taken;
+                                 last = &live.engine().plan();
+                                 if (ticks % 16 == 0) std::this_thread::yield();
+                             } } };
+    std::thread turner { [&]
+                         {
+                             for (int i = 0; ! stop; ++i)
+                             {
+                                 live.engine().set (turned, i % 100);
+                                 std::this_thread::yield();
+                             } } };
+
+    std::mt19937 random { 7 };
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds (700);
+    std::size_t most_kept = 0;
+    for (int i = 0; i < 3000 && std::chrono::steady_clock::now() < end; ++i)
+    {
+        auto messages = live.perform (test::randomEdit (random, live.graph(), "e_", "right"));
+        while (hasErrors (messages))
+            messages = live.undo();
+        if (i % 5 == 0) live.set ("e_amp.gain", 0.1 * (i % 7));
+        most_kept = std::max (most_kept, live.engine().clear());
+    }
+    stop = true;
+    ticker.join();
+    turner.join();
+
+    CHECK (taken > 1);
+    CHECK (most_kept <= 3);
+    Engine alone { sketch.compile (options).plan };
+    test::ChanceHand other { 1, most };
+    alone.attach ("stylus", other);
+    for (std::size_t k = 0; k < ticks; ++k)
+        alone.tick();
+    REQUIRE (hand.efforts.size() == other.efforts.size());
+    std::size_t differing = 0;
+    for (std::size_t k = 0; k < hand.efforts.size(); ++k)
+        differing += ! test::operator== (hand.efforts[k], other.efforts[k]);
+    CHECK (differing == 0);
+    live.engine().set (turned, 3.0);
+    for (int k = 0; k < 200; ++k)
+        live.engine().tick();
+    CHECK (*live.engine().plan().taps[0].value == 3.0);
+}
