@@ -92,7 +92,8 @@ bool MeshWalk::isBeyondRim (const Spot& spot, const Vec3& p) const noexcept
             const Vec3 along = b - a, inward = body.points[static_cast<std::size_t> (corners[i])] - a;
             if (along.cross (spot.on.point - a).norm() > 1e-9 * along.squaredNorm()) continue;   // on another edge
             const Vec3 outward = -direction (inward - along * (inward.dot (along) / along.squaredNorm()));
-            if (outward.dot (away) > further * away.norm()) return true;
+            const Vec3 up = direction (along.cross (inward));
+            if (outward.dot (away) > 0.0 && (away - up.dot (away) * up).norm() > further * away.norm()) return true;
         }
         return false;
     };
