@@ -6,6 +6,9 @@ d^nu = d . u^nu, f^nu = sum n_i f_i^nu(d^nu), the force on the tool is
 -sum f^nu u^nu; c follows where |d_t| would pass mu_c d^z, once a tick, so that
 the ticks after a slip may still carry it on. Without friction c is always the
 nearest point, and -sum grad n_i Phi_i is added.
+
+The chapter has no end of a surface. Here a contact on the rim of an open mesh is
+over once p lies further beyond it, along the triangle, than above or below.
 """
 
 import math
@@ -16,6 +19,7 @@ import vec
 
 EPS_SLIP = 1e-9
 ON_EDGE = 1e-9
+PAST_RIM = 1e-3
 ZERO = (0.0, 0.0, 0.0)
 
 
@@ -186,6 +190,37 @@ def shared(surface, contact):
     return len(near) > 1 and near[1][0] < ON_EDGE
 
 
+def beyond_rim(surface, contact, p):
+    """Whether c is on the rim and p past it, further along than up or down."""
+    c, away = contact["c"], vec.sub(p, contact["c"])
+    here = surface["triangles"][contact["triangle"]]
+    corner = [i for i, w in zip(here, contact["weights"]) if w == 1.0]
+    triangles = [t for t in surface["triangles"] if corner[0] in t] if corner else [here]
+    for t in triangles:
+        for k in range(3):
+            i, j = t[(k + 1) % 3], t[(k + 2) % 3]
+            if sum(i in u and j in u for u in surface["triangles"]) > 1:
+                continue
+            a, b, third = (surface["nodes"][n] for n in (i, j, t[k]))
+            along = vec.sub(b, a)
+            if vec.norm(vec.cross(along, vec.sub(c, a))) > ON_EDGE * vec.dot(along, along):
+                continue
+            inward = vec.across(vec.unit(along), vec.sub(third, a))
+            up = vec.unit(vec.cross(along, inward))
+            if (vec.dot(inward, away) < 0.0
+                    and vec.norm(vec.across(up, away)) > 0.7071 * vec.norm(away)):
+                return True
+    return False
+
+
+def leaves(surface, contact, d, p, slips, frictionless):
+    """Whether the contact has gone over the rim on this tick."""
+    if frictionless:
+        return beyond_rim(surface, contact, p)
+    held = math.hypot(d[0], d[1]) > bound(surface, contact, d[2]) * (1.0 + PAST_RIM)
+    return slips and held and beyond_rim(surface, contact, p)
+
+
 def steps(settings, params, feed):
     surface = placed(settings)
     frictionless = params.get("friction", "bound") == "frictionless"
@@ -195,8 +230,8 @@ def steps(settings, params, feed):
             contact = None
             yield apart(ZERO, -1)
             continue
-        slips = frictionless
-        if contact is None:
+        slips, onset = frictionless, contact is None
+        if onset:
             contact, d = touch(surface, p, projections(surface, p)[0],
                                tools(surface, tool))
         elif frictionless:
@@ -204,9 +239,10 @@ def steps(settings, params, feed):
                                contact["tools"])
         else:
             d = deflection(contact, p)
-        if d[2] > 0.0 and not frictionless:
+        gone = onset and d[2] > 0.0 and beyond_rim(surface, contact, p)
+        if d[2] > 0.0 and not frictionless and not gone:
             contact, d, slips = slipped(surface, contact, d, p)
-        if d[2] <= 0.0:
+        if d[2] <= 0.0 or gone or leaves(surface, contact, d, p, slips, frictionless):
             contact = None
             yield apart(p, 0)
             continue
