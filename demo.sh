@@ -4,7 +4,7 @@
 . "$(dirname "$0")/.ci/setup.sh"
 
 install_packages
-build release tactus evemu_to_trace
+build release tactus evemu_to_trace switch_to_graph
 export PATH="$PWD/build/release/bin:$PATH"
 mkdir -p out
 made=()
@@ -16,7 +16,7 @@ render ()
     shift 2
     echo "  $name"
     tactus render "$graph" "$@" --out "out/$name.csv" --out "out/$name.wav" --plot "out/$name.png"
-    made+=("out/$name.csv" "out/$name.wav" "out/$name.png")
+    made+=("$name")
 }
 
 say "Rendering presets, each moved by a simulated hand"
@@ -26,6 +26,15 @@ render soft_pad graphs/soft_pad.json --record hand.position.z,pad.resistance
 render aluminium_bar graphs/aluminium_bar.json --record hand.position.z,bar.resistance,ring.value
 render layered_cloth graphs/layered_cloth.json --record hand.position.x,hand.position.y,drag.force,felt.out
 render squealing_rubber graphs/squealing_rubber.json --record hand.position.x,foot.force.x,tone.value
+render liver graphs/liver.json --record hand.position,liver.depth,liver.force
+render oak_board graphs/oak_board.json --record hand.position.x,motor.force.x
+for graph in graphs/*.json; do
+    name=$(basename "$graph" .json)
+    case " ${made[*]} " in
+        *" $name "*) ;;
+        *) render "$name" "$graph" ;;
+    esac
+done
 
 say "The same wood, under the same hand moving in circles"
 render dry_wood_circle graphs/dry_wood.json --device stylus=gesture:circle --record hand.position.x,hand.position.y,drag.force
@@ -40,5 +49,15 @@ if [ -d "$strokes" ]; then
     done
 fi
 
-say "Made:"
-printf '  %s\n' "${made[@]}"
+switches=../shared/data/buttons_switchcurves
+if [ -d "$switches" ]; then
+    say "Keys that somebody else measured, pressed by a simulated finger"
+    for curve in "$switches"/*.csv; do
+        name=$(basename "${curve%.csv}" | tr -c "A-Za-z0-9\n" _)
+        switch_to_graph "$curve" --out "out/key_$name.json"
+        render "key_$name" "out/key_$name.json"
+    done
+fi
+
+say "Made, each as .csv, .wav and .png:"
+printf '  out/%s\n' "${made[@]}"
