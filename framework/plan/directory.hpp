@@ -38,7 +38,7 @@ struct Scope
     const graph::Graph* owner = nullptr;
     const graph::Patch* patch = nullptr;
     std::string prefix;   // of paths
-    Chain chain;          // of the subgraph nodes it stands in
+    int number = 0;       // in Flat::scopes
     Origin origin;        // of the patch
     std::unordered_map<std::string, Member> members;
     std::vector<Exposed> exposed;

@@ -24,8 +24,17 @@ struct Origin
     std::string pointer;   ///< JSON pointer
 };
 
-/// Identity in a graph with its subgraphs expanded: the ids of the subgraph nodes around, then one's own.
+/// The ids of the subgraph nodes around something, the outermost first, and perhaps its own.
 using Chain = std::vector<graph::Id>;
+
+/// Identity in a graph with its subgraphs expanded.
+struct Identity
+{
+    int scope = 0;      ///< where it stands: the ids around it are Flat::scopes[scope]
+    graph::Id id = 0;   ///< its own
+
+    bool operator== (const Identity&) const = default;
+};
 
 /// A port of a flat node, or an entry or a component of it.
 struct PortRef
@@ -51,7 +60,7 @@ struct Assignment
 struct FlatNode
 {
     std::string path;   ///< "grain/wave"
-    Chain chain {};
+    Identity identity {};
     const NodeType* type = nullptr;
     std::string role {};
     Origin origin {};
@@ -80,7 +89,7 @@ struct FlatWire
     std::optional<Dimension> gain_dimension {};   ///< if the gain has a unit
     std::string text;
     Origin origin;
-    Chain chain {};
+    Identity identity {};
 };
 
 struct Flat
@@ -89,6 +98,7 @@ struct Flat
     std::vector<FlatWire> wires;
     std::vector<Assignment> assignments;            ///< in order of precedence, lowest first
     std::deque<NodeType> made_types;                ///< of bypassed subgraphs
+    std::vector<Chain> scopes { {} };               ///< of each patch that was expanded, the graph itself first
     std::unordered_map<graph::Id, Chain> origins;   ///< of copies
     Messages messages;
 

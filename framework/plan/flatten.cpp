@@ -25,13 +25,6 @@ Origin at (const Origin& base, std::string_view key)
     return { base.file, base.pointer + "/" + escaped };
 }
 
-Chain within (const Scope& scope, graph::Id id)
-{
-    auto chain = scope.chain;
-    chain.push_back (id);
-    return chain;
-}
-
 Origin at (const Origin& base, std::string_view key, std::string_view inner) { return at (at (base, key), inner); }
 
 class Flattener
@@ -113,7 +106,7 @@ private:
         }
 
         member.node = static_cast<int> (flat.nodes.size());
-        flat.nodes.push_back ({ .path = scope.prefix + node.name, .chain = within (scope, node.id), .type = type, .origin = here, .bypass = node.bypass, .muted = muted });
+        flat.nodes.push_back ({ .path = scope.prefix + node.name, .identity = { scope.number, node.id }, .type = type, .origin = here, .bypass = node.bypass, .muted = muted });
         auto& made = flat.nodes.back();
         readRole (node, here, roles, made);
         readSettings (scope, node, here, made);
@@ -185,7 +178,9 @@ private:
         }
 
         inside->prefix = scope.prefix + node.name + "/";
-        inside->chain = within (scope, node.id);
+        inside->number = static_cast<int> (flat.scopes.size());
+        flat.scopes.push_back (flat.scopes[static_cast<std::size_t> (scope.number)]);
+        flat.scopes.back().push_back (node.id);
         Roles mapped;
         if (node.roles.is_object())
             for (const auto& [inner, outer] : node.roles.items())
@@ -277,7 +272,7 @@ private:
         flat.made_types.push_back (std::move (type));
 
         member.node = static_cast<int> (flat.nodes.size());
-        flat.nodes.push_back ({ .path = scope.prefix + node.name, .chain = within (scope, node.id), .type = &flat.made_types.back(), .origin = here, .bypass = true, .muted = muted });
+        flat.nodes.push_back ({ .path = scope.prefix + node.name, .identity = { scope.number, node.id }, .type = &flat.made_types.back(), .origin = here, .bypass = true, .muted = muted });
         flat.nodes.back().list_size = list_size;
         for (const auto& row : flat.made_types.back().params)
             flat.nodes.back().params.emplace_back (static_cast<std::size_t> (row.list ? list_size : row.width), row.initial[0]);
@@ -311,7 +306,7 @@ private:
             const auto to = find (wire.to, Side::end, scope, origin, flat);
             if (from_failed || ! to) continue;
 
-            FlatWire w { .from = from, .to = *to, .delay = wire.delay, .add = wire.add, .text = graph::toText (wire), .origin = origin, .chain = within (scope, wire.id) };
+            FlatWire w { .from = from, .to = *to, .delay = wire.delay, .add = wire.add, .text = graph::toText (wire), .origin = origin, .identity = { scope.number, wire.id } };
             if (readGain (wire, w) && wireFits (w) && ! muted && wire.enabled.value_or (true))
                 flat.wires.push_back (std::move (w));
         }

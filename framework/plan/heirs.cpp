@@ -2,7 +2,7 @@
 #include "heirs.hpp"
 
 #include <algorithm>
-#include <iterator>
+#include <cstdint>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -13,41 +13,57 @@ namespace
 {
 struct Hash
 {
+    static std::size_t mixed (std::size_t h, std::uint64_t v) noexcept
+    {
+        h = (h ^ static_cast<std::size_t> (v)) * 0x9e3779b97f4a7c15ull;
+        return h ^ (h >> 32);
+    }
+
+    std::size_t operator() (const Identity& i) const noexcept { return mixed (static_cast<std::size_t> (i.scope), i.id); }
     std::size_t operator() (const Chain& chain) const noexcept
     {
         std::size_t h = 0;
         for (const auto id : chain)
-            h = (h ^ static_cast<std::size_t> (id)) * 0x9e3779b97f4a7c15ull;
-        return h ^ (h >> 32);
+            h = mixed (h, id);
+        return h;
     }
 };
 
-using Chains = std::vector<const Chain*>;   ///< null: takes no part, or has found its like
+/// What is still to be paired up: its number and identity.
+using Rest = std::vector<std::pair<int, Identity>>;
 
 /// Pairs up what has the same key, where that is the only one of its side to have it.
-template <typename Key>
-void pair (Chains& now, Chains& before, std::vector<int>& found, Key key)
+template <typename Key, typename KeyNow, typename KeyBefore>
+void pair (Rest& now, Rest& before, std::vector<int>& found, KeyNow keyNow, KeyBefore keyBefore)
 {
     constexpr int several = -2;
-    std::unordered_map<Chain, int, Hash> here, there;
-    const auto list = [&] (const Chains& chains, auto& by_key)
+    const auto list = [] (const Rest& rest, auto key)
     {
-        for (std::size_t i = 0; i < chains.size(); ++i)
-            if (chains[i])
-            {
-                const auto [entry, fresh] = by_key.try_emplace (key (*chains[i]), static_cast<int> (i));
-                if (! fresh) entry->second = several;
-            }
+        std::unordered_map<Key, int, Hash> by_key;
+        by_key.reserve (rest.size());
+        for (const auto& [number, identity] : rest)
+            if (const auto [entry, fresh] = by_key.try_emplace (key (identity), number); ! fresh) entry->second = several;
+        return by_key;
     };
-    list (now, here);
-    list (before, there);
-    for (const auto& [k, i] : here)
+    const auto here = list (now, keyNow);
+    auto there = list (before, keyBefore);
+    Rest left;
+    std::unordered_set<int> taken;
+    for (const auto& [number, identity] : now)
     {
-        const auto other = there.find (k);
-        if (i == several || other == there.end() || other->second == several) continue;
-        found[static_cast<std::size_t> (i)] = other->second;
-        now[static_cast<std::size_t> (i)] = before[static_cast<std::size_t> (other->second)] = nullptr;
+        const auto key = keyNow (identity);
+        const auto other = there.find (key);
+        if (other == there.end() || other->second == several || here.at (key) == several)
+        {
+            left.emplace_back (number, identity);
+            continue;
+        }
+        found[static_cast<std::size_t> (number)] = other->second;
+        taken.insert (other->second);
     }
+    now = std::move (left);
+    std::erase_if (before, [&] (const auto& x)
+                   { return taken.contains (x.first); });
 }
 
 /// Chains in terms of what copies were made from.
@@ -88,62 +104,86 @@ std::unordered_set<graph::Id> idsOf (const Flat& flat, const Descent& descent)
         const auto all = descent (chain);
         ids.insert (all.begin(), all.end());
     };
+    for (const auto& scope : flat.scopes)
+        add (scope);
     for (const auto& n : flat.nodes)
-        add (n.chain);
+        add ({ n.identity.id });
     for (const auto& w : flat.wires)
-        add (w.chain);
+        add ({ w.identity.id });
     return ids;
 }
 
-bool anyLeft (const Chains& chains)
+/// For each scope the one before with the same subgraph nodes around; or one that does not exist.
+std::vector<int> scopesBefore (const Flat& now, const Flat& before)
 {
-    return std::ranges::any_of (chains, [] (const Chain* c)
-                                { return c != nullptr; });
+    std::unordered_map<Chain, int, Hash> by_chain;
+    for (std::size_t i = 0; i < before.scopes.size(); ++i)
+        by_chain.emplace (before.scopes[i], static_cast<int> (i));
+    std::vector<int> all;
+    for (const auto& chain : now.scopes)
+    {
+        const auto at = by_chain.find (chain);
+        all.push_back (at == by_chain.end() ? -1 : at->second);
+    }
+    return all;
 }
 
 template <typename List, typename Takes>
-std::vector<int> match (const Flat& now, const Flat& before, List Flat::*list, Takes takes)
+std::vector<int> match (const Flat& now, const Flat& before, const std::vector<int>& scopes, List Flat::*list, Takes takes)
 {
-    const auto chainsOf = [&] (const Flat& flat)
+    const auto all = [&] (const Flat& flat)
     {
-        Chains chains;
-        chains.reserve ((flat.*list).size());
-        for (const auto& x : flat.*list)
-            chains.push_back (takes (x) ? &x.chain : nullptr);
-        return chains;
+        Rest rest;
+        for (std::size_t i = 0; i < (flat.*list).size(); ++i)
+            if (const auto& x = (flat.*list)[i]; takes (x)) rest.emplace_back (static_cast<int> (i), x.identity);
+        return rest;
     };
-    auto here = chainsOf (now), there = chainsOf (before);
-    std::vector<int> found (here.size(), -1);
+    auto here = all (now), there = all (before);
+    std::vector<int> found ((now.*list).size(), -1);
 
-    pair (here, there, found, [] (const Chain& c) -> const Chain&
-          { return c; });
-    if (! anyLeft (here) || ! anyLeft (there)) return found;
+    pair<Identity> (
+        here, there, found, [&] (const Identity& i)
+        { return Identity { scopes[static_cast<std::size_t> (i.scope)], i.id }; },
+        [] (const Identity& i)
+        { return i; });
+    if (here.empty() || there.empty()) return found;
 
     const Descent descent { now, before };
-    pair (here, there, found, descent);
-    if (! anyLeft (here) || ! anyLeft (there)) return found;
+    const auto chains = [&] (const Flat& flat, auto shorten)
+    {
+        return [&, shorten] (const Identity& i)
+        {
+            auto chain = flat.scopes[static_cast<std::size_t> (i.scope)];
+            chain.push_back (i.id);
+            return shorten (descent (chain));
+        };
+    };
+    const auto by = [&] (auto shorten)
+    { pair<Chain> (here, there, found, chains (now, shorten), chains (before, shorten)); };
+
+    by ([] (Chain c)
+        { return c; });
+    if (here.empty() || there.empty()) return found;
 
     const auto ids = idsOf (now, descent), ids_before = idsOf (before, descent);
-    const auto inBoth = [&] (graph::Id id)
-    { return ids.contains (id) && ids_before.contains (id); };
-    pair (here, there, found, [&] (const Chain& c)
-          {
-              const auto all = descent (c);
-              if (! inBoth (all.back())) return all;
-              Chain common;
-              std::ranges::copy_if (all, std::back_inserter (common), inBoth);
-              return common; });
-    pair (here, there, found, [&] (const Chain& c)
-          { return Chain { descent (c).back() }; });
+    by ([&] (Chain c)
+        {
+            const auto isNew = [&] (graph::Id id)
+            { return ! ids.contains (id) || ! ids_before.contains (id); };
+            if (! isNew (c.back())) std::erase_if (c, isNew);
+            return c; });
+    by ([] (const Chain& c)
+        { return Chain { c.back() }; });
     return found;
 }
 }   // namespace
 
 Heirs findHeirs (const Flat& now, const Flat& before)
 {
-    return { match (now, before, &Flat::nodes, [] (const FlatNode&)
+    const auto scopes = scopesBefore (now, before);
+    return { match (now, before, scopes, &Flat::nodes, [] (const FlatNode&)
                     { return true; }),
-             match (now, before, &Flat::wires, [] (const FlatWire& w)
+             match (now, before, scopes, &Flat::wires, [] (const FlatWire& w)
                     { return w.delay > 0; }) };
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <compare>
+#include <span>
+#include <utility>
 
 namespace tactus::plan
 {
@@ -15,47 +17,66 @@ std::size_t at (int i) { return static_cast<std::size_t> (i); }
 /// Something that enters a node.
 struct Entry
 {
-    Role role;
-    int port, index, component;
-    std::uint64_t from;   ///< serial of the node, or a feed; 0 for nothing
-    int from_port, from_index, from_component;
-    std::uint64_t line;   ///< serial, if there is a delay
-    bool add;
-    double gain;
+    Role role {};
+    int port = 0, index = 0, component = 0;
+    std::uint64_t from = 0;   ///< serial of the node, or a feed; 0 for nothing
+    int from_port = 0, from_index = 0, from_component = 0;
+    std::uint64_t line = 0;   ///< serial, if there is a delay
+    bool add = false;
+    double gain = 1.0;
 
     auto operator<=> (const Entry&) const = default;
 };
 
-using Entries = std::vector<std::vector<Entry>>;
-
 /// What enters each node of a plan, whatever the order it was written in.
-Entries entriesOf (const Plan& plan)
+class Entries
 {
-    const auto& flat = plan.flat;
-    Entries all (flat.nodes.size());
-    auto line = plan.lines.begin();
-    for (std::size_t i = 0; i < flat.wires.size(); ++i)
+public:
+    explicit Entries (const Plan& plan) : first (plan.flat.nodes.size() + 1, 0)
     {
-        const auto& w = flat.wires[i];
-        while (line != plan.lines.end() && at (line->wire) < i)
-            ++line;
-        Entry e { w.to.role, w.to.port, w.to.index, w.to.component, 0, 0, 0, 0, w.delay > 0 ? line->line->serial : 0, w.add, w.gain };
-        if (w.from)
-        {
-            e.from = plan.instances[at (w.from->node)].serial;
-            e.from_port = w.from->port;
-            e.from_index = w.from->index;
-            e.from_component = w.from->component;
-        }
-        all[at (w.to.node)].push_back (e);
+        forEach (plan, [this] (int node, const Entry&)
+                 { ++first[at (node) + 1]; });
+        for (std::size_t i = 1; i < first.size(); ++i)
+            first[i] += first[i - 1];
+        all.resize (first.back());
+        auto next = first;
+        forEach (plan, [&] (int node, const Entry& e)
+                 { all[next[at (node)]++] = e; });
+        for (std::size_t i = 0; i + 1 < first.size(); ++i)
+            std::sort (all.begin() + static_cast<std::ptrdiff_t> (first[i]), all.begin() + static_cast<std::ptrdiff_t> (first[i + 1]), [] (const Entry& a, const Entry& b)
+                       { return (a <=> b) == std::partial_ordering::less; });
     }
-    for (std::size_t f = 0; f < plan.fed.size(); ++f)
-        if (const auto& port = plan.fed[f]) all[at (port->node)].push_back ({ port->role, port->port, port->index, port->component, ~f, 0, 0, 0, 0, false, 1.0 });
-    for (auto& entries : all)
-        std::ranges::sort (entries, [] (const Entry& a, const Entry& b)
-                           { return (a <=> b) == std::partial_ordering::less; });
-    return all;
-}
+
+    std::span<const Entry> operator[] (std::size_t node) const noexcept { return { all.data() + first[node], all.data() + first[node + 1] }; }
+
+private:
+    template <typename Visit>
+    static void forEach (const Plan& plan, Visit visit)
+    {
+        const auto& wires = plan.flat.wires;
+        auto line = plan.lines.begin();
+        for (std::size_t i = 0; i < wires.size(); ++i)
+        {
+            const auto& w = wires[i];
+            while (line != plan.lines.end() && at (line->wire) < i)
+                ++line;
+            Entry e { w.to.role, w.to.port, w.to.index, w.to.component, 0, 0, 0, 0, w.delay > 0 ? line->line->serial : 0, w.add, w.gain };
+            if (w.from)
+            {
+                e.from = plan.instances[at (w.from->node)].serial;
+                e.from_port = w.from->port;
+                e.from_index = w.from->index;
+                e.from_component = w.from->component;
+            }
+            visit (w.to.node, e);
+        }
+        for (std::size_t f = 0; f < plan.fed.size(); ++f)
+            if (const auto& port = plan.fed[f]) visit (port->node, { port->role, port->port, port->index, port->component, ~f, 0, 0, 0, 0, false, 1.0 });
+    }
+
+    std::vector<Entry> all;
+    std::vector<std::size_t> first;   // of each node
+};
 
 bool sameShape (const NodeType& a, const NodeType& b)
 {
@@ -171,40 +192,48 @@ std::shared_ptr<Line> Succession::lineOf (int wire, int component, int ticks, Ta
 
 std::vector<bool> Succession::changed (const Plan& plan) const
 {
-    const auto now = entriesOf (plan), then = entriesOf (*before);
+    const Entries now (plan), then (*before);
     std::vector<bool> all (going.size(), true);
     for (std::size_t i = 0; i < going.size(); ++i)
     {
         if (! going[i]) continue;
         const auto heir = at (heirs.nodes[i]);
         const auto &n = plan.flat.nodes[i], &o = before->flat.nodes[heir];
-        all[i] = n.runs() != o.runs() || n.bypass != o.bypass || choosesOtherwise (n, o) || now[i] != then[heir];
+        all[i] = n.runs() != o.runs() || n.bypass != o.bypass || choosesOtherwise (n, o) || ! std::ranges::equal (now[i], then[heir]);
     }
     return all;
 }
 
-void Succession::compare (Plan& plan) const
+/// Along all wires, late ones too.
+void Succession::spread (const std::vector<bool>& dirty, Plan& plan)
 {
-    if (before == nullptr) return;
-
-    std::vector<std::vector<int>> next (going.size());
-    for (const auto& w : plan.flat.wires)
-        if (w.from) next[at (w.from->node)].push_back (w.to.node);
-
-    const auto dirty = changed (plan);
     std::vector<int> open;
     for (std::size_t i = 0; i < dirty.size(); ++i)
         if (! dirty[i])
             plan.instances[i].dirty = false;
         else
             open.push_back (static_cast<int> (i));
+    if (open.empty()) return;
+
+    std::vector<std::pair<int, int>> ways;   // from, to
+    ways.reserve (plan.flat.wires.size());
+    for (const auto& w : plan.flat.wires)
+        if (w.from) ways.emplace_back (w.from->node, w.to.node);
+    std::ranges::sort (ways);
     while (! open.empty())
     {
         const int from = open.back();
         open.pop_back();
-        for (const int to : next[at (from)])
-            if (! std::exchange (plan.instances[at (to)].dirty, true)) open.push_back (to);
+        for (auto way = std::ranges::lower_bound (ways, std::pair { from, 0 }); way != ways.end() && way->first == from; ++way)
+            if (! std::exchange (plan.instances[at (way->second)].dirty, true)) open.push_back (way->second);
     }
+}
+
+void Succession::compare (Plan& plan) const
+{
+    if (before == nullptr) return;
+
+    spread (changed (plan), plan);
 
     for (auto& role : plan.roles)
     {

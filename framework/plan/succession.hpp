@@ -37,6 +37,7 @@ public:
 private:
     bool isSame (std::size_t node) const;
     std::vector<bool> changed (const Plan&) const;
+    static void spread (const std::vector<bool>& dirty, Plan&);
 
     const Flat& flat;
     const Plan* before;
