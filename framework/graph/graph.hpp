@@ -36,7 +36,7 @@ struct Endpoint
 struct Wire
 {
     Id id = newId();
-    std::vector<Id> origin {};   ///< of a copy that expanding made: the subgraph node, and what it is a copy of; state follows
+    std::vector<Id> origin {};   ///< of a copy that expanding made: the subgraph nodes around what it is a copy of, and that; state follows
     Endpoint from, to;
     int delay = 0;                 ///< ticks; 0 is no delay
     bool add = false;              ///< `(+)`: onto a parameter's stored value instead of replacing it

@@ -292,8 +292,16 @@ private:
         { return n.type == type && n.id != id; };
         const bool shared = std::ranges::any_of (graph.root.nodes, isOfIt) || std::ranges::any_of (graph.graphs, [&] (const auto& g)
                                                                                                    { return std::ranges::any_of (g.second.nodes, isOfIt); });
+        const auto originOf = [] (const auto& x)
+        { return x.origin.empty() ? std::vector { x.id } : x.origin; };
+        const auto around = originOf (node);
         const auto copy = [&] (auto& x)
-        { x.origin = { id, std::exchange (x.id, newId()) }; };
+        {
+            auto origin = around;
+            std::ranges::copy (originOf (x), std::back_inserter (origin));
+            x.origin = std::move (origin);
+            x.id = newId();
+        };
         if (shared)
         {
             std::ranges::for_each (inner.nodes, copy);

@@ -76,42 +76,23 @@ public:
     {
         Chain all;
         for (const auto id : chain)
-            add (id, all);
+        {
+            const auto* origin = originOf (id);
+            all.insert (all.end(), origin ? origin->data() : &id, origin ? origin->data() + origin->size() : &id + 1);
+        }
         return all;
     }
 
 private:
-    void add (graph::Id id, Chain& to) const
+    const Chain* originOf (graph::Id id) const
     {
         for (const auto* flat : flats)
-            if (const auto copy = flat->origins.find (id); copy != flat->origins.end())
-            {
-                for (const auto from : copy->second)
-                    add (from, to);
-                return;
-            }
-        to.push_back (id);
+            if (const auto copy = flat->origins.find (id); copy != flat->origins.end()) return &copy->second;
+        return nullptr;
     }
 
     const Flat* flats[2];
 };
-
-std::unordered_set<graph::Id> idsOf (const Flat& flat, const Descent& descent)
-{
-    std::unordered_set<graph::Id> ids;
-    const auto add = [&] (const Chain& chain)
-    {
-        const auto all = descent (chain);
-        ids.insert (all.begin(), all.end());
-    };
-    for (const auto& scope : flat.scopes)
-        add (scope);
-    for (const auto& n : flat.nodes)
-        add ({ n.identity.id });
-    for (const auto& w : flat.wires)
-        add ({ w.identity.id });
-    return ids;
-}
 
 /// For each scope the one before with the same subgraph nodes around; or one that does not exist.
 std::vector<int> scopesBefore (const Flat& now, const Flat& before)
@@ -161,16 +142,30 @@ std::vector<int> match (const Flat& now, const Flat& before, const std::vector<i
     const auto by = [&] (auto shorten)
     { pair<Chain> (here, there, found, chains (now, shorten), chains (before, shorten)); };
 
-    by ([] (Chain c)
-        { return c; });
+    const auto as_it_is = [] (Chain c)
+    { return c; };
+    by (as_it_is);
     if (here.empty() || there.empty()) return found;
 
-    const auto ids = idsOf (now, descent), ids_before = idsOf (before, descent);
+    // Of what stands at the end, the ids around it that either side has.
+    std::unordered_map<graph::Id, std::unordered_set<graph::Id>> around, around_before;
+    const auto note = [] (const Rest& rest, auto chainOf, auto& ids)
+    {
+        for (const auto& [number, identity] : rest)
+        {
+            const auto chain = chainOf (identity);
+            ids[chain.back()].insert (chain.begin(), chain.end());
+        }
+    };
+    note (here, chains (now, as_it_is), around);
+    note (there, chains (before, as_it_is), around_before);
     by ([&] (Chain c)
         {
-            const auto isNew = [&] (graph::Id id)
-            { return ! ids.contains (id) || ! ids_before.contains (id); };
-            if (! isNew (c.back())) std::erase_if (c, isNew);
+            const auto end = c.back();
+            const auto a = around.find (end), b = around_before.find (end);
+            if (a == around.end() || b == around_before.end()) return c;
+            std::erase_if (c, [&] (graph::Id id)
+                           { return ! a->second.contains (id) || ! b->second.contains (id); });
             return c; });
     by ([] (const Chain& c)
         { return Chain { c.back() }; });

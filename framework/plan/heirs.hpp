@@ -13,7 +13,7 @@ struct Heirs
 };
 
 /// By the ids of the subgraph nodes around them and their own. Copies go by what they were made from. Of the ids around
-/// only those count which both graphs have, so that to collapse or expand changes nothing; and what still has no like,
+/// only those count which are on both sides, so that to collapse or expand changes nothing; and what still has no like,
 /// but occurs only once here and there, has been moved.
 Heirs findHeirs (const Flat& now, const Flat& before);
 

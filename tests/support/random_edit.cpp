@@ -149,6 +149,12 @@ private:
 
 graph::Graph prefixed (graph::Graph g, const std::string& prefix, const std::string& role)
 {
+    const auto path = [&] (std::string names)
+    {
+        for (auto at = names.find ('/'); at != std::string::npos; at = names.find ('/', at + 1))
+            names.insert (at + 1, prefix);
+        return prefix + names;
+    };
     const auto rename = [&] (graph::Patch& patch)
     {
         for (auto& n : patch.nodes)
@@ -156,13 +162,17 @@ graph::Graph prefixed (graph::Graph g, const std::string& prefix, const std::str
             n.name = prefix + n.name;
             if (n.type.starts_with ("graph:")) n.type.insert (6, prefix);
             if (! n.role.empty()) n.role = role;
+            auto overrides = Json::object();
+            for (const auto& [key, value] : n.overrides.items())
+                overrides[path (key)] = value;
+            n.overrides = std::move (overrides);
         }
         for (auto& w : patch.wires)
             for (auto* end : { &w.from, &w.to })
-                end->node = prefix + end->node;
+                end->node = path (end->node);
         for (auto* list : { &patch.expose.inputs, &patch.expose.outputs, &patch.expose.params })
             for (auto& [name, end] : *list)
-                end.node = prefix + end.node;
+                end.node = path (end.node);
     };
     rename (g.root);
     for (auto& [name, patch] : g.graphs)

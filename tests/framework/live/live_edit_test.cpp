@@ -23,15 +23,32 @@ namespace
 constexpr double rate_hz = 4000.0;
 constexpr std::size_t ten_seconds = 40000;
 
-/// A hand on a wall that rubs and rings, and beside it whatever chance drew, which is felt too.
+/// A hand on a wall that rubs and rings in four places, two in each of two branches, all with a memory and all felt; and
+/// beside it whatever chance drew.
 graph::Graph touchable (unsigned seed, int size)
 {
     test::Sketch s;
     s.graph = test::randomGraph (seed, size);
-    s.node ("hand", "device.position").node ("wall", "deform.plane").node ("drag", "friction.elasto_plastic").node ("bar", "vibration.modal", Json::object(), { { "modes", { { { "frequency", 180.0 }, { "decay", 20.0 }, { "amplitude", 0.5 } } } } }).node ("motor", "device.force");
-    s.wire ("hand.position -> wall.position").wire ("hand.position -> drag.position").wire ("wall.resistance -> drag.normal_force").wire ("wall.hit -> bar.hit");
-    s.wire ("wall.force -> motor.force").wire ("drag.force -> motor.force").wire ("bar.value -> motor.force.z").wire ("motor.applied -> [3] -> drag.normal");
-    s.graph.root.wires.back().gain = "1 1/N";
+    auto& leaf = s.subgraph ("leaf");
+    s.add (leaf, "drag", "friction.elasto_plastic").add (leaf, "bar", "vibration.modal", Json::object(), { { "modes", { { { "frequency", 180.0 }, { "decay", 20.0 }, { "amplitude", 0.5 } } } } }).add (leaf, "sum", "vector.add").add (leaf, "shake", "vector.join");
+    s.add (leaf, "bar.value -> [5] -> shake.z").add (leaf, "shake.out -> sum.in[0]").add (leaf, "drag.force -> [2] -> sum.in[1]");
+    leaf.expose = { { { "position", { "drag", "position" } }, { "push", { "drag", "normal_force" } }, { "hit", { "bar", "hit" } } }, { { "force", { "sum", "out" } } }, { { "mu", { "drag", "mu" } } } };
+
+    auto& branch = s.subgraph ("branch");
+    s.add (branch, "wall", "deform.plane").add (branch, "a", "graph:leaf", { { "mu", 0.3 } }).add (branch, "b", "graph:leaf").add (branch, "all", "vector.add", Json::object(), { { "inputs", 3 } });
+    for (const std::string which : { "a", "b" })
+        s.add (branch, "wall.resistance -> " + which + ".push").add (branch, "wall.hit -> " + which + ".hit");
+    s.add (branch, "a.force -> all.in[0]").add (branch, "b.force -> [1] -> all.in[1]").add (branch, "wall.force -> all.in[2]");
+    branch.expose = { { { "position", { "wall", "position" } }, { "at_a", { "a", "position" } }, { "at_b", { "b", "position" } } }, { { "force", { "all", "out" } } }, { { "offset", { "wall", "offset" } }, { "mu", { "b/drag", "mu" } } } };
+
+    s.node ("hand", "device.position").node ("left", "graph:branch").node ("right", "graph:branch", { { "offset", "1 mm" }, { "mu", 0.5 } }).node ("motor", "device.force");
+    for (const std::string which : { "left", "right" })
+    {
+        for (const std::string port : { "position", "at_a", "at_b" })
+            s.wire ("hand.position -> " + which + "." + port);
+        s.wire (which + ".force -> motor.force");
+    }
+    s.graph.root.nodes[s.graph.root.nodes.size() - 2].overrides["a/drag.mu"] = 0.7;
     return s.graph;
 }
 
@@ -147,14 +164,15 @@ TEST_CASE ("ten seconds of edits on one side are not felt on the other, and with
         const auto steady = test::prefixed (touchable (seed, 20), "s_", "left"), wild = test::prefixed (touchable (seed + 100, 30), "e_", "right");
         const auto both = test::besides (steady, wild);
         const auto records = everyOutput (steady);
-        const auto ticks = seed == 1 ? ten_seconds : ten_seconds / 16;
+        const bool is_long = seed == 1;
+        const auto ticks = is_long ? ten_seconds : ten_seconds / 32;
 
         std::mt19937 random { seed };
         BumplessRule rule;
         int failing = 0;
         const auto edited = play (both, records, seed, ticks, &rule, [&] (Live& live, Felt& felt)
                                   {
-            for (auto edits = random() % 16 == 0 ? 1 + random() % 3 : 0; edits > 0; --edits)
+            for (auto edits = random() % (is_long ? 48 : 8) == 0 ? 1 + random() % 3 : 0; edits > 0; --edits)
             {
                 const auto messages = random() % 8 == 0 ? (random() % 2 ? live.undo() : live.redo()) : live.perform (test::randomEdit (random, live.graph(), "e_", "right"));
                 felt.refused += hasErrors (messages);
@@ -165,7 +183,7 @@ TEST_CASE ("ten seconds of edits on one side are not felt on the other, and with
         const auto quiet = play (both, records, seed, ticks, nullptr, [] (Live&, Felt&) {});
 
         INFO ("seed " << seed << ", " << edited.taken << " plans taken, " << edited.refused << " refused");
-        CHECK (edited.taken > static_cast<int> (ticks) / 40);
+        CHECK (edited.taken > (is_long ? 300 : 50));
         CHECK (differing (edited.left, quiet.left) == 0);
         CHECK (edited.recorded == quiet.recorded);
         CHECK (differing (edited.right, quiet.right) > ticks / 10);
@@ -175,10 +193,10 @@ TEST_CASE ("ten seconds of edits on one side are not felt on the other, and with
 
 TEST_CASE ("renamed, collapsed and expanded while they play, graphs give the same bits at all sinks and in all nodes", "[live]")
 {
-    for (unsigned seed = 1; seed <= 12; ++seed)
+    for (unsigned seed = 1; seed <= 10; ++seed)
     {
         const auto g = test::besides (test::prefixed (touchable (seed, 30), "s_", "left"), test::prefixed (touchable (seed + 100, 30), "e_", "right"));
-        constexpr std::size_t ticks = 1200;
+        constexpr std::size_t ticks = 1000;
         std::mt19937 random { seed };
         int done = 0, broken = 0, collapsed = 0, expanded = 0;
         const auto regroup = [&] (Live& live, Felt&)
@@ -200,7 +218,7 @@ TEST_CASE ("renamed, collapsed and expanded while they play, graphs give the sam
         const auto regrouped = play (g, {}, seed, ticks, nullptr, regroup), quiet = play (g, {}, seed, ticks, nullptr, [] (Live&, Felt&) {});
         INFO ("seed " << seed << ", " << done << " edits, " << collapsed << " collapsed, " << expanded << " expanded");
         CHECK (broken == 0);
-        CHECK (regrouped.taken > 80);
+        CHECK (regrouped.taken > 60);
         CHECK (collapsed > 10);
         CHECK (expanded > 5);
         CHECK (differing (regrouped.left, quiet.left) == 0);
