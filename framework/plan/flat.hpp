@@ -24,13 +24,10 @@ struct Origin
     std::string pointer;   ///< JSON pointer
 };
 
-/// The ids of the subgraph nodes around something, the outermost first, and perhaps its own.
-using Chain = std::vector<graph::Id>;
-
 /// Identity in a graph with its subgraphs expanded.
 struct Identity
 {
-    int scope = 0;      ///< where it stands: the ids around it are Flat::scopes[scope]
+    int scope = 0;      ///< where it stands: in which of Flat::scopes
     graph::Id id = 0;   ///< its own
 
     bool operator== (const Identity&) const = default;
@@ -96,10 +93,10 @@ struct Flat
 {
     std::vector<FlatNode> nodes;   ///< in file order, a subgraph's nodes where it stands
     std::vector<FlatWire> wires;
-    std::vector<Assignment> assignments;            ///< in order of precedence, lowest first
-    std::deque<NodeType> made_types;                ///< of bypassed subgraphs
-    std::vector<Chain> scopes { {} };               ///< of each patch that was expanded, the graph itself first
-    std::unordered_map<graph::Id, Chain> origins;   ///< of copies
+    std::vector<Assignment> assignments;                             ///< in order of precedence, lowest first
+    std::deque<NodeType> made_types;                                 ///< of bypassed subgraphs
+    std::vector<Identity> scopes { { -1, 0 } };                      ///< the graph itself, then the subgraph node of each patch that was expanded
+    std::unordered_map<graph::Id, std::vector<graph::Id>> origins;   ///< of copies
     Messages messages;
 
     const PortSheet& sheet (const PortRef& r) const { return nodes[static_cast<std::size_t> (r.node)].ports (r.role)[static_cast<std::size_t> (r.port)]; }

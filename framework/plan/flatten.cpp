@@ -179,8 +179,7 @@ private:
 
         inside->prefix = scope.prefix + node.name + "/";
         inside->number = static_cast<int> (flat.scopes.size());
-        flat.scopes.push_back (flat.scopes[static_cast<std::size_t> (scope.number)]);
-        flat.scopes.back().push_back (node.id);
+        flat.scopes.push_back ({ scope.number, node.id });
         Roles mapped;
         if (node.roles.is_object())
             for (const auto& [inner, outer] : node.roles.items())

@@ -11,6 +11,9 @@ namespace tactus::plan
 
 namespace
 {
+/// The ids of the subgraph nodes around something, the outermost first, then its own.
+using Chain = std::vector<graph::Id>;
+
 struct Hash
 {
     static std::size_t mixed (std::size_t h, std::uint64_t v) noexcept
@@ -72,15 +75,19 @@ class Descent
 public:
     Descent (const Flat& a, const Flat& b) : flats { &a, &b } {}
 
-    Chain operator() (const Chain& chain) const
+    Chain chainOf (const Flat& flat, Identity i) const
     {
-        Chain all;
-        for (const auto id : chain)
+        Chain chain;   // the innermost first
+        for (;; i = flat.scopes[static_cast<std::size_t> (i.scope)])
         {
-            const auto* origin = originOf (id);
-            all.insert (all.end(), origin ? origin->data() : &id, origin ? origin->data() + origin->size() : &id + 1);
+            if (const auto* origin = originOf (i.id))
+                chain.insert (chain.end(), origin->rbegin(), origin->rend());
+            else
+                chain.push_back (i.id);
+            if (i.scope == 0) break;
         }
-        return all;
+        std::ranges::reverse (chain);
+        return chain;
     }
 
 private:
@@ -97,14 +104,15 @@ private:
 /// For each scope the one before with the same subgraph nodes around; or one that does not exist.
 std::vector<int> scopesBefore (const Flat& now, const Flat& before)
 {
-    std::unordered_map<Chain, int, Hash> by_chain;
+    constexpr int none = -2;
+    std::unordered_map<Identity, int, Hash> numbers;
     for (std::size_t i = 0; i < before.scopes.size(); ++i)
-        by_chain.emplace (before.scopes[i], static_cast<int> (i));
+        numbers.emplace (before.scopes[i], static_cast<int> (i));
     std::vector<int> all;
-    for (const auto& chain : now.scopes)
+    for (const auto& [around, id] : now.scopes)
     {
-        const auto at = by_chain.find (chain);
-        all.push_back (at == by_chain.end() ? -1 : at->second);
+        const auto at = numbers.find ({ around < 0 ? around : all[static_cast<std::size_t> (around)], id });
+        all.push_back (at == numbers.end() ? none : at->second);
     }
     return all;
 }
@@ -133,11 +141,7 @@ std::vector<int> match (const Flat& now, const Flat& before, const std::vector<i
     const auto chains = [&] (const Flat& flat, auto shorten)
     {
         return [&, shorten] (const Identity& i)
-        {
-            auto chain = flat.scopes[static_cast<std::size_t> (i.scope)];
-            chain.push_back (i.id);
-            return shorten (descent (chain));
-        };
+        { return shorten (descent.chainOf (flat, i)); };
     };
     const auto by = [&] (auto shorten)
     { pair<Chain> (here, there, found, chains (now, shorten), chains (before, shorten)); };
