@@ -39,7 +39,7 @@ std::variant<double, Message> read (const Json& value, const PortSheet& sheet, s
 }
 }   // namespace
 
-Live::Live (graph::Graph g, const Catalogue& c, CompileOptions o, std::shared_ptr<Plan> first) : edits (std::move (g)), catalogue (c), options (std::move (o)), running (std::move (first))
+Live::Live (graph::Graph g, const Catalogue& c, CompileOptions o, std::shared_ptr<Plan> first) : edits (std::move (g)), catalogue (c), options (std::move (o)), running (std::move (first)), first_rate_hz (edits.graph().rate_hz)
 {
     options.rate_hz = running.newest().rate_hz;   // devices and guards hold on to it
 }
@@ -60,6 +60,8 @@ Messages Live::compileAndSubmit()
     options.before = &running.newest();
     auto [plan, messages] = compile (edits.graph(), catalogue, options);
     running.submit (plan ? std::move (plan) : std::move (waiting));
+    if (edits.graph().rate_hz != first_rate_hz)
+        messages.push_back ({ Message::Severity::warning, "live/rate", "/rate_hz", "the graph's rate was changed, and devices and guards run at another already", "start anew to run at it" });
     return std::move (messages);
 }
 

@@ -10,7 +10,7 @@ namespace tactus
 
 /// A graph that is edited while it runs. Each edit is compiled and handed to the engine, whose tick thread takes it over
 /// between two ticks. What does not compile leaves the plan before running; the graph keeps the edit, so that the next
-/// one can mend it. All but engine().tick() is for the main thread.
+/// one can mend it. The rate stays what it was (live/rate). All but engine().tick() is for the main thread.
 class Live
 {
 public:
@@ -36,6 +36,7 @@ private:
     const Catalogue& catalogue;
     CompileOptions options;
     Engine running;
+    double first_rate_hz;   // what the file asked for when it was opened
 };
 
 }   // namespace tactus

@@ -3,6 +3,8 @@
 
 #include <framework/device.hpp>
 
+#include <bit>
+#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -36,10 +38,14 @@ public:
     {
         if (efforts.size() < efforts.capacity()) efforts.push_back (e);
         last = e;
+        for (const auto* v : { &e.force, &e.torque })
+            for (const double x : *v)
+                digest = (digest ^ std::bit_cast<std::uint64_t> (x)) * 0x100000001b3ull;
     }
 
     std::vector<Effort> efforts;
     Effort last;
+    std::uint64_t digest = 0;   ///< of the bits of all efforts
 
 private:
     std::mt19937 random;

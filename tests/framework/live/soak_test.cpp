@@ -10,7 +10,6 @@
 
 #include <catch2/catch.hpp>
 
-#include <bit>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
@@ -40,13 +39,6 @@ test::Sketch wood()
     s.graph.root.nodes.back().role = "right";
     return s;
 }
-
-void mix (std::uint64_t& digest, const Effort& e)
-{
-    for (const auto* v : { &e.force, &e.torque })
-        for (const double x : *v)
-            digest = (digest ^ std::bit_cast<std::uint64_t> (x)) * 0x100000001b3ull;
-}
 }   // namespace
 
 TEST_CASE ("a million ticks with edits beside it give the same bits, and no memory is lost", "[live]")
@@ -63,7 +55,6 @@ TEST_CASE ("a million ticks with edits beside it give the same bits, and no memo
     alone.attach ("stylus", other);
 
     std::mt19937 random { 1 };
-    std::uint64_t digest = 0, expected = 0;
     std::size_t settled = 0;
     int edits = 0;
     for (std::uint64_t k = 0; k < ticks; ++k)
@@ -82,10 +73,8 @@ TEST_CASE ("a million ticks with edits beside it give the same bits, and no memo
         if (k == ticks / 2) settled = memory();
         live.engine().tick();
         alone.tick();
-        mix (digest, hand.last);
-        mix (expected, other.last);
     }
-    CHECK (digest == expected);
+    CHECK (hand.digest == other.digest);
     const auto grown = static_cast<double> (memory()) - static_cast<double> (settled);
     if (wanted) std::cout << ticks << " ticks, " << edits << " edits, memory " << settled << " bytes at half time, " << grown << " bytes more at the end\n";
     if (NoAllocation::watches) CHECK (grown < 2e6);   // a sanitizer keeps what was freed

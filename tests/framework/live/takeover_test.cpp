@@ -247,6 +247,21 @@ TEST_CASE ("a good plan that no tick has taken yet survives an edit that does no
     CHECK (bench.value() == 3.0);
 }
 
+TEST_CASE ("another rate is for the next start, and is said so", "[live]")
+{
+    Bench bench { counting(), { "count.out" } };
+    bench.tick (3);
+    CHECK (test::has (bench.live.perform (graph::SetHeader { .rate_hz = 1000.0 }), "live/rate"));
+    bench.tick();
+    CHECK (bench.value() == 4.0);
+    CHECK (bench.live.engine().plan().rate_hz == 4000.0);
+    CHECK (bench.live.undo().empty());
+
+    auto slow = bench.live.graph();
+    slow.rate_hz = 1000.0;
+    CHECK_THROWS_AS (bench.live.engine().submit (compile (slow, catalogue()).plan), std::invalid_argument);
+}
+
 TEST_CASE ("plans that are used no more are freed, and never more than three are kept", "[live]")
 {
     Bench bench { counting() };
