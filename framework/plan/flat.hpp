@@ -95,6 +95,7 @@ struct Flat
     std::vector<FlatWire> wires;
     std::vector<Assignment> assignments;                             ///< in order of precedence, lowest first
     std::deque<NodeType> made_types;                                 ///< of bypassed subgraphs
+    std::deque<std::string> made_names;                              ///< of their ports
     std::vector<Identity> scopes { { -1, 0 } };                      ///< the graph itself, then the subgraph node of each patch that was expanded
     std::unordered_map<graph::Id, std::vector<graph::Id>> origins;   ///< of copies
     Messages messages;

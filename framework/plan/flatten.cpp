@@ -252,7 +252,7 @@ private:
             if (! x.to) continue;
             auto row = flat.sheet (*x.to);
             row.role = x.role;
-            row.id = x.name;
+            row.id = flat.made_names.emplace_back (x.name);
             if (row.unit.kind != UnitRule::Kind::fixed) row.unit = each_its_unit;
             row.width = flat.widthOf (*x.to);
             row.list = row.list && x.to->index < 0;
