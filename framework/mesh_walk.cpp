@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace tactus
@@ -34,6 +35,18 @@ std::vector<std::array<bool, 3>> rimOf (const Mesh& mesh)
 
 MeshWalk::MeshWalk (Mesh m) : body (std::move (m)), rim (rimOf (body)), first (body.points.size() + 1, 0), around (3 * body.triangles.size())
 {
+    double size = 0.0;
+    for (const auto& point : body.points)
+        size = std::max (size, point.cwiseAbs().maxCoeff());
+    const Vec3 slack = Vec3::Constant (1e-12 * size);   // far more than a computed point can be off
+    for (const auto& corners : body.triangles)
+    {
+        const auto at = [&] (std::size_t i) -> const Vec3&
+        { return body.points[static_cast<std::size_t> (corners[i])]; };
+        const Vec3 &a = at (0), &b = at (1), &c = at (2);
+        boxes.push_back ({ a.cwiseMin (b).cwiseMin (c) - slack, a.cwiseMax (b).cwiseMax (c) + slack });
+    }
+
     for (const auto& corners : body.triangles)
         for (const int c : corners)
             ++first[static_cast<std::size_t> (c) + 1];
@@ -46,6 +59,57 @@ MeshWalk::MeshWalk (Mesh m) : body (std::move (m)), rim (rimOf (body)), first (b
             around[static_cast<std::size_t> (next[static_cast<std::size_t> (c)]++)] = t;
 }
 
+/// What lies within a distance of p.
+class MeshWalk::Reach
+{
+public:
+    Reach (const Vec3& p, double distance2) noexcept : centre (p) { shrinkTo (distance2); }
+
+    void shrinkTo (double distance2) noexcept
+    {
+        if (! (distance2 < square)) return;
+        square = distance2;
+        const Vec3 reach = Vec3::Constant (std::sqrt (distance2) * (1.0 + rounding));
+        around = { centre - reach, centre + reach };
+    }
+
+    /// True if all of a triangle certainly lies beyond; false says nothing.
+    bool misses (const Box& box) const noexcept
+    {
+        for (int i = 0; i < 3; ++i)
+            if (box.low[i] > around.high[i] || box.high[i] < around.low[i]) return true;
+        return (box.low - centre).cwiseMax (centre - box.high).cwiseMax (0.0).squaredNorm() * (1.0 - rounding) > square;
+    }
+
+private:
+    static constexpr double rounding = 1e-12;   // relative
+
+    static constexpr double endless = std::numeric_limits<double>::infinity();
+
+    Vec3 centre;
+    Box around { Vec3::Constant (-endless), Vec3::Constant (endless) };
+    double square = endless;
+};
+
+Spot MeshWalk::nearestOfAll (const Vec3& p, int guess) const noexcept
+{
+    Spot best;
+    double least = std::numeric_limits<double>::infinity();
+    Reach reach { p, guess >= 0 ? (at (guess, p).on.point - p).squaredNorm() : least };
+    for (int t = 0; t < static_cast<int> (body.triangles.size()); ++t)
+    {
+        if (reach.misses (boxes[static_cast<std::size_t> (t)])) continue;
+        const Spot there = at (t, p);
+        if (const double distance2 = (there.on.point - p).squaredNorm(); distance2 < least)
+        {
+            best = there;
+            least = distance2;
+            reach.shrinkTo (distance2);
+        }
+    }
+    return best.triangle < 0 ? at (0, p) : best;
+}
+
 Spot MeshWalk::nearest (int from, const Vec3& p) const noexcept
 {
     constexpr int most = 1000;         // steps: as far as a hand gets in a tick on any mesh, and an end to it
@@ -56,17 +120,21 @@ Spot MeshWalk::nearest (int from, const Vec3& p) const noexcept
     {
         Spot best = here;
         double least = (here.on.point - p).squaredNorm() * (1.0 - nearer);
+        Reach reach { p, least };
         for (std::size_t c = 0; c < 3; ++c)
         {
             if (here.on.weights[c] <= 0.0) continue;   // what is nearer lies beyond the corners of the edge we stand on
             const auto corner = static_cast<std::size_t> (body.triangles[static_cast<std::size_t> (here.triangle)][c]);
             for (int i = first[corner]; i < first[corner + 1]; ++i)
             {
-                const Spot there = at (around[static_cast<std::size_t> (i)], p);
+                const int neighbour = around[static_cast<std::size_t> (i)];
+                if (neighbour == here.triangle || reach.misses (boxes[static_cast<std::size_t> (neighbour)])) continue;
+                const Spot there = at (neighbour, p);
                 if (const double distance2 = (there.on.point - p).squaredNorm(); distance2 < least)
                 {
                     best = there;
                     least = distance2;
+                    reach.shrinkTo (distance2);
                 }
             }
         }

@@ -30,11 +30,20 @@ public:
     /// True if the point lies on the rim of an open mesh and p beyond it: further past the end than above or below.
     bool isBeyondRim (const Spot&, const Vec3& p) const noexcept;
 
-    /// The nearest of all, by looking at each triangle.
-    Spot nearestOfAll (const Vec3& p) const noexcept { return at (tactus::nearestOfAll (body, p), p); }
+    /// The nearest of all, by looking at each triangle; at few of them if `guess` is one that is near.
+    Spot nearestOfAll (const Vec3& p, int guess = -1) const noexcept;
 
 private:
+    /// Around a triangle, a little wider than it is.
+    struct Box
+    {
+        Vec3 low, high;
+    };
+
+    class Reach;
+
     Mesh body;
+    std::vector<Box> boxes;
     std::vector<std::array<bool, 3>> rim;   // of each triangle, the edge opposite of each corner has nothing beyond it
     std::vector<int> first, around;         // around[first[i]] … around[first[i + 1]]: the triangles that share point i
 };

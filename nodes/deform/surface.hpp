@@ -204,13 +204,13 @@ struct ElasticSurface
     {
         if (! isFinite (in.position, in.tool)) return fault();
         const auto found = searched (in.position);
-        follow (in, found);
+        const auto followed = follow (in, found);
 
         Outputs out { .normal = Vec3::UnitZ(), .contact = in.position, .dissipated_energy = dissipated };
         const Spot& spot = touch.spot.triangle >= 0 ? touch.spot : near;
         if (spot.triangle >= 0)
         {
-            const Felt felt = feel (spot, in.position, touch.tool);
+            const Felt felt = followed ? *followed : feel (spot, in.position, touch.tool);
             out.normal = -felt.frame.row (2).transpose();
             if (touch.spot.triangle >= 0) report (felt, in.position, out);
             last.depth = felt.d.z();
@@ -290,52 +290,53 @@ private:
         bool known = false;   // the depth is
     };
 
-    /// From a contact that holds to one that slipped, from apart to the first touch, or the other way.
-    void follow (const Inputs& in, std::optional<int> found) noexcept
+    /// From a contact that holds to one that slipped, from apart to the first touch, or the other way. What is felt at
+    /// the new spot comes back where it has been worked out; it need not be again.
+    std::optional<Felt> follow (const Inputs& in, std::optional<int> found) noexcept
     {
         touch.slipped = false;
         touch.hit = 0.0;
-        if (touch.spot.triangle < 0)
-            open (in, found);
-        else if (touch.frictionless)
-            glide (in.position);
-        else
-            stick (in.position);
+        if (touch.spot.triangle < 0) return open (in, found);
+        return touch.frictionless ? glide (in.position) : stick (in.position);
     }
 
-    void open (const Inputs& in, std::optional<int> found) noexcept
+    std::optional<Felt> open (const Inputs& in, std::optional<int> found) noexcept
     {
         const auto& p = in.position;
         near = nearestFrom (found, p);
-        if (near.triangle < 0) return;
+        if (near.triangle < 0) return {};
 
         touch.tool = toolAt (in.tool);
-        const double depth = feel (near, p, touch.tool).d.z();
-        if (! (depth > 0.0) || body->walk.isBeyondRim (near, p)) return;
+        const Felt felt = feel (near, p, touch.tool);
+        const double depth = felt.d.z();
+        if (! (depth > 0.0) || body->walk.isBeyondRim (near, p)) return felt;
         touch.spot = near;
         touch.frictionless = params.friction == Friction::frictionless || std::ranges::all_of (settings.surface->mu, [] (const Ratio& r)
                                                                                                { return ! r.law && r.number == 0.0; });
         touch.hit = last.known ? finiteOrZero ((depth - last.depth) / dt) : 0.0;
-        if (! touch.frictionless) stick (p);
+        return touch.frictionless ? felt : stick (p);
     }
 
     /// An answer is a place to walk from; what was walked to meanwhile may be nearer.
     Spot nearestFrom (std::optional<int> found, const Vec3& p) const noexcept
     {
-        if (! search) return body->walk.nearestOfAll (p);
+        if (! search) return body->walk.nearestOfAll (p, near.triangle);
         const Spot walked = near.triangle >= 0 ? body->walk.nearest (near.triangle, p) : Spot {};
         if (! found) return walked;
         const Spot there = body->walk.nearest (*found, p);
         return walked.triangle < 0 || (there.on.point - p).squaredNorm() < (walked.on.point - p).squaredNorm() ? there : walked;
     }
 
-    void glide (const Vec3& p) noexcept
+    std::optional<Felt> glide (const Vec3& p) noexcept
     {
         touch.spot = body->walk.nearest (touch.spot.triangle, p);
-        if (! (feel (touch.spot, p, touch.tool).d.z() > 0.0) || body->walk.isBeyondRim (touch.spot, p)) letGo (p);
+        const Felt felt = feel (touch.spot, p, touch.tool);
+        if (felt.d.z() > 0.0 && ! body->walk.isBeyondRim (touch.spot, p)) return felt;
+        letGo (p);
+        return {};
     }
 
-    void stick (const Vec3& p) noexcept
+    std::optional<Felt> stick (const Vec3& p) noexcept
     {
         constexpr double guard = 1e-9;      // relative: a steady slip ends exactly on the bound, where rounding would chatter
         constexpr double past_rim = 1e-3;   // relative: a rim that holds the contact back, not a turn of the frame
@@ -353,9 +354,10 @@ private:
             dissipate (before - felt.energy);
             off = std::hypot (felt.d.x(), felt.d.y()) > bound * (1.0 + past_rim) && body->walk.isBeyondRim (touch.spot, p);
         }
-        if (felt.d.z() > 0.0 && ! off) return;
+        if (felt.d.z() > 0.0 && ! off) return felt;
         dissipate (felt.energy);
         letGo (p);
+        return {};
     }
 
     void letGo (const Vec3& p) noexcept
@@ -450,8 +452,9 @@ private:
             {
                 const Law& law = of[static_cast<std::size_t> (axis)];
                 const double d = axis < 2 ? std::abs (felt.d[axis]) : felt.d[axis];
-                felt.f[axis] += share * (felt.d[axis] < 0.0 ? -law (d) : law (d));
-                energy += law.energy (d);
+                const auto [force, stored] = law.at (d);
+                felt.f[axis] += share * (felt.d[axis] < 0.0 ? -force : force);
+                energy += stored;
             }
             if (alike)
             {
