@@ -104,7 +104,7 @@ struct Velocity
             return {};
         }
 
-        newest = (newest + 1) % capacity;
+        newest = newest + 1 < capacity ? newest + 1 : 0;
         known = std::min (known + 1, capacity);
         Vec3 v;
         for (int i = 0; i < 3; ++i)
@@ -134,7 +134,11 @@ private:
         double quantum = inf;                   // smallest step seen, m
     };
 
-    double ago (const Axis& axis, int ticks) const noexcept { return axis.past[static_cast<std::size_t> ((newest + capacity - ticks) % capacity)]; }
+    double ago (const Axis& axis, int ticks) const noexcept
+    {
+        const int place = newest - ticks;
+        return axis.past[static_cast<std::size_t> (place >= 0 ? place : place + capacity)];
+    }
 
     void learn (Axis& axis) const noexcept
     {
