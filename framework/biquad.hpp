@@ -27,6 +27,8 @@ struct Biquad
 class BiquadState
 {
 public:
+    static constexpr double silence = 1e-100;   ///< far below anything felt, far above the slow denormal numbers
+
     double operator() (const Biquad& c, double x) noexcept
     {
         const double y = c.b0 * x + s1;
@@ -43,8 +45,6 @@ public:
     }
 
 private:
-    static constexpr double silence = 1e-100;   // far below anything felt, far above the slow denormal numbers
-
     double s1 = 0.0, s2 = 0.0;
 };
 
