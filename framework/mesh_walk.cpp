@@ -177,6 +177,21 @@ bool MeshWalk::isBeyondRim (const Spot& spot, const Vec3& p) const noexcept
     return std::ranges::count (weights, 0.0) > 0 && passes (spot.triangle);
 }
 
+bool isInsideOut (const Mesh& mesh)
+{
+    const auto isOpen = [] (const std::array<bool, 3>& edges)
+    { return edges[0] || edges[1] || edges[2]; };
+    if (std::ranges::any_of (rimOf (mesh), isOpen)) return false;
+    double volume = 0.0;
+    for (const auto& t : mesh.triangles)
+    {
+        const auto at = [&] (std::size_t i) -> const Vec3&
+        { return mesh.points[static_cast<std::size_t> (t[i])]; };
+        volume += at (0).dot (at (1).cross (at (2)));
+    }
+    return volume < 0.0;
+}
+
 std::vector<Vec3> normalsOf (const Mesh& mesh)
 {
     std::vector<Vec3> normals (mesh.points.size(), Vec3::Zero());

@@ -48,6 +48,9 @@ private:
     std::vector<int> first, around;         // around[first[i]] … around[first[i + 1]]: the triangles that share point i
 };
 
+/// True of a closed mesh whose triangles run clockwise as seen from outside; an open one has no inside.
+bool isInsideOut (const Mesh&);
+
 /// At each point the mean of the normals of its triangles, weighted by their angles, out of the body. A point without
 /// triangles has none: 0. After Baerentzen & Aanaes 2005.
 std::vector<Vec3> normalsOf (const Mesh&);

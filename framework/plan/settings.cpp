@@ -53,7 +53,8 @@ SettingValue valueFrom (const Json& json, const SettingSheet& sheet, const Files
     case Kind::number:
         return inRange (numberFrom (json, sheet.unit, key), sheet.limits.hard, key);
     case Kind::integer:
-        return inRange (wholeNumberFrom (json, sheet.unit, key), sheet.limits.hard, key);
+        inRange (numberFrom (json, sheet.unit, key), sheet.limits.hard, key);
+        return wholeNumberFrom (json, sheet.unit, key);
     case Kind::text:
         if (! json.is_string()) throw Problem { "it must be text", key };
         return json.get<std::string>();

@@ -2,6 +2,8 @@
 #include "mesh.hpp"
 #include "mesh_parts.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -52,6 +54,73 @@ void MeshBuilder::face (std::span<const long long> corners, std::size_t line)
     for (std::size_t i = 2; i < corners.size(); ++i)
         if (const std::array<int, 3> t { at (0), at (i - 1), at (i) }; t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
             made.triangles.push_back (t);
+}
+
+namespace
+{
+/// For each point the first one that is nearer than the reach; itself, if there is none.
+std::vector<int> firstNear (const std::vector<Vec3>& points, double reach)
+{
+    std::vector<int> firsts;
+    std::map<std::array<long long, 3>, std::vector<int>> cells;
+    for (int i = 0; i < static_cast<int> (points.size()); ++i)
+    {
+        const Vec3& p = points[static_cast<std::size_t> (i)];
+        const auto cellOf = [&] (int axis)
+        { return static_cast<long long> (std::floor (p[axis] / reach)); };
+        const auto near = [&]
+        {
+            for (long long x = -1; x <= 1; ++x)
+                for (long long y = -1; y <= 1; ++y)
+                    for (long long z = -1; z <= 1; ++z)
+                        if (const auto cell = cells.find ({ cellOf (0) + x, cellOf (1) + y, cellOf (2) + z }); cell != cells.end())
+                            for (const int other : cell->second)
+                                if ((points[static_cast<std::size_t> (other)] - p).norm() < reach) return other;
+            return i;
+        }();
+        firsts.push_back (near);
+        if (near == i) cells[{ cellOf (0), cellOf (1), cellOf (2) }].push_back (i);
+    }
+    return firsts;
+}
+}   // namespace
+
+Mesh MeshBuilder::take() const
+{
+    if (made.points.empty()) return made;
+    Vec3 low = made.points[0], high = low;
+    for (const auto& p : made.points)
+    {
+        low = low.cwiseMin (p);
+        high = high.cwiseMax (p);
+    }
+    // Far from the origin the last digit is coarser than that, and cells are counted in whole numbers.
+    const double reach = std::max (1e-6 * (high - low).norm(), 1e-15 * std::max (low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()));
+    if (! (reach > 0.0) || ! std::isfinite (reach)) return made;
+
+    Mesh welded;
+    const auto firsts = firstNear (made.points, reach);
+    std::vector<int> number (firsts.size());
+    for (std::size_t i = 0; i < firsts.size(); ++i)
+    {
+        const auto first = static_cast<std::size_t> (firsts[i]);
+        if (first == i)
+        {
+            number[i] = static_cast<int> (welded.points.size());
+            welded.points.push_back (made.points[i]);
+        }
+        else
+            number[i] = number[first];
+    }
+    for (const auto& t : made.triangles)
+    {
+        const auto to = [&] (std::size_t corner)
+        { return number[static_cast<std::size_t> (t[corner])]; };
+        const auto at = [&] (std::size_t corner) -> const Vec3&
+        { return welded.points[static_cast<std::size_t> (to (corner))]; };
+        if ((at (1) - at (0)).cross (at (2) - at (0)).squaredNorm() > 0.0) welded.triangles.push_back ({ to (0), to (1), to (2) });
+    }
+    return welded;
 }
 
 Vec3 takePoint (std::string_view& line, std::size_t number)

@@ -27,12 +27,15 @@ public:
     void face (std::span<const long long> corners, std::size_t line = 0);
 
     long long points() const noexcept { return static_cast<long long> (joined.size()); }   ///< so far
-    Mesh take() noexcept { return std::move (made); }
+
+    /// What was read, with points welded that are nearer than a millionth of its size, as programs write the same corner
+    /// differently in its last digit; and without triangles that have no area.
+    Mesh take() const;
 
 private:
     Mesh made;
     std::vector<int> joined;   // number in the file to number in the mesh
-    std::map<std::array<double, 3>, int> known;
+    std::map<std::array<double, 3>, int> known;   // points at the very same place are one
 };
 
 /// Three coordinates off the front of a line.

@@ -41,6 +41,13 @@ std::string initialText (const PortSheet& p)
     return "(" + numberText (p.initial[0]) + ", " + numberText (p.initial[1]) + ", " + numberText (p.initial[2]) + ")";
 }
 
+std::string initialText (const SettingValue& v)
+{
+    if (const auto* number = std::get_if<double> (&v)) return numberText (*number);
+    if (const auto* p = std::get_if<Vec3> (&v)) return "(" + numberText (p->x()) + ", " + numberText (p->y()) + ", " + numberText (p->z()) + ")";
+    return "";
+}
+
 std::string rangeText (const Interval& i)
 {
     if (i == Interval {}) return "";
@@ -113,10 +120,11 @@ void printDatasheet (const NodeType& t)
                                                                                                 : "; each with ")
                          + std::string (f.id) + " (" + (f.kind == SettingSheet::Kind::number ? unitText (f.unit) : std::string (name (f.kind))) + ")";
             if (const auto hard = rangeText (s.limits.hard); ! hard.empty()) about += "; only " + hard;
-            const auto* initial = std::get_if<double> (&s.initial);
-            rows.push_back ({ std::string (s.id), std::string (name (s.kind)), initial ? numberText (*initial) : "", about });
+            const bool has_unit = s.kind == SettingSheet::Kind::number || s.kind == SettingSheet::Kind::vector;
+            rows.push_back ({ std::string (s.id), std::string (name (s.kind)) + (has_unit && unitText (s.unit) != "1" ? ", " + unitText (s.unit) : ""), initialText (s.initial), about });
         }
         print (rows);
+        std::cout << "  How each kind is written: docs/graph_file.md, Settings\n";
     }
     section ("outputs", t.outputs, false);
 }

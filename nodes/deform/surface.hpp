@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,8 +56,8 @@ namespace tactus::nodes
 ///    the nearest patch.
 ///  - A slip is one step of eq. (7). Where mu_c or the frames change over the mesh it ends near the bound, not on it, and
 ///    the rest follows on the next ticks, also of a tool at rest: some ten of them.
-///  - Past the rim of an open mesh, by more than the depth, there is nothing: a contact dragged there lets go, and none
-///    begins.
+///  - Past the rim of an open mesh, by more than the depth, there is nothing: a contact dragged there lets go. What has come
+///    in behind the rim, or was inside when the first search ended, feels nothing until it has been outside.
 ///  - Energy in the sideways stretch at the moment the tool lets go is dissipated.
 struct ElasticSurface
 {
@@ -142,8 +143,12 @@ struct ElasticSurface
             if (const auto [a, b, c] = cornersOf (*s->mesh, t); ! ((b - a).cross (c - a).squaredNorm() > 0.0))
                 return "triangle " + std::to_string (t) + " has no area";
         for (std::size_t i = 0; i < s->frames.size(); ++i)
-            if (! (s->frames[i] * s->frames[i].transpose()).isIdentity (1e-6))
-                return "the frame of node " + std::to_string (i) + " is not square: its rows must be of length 1 and at right angles";
+            if (! (s->frames[i] * s->frames[i].transpose()).isIdentity (1e-6) || s->frames[i].determinant() < 0.0)
+                return "the frame of node " + std::to_string (i) + " is not right: its rows must be of length 1, at right angles, and u^z = u^x x u^y";
+        for (std::size_t t = 0; t < s->curves.size(); ++t)
+            for (std::size_t i = 0; i < s->curves[t].size(); ++i)
+                if (const Law& z = s->curves[t][i][2]; ! z.table.empty() && *std::ranges::min_element (z.table.y) < 0.0)
+                    return "the curve of z of tool " + std::to_string (t) + ", node " + std::to_string (i) + " pulls: a resistance is never below 0";
         return {};
     }
 
@@ -152,7 +157,8 @@ struct ElasticSurface
         const auto& mesh = *settings.surface->mesh;
         if (settings.search_ticks == 0 && mesh.triangles.size() > 2000)
             return std::to_string (mesh.triangles.size()) + " triangles are searched within each tick; give the search some ticks of time with search_ticks";
-        if (params.friction == Friction::frictionless) return {};
+        if (const auto node = nodeThatPointsOut(); node >= 0) return "the surface faces inwards at node " + std::to_string (node) + ", and attracts there: turn its triangles round, or u^z of its frame";
+        if (isFrictionless()) return tiltWarning();
         const auto [triangle, depth] = shallowestGain();
         constexpr double deep = 0.02;   // deeper than a hand presses
         if (depth > deep) return {};
@@ -167,6 +173,7 @@ struct ElasticSurface
         touch = {};
         near = {};
         last = {};
+        behind = false;
         until_asked = 0;
         search.reset();
         if (settings.search_ticks == 0) return;
@@ -186,6 +193,7 @@ struct ElasticSurface
         if (settings.scale != old.settings.scale || settings.origin != old.settings.origin || settings.rotation != old.settings.rotation) return;
         touch = old.touch;
         near = old.near;
+        behind = old.behind;
         last = old.last;
         if (touch.tool.upper >= static_cast<int> (settings.surface->curves.size())) touch = {};
     }
@@ -197,7 +205,7 @@ struct ElasticSurface
             for (const auto& curves : tool)
                 for (const auto& law : curves)
                     stiffest = std::max (stiffest, law.steepest());
-        return { .passive = params.friction == Friction::bound && shallowestGain().depth == inf, .stiffness = stiffest };
+        return { .passive = ! isFrictionless() && shallowestGain().depth == inf, .stiffness = stiffest };
     }
 
     Outputs tick (const Inputs& in) noexcept
@@ -303,17 +311,21 @@ private:
     std::optional<Felt> open (const Inputs& in, std::optional<int> found) noexcept
     {
         const auto& p = in.position;
+        const bool found_late = search && near.triangle < 0;
         near = nearestFrom (found, p);
         if (near.triangle < 0) return {};
 
         touch.tool = toolAt (in.tool);
         const Felt felt = feel (near, p, touch.tool);
         const double depth = felt.d.z();
-        if (! (depth > 0.0) || body->walk.isBeyondRim (near, p)) return felt;
+        if (! (depth > 0.0))
+            behind = false;
+        else if (found_late || body->walk.isBeyondRim (near, p))
+            behind = true;
+        if (! (depth > 0.0) || behind) return felt;
         touch.spot = near;
-        touch.frictionless = params.friction == Friction::frictionless || std::ranges::all_of (settings.surface->mu, [] (const Ratio& r)
-                                                                                               { return ! r.law && r.number == 0.0; });
-        touch.hit = last.known ? finiteOrZero ((depth - last.depth) / dt) : 0.0;
+        touch.frictionless = isFrictionless();
+        touch.hit = last.known ? std::max (0.0, finiteOrZero ((depth - last.depth) / dt)) : 0.0;
         return touch.frictionless ? felt : stick (p);
     }
 
@@ -397,6 +409,7 @@ private:
     Outputs fault() noexcept
     {
         touch = {};
+        behind = false;
         last = {};
         if (search) (*search) (std::nullopt);
         return { .dissipated_energy = dissipated, .state = -1.0 };
@@ -513,6 +526,46 @@ private:
         return { over.cross (c[2] - c[1]), over.cross (c[0] - c[2]), over.cross (c[1] - c[0]) };
     }
 
+    /// With no friction anywhere, the contact follows freely whatever the choice.
+    bool isFrictionless() const noexcept
+    {
+        return params.friction == Friction::frictionless || std::ranges::all_of (settings.surface->mu, [] (const Ratio& r)
+                                                                                 { return ! r.law && r.number == 0.0; });
+    }
+
+    /// A node whose u^z leads out of the body, or, of a closed body turned inside out, the first; -1 if there is none.
+    int nodeThatPointsOut() const
+    {
+        const auto& s = *settings.surface;
+        if (s.frames.empty()) return isInsideOut (*s.mesh) ? 0 : -1;
+        const auto normals = normalsOf (*s.mesh);
+        for (std::size_t i = 0; i < s.frames.size(); ++i)
+            if (s.frames[i].row (2).dot (normals[i].transpose()) > 0.0) return static_cast<int> (i);
+        return -1;
+    }
+
+    /// Frames that lean against their triangles make a frictionless force that is no gradient.
+    std::string tiltWarning() const
+    {
+        constexpr double level = 0.9962;   // cos 5 degrees
+        const auto& s = *settings.surface;
+        const auto normals = normalsOf (*s.mesh);
+        double least = 1.0;
+        for (std::size_t t = 0; t < s.mesh->triangles.size(); ++t)
+        {
+            const auto corners = cornersOf (*s.mesh, t);
+            const Vec3 up = direction ((corners[1] - corners[0]).cross (corners[2] - corners[0]));
+            for (const int c : s.mesh->triangles[t])
+            {
+                const auto i = static_cast<std::size_t> (c);
+                least = std::min (least, s.frames.empty() ? up.dot (normals[i]) : -up.dot (Vec3 (s.frames[i].row (2).transpose())));
+            }
+        }
+        if (least > level) return {};
+        return "frames lean by up to " + std::to_string (std::lround (std::acos (std::clamp (least, -1.0, 1.0)) * 180.0 / std::numbers::pi))
+               + " degrees against their triangles: without friction, a closed path may then give energy. A finer mesh leans less";
+    }
+
     struct Gain
     {
         int triangle = -1;
@@ -561,7 +614,7 @@ private:
     static std::string lengthText (double metres)
     {
         const auto micrometres = std::lround (metres * 1e6);
-        return micrometres < 1000 ? std::to_string (micrometres) + " um" : std::to_string (micrometres / 1000) + " mm";
+        return micrometres < 10'000 ? std::to_string (micrometres) + " um" : std::to_string (micrometres / 1000) + " mm";
     }
 
     /// What a new node is: a soft square of 10 cm that faces upwards.
@@ -584,7 +637,8 @@ private:
     std::shared_ptr<Search> search;   // none: within the tick
     int until_asked = 0;              // ticks
     Touch touch;
-    Spot near;   // the nearest point of the mesh while apart, as far as known
+    bool behind = false;   // it came in where there is no surface: nothing until it has been outside
+    Spot near;             // the nearest point of the mesh while apart, as far as known
     Sample last;
     double dissipated = 0.0;   // J
 };

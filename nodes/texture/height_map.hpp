@@ -49,6 +49,7 @@ namespace tactus::nodes
 ///  - Speed is the difference of two samples, 0 on the first and after a fault. When it rises it counts at once, when it
 ///    falls late and slowly (after 20 ms, in 50 ms): so a quantum q of the position counts as a speed q / T throughout,
 ///    and nothing flutters. Detail finer than that is not there (Table 1, high speed: alpha k q < 1).
+///  - A hand at rest keeps the detail it came with, so that its force stays.
 ///  - What is left above f_max of the roughest map there is, white noise, is less than 0.6 % of its force (-45 dB).
 ///  - While the speed changes, so does h: then a closed path may give or take energy. It claims to be passive only if flat.
 ///  - A force in N needs slopes: gain is the force on a slope of 1, 45 degrees. Real slopes are about 0.1.
@@ -136,9 +137,9 @@ struct HeightMap
         const double speed = last.known ? std::min (speedOf (p - last.p), fastest) : 0.0;
         if (speed >= 0.99 * last.speed)
             last.held = hold;
-        else if (last.held > 0)
+        else if (p != last.p && last.held > 0)
             --last.held;
-        else
+        else if (p != last.p)
             last.speed *= release;
         last = { .p = p, .speed = std::max (speed, last.speed), .held = last.held, .known = true };
         if (levels.empty()) return {};

@@ -111,6 +111,7 @@ struct TextureNoise
     Settings settings;
 
     std::string problem() const;
+    std::string warning (const Setup&) const;
     void prepare (const Setup&);
     void adopt (const TextureNoise&) noexcept;
 
@@ -260,6 +261,19 @@ inline std::string TextureNoise::problem() const
             return which + " is not stable: it would grow for ever. Are the signs of its coefficients those of y_n = a_1 y_(n-1) + …?";
         for (std::size_t j = 0; j < i; ++j)
             if (models[j].speed == m.speed && models[j].force == m.force) return which + " has the speed and the force of model " + std::to_string (j);
+    }
+    return {};
+}
+
+inline std::string TextureNoise::warning (const Setup&) const
+{
+    constexpr double loud = 100.0;   // N
+    for (std::size_t i = 0; i < settings.models.size(); ++i)
+    {
+        double variance = settings.models[i].variance;
+        for (const double k : reflectionsOf (settings.models[i].coefficients))
+            variance /= (1.0 - k) * (1.0 + k);
+        if (std::sqrt (variance) > loud) return "model " + std::to_string (i) + " makes " + std::to_string (std::lround (std::min (std::sqrt (variance), 1e15))) + " N on average: its coefficients are at the edge of stability, or its variance is not in N2";
     }
     return {};
 }

@@ -236,6 +236,11 @@ inline std::string Wavetable::warning (const Setup& setup) const
     for (const Mode& m : t.modes)
         if (m.frequency >= 0.5 * t.rate && m.frequency < 0.5 * setup.rate_hz)
             return "the table has too low a rate for the mode at " + std::to_string (std::lround (m.frequency)) + " Hz, which will sound as another: it needs more than twice that frequency";
+
+    constexpr double unheard = 0.02;
+    for (const Mode& m : t.modes)
+        if (m.frequency < 0.5 * setup.rate_hz && m.decay > 0.0 && std::exp (-m.decay * t.length / t.rate) > unheard)
+            return "the table ends while the mode at " + std::to_string (std::lround (m.frequency)) + " Hz still sounds, which clicks: a length of " + std::to_string (std::lround (std::ceil (-std::log (unheard) * t.rate / m.decay))) + " would do";
     return {};
 }
 

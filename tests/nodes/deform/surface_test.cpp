@@ -520,8 +520,12 @@ TEST_CASE ("surface: past the rim of an open mesh there is nothing to touch", "[
             most = std::max (most, std::hypot (out.force.x(), out.force.y()));
         }
         CHECK (out.state == 0.0);
-        CHECK (most <= 400.0 * 0.002 + 1e-9);   // k_t d^z
-        CHECK (node.tick ({ .position = Vec3 (0.02, 0.02, -0.002) }).state > 0.0);
+        CHECK (most <= 400.0 * 0.002 + 1e-9);                                         // k_t d^z
+        CHECK (node.tick ({ .position = Vec3 (0.02, 0.02, -0.002) }).state == 0.0);   // it came in from behind
+        CHECK (node.tick ({ .position = Vec3 (0.02, 0.02, 0.002) }).state == 0.0);
+        out = node.tick ({ .position = Vec3 (0.02, 0.02, -0.002) });
+        CHECK (out.state > 0.0);
+        CHECK (out.hit == Approx (4.0));
     }
 }
 
@@ -537,4 +541,65 @@ TEST_CASE ("surface: a closed body has no rim", "[nodes][deform]")
             const Vec3 p = 0.03 * Vec3 (bell (dice), bell (dice), bell (dice));
             RC_ASSERT (! walk.isBeyondRim (walk.nearestOfAll (p), p));
         } });
+}
+
+TEST_CASE ("surface: around the rim and up through the surface gives no energy", "[nodes][deform]")
+{
+    for (const auto friction : { Frictions::bound, Frictions::frictionless })
+    {
+        Hand hand { made (body (flat(), { { curves (400.0, 1000.0) } }, { { .number = 0.01 } }), friction) };
+        hand.p = Vec3 (0.06, 0.02, 0.005);
+        for (int round = 0; round < 3; ++round)
+        {
+            hand.line (Vec3 (0.06, 0.02, -0.01), 1000);
+            hand.line (Vec3 (0.02, 0.02, -0.01), 1000);
+            hand.line (Vec3 (0.02, 0.02, 0.005), 1000);
+            hand.line (Vec3 (0.06, 0.02, 0.005), 1000);
+            CHECK (hand.work == 0.0);
+        }
+    }
+}
+
+TEST_CASE ("surface: what was inside when the first search ended is felt once it has been outside", "[nodes][deform]")
+{
+    auto node = made (body (flat(), { { curves (400.0, 1000.0) } }, { { .number = 0.5 } }));
+    node.settings.search_ticks = 20;
+    node.prepare ({ .rate_hz = 1000.0 });
+    double steepest = 0.0, before = 0.0;
+    const auto move = [&] (double depth)
+    {
+        const double force = node.tick ({ .position = Vec3 (0.02, 0.01, -depth) }).resistance;
+        steepest = std::max (steepest, std::abs (force - before));
+        before = force;
+    };
+    for (int k = 0; k < 100; ++k)
+        move (-0.001 + 1e-4 * k);
+    CHECK (before == 0.0);
+    for (int k = 100; k >= 0; --k)
+        move (-0.001 + 1e-4 * k);
+    for (int k = 0; k < 100; ++k)
+        move (-0.001 + 1e-4 * k);
+    CHECK (before > 8.0);
+    CHECK (steepest < 0.11);
+}
+
+TEST_CASE ("surface: what faces the wrong way, pulls, or leans is said", "[nodes][deform]")
+{
+    const std::vector<std::vector<Surface::Curves>> tools { { curves (400.0, 1000.0) } };
+    auto inside_out = ball (0.03, 2);
+    for (auto& t : inside_out.triangles)
+        std::swap (t[0], t[1]);
+    CHECK (made (body (inside_out, tools, { { .number = 0.5 } })).warning ({}).find ("faces inwards") != std::string::npos);
+    CHECK (made (body (ball (0.03, 2), tools, { { .number = 0.5 } })).warning ({}).empty());
+
+    auto upward = Surface { std::make_shared<const Mesh> (flat (1)), std::vector<Mat3> (4, Mat3::Identity()), tools, { { .number = 0.5 } } };
+    CHECK (made (std::make_shared<const Surface> (upward)).warning ({}).find ("node 0") != std::string::npos);
+
+    const Law pulls { .kind = Law::Kind::table, .table = { { 0.005, 0.01 }, { 5.0, -5.0 } } };
+    CHECK (made (body (flat(), { { { power (1.0), power (1.0), pulls } } }, {})).problem().find ("pulls") != std::string::npos);
+
+    const auto bumpy = grid (4, 0.04, [] (double x, double y)
+                             { return 0.003 * std::sin (150.0 * x) * std::cos (110.0 * y); });
+    CHECK (made (body (bumpy, tools, { { .number = 0.5 } }), Frictions::frictionless).warning ({}).find ("lean") != std::string::npos);
+    CHECK (made (uneven (flat(), 3, 0.0)).warning ({}).empty());   // no friction: nothing to warn of, though the nodes differ
 }
