@@ -7,6 +7,7 @@
 
 #include <host/platform/signals.hpp>
 #include <host/platform/terminal.hpp>
+#include <host/runtime/file_watch.hpp>
 
 #include <atomic>
 #include <chrono>
@@ -25,6 +26,11 @@ using Clock = std::chrono::steady_clock;
 /// A slew limit may make the way to zero long; a device that still has force on it after this is let go, with a warning.
 constexpr double longest_halt_s = 30.0;
 
+struct Options : SessionOptions
+{
+    bool watch = false;
+};
+
 /// What the tick thread tells the others.
 struct Status
 {
@@ -39,7 +45,6 @@ struct Status
 void runTicks (Session& session, FrameRing* ring, Status& status)
 {
     const auto period = std::chrono::duration_cast<Clock::duration> (std::chrono::duration<double> (1.0 / session.rate()));
-    const auto& plan = session.engine().plan();
     auto deadline = Clock::now();
     bool halting = false;
     const auto longest_halt = static_cast<std::size_t> (longest_halt_s * session.rate());
@@ -72,6 +77,7 @@ void runTicks (Session& session, FrameRing* ring, Status& status)
 
         session.tick();
 
+        const auto& plan = session.engine().plan();
         double force = 0.0;
         for (const auto& role : plan.roles)
             force = std::max (force, role.state->applied.force.norm());
@@ -96,11 +102,12 @@ void printStatus (const Status& s, double rate, bool over_the_last, const char* 
     std::fflush (stderr);
 }
 
-void run (const SessionOptions& options)
+void run (const Options& options)
 {
     if (! options.records.empty() && options.outputs.empty())
         throw CLI::RequiredError ("--record names what to record, but not where to: --out FILE");
     watchForStop();
+    FileWatch watch { { options.graph } };   // before it is read, so that no edit is missed
     Session session { options, Session::Pace::live };
     const auto& taps = session.engine().plan().taps;
     std::optional<Recorder> recorder;
@@ -112,7 +119,15 @@ void run (const SessionOptions& options)
     }
 
     const bool terminal = stderrIsTerminal();
-    if (terminal) std::fprintf (stderr, "%s at %g Hz; Ctrl-C stops\n", session.name().c_str(), session.rate());
+    watch.watch (session.files());
+    const auto reload = [&]
+    {
+        if (terminal) std::fprintf (stderr, "\r\033[K");
+        std::fprintf (stderr, session.reload() ? "%s: taken over\n" : "%s: not taken over; the graph before goes on\n", options.graph.c_str());
+        watch.watch (session.files());
+    };
+
+    std::fprintf (stderr, "%s at %g Hz%s; Ctrl-C stops\n", (session.name().empty() ? options.graph : session.name()).c_str(), session.rate(), options.watch ? ", following its file" : "");
 
     Status status;
     std::jthread ticking ([&]
@@ -128,6 +143,8 @@ void run (const SessionOptions& options)
         {
             std::this_thread::sleep_for (std::chrono::milliseconds (20));
             drain();
+            if (options.watch && i % 10 == 0 && watch.look()) reload();
+            session.engine().clear();
             if (terminal && i % 5 == 0) printStatus (status, session.rate(), true, "");
         }
     }
@@ -151,13 +168,17 @@ void run (const SessionOptions& options)
 
 void addPlay (CLI::App& app)
 {
-    const auto options = std::make_shared<SessionOptions>();
+    const auto options = std::make_shared<Options>();
     auto* command = app.add_subcommand ("play", "Run a graph in real time, until its gesture or trace ends, --duration is over, or Ctrl-C");
     options->addTo (*command);
-    command->footer ("However it stops, the guards bring all forces to zero smoothly first.\n\n"
+    command->add_flag ("--watch", options->watch, "Take the graph file over each time it is edited; what has not changed in it goes on");
+    command->footer ("However it stops, the guards bring all forces to zero smoothly first.\n"
+                     "With --watch, a file with errors is reported and the graph before goes on. Roles keep the devices they have\n"
+                     "from the start, --set outranks the file as ever, and what is recorded stays the same.\n\n"
                      "Examples:\n"
                      "  tactus play graphs/dry_wood.json\n"
                      "  tactus play graphs/dry_wood.json --device stylus=gesture:circle --duration 10\n"
+                     "  tactus play graphs/dry_wood.json --watch\n"
                      "  tactus play graphs/dry_wood.json --record drag.force,drag.state --out wood.csv");
     command->callback ([options]
                        { run (*options); });

@@ -3,9 +3,9 @@
 #include "report.hpp"
 
 #include <framework/file/json_text.hpp>
+#include <framework/graph/reconcile.hpp>
 #include <framework/near_miss.hpp>
 #include <framework/number_text.hpp>
-#include <framework/plan/compile.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/devices/make_device.hpp>
 
@@ -32,6 +32,25 @@ plan::Override readSet (const std::string& text)
         throw CLI::ValidationError ("--set", "'" + text + "' is not NODE.PARAM=VALUE, as in drag.mu=0.3 or board.stiffness=\"2 N/mm\"");
     return { text.substr (0, equals), readValue (text.substr (equals + 1)) };
 }
+
+/// A placeholder does not keep the rest from running.
+void warnOnly (Messages& messages)
+{
+    for (auto& m : messages)
+        m.severity = Message::Severity::warning;
+}
+
+Message warning (std::string id, std::string where, std::string text, std::string remedy)
+{
+    return { .severity = Message::Severity::warning, .id = std::move (id), .where = std::move (where), .text = std::move (text), .remedy = std::move (remedy) };
+}
+
+const Json* descriptionOf (const graph::Graph& graph, const std::string& role)
+{
+    const auto at = std::ranges::find (graph.devices, role, &std::pair<std::string, Json>::first);
+    return at != graph.devices.end() ? &at->second : nullptr;
+}
+
 /// CLI::Range lets nan pass, which is neither below nor above.
 CLI::Validator finiteWithin (double min, double max)
 {
@@ -57,49 +76,58 @@ void SessionOptions::addTo (CLI::App& app)
     app.add_option ("--device", devices, "ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv or ROLE=gesture:NAME");
 }
 
-Session::Session (const SessionOptions& options, Pace pace) : loaded (loadGraph (options.graph))
+Session::Session (const SessionOptions& options, Pace pace) : told (options), loaded (loadGraph (options.graph)), records (options.records)
 {
     if (pace == Pace::live) answers = std::make_unique<SlowAnswers>();
-    if (report (loaded.messages, loaded, options.graph) > 0) throw Stop {};
-    readFeed (options);
-    compileGraph (options);
-    bindDevices (options);
-    decideLength (options);
+    if (report (loaded.messages, loaded, told.graph) > 0) throw Stop {};
+    readFeed();
+    compileGraph();
+    bindDevices();
+    decideLength();
 }
 
-void Session::readFeed (const SessionOptions& options)
+void Session::readFeed()
 {
-    rate_hz = options.rate_hz > 0.0 ? options.rate_hz : loaded.graph.rate_hz;
-    if (options.feed.empty()) return;
-    feed = orFail (Feed::make (orFail (readTable (std::filesystem::path (options.feed))), options.feed, options.rate_hz, loaded.graph.rate_hz));
+    rate_hz = told.rate_hz > 0.0 ? told.rate_hz : loaded.graph.rate_hz;
+    if (told.feed.empty()) return;
+    feed = orFail (Feed::make (orFail (readTable (std::filesystem::path (told.feed))), told.feed, told.rate_hz, loaded.graph.rate_hz));
     rate_hz = feed->rate();
 }
 
-void Session::compileGraph (const SessionOptions& options)
+Compiled Session::compileNow (const graph::Graph& graph, const Plan* before)
 {
-    CompileOptions wanted { .rate_hz = rate_hz, .records = options.records, .assets = &assets, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() } };
+    CompileOptions wanted { .rate_hz = rate_hz, .records = records, .assets = &assets, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() }, .before = before };
     if (feed) wanted.feeds = feed->ports();
-    for (const auto& set : options.sets)
+    for (const auto& set : told.sets)
         wanted.overrides.push_back (readSet (set));
+    return compile (graph, catalogue(), wanted);
+}
 
-    auto compiled = compile (loaded.graph, catalogue(), wanted);
-    if (compiled.plan)   // a placeholder does not keep the rest from running
-        for (auto& m : compiled.messages)
-            m.severity = Message::Severity::warning;
-    report (compiled.messages, loaded, options.graph);
+void Session::compileGraph()
+{
+    auto compiled = compileNow (loaded.graph, nullptr);
+    with_placeholders = hasErrors (compiled.messages);
+    if (compiled.plan) warnOnly (compiled.messages);
+    report (compiled.messages, loaded, told.graph);
     if (! compiled.plan) throw Stop {};
+    if (! told.outputs.empty())
+    {
+        records.clear();
+        for (const auto& tap : compiled.plan->taps)
+            records.push_back (tap.name);
+    }
     running = std::make_unique<Engine> (std::move (compiled.plan));
 }
 
-void Session::bindDevices (const SessionOptions& options)
+void Session::bindDevices()
 {
-    const auto folder = std::filesystem::path (options.graph).parent_path();
+    const auto folder = std::filesystem::path (told.graph).parent_path();
     std::vector<DeviceOption> chosen;
     std::vector<std::string> roles;
     for (const auto& role : running->plan().roles)
         roles.push_back (role.name);
 
-    for (const auto& text : options.devices)
+    for (const auto& text : told.devices)
     {
         auto parsed = parseDeviceOption (text, loaded.graph.devices, folder);
         if (auto* message = std::get_if<Message> (&parsed)) fail ({ message->id, "--device " + text, message->text, message->remedy });
@@ -117,9 +145,9 @@ void Session::bindDevices (const SessionOptions& options)
     for (const auto& role : roles)
     {
         const auto option = std::ranges::find (chosen, role, &DeviceOption::role);
-        const auto described = std::ranges::find (loaded.graph.devices, role, &std::pair<std::string, Json>::first);
-        const bool in_graph = option == chosen.end() && described != loaded.graph.devices.end();
-        const Json description = option != chosen.end() ? option->description : in_graph ? described->second
+        const auto* described = descriptionOf (loaded.graph, role);
+        const bool in_graph = option == chosen.end() && described != nullptr;
+        const Json description = option != chosen.end() ? option->description : in_graph ? *described
                                                                                          : Json { { "driver", "sim" } };
 
         if (option == chosen.end() && ! in_graph)
@@ -128,28 +156,95 @@ void Session::bindDevices (const SessionOptions& options)
         auto made = makeDevice (description, option != chosen.end() ? option->folder : folder);
         for (auto& m : made.messages)
             m.where = in_graph ? "/devices/" + role + m.where : "--device " + role + m.where;
-        errors += report (made.messages, loaded, options.graph);
-        devices.push_back ({ role, std::move (made.device), made.limits });
+        errors += report (made.messages, loaded, told.graph);
+        devices.push_back ({ role, std::move (made.device), made.limits, option != chosen.end() });
     }
     if (errors > 0) throw Stop {};
     for (auto& d : devices)
         running->attach (d.role, *d.device, d.limits);
 }
 
-void Session::decideLength (const SessionOptions& options)
+void Session::decideLength()
 {
-    double seconds = options.duration_s;
+    double seconds = told.duration_s;
     if (seconds == 0.0)
         for (const auto& d : devices)
             seconds = std::max (seconds, d.device->duration());
 
     if (feed) count = feed->ticks();
-    if (options.duration_s > 0.0 || (! feed && seconds > 0.0))
+    if (told.duration_s > 0.0 || (! feed && seconds > 0.0))
     {
         const double wanted = std::ceil (seconds * rate_hz - 1e-6);
         if (wanted > 1e10) fail ("run/too_long", "a run of more than 10^10 ticks would hardly end", "give a shorter --duration or a lower --rate");
         count = std::min (count.value_or (static_cast<std::size_t> (-1)), static_cast<std::size_t> (wanted));
     }
+}
+
+bool Session::reload()
+{
+    auto next = loadGraph (told.graph);
+    if (report (next.messages, next, told.graph) > 0) return false;
+    graph::reconcile (next.graph, loaded.graph);
+
+    auto waiting = running->withdraw();
+    auto [plan, messages] = compileNow (next.graph, &running->newest());
+    const bool placeholders = plan && hasErrors (messages);
+    if (placeholders && with_placeholders) warnOnly (messages);
+    if (plan)
+        std::ranges::move (rolesWithoutDevice (*plan, next.graph), std::back_inserter (messages));
+    const bool fits = report (messages, next, told.graph) == 0;
+    running->submit (fits ? std::move (plan) : std::move (waiting));
+    if (! fits) return false;
+
+    report (notTakenOver (next.graph), next, told.graph);
+    loaded = std::move (next);
+    with_placeholders = placeholders;
+    return true;
+}
+
+/// A device is opened, and its guard set, before the first tick.
+Messages Session::rolesWithoutDevice (const Plan& plan, const graph::Graph& graph) const
+{
+    Messages messages;
+    for (const auto& role : plan.roles)
+    {
+        if (std::ranges::find (devices, role.name, &Bound::role) != devices.end()) continue;
+        const auto node = std::ranges::find (graph.root.nodes, role.name, &graph::Node::role);
+        messages.push_back ({ .id = "watch/new_role", .where = node != graph.root.nodes.end() ? "/nodes/" + node->name + "/role" : "/nodes", .text = "no device was opened for the role '" + role.name + "' when the run began", .remedy = "start `tactus play` anew to open one; until then the graph before goes on" });
+    }
+    return messages;
+}
+
+Messages Session::notTakenOver (const graph::Graph& graph) const
+{
+    Messages messages;
+    if (graph.rate_hz != loaded.graph.rate_hz && told.rate_hz == 0.0 && ! feed)
+        messages.push_back (warning ("watch/rate", "/rate_hz", "the run goes on at " + numberText (rate_hz) + " Hz", "start it anew for " + numberText (graph.rate_hz) + " Hz"));
+    for (const auto& device : devices)
+    {
+        const auto *present = descriptionOf (graph, device.role), *before = descriptionOf (loaded.graph, device.role);
+        const bool same = present == nullptr || before == nullptr ? present == before : *present == *before;
+        if (! same && ! device.by_option)
+            messages.push_back (warning ("watch/device", "/devices/" + device.role, "the device of '" + device.role + "' goes on as it was opened, with the guard it had", "start the run anew for the one described now"));
+    }
+    return messages;
+}
+
+std::vector<std::filesystem::path> Session::files() const
+{
+    std::vector<std::filesystem::path> all { told.graph };
+    const auto add = [&] (const auto& self, const graph::Graph& graph) -> void
+    {
+        for (const auto& [written, file] : graph.files)
+        {
+            auto path = std::filesystem::path (graph.folder) / written;
+            if (std::ranges::find (all, path) != all.end()) continue;
+            all.push_back (std::move (path));
+            self (self, *file);
+        }
+    };
+    add (add, loaded.graph);
+    return all;
 }
 
 void Session::reportRun() const

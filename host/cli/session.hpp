@@ -5,11 +5,13 @@
 
 #include <framework/engine.hpp>
 #include <framework/file/graph_file.hpp>
+#include <framework/plan/compile.hpp>
 #include <framework/slow_question.hpp>
 #include <host/assets/file_assets.hpp>
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,6 +52,17 @@ public:
     /// One sample. [tick thread]
     void tick() noexcept;
 
+    //==========================================================================
+    // While it ticks. [main thread]
+
+    /// Reads the graph file again and has it take over from the one that runs; what both have lives on. Says on stderr what
+    /// is wrong with it, and then returns false: the graph before goes on. Roles keep the devices they have.
+    bool reload();
+
+    /// The graph file, and those that it includes.
+    std::vector<std::filesystem::path> files() const;
+
+    //==========================================================================
     /// Says on stderr why the guards withheld forces, if they did, and how many slow answers were late. [after the run]
     void reportRun() const;
 
@@ -61,8 +74,10 @@ private:
         std::string role;
         std::unique_ptr<Device> device;
         GuardLimits limits;
+        bool by_option = false;   // not from the graph
     };
 
+    SessionOptions told;
     LoadedGraph loaded;
     FileAssets assets;
     std::optional<Feed> feed;
@@ -73,10 +88,16 @@ private:
     std::optional<std::size_t> count;
     std::size_t now = 0;
 
-    void readFeed (const SessionOptions&);
-    void compileGraph (const SessionOptions&);
-    void bindDevices (const SessionOptions&);
-    void decideLength (const SessionOptions&);
+    bool with_placeholders = false;
+    std::vector<std::string> records;   // the same for all plans, so that a recording goes on
+
+    void readFeed();
+    void compileGraph();
+    void bindDevices();
+    void decideLength();
+    Compiled compileNow (const graph::Graph&, const Plan* before);
+    Messages rolesWithoutDevice (const Plan&, const graph::Graph&) const;
+    Messages notTakenOver (const graph::Graph&) const;
 };
 
 }   // namespace tactus::host

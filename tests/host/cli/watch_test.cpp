@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `tactus play --watch`: a graph file is edited while it runs.
+
+#include "running.hpp"
+
+#include <host/io/csv.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+
+using namespace tactus;
+using test::Running;
+using test::Scratch;
+
+namespace
+{
+/// Counts the ticks in a loop, and pulls at a tool that nobody holds.
+std::string counter (const std::string& more_nodes = "", const std::string& value = "1", const std::string& more_devices = "")
+{
+    return R"({ "format": "tactus-graph", "version": 1, "name": "Counter", "rate_hz": 500,
+      "devices": { )"
+           + more_devices + R"( "tip": { "driver": "sim" } },
+      "nodes": { )"
+           + more_nodes + R"( "one": { "type": "signal.constant", "params": { "value": )" + value + R"( } }, "count": { "type": "signal.add" }, "motor": { "type": "device.force", "role": "tip" } },
+      "wires": [ "one.out -> count.in[0]", "count.out -> [1] -> count.in[1]" ] })";
+}
+}   // namespace
+
+TEST_CASE ("an edited graph is taken over live: not a tick is lost, and what counted goes on counting", "[cli][watch]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("g.json", counter());
+    Running play { { "play", file, "--watch", "--record", "count.out", "--out", scratch.path ("p.csv") } };
+    REQUIRE (play.says ("Ctrl-C stops"));
+    scratch.write ("g.json", counter (R"("idle": { "type": "signal.abs" },)"));
+    REQUIRE (play.says (": taken over"));
+    std::filesystem::rename (scratch.write ("new.json", counter()), file);   // as many editors save
+    REQUIRE (play.says (": taken over", 2));
+    const auto ran = play.stop();
+    INFO (ran.err);
+    CHECK (ran.status == 0);
+
+    const auto table = host::readTable (std::filesystem::path (scratch.path ("p.csv")));
+    REQUIRE (table);
+    REQUIRE (table->rows() > 100);
+    std::size_t breaks = 0;
+    for (std::size_t r = 0; r < table->rows(); ++r)
+        breaks += table->at (r, 1) != static_cast<double> (r + 1);
+    CHECK (breaks == 0);
+}
+
+TEST_CASE ("a value in the edited file is headed for while it runs", "[cli][watch]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("g.json", counter());
+    Running play { { "play", file, "--watch", "--record", "one.out", "--out", scratch.path ("p.csv") } };
+    REQUIRE (play.says ("Ctrl-C stops"));
+    scratch.write ("g.json", counter ("", "5"));
+    REQUIRE (play.says (": taken over"));
+    scratch.write ("g.json", counter (R"("idle": { "type": "signal.abs" },)", "5"));   // by then it has arrived
+    REQUIRE (play.says (": taken over", 2));
+    CHECK (play.stop().status == 0);
+    const auto table = host::readTable (std::filesystem::path (scratch.path ("p.csv")));
+    REQUIRE (table);
+    double last = 1.0, step = 0.0;
+    for (std::size_t r = 0; r < table->rows(); ++r)
+    {
+        step = std::max (step, std::abs (table->at (r, 1) - last));
+        last = table->at (r, 1);
+    }
+    CHECK (last == 5.0);
+    CHECK (step < 0.5);   // 4 in 20 ms, which are 10 ticks
+}
+
+TEST_CASE ("a file with errors is reported with its place, and the graph before goes on", "[cli][watch]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("g.json", counter());
+    Running play { { "play", file, "--watch", "--record", "count.out", "--out", scratch.path ("p.csv") } };
+    REQUIRE (play.says ("Ctrl-C stops"));
+    auto refused = [&, n = 0] (const std::string& text, const std::string& id, const std::string& line) mutable
+    {
+        scratch.write ("g.json", text);
+        INFO (id);
+        CHECK (play.says ("not taken over", ++n));
+        INFO (play.err());
+        CHECK (play.says (file + ":" + line));
+        CHECK (play.says ("[" + id + "]"));
+    };
+    refused ("{ \"format\": \"tactus-graph\", ", "file/syntax", "1:");
+    refused (counter (R"("idle": { "type": "signal.abss" },)"), "node/unknown_type", "3:");
+    refused (counter (R"("idle": { "type": "device.force", "role": "thumb" },)"), "watch/new_role", "3:");
+    auto misspelt = counter();
+    refused (misspelt.replace (misspelt.find ("count.in[0]"), 11, "count.on[0]"), "port/unknown", "4:");
+
+    scratch.write ("g.json", counter (R"("idle": { "type": "signal.abs" },)"));
+    CHECK (play.says (": taken over"));
+    const auto ran = play.stop();
+    CHECK (ran.status == 0);
+    const auto table = host::readTable (std::filesystem::path (scratch.path ("p.csv")));
+    REQUIRE (table);
+    CHECK (table->at (table->rows() - 1, 1) == static_cast<double> (table->rows()));
+}
+
+TEST_CASE ("what is not taken over live is said: another device, another rate", "[cli][watch]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("g.json", counter());
+    Running play { { "play", file, "--watch", "--duration", "60" } };
+    REQUIRE (play.says ("Ctrl-C stops"));
+    auto other = counter();
+    other.replace (other.find ("500"), 3, "600");
+    other.replace (other.find ("\"sim\""), 5, R"("sim", "mass": 0.2)");
+    scratch.write ("g.json", other);
+    CHECK (play.says (": taken over"));
+    CHECK (play.says ("[watch/rate]"));
+    CHECK (play.says ("[watch/device]"));
+    CHECK (play.stop().status == 0);
+}
+
+TEST_CASE ("a file that the graph includes is watched too", "[cli][watch]")
+{
+    const Scratch scratch;
+    const auto inner = [&] (const std::string& value)
+    { return scratch.write ("inner.json", R"({ "format": "tactus-graph", "version": 1, "nodes": { "one": { "type": "signal.constant", "params": { "value": )" + value + R"( } } }, "wires": [], "expose": { "outputs": { "out": "one.out" } } })"); };
+    inner ("1");
+    const auto file = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 1, "rate_hz": 500, "nodes": { "part": { "type": "file:inner.json" }, "last": { "type": "signal.abs" } }, "wires": [ "part.out -> last.in" ] })");
+    Running play { { "play", file, "--watch", "--duration", "60", "--record", "last.out", "--out", scratch.path ("p.csv") } };
+    REQUIRE (play.says ("Ctrl-C stops"));
+    inner ("3");
+    INFO (play.err());
+    CHECK (play.says (": taken over"));
+    inner ("3.0");
+    CHECK (play.says (": taken over", 2));
+    CHECK (play.stop().status == 0);
+    const auto table = host::readTable (std::filesystem::path (scratch.path ("p.csv")));
+    REQUIRE (table);
+    CHECK (table->at (table->rows() - 1, 1) == 3.0);
+}
