@@ -11,5 +11,7 @@ void addNodes (CLI::App&);
 void addValidate (CLI::App&);
 void addRender (CLI::App&);
 void addPlay (CLI::App&);
+void addSet (CLI::App&);
+void addProbe (CLI::App&);
 
 }   // namespace tactus::host

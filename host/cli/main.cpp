@@ -17,6 +17,8 @@ int main (int argc, char** argv)
                 "  tactus validate graphs/*.json                  everything wrong with them, at once\n"
                 "  tactus render graphs/dry_wood.json --out wood.csv --plot wood.png\n"
                 "  tactus play graphs/dry_wood.json --duration 4  in real time\n"
+                "  tactus set roughness=0.7                       while it plays\n"
+                "  tactus probe drag.force                        likewise\n"
                 "\n`tactus COMMAND --help` shows the options and more examples.");
     app.set_version_flag ("--version", TACTUS_VERSION);
     app.require_subcommand (1);
@@ -24,6 +26,8 @@ int main (int argc, char** argv)
     addValidate (app);
     addRender (app);
     addPlay (app);
+    addSet (app);
+    addProbe (app);
 
     try
     {

@@ -2,12 +2,12 @@
 #include "session.hpp"
 #include "report.hpp"
 
-#include <framework/file/json_text.hpp>
 #include <framework/graph/reconcile.hpp>
 #include <framework/near_miss.hpp>
 #include <framework/number_text.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/devices/make_device.hpp>
+#include <host/runtime/turn.hpp>
 
 #include <cmath>
 #include <filesystem>
@@ -18,13 +18,6 @@ namespace tactus::host
 
 namespace
 {
-/// The value of --set: a number, a list of numbers, or text with a unit or the name of a choice.
-Json readValue (const std::string& text)
-{
-    const auto json = readJson (text).root;   // which does not recurse, whatever somebody types
-    return json.is_number() || json.is_array() ? json : Json (text);
-}
-
 plan::Override readSet (const std::string& text)
 {
     const auto equals = text.find ('=');
@@ -94,9 +87,10 @@ void Session::readFeed()
     rate_hz = feed->rate();
 }
 
-Compiled Session::compileNow (const graph::Graph& graph, const Plan* before)
+Compiled Session::compileNow (const graph::Graph& graph, const Plan* before, const std::vector<std::string>& probes)
 {
     CompileOptions wanted { .rate_hz = rate_hz, .records = records, .assets = &assets, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() }, .before = before };
+    wanted.records.insert (wanted.records.end(), probes.begin(), probes.end());
     if (feed) wanted.feeds = feed->ports();
     for (const auto& set : told.sets)
         wanted.overrides.push_back (readSet (set));
@@ -186,6 +180,7 @@ bool Session::reload()
     if (report (next.messages, next, told.graph) > 0) return false;
     graph::reconcile (next.graph, loaded.graph);
 
+    forgetProbes();
     auto waiting = running->withdraw();
     auto [plan, messages] = compileNow (next.graph, &running->newest());
     const bool placeholders = plan && hasErrors (messages);
@@ -193,6 +188,7 @@ bool Session::reload()
     if (plan)
         std::ranges::move (rolesWithoutDevice (*plan, next.graph), std::back_inserter (messages));
     const bool fits = report (messages, next, told.graph) == 0;
+    if (fits) ring.select ({}, 1);
     running->submit (fits ? std::move (plan) : std::move (waiting));
     if (! fits) return false;
 
@@ -200,6 +196,38 @@ bool Session::reload()
     loaded = std::move (next);
     with_placeholders = placeholders;
     return true;
+}
+
+std::variant<std::vector<std::string>, Message> Session::probe (const std::vector<std::string>& ports)
+{
+    forgetProbes();
+    auto waiting = running->withdraw();
+    auto [plan, messages] = compileNow (loaded.graph, &running->newest(), ports);
+    std::vector<std::string> names;
+    std::vector<std::size_t> taps;
+    for (std::size_t i = 0; plan && i < plan->taps.size(); ++i)
+        if (std::ranges::any_of (ports, [&] (const std::string& port)
+                                 { return isPartOf (plan->taps[i].name, port); }))
+        {
+            names.push_back (plan->taps[i].name);
+            taps.push_back (i);
+        }
+    if (! plan || taps.size() > ProbeRing::most)
+    {
+        running->submit (std::move (waiting));
+        if (! plan) return *std::ranges::find (messages, Message::Severity::error, &Message::severity);
+        return Message { .id = "probe/too_many", .where = {}, .text = "all probes together would have " + std::to_string (taps.size()) + " components, and there is room for " + std::to_string (ProbeRing::most), .remedy = "wait until others are over" };
+    }
+    constexpr double highest_rate_hz = 1000.0;
+    ring.select (taps, static_cast<std::uint32_t> (std::max (1.0, std::round (rate_hz / highest_rate_hz))));
+    running->submit (std::move (plan));
+    return names;
+}
+
+/// A plan may come to stand where one stood that was freed: what is still there of that one is not to be taken for its.
+void Session::forgetProbes()
+{
+    ring.drain ([] (const auto&) {});
 }
 
 /// A device is opened, and its guard set, before the first tick.
@@ -259,8 +287,9 @@ void Session::reportRun() const
 void Session::tick() noexcept
 {
     if (feed) (*feed) (now, running->plan().feeds);
-    ++now;
     running->tick();
+    ring.note (running->plan(), now);
+    ++now;
 }
 
 }   // namespace tactus::host

@@ -8,6 +8,7 @@
 #include <framework/plan/compile.hpp>
 #include <framework/slow_question.hpp>
 #include <host/assets/file_assets.hpp>
+#include <host/runtime/probe_ring.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -59,6 +60,22 @@ public:
     /// is wrong with it, and then returns false: the graph before goes on. Roles keep the devices they have.
     bool reload();
 
+    /// From now on these ports are looked at, some 1000 times a second, and no others; what ticks is not touched. Returns the
+    /// names of their components, each once, or why not: then all is as it was. A graph that is reloaded is not looked at.
+    std::variant<std::vector<std::string>, Message> probe (const std::vector<std::string>& ports);
+
+    /// Hands on what was seen there since the last time: the tick, and the values by component.
+    template <typename F>
+    void drainProbes (F&& f)
+    {
+        const auto* newest = &running->newest();
+        ring.drain ([&] (const ProbeRing::Frame& frame)
+                    {
+            if (frame.plan == newest) f (frame.tick, std::span (frame.values).first (frame.size)); });
+    }
+
+    const graph::Graph& graph() const noexcept { return loaded.graph; }
+
     /// The graph file, and those that it includes.
     std::vector<std::filesystem::path> files() const;
 
@@ -89,13 +106,15 @@ private:
     std::size_t now = 0;
 
     bool with_placeholders = false;
+    ProbeRing ring;
     std::vector<std::string> records;   // the same for all plans, so that a recording goes on
 
+    void forgetProbes();
     void readFeed();
     void compileGraph();
     void bindDevices();
     void decideLength();
-    Compiled compileNow (const graph::Graph&, const Plan* before);
+    Compiled compileNow (const graph::Graph&, const Plan* before, const std::vector<std::string>& probes = {});
     Messages rolesWithoutDevice (const Plan&, const graph::Graph&) const;
     Messages notTakenOver (const graph::Graph&) const;
 };

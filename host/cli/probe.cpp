@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.hpp"
+#include "osc_client.hpp"
+#include "report.hpp"
+
+#include <framework/number_text.hpp>
+#include <host/platform/signals.hpp>
+
+#include <chrono>
+#include <iostream>
+
+namespace tactus::host
+{
+
+namespace
+{
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+struct Options
+{
+    std::string port;
+    double rate_hz = 50.0, duration_s = 0.0;
+    OscOption osc;
+};
+
+/// The shortest text that reads back to the same float.
+std::string shortest (float v)
+{
+    char text[32];
+    const auto end = std::to_chars (std::begin (text), std::end (text), v).ptr;
+    return { text, end };
+}
+
+void run (const Options& options)
+{
+    watchForStop();
+    OscClient client { options.osc.number };
+    const auto subscribe = [&]
+    { client.send (juce::OSCMessage ("/tactus/probe", juce::String::fromUTF8 (options.port.c_str()), client.own(), static_cast<float> (options.rate_hz), 5.0f)); };
+
+    subscribe();
+    auto renewed = Clock::now(), heard = renewed;
+    double rate_hz = 0.0;
+    std::optional<juce::int32> first;
+    while (! stopRequested() && std::cout)
+    {
+        const auto now = Clock::now();
+        if (now - renewed > 2s)
+        {
+            subscribe();
+            renewed = now;
+        }
+        if (now - heard > 10s)
+            fail ({ rate_hz == 0.0 ? "osc/no_answer" : "osc/gone", "127.0.0.1:" + std::to_string (options.osc.number), rate_hz == 0.0 ? "what listens there does not answer" : "nothing has come from there for 10 s", "see whether `tactus play` still runs" });
+        const auto m = client.next (100ms);
+        if (! m) continue;
+        OscClient::check (*m);
+
+        const auto address = m->getAddressPattern().toString();
+        if (address == "/tactus/done" && m->size() >= 3 && (*m)[2].isFloat32() && rate_hz == 0.0)
+        {
+            rate_hz = (*m)[2].getFloat32();
+            heard = Clock::now();
+            std::cout << 't';
+            for (int i = 3; i < m->size(); ++i)
+                if ((*m)[i].isString()) std::cout << ',' << (*m)[i].getString().toStdString();
+            std::cout << std::endl;
+        }
+        if (address != "/tactus/value" || rate_hz == 0.0 || m->size() < 2 || ! (*m)[1].isInt32()) continue;
+
+        heard = Clock::now();
+        const auto tick = (*m)[1].getInt32();
+        if (! first) first = tick;
+        if (options.duration_s > 0.0 && tick - *first > options.duration_s * rate_hz) break;
+        std::cout << numberText (tick / rate_hz);
+        for (int i = 2; i < m->size(); ++i)
+            if ((*m)[i].isFloat32()) std::cout << ',' << shortest ((*m)[i].getFloat32());
+        std::cout << std::endl;   // somebody watches, or waits at the other end of a pipe
+    }
+}
+}   // namespace
+
+void addProbe (CLI::App& app)
+{
+    const auto options = std::make_shared<Options>();
+    auto* command = app.add_subcommand ("probe", "Watch a port of a graph that `tactus play` runs, as CSV");
+    command->add_option ("port", options->port, "node.port, or one component of it")->required();
+    command->add_option ("--rate", options->rate_hz, "How often, in Hz")->check (CLI::Range (0.01, 1000.0));
+    command->add_option ("--duration", options->duration_s, "How long, in s of the run; else until Ctrl-C")->check (CLI::Range (1e-3, 1e9));
+    options->osc.addTo (*command);
+    command->footer ("Values come in single precision, now and then one is missing; `tactus play --record` keeps all, to the bit.\n\n"
+                     "Examples:\n"
+                     "  tactus probe drag.force\n"
+                     "  tactus probe drag.deflection.x --rate 200 --duration 5 > deflection.csv");
+    command->callback ([options]
+                       { run (*options); });
+}
+
+}   // namespace tactus::host

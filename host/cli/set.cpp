@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.hpp"
+#include "osc_client.hpp"
+#include "report.hpp"
+
+namespace tactus::host
+{
+
+namespace
+{
+struct Options
+{
+    std::vector<std::string> sets;
+    OscOption osc;
+};
+
+void run (const Options& options)
+{
+    for (const auto& set : options.sets)
+        if (const auto equals = set.find ('='); equals == std::string::npos || equals == 0)
+            throw CLI::ValidationError ("NODE.PARAM=VALUE", "'" + set + "' is not that, as in drag.mu=0.3, board.stiffness=\"2 N/mm\" or roughness=0.7");
+
+    OscClient client { options.osc.number };
+    const auto text = [] (const std::string& s)
+    { return juce::String::fromUTF8 (s.c_str(), static_cast<int> (s.size())); };
+    bool all_fine = true;
+    for (const auto& set : options.sets)
+    {
+        const auto equals = set.find ('=');
+        const auto name = set.substr (0, equals), value = set.substr (equals + 1);
+        client.send (juce::OSCMessage (name.find ('.') == std::string::npos ? "/tactus/control" : "/tactus/param", text (name), text (value), client.own()));
+        try
+        {
+            OscClient::check (client.answer());
+        }
+        catch (const Stop&)
+        {
+            all_fine = false;   // and the others are set all the same
+        }
+    }
+    if (! all_fine) throw Stop {};
+}
+}   // namespace
+
+void addSet (CLI::App& app)
+{
+    const auto options = std::make_shared<Options>();
+    auto* command = app.add_subcommand ("set", "Turn parameters and controls of a graph that `tactus play` runs");
+    command->add_option ("values", options->sets, "NODE.PARAM=VALUE, or CONTROL=0…1")->required();
+    options->osc.addTo (*command);
+    command->footer ("Takes what --set takes. A value is headed for within 20 ms; the file stays as it is.\n\n"
+                     "Examples:\n"
+                     "  tactus set drag.mu=0.3\n"
+                     "  tactus set drag.d_max=\"20 um\" drag.adhesion=dahl board.normal=[0.1,0,1]\n"
+                     "  tactus set roughness=0.7");
+    command->callback ([options]
+                       { run (*options); });
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "read_packet.hpp"
+
+#include <bit>
+#include <cstdint>
+#include <optional>
+
+namespace tactus::host
+{
+
+namespace
+{
+using juce::OSCMessage;
+
+constexpr std::size_t deepest = 8;   // bundles in bundles
+constexpr std::size_t most_arguments = 64;
+
+/// Bytes still to be read. Nothing is taken that is not there.
+struct Bytes
+{
+    std::string_view left;
+
+    std::optional<std::string_view> take (std::size_t n)
+    {
+        if (n > left.size()) return std::nullopt;
+        const auto taken = left.substr (0, n);
+        left.remove_prefix (n);
+        return taken;
+    }
+
+    std::optional<std::uint32_t> word()
+    {
+        const auto bytes = take (4);
+        if (! bytes) return std::nullopt;
+        std::uint32_t n = 0;
+        for (const char c : *bytes)
+            n = (n << 8u) | static_cast<unsigned char> (c);
+        return n;
+    }
+
+    /// Up to a zero, which is followed by as many as make it a multiple of four.
+    std::optional<std::string_view> text()
+    {
+        const auto length = left.find ('\0');
+        if (length == left.npos) return std::nullopt;
+        const auto all = take (length / 4 * 4 + 4);
+        if (! all || all->find_first_not_of ('\0', length) != all->npos) return std::nullopt;
+        return all->substr (0, length);
+    }
+
+    bool blob()
+    {
+        const auto size = word();
+        return size && *size <= left.size() && take ((std::size_t { *size } + 3) / 4 * 4);
+    }
+};
+
+juce::String toText (std::string_view s) { return juce::String::fromUTF8 (s.data(), static_cast<int> (s.size())); }
+
+bool addArgument (OSCMessage& message, char type, Bytes& from)
+{
+    if (type == 'b') return from.blob();
+    if (type == 's')
+    {
+        const auto text = from.text();
+        if (text) message.addString (toText (*text));
+        return text.has_value();
+    }
+    const auto word = type == 'i' || type == 'f' ? from.word() : std::nullopt;
+    if (! word) return false;
+    if (type == 'i')
+        message.addInt32 (std::bit_cast<std::int32_t> (*word));
+    else
+        message.addFloat32 (std::bit_cast<float> (*word));
+    return true;
+}
+
+std::optional<OSCMessage> readMessage (Bytes from)
+{
+    const auto address = from.text(), types = from.text();
+    if (! address || ! types || ! types->starts_with (',') || types->size() > most_arguments + 1) return std::nullopt;
+    try
+    {
+        OSCMessage message (juce::OSCAddressPattern (toText (*address)));
+        for (const char type : types->substr (1))
+            if (! addArgument (message, type, from)) return std::nullopt;
+        if (from.left.empty()) return message;
+    }
+    catch (const juce::OSCFormatError&)
+    {
+    }
+    return std::nullopt;
+}
+}   // namespace
+
+Packet readPacket (std::string_view bytes)
+{
+    Packet packet;
+    std::vector<Bytes> open { { bytes } };   // what is left of each bundle around, the innermost last
+    bool element = true;                     // the innermost is one that has not been looked at yet
+    while (! open.empty())
+    {
+        auto& inner = open.back();
+        if (element && ! inner.left.starts_with ('#'))
+        {
+            auto message = readMessage (inner);
+            if (! message) return packet;
+            packet.messages.push_back (std::move (*message));
+            open.pop_back();
+            element = false;
+        }
+        else if (element)
+        {
+            if (open.size() > deepest || inner.text() != "#bundle" || ! inner.take (8)) return packet;
+            element = false;
+        }
+        else if (inner.left.empty())
+            open.pop_back();
+        else
+        {
+            const auto size = inner.word();
+            const auto content = size ? inner.take (*size) : std::nullopt;
+            if (! content || content->empty()) return packet;
+            open.push_back ({ *content });
+            element = true;
+        }
+    }
+    packet.right = true;
+    return packet;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "remote_control.hpp"
+
+#include <framework/in_quotes.hpp>
+#include <host/runtime/probe_ring.hpp>
+#include <host/runtime/turn.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::host
+{
+
+namespace
+{
+using juce::OSCArgument;
+using juce::OSCMessage;
+
+constexpr std::size_t most_probes = 16;
+constexpr double highest_rate = 1000.0, usual_rate = 50.0;   // Hz
+constexpr double longest = 60.0, usual_length = 5.0;         // s
+constexpr int most_at_a_time = 512;                          // messages
+
+Message refused (std::string id, std::string text, std::string remedy)
+{
+    return { .id = std::move (id), .where = {}, .text = std::move (text), .remedy = std::move (remedy) };
+}
+
+std::string textOf (const juce::String& s) { return s.toStdString(); }
+
+/// A number, whichever kind it came as.
+std::optional<double> numberOf (const OSCArgument& a)
+{
+    if (a.isFloat32()) return a.getFloat32();
+    if (a.isInt32()) return a.getInt32();
+    return std::nullopt;
+}
+
+/// Of a value: text is read as --set reads it.
+std::optional<Json> valueOf (const OSCArgument& a)
+{
+    if (a.isString()) return readValue (textOf (a.getString()));
+    if (const auto number = numberOf (a)) return Json (*number);
+    return std::nullopt;
+}
+
+bool isPort (const OSCArgument& a) { return a.isInt32() && a.getInt32() > 0 && a.getInt32() < 65536; }
+
+/// The last argument, if it stands where a port may stand; 0: nobody is to be answered.
+int answerPort (const OSCMessage& m, int place) { return m.size() == place + 1 && isPort (m[place]) ? m[place].getInt32() : 0; }
+
+Message badArguments (const std::string& remedy) { return refused ("osc/arguments", "the arguments are not what belongs here", remedy); }
+}   // namespace
+
+void RemoteControl::attend (Clock::time_point now)
+{
+    for (int i = 0; i < most_at_a_time; ++i)
+        if (const auto message = port.next())
+            carryOut (*message, now);
+        else
+            break;
+
+    const auto left = std::erase_if (probes, [&] (const Probe& p)
+                                     { return now >= p.end; });
+    if (left > 0 && probes.empty()) look ({});
+}
+
+void RemoteControl::carryOut (const OSCMessage& m, Clock::time_point now)
+{
+    const auto address = textOf (m.getAddressPattern().toString());
+    const auto subject = m.size() > 0 && m[0].isString() ? textOf (m[0].getString()) : std::string();
+
+    if (address == "/tactus/param" || address == "/tactus/control")
+    {
+        const bool control = address == "/tactus/control";
+        const auto value = m.size() >= 2 ? valueOf (m[1]) : std::nullopt;
+        std::optional<Message> problem;
+        if (subject.empty() || ! value || m.size() > 3)
+            problem = badArguments ("a name, a value (float, int, or text with a unit), and perhaps the port for the answer");
+        else if (control)
+            problem = controlled.turnControl (subject, value->is_number() ? value->get<double>() : std::nan (""));
+        else
+            problem = controlled.setParam (subject, *value);
+        answer (answerPort (m, 2), address, subject, problem);
+    }
+    else if (address == "/tactus/probe")
+    {
+        if (auto problem = subscribe (m, now); problem && m.size() >= 2 && isPort (m[1])) answer (m[1].getInt32(), address, subject, problem);
+    }
+    else if (address == "/tactus/status" && m.size() == 1 && isPort (m[0]))
+    {
+        const auto s = controlled.status();
+        const auto whole = [] (std::uint64_t n)
+        { return static_cast<juce::int32> (n & 0x7fffffffu); };
+        port.send (m[0].getInt32(), OSCMessage ("/tactus/status", juce::String::fromUTF8 (s.name.c_str()), static_cast<float> (s.rate_hz), static_cast<float> (s.time_s), static_cast<float> (s.force), static_cast<float> (s.peak), whole (s.ticks), whole (s.misses)));
+    }
+    else if (address == "/tactus/stop")
+    {
+        controlled.stop();
+        answer (answerPort (m, 0), address, "", std::nullopt);
+    }
+}
+
+std::optional<Message> RemoteControl::subscribe (const OSCMessage& m, Clock::time_point now)
+{
+    const auto number = [&] (int i, double otherwise)
+    { return m.size() > i ? numberOf (m[i]) : std::optional (otherwise); };
+    const auto rate = number (2, usual_rate), length = number (3, usual_length);
+    if (m.size() < 2 || m.size() > 4 || ! m[0].isString() || ! isPort (m[1]) || ! rate || ! length || ! (*rate > 0.0) || ! (*length > 0.0))
+        return badArguments ("a port of the graph, the port for the answers, and perhaps how often (Hz) and how long (s)");
+
+    Probe probe { .name = textOf (m[0].getString()), .to = m[1].getInt32(), .rate = std::min (*rate, highest_rate), .end = now + std::chrono::duration_cast<Clock::duration> (std::chrono::duration<double> (std::min (*length, longest))) };
+    const auto same = std::ranges::find_if (probes, [&] (const Probe& p)
+                                            { return p.name == probe.name && p.to == probe.to; });
+    if (same != probes.end())
+    {
+        same->rate = probe.rate;
+        same->end = probe.end;
+    }
+    else
+    {
+        if (probes.size() >= most_probes) return refused ("probe/too_many", "there are " + std::to_string (most_probes) + " probes already", "wait until one of them is over");
+        auto more = probes;
+        more.push_back (probe);
+        if (auto problem = look (more)) return problem;
+    }
+
+    const auto& now_probed = *std::ranges::find_if (probes, [&] (const Probe& p)
+                                                    { return p.name == probe.name && p.to == probe.to; });
+    OSCMessage done ("/tactus/done", juce::String ("/tactus/probe"), juce::String::fromUTF8 (probe.name.c_str()), static_cast<float> (rate_hz));
+    for (const auto c : now_probed.components)
+        done.addString (juce::String::fromUTF8 (components[c].c_str()));
+    port.send (probe.to, done);
+    return std::nullopt;
+}
+
+/// Takes these probes for the ones there are, if all their ports can be looked at together.
+std::optional<Message> RemoteControl::look (const std::vector<Probe>& wanted)
+{
+    std::vector<std::string> ports;
+    for (const auto& p : wanted)
+        if (std::ranges::find (ports, p.name) == ports.end()) ports.push_back (p.name);
+    auto looked_at = controlled.probe (ports);
+    if (auto* problem = std::get_if<Message> (&looked_at)) return std::move (*problem);
+
+    components = std::move (std::get<std::vector<std::string>> (looked_at));
+    rate_hz = controlled.status().rate_hz;
+    probes = wanted;
+    for (auto& p : probes)
+    {
+        p.components.clear();
+        for (std::size_t c = 0; c < components.size(); ++c)
+            if (isPartOf (components[c], p.name)) p.components.push_back (c);
+    }
+    return std::nullopt;
+}
+
+void RemoteControl::graphChanged()
+{
+    auto before = std::exchange (probes, {});
+    look ({});
+    for (auto& p : before)
+    {
+        auto more = probes;
+        more.push_back (p);
+        if (const auto problem = look (more)) answer (p.to, "/tactus/probe", p.name, problem);
+    }
+}
+
+void RemoteControl::values (std::uint64_t tick, std::span<const double> now)
+{
+    for (auto& p : probes)
+    {
+        if (static_cast<double> (tick) < p.due) continue;
+        const double interval = rate_hz / p.rate;
+        p.due = p.due + interval > static_cast<double> (tick) ? p.due + interval : static_cast<double> (tick) + interval;
+        OSCMessage message ("/tactus/value", juce::String::fromUTF8 (p.name.c_str()), static_cast<juce::int32> (tick & 0x7fffffffu));
+        for (const auto c : p.components)
+            if (c < now.size()) message.addFloat32 (static_cast<float> (now[c]));
+        port.send (p.to, message);
+    }
+}
+
+void RemoteControl::answer (int to, const std::string& address, const std::string& subject, const std::optional<Message>& problem)
+{
+    if (to == 0) return;
+    const auto text = [] (const std::string& s)
+    { return juce::String::fromUTF8 (s.c_str()); };
+    if (problem)
+        port.send (to, OSCMessage ("/tactus/error", text (address), text (subject), text (problem->id), text (problem->text), text (problem->remedy)));
+    else
+        port.send (to, OSCMessage ("/tactus/done", text (address), text (subject)));
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "osc_port.hpp"
+
+#include <framework/json.hpp>
+#include <framework/message.hpp>
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace tactus::host
+{
+
+/// What runs, as others may see it and act on it. [main thread]
+class Controlled
+{
+public:
+    struct Status
+    {
+        std::string name;
+        double rate_hz = 0.0, time_s = 0.0, force = 0.0, peak = 0.0;   ///< Hz, s, N
+        std::uint64_t ticks = 0, misses = 0;
+    };
+
+    virtual ~Controlled() = default;
+
+    virtual std::optional<Message> setParam (const std::string& name, const Json& value) = 0;
+    virtual std::optional<Message> turnControl (const std::string& id, double value) = 0;
+
+    /// From now on these ports are looked at, and no others. Returns the names of their components, each once, or why
+    /// not; then all is as it was.
+    virtual std::variant<std::vector<std::string>, Message> probe (const std::vector<std::string>& ports) = 0;
+
+    virtual Status status() = 0;
+    virtual void stop() = 0;
+};
+
+/// Carries out what comes in at an OSC port, as docs/osc.md has it, and answers. [main thread]
+class RemoteControl
+{
+public:
+    using Clock = std::chrono::steady_clock;
+
+    RemoteControl (OscPort& p, Controlled& c) : port (p), controlled (c) {}
+
+    /// Carries out what has come in, and ends probes whose time is over. To be called many times a second.
+    void attend (Clock::time_point now = Clock::now());
+
+    /// Values of the components that are probed, in the order of their names.
+    void values (std::uint64_t tick, std::span<const double>);
+
+    /// The graph is another one: probes go on as far as their ports are still there.
+    void graphChanged();
+
+    bool isProbing() const noexcept { return ! probes.empty(); }
+
+private:
+    struct Probe
+    {
+        std::string name;
+        int to;        // port
+        double rate;   // Hz
+        Clock::time_point end;
+        double due = 0.0;   // tick
+        std::vector<std::size_t> components {};
+    };
+
+    void carryOut (const juce::OSCMessage&, Clock::time_point);
+    std::optional<Message> subscribe (const juce::OSCMessage&, Clock::time_point);
+    std::optional<Message> look (const std::vector<Probe>&);
+    void answer (int to, const std::string& address, const std::string& subject, const std::optional<Message>&);
+
+    OscPort& port;
+    Controlled& controlled;
+    std::vector<Probe> probes;
+    std::vector<std::string> components;
+    double rate_hz = 0.0;
+};
+
+}   // namespace tactus::host

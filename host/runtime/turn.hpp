@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <framework/engine.hpp>
+#include <framework/graph/graph.hpp>
+#include <framework/json.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace tactus::host
+{
+
+/// What somebody typed after the = of NODE.PARAM=VALUE: a number, a list of numbers, or text with a unit or the name of a
+/// choice. Text may be anything.
+Json readValue (const std::string& text);
+
+/// Turns a parameter of what runs, by a value as --set takes it: all of its components or none. Returns why not, if so.
+/// Ids: port/unknown_node, param/unknown, param/shape, param/unknown_choice, param/value, param/unit, param/out_of_range.
+/// [main thread]
+std::optional<Message> turnParam (Engine&, const std::string& name, const Json& value);
+
+/// Moves a control of the graph that runs, from 0 to 1, and with it all its targets. Ids: control/unknown, control/value.
+/// [main thread]
+std::optional<Message> turnControl (Engine&, const graph::Graph&, const std::string& id, double value);
+
+}   // namespace tactus::host

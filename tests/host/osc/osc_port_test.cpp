@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/osc/osc_port.hpp>
+#include <host/osc/read_packet.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <string>
+#include <vector>
+
+using namespace tactus::host;
+using namespace std::chrono_literals;
+using juce::OSCMessage;
+
+namespace
+{
+constexpr auto patience = 20s;
+
+std::unique_ptr<OscPort> anyPort()
+{
+    auto port = OscPort::open (0);
+    REQUIRE (port);
+    return std::move (*port);
+}
+
+std::string addressOf (const std::optional<OSCMessage>& m) { return m ? m->getAddressPattern().toString().toStdString() : ""; }
+
+/// Throws bytes at a port.
+struct Attacker
+{
+    explicit Attacker (int port) : to (port) { socket.bindToPort (0, "127.0.0.1"); }
+
+    void operator() (const std::string& bytes) { socket.write ("127.0.0.1", to, bytes.data(), static_cast<int> (bytes.size())); }
+
+    juce::DatagramSocket socket;
+    int to;
+};
+
+std::string word (std::uint32_t n)
+{
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8)
+        bytes += static_cast<char> ((n >> static_cast<unsigned> (shift)) & 0xffu);
+    return bytes;
+}
+
+std::string padded (std::string s)
+{
+    s += '\0';
+    while (s.size() % 4 != 0)
+        s += '\0';
+    return s;
+}
+
+/// Bundles in bundles, as many as fit into a datagram.
+std::string nested (std::size_t size)
+{
+    const auto head = padded ("#bundle") + std::string (8, '\0');
+    std::string inner = head;
+    while (inner.size() + head.size() + 4 <= size)
+        inner = head + word (static_cast<std::uint32_t> (inner.size())) + inner;
+    return inner;
+}
+}   // namespace
+
+TEST_CASE ("a message arrives with all its arguments", "[osc]")
+{
+    const auto a = anyPort(), b = anyPort();
+    a->send (b->number(), OSCMessage ("/tactus/param", juce::String ("drag.mu"), 0.25f, 7));
+    const auto m = b->next (patience);
+    REQUIRE (addressOf (m) == "/tactus/param");
+    REQUIRE (m->size() == 3);
+    CHECK ((*m)[0].getString() == "drag.mu");
+    CHECK ((*m)[1].getFloat32() == 0.25f);
+    CHECK ((*m)[2].getInt32() == 7);
+    CHECK_FALSE (b->next());
+}
+
+TEST_CASE ("a port that is taken is refused, and known to be taken", "[osc]")
+{
+    auto first = anyPort();
+    const auto number = first->number();
+    CHECK (OscPort::isTaken (number));
+    const auto second = OscPort::open (number);
+    REQUIRE_FALSE (second);
+    CHECK (second.error().id == "osc/port_taken");
+    first.reset();
+    CHECK_FALSE (OscPort::isTaken (number));
+    CHECK (OscPort::open (number));
+}
+
+TEST_CASE ("a bundle is taken apart, in order", "[osc]")
+{
+    const auto port = anyPort();
+    const auto message = [] (const std::string& address)
+    { return padded (address) + padded (","); };
+    const auto element = [] (const std::string& bytes)
+    { return word (static_cast<std::uint32_t> (bytes.size())) + bytes; };
+    const auto head = padded ("#bundle") + std::string (8, '\0');
+    Attacker send { port->number() };
+    send (head + element (message ("/a")) + element (head + element (message ("/b"))) + element (message ("/c")));
+    for (const auto* address : { "/a", "/b", "/c" })
+        CHECK (addressOf (port->next (patience)) == address);
+}
+
+TEST_CASE ("any bytes are a packet or none, and nothing beyond their end is looked at", "[osc]")
+{
+    const auto right = padded ("#bundle") + std::string (8, '\0') + word (36) + padded ("/tactus/param") + padded (",sif") + padded ("ab") + word (7) + word (0x3f000000);
+    CHECK (readPacket (right).right);
+    rc::check ([&] (std::vector<std::pair<std::uint16_t, char>> changes, std::uint16_t cut, std::string more)
+               {
+        auto bytes = right;
+        for (const auto& [place, c] : changes)
+            bytes[place % bytes.size()] = c;
+        bytes.resize (bytes.size() - cut % bytes.size());
+        bytes += more;
+        const std::vector<char> exact (bytes.begin(), bytes.end());   // so that ASan sees what is read beyond
+        const auto packet = readPacket ({ exact.data(), exact.size() });
+        RC_ASSERT (packet.messages.size() <= bytes.size() / 8); });
+    CHECK_FALSE (readPacket (nested (65000)).right);
+    CHECK (readPacket (nested (160)).right);
+}
+
+TEST_CASE ("whatever else is sent to a port does no harm, and is counted", "[osc]")
+{
+    const auto port = anyPort(), good = anyPort();
+    Attacker attack { port->number() };
+    const auto alive = [&]   // said until it is heard: a queue may be full
+    {
+        for (int i = 0; i < 1000; ++i)
+        {
+            good->send (port->number(), OSCMessage ("/alive"));
+            while (const auto m = port->next (20ms))
+                if (addressOf (m) == "/alive") return true;
+        }
+        return false;
+    };
+
+    SECTION ("texts, sizes and types that are none")
+    {
+        const std::vector<std::string> hostile {
+            "",
+            "x",
+            "/",
+            "////",
+            std::string (4, '\0'),
+            "/a" + std::string (60000, 'b'),
+            padded ("/a"),
+            padded ("/a") + "x",
+            padded ("/a") + ",",
+            padded ("/a") + padded (",i"),
+            padded ("/a") + padded (",s"),
+            padded ("/a") + padded (",s") + "abcd",
+            padded ("/a") + padded (",b") + word (0x7fffffff),
+            padded ("/a") + padded (",b") + word (0xffffffff) + "abcd",
+            padded ("/a") + padded (",b") + word (0x80000000),
+            padded ("/a") + padded (",d") + std::string (8, 'x'),
+            padded ("/a") + padded (",[[[["),
+            padded ("/a") + padded ("," + std::string (60000, 'i')),
+            padded ("/ a#*?{}[") + padded (","),
+            padded ("/*/{a,b") + padded (","),
+            padded ("/\xff\xfe") + padded (","),
+            padded ("#bundle"),
+            padded ("#bundle") + std::string (8, '\0') + word (0xfffffffc),
+            padded ("#bundle") + std::string (8, '\0') + word (0) + word (0),
+            padded ("#bundle") + std::string (8, '\0') + word (3) + "abc",
+            padded ("#bundle") + std::string (8, '\0') + word (8) + padded ("#bundle"),
+            nested (2000),
+            nested (65000),
+        };
+        for (const auto& bytes : hostile)
+        {
+            INFO (bytes.substr (0, 40));
+            attack (bytes);
+            CHECK (alive());
+        }
+        CHECK (port->dropped() > 10);
+    }
+    SECTION ("what is nearly right")
+    {
+        const auto right = padded ("/tactus/param") + padded (",sfib") + padded ("drag.mu") + word (0x3f000000) + word (7) + word (4) + "abcd";
+        rc::check ([&] (std::vector<std::pair<std::uint16_t, char>> changes, std::uint16_t cut)
+                   {
+            auto bytes = right;
+            for (const auto& [place, c] : changes)
+                bytes[place % bytes.size()] = c;
+            attack (bytes.substr (0, bytes.size() - cut % bytes.size())); });
+        CHECK (alive());
+    }
+    SECTION ("more than anybody fetches")
+    {
+        for (int i = 0; i < 1'000'000 && port->dropped() == 0; ++i)
+            attack (padded ("/flood") + padded (","));
+        CHECK (port->dropped() > 0);
+        CHECK (alive());
+    }
+}

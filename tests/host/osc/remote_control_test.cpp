@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/osc/remote_control.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <limits>
+
+using namespace tactus;
+using namespace tactus::host;
+using namespace std::chrono_literals;
+using juce::OSCMessage;
+using juce::String;
+
+namespace
+{
+/// Notes what it is told.
+struct Puppet : Controlled
+{
+    std::optional<Message> setParam (const std::string& name, const Json& value) override
+    {
+        said = name + " = " + value.dump();
+        if (name != "drag.mu") return Message { .id = "param/unknown", .where = {}, .text = "no such parameter", .remedy = "try drag.mu" };
+        return std::nullopt;
+    }
+
+    std::optional<Message> turnControl (const std::string& id, double value) override
+    {
+        said = id + " at " + std::to_string (value);
+        return std::nullopt;
+    }
+
+    std::variant<std::vector<std::string>, Message> probe (const std::vector<std::string>& ports) override
+    {
+        std::vector<std::string> names;
+        const auto add = [&] (const std::string& name)
+        {
+            if (std::ranges::find (names, name) == names.end()) names.push_back (name);
+        };
+        for (const auto& p : ports)
+            if (p == "drag.force" && ! force_is_gone)
+                for (const auto* axis : { ".x", ".y", ".z" })
+                    add (p + axis);
+            else if (p == "drag.force.y" || p == "drag.state" || p.starts_with ("n."))
+                add (p);
+            else
+                return Message { .id = "port/unknown", .where = {}, .text = "no such port", .remedy = "" };
+        probed = ports;
+        return names;
+    }
+
+    Status status() override { return { "Puppet", 1000.0, 2.5, 0.5, 1.5, 2500, 3 }; }
+    void stop() override { stopped = true; }
+
+    std::string said;
+    std::vector<std::string> probed;
+    bool stopped = false, force_is_gone = false;
+};
+
+struct Stage
+{
+    Stage() : port (std::move (*OscPort::open (0))), other (std::move (*OscPort::open (0))), control (*port, puppet) {}
+
+    /// Sends, lets it be carried out, and returns the answer; the answering thread of the port is waited for.
+    template <typename... Args>
+    OSCMessage ask (const char* address, Args... args)
+    {
+        send (address, args...);
+        auto answer = other->next (20s);
+        REQUIRE (answer);
+        return *answer;
+    }
+
+    /// A message that is answered goes after, so that this one has been carried out.
+    template <typename... Args>
+    void send (const char* address, Args... args)
+    {
+        other->send (port->number(), OSCMessage (address, args...));
+        const auto marker = std::move (*OscPort::open (0));
+        other->send (port->number(), OSCMessage ("/tactus/status", marker->number()));
+        for (int i = 0; i < 4000; ++i)
+        {
+            control.attend (now);
+            if (marker->next (5ms)) return;
+        }
+        FAIL ("nothing came");
+    }
+
+    int me() const { return other->number(); }
+
+    std::unique_ptr<OscPort> port, other;
+    Puppet puppet;
+    RemoteControl control;
+    RemoteControl::Clock::time_point now {};
+};
+
+std::string address (const OSCMessage& m) { return m.getAddressPattern().toString().toStdString(); }
+
+std::string text (const OSCMessage& m, int i) { return m[i].getString().toStdString(); }
+}   // namespace
+
+TEST_CASE ("parameters are set by numbers and by texts, which are doubles to the bit", "[osc]")
+{
+    Stage stage;
+    const auto said = [&] (auto value)
+    {
+        const auto answer = stage.ask ("/tactus/param", String ("drag.mu"), value, stage.me());
+        CHECK (address (answer) == "/tactus/done");
+        CHECK (text (answer, 0) == "/tactus/param");
+        CHECK (text (answer, 1) == "drag.mu");
+        return stage.puppet.said;
+    };
+    CHECK (said (0.5f) == "drag.mu = 0.5");
+    CHECK (said (2) == "drag.mu = 2.0");
+    CHECK (said (String ("0.1")) == "drag.mu = 0.1");
+    CHECK (said (String ("20 um")) == "drag.mu = \"20 um\"");
+    CHECK (said (String ("[1,2]")) == "drag.mu = [1,2]");
+
+    const auto refused = stage.ask ("/tactus/param", String ("drag.nu"), 1.0f, stage.me());
+    CHECK (address (refused) == "/tactus/error");
+    CHECK (text (refused, 2) == "param/unknown");
+    CHECK (text (refused, 4) == "try drag.mu");
+
+    stage.send ("/tactus/param", String ("drag.mu"), 0.25f);   // nobody is answered
+    CHECK (stage.puppet.said == "drag.mu = 0.25");
+    CHECK_FALSE (stage.other->next());
+    CHECK (text (stage.ask ("/tactus/control", String ("rough"), 0.75f, stage.me()), 1) == "rough");
+    CHECK (stage.puppet.said == "rough at 0.750000");
+}
+
+TEST_CASE ("arguments that do not belong are refused, and do nothing", "[osc]")
+{
+    Stage stage;
+    stage.puppet.said.clear();
+    stage.send ("/tactus/param");
+    stage.send ("/tactus/param", String ("drag.mu"));
+    stage.send ("/tactus/param", 1.0f, 1.0f);
+    stage.send ("/tactus/param", String ("drag.mu"), 1.0f, 2, 3);
+    stage.send ("/tactus/probe");
+    stage.send ("/tactus/probe", String ("drag.force"), 70000);
+    stage.send ("/tactus/probe", String ("drag.force"), -1, 5.0f);
+    stage.send ("/tactus/status");
+    stage.send ("/tactus/status", String ("x"));
+    stage.send ("/tactus/unknown", 1);
+    CHECK (stage.puppet.said.empty());
+    CHECK (stage.puppet.probed.empty());
+    CHECK_FALSE (stage.other->next());
+    for (const float bad : { 0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN() })
+        CHECK (text (stage.ask ("/tactus/probe", String ("drag.force"), stage.me(), bad), 2) == "osc/arguments");
+}
+
+TEST_CASE ("it says how it goes, and stops when asked to", "[osc]")
+{
+    Stage stage;
+    const auto status = stage.ask ("/tactus/status", stage.me());
+    REQUIRE (status.size() == 7);
+    CHECK (text (status, 0) == "Puppet");
+    CHECK (status[1].getFloat32() == 1000.0f);
+    CHECK (status[5].getInt32() == 2500);
+    CHECK (status[6].getInt32() == 3);
+    CHECK_FALSE (stage.puppet.stopped);
+    stage.send ("/tactus/stop");
+    CHECK (stage.puppet.stopped);
+}
+
+TEST_CASE ("a probe sends what was asked for, as often as asked, and ends when its time is over", "[osc]")
+{
+    Stage stage;
+    const auto done = stage.ask ("/tactus/probe", String ("drag.force"), stage.me(), 100.0f, 2.0f);
+    REQUIRE (done.size() == 6);
+    CHECK (done[2].getFloat32() == 1000.0f);
+    CHECK (text (done, 5) == "drag.force.z");
+    const auto again = std::move (*OscPort::open (0));
+    stage.send ("/tactus/probe", String ("drag.force.y"), again->number(), 1000.0f, 2.0f);
+    CHECK (text (*again->next (20s), 3) == "drag.force.y");
+
+    for (std::uint64_t tick = 5000; tick < 5100; ++tick)
+        stage.control.values (tick, std::vector<double> { 1.0, 2.0, 3.0 });
+    for (int i = 0; i < 10; ++i)
+    {
+        const auto value = stage.other->next (20s);
+        REQUIRE (value);
+        CHECK (text (*value, 0) == "drag.force");
+        CHECK ((*value)[1].getInt32() == 5000 + 10 * i);
+        REQUIRE (value->size() == 5);
+        CHECK ((*value)[4].getFloat32() == 3.0f);
+    }
+    CHECK_FALSE (stage.other->next (50ms));
+    for (int i = 0; i < 100; ++i)
+        CHECK ((*again->next (20s))[2].getFloat32() == 2.0f);
+
+    stage.now += 1900ms;
+    stage.control.attend (stage.now);
+    CHECK (stage.control.isProbing());
+    stage.ask ("/tactus/probe", String ("drag.force"), stage.me(), 100.0f, 2.0f);   // goes on
+    stage.now += 200ms;
+    stage.control.attend (stage.now);
+    stage.control.values (9000, std::vector<double> { 1.0, 2.0, 3.0 });
+    CHECK (address (*stage.other->next (20s)) == "/tactus/value");
+    CHECK_FALSE (again->next (50ms));
+    stage.now += 2s;
+    stage.control.attend (stage.now);
+    CHECK_FALSE (stage.control.isProbing());
+    CHECK (stage.puppet.probed.empty());
+}
+
+TEST_CASE ("a probe of what is not there, or one too many, is refused and the others go on", "[osc]")
+{
+    Stage stage;
+    stage.ask ("/tactus/probe", String ("drag.state"), stage.me());
+    const auto refused = stage.ask ("/tactus/probe", String ("drag.nothing"), stage.me());
+    CHECK (text (refused, 1) == "drag.nothing");
+    CHECK (text (refused, 2) == "port/unknown");
+    CHECK (stage.puppet.probed == std::vector<std::string> { "drag.state" });
+    for (int i = 0; i < 15; ++i)
+        CHECK (address (stage.ask ("/tactus/probe", String ("n.p" + std::to_string (i)), stage.me())) == "/tactus/done");
+    CHECK (text (stage.ask ("/tactus/probe", String ("n.more"), stage.me()), 2) == "probe/too_many");
+    CHECK (stage.puppet.probed.size() == 16);
+}
+
+TEST_CASE ("when the graph is another one, probes go on as far as their ports are there", "[osc]")
+{
+    Stage stage;
+    stage.ask ("/tactus/probe", String ("drag.force"), stage.me());
+    stage.ask ("/tactus/probe", String ("drag.state"), stage.me());
+    stage.puppet.force_is_gone = true;
+    stage.control.graphChanged();
+    const auto gone = stage.other->next (20s);
+    REQUIRE (gone);
+    CHECK (address (*gone) == "/tactus/error");
+    CHECK (text (*gone, 1) == "drag.force");
+    stage.control.values (1, std::vector<double> { 7.0 });
+    const auto value = stage.other->next (20s);
+    REQUIRE (value);
+    CHECK (text (*value, 0) == "drag.state");
+    CHECK ((*value)[2].getFloat32() == 7.0f);
+}
