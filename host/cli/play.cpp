@@ -4,11 +4,16 @@
 #include "report.hpp"
 #include "session.hpp"
 
+#include <framework/number_text.hpp>
 #include <host/osc/remote_control.hpp>
+#include <host/platform/realtime.hpp>
 #include <host/platform/signals.hpp>
 #include <host/platform/terminal.hpp>
+#include <host/runtime/costliest_node.hpp>
 #include <host/runtime/file_watch.hpp>
 #include <host/runtime/frame_ring.hpp>
+#include <host/runtime/tick_account.hpp>
+#include <host/runtime/tick_clock.hpp>
 #include <host/runtime/turn.hpp>
 
 #include <atomic>
@@ -24,8 +29,6 @@ namespace tactus::host
 
 namespace
 {
-using Clock = std::chrono::steady_clock;
-
 /// A slew limit may make the way to zero long; a device that still has force on it after this is let go, with a warning.
 constexpr double longest_halt_s = 30.0;
 
@@ -34,29 +37,32 @@ struct Options : SessionOptions
     bool watch = false;
     std::string osc = std::to_string (OscPort::usual);
     bool osc_asked_for = false;
+    std::optional<int> core;
 };
 
-/// What the tick thread tells the others.
+/// What the tick thread tells the others; all of it may be read while it runs.
 struct Seen
 {
-    std::atomic<std::size_t> ticks { 0 }, misses { 0 };
-    std::atomic<double> force { 0.0 }, peak { 0.0 }, latest_s { 0.0 };
-    std::atomic<bool> let_go_under_force { false };
+    explicit Seen (double rate_hz) : account (1.0 / rate_hz) {}
+
+    TickAccount account;
+    std::atomic<double> force { 0.0 }, peak { 0.0 };
+    std::atomic<bool> overrun { false }, let_go_under_force { false };
     std::atomic<bool> done { false };
 };
 
-/// The tick thread: waits for each deadline, ticks, notes how it went. After the last tick, or on a request to stop,
-/// goes on until the guards have brought all forces to zero.
-void runTicks (Session& session, FrameRing* ring, Seen& status)
+/// The tick thread: ticks when the clock says so, notes how it went. After the last tick, on a request to stop, or when the
+/// graph takes longer than its ticks last, goes on until the guards have brought all forces to zero.
+void runTicks (Session& session, TickClock& clock, FrameRing* ring, Seen& seen)
 {
-    const auto period = std::chrono::duration_cast<Clock::duration> (std::chrono::duration<double> (1.0 / session.rate()));
-    auto deadline = Clock::now();
     bool halting = false;
     const auto longest_halt = static_cast<std::size_t> (longest_halt_s * session.rate());
 
+    clock.begin();
     for (std::size_t k = 0, halted_at = 0;; ++k)
     {
-        if (! halting && (stopRequested() || (session.ticks() && k >= *session.ticks())))
+        if (seen.account.isOverrun()) seen.overrun = true;
+        if (! halting && (stopRequested() || seen.overrun || (session.ticks() && k >= *session.ticks())))
         {
             halting = true;
             halted_at = k;
@@ -65,29 +71,20 @@ void runTicks (Session& session, FrameRing* ring, Seen& status)
         if (halting && session.engine().isAtRest()) break;
         if (halting && k - halted_at > longest_halt)
         {
-            status.let_go_under_force = true;
+            seen.let_go_under_force = true;
             break;
         }
 
-        std::this_thread::sleep_until (deadline);
-        const auto now = Clock::now();
-        const double late = std::chrono::duration<double> (now - deadline).count();
-        if (late > status.latest_s.load (std::memory_order_relaxed)) status.latest_s.store (late, std::memory_order_relaxed);
-        if (now - deadline > period)
-        {
-            status.misses.fetch_add (1, std::memory_order_relaxed);
-            deadline = now;   // what was missed is not made up for in a burst
-        }
-        deadline += period;
-
+        const double late = clock.wait(), begin = clock.now();
         session.tick();
+        seen.account.note (late, clock.now() - begin);
 
         const auto& plan = session.engine().plan();
         double force = 0.0;
         for (const auto& role : plan.roles)
             force = std::max (force, role.state->applied.force.norm());
-        status.force.store (force, std::memory_order_relaxed);
-        if (force > status.peak.load (std::memory_order_relaxed)) status.peak.store (force, std::memory_order_relaxed);
+        seen.force.store (force, std::memory_order_relaxed);
+        if (force > seen.peak.load (std::memory_order_relaxed)) seen.peak.store (force, std::memory_order_relaxed);
         if (ring && ! halting)
             if (auto frame = ring->next(); ! frame.empty())
             {
@@ -95,15 +92,15 @@ void runTicks (Session& session, FrameRing* ring, Seen& status)
                     frame[i] = *plan.taps[i].value;
                 ring->push();
             }
-        status.ticks.store (k + 1, std::memory_order_relaxed);
     }
-    status.done.store (true, std::memory_order_release);
+    seen.done.store (true, std::memory_order_release);
 }
 
-void printStatus (const Seen& s, double rate, bool over_the_last, const char* end)
+void printStatus (const Seen& s, double rate_hz, bool over_the_last, const char* end)
 {
-    std::fprintf (stderr, "%s%8.2f s   force %6.3f N, peak %6.3f N   %zu missed of %zu ticks, latest by %.3f ms%s", over_the_last ? "\r\033[K" : "", static_cast<double> (s.ticks) / rate,
-                  s.force.load(), s.peak.load(), s.misses.load(), s.ticks.load(), 1e3 * s.latest_s.load(), end);
+    const auto& late = s.account.lateness();
+    std::fprintf (stderr, "%s%8.2f s   force %6.3f N, peak %6.3f N   late p50 %.1f us, p99 %.1f us, max %.0f us, missed %zu of %zu ticks%s", over_the_last ? "\r\033[K" : "", static_cast<double> (s.account.ticks()) / rate_hz, s.force.load(), s.peak.load(),
+                  1e6 * late.quantile (0.5), 1e6 * late.quantile (0.99), 1e6 * late.longest(), static_cast<std::size_t> (s.account.misses()), static_cast<std::size_t> (s.account.ticks()), end);
     std::fflush (stderr);
 }
 
@@ -120,8 +117,8 @@ public:
 
     Status status() override
     {
-        const auto ticks = now.ticks.load();
-        return { session.name(), session.rate(), static_cast<double> (ticks) / session.rate(), now.force, now.peak, ticks, now.misses };
+        const auto ticks = now.account.ticks();
+        return { session.name(), session.rate(), static_cast<double> (ticks) / session.rate(), now.force, now.peak, ticks, now.account.misses() };
     }
 
     void stop() override { requestStop(); }
@@ -163,8 +160,8 @@ void run (const Options& options)
     const bool terminal = stderrIsTerminal();
     watch.watch (session.files());
 
-    Seen status;
-    Remote remote { session, status };
+    Seen seen { session.rate() };
+    Remote remote { session, seen };
     std::optional<RemoteControl> control;
     if (port) control.emplace (*port, remote);
     const auto reload = [&]
@@ -180,8 +177,13 @@ void run (const Options& options)
     if (port) reached = ", OSC on 127.0.0.1:" + std::to_string (port->number());
     std::fprintf (stderr, "%s at %g Hz%s%s; Ctrl-C stops\n", (session.name().empty() ? options.graph : session.name()).c_str(), session.rate(), reached.c_str(), options.watch ? ", following its file" : "");
 
+    if (const auto refused = lockMemory()) std::fprintf (stderr, "note: %s\n", refused->c_str());
+    AbsoluteTimer timer { 1.0 / session.rate() };
     std::jthread ticking ([&]
-                          { runTicks (session, ring ? &*ring : nullptr, status); });
+                          {
+        for (const auto& refused : becomeRealTime (options.core))
+            std::fprintf (stderr, "note: %s\n", refused.c_str());
+        runTicks (session, timer, ring ? &*ring : nullptr, seen); });
     const auto drain = [&]
     {
         if (ring) ring->drain ([&] (std::span<const double> frame)
@@ -189,7 +191,7 @@ void run (const Options& options)
     };
     try
     {
-        for (int i = 0; ! status.done.load (std::memory_order_acquire); ++i)
+        for (int i = 0; ! seen.done.load (std::memory_order_acquire); ++i)
         {
             std::this_thread::sleep_for (std::chrono::milliseconds (20));
             drain();
@@ -201,7 +203,7 @@ void run (const Options& options)
                 control->attend();
             }
             session.engine().clear();
-            if (terminal && i % 5 == 0) printStatus (status, session.rate(), true, "");
+            if (terminal && i % 5 == 0) printStatus (seen, session.rate(), true, "");
         }
     }
     catch (...)
@@ -211,14 +213,20 @@ void run (const Options& options)
     }
     ticking.join();
     drain();
-    printStatus (status, session.rate(), terminal, "\n");
+    printStatus (seen, session.rate(), terminal, "\n");
 
     session.reportRun();
-    if (status.let_go_under_force)
+    if (seen.let_go_under_force)
         std::fprintf (stderr, "warning: the slew limit kept force on a device for %g s, so it was let go under force\n", longest_halt_s);
     if (ring && ring->lost() > 0)
         std::fprintf (stderr, "warning: %zu ticks were not recorded, because writing could not keep up\n", ring->lost());
     if (recorder) recorder->commit();
+    if (seen.overrun)
+    {
+        char took[32];
+        std::snprintf (took, sizeof took, "%.3f", 1e3 * seen.account.computing().quantile (0.5));
+        fail ("run/overrun", "stopped, because the graph takes longer than its ticks last: " + std::string (took) + " ms of " + numberText (1e3 / session.rate()) + " ms; " + costliestNode (session.engine().plan()), "give it less to do, or a lower --rate");
+    }
 }
 }   // namespace
 
@@ -228,6 +236,7 @@ void addPlay (CLI::App& app)
     auto* command = app.add_subcommand ("play", "Run a graph in real time, until its gesture or trace ends, --duration is over, or Ctrl-C");
     options->addTo (*command);
     command->add_flag ("--watch", options->watch, "Take the graph file over each time it is edited; what has not changed in it goes on");
+    command->add_option ("--core", options->core, "Keep the ticks on this core of the processor")->check (CLI::Range (0, 1023));
     auto* osc = command->add_option ("--osc", options->osc, "The UDP port to be reached by from this machine, see docs/osc.md; 0 for any that is free, or off")->check (CLI::IsMember ({ "off" }) | CLI::Range (0, 65535));
     command->footer ("However it stops, the guards bring all forces to zero smoothly first.\n"
                      "With --watch, a file with errors is reported and the graph before goes on. Roles keep the devices they have\n"

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/runtime/probe_ring.hpp>
+
+#include "support/sketch.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <thread>
+
+using namespace tactus;
+using namespace tactus::host;
+
+namespace
+{
+/// Its taps count the ticks, from 1.
+std::shared_ptr<Plan> counter()
+{
+    const auto plan = test::Sketch {}.node ("one", "signal.constant", { { "value", 1.0 } }).node ("count", "signal.add").node ("again", "signal.gain").wire ("one.out -> count.in[0]").wire ("count.out -> [1] -> count.in[1]").wire ("count.out -> again.in").compile ({ .records = { "count.out", "again.out", "one.out" } }).plan;
+    REQUIRE (plan);
+    return plan;
+}
+}   // namespace
+
+TEST_CASE ("what is selected is noted, in its order, one tick in so many; what nobody fetches is lost", "[probe]")
+{
+    const auto plan = counter();
+    ProbeRing ring;
+    const auto run = [&] (std::uint64_t from, std::uint64_t to)
+    {
+        for (auto k = from; k < to; ++k)
+        {
+            plan->tick();
+            ring.note (*plan, k);
+        }
+        std::vector<ProbeRing::Frame> frames;
+        ring.drain ([&] (const auto& frame)
+                    { frames.push_back (frame); });
+        return frames;
+    };
+    CHECK (run (0, 10).empty());
+
+    const std::size_t taps[] { 2, 0, 99 };
+    ring.select (taps, 4);
+    const auto frames = run (10, 100);
+    REQUIRE (frames.size() == 22);
+    for (std::size_t i = 0; i < frames.size(); ++i)
+    {
+        CHECK (frames[i].plan == plan.get());
+        CHECK (frames[i].tick == 12 + 4 * i);
+        CHECK (frames[i].size == 3);
+        CHECK (frames[i].values[0] == 1.0);
+        CHECK (frames[i].values[1] == static_cast<double> (frames[i].tick + 1));
+    }
+    ring.select (taps, 1);
+    const auto many = run (100, 5000);
+    CHECK (many.size() > 1000);
+    CHECK (many.size() < 4900);
+    CHECK (many.front().tick == 100);
+    ring.select ({}, 1);
+    CHECK (run (5000, 5100).empty());
+}
+
+TEST_CASE ("frames come whole and in order, while others are selected, and the tick waits for nobody", "[probe]")
+{
+    const auto plan = counter();
+    ProbeRing ring;
+    std::atomic<bool> done { false };
+    std::thread ticking ([&]
+                         {
+        for (std::uint64_t k = 0; k < 50000; ++k)
+        {
+            plan->tick();
+            ring.note (*plan, k);
+        }
+        done = true; });
+    std::size_t broken = 0;
+    std::uint64_t last = 0;
+    const std::size_t taps[] { 0, 1 };
+    for (std::uint32_t i = 0; ! done; ++i)
+    {
+        ring.select (std::span (taps).first (1 + i % 2), 1 + i % 3);
+        ring.drain ([&] (const ProbeRing::Frame& f)
+                    {
+            for (std::size_t v = 0; v < f.size; ++v)
+                broken += f.values[v] != static_cast<double> (f.tick + 1);
+            broken += f.tick < last;
+            last = f.tick; });
+    }
+    ticking.join();
+    CHECK (broken == 0);
+}

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/runtime/costliest_node.hpp>
+#include <host/runtime/tick_account.hpp>
+#include <host/runtime/tick_clock.hpp>
+
+#include "support/sketch.hpp"
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <algorithm>
+#include <thread>
+#include <vector>
+
+using namespace tactus;
+using namespace tactus::host;
+
+TEST_CASE ("a quantile is that of the durations, within a bin, and never more than the longest", "[runtime]")
+{
+    rc::check ([] (std::vector<std::uint32_t> microseconds, std::uint32_t permille)
+               {
+        RC_PRE (! microseconds.empty());
+        Durations durations;
+        for (auto& us : microseconds)
+            durations.note (1e-6 * (us %= 10'000'000));
+        std::ranges::sort (microseconds);
+        const double part = permille % 1001 / 1000.0;
+        const auto n = static_cast<double> (microseconds.size());
+        const auto at = static_cast<std::size_t> (std::max (0.0, std::ceil (part * n) - 1.0));
+        const double exact = std::max (1e-7, 1e-6 * microseconds[at]), longest = 1e-6 * microseconds.back();
+        const double quantile = durations.quantile (part);
+        RC_ASSERT (durations.longest() == longest);
+        RC_ASSERT (quantile <= longest);
+        RC_ASSERT (quantile >= std::min (longest, exact * (1.0 - 1e-9)));
+        RC_ASSERT (quantile <= exact * 1.0906); });
+    CHECK (Durations {}.quantile (0.5) == 0.0);
+}
+
+TEST_CASE ("a tick that begins a period late is a miss; a graph is overrun when each tick takes too long for half a second", "[runtime]")
+{
+    TickAccount account { 1e-3 };
+    for (int k = 0; k < 1000; ++k)
+        account.note (k % 10 == 0 ? 2e-3 : 1e-5, k % 100 == 99 ? 0.5e-3 : 4e-3);   // now and then it keeps up
+    CHECK (account.ticks() == 1000);
+    CHECK (account.misses() == 100);
+    CHECK_FALSE (account.isOverrun());
+    for (int k = 0; k < 400; ++k)
+        account.note (0.0, 1.5e-3);
+    CHECK (account.isOverrun());
+    account.note (0.0, 0.5e-3);
+    CHECK_FALSE (account.isOverrun());
+}
+
+TEST_CASE ("an absolute timer never lets a tick begin early, and does not make up for what was missed", "[runtime]")
+{
+    constexpr double period = 1e-3;
+    AbsoluteTimer timer { period };
+    const double begin = timer.now();
+    timer.begin();
+    double least = begin;
+    for (int k = 0; k < 50; ++k)
+    {
+        const double late = timer.wait(), now = timer.now();
+        CHECK (late >= 0.0);
+        CHECK (now >= least - 1e-6);
+        least = now - late + period;
+        if (k == 20) std::this_thread::sleep_for (std::chrono::milliseconds (20));
+        if (late > period) least = now - 1e-3;   // anew from here, give or take the time between two looks at the clock
+    }
+    CHECK (timer.now() - begin > 0.04);
+}
+
+TEST_CASE ("looking at an account while it is kept is no race", "[runtime]")
+{
+    TickAccount account { 1e-3 };
+    std::atomic<bool> done { false };
+    std::thread keeper ([&]
+                        {
+        for (int k = 0; k < 20000; ++k)
+            account.note (1e-6 * k, 1e-6);
+        done = true; });
+    std::uint64_t last = 0;
+    bool forward = true;
+    while (! done)
+    {
+        forward = forward && account.ticks() >= last && account.lateness().quantile (0.99) <= 0.02;
+        last = account.ticks();
+    }
+    keeper.join();
+    CHECK (forward);
+    CHECK (account.ticks() == 20000);
+}
+
+TEST_CASE ("the costliest node is named", "[runtime]")
+{
+    auto modes = Json::array();
+    for (int i = 0; i < 500; ++i)
+        modes.push_back ({ { "frequency", 100.0 + i }, { "decay", 5.0 }, { "amplitude", 1.0 } });
+    const auto plan = test::Sketch {}.node ("idle", "signal.abs").node ("bar", "vibration.modal", Json::object(), { { "modes", modes } }).wire ("idle.out -> bar.hit").compile().plan;
+    REQUIRE (plan);
+    CHECK (costliestNode (*plan).starts_with ("'bar' (vibration.modal) takes "));
+    CHECK (costliestNode (*test::Sketch {}.compile().plan) == "there is no node");
+}
