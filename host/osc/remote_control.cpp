@@ -157,6 +157,7 @@ std::optional<Message> RemoteControl::look (const std::vector<Probe>& wanted)
 
 void RemoteControl::graphChanged()
 {
+    if (probes.empty()) return;
     auto before = std::exchange (probes, {});
     look ({});
     for (auto& p : before)

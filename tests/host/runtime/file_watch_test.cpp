@@ -37,6 +37,19 @@ TEST_CASE ("an edited file is noticed once, also one of the same length written 
     }
 }
 
+TEST_CASE ("an edit within a tick of the file system's clock is noticed, though it leaves the same time and size", "[watch]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("g.json", "a");
+    const auto written = fs::file_time_type::clock::now() + std::chrono::minutes (1);   // however slow the machine is
+    fs::last_write_time (file, written);
+    FileWatch watch { { file } };
+    CHECK (changes (watch) == 0);
+    scratch.write ("g.json", "b");
+    fs::last_write_time (file, written);
+    CHECK (changes (watch) == 1);
+}
+
 TEST_CASE ("a file that goes on changing is not taken yet", "[watch]")
 {
     const Scratch scratch;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/runtime/frame_ring.hpp>
 #include <host/runtime/probe_ring.hpp>
+#include <host/runtime/tick_account.hpp>
 
+#include "support/no_allocation.hpp"
 #include "support/sketch.hpp"
 
 #include <catch2/catch.hpp>
@@ -59,6 +62,27 @@ TEST_CASE ("what is selected is noted, in its order, one tick in so many; what n
     CHECK (many.front().tick == 100);
     ring.select ({}, 1);
     CHECK (run (5000, 5100).empty());
+}
+
+TEST_CASE ("what the tick thread does beside the tick allocates nothing and takes no lock", "[probe]")
+{
+    const auto plan = counter();
+    ProbeRing ring;
+    FrameRing frames { 3, 16 };
+    TickAccount account { 1e-3 };
+    const std::size_t taps[] { 0, 1 };
+    ring.select (taps, 1);
+    const NoAllocation watch;
+    for (std::uint64_t k = 0; k < 3000; ++k)   // until the rings are full, and on
+    {
+        ring.note (*plan, k);
+        account.note (1e-6, 1e-5);
+        if (auto frame = frames.next(); ! frame.empty()) frames.push();
+    }
+    const int allocations = watch.allocations(), locks = watch.locks();
+    CHECK (allocations == 0);
+    CHECK (locks == 0);
+    CHECK (frames.lost() > 0);
 }
 
 TEST_CASE ("frames come whole and in order, while others are selected, and the tick waits for nobody", "[probe]")
