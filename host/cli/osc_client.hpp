@@ -11,7 +11,7 @@
 namespace tactus::host
 {
 
-/// `--osc PORT` of the commands that talk to one that runs. [main thread]
+/// `--osc PORT` of the commands that talk to a program that runs.
 struct OscOption
 {
     int number = OscPort::usual;
@@ -19,7 +19,7 @@ struct OscOption
     void addTo (CLI::App&);
 };
 
-/// The two ends of a conversation with a program that runs on this machine.
+/// Our end of a conversation with a program that runs on this machine.
 class OscClient
 {
 public:

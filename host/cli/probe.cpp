@@ -6,8 +6,11 @@
 #include <framework/number_text.hpp>
 #include <host/platform/signals.hpp>
 
+#include <charconv>
 #include <chrono>
 #include <iostream>
+#include <memory>
+#include <optional>
 
 namespace tactus::host
 {

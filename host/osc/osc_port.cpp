@@ -2,6 +2,8 @@
 #include "osc_port.hpp"
 #include "read_packet.hpp"
 
+#include <vector>
+
 namespace tactus::host
 {
 
