@@ -13,5 +13,6 @@ void addRender (CLI::App&);
 void addPlay (CLI::App&);
 void addSet (CLI::App&);
 void addProbe (CLI::App&);
+void addBench (CLI::App&);
 
 }   // namespace tactus::host

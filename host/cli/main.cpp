@@ -28,6 +28,7 @@ int main (int argc, char** argv)
     addPlay (app);
     addSet (app);
     addProbe (app);
+    addBench (app);
 
     try
     {

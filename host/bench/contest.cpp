@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contest.hpp"
+#include "by_hand.hpp"
+#include "faust_chain.hpp"
+#include "juce_variants.hpp"
+#include "one_poles.hpp"
+#include "planned.hpp"
+#include "reference.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace tactus::bench
+{
+
+namespace
+{
+std::vector<Contest::Row> stroke()
+{
+    std::vector<Contest::Row> rows;
+    for (const auto& p : strokeOver (reference()))
+        rows.push_back ({ p.x(), p.y(), p.z() });
+    return rows;
+}
+
+/// A second of a tone that rises from rest to 1 kHz.
+std::vector<Contest::Row> chirp()
+{
+    constexpr int ticks = 4000;
+    std::vector<Contest::Row> rows;
+    for (int k = 0; k < ticks; ++k)
+        rows.push_back ({ std::sin (0.25 * 3.0 * k * k / ticks) });
+    return rows;
+}
+
+Contest::Make planOf (graph::Graph g)
+{
+    return [g = std::move (g)]
+    { return std::make_unique<Planned> (g, g.root.find ("p0") ? endsOf (g) : CompileOptions {}); };
+}
+
+bool sameBits (double a, double b) { return std::bit_cast<std::uint64_t> (a) == std::bit_cast<std::uint64_t> (b); }
+}   // namespace
+
+std::vector<Contest> contests()
+{
+    constexpr int poles = 100;
+    const auto tree = treeOfOnePoles (poles), chain = chainOfOnePoles (poles);
+    const std::string juce = "JUCE AudioProcessorGraph", plan = "plan";
+    return {
+        { "plan/hand", plan, "hand-written", "reference graph", planOf (reference()), []
+          { return std::make_unique<ByHand>(); },
+          stroke() },
+        { "juce/plan", juce, plan, "reference graph", []
+          { return std::make_unique<JuceReference>(); },
+          planOf (reference()), stroke() },
+        { "juce_tree100/plan", juce, plan, "tree of 100 one-poles", [tree]
+          { return std::make_unique<JuceOnePoles> (tree); },
+          planOf (tree), chirp() },
+        { "plan/faust_chain100", plan, "Faust", "chain of 100 one-poles", planOf (chain), []
+          { return std::make_unique<FaustVariant>(); },
+          chirp(), 1e-12 },
+    };
+}
+
+Agreement compare (const Contest& contest)
+{
+    const auto first = contest.make_first(), second = contest.make_second();
+    Agreement found { .agree = true };
+    for (const auto& row : contest.inputs)
+    {
+        first->tick (row.data());
+        second->tick (row.data());
+        const auto a = first->outputs(), b = second->outputs();
+        found.agree = found.agree && a.size() == b.size();
+        for (std::size_t i = 0; i < std::min (a.size(), b.size()); ++i, ++found.values)
+        {
+            const double apart = std::abs (a[i] - b[i]);
+            found.worst = std::max (found.worst, apart);
+            found.agree = found.agree && (contest.tolerance > 0.0 ? apart <= contest.tolerance : sameBits (a[i], b[i]));
+        }
+    }
+    return found;
+}
+
+}   // namespace tactus::bench

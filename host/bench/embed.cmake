@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Writes a C++ file that returns the text of a graph: cmake -D input=FILE -D output=FILE.cpp -P embed.cmake
+file (READ ${input} bytes HEX)
+string (REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
+file (WRITE ${output}
+"#include <host/bench/embedded.hpp>
+namespace tactus::bench
+{
+static constexpr unsigned char bytes[] { ${bytes} };
+std::string_view referenceText() noexcept { return { reinterpret_cast<const char*> (bytes), sizeof bytes }; }
+}
+")
