@@ -52,6 +52,7 @@ namespace tactus::nodes
 ///  - Looking for the patch: with search_ticks 0 every triangle is looked at within the tick, while nothing is touched. With
 ///    more, a thread searches and answers that many ticks later; meanwhile the neighbours are walked. In contact only they
 ///    are: a search never moves c. Nothing can be touched before the first answer.
+///  - A depth of 0 while apart is no food for contact.impact, which wants it signed: wire `hit` instead.
 ///  - `normal` and `contact` are made for friction and texture nodes behind this one. Apart, contact is p, and normal that of
 ///    the nearest patch.
 ///  - A slip is one step of eq. (7). Where mu_c or the frames change over the mesh it ends near the bound, not on it, and
