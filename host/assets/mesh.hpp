@@ -13,9 +13,9 @@ namespace tactus::host
 
 /// Reads the bytes of an OBJ, OFF, PLY or STL file; which of them, the ending of its name says.
 ///
-/// All objects and groups of a file become one mesh. Points keep the order of the file; those at the very same place
-/// are one, the first, so that triangles share their edges. Polygons are taken as convex and cut into triangles;
-/// triangles without three different corners are dropped. Materials, colours and normals are not read.
+/// All objects and groups of a file become one mesh. Points keep the order of the file; those nearer than a millionth of
+/// its size are one, the first, so that triangles share their edges. Polygons are taken as convex and cut into
+/// triangles; triangles without area are dropped. Materials, colours and normals are not read.
 ///
 /// These readers are our own because Assimp 5.2.5, which Debian has, asks for gigabytes or aborts on files that are
 /// cut off. No input crashes them.

@@ -157,7 +157,15 @@ TEST_CASE ("points at the same place are one, polygons are cut, and what has no 
     const auto mesh = readMesh ("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv -0 0 0\nv 2 0 0\nf 1 2 3 4\nf 5 6 2\nf 1 2 5\nf 1 2\nl 1 2\n", "a.obj");
     REQUIRE (mesh);
     CHECK (mesh->points.size() == 5);
-    CHECK (mesh->triangles == Triangles { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 4, 1 } });
+    CHECK (mesh->triangles == Triangles { { 0, 1, 2 }, { 0, 2, 3 } });   // 5 6 2 lie on a line
+}
+
+TEST_CASE ("corners that differ in their last digit are one, so that a mesh has no cracks", "[host][assets][mesh]")
+{
+    const auto mesh = readMesh ("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1.0000000001 0 0\nv 1 1 0\nv 0 0.9999999999 0\nf 1 2 3\nf 4 5 6\n", "a.obj");
+    REQUIRE (mesh);
+    CHECK (mesh->points.size() == 4);
+    CHECK (mesh->triangles == Triangles { { 0, 1, 2 }, { 1, 3, 2 } });
 }
 
 TEST_CASE ("a mesh that cannot be read says where and why", "[host][assets][mesh]")
