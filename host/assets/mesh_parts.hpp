@@ -34,7 +34,7 @@ public:
 
 private:
     Mesh made;
-    std::vector<int> joined;   // number in the file to number in the mesh
+    std::vector<int> joined;                      // number in the file to number in the mesh
     std::map<std::array<double, 3>, int> known;   // points at the very same place are one
 };
 
