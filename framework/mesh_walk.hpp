@@ -3,8 +3,28 @@
 
 #include "nearest_triangle.hpp"
 
+#include <Eigen/Geometry>
+
 namespace tactus
 {
+
+using Corners = std::array<Vec3, 3>;
+
+inline Corners cornersOf (const Mesh& mesh, int triangle) noexcept
+{
+    const auto& c = mesh.triangles[static_cast<std::size_t> (triangle)];
+    return { mesh.points[static_cast<std::size_t> (c[0])], mesh.points[static_cast<std::size_t> (c[1])], mesh.points[static_cast<std::size_t> (c[2])] };
+}
+
+/// Out of the triangle, twice its area long.
+inline Vec3 areaNormal (const Corners& c) noexcept { return (c[1] - c[0]).cross (c[2] - c[0]); }
+
+/// How the barycentric weights change over the triangle, 1/m.
+inline std::array<Vec3, 3> gradientsOf (const Corners& c) noexcept
+{
+    const Vec3 n = areaNormal (c), over = n / n.squaredNorm();
+    return { over.cross (c[2] - c[1]), over.cross (c[0] - c[2]), over.cross (c[1] - c[0]) };
+}
 
 /// A point on a mesh.
 struct Spot

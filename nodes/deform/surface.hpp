@@ -5,12 +5,12 @@
 #include <framework/node.hpp>
 #include <framework/rotation.hpp>
 #include <framework/slow_question.hpp>
+#include <framework/surface_check.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -135,36 +135,15 @@ struct ElasticSurface
     Params params;
     Settings settings;
 
-    std::string problem() const
-    {
-        const auto& s = settings.surface;
-        if (! s || s->mesh->triangles.empty()) return "its mesh has no triangles";
-        if (s->curves.empty()) return "it has no curves";
-        for (std::size_t t = 0; t < s->mesh->triangles.size(); ++t)
-            if (const auto [a, b, c] = cornersOf (*s->mesh, t); ! ((b - a).cross (c - a).squaredNorm() > 0.0))
-                return "triangle " + std::to_string (t) + " has no area";
-        for (std::size_t i = 0; i < s->frames.size(); ++i)
-            if (! (s->frames[i] * s->frames[i].transpose()).isIdentity (1e-6) || s->frames[i].determinant() < 0.0)
-                return "the frame of node " + std::to_string (i) + " is not right: its rows must be of length 1, at right angles, and u^z = u^x x u^y";
-        for (std::size_t t = 0; t < s->curves.size(); ++t)
-            for (std::size_t i = 0; i < s->curves[t].size(); ++i)
-                if (const Law& z = s->curves[t][i][2]; ! z.table.empty() && *std::ranges::min_element (z.table.y) < 0.0)
-                    return "the curve of z of tool " + std::to_string (t) + ", node " + std::to_string (i) + " pulls: a resistance is never below 0";
-        return {};
-    }
+    std::string problem() const { return settings.surface ? problemOf (*settings.surface) : "it has no surface"; }
 
     std::string warning (const Setup&) const
     {
-        const auto& mesh = *settings.surface->mesh;
-        if (settings.search_ticks == 0 && mesh.triangles.size() > 2000)
-            return std::to_string (mesh.triangles.size()) + " triangles are searched within each tick; give the search some ticks of time with search_ticks";
-        if (const auto node = nodeThatPointsOut(); node >= 0) return "the surface faces inwards at node " + std::to_string (node) + ", and attracts there: turn its triangles round, or u^z of its frame";
-        if (isFrictionless()) return tiltWarning();
-        const auto [triangle, depth] = shallowestGain();
-        constexpr double deep = 0.02;   // deeper than a hand presses
-        if (depth > deep) return {};
-        return "pressed deeper than " + lengthText (depth) + ", a slip over triangle " + std::to_string (triangle)
-               + " gives energy: its nodes differ too much for the friction there. Raise mu or the curves of x and y, or let the curves of z differ less";
+        const auto& surface = *settings.surface;
+        if (const auto triangles = surface.mesh->triangles.size(); settings.search_ticks == 0 && triangles > 2000)
+            return std::to_string (triangles) + " triangles are searched within each tick; give the search some ticks of time with search_ticks";
+        if (auto facing = wrongSide (surface); ! facing.empty()) return facing;
+        return isFrictionless() ? leaning (surface) : slipGain (surface, settings.scale);
     }
 
     void prepare (const Setup& setup)
@@ -206,7 +185,7 @@ struct ElasticSurface
             for (const auto& curves : tool)
                 for (const auto& law : curves)
                     stiffest = std::max (stiffest, law.steepest());
-        return { .passive = ! isFrictionless() && shallowestGain().depth == inf, .stiffness = stiffest };
+        return { .passive = ! isFrictionless() && shallowestGain (*settings.surface, settings.scale).depth == inf, .stiffness = stiffest };
     }
 
     Outputs tick (const Inputs& in) noexcept
@@ -229,7 +208,6 @@ struct ElasticSurface
     }
 
 private:
-    using Corners = std::array<Vec3, 3>;
     using Search = SlowQuestion<Vec3, int>;
     using Curves = Surface::Curves;
 
@@ -495,13 +473,13 @@ private:
     Vec3 slope (const Felt& felt, const Vec3& p) const noexcept
     {
         const auto& [triangle, on] = touch.spot;
-        const auto corners = cornersOf (body->walk.mesh(), static_cast<std::size_t> (triangle));
+        const auto corners = cornersOf (body->walk.mesh(), triangle);
         const auto gradients = gradientsOf (corners);
         Vec3 sum = Vec3::Zero();
         for (std::size_t i = 0; i < 3; ++i)
             sum += felt.energies[i] * gradients[i];
 
-        const Vec3 away = p - on.point, normal = direction ((corners[1] - corners[0]).cross (corners[2] - corners[0]));
+        const Vec3 away = p - on.point, normal = direction (areaNormal (corners));
         const Vec3 sideways = away - away.dot (normal) * normal;
         if (sideways.norm() <= 1e-9 * away.norm()) return sum;
         for (std::size_t i = 0; i < 3; ++i)
@@ -513,109 +491,11 @@ private:
         return Vec3::Zero();
     }
 
-    static Corners cornersOf (const Mesh& mesh, std::size_t triangle) noexcept
-    {
-        const auto& c = mesh.triangles[triangle];
-        return { mesh.points[static_cast<std::size_t> (c[0])], mesh.points[static_cast<std::size_t> (c[1])], mesh.points[static_cast<std::size_t> (c[2])] };
-    }
-
-    /// Of the barycentric weights over the triangle, 1/m.
-    static std::array<Vec3, 3> gradientsOf (const Corners& c) noexcept
-    {
-        const Vec3 n = (c[1] - c[0]).cross (c[2] - c[0]);
-        const Vec3 over = n / n.squaredNorm();
-        return { over.cross (c[2] - c[1]), over.cross (c[0] - c[2]), over.cross (c[1] - c[0]) };
-    }
-
     /// With no friction anywhere, the contact follows freely whatever the choice.
     bool isFrictionless() const noexcept
     {
         return params.friction == Friction::frictionless || std::ranges::all_of (settings.surface->mu, [] (const Ratio& r)
                                                                                  { return ! r.law && r.number == 0.0; });
-    }
-
-    /// A node whose u^z leads out of the body, or, of a closed body turned inside out, the first; -1 if there is none.
-    int nodeThatPointsOut() const
-    {
-        const auto& s = *settings.surface;
-        if (s.frames.empty()) return isInsideOut (*s.mesh) ? 0 : -1;
-        const auto normals = normalsOf (*s.mesh);
-        for (std::size_t i = 0; i < s.frames.size(); ++i)
-            if (s.frames[i].row (2).dot (normals[i].transpose()) > 0.0) return static_cast<int> (i);
-        return -1;
-    }
-
-    /// Frames that lean against their triangles make a frictionless force that is no gradient.
-    std::string tiltWarning() const
-    {
-        constexpr double level = 0.9962;   // cos 5 degrees
-        const auto& s = *settings.surface;
-        const auto normals = normalsOf (*s.mesh);
-        double least = 1.0;
-        for (std::size_t t = 0; t < s.mesh->triangles.size(); ++t)
-        {
-            const auto corners = cornersOf (*s.mesh, t);
-            const Vec3 up = direction ((corners[1] - corners[0]).cross (corners[2] - corners[0]));
-            for (const int c : s.mesh->triangles[t])
-            {
-                const auto i = static_cast<std::size_t> (c);
-                least = std::min (least, s.frames.empty() ? up.dot (normals[i]) : -up.dot (Vec3 (s.frames[i].row (2).transpose())));
-            }
-        }
-        if (least > level) return {};
-        return "frames lean by up to " + std::to_string (std::lround (std::acos (std::clamp (least, -1.0, 1.0)) * 180.0 / std::numbers::pi))
-               + " degrees against their triangles: without friction, a closed path may then give energy. A finer mesh leans less";
-    }
-
-    struct Gain
-    {
-        int triangle = -1;
-        double depth = inf;
-    };
-
-    /// The least depth at which a slip somewhere gives energy, and where: f_t (mu_c d^z) < |dU/dc|, looked for on a grid of depths.
-    Gain shallowestGain() const
-    {
-        Gain least;
-        const auto& s = *settings.surface;
-        if (std::ranges::all_of (s.curves, [] (const auto& tool)
-                                 { return tool.size() == 1; }))
-            return least;
-        for (std::size_t t = 0; t < s.mesh->triangles.size(); ++t)
-        {
-            auto corners = cornersOf (*s.mesh, t);
-            for (auto& c : corners)
-                c *= settings.scale;
-            const auto gradients = gradientsOf (corners);
-            for (const auto& tool : s.curves)
-                for (double depth = 1e-5; depth < least.depth && depth < 1.0; depth *= 1.1)
-                    if (gains (s.mesh->triangles[t], gradients, tool, depth)) least = { static_cast<int> (t), depth };
-        }
-        return least;
-    }
-
-    bool gains (const std::array<int, 3>& nodes, const std::array<Vec3, 3>& gradients, const std::vector<Curves>& tool, double depth) const
-    {
-        if (tool.size() == 1) return false;
-        Vec3 slope = Vec3::Zero();
-        double drag = inf;
-        for (std::size_t i = 0; i < 3; ++i)
-        {
-            const auto node = static_cast<std::size_t> (nodes[i]);
-            const auto& mu = settings.surface->mu;
-            const double ratio = mu.empty() ? 0.0 : mu.size() == 1 ? mu[0](depth)
-                                                                   : mu[node](depth);
-            const auto& [x, y, z] = tool[node];
-            slope += gradients[i] * (z.energy (depth) + std::max (x.energy (ratio * depth), y.energy (ratio * depth)));
-            drag = std::min (drag, std::min (x (ratio * depth), y (ratio * depth)));
-        }
-        return drag < slope.norm();
-    }
-
-    static std::string lengthText (double metres)
-    {
-        const auto micrometres = std::lround (metres * 1e6);
-        return micrometres < 10'000 ? std::to_string (micrometres) + " um" : std::to_string (micrometres / 1000) + " mm";
     }
 
     /// What a new node is: a soft square of 10 cm that faces upwards.
