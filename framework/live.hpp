@@ -27,7 +27,7 @@ public:
     Messages redo();
 
     /// Turns parameters without an edit, by a value as a file would have it: 0.4, "0.4 mm", "stick", [0, 0, 1].
-    std::optional<Message> set (std::string_view name, const Json& value);
+    std::optional<Message> set (const std::string& name, const Json& value);
 
 private:
     Messages compileAndSubmit();

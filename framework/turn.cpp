@@ -1,13 +1,13 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "turn.hpp"
 
-#include <framework/file/json_text.hpp>
-#include <framework/in_quotes.hpp>
-#include <framework/near_miss.hpp>
-#include <framework/plan/directory.hpp>
-#include <framework/plan/values.hpp>
+#include "file/json_text.hpp"
+#include "in_quotes.hpp"
+#include "near_miss.hpp"
+#include "plan/directory.hpp"
+#include "plan/values.hpp"
 
-namespace tactus::host
+namespace tactus
 {
 
 namespace
@@ -101,4 +101,4 @@ std::optional<Message> turnControl (Engine& engine, const graph::Graph& graph, c
     return std::nullopt;
 }
 
-}   // namespace tactus::host
+}   // namespace tactus

@@ -1,15 +1,15 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/engine.hpp>
-#include <framework/graph/graph.hpp>
-#include <framework/json.hpp>
+#include "engine.hpp"
+#include "graph/graph.hpp"
+#include "json.hpp"
 
 #include <optional>
 #include <string>
 #include <string_view>
 
-namespace tactus::host
+namespace tactus
 {
 
 /// What somebody typed after the = of NODE.PARAM=VALUE: a number, a list of numbers, or text with a unit or the name of a
@@ -25,4 +25,4 @@ std::optional<Message> turnParam (Engine&, const std::string& name, const Json& 
 /// [main thread]
 std::optional<Message> turnControl (Engine&, const graph::Graph&, const std::string& id, double value);
 
-}   // namespace tactus::host
+}   // namespace tactus

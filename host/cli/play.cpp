@@ -5,6 +5,7 @@
 #include "session.hpp"
 
 #include <framework/number_text.hpp>
+#include <framework/turn.hpp>
 #include <host/osc/remote_control.hpp>
 #include <host/platform/realtime.hpp>
 #include <host/platform/signals.hpp>
@@ -14,7 +15,6 @@
 #include <host/runtime/frame_ring.hpp>
 #include <host/runtime/tick_account.hpp>
 #include <host/runtime/tick_clock.hpp>
-#include <host/runtime/turn.hpp>
 
 #include <atomic>
 #include <chrono>
@@ -111,7 +111,7 @@ public:
     Remote (Session& s, const Seen& n) : session (s), now (n) {}
 
     std::optional<Message> setParam (const std::string& name, const Json& value) override { return turnParam (session.engine(), name, value); }
-    std::optional<Message> turnControl (const std::string& id, double value) override { return host::turnControl (session.engine(), session.graph(), id, value); }
+    std::optional<Message> turnControl (const std::string& id, double value) override { return tactus::turnControl (session.engine(), session.graph(), id, value); }
 
     std::variant<std::vector<std::string>, Message> probe (const std::vector<std::string>& ports) override { return session.probe (ports); }
 

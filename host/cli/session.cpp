@@ -5,9 +5,9 @@
 #include <framework/graph/reconcile.hpp>
 #include <framework/near_miss.hpp>
 #include <framework/number_text.hpp>
+#include <framework/turn.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/devices/make_device.hpp>
-#include <host/runtime/turn.hpp>
 
 #include <cmath>
 #include <filesystem>

@@ -2,8 +2,8 @@
 #include "remote_control.hpp"
 
 #include <framework/in_quotes.hpp>
+#include <framework/turn.hpp>
 #include <host/runtime/probe_ring.hpp>
-#include <host/runtime/turn.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/runtime/turn.hpp>
+// SPDX-License-Identifier: MIT
+#include <framework/turn.hpp>
 
 #include "support/sketch.hpp"
 
@@ -9,7 +9,6 @@
 #include <rapidcheck/catch.h>
 
 using namespace tactus;
-using namespace tactus::host;
 
 namespace
 {
