@@ -33,7 +33,7 @@ struct Bench
         return *live.engine().plan().taps[0].value;
     }
 
-    void set (std::string_view name, const Json& value)
+    void set (const std::string& name, const Json& value)
     {
         const auto message = live.set (name, value);
         INFO ((message ? message->text : ""));
