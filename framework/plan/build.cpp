@@ -386,12 +386,13 @@ private:
     {
         plan->flat = std::move (flat);
         plan->flat.assignments = {};
+        plan->flat.places = {};
         for (auto& n : plan->flat.nodes)
             n.origin = {};
         for (auto& w : plan->flat.wires)
         {
-            w.text = {};
             w.origin = {};
+            w.written = {};
         }
     }
 

@@ -2,6 +2,8 @@
 #include "compile.hpp"
 #include "build.hpp"
 
+#include <framework/graph/text.hpp>
+
 #include <map>
 
 namespace tactus
@@ -25,7 +27,7 @@ void checkDelays (Flat& flat)
     double total = 0.0;
     for (const auto& w : flat.wires)
         total += static_cast<double> (w.delay) * flat.widthOf (w.to);
-    if (total > most) flat.error ("graph/too_large", { "", "/wires" }, "the delays of all wires together hold " + std::to_string (static_cast<long long> (total)) + " samples", "shorten them");
+    if (total > most) flat.error ("graph/too_large", flat.at ({}, "wires"), "the delays of all wires together hold " + std::to_string (static_cast<long long> (total)) + " samples", "shorten them");
 }
 
 bool addsUp (Quantity q) { return q == Quantity::force || q == Quantity::torque || q == Quantity::hit; }
@@ -43,7 +45,7 @@ void checkFanIn (Flat& flat, const PortUnits& units)
             const auto [other, fresh] = taken.try_emplace ({ w.to.node, w.to.role, w.to.port, w.to.index, c }, &w);
             if (fresh) continue;
             const auto& quantity = units (w.to).quantity;
-            flat.error ("wire/two_into_one", w.origin, "\"" + other->second->text + "\" and \"" + w.text + "\" both end at '" + flat.nameOf (w.to) + "', and a " + (quantity == Quantity::any ? "value" : std::string (name (quantity))) + " does not add up",
+            flat.error ("wire/two_into_one", w.origin, "\"" + toText (*other->second->written) + "\" and \"" + toText (*w.written) + "\" both end at '" + flat.nameOf (w.to) + "', and a " + (quantity == Quantity::any ? "value" : std::string (name (quantity))) + " does not add up",
                         w.to.role == Role::param ? "add the second with (+), or remove one" : "join them in a signal.add or vector.add, or remove one");
             break;
         }
@@ -98,7 +100,7 @@ Outside findOutside (Flat& flat, const Scope& top, const CompileOptions& options
     Outside outside;
     for (const auto& name : options.feeds)
     {
-        const Origin origin { "", "feed column " + name };
+        const auto origin = flat.asIs ({}, "feed column " + name);
         const auto port = find (name, Side::end, top, origin, flat);
         outside.feeds.push_back (port);
         if (! port) continue;
@@ -113,7 +115,7 @@ Outside findOutside (Flat& flat, const Scope& top, const CompileOptions& options
 
     for (const auto& name : options.records)
     {
-        const Origin origin { "", "record " + name };
+        const auto origin = flat.asIs ({}, "record " + name);
         const auto port = find (name, Side::record, top, origin, flat);
         if (port && ! flat.sheet (*port).choices.empty())
             flat.error ("record/choice", origin, "'" + name + "' is a choice among names and has no number to record", "record a port that carries a number");
@@ -136,7 +138,7 @@ Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const Compi
     auto [flat, top, used] = flatten (g, catalogue, options.overrides, options.assets);
     const double rate = options.rate_hz > 0.0 ? options.rate_hz : g.rate_hz;
     if (! (rate >= 1.0 && rate <= 1e6))
-        flat.error ("graph/rate", { "", "/rate_hz" }, "the rate must be from 1 Hz to 1 MHz", "haptic graphs run at 1000 to 10000 Hz");
+        flat.error ("graph/rate", flat.at ({}, "rate_hz"), "the rate must be from 1 Hz to 1 MHz", "haptic graphs run at 1000 to 10000 Hz");
 
     const Setup setup { .rate_hz = rate, .services = options.services };
     std::vector<int> ordered;

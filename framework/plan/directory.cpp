@@ -50,7 +50,7 @@ std::string nameOf (Side side)
 struct Finder
 {
     Flat& flat;
-    const Origin& origin;
+    Origin origin;
     Side side;
 
     std::optional<PortRef> in (const Scope& scope, const graph::Endpoint& e) const
@@ -186,12 +186,12 @@ std::string listed (const std::vector<std::string>& names)
     return all.empty() ? "none" : all;
 }
 
-std::optional<PortRef> find (const graph::Endpoint& e, Side side, const Scope& scope, const Origin& origin, Flat& flat)
+std::optional<PortRef> find (const graph::Endpoint& e, Side side, const Scope& scope, Origin origin, Flat& flat)
 {
     return Finder { flat, origin, side }.in (scope, e);
 }
 
-std::optional<PortRef> find (std::string_view text, Side side, const Scope& scope, const Origin& origin, Flat& flat)
+std::optional<PortRef> find (std::string_view text, Side side, const Scope& scope, Origin origin, Flat& flat)
 {
     const auto parsed = graph::parseEndpoint (text);
     if (const auto* endpoint = std::get_if<graph::Endpoint> (&parsed)) return find (*endpoint, side, scope, origin, flat);

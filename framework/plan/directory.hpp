@@ -39,15 +39,15 @@ struct Scope
     const graph::Patch* patch = nullptr;
     std::string prefix;   // of paths
     int number = 0;       // in Flat::scopes
-    Origin origin;        // of the patch
+    Origin origin {};     // of the patch
     std::unordered_map<std::string, Member> members;
     std::vector<Exposed> exposed;
 };
 
 /// Finds a port by the names people use, from a patch and downwards; nothing, with a message added, if there is none.
 /// A placeholder's port gives nothing too, without a message.
-std::optional<PortRef> find (const graph::Endpoint&, Side, const Scope&, const Origin&, Flat&);
-std::optional<PortRef> find (std::string_view text, Side, const Scope&, const Origin&, Flat&);
+std::optional<PortRef> find (const graph::Endpoint&, Side, const Scope&, Origin, Flat&);
+std::optional<PortRef> find (std::string_view text, Side, const Scope&, Origin, Flat&);
 
 /// "a, b, c", or "none"; of many, the first.
 std::string listed (const std::vector<std::string>& names);

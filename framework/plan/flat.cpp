@@ -4,6 +4,48 @@
 namespace tactus::plan
 {
 
+namespace
+{
+void appendEscaped (std::string& pointer, std::string_view name)
+{
+    for (const char c : name)
+        if (c == '~')
+            pointer += "~0";
+        else if (c == '/')
+            pointer += "~1";
+        else
+            pointer += c;
+}
+
+/// The JSON pointer of a place in its file.
+std::string pointerTo (Origin place)
+{
+    if (place == nullptr || place->kind == Place::Kind::file) return {};
+    auto pointer = pointerTo (place->around);
+    if (place->kind != Place::Kind::as_is) pointer += '/';
+    if (place->kind == Place::Kind::entry)
+        pointer += std::to_string (place->number);
+    else if (place->kind == Place::Kind::name)
+        appendEscaped (pointer, place->text);
+    else
+        pointer += place->text;
+    return pointer;
+}
+
+Message messageAt (Origin origin, Message::Severity severity, std::string id, std::string text, std::string remedy)
+{
+    const auto file = fileOf (origin);
+    return { severity, std::move (id), pointerTo (origin), std::move (text), std::move (remedy), file ? std::string (file->text) : "", 0, 0 };
+}
+}   // namespace
+
+Origin fileOf (Origin place) noexcept
+{
+    while (place != nullptr && place->kind != Place::Kind::file)
+        place = place->around;
+    return place;
+}
+
 std::string Flat::nameOf (const PortRef& r) const
 {
     auto name = node (r).path + "." + std::string (sheet (r).id);
@@ -12,16 +54,14 @@ std::string Flat::nameOf (const PortRef& r) const
     return name;
 }
 
-void Flat::error (std::string id, const Origin& origin, std::string text, std::string remedy)
+void Flat::error (std::string id, Origin origin, std::string text, std::string remedy)
 {
-    if (isFull()) return;
-    messages.push_back ({ Message::Severity::error, std::move (id), origin.pointer, std::move (text), std::move (remedy), origin.file, 0, 0 });
+    if (! isFull()) messages.push_back (messageAt (origin, Message::Severity::error, std::move (id), std::move (text), std::move (remedy)));
 }
 
-void Flat::warn (std::string id, const Origin& origin, std::string text, std::string remedy)
+void Flat::warn (std::string id, Origin origin, std::string text, std::string remedy)
 {
-    if (isFull()) return;
-    messages.push_back ({ Message::Severity::warning, std::move (id), origin.pointer, std::move (text), std::move (remedy), origin.file, 0, 0 });
+    if (! isFull()) messages.push_back (messageAt (origin, Message::Severity::warning, std::move (id), std::move (text), std::move (remedy)));
 }
 
 }   // namespace tactus::plan

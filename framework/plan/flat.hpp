@@ -17,12 +17,27 @@
 namespace tactus::plan
 {
 
-/// Where something was written, for messages.
-struct Origin
+/// A step on the way to where something was written. Only a message puts the way in words.
+struct Place
 {
-    std::string file;      ///< of an included file; empty for the graph itself
-    std::string pointer;   ///< JSON pointer
+    enum class Kind
+    {
+        file,    ///< `text` is an included file's name; the way begins here
+        name,    ///< a member called `text`
+        entry,   ///< entry `number` of a list
+        as_is    ///< `text` as it stands: the rest of a JSON pointer, or an option of the command line
+    };
+
+    const Place* around;
+    std::string_view text;
+    int number;
+    Kind kind;
 };
+
+/// Where something was written, for messages; null for the graph itself. What it names has to stay as long.
+using Origin = const Place*;
+
+Origin fileOf (Origin) noexcept;
 
 /// Identity in a graph with its subgraphs expanded.
 struct Identity
@@ -49,7 +64,7 @@ struct PortRef
 struct Assignment
 {
     PortRef to;
-    Json low, high;
+    const Json *low, *high;
     double amount = 0.0;
     Origin origin;
 };
@@ -84,8 +99,8 @@ struct FlatWire
     bool add = false;
     double gain = 1.0;
     std::optional<Dimension> gain_dimension {};   ///< if the gain has a unit
-    std::string text;
-    Origin origin;
+    Origin origin {};
+    const graph::Wire* written = nullptr;   ///< in the graph, as long as it is being compiled
     Identity identity {};
 };
 
@@ -95,7 +110,8 @@ struct Flat
     std::vector<FlatWire> wires;
     std::vector<Assignment> assignments;                             ///< in order of precedence, lowest first
     std::deque<NodeType> made_types;                                 ///< of bypassed subgraphs
-    std::deque<std::string> made_names;                              ///< of their ports
+    std::deque<std::string> made_names;                              ///< text that stands in no graph: of their ports, of origins
+    std::deque<Place> places;                                        ///< what origins point to
     std::vector<Identity> scopes { { -1, 0 } };                      ///< the graph itself, then the subgraph node of each patch that was expanded
     std::unordered_map<graph::Id, std::vector<graph::Id>> origins;   ///< of copies
     Messages messages;
@@ -112,8 +128,14 @@ struct Flat
     /// True once so much is wrong that nobody reads on; what is found beyond is not kept, so need not be put in words.
     bool isFull() const noexcept { return messages.size() >= 1000; }
 
-    void error (std::string id, const Origin&, std::string text, std::string remedy);
-    void warn (std::string id, const Origin&, std::string text, std::string remedy);
+    Origin at (Origin around, std::string_view name) { return &places.emplace_back (Place { around, name, 0, Place::Kind::name }); }
+    Origin at (Origin around, std::string_view name, std::string_view inner) { return at (at (around, name), inner); }
+    Origin at (Origin around, std::string_view name, int number) { return &places.emplace_back (Place { at (around, name), {}, number, Place::Kind::entry }); }
+    Origin inFile (std::string_view name) { return &places.emplace_back (Place { nullptr, name, 0, Place::Kind::file }); }
+    Origin asIs (Origin around, std::string text) { return &places.emplace_back (Place { around, made_names.emplace_back (std::move (text)), 0, Place::Kind::as_is }); }
+
+    void error (std::string id, Origin, std::string text, std::string remedy);
+    void warn (std::string id, Origin, std::string text, std::string remedy);
 };
 
 }   // namespace tactus::plan

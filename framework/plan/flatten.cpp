@@ -16,28 +16,24 @@ namespace
 constexpr int max_depth = 32;
 constexpr std::size_t max_nodes = 1'000'000;   // subgraphs within subgraphs multiply: a small file can ask for 2^32
 
-Origin at (const Origin& base, std::string_view key)
+/// The members of an object, of anything else none; they stay where they are.
+const Json::object_t& membersOf (const Json& json)
 {
-    std::string escaped;
-    for (const char c : key)
-        escaped += c == '~' ? "~0" : c == '/' ? "~1"
-                                              : std::string (1, c);
-    return { base.file, base.pointer + "/" + escaped };
+    static const Json::object_t none;
+    return json.is_object() ? json.get_ref<const Json::object_t&>() : none;
 }
-
-Origin at (const Origin& base, std::string_view key, std::string_view inner) { return at (at (base, key), inner); }
 
 class Flattener
 {
 public:
-    Flattener (const Catalogue& c, std::vector<Override> o, Assets* a, Flattened& r) : nodes (c), overrides (std::move (o)), assets (a), result (r), flat (r.flat) {}
+    Flattener (const Catalogue& c, std::span<const Override> o, Assets* a, Flattened& r) : nodes (c), overrides (o), assets (a), result (r), flat (r.flat) {}
 
     void runAlone (const graph::Graph& g, const std::string& subgraph)
     {
         result.top = std::make_unique<Scope>();
         result.top->owner = &g;
         result.top->patch = g.find (subgraph);
-        result.top->origin = at (at ({}, "graphs"), subgraph);
+        result.top->origin = at ({}, "graphs", subgraph);
         expand (*result.top, {}, false);
     }
 
@@ -49,7 +45,7 @@ public:
         top->patch = &g.root;
         expand (*top, {}, false);
         if (flat.nodes.size() >= max_nodes)
-            flat.error ("graph/too_large", { "", "/nodes" }, "with its subgraphs expanded the graph has more than " + std::to_string (max_nodes) + " nodes", "use a subgraph fewer times");
+            flat.error ("graph/too_large", at ({}, "nodes"), "with its subgraphs expanded the graph has more than " + std::to_string (max_nodes) + " nodes", "use a subgraph fewer times");
         readControls (g);
         readOverrides();
     }
@@ -58,11 +54,17 @@ private:
     using Roles = std::unordered_map<std::string, std::string>;
 
     const Catalogue& nodes;
-    std::vector<Override> overrides;
+    std::span<const Override> overrides;
     Assets* assets;
     Flattened& result;
     Flat& flat;
     std::vector<const graph::Patch*> open;   // the patches we are inside of
+
+    template <typename... Steps>
+    Origin at (Origin around, Steps... steps)
+    {
+        return flat.at (around, steps...);
+    }
 
     void expand (Scope& scope, const Roles& roles, bool muted)
     {
@@ -85,14 +87,14 @@ private:
         open.pop_back();
     }
 
-    void refuseUnsupported (const graph::Node& node, const Origin& here)
+    void refuseUnsupported (const graph::Node& node, Origin here)
     {
         for (const auto* key : { "count", "every", "times", "hold" })
             if (node.extra.contains (key))
                 flat.error ("graph/not_yet", at (here, key), "'" + node.name + "' asks for `" + key + "`, which this version does not run yet", "remove it, and give each instance a node of its own");
     }
 
-    void addNode (Scope& scope, const graph::Node& node, const Origin& here, const Roles& roles, bool muted, Scope::Member& member)
+    void addNode (Scope& scope, const graph::Node& node, Origin here, const Roles& roles, bool muted, Scope::Member& member)
     {
         const auto* type = nodes.find (node.type);
         if (type == nullptr)
@@ -110,11 +112,11 @@ private:
         auto& made = flat.nodes.back();
         readRole (node, here, roles, made);
         readSettings (scope, node, here, made);
-        for (const auto& [key, value] : node.params.items())
+        for (const auto& [key, value] : membersOf (node.params))
             assign (scope, node.name + "." + key, value, at (here, "params", key), flat.assignments);
     }
 
-    void readRole (const graph::Node& node, const Origin& here, const Roles& roles, FlatNode& made)
+    void readRole (const graph::Node& node, Origin here, const Roles& roles, FlatNode& made)
     {
         if (made.type->bind != nullptr && node.role.empty())
             flat.error ("node/no_role", here, "'" + made.path + "' (" + node.type + ") does not say which device it belongs to", "give it a role, as in \"role\": \"stylus\"");
@@ -124,12 +126,12 @@ private:
         made.role = outer == roles.end() ? node.role : outer->second;
     }
 
-    void readSettings (const Scope& scope, const graph::Node& node, const Origin& here, FlatNode& made)
+    void readSettings (const Scope& scope, const graph::Node& node, Origin here, FlatNode& made)
     {
         for (const auto& sheet : made.type->settings)
             made.settings.push_back (sheet.initial);
 
-        for (const auto& [key, value] : node.settings.items())
+        for (const auto& [key, value] : membersOf (node.settings))
         {
             const auto sheet = std::ranges::find (made.type->settings, key, &SettingSheet::id);
             if (sheet == made.type->settings.end())
@@ -142,10 +144,10 @@ private:
                             is_param ? "it is a parameter: move it to params" : "its settings: " + listed (ids));
                 continue;
             }
-            auto origin = at (here, "settings", key);
-            const auto read = readSetting (value, *sheet, { assets, scope.owner->folder }, origin.pointer);
+            std::string within;
+            const auto read = readSetting (value, *sheet, { assets, scope.owner->folder }, within);
             if (const auto* problem = std::get_if<std::string> (&read))
-                flat.error ("setting/value", origin, "setting '" + key + "' of '" + made.path + "': " + *problem, "`tactus nodes " + node.type + "` says what it takes");
+                flat.error ("setting/value", flat.asIs (at (here, "settings", key), within), "setting '" + key + "' of '" + made.path + "': " + *problem, "`tactus nodes " + node.type + "` says what it takes");
             else
                 made.settings[static_cast<std::size_t> (sheet - made.type->settings.begin())] = std::get<SettingValue> (read);
         }
@@ -161,7 +163,7 @@ private:
                 made.params[p].assign (made.type->params[p].initial, made.type->params[p].initial + 3);
     }
 
-    void addSubgraph (Scope& scope, const graph::Node& node, const Origin& here, const Roles& roles, bool muted, Scope::Member& member)
+    void addSubgraph (Scope& scope, const graph::Node& node, Origin here, const Roles& roles, bool muted, Scope::Member& member)
     {
         auto inside = std::make_unique<Scope>();
         if (! findSubgraph (scope, node, here, *inside)) return;
@@ -181,28 +183,27 @@ private:
         inside->number = static_cast<int> (flat.scopes.size());
         flat.scopes.push_back ({ scope.number, node.id });
         Roles mapped;
-        if (node.roles.is_object())
-            for (const auto& [inner, outer] : node.roles.items())
+        for (const auto& [inner, outer] : membersOf (node.roles))
+        {
+            if (! hasRole (*inside->patch, inner))
+                flat.warn ("node/unknown_role", at (here, "roles", inner), "nothing in '" + scope.prefix + node.name + "' has the role '" + inner + "'", "name a role of the subgraph's device nodes");
+            if (outer.is_string())
             {
-                if (! hasRole (*inside->patch, inner))
-                    flat.warn ("node/unknown_role", at (at (here, "roles"), inner), "nothing in '" + scope.prefix + node.name + "' has the role '" + inner + "'", "name a role of the subgraph's device nodes");
-                if (outer.is_string())
-                {
-                    const auto through = roles.find (outer.get<std::string>());
-                    mapped[inner] = through == roles.end() ? outer.get<std::string>() : through->second;
-                }
-                else
-                    flat.error ("node/bad_roles", at (at (here, "roles"), inner), "role '" + inner + "' of '" + scope.prefix + node.name + "' must be the name of a role", "write { \"" + inner + "\": \"stylus\" }");
+                const auto through = roles.find (outer.get<std::string>());
+                mapped[inner] = through == roles.end() ? outer.get<std::string>() : through->second;
             }
+            else
+                flat.error ("node/bad_roles", at (here, "roles", inner), "role '" + inner + "' of '" + scope.prefix + node.name + "' must be the name of a role", "write { \"" + inner + "\": \"stylus\" }");
+        }
         for (const auto& [inner, outer] : roles)
             mapped.try_emplace (inner, outer);
 
         expand (*inside, mapped, muted || node.bypass);
         member.inside = std::move (inside);
 
-        for (const auto& [key, value] : node.params.items())
+        for (const auto& [key, value] : membersOf (node.params))
             assign (scope, node.name + "." + key, value, at (here, "params", key), flat.assignments);
-        for (const auto& [key, value] : node.overrides.items())
+        for (const auto& [key, value] : membersOf (node.overrides))
             assign (*member.inside, key, value, at (here, "overrides", key), flat.assignments);
         if (node.bypass) bypassSubgraph (scope, node, here, muted, member);
     }
@@ -214,34 +215,33 @@ private:
                                     { return n.role == role || n.type.find (':') != std::string::npos; });
     }
 
-    bool findSubgraph (const Scope& scope, const graph::Node& node, const Origin& here, Scope& inside)
+    bool findSubgraph (const Scope& scope, const graph::Node& node, Origin here, Scope& inside)
     {
-        const auto colon = node.type.find (':');
-        const auto name = node.type.substr (colon + 1);
+        const auto name = std::string_view (node.type).substr (node.type.find (':') + 1);
         if (node.type.starts_with ("graph:"))
         {
             inside.owner = scope.owner;
             inside.patch = scope.owner->find (name);
-            inside.origin = at ({ scope.origin.file, "" }, "graphs", name);
+            inside.origin = at (fileOf (scope.origin), "graphs", name);
             std::vector<std::string> names;
             for (const auto& [id, patch] : scope.owner->graphs)
                 names.push_back (id);
             if (inside.patch == nullptr)
-                flat.error ("graph/unknown_subgraph", at (here, "type"), "there is no subgraph '" + name + "' under `graphs`" + didYouMean (name, names), "subgraphs here: " + listed (names));
+                flat.error ("graph/unknown_subgraph", at (here, "type"), "there is no subgraph '" + std::string (name) + "' under `graphs`" + didYouMean (name, names), "subgraphs here: " + listed (names));
         }
-        else if (const auto file = scope.owner->files.find (name); file != scope.owner->files.end())
+        else if (const auto file = scope.owner->files.find (std::string (name)); file != scope.owner->files.end())
         {
             inside.owner = file->second.get();
             inside.patch = &inside.owner->root;
-            inside.origin = { name, "" };
+            inside.origin = flat.inFile (file->first);
         }
         else
-            flat.error ("graph/unknown_file", at (here, "type"), "the subgraph file '" + name + "' was not loaded", "check the path; it is relative to the file that names it");
+            flat.error ("graph/unknown_file", at (here, "type"), "the subgraph file '" + std::string (name) + "' was not loaded", "check the path; it is relative to the file that names it");
         return inside.patch != nullptr;
     }
 
     /// A bypassed subgraph keeps its exposed ports, as a node whose outputs pass the inputs of the same name.
-    void bypassSubgraph (const Scope& scope, const graph::Node& node, const Origin& here, bool muted, Scope::Member& member)
+    void bypassSubgraph (const Scope& scope, const graph::Node& node, Origin here, bool muted, Scope::Member& member)
     {
         NodeType type {};
         type.info = { .id = "subgraph", .name = "Bypassed subgraph", .summary = "", .source = "" };
@@ -283,7 +283,7 @@ private:
         {
             for (const auto& [name, endpoint] : entries)
             {
-                const auto origin = at (at (at (scope.origin, "expose"), key), name);
+                const auto origin = at (at (scope.origin, "expose", key), name);
                 scope.exposed.push_back ({ role, name, find (endpoint, side, scope, origin, flat) });
             }
         };
@@ -297,7 +297,7 @@ private:
         for (std::size_t i = 0; i < scope.patch->wires.size(); ++i)
         {
             const auto& wire = scope.patch->wires[i];
-            const auto origin = at (scope.origin, "wires", std::to_string (i));
+            const auto origin = at (scope.origin, "wires", static_cast<int> (i));
             if (! wire.origin.empty()) flat.origins.emplace (wire.id, wire.origin);
             const auto before = flat.messages.size();
             const auto from = find (wire.from, Side::start, scope, origin, flat);
@@ -305,7 +305,7 @@ private:
             const auto to = find (wire.to, Side::end, scope, origin, flat);
             if (from_failed || ! to) continue;
 
-            FlatWire w { .from = from, .to = *to, .delay = wire.delay, .add = wire.add, .text = graph::toText (wire), .origin = origin, .identity = { scope.number, wire.id } };
+            FlatWire w { .from = from, .to = *to, .delay = wire.delay, .add = wire.add, .origin = origin, .written = &wire, .identity = { scope.number, wire.id } };
             if (readGain (wire, w) && wireFits (w) && ! muted && wire.enabled.value_or (true))
                 flat.wires.push_back (std::move (w));
         }
@@ -317,7 +317,7 @@ private:
         const auto read = readNumber (wire.gain);
         if (const auto* problem = std::get_if<std::string> (&read))
         {
-            flat.error ("wire/gain", at (w.origin, "gain"), "gain of \"" + w.text + "\": " + *problem, "a number, or text with a unit such as \"1e-4 m/N\"");
+            flat.error ("wire/gain", at (w.origin, "gain"), "gain of \"" + graph::toText (wire) + "\": " + *problem, "a number, or text with a unit such as \"1e-4 m/N\"");
             return false;
         }
         w.gain = std::get<Number> (read).value;
@@ -332,7 +332,7 @@ private:
             if (end && flat.sheet (*end).list && end->index < 0)
             {
                 const auto name = flat.nameOf (*end);
-                flat.error ("wire/which_entry", w.origin, "\"" + w.text + "\" does not say which entry of the array port '" + name + "' it means", "write " + name + "[0]");
+                flat.error ("wire/which_entry", w.origin, "\"" + graph::toText (*w.written) + "\" does not say which entry of the array port '" + name + "' it means", "write " + name + "[0]");
                 return false;
             }
         if (! to.choices.empty())
@@ -355,13 +355,13 @@ private:
         return true;
     }
 
-    void assign (const Scope& scope, std::string_view name, const Json& value, const Origin& origin, std::vector<Assignment>& into)
+    void assign (const Scope& scope, std::string_view name, const Json& value, Origin origin, std::vector<Assignment>& into)
     {
         if (const auto to = target (scope, name, origin))
-            into.push_back ({ *to, value, value, 0.0, origin });
+            into.push_back ({ *to, &value, &value, 0.0, origin });
     }
 
-    std::optional<PortRef> target (const Scope& scope, std::string_view name, const Origin& origin)
+    std::optional<PortRef> target (const Scope& scope, std::string_view name, Origin origin)
     {
         const auto parsed = graph::parseEndpoint (name);
         if (const auto* problem = std::get_if<std::string> (&parsed))
@@ -392,7 +392,7 @@ private:
 
             for (const auto& t : control.to)
                 if (const auto to = target (*result.top, t.path, at (at (origin, "to"), t.path)))
-                    flat.assignments.push_back ({ *to, t.low, t.high, value, at (at (origin, "to"), t.path) });
+                    flat.assignments.push_back ({ *to, &t.low, &t.high, value, at (at (origin, "to"), t.path) });
         }
     }
 
@@ -401,12 +401,12 @@ private:
         const auto& controls = result.top->owner->controls;
         for (const auto& o : overrides)
             if (std::ranges::count (controls, o.name, &graph::Control::id) == 0)
-                assign (*result.top, o.name, o.value, { "", "--set " + o.name }, flat.assignments);
+                assign (*result.top, o.name, o.value, flat.asIs ({}, "--set " + o.name), flat.assignments);
     }
 };
 }   // namespace
 
-Flattened flatten (const graph::Graph& g, const Catalogue& catalogue, const std::vector<Override>& overrides, Assets* assets)
+Flattened flatten (const graph::Graph& g, const Catalogue& catalogue, std::span<const Override> overrides, Assets* assets)
 {
     Flattened result;
     Flattener { catalogue, overrides, assets, result }.run (g);

@@ -4,6 +4,7 @@
 #include "directory.hpp"
 
 #include <set>
+#include <span>
 
 namespace tactus::plan
 {
@@ -23,7 +24,7 @@ struct Flattened
 };
 
 /// Expands, resolves and reads. Unknown node types become placeholders, with the message node/unknown_type.
-Flattened flatten (const graph::Graph&, const Catalogue&, const std::vector<Override>&, Assets*);
+Flattened flatten (const graph::Graph&, const Catalogue&, std::span<const Override>, Assets*);
 
 /// The same for a subgraph that no node uses, as if it stood alone.
 Flattened flattenUnused (const graph::Graph&, const std::string& subgraph, const Catalogue&, Assets*);

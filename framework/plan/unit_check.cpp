@@ -187,7 +187,7 @@ private:
     {
         const auto& sheet = flat.sheet (a.to);
         if (! sheet.choices.empty()) return;
-        for (const auto* json : { &a.low, &a.high })
+        for (const auto* json : { a.low, a.high })
             for (const auto& part : json->is_array() ? *json : Json::array ({ *json }))
             {
                 const auto read = readNumber (part);

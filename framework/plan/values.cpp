@@ -23,16 +23,16 @@ public:
         if (! sheet.choices.empty())
             readChoice (a, sheet, values[0]);
         else if (a.to.index >= 0)
-            set (a, a.low, a.high, sheet, values[static_cast<std::size_t> (a.to.index)]);
+            set (a, *a.low, *a.high, sheet, values[static_cast<std::size_t> (a.to.index)]);
         else if (a.to.component >= 0)
-            set (a, a.low, a.high, sheet, values[static_cast<std::size_t> (a.to.component)]);
-        else if (sheet.list && ! a.low.is_array())
+            set (a, *a.low, *a.high, sheet, values[static_cast<std::size_t> (a.to.component)]);
+        else if (sheet.list && ! a.low->is_array())
             for (auto& v : values)
-                set (a, a.low, a.high, sheet, v);
+                set (a, *a.low, *a.high, sheet, v);
         else if (sheet.list || sheet.width == 3)
             readEach (a, sheet, values);
         else
-            set (a, a.low, a.high, sheet, values[0]);
+            set (a, *a.low, *a.high, sheet, values[0]);
     }
 
 private:
@@ -41,24 +41,24 @@ private:
     void readChoice (const Assignment& a, const PortSheet& sheet, double& value)
     {
         std::vector<std::string> names (sheet.choices.begin(), sheet.choices.end());
-        const auto chosen = a.low.is_string() ? std::ranges::find (names, a.low.get_ref<const std::string&>()) : names.end();
+        const auto chosen = a.low->is_string() ? std::ranges::find (names, a.low->get_ref<const std::string&>()) : names.end();
         if (chosen == names.end())
-            flat.error ("param/unknown_choice", a.origin, "'" + flat.nameOf (a.to) + "' cannot be " + shown (a.low) + (a.low.is_string() ? didYouMean (a.low.get<std::string>(), names) : ""), "one of: " + listed (names));
+            flat.error ("param/unknown_choice", a.origin, "'" + flat.nameOf (a.to) + "' cannot be " + shown (*a.low) + (a.low->is_string() ? didYouMean (a.low->get<std::string>(), names) : ""), "one of: " + listed (names));
         else
             value = static_cast<double> (chosen - names.begin());
     }
 
     void readEach (const Assignment& a, const PortSheet& sheet, std::vector<double>& values)
     {
-        const bool lists = a.low.is_array() && a.high.is_array();
-        if (! lists || a.low.size() != a.high.size() || (sheet.list ? a.low.size() > values.size() : a.low.size() != 3))
+        const bool lists = a.low->is_array() && a.high->is_array();
+        if (! lists || a.low->size() != a.high->size() || (sheet.list ? a.low->size() > values.size() : a.low->size() != 3))
         {
-            flat.error ("param/shape", a.origin, "'" + flat.nameOf (a.to) + "' cannot be " + shown (a.low),
+            flat.error ("param/shape", a.origin, "'" + flat.nameOf (a.to) + "' cannot be " + shown (*a.low),
                         sheet.list ? "a list of at most " + std::to_string (values.size()) + " numbers" : "three numbers, as in [0, 0, 1]");
             return;
         }
-        for (std::size_t i = 0; i < a.low.size(); ++i)
-            set (a, a.low[i], a.high[i], sheet, values[i]);
+        for (std::size_t i = 0; i < a.low->size(); ++i)
+            set (a, (*a.low)[i], (*a.high)[i], sheet, values[i]);
     }
 
     void set (const Assignment& a, const Json& low, const Json& high, const PortSheet& sheet, double& value)
@@ -70,7 +70,7 @@ private:
             if (const auto* problem = std::get_if<std::string> (&read))
             {
                 const std::string symbol (sheet.unit.kind == UnitRule::Kind::fixed ? sheet.unit.unit.symbol : "1");
-                flat.error (a.low.is_string() ? "unit/syntax" : "param/value", a.origin, "'" + flat.nameOf (a.to) + "': " + *problem,
+                flat.error (a.low->is_string() ? "unit/syntax" : "param/value", a.origin, "'" + flat.nameOf (a.to) + "': " + *problem,
                             "give a plain number" + (symbol == "1" ? "" : " in " + symbol) + ", or text with a unit");
                 return;
             }
