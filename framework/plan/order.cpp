@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "order.hpp"
+#include "grouped.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <numeric>
 #include <queue>
+#include <ranges>
 
 namespace tactus::plan
 {
@@ -13,9 +16,8 @@ namespace
 {
 /// Strongly connected components of a graph given by successors, numbered so that each comes after those it leads to
 /// (Tarjan 1972, without recursion, so that a chain of 10^5 nodes does not overflow the stack).
-std::vector<int> components (const std::vector<std::vector<int>>& next)
+std::vector<int> components (std::size_t size, const Grouped<int>& next)
 {
-    const auto size = next.size();
     std::vector<int> number (size, -1), low (size, 0), component (size, -1), path;
     std::vector<std::pair<int, std::size_t>> calls;
     int visited = 0, found = 0;
@@ -68,11 +70,38 @@ std::size_t at (int i) { return static_cast<std::size_t> (i); }
 /// A bypassed node passes its inputs on at once, so it does not peek.
 bool peeks (const FlatNode& n) { return n.type->peek != nullptr && ! n.bypass; }
 
+/// All nodes by their paths. The first eight characters settle nearly all comparisons.
+std::vector<int> sortedByPath (const Flat& flat)
+{
+    struct Entry
+    {
+        std::uint64_t head;
+        int node;
+    };
+    std::vector<Entry> entries;
+    entries.reserve (flat.nodes.size());
+    for (const auto& n : flat.nodes)
+    {
+        std::uint64_t head = 0;
+        for (std::size_t i = 0; i < 8; ++i)
+            head = head << 8 | (i < n.path.size() ? static_cast<unsigned char> (n.path[i]) : 0u);
+        entries.push_back ({ head, static_cast<int> (entries.size()) });
+    }
+    std::ranges::sort (entries, [&] (const Entry& a, const Entry& b)
+                       { return a.head != b.head ? a.head < b.head : flat.nodes[at (a.node)].path < flat.nodes[at (b.node)].path; });
+
+    std::vector<int> sorted;
+    sorted.reserve (entries.size());
+    for (const auto& e : entries)
+        sorted.push_back (e.node);
+    return sorted;
+}
+
 /// True if the wire makes its end wait for its start within a tick.
 bool binds (const Flat& flat, const FlatWire& w) { return w.from && w.delay == 0 && ! peeks (flat.node (*w.from)); }
 
 /// Steps from the nearest node without inputs to each node; what is far from the sources is near the end of a chain.
-std::vector<int> distances (const Flat& flat, const std::vector<std::vector<int>>& next)
+std::vector<int> distances (const Flat& flat, const Grouped<int>& next)
 {
     std::vector<bool> fed (flat.nodes.size(), false);
     for (const auto& w : flat.wires)
@@ -97,7 +126,7 @@ std::vector<int> distances (const Flat& flat, const std::vector<std::vector<int>
 }
 
 /// Wires that bind, by the node they start from.
-using Outgoing = std::vector<std::vector<const FlatWire*>>;
+using Outgoing = Grouped<const FlatWire*>;
 
 /// The shortest loop through `start` that stays within its component, as wires.
 std::vector<const FlatWire*> loopThrough (int start, const Outgoing& out, const std::vector<int>& component)
@@ -121,24 +150,20 @@ std::vector<const FlatWire*> loopThrough (int start, const Outgoing& out, const 
 
 std::string textOf (const Flat& flat, const FlatWire& w, const char* arrow = " -> ") { return flat.nameOf (*w.from) + arrow + flat.nameOf (w.to); }
 
-void reportLoops (Flat& flat, const std::vector<std::vector<int>>& next)
+void reportLoops (Flat& flat, const Grouped<int>& next)
 {
-    const auto component = components (next);
+    const auto component = components (flat.nodes.size(), next);
     const auto distance = distances (flat, next);
-    Outgoing outgoing (flat.nodes.size());
-    for (const auto& w : flat.wires)
-        if (binds (flat, w)) outgoing[at (w.from->node)].push_back (&w);
+    const Outgoing outgoing (flat.nodes.size(), [&] (auto visit)
+                             {
+                                 for (const auto& w : flat.wires)
+                                     if (binds (flat, w)) visit (w.from->node, &w); });
     std::vector<int> members (flat.nodes.size(), 0);
     for (const int c : component)
         ++members[at (c)];
     std::vector<bool> reported (flat.nodes.size(), false);
 
-    std::vector<int> by_path (flat.nodes.size());
-    std::iota (by_path.begin(), by_path.end(), 0);
-    std::ranges::sort (by_path, {}, [&] (int n)
-                       { return flat.nodes[at (n)].path; });
-
-    for (const int n : by_path)
+    for (const int n : sortedByPath (flat))
     {
         const auto c = at (component[at (n)]);
         const bool loops = members[c] > 1 || std::ranges::count (next[at (n)], n) > 0;
@@ -162,29 +187,33 @@ void reportLoops (Flat& flat, const std::vector<std::vector<int>>& next)
 std::vector<int> order (Flat& flat)
 {
     const auto size = flat.nodes.size();
-    std::vector<std::vector<int>> next (size);
     std::vector<int> waiting (size, 0);
-    for (const auto& w : flat.wires)
-        if (binds (flat, w))
-        {
-            next[at (w.from->node)].push_back (w.to.node);
-            ++waiting[at (w.to.node)];
-        }
+    const Grouped<int> next (size, [&] (auto visit)
+                             {
+                                 for (const auto& w : flat.wires)
+                                     if (binds (flat, w)) visit (w.from->node, w.to.node); });
+    for (std::size_t n = 0; n < size; ++n)
+        for (const int m : next[n])
+            ++waiting[at (m)];
 
-    const auto later = [&] (int a, int b)
-    { return flat.nodes[at (a)].path > flat.nodes[at (b)].path; };
-    std::priority_queue<int, std::vector<int>, decltype (later)> ready (later);
-    for (int n = 0; n < static_cast<int> (size); ++n)
-        if (waiting[at (n)] == 0) ready.push (n);
+    const auto by_path = sortedByPath (flat);
+    std::vector<int> rank (size);
+    for (std::size_t r = 0; r < size; ++r)
+        rank[at (by_path[r])] = static_cast<int> (r);
+
+    std::priority_queue<int, std::vector<int>, std::greater<>> ready;   // ranks
+    for (std::size_t n = 0; n < size; ++n)
+        if (waiting[n] == 0) ready.push (rank[n]);
 
     std::vector<int> ordered;
+    ordered.reserve (size);
     while (! ready.empty())
     {
-        const int n = ready.top();
+        const int n = by_path[at (ready.top())];
         ready.pop();
         ordered.push_back (n);
         for (const int m : next[at (n)])
-            if (--waiting[at (m)] == 0) ready.push (m);
+            if (--waiting[at (m)] == 0) ready.push (rank[at (m)]);
     }
     if (ordered.size() < size) reportLoops (flat, next);
     return ordered;
@@ -196,29 +225,33 @@ std::vector<PathDelay> pathDelays (const Flat& flat, const std::vector<int>& nod
     {
         int to, delay;
     };
+    const auto acts = [&] (int n)
+    { return flat.nodes[at (n)].type->effort != nullptr; };
+    const auto reads = [&] (int n)
+    { return flat.nodes[at (n)].type->bind != nullptr && ! acts (n); };
+
     const auto size = flat.nodes.size();
-    std::vector<std::vector<Edge>> edges (size);
-    std::vector<std::vector<int>> next (size);
-    for (const auto& w : flat.wires)
-        if (w.from)
-        {
-            edges[at (w.from->node)].push_back ({ w.to.node, w.delay + node_delays[at (w.from->node)] });
-            next[at (w.from->node)].push_back (w.to.node);
-        }
+    const auto any = [size] (auto is)
+    { return std::ranges::any_of (std::views::iota (0, static_cast<int> (size)), is); };
+    if (! any (acts) || ! any (reads)) return {};
+
+    const Grouped<Edge> edges (size, [&] (auto visit)
+                               {
+                                   for (const auto& w : flat.wires)
+                                       if (w.from) visit (w.from->node, Edge { w.to.node, w.delay + node_delays[at (w.from->node)] }); });
+    const Grouped<int> next (size, [&] (auto visit)
+                             {
+                                 for (const auto& w : flat.wires)
+                                     if (w.from) visit (w.from->node, w.to.node); });
 
     // Components come numbered sinks first; walking them from high to low visits each node after all that lead to it.
-    const auto component = components (next);
+    const auto component = components (size, next);
     std::vector<int> members (size, 0), walk (size);
     for (const int c : component)
         ++members[at (c)];
     std::iota (walk.begin(), walk.end(), 0);
     std::ranges::stable_sort (walk, std::greater {}, [&] (int n)
                               { return component[at (n)]; });
-
-    const auto acts = [&] (int n)
-    { return flat.nodes[at (n)].type->effort != nullptr; };
-    const auto reads = [&] (int n)
-    { return flat.nodes[at (n)].type->bind != nullptr && ! acts (n); };
 
     std::vector<PathDelay> found;
     for (int source = 0; source < static_cast<int> (size); ++source)
