@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "build.hpp"
+#include "grouped.hpp"
 #include "ops.hpp"
+#include "slots.hpp"
 #include "succession.hpp"
 
 #include <algorithm>
 #include <cstring>
 #include <deque>
 #include <limits>
-#include <map>
 #include <new>
 #include <set>
 
@@ -47,18 +48,25 @@ struct Storage
     std::deque<Bypass> bypasses;
 };
 
-/// What drives one component of an input or parameter.
-struct Drivers
+/// Something that drives one component of an input or parameter.
+struct Driver
 {
-    std::vector<Sum::Term> replace, add;
-    const double* feed = nullptr;
+    enum class Kind
+    {
+        replace,
+        add,
+        feed   ///< has the last word
+    };
+
+    Kind kind;
+    Sum::Term term;
 };
 
 class Builder
 {
 public:
     Builder (Flat& f, const PortUnits& u, std::span<const int> o, const Outside& out, const Setup& s, const Plan* b)
-        : flat (f), units (u), order (o), outside (out), setup (s), before (b), succession (f, b, s.rate_hz)
+        : flat (f), units (u), order (o), outside (out), setup (s), before (b), succession (f, b, s.rate_hz), slots (f)
     {
     }
 
@@ -70,6 +78,7 @@ public:
         plan->fed = outside.feeds;
         makeNodes();
         connectDrivers();
+        plan->records.reserve (order.size());
         for (const int n : order)
             if (const auto& node = flat.nodes[at (n)]; ! node.muted)
             {
@@ -94,38 +103,32 @@ private:
     const Setup& setup;
     const Plan* before;
     Succession succession;
+    Slots slots;
 
     std::shared_ptr<Plan> plan = std::make_shared<Plan>();
     std::shared_ptr<Storage> storage;
-    std::vector<std::size_t> output_at, source_at;                // of each node: into the arena, into sources
-    std::map<std::tuple<int, Role, int, int>, Drivers> drivers;   // by node, role, port, slot within the port
+    std::vector<std::size_t> output_at;       // of each node: into the arena
+    std::optional<Grouped<Driver>> drivers;   // by slot; of each slot in the order of the wires, then of the feeds
     std::vector<Record> peeks, writes;
     std::set<std::string> tap_names;
 
     std::byte* outputsOf (int n) { return storage->outputs.bytes + output_at[at (n)]; }
     void* nodeOf (int n) { return plan->instances[at (n)].node.get(); }
 
-    static int slots (const FlatNode& n, const PortSheet& row) { return row.width * (row.list ? n.list_size : 1); }
-
-    /// Where a component stands among the slots of its port.
-    static int slotOf (const PortRef& r, int component, int width) { return std::max (r.index, 0) * width + std::max (component, 0); }
-
     void layOut()
     {
-        std::size_t size = 0, sources = 0;
+        std::size_t size = 0;
+        output_at.reserve (flat.nodes.size());
         for (const auto& n : flat.nodes)
         {
             const auto align = n.type->outputs_align;
             size = (size + align - 1) / align * align;
             output_at.push_back (size);
             size += n.type->outputs_size;
-            source_at.push_back (sources);
-            for (const auto& row : n.type->inputs)
-                sources += at (slots (n, row));
         }
         storage = std::make_shared<Storage> (size);
-        storage->defaults.resize (sources);
-        storage->sources.resize (sources);
+        storage->defaults.resize (slots.inputCount());
+        storage->sources.resize (slots.inputCount());
     }
 
     void makeNodes()
@@ -155,7 +158,7 @@ private:
         else
         {
             instance.serial = newSerial();
-            instance.node = plan::makeNode (n);
+            instance.node = plan::makeNode (flat, i);
         }
         instance.knobs = succession.knobsOf (at (i), plan->takeover);
 
@@ -200,13 +203,13 @@ private:
 
     const double* output (const PortRef& r, int component)
     {
-        return reinterpret_cast<const double*> (outputsOf (r.node) + flat.sheet (r).offset) + slotOf (r, component, flat.sheet (r).width);
+        return reinterpret_cast<const double*> (outputsOf (r.node) + flat.sheet (r).offset) + slotWithin (r, component, flat.sheet (r).width);
     }
-
-    Drivers& driversOf (const PortRef& r, int component) { return drivers[{ r.node, r.role, r.port, slotOf (r, component, flat.sheet (r).width) }]; }
 
     void connectDrivers()
     {
+        std::vector<std::pair<std::size_t, Driver>> all;   // with their slots
+        all.reserve (flat.wires.size() + outside.feeds.size());
         for (int i = 0; i < static_cast<int> (flat.wires.size()); ++i)
         {
             const auto& w = flat.wires[at (i)];
@@ -217,12 +220,15 @@ private:
                 const int to_component = w.to.component >= 0 ? w.to.component : c;
                 const double* from = w.from ? output (*w.from, from_component) : &zero;
                 if (w.delay > 0) from = delayed (from, i, c);
-                auto& d = driversOf (w.to, to_component);
-                (w.add ? d.add : d.replace).push_back ({ from, w.gain });
+                all.push_back ({ slots (w.to, to_component), { w.add ? Driver::Kind::add : Driver::Kind::replace, { from, w.gain } } });
             }
         }
         for (std::size_t f = 0; f < outside.feeds.size(); ++f)
-            if (const auto& port = outside.feeds[f]) driversOf (*port, port->component).feed = &plan->feeds[f];
+            if (const auto& port = outside.feeds[f]) all.push_back ({ slots (*port, port->component), { Driver::Kind::feed, { &plan->feeds[f], 1.0 } } });
+        drivers.emplace (slots.count(), [&] (auto visit)
+                         {
+                             for (const auto& [slot, driver] : all)
+                                 visit (slot, driver); });
     }
 
     const double* delayed (const double* from, int wire, int component)
@@ -235,40 +241,44 @@ private:
         return &d.out;
     }
 
-    /// One value for several wires: the wire itself where there is one without gain, else a sum.
-    const double* joined (std::vector<Sum::Term> terms)
+    /// One value for the drivers of a kind: the wire itself where there is one without gain, else a sum; null for none.
+    const double* joined (std::span<const Driver> all, Driver::Kind kind)
     {
-        if (terms.empty()) return nullptr;
-        if (terms.size() == 1 && terms[0].gain == 1.0) return terms[0].from;
+        const auto is_meant = [kind] (const Driver& d)
+        { return d.kind == kind; };
+        const auto first = std::ranges::find_if (all, is_meant);
+        if (first == all.end()) return nullptr;
+        if (first->term.gain == 1.0 && std::none_of (first + 1, all.end(), is_meant)) return first->term.from;
         auto& s = storage->sums.emplace_back();
-        s.terms = std::move (terms);
+        for (const auto& d : all)
+            if (is_meant (d)) s.terms.push_back (d.term);
         s.scratch.resize (s.terms.size());
         plan->records.push_back ({ &Sum::step, &s, nullptr, nullptr });
         return &s.out;
     }
 
+    static const double* feedAmong (std::span<const Driver> all) { return ! all.empty() && all.back().kind == Driver::Kind::feed ? all.back().term.from : nullptr; }
+
     void connectInputs (int i)
     {
         const auto& n = flat.nodes[at (i)];
-        auto slot = source_at[at (i)];
-        for (std::size_t p = 0; p < n.type->inputs.size(); ++p)
-        {
-            const auto& row = n.type->inputs[p];
-            for (int k = 0; k < slots (n, row); ++k, ++slot)
+        auto slot = slots.firstInput (i);
+        for (const auto& row : n.type->inputs)
+            for (int k = 0; k < n.slots (row); ++k, ++slot)
             {
                 storage->defaults[slot] = row.initial[row.list ? 0 : k];
                 storage->sources[slot] = &storage->defaults[slot];
-                const auto found = drivers.find ({ i, Role::input, static_cast<int> (p), k });
-                if (found == drivers.end()) continue;
-                storage->sources[slot] = found->second.feed ? found->second.feed : joined (found->second.replace);
+                const auto all = (*drivers)[slot];
+                if (all.empty()) continue;
+                const auto* feed = feedAmong (all);
+                storage->sources[slot] = feed ? feed : joined (all, Driver::Kind::replace);
             }
-        }
     }
 
     void addNode (int i)
     {
         const auto& n = flat.nodes[at (i)];
-        const double* const* sources = storage->sources.data() + source_at[at (i)];
+        const double* const* sources = storage->sources.data() + slots.firstInput (i);
         if (n.type->peek) peeks.push_back ({ n.type->peek, nodeOf (i), sources, outputsOf (i) });
 
         auto drives = drivesOf (i);
@@ -281,8 +291,7 @@ private:
         d.type = n.type;
         d.node = nodeOf (i);
         d.drives = std::move (drives);
-        const auto end = at (i) + 1 < source_at.size() ? source_at[at (i) + 1] : storage->sources.size();
-        d.faulted.assign (end - source_at[at (i)], &not_a_number);
+        d.faulted.assign (slots.firstInput (i + 1) - slots.firstInput (i), &not_a_number);
         plan->records.push_back ({ &DrivenNode::step, &d, sources, outputsOf (i) });
     }
 
@@ -291,16 +300,17 @@ private:
         const auto& n = flat.nodes[at (i)];
         auto& instance = plan->instances[at (i)];
         std::vector<DrivenNode::Drive> drives;
-        for (std::size_t p = 0; p < n.params.size(); ++p)
-            for (std::size_t k = 0; k < n.params[p].size(); ++k)
+        auto slot = slots.firstParam (i);
+        for (std::size_t p = 0; p < n.type->params.size(); ++p)
+            for (std::size_t k = 0; k < at (n.slots (n.type->params[p])); ++k, ++slot)
             {
-                const auto found = drivers.find ({ i, Role::param, static_cast<int> (p), static_cast<int> (k) });
-                if (found == drivers.end()) continue;
-                const auto& d = found->second;
+                const auto all = (*drivers)[slot];
+                if (all.empty()) continue;
+                const auto* feed = feedAmong (all);
                 const auto knob = Knobs::indexOf (*n.type, p, k);
                 instance.driven.resize (instance.knobs->all.size());
                 instance.driven[knob] = true;
-                drives.push_back ({ param (i, p, k), &instance.knobs->all[knob].value, d.feed ? d.feed : joined (d.replace), d.feed ? nullptr : joined (d.add), n.type->params[p].limits.hard });
+                drives.push_back ({ param (i, p, k), &instance.knobs->all[knob].value, feed ? feed : joined (all, Driver::Kind::replace), feed ? nullptr : joined (all, Driver::Kind::add), n.type->params[p].limits.hard });
             }
         return drives;
     }
@@ -319,12 +329,12 @@ private:
                 if (in.width == out.width && ! out.list && (in.id == out.id || (in.id == "in" && out.id == "out")))
                     for (int c = 0; c < out.width; ++c)
                         bypass.copies.push_back ({ to + c, passedOn (i, static_cast<int> (&in - n.type->inputs.data()), c, first) });
-                first += at (slots (n, in));
+                first += at (n.slots (in));
             }
             const bool is_factor = out.width == 1 && out.unit.kind == UnitRule::Kind::fixed && out.unit.unit.quantity == Quantity::gain;   // a vector in 1 is a direction
             if (is_factor) *to = 1.0;
         }
-        plan->records.push_back ({ &Bypass::step, &bypass, storage->sources.data() + source_at[at (i)], nullptr });
+        plan->records.push_back ({ &Bypass::step, &bypass, storage->sources.data() + slots.firstInput (i), nullptr });
     }
 
     /// The sources that make up one component of what a bypassed input passes on.
@@ -332,10 +342,10 @@ private:
     {
         const auto& n = flat.nodes[at (i)];
         const auto& in = n.type->inputs[at (port)];
-        std::vector<std::size_t> slots_passed;
-        for (int k = component; k < slots (n, in); k += in.width)
-            if (! in.list || drivers.contains ({ i, Role::input, port, k })) slots_passed.push_back (first + at (k));
-        return slots_passed;
+        std::vector<std::size_t> passed;
+        for (int k = component; k < n.slots (in); k += in.width)
+            if (! in.list || ! (*drivers)[slots.firstInput (i) + first + at (k)].empty()) passed.push_back (first + at (k));
+        return passed;
     }
 
     void addTaps()
@@ -344,7 +354,7 @@ private:
         {
             if (! port)
             {
-                addTap (name, {}, &zero);
+                addTap (name, Quantity::any, "", &zero);
                 continue;
             }
             const auto& row = flat.sheet (*port);
@@ -356,29 +366,24 @@ private:
                 for (int c = every_component ? 0 : port->component; c <= (every_component ? 2 : port->component); ++c)
                 {
                     const PortRef one { port->node, port->role, port->port, i, c };
-                    addTap (every_component ? entry + "." + "xyz"[c] : entry, units (one), valueOf (one));
+                    addTap (every_component ? entry + "." + "xyz"[c] : entry, units (one).quantity, units.symbol (one), valueOf (one));
                 }
             }
         }
     }
 
     /// Nobody wants a column twice.
-    void addTap (const std::string& name, const PortUnits::Found& unit, const double* value)
+    void addTap (const std::string& name, Quantity quantity, std::string symbol, const double* value)
     {
-        if (tap_names.insert (name).second) plan->taps.push_back ({ name, unit.quantity, unit.symbol, value });
+        if (tap_names.insert (name).second) plan->taps.push_back ({ name, quantity, std::move (symbol), value });
     }
 
     const double* valueOf (const PortRef& r)
     {
         const auto& n = flat.node (r);
-        const int slot = slotOf (r, r.component, flat.sheet (r).width);
         if (r.role == Role::output) return output (r, r.component);
-        if (r.role == Role::param) return n.type->make ? param (r.node, at (r.port), at (slot)) : &zero;
-
-        auto first = source_at[at (r.node)];
-        for (int p = 0; p < r.port; ++p)
-            first += at (slots (n, n.type->inputs[at (p)]));
-        return n.muted ? &zero : storage->sources[first + at (slot)];
+        if (r.role == Role::param) return n.type->make ? param (r.node, at (r.port), at (slotWithin (r, r.component, flat.sheet (r).width))) : &zero;
+        return n.muted ? &zero : storage->sources[slots (r, r.component)];
     }
 
     /// For the plan after this one; without what only messages were in need of.
@@ -411,18 +416,20 @@ private:
 };
 }   // namespace
 
-std::shared_ptr<void> makeNode (const FlatNode& n)
+std::shared_ptr<void> makeNode (const Flat& flat, int number)
 {
+    const auto& n = flat.nodes[at (number)];
     if (! n.type->make) return nullptr;
     auto node = n.type->make();
-    for (std::size_t p = 0; p < n.params.size(); ++p)
+    for (std::size_t p = 0; p < n.type->params.size(); ++p)
     {
+        const auto values = flat.param (number, p);
         auto* target = static_cast<std::byte*> (n.type->paramsOf (node.get())) + n.type->params[p].offset;
         if (n.type->params[p].choices.empty())
-            std::ranges::copy (n.params[p], reinterpret_cast<double*> (target));
+            std::ranges::copy (values, reinterpret_cast<double*> (target));
         else
         {
-            const int chosen = static_cast<int> (n.params[p][0]);
+            const int chosen = static_cast<int> (values[0]);
             std::memcpy (target, &chosen, sizeof chosen);
         }
     }

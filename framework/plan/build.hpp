@@ -26,7 +26,7 @@ struct Outside
 };
 
 /// A node with its params and settings in place, not yet prepared; null for a bypassed subgraph.
-std::shared_ptr<void> makeNode (const FlatNode&);
+std::shared_ptr<void> makeNode (const Flat&, int number);
 
 /// Makes the nodes, lays out their outputs, and writes the records in the given order. For a graph without errors, which
 /// goes over into the plan. The plan before is null, or the one this is to take over from.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compile.hpp"
 #include "build.hpp"
+#include "slots.hpp"
 
 #include <framework/graph/text.hpp>
 
@@ -35,17 +36,22 @@ bool addsUp (Quantity q) { return q == Quantity::force || q == Quantity::torque 
 /// Several wires into one place add up if the quantity does; else it is an error that names both.
 void checkFanIn (Flat& flat, const PortUnits& units)
 {
-    std::map<std::tuple<int, Role, int, int, int>, const FlatWire*> taken;
+    const Slots slots (flat);
+    std::vector<const FlatWire*> taken (slots.count(), nullptr);
     for (const auto& w : flat.wires)
     {
         if (w.add || (w.to.role == Role::input && addsUp (units (w.to).quantity))) continue;
         const int first = w.to.component >= 0 ? w.to.component : 0;
         for (int c = first; c < first + flat.widthOf (w.to); ++c)
         {
-            const auto [other, fresh] = taken.try_emplace ({ w.to.node, w.to.role, w.to.port, w.to.index, c }, &w);
-            if (fresh) continue;
+            auto*& other = taken[slots (w.to, c)];
+            if (other == nullptr)
+            {
+                other = &w;
+                continue;
+            }
             const auto& quantity = units (w.to).quantity;
-            flat.error ("wire/two_into_one", w.origin, "\"" + toText (*other->second->written) + "\" and \"" + toText (*w.written) + "\" both end at '" + flat.nameOf (w.to) + "', and a " + (quantity == Quantity::any ? "value" : std::string (name (quantity))) + " does not add up",
+            flat.error ("wire/two_into_one", w.origin, "\"" + toText (*other->written) + "\" and \"" + toText (*w.written) + "\" both end at '" + flat.nameOf (w.to) + "', and a " + (quantity == Quantity::any ? "value" : std::string (name (quantity))) + " does not add up",
                         w.to.role == Role::param ? "add the second with (+), or remove one" : "join them in a signal.add or vector.add, or remove one");
             break;
         }
@@ -55,11 +61,12 @@ void checkFanIn (Flat& flat, const PortUnits& units)
 /// Nodes that look at their own settings are asked what is wrong with them, and what will not come out at this rate.
 void askNodes (Flat& flat, const Setup& setup)
 {
-    for (const auto& n : flat.nodes)
+    for (int i = 0; i < static_cast<int> (flat.nodes.size()); ++i)
     {
+        const auto& n = flat.nodes[static_cast<std::size_t> (i)];
         if (! n.type->problem && ! n.type->warning) continue;
         const std::string id (n.type->info.id), remedy = "`tactus nodes " + id + "` says what it takes";
-        const auto node = makeNode (n);
+        const auto node = makeNode (flat, i);
         const auto problem = n.type->problem ? n.type->problem (node.get()) : std::string {};
         if (! problem.empty())
             flat.error ("node/problem", n.origin, "'" + n.path + "' (" + id + "): " + problem, remedy);

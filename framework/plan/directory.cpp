@@ -11,20 +11,21 @@ namespace
 {
 constexpr const char* component_names[] = { ".x", ".y", ".z" };
 
-std::vector<Role> rolesOf (Side side)
+std::span<const Role> rolesOf (Side side) noexcept
 {
+    static constexpr Role all[] = { Role::output, Role::input, Role::param };
     switch (side)
     {
     case Side::start:
-        return { Role::output };
+        return std::span (all).first (1);
     case Side::end:
-        return { Role::input, Role::param };
+        return std::span (all).last (2);
     case Side::param:
-        return { Role::param };
+        return std::span (all).last (1);
     case Side::record:
         break;
     }
-    return { Role::output, Role::input, Role::param };
+    return all;
 }
 
 const char* withArticle (Role role) { return role == Role::input ? "an input" : role == Role::param ? "a parameter"
@@ -56,19 +57,19 @@ struct Finder
     std::optional<PortRef> in (const Scope& scope, const graph::Endpoint& e) const
     {
         const auto slash = e.node.find ('/');
-        const std::string head = e.node.substr (0, slash);
+        const auto head = std::string_view (e.node).substr (0, slash);
         const auto member = scope.members.find (head);
         if (member == scope.members.end())
         {
             if (flat.isFull()) return {};
             if (head.find ('[') != std::string::npos)
-                flat.error ("graph/not_yet", origin, "'" + scope.prefix + head + "' addresses one of several instances, which this version does not run", "give each a node of its own");
+                flat.error ("graph/not_yet", origin, "'" + scope.prefix + std::string (head) + "' addresses one of several instances, which this version does not run", "give each a node of its own");
             else
             {
                 std::vector<std::string> names;
                 for (const auto& n : scope.patch->nodes)
                     names.push_back (n.name);
-                flat.error ("port/unknown_node", origin, "there is no node '" + scope.prefix + head + "'" + didYouMean (head, names), "nodes here: " + listed (names));
+                flat.error ("port/unknown_node", origin, "there is no node '" + scope.prefix + std::string (head) + "'" + didYouMean (head, names), "nodes here: " + listed (names));
             }
             return {};
         }
@@ -78,7 +79,7 @@ struct Finder
         {
             if (inside) return in (*inside, { e.node.substr (slash + 1), e.port, e.index, e.component });
             if (node >= 0)
-                flat.error ("port/not_a_subgraph", origin, "'" + scope.prefix + head + "' is a node, so nothing lies inside it", "address it as " + head + "." + e.port);
+                flat.error ("port/not_a_subgraph", origin, "'" + scope.prefix + std::string (head) + "' is a node, so nothing lies inside it", "address it as " + std::string (head) + "." + e.port);
             return {};
         }
         if (node >= 0) return amongRows (node, e);

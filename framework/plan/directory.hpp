@@ -40,7 +40,7 @@ struct Scope
     std::string prefix;   // of paths
     int number = 0;       // in Flat::scopes
     Origin origin {};     // of the patch
-    std::unordered_map<std::string, Member> members;
+    std::unordered_map<std::string_view, Member> members;
     std::vector<Exposed> exposed;
 };
 

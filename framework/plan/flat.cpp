@@ -46,6 +46,15 @@ Origin fileOf (Origin place) noexcept
     return place;
 }
 
+std::span<double> Flat::param (int node, std::size_t row) noexcept
+{
+    const auto& n = nodes[static_cast<std::size_t> (node)];
+    auto first = n.values;
+    for (std::size_t p = 0; p < row; ++p)
+        first += static_cast<std::size_t> (n.slots (n.type->params[p]));
+    return { values.data() + first, static_cast<std::size_t> (n.slots (n.type->params[row])) };
+}
+
 std::string Flat::nameOf (const PortRef& r) const
 {
     auto name = node (r).path + "." + std::string (sheet (r).id);

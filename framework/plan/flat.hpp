@@ -10,6 +10,7 @@
 
 #include <deque>
 #include <optional>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -79,7 +80,7 @@ struct FlatNode
     bool bypass = false;
     bool muted = false;   ///< inside a bypassed subgraph: takes no part
     std::vector<SettingValue> settings {};
-    std::vector<std::vector<double>> params {};   ///< by row; components of a vector, entries of an array port
+    std::size_t values = 0;   ///< where those of its params begin in Flat::values
     int list_size = 0;
 
     bool runs() const noexcept { return ! muted && ! bypass; }
@@ -89,6 +90,9 @@ struct FlatNode
         return role_ == Role::input ? type->inputs : role_ == Role::param ? type->params
                                                                           : type->outputs;
     }
+
+    /// How many numbers a row stands for: the components of a vector, the entries of an array port.
+    int slots (const PortSheet& row) const noexcept { return row.width * (row.list ? list_size : 1); }
 };
 
 struct FlatWire
@@ -108,6 +112,7 @@ struct Flat
 {
     std::vector<FlatNode> nodes;   ///< in file order, a subgraph's nodes where it stands
     std::vector<FlatWire> wires;
+    std::vector<double> values;                                      ///< of all params, node by node and row by row
     std::vector<Assignment> assignments;                             ///< in order of precedence, lowest first
     std::deque<NodeType> made_types;                                 ///< of bypassed subgraphs
     std::deque<std::string> made_names;                              ///< text that stands in no graph: of their ports, of origins
@@ -118,6 +123,10 @@ struct Flat
 
     const PortSheet& sheet (const PortRef& r) const { return nodes[static_cast<std::size_t> (r.node)].ports (r.role)[static_cast<std::size_t> (r.port)]; }
     const FlatNode& node (const PortRef& r) const { return nodes[static_cast<std::size_t> (r.node)]; }
+
+    /// The values of a node's param.
+    std::span<double> param (int node, std::size_t row) noexcept;
+    std::span<const double> param (int node, std::size_t row) const noexcept { return const_cast<Flat*> (this)->param (node, row); }
 
     /// "grain/wave.phase", "mix.in[2]", "hand.position.x".
     std::string nameOf (const PortRef&) const;

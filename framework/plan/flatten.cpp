@@ -16,6 +16,13 @@ namespace
 constexpr int max_depth = 32;
 constexpr std::size_t max_nodes = 1'000'000;   // subgraphs within subgraphs multiply: a small file can ask for 2^32
 
+/// Room for more, which many small steps do not move each time.
+template <typename T>
+void makeRoom (std::vector<T>& all, std::size_t more)
+{
+    if (all.size() + more > all.capacity()) all.reserve (std::max (all.size() + more, 2 * all.capacity()));
+}
+
 /// The members of an object, of anything else none; they stay where they are.
 const Json::object_t& membersOf (const Json& json)
 {
@@ -70,6 +77,9 @@ private:
     {
         open.push_back (scope.patch);
         result.used.insert (scope.patch);
+        makeRoom (flat.nodes, scope.patch->nodes.size());
+        makeRoom (flat.wires, scope.patch->wires.size());
+        scope.members.reserve (scope.patch->nodes.size());
         for (const auto& node : scope.patch->nodes)
         {
             if (flat.nodes.size() >= max_nodes || flat.isFull()) break;
@@ -113,7 +123,19 @@ private:
         readRole (node, here, roles, made);
         readSettings (scope, node, here, made);
         for (const auto& [key, value] : membersOf (node.params))
-            assign (scope, node.name + "." + key, value, at (here, "params", key), flat.assignments);
+            assignOwn (scope, node, member.node, key, value, at (here, "params", key));
+    }
+
+    /// What stands under a node's own params is nearly always a row of its datasheet; what else it may be, an entry or a
+    /// mistake, is read as any address is.
+    void assignOwn (const Scope& scope, const graph::Node& node, int number, const std::string& key, const Json& value, Origin origin)
+    {
+        const auto& rows = flat.nodes[static_cast<std::size_t> (number)].type->params;
+        const auto row = std::ranges::find (rows, key, &PortSheet::id);
+        if (row != rows.end() && graph::isId (node.name))
+            flat.assignments.push_back ({ { number, Role::param, static_cast<int> (row - rows.begin()) }, &value, &value, 0.0, origin });
+        else
+            assign (scope, node.name + "." + key, value, origin);
     }
 
     void readRole (const graph::Node& node, Origin here, const Roles& roles, FlatNode& made)
@@ -156,11 +178,16 @@ private:
             if (made.type->settings[i].id == "inputs")
                 made.list_size = static_cast<int> (std::get<double> (made.settings[i]));
 
+        addValues (made);
+    }
+
+    /// The values of its params, as the datasheet has them.
+    void addValues (FlatNode& made)
+    {
+        made.values = flat.values.size();
         for (const auto& row : made.type->params)
-            made.params.emplace_back (row.list ? static_cast<std::size_t> (made.list_size) : static_cast<std::size_t> (row.width), row.initial[0]);
-        for (std::size_t p = 0; p < made.params.size(); ++p)
-            if (made.type->params[p].width == 3)
-                made.params[p].assign (made.type->params[p].initial, made.type->params[p].initial + 3);
+            for (int k = 0; k < made.slots (row); ++k)
+                flat.values.push_back (row.initial[row.list ? 0 : k]);
     }
 
     void addSubgraph (Scope& scope, const graph::Node& node, Origin here, const Roles& roles, bool muted, Scope::Member& member)
@@ -202,9 +229,9 @@ private:
         member.inside = std::move (inside);
 
         for (const auto& [key, value] : membersOf (node.params))
-            assign (scope, node.name + "." + key, value, at (here, "params", key), flat.assignments);
+            assign (scope, node.name + "." + key, value, at (here, "params", key));
         for (const auto& [key, value] : membersOf (node.overrides))
-            assign (*member.inside, key, value, at (here, "overrides", key), flat.assignments);
+            assign (*member.inside, key, value, at (here, "overrides", key));
         if (node.bypass) bypassSubgraph (scope, node, here, muted, member);
     }
 
@@ -273,8 +300,7 @@ private:
         member.node = static_cast<int> (flat.nodes.size());
         flat.nodes.push_back ({ .path = scope.prefix + node.name, .identity = { scope.number, node.id }, .type = &flat.made_types.back(), .origin = here, .bypass = true, .muted = muted });
         flat.nodes.back().list_size = list_size;
-        for (const auto& row : flat.made_types.back().params)
-            flat.nodes.back().params.emplace_back (static_cast<std::size_t> (row.list ? list_size : row.width), row.initial[0]);
+        addValues (flat.nodes.back());
     }
 
     void expose (Scope& scope)
@@ -355,10 +381,10 @@ private:
         return true;
     }
 
-    void assign (const Scope& scope, std::string_view name, const Json& value, Origin origin, std::vector<Assignment>& into)
+    void assign (const Scope& scope, std::string_view name, const Json& value, Origin origin)
     {
         if (const auto to = target (scope, name, origin))
-            into.push_back ({ *to, &value, &value, 0.0, origin });
+            flat.assignments.push_back ({ *to, &value, &value, 0.0, origin });
     }
 
     std::optional<PortRef> target (const Scope& scope, std::string_view name, Origin origin)
@@ -401,7 +427,7 @@ private:
         const auto& controls = result.top->owner->controls;
         for (const auto& o : overrides)
             if (std::ranges::count (controls, o.name, &graph::Control::id) == 0)
-                assign (*result.top, o.name, o.value, flat.asIs ({}, "--set " + o.name), flat.assignments);
+                assign (*result.top, o.name, o.value, flat.asIs ({}, "--set " + o.name));
     }
 };
 }   // namespace

@@ -88,10 +88,12 @@ bool sameShape (const NodeType& a, const NodeType& b)
     return alike (a.inputs, b.inputs) && alike (a.params, b.params) && alike (a.outputs, b.outputs);
 }
 
-bool choosesOtherwise (const FlatNode& a, const FlatNode& b)
+/// Of two nodes of a type.
+bool choosesOtherwise (const Flat& a, std::size_t i, const Flat& b, std::size_t j)
 {
-    for (std::size_t p = 0; p < a.params.size(); ++p)
-        if (! a.type->params[p].choices.empty() && a.params[p] != b.params[p]) return true;
+    const auto& params = a.nodes[i].type->params;
+    for (std::size_t p = 0; p < params.size(); ++p)
+        if (! params[p].choices.empty() && a.param (static_cast<int> (i), p)[0] != b.param (static_cast<int> (j), p)[0]) return true;
     return false;
 }
 
@@ -136,28 +138,33 @@ const Instance* Succession::heritageOf (std::size_t i) const noexcept
 std::shared_ptr<Knobs> Succession::knobsOf (std::size_t i, Takeover& takeover) const
 {
     const auto& n = flat.nodes[i];
-    if (n.type->make == nullptr || n.params.empty()) return nullptr;
+    if (n.type->make == nullptr || n.type->params.empty()) return nullptr;
 
     const auto* heritage = heritageOf (i);
     if (heritage == nullptr)
     {
         auto knobs = std::make_shared<Knobs> (*n.type);
         std::size_t k = 0;
-        for (std::size_t p = 0; p < n.params.size(); ++p)
+        for (std::size_t p = 0; p < n.type->params.size(); ++p)
+        {
+            const auto values = flat.param (static_cast<int> (i), p);
             for (std::size_t c = 0; c < Knobs::roomOf (n.type->params[p]); ++c, ++k)
             {
                 auto& knob = knobs->all[k];
-                knob.value = c < n.params[p].size() ? n.params[p][c] : n.type->params[p].initial[0];
+                knob.value = c < values.size() ? values[c] : n.type->params[p].initial[0];
                 knob.target.store (knob.value, std::memory_order_relaxed);
             }
+        }
         return knobs;
     }
 
-    const auto& old = before->flat.nodes[at (heirs.nodes[i])].params;
     std::size_t first = 0;
-    for (std::size_t p = 0; p < n.params.size(); first += Knobs::roomOf (n.type->params[p++]))
-        for (std::size_t c = 0; c < n.params[p].size(); ++c)
-            if (const bool fresh = c >= old[p].size(); fresh || n.params[p][c] != old[p][c]) takeover.changes.push_back ({ i, first + c, n.params[p][c], fresh });
+    for (std::size_t p = 0; p < n.type->params.size(); first += Knobs::roomOf (n.type->params[p++]))
+    {
+        const auto values = flat.param (static_cast<int> (i), p), old = before->flat.param (heirs.nodes[i], p);
+        for (std::size_t c = 0; c < values.size(); ++c)
+            if (const bool fresh = c >= old.size(); fresh || values[c] != old[c]) takeover.changes.push_back ({ i, first + c, values[c], fresh });
+    }
     return heritage->knobs;
 }
 
@@ -199,7 +206,7 @@ std::vector<bool> Succession::changed (const Plan& plan) const
         if (! going[i]) continue;
         const auto heir = at (heirs.nodes[i]);
         const auto &n = plan.flat.nodes[i], &o = before->flat.nodes[heir];
-        all[i] = n.runs() != o.runs() || n.bypass != o.bypass || choosesOtherwise (n, o) || ! std::ranges::equal (now[i], then[heir]);
+        all[i] = n.runs() != o.runs() || n.bypass != o.bypass || choosesOtherwise (plan.flat, i, before->flat, heir) || ! std::ranges::equal (now[i], then[heir]);
     }
     return all;
 }

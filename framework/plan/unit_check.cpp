@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "unit_check.hpp"
+#include "grouped.hpp"
 #include "values.hpp"
 
+#include <bit>
 #include <numeric>
-#include <set>
+#include <utility>
 
 namespace tactus::plan
 {
@@ -134,11 +136,11 @@ private:
     void stateDatasheet (int node)
     {
         const auto& n = flat.nodes[static_cast<std::size_t> (node)];
+        int next = variable.firstOf (node);
         for (const auto role : { Role::input, Role::param, Role::output })
-            for (int i = 0; i < static_cast<int> (n.ports (role).size()); ++i)
+            for (const auto& row : n.ports (role))
             {
-                const auto& row = n.ports (role)[static_cast<std::size_t> (i)];
-                const int v = variable ({ node, role, i, -1, -1 });
+                const int v = std::exchange (next, next + PortNumbers::entries (n, row));
                 if (row.unit.kind != UnitRule::Kind::fixed && row.unit.kind != UnitRule::Kind::product)
                     std::fill_n (generic.begin() + v, PortNumbers::entries (n, row), true);
                 if (row.unit.kind == UnitRule::Kind::fixed)
@@ -187,25 +189,33 @@ private:
     {
         const auto& sheet = flat.sheet (a.to);
         if (! sheet.choices.empty()) return;
-        for (const auto* json : { a.low, a.high })
-            for (const auto& part : json->is_array() ? *json : Json::array ({ *json }))
-            {
-                const auto read = readNumber (part);
-                const auto* number = std::get_if<Number> (&read);
-                if (number == nullptr || ! number->dimension) continue;
-                const int v = variable (a.to);
-                if (! dimensions.state (v, *number->dimension))
-                {
-                    flat.error ("param/unit", a.origin, "'" + flat.nameOf (a.to) + "' is in " + symbolOf (*dimensions.dimension (v)) + ", but " + shown (part) + " is in " + symbolOf (*number->dimension),
-                                "give it in " + symbolOf (*dimensions.dimension (v)) + ", or as a plain SI number");
-                    return;
-                }
-                if (miscounts (*number, sheet.unit))
-                {
-                    flat.error ("param/unit", a.origin, "'" + flat.nameOf (a.to) + "': " + miscount (part, sheet.unit), "divide by that, and give it in " + std::string (sheet.unit.unit.symbol));
-                    return;
-                }
-            }
+        const auto all = [&] (const Json& json)
+        { return json.is_array() ? std::ranges::all_of (json, [&] (const Json& part)
+                                                        { return fits (a, sheet, part); })
+                                 : fits (a, sheet, json); };
+        if (all (*a.low) && a.high != a.low) all (*a.high);
+    }
+
+    /// False, with a message, if a number has a unit that is not the param's.
+    bool fits (const Assignment& a, const PortSheet& sheet, const Json& json)
+    {
+        if (! json.is_string()) return true;
+        const auto read = readNumber (json);
+        const auto* number = std::get_if<Number> (&read);
+        if (number == nullptr || ! number->dimension) return true;
+        const int v = variable (a.to);
+        if (! dimensions.state (v, *number->dimension))
+        {
+            flat.error ("param/unit", a.origin, "'" + flat.nameOf (a.to) + "' is in " + symbolOf (*dimensions.dimension (v)) + ", but " + shown (json) + " is in " + symbolOf (*number->dimension),
+                        "give it in " + symbolOf (*dimensions.dimension (v)) + ", or as a plain SI number");
+            return false;
+        }
+        if (miscounts (*number, sheet.unit))
+        {
+            flat.error ("param/unit", a.origin, "'" + flat.nameOf (a.to) + "': " + miscount (json, sheet.unit), "divide by that, and give it in " + std::string (sheet.unit.unit.symbol));
+            return false;
+        }
+        return true;
     }
 
     /// Products carry dimensions forward, and backward where a single factor is unknown. Each pass that changes
@@ -260,35 +270,38 @@ private:
     /// joins two by itself. Nothing here depends on the order of the wires.
     void nameQuantities()
     {
-        std::vector<std::vector<int>> neighbours (static_cast<std::size_t> (variable.count()));
-        for (const auto& l : links)
-        {
-            neighbours[static_cast<std::size_t> (l.a)].push_back (l.b);
-            neighbours[static_cast<std::size_t> (l.b)].push_back (l.a);
-        }
+        const Grouped<int> neighbours (static_cast<std::size_t> (variable.count()), [this] (auto visit)
+                                       {
+                                           for (const auto& l : links)
+                                           {
+                                               visit (l.a, l.b);
+                                               visit (l.b, l.a);
+                                           } });
 
         std::vector<Quantity> expected (static_cast<std::size_t> (variable.count()), Quantity::any);
         std::vector<bool> seen = generic;
         seen.flip();
+        std::vector<int> together;
         for (int start = 0; start < variable.count(); ++start)
         {
             if (seen[static_cast<std::size_t> (start)]) continue;
             seen[static_cast<std::size_t> (start)] = true;
-            std::vector<int> together { start };
-            std::set<Quantity> found;
+            together = { start };
+            unsigned found = 0;   // a bit each, in the order of the enum
             for (std::size_t i = 0; i < together.size(); ++i)
                 for (const int n : neighbours[static_cast<std::size_t> (together[i])])
                 {
-                    if (! generic[static_cast<std::size_t> (n)]) found.insert (quantity[static_cast<std::size_t> (n)]);
+                    if (! generic[static_cast<std::size_t> (n)]) found |= 1u << static_cast<unsigned> (quantity[static_cast<std::size_t> (n)]);
                     if (seen[static_cast<std::size_t> (n)]) continue;
                     seen[static_cast<std::size_t> (n)] = true;
                     together.push_back (n);
                 }
-            found.erase (Quantity::any);
+            found &= ~(1u << static_cast<unsigned> (Quantity::any));
+            const auto first = found == 0 ? Quantity::any : static_cast<Quantity> (std::countr_zero (found));
             for (const int v : together)
             {
-                expected[static_cast<std::size_t> (v)] = found.empty() ? Quantity::any : *found.begin();
-                quantity[static_cast<std::size_t> (v)] = found.size() == 1 ? *found.begin() : Quantity::any;
+                expected[static_cast<std::size_t> (v)] = first;
+                quantity[static_cast<std::size_t> (v)] = std::has_single_bit (found) ? first : Quantity::any;
             }
         }
         for (const auto& l : links)
@@ -309,20 +322,9 @@ private:
     PortUnits result()
     {
         PortUnits units { variable, {} };
+        units.found.reserve (static_cast<std::size_t> (variable.count()));
         for (int v = 0; v < variable.count(); ++v)
-        {
-            PortUnits::Found f { quantity[static_cast<std::size_t> (v)], dimensions.dimension (v), "" };
-            if (f.dimension) f.symbol = symbolOf (*f.dimension);
-            units.found.push_back (std::move (f));
-        }
-        for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
-            for (const auto role : { Role::input, Role::param, Role::output })
-                for (int i = 0; i < static_cast<int> (flat.nodes[static_cast<std::size_t> (n)].ports (role).size()); ++i)
-                {
-                    const PortRef r { n, role, i, -1, -1 };
-                    const auto& row = flat.sheet (r);
-                    if (row.unit.kind == UnitRule::Kind::fixed) units.found[static_cast<std::size_t> (variable (r))].symbol = row.unit.unit.symbol;
-                }
+            units.found.push_back ({ quantity[static_cast<std::size_t> (v)], dimensions.dimension (v) });
         return units;
     }
 };
@@ -330,13 +332,16 @@ private:
 
 PortNumbers::PortNumbers (const Flat& f) : flat (&f)
 {
+    first.reserve (f.nodes.size() + 1);
+    int next = 0;
     for (const auto& n : f.nodes)
     {
-        first.push_back (total);
+        first.push_back (next);
         for (const auto role : { Role::input, Role::param, Role::output })
             for (const auto& row : n.ports (role))
-                total += entries (n, row);
+                next += entries (n, row);
     }
+    first.push_back (next);
 }
 
 int PortNumbers::entries (const FlatNode& n, const PortSheet& row) noexcept
@@ -344,7 +349,7 @@ int PortNumbers::entries (const FlatNode& n, const PortSheet& row) noexcept
     return row.list && row.unit.kind == UnitRule::Kind::each ? n.list_size : 1;
 }
 
-int PortNumbers::operator() (const PortRef& r) const
+int PortNumbers::operator() (const PortRef& r) const noexcept
 {
     const auto& n = flat->node (r);
     int number = first[static_cast<std::size_t> (r.node)];
@@ -357,6 +362,14 @@ int PortNumbers::operator() (const PortRef& r) const
             ++i;
         }
     return number;
+}
+
+std::string PortUnits::symbol (const PortRef& r) const
+{
+    const auto& row = number.flat->sheet (r);
+    if (row.unit.kind == UnitRule::Kind::fixed) return std::string (row.unit.unit.symbol);
+    const auto& dimension = (*this) (r).dimension;
+    return dimension ? symbolOf (*dimension) : "";
 }
 
 PortUnits checkUnits (Flat& flat) { return UnitCheck { flat }.run(); }

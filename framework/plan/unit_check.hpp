@@ -12,29 +12,32 @@ class PortNumbers
 public:
     explicit PortNumbers (const Flat&);
 
-    int operator() (const PortRef&) const;
-    int count() const noexcept { return total; }
+    int operator() (const PortRef&) const noexcept;
+    int firstOf (int node) const noexcept { return first[static_cast<std::size_t> (node)]; }
+    int count() const noexcept { return first.back(); }
 
     static int entries (const FlatNode&, const PortSheet&) noexcept;
 
-private:
     const Flat* flat;
-    std::vector<int> first;   // of each node
-    int total = 0;
+
+private:
+    std::vector<int> first;   // of each node, and the end
 };
 
 /// The unit of each port of a flat graph: stated by the datasheet, or inferred for generic nodes.
 struct PortUnits
 {
-    /// The quantity and SI symbol of a port; "any" and "" where nothing says what it carries.
+    /// "any" and nothing where nothing says what a port carries.
     struct Found
     {
         Quantity quantity = Quantity::any;
-        std::optional<Dimension> dimension;
-        std::string symbol;
+        std::optional<Dimension> dimension {};
     };
 
     const Found& operator() (const PortRef& r) const { return found[static_cast<std::size_t> (number (r))]; }
+
+    /// In SI; "" where nothing says.
+    std::string symbol (const PortRef&) const;
 
     PortNumbers number;
     std::vector<Found> found;

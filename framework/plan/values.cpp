@@ -18,7 +18,7 @@ public:
     void read (const Assignment& a)
     {
         const auto& sheet = flat.sheet (a.to);
-        auto& values = flat.nodes[static_cast<std::size_t> (a.to.node)].params[static_cast<std::size_t> (a.to.port)];
+        const auto values = flat.param (a.to.node, static_cast<std::size_t> (a.to.port));
 
         if (! sheet.choices.empty())
             readChoice (a, sheet, values[0]);
@@ -48,7 +48,7 @@ private:
             value = static_cast<double> (chosen - names.begin());
     }
 
-    void readEach (const Assignment& a, const PortSheet& sheet, std::vector<double>& values)
+    void readEach (const Assignment& a, const PortSheet& sheet, std::span<double> values)
     {
         const bool lists = a.low->is_array() && a.high->is_array();
         if (! lists || a.low->size() != a.high->size() || (sheet.list ? a.low->size() > values.size() : a.low->size() != 3))
@@ -64,7 +64,7 @@ private:
     void set (const Assignment& a, const Json& low, const Json& high, const PortSheet& sheet, double& value)
     {
         double ends[2];
-        for (int i = 0; i < 2; ++i)
+        for (int i = 0; i < (&high == &low ? 1 : 2); ++i)
         {
             const auto read = readNumber (i == 0 ? low : high);
             if (const auto* problem = std::get_if<std::string> (&read))

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "flat.hpp"
+
+namespace tactus::plan
+{
+
+/// Numbers everything that wires and feeds can drive: first the components of all inputs, node by node in the order of
+/// their datasheets, then those of all params, as they stand in Flat::values.
+class Slots
+{
+public:
+    explicit Slots (const Flat&);
+
+    std::size_t firstInput (int node) const noexcept { return inputs[static_cast<std::size_t> (node)]; }
+    std::size_t firstParam (int node) const noexcept { return inputs.back() + flat->nodes[static_cast<std::size_t> (node)].values; }
+
+    /// A component of an input or param; that of the reference, if it names one.
+    std::size_t operator() (const PortRef&, int component) const noexcept;
+
+    std::size_t inputCount() const noexcept { return inputs.back(); }
+    std::size_t count() const noexcept { return inputs.back() + flat->values.size(); }
+
+private:
+    const Flat* flat;
+    std::vector<std::size_t> inputs;   // where those of each node begin, and the end
+};
+
+/// Where a component stands among the slots of its port.
+inline int slotWithin (const PortRef& r, int component, int width) noexcept { return std::max (r.index, 0) * width + std::max (component, 0); }
+
+}   // namespace tactus::plan
