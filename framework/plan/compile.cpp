@@ -91,7 +91,7 @@ PortUnits check (Flat& flat, const Setup& setup, std::vector<int>& ordered)
 std::map<std::string, PortRef, std::less<>> shownParams (const Scope& scope)
 {
     std::map<std::string, PortRef, std::less<>> all;
-    for (const auto& [name, member] : scope.members)
+    for (const auto& member : scope.members)
     {
         if (! member.inside || member.node >= 0) continue;
         const auto& inside = *member.inside;

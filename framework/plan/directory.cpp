@@ -58,8 +58,8 @@ struct Finder
     {
         const auto slash = e.node.find ('/');
         const auto head = std::string_view (e.node).substr (0, slash);
-        const auto member = scope.members.find (head);
-        if (member == scope.members.end())
+        const auto member = scope.find (head);
+        if (member == nullptr)
         {
             if (flat.isFull()) return {};
             if (head.find ('[') != std::string::npos)
@@ -74,7 +74,7 @@ struct Finder
             return {};
         }
 
-        const auto& [node, inside] = member->second;
+        const auto& [node, inside] = *member;
         if (slash != std::string::npos)
         {
             if (inside) return in (*inside, { e.node.substr (slash + 1), e.port, e.index, e.component });

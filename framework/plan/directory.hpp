@@ -2,9 +2,10 @@
 #pragma once
 
 #include "flat.hpp"
+#include "names.hpp"
 
 #include <memory>
-#include <unordered_map>
+#include <vector>
 
 namespace tactus::plan
 {
@@ -40,8 +41,16 @@ struct Scope
     std::string prefix;   // of paths
     int number = 0;       // in Flat::scopes
     Origin origin {};     // of the patch
-    std::unordered_map<std::string_view, Member> members;
+    Names names;
+    std::vector<Member> members;   // by the numbers of their names
     std::vector<Exposed> exposed;
+
+    /// Null if there is none.
+    const Member* find (std::string_view name) const noexcept
+    {
+        const auto known = names.find (name);
+        return known == Names::none ? nullptr : &members[known];
+    }
 };
 
 /// Finds a port by the names people use, from a patch and downwards; nothing, with a message added, if there is none.

@@ -139,7 +139,7 @@ struct Flat
 
     Origin at (Origin around, std::string_view name) { return &places.emplace_back (Place { around, name, 0, Place::Kind::name }); }
     Origin at (Origin around, std::string_view name, std::string_view inner) { return at (at (around, name), inner); }
-    Origin at (Origin around, std::string_view name, int number) { return &places.emplace_back (Place { at (around, name), {}, number, Place::Kind::entry }); }
+    Origin entry (Origin list, int number) { return &places.emplace_back (Place { list, {}, number, Place::Kind::entry }); }
     Origin inFile (std::string_view name) { return &places.emplace_back (Place { nullptr, name, 0, Place::Kind::file }); }
     Origin asIs (Origin around, std::string text) { return &places.emplace_back (Place { around, made_names.emplace_back (std::move (text)), 0, Place::Kind::as_is }); }
 

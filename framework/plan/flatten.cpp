@@ -79,14 +79,15 @@ private:
         result.used.insert (scope.patch);
         makeRoom (flat.nodes, scope.patch->nodes.size());
         makeRoom (flat.wires, scope.patch->wires.size());
-        scope.members.reserve (scope.patch->nodes.size());
+        scope.members.resize (scope.patch->nodes.size());
+        const auto list = at (scope.origin, "nodes");
         for (const auto& node : scope.patch->nodes)
         {
             if (flat.nodes.size() >= max_nodes || flat.isFull()) break;
-            const auto here = at (scope.origin, "nodes", node.name);
+            const auto here = at (list, node.name);
             refuseUnsupported (node, here);
             if (! node.origin.empty()) flat.origins.emplace (node.id, node.origin);
-            auto& member = scope.members[node.name];
+            auto& member = scope.members[scope.names.add (node.name)];
             if (node.type.starts_with ("graph:") || node.type.starts_with ("file:"))
                 addSubgraph (scope, node, here, roles, muted, member);
             else
@@ -123,19 +124,24 @@ private:
         readRole (node, here, roles, made);
         readSettings (scope, node, here, made);
         for (const auto& [key, value] : membersOf (node.params))
-            assignOwn (scope, node, member.node, key, value, at (here, "params", key));
+            assignOwn (scope, node, here, member.node, key, value);
     }
 
     /// What stands under a node's own params is nearly always a row of its datasheet; what else it may be, an entry or a
     /// mistake, is read as any address is.
-    void assignOwn (const Scope& scope, const graph::Node& node, int number, const std::string& key, const Json& value, Origin origin)
+    void assignOwn (const Scope& scope, const graph::Node& node, Origin here, int number, const std::string& key, const Json& value)
     {
         const auto& rows = flat.nodes[static_cast<std::size_t> (number)].type->params;
         const auto row = std::ranges::find (rows, key, &PortSheet::id);
-        if (row != rows.end() && graph::isId (node.name))
-            flat.assignments.push_back ({ { number, Role::param, static_cast<int> (row - rows.begin()) }, &value, &value, 0.0, origin });
+        if (row == rows.end() || ! graph::isId (node.name)) return assign (scope, node.name + "." + key, value, at (here, "params", key));
+
+        // A plain number as it should be has no unit to be checked, and whatever else is given to the param comes later.
+        const int port = static_cast<int> (row - rows.begin());
+        const bool is_plain = value.is_number() && row->width == 1 && ! row->list && row->choices.empty() && isFinite (value.get<double>()) && row->limits.hard.contains (value.get<double>());
+        if (is_plain)
+            flat.param (number, static_cast<std::size_t> (port))[0] = value.get<double>();
         else
-            assign (scope, node.name + "." + key, value, origin);
+            flat.assignments.push_back ({ { number, Role::param, port }, &value, &value, 0.0, at (here, "params", key) });
     }
 
     void readRole (const graph::Node& node, Origin here, const Roles& roles, FlatNode& made)
@@ -320,10 +326,11 @@ private:
 
     void addWires (const Scope& scope, bool muted)
     {
+        const auto list = at (scope.origin, "wires");
         for (std::size_t i = 0; i < scope.patch->wires.size(); ++i)
         {
             const auto& wire = scope.patch->wires[i];
-            const auto origin = at (scope.origin, "wires", static_cast<int> (i));
+            const auto origin = flat.entry (list, static_cast<int> (i));
             if (! wire.origin.empty()) flat.origins.emplace (wire.id, wire.origin);
             const auto before = flat.messages.size();
             const auto from = find (wire.from, Side::start, scope, origin, flat);

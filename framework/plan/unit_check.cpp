@@ -352,7 +352,11 @@ int PortNumbers::entries (const FlatNode& n, const PortSheet& row) noexcept
 int PortNumbers::operator() (const PortRef& r) const noexcept
 {
     const auto& n = flat->node (r);
-    int number = first[static_cast<std::size_t> (r.node)];
+    const auto [inputs, params, outputs] = std::tuple { static_cast<int> (n.type->inputs.size()), static_cast<int> (n.type->params.size()), static_cast<int> (n.type->outputs.size()) };
+    int number = firstOf (r.node);
+    if (firstOf (r.node + 1) - number == inputs + params + outputs)   // one a row
+        return number + r.port + (r.role == Role::input ? 0 : r.role == Role::param ? inputs
+                                                                                    : inputs + params);
     for (const auto role : { Role::input, Role::param, Role::output })
         for (int i = 0; const auto& row : n.ports (role))
         {
