@@ -48,6 +48,19 @@ struct Storage
     std::deque<Bypass> bypasses;
 };
 
+/// Records in running order, each with the node it works for.
+struct Steps
+{
+    std::vector<Record> records;
+    std::vector<std::uint32_t> owners;
+
+    void add (const Record& r, int node)
+    {
+        records.push_back (r);
+        owners.push_back (static_cast<std::uint32_t> (node));
+    }
+};
+
 /// Something that drives one component of an input or parameter.
 struct Driver
 {
@@ -85,8 +98,11 @@ public:
                 connectInputs (n);
                 node.bypass ? addBypass (n) : addNode (n);
             }
-        plan->records.insert (plan->records.begin(), peeks.begin(), peeks.end());
-        plan->records.insert (plan->records.end(), writes.begin(), writes.end());
+        for (const auto* part : { &peeks, &ticks, &writes })
+        {
+            plan->records.insert (plan->records.end(), part->records.begin(), part->records.end());
+            plan->owners.insert (plan->owners.end(), part->owners.begin(), part->owners.end());
+        }
         addTaps();
         plan->delays = pathDelays (flat, nodeDelays());
         plan->storage = storage;
@@ -109,7 +125,7 @@ private:
     std::shared_ptr<Storage> storage;
     std::vector<std::size_t> output_at;       // of each node: into the arena
     std::optional<Grouped<Driver>> drivers;   // by slot; of each slot in the order of the wires, then of the feeds
-    std::vector<Record> peeks, writes;
+    Steps peeks, ticks, writes;
     std::set<std::string> tap_names;
 
     std::byte* outputsOf (int n) { return storage->outputs.bytes + output_at[at (n)]; }
@@ -233,16 +249,17 @@ private:
 
     const double* delayed (const double* from, int wire, int component)
     {
-        auto line = succession.lineOf (wire, component, flat.wires[at (wire)].delay, plan->takeover);
+        const auto& w = flat.wires[at (wire)];
+        auto line = succession.lineOf (wire, component, w.delay, plan->takeover);
         auto& d = storage->delays.emplace_back (DelayLine { from, line.get() });
         plan->lines.push_back ({ wire, component, std::move (line) });
-        peeks.push_back ({ &DelayLine::read, &d, nullptr, nullptr });
-        writes.push_back ({ &DelayLine::write, &d, nullptr, nullptr });
+        peeks.add ({ &DelayLine::read, &d, nullptr, nullptr }, w.to.node);
+        writes.add ({ &DelayLine::write, &d, nullptr, nullptr }, w.to.node);
         return &d.out;
     }
 
-    /// One value for the drivers of a kind: the wire itself where there is one without gain, else a sum; null for none.
-    const double* joined (std::span<const Driver> all, Driver::Kind kind)
+    /// One value for the drivers of a kind, to a node: the wire itself where there is one without gain, else a sum; null for none.
+    const double* joined (std::span<const Driver> all, Driver::Kind kind, int node)
     {
         const auto is_meant = [kind] (const Driver& d)
         { return d.kind == kind; };
@@ -253,7 +270,7 @@ private:
         for (const auto& d : all)
             if (is_meant (d)) s.terms.push_back (d.term);
         s.scratch.resize (s.terms.size());
-        plan->records.push_back ({ &Sum::step, &s, nullptr, nullptr });
+        ticks.add ({ &Sum::step, &s, nullptr, nullptr }, node);
         return &s.out;
     }
 
@@ -271,7 +288,7 @@ private:
                 const auto all = (*drivers)[slot];
                 if (all.empty()) continue;
                 const auto* feed = feedAmong (all);
-                storage->sources[slot] = feed ? feed : joined (all, Driver::Kind::replace);
+                storage->sources[slot] = feed ? feed : joined (all, Driver::Kind::replace, i);
             }
     }
 
@@ -279,12 +296,12 @@ private:
     {
         const auto& n = flat.nodes[at (i)];
         const double* const* sources = storage->sources.data() + slots.firstInput (i);
-        if (n.type->peek) peeks.push_back ({ n.type->peek, nodeOf (i), sources, outputsOf (i) });
+        if (n.type->peek) peeks.add ({ n.type->peek, nodeOf (i), sources, outputsOf (i) }, i);
 
         auto drives = drivesOf (i);
         if (drives.empty())
         {
-            plan->records.push_back ({ n.type->tick, nodeOf (i), sources, outputsOf (i) });
+            ticks.add ({ n.type->tick, nodeOf (i), sources, outputsOf (i) }, i);
             return;
         }
         auto& d = storage->driven.emplace_back();
@@ -292,7 +309,7 @@ private:
         d.node = nodeOf (i);
         d.drives = std::move (drives);
         d.faulted.assign (slots.firstInput (i + 1) - slots.firstInput (i), &not_a_number);
-        plan->records.push_back ({ &DrivenNode::step, &d, sources, outputsOf (i) });
+        ticks.add ({ &DrivenNode::step, &d, sources, outputsOf (i) }, i);
     }
 
     std::vector<DrivenNode::Drive> drivesOf (int i)
@@ -310,7 +327,7 @@ private:
                 const auto knob = Knobs::indexOf (*n.type, p, k);
                 instance.driven.resize (instance.knobs->all.size());
                 instance.driven[knob] = true;
-                drives.push_back ({ param (i, p, k), &instance.knobs->all[knob].value, feed ? feed : joined (all, Driver::Kind::replace), feed ? nullptr : joined (all, Driver::Kind::add), n.type->params[p].limits.hard });
+                drives.push_back ({ param (i, p, k), &instance.knobs->all[knob].value, feed ? feed : joined (all, Driver::Kind::replace, i), feed ? nullptr : joined (all, Driver::Kind::add, i), n.type->params[p].limits.hard });
             }
         return drives;
     }
@@ -334,7 +351,7 @@ private:
             const bool is_factor = out.width == 1 && out.unit.kind == UnitRule::Kind::fixed && out.unit.unit.quantity == Quantity::gain;   // a vector in 1 is a direction
             if (is_factor) *to = 1.0;
         }
-        plan->records.push_back ({ &Bypass::step, &bypass, storage->sources.data() + slots.firstInput (i), nullptr });
+        ticks.add ({ &Bypass::step, &bypass, storage->sources.data() + slots.firstInput (i), nullptr }, i);
     }
 
     /// The sources that make up one component of what a bypassed input passes on.

@@ -9,6 +9,7 @@
 #include <framework/catalogue.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -80,6 +81,7 @@ public:
 
     double rate_hz = 0.0;   ///< what the nodes were prepared for
     std::vector<Record> records;
+    std::vector<std::uint32_t> owners;     ///< by record: the node it works for, as flat.nodes; of a wire's, the node where it ends
     std::vector<RoleUse> roles;            ///< sorted by name
     std::vector<Tap> taps;                 ///< what CompileOptions::records asked for, in order
     std::vector<double> feeds;             ///< one value per CompileOptions::feeds, set before each tick

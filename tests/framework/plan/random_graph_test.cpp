@@ -100,6 +100,28 @@ std::string difference (const Run& a, const Run& b)
 }
 }   // namespace
 
+TEST_CASE ("each record of a plan says which node it works for, and each node that runs has one", "[plan][property]")
+{
+    for (unsigned seed = 1; seed <= 100; ++seed)
+    {
+        const auto plan = test::Sketch { test::randomGraph (seed, 40) }.compile().plan;
+        REQUIRE (plan);
+        REQUIRE (plan->owners.size() == plan->records.size());
+        std::vector<int> works (plan->instances.size(), 0);
+        int strange = 0;
+        for (std::size_t r = 0; r < plan->records.size(); ++r)
+        {
+            ++works.at (plan->owners[r]);
+            for (std::size_t i = 0; i < plan->instances.size(); ++i)
+                strange += plan->instances[i].node && plan->instances[i].node.get() == plan->records[r].self && plan->owners[r] != i;
+        }
+        for (std::size_t i = 0; i < works.size(); ++i)
+            strange += plan->flat.nodes[i].runs() && works[i] == 0;
+        INFO ("seed " << seed);
+        CHECK (strange == 0);
+    }
+}
+
 TEST_CASE ("a plan computes to the bit what the graph means", "[plan][property]")
 {
     rc::prop ("on random graphs of up to 200 nodes", []
