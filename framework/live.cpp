@@ -24,6 +24,7 @@ Messages Live::compileAndSubmit()
 {
     auto waiting = running.withdraw();
     options.before = &running.newest();
+    options.withdrawn = waiting.get();
     auto [plan, messages] = compile (edits.graph(), catalogue, options);
     running.submit (plan ? std::move (plan) : std::move (waiting));
     if (edits.graph().rate_hz != first_rate_hz)

@@ -78,8 +78,8 @@ struct Driver
 class Builder
 {
 public:
-    Builder (Flat& f, const PortUnits& u, std::span<const int> o, const Outside& out, const Setup& s, const Plan* b)
-        : flat (f), units (u), order (o), outside (out), setup (s), before (b), succession (f, b, s.rate_hz), slots (f)
+    Builder (Flat& f, const PortUnits& u, std::span<const int> o, const Outside& out, const Setup& s, const Plan* b, const Plan* withdrawn)
+        : flat (f), units (u), order (o), outside (out), setup (s), before (b), succession (f, b, withdrawn, s.rate_hz), slots (f)
     {
     }
 
@@ -455,9 +455,9 @@ std::shared_ptr<void> makeNode (const Flat& flat, int number)
     return node;
 }
 
-std::shared_ptr<Plan> build (Flat& flat, const PortUnits& units, std::span<const int> order, const Outside& outside, const Setup& setup, const Plan* before)
+std::shared_ptr<Plan> build (Flat& flat, const PortUnits& units, std::span<const int> order, const Outside& outside, const Setup& setup, const Plan* before, const Plan* withdrawn)
 {
-    return Builder { flat, units, order, outside, setup, before }.run();
+    return Builder { flat, units, order, outside, setup, before, withdrawn }.run();
 }
 
 }   // namespace tactus::plan

@@ -29,7 +29,8 @@ struct Outside
 std::shared_ptr<void> makeNode (const Flat&, int number);
 
 /// Makes the nodes, lays out their outputs, and writes the records in the given order. For a graph without errors, which
-/// goes over into the plan. The plan before is null, or the one this is to take over from.
-std::shared_ptr<Plan> build (Flat&, const PortUnits&, std::span<const int> order, const Outside&, const Setup&, const Plan* before);
+/// goes over into the plan. The plan before is null, or the one this is to take over from; likewise the withdrawn one
+/// (CompileOptions).
+std::shared_ptr<Plan> build (Flat&, const PortUnits&, std::span<const int> order, const Outside&, const Setup&, const Plan* before, const Plan* withdrawn);
 
 }   // namespace tactus::plan

@@ -164,7 +164,7 @@ Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const Compi
     if (! runs (messages)) return { nullptr, std::move (messages) };
 
     auto shown = shownParams (*top);
-    auto made = build (flat, units, ordered, outside, setup, options.before);
+    auto made = build (flat, units, ordered, outside, setup, options.before, options.withdrawn);
     made->shown = std::move (shown);
     return { std::move (made), std::move (messages) };
 }

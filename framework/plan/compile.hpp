@@ -27,6 +27,7 @@ struct CompileOptions
     Assets* assets = nullptr;                   ///< where the files that settings name come from
     Services services {};                       ///< what is lent to the nodes
     const Plan* before = nullptr;               ///< the plan that the new one is to take over from, by Plan::takeOver
+    const Plan* withdrawn = nullptr;            ///< one that was to take over from that plan too, and will not: parameters of nodes that it had first stay where they were turned
 };
 
 struct Compiled

@@ -30,7 +30,7 @@ void turn (const ParamRef& param, double value) noexcept
     if (! isFinite (value)) return;
     auto& knob = param.knobs->all[param.index];
     knob.target.store (param.sheet->limits.hard.clamp (value), std::memory_order_relaxed);
-    knob.touched.store (true, std::memory_order_release);
+    knob.turns.fetch_add (1, std::memory_order_release);
     param.knobs->touched.store (true, std::memory_order_release);
 }
 

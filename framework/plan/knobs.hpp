@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -18,12 +19,13 @@ namespace tactus::plan
 struct Knob
 {
     std::atomic<double> target = 0.0;
-    std::atomic<bool> touched = false;   ///< a target was set that nobody has seen yet
+    std::atomic<std::uint32_t> turns = 0;   ///< how often a target was set
 
     // Of the tick thread.
-    int left = 0;         ///< ticks of the ramp
-    double to = 0.0;      ///< its end
-    double value = 0.0;   ///< where it stands: the stored value, before wires
+    std::uint32_t heeded = 0;   ///< of these turns, what came of is under way, or outdone by an edit
+    int left = 0;               ///< ticks of the ramp
+    double to = 0.0;            ///< its end
+    double value = 0.0;         ///< where it stands: the stored value, before wires
 };
 
 /// All knobs of a node. They outlive the plan they were made for: a later one that holds the node holds these too.

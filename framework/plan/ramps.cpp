@@ -20,7 +20,13 @@ void Ramps::look() noexcept
         auto* knobs = instances[i].knobs.get();
         if (knobs == nullptr || ! knobs->touched.load (std::memory_order_relaxed) || ! knobs->touched.exchange (false, std::memory_order_acquire)) continue;
         for (std::size_t k = 0; k < knobs->all.size(); ++k)
-            if (auto& knob = knobs->all[k]; knob.touched.exchange (false, std::memory_order_acquire)) head (i, k, knob.target.load (std::memory_order_relaxed));
+        {
+            auto& knob = knobs->all[k];
+            const auto turns = knob.turns.load (std::memory_order_acquire);
+            if (turns == knob.heeded) continue;
+            knob.heeded = turns;
+            head (i, k, knob.target.load (std::memory_order_relaxed));
+        }
     }
 }
 

@@ -107,8 +107,9 @@ std::vector<std::uint64_t> serialsOf (const Plan::RoleUse& role, const Plan& pla
 }
 }   // namespace
 
-Succession::Succession (const Flat& f, const Plan* b, double rate) : flat (f), before (b), rate_hz (rate), going (f.nodes.size(), false)
+Succession::Succession (const Flat& f, const Plan* b, const Plan* w, double rate) : flat (f), before (b), withdrawn (w), rate_hz (rate), going (f.nodes.size(), false)
 {
+    if (withdrawn) heirs_of_withdrawn = findHeirs (flat, withdrawn->flat);
     if (before == nullptr)
     {
         heirs = { std::vector<int> (flat.nodes.size(), -1), std::vector<int> (flat.wires.size(), -1) };
@@ -135,13 +136,30 @@ const Instance* Succession::heritageOf (std::size_t i) const noexcept
     return going[i] || before->flat.nodes[heir].type == flat.nodes[i].type ? &before->instances[heir] : nullptr;
 }
 
+Succession::Forebear Succession::knobsBefore (std::size_t i) const noexcept
+{
+    if (heritageOf (i)) return { before, at (heirs.nodes[i]) };
+    if (withdrawn == nullptr || heirs_of_withdrawn.nodes[i] < 0) return {};
+    const auto node = at (heirs_of_withdrawn.nodes[i]);
+    return withdrawn->flat.nodes[node].type == flat.nodes[i].type ? Forebear { withdrawn, node } : Forebear {};
+}
+
+/// Those before the edit that brought the value, which may be the one of the withdrawn plan.
+std::uint32_t Succession::turnsBefore (const Knobs& knobs, std::size_t knob, double value) const noexcept
+{
+    if (withdrawn)
+        for (const auto& change : withdrawn->takeover.changes)
+            if (withdrawn->instances[change.instance].knobs.get() == &knobs && change.knob == knob && change.value == value) return change.turns;
+    return knobs.all[knob].turns.load (std::memory_order_acquire);
+}
+
 std::shared_ptr<Knobs> Succession::knobsOf (std::size_t i, Takeover& takeover) const
 {
     const auto& n = flat.nodes[i];
     if (n.type->make == nullptr || n.type->params.empty()) return nullptr;
 
-    const auto* heritage = heritageOf (i);
-    if (heritage == nullptr)
+    const auto forebear = knobsBefore (i);
+    if (forebear.plan == nullptr)
     {
         auto knobs = std::make_shared<Knobs> (*n.type);
         std::size_t k = 0;
@@ -158,20 +176,26 @@ std::shared_ptr<Knobs> Succession::knobsOf (std::size_t i, Takeover& takeover) c
         return knobs;
     }
 
+    const auto& knobs = forebear.plan->instances[forebear.node].knobs;
     std::size_t first = 0;
     for (std::size_t p = 0; p < n.type->params.size(); first += Knobs::roomOf (n.type->params[p++]))
     {
-        const auto values = flat.param (static_cast<int> (i), p), old = before->flat.param (heirs.nodes[i], p);
+        const auto values = flat.param (static_cast<int> (i), p), old = forebear.plan->flat.param (static_cast<int> (forebear.node), p);
         for (std::size_t c = 0; c < values.size(); ++c)
-            if (const bool fresh = c >= old.size(); fresh || values[c] != old[c]) takeover.changes.push_back ({ i, first + c, values[c], fresh });
+            if (const bool fresh = c >= old.size(); fresh || values[c] != old[c]) takeover.changes.push_back ({ i, first + c, values[c], fresh, turnsBefore (*knobs, first + c, values[c]) });
     }
-    return heritage->knobs;
+    return knobs;
 }
 
 void Succession::succeed (std::size_t i, Takeover& takeover) const
 {
+    if (flat.nodes[i].type->make == nullptr) return;
     const auto* heritage = heritageOf (i);
-    if (heritage == nullptr || flat.nodes[i].type->make == nullptr) return;
+    if (heritage == nullptr)
+    {
+        if (knobsBefore (i).plan) takeover.successors.push_back ({ i, nullptr, nullptr });
+        return;
+    }
     const bool ran = before->flat.nodes[at (heirs.nodes[i])].runs() && flat.nodes[i].runs();
     takeover.successors.push_back ({ i, ran ? flat.nodes[i].type->adopt : nullptr, heritage->node.get() });
 }

@@ -12,7 +12,8 @@ namespace tactus::plan
 class Succession
 {
 public:
-    Succession (const Flat& now, const Plan* before, double rate_hz);
+    /// Nodes that are not in the plan before have the knobs that they had in the withdrawn one, if there is one.
+    Succession (const Flat& now, const Plan* before, const Plan* withdrawn, double rate_hz);
 
     /// The instance before that a node is the heir of; null if there is none, or it was of another type.
     const Instance* heritageOf (std::size_t node) const noexcept;
@@ -35,14 +36,23 @@ public:
     void compare (Plan&) const;
 
 private:
+    /// A node of another plan; of none, if the plan is null.
+    struct Forebear
+    {
+        const Plan* plan = nullptr;
+        std::size_t node = 0;
+    };
+
+    Forebear knobsBefore (std::size_t node) const noexcept;
+    std::uint32_t turnsBefore (const Knobs&, std::size_t knob, double value) const noexcept;
     bool isSame (std::size_t node) const;
     std::vector<bool> changed (const Plan&) const;
     static void spread (const std::vector<bool>& dirty, Plan&);
 
     const Flat& flat;
-    const Plan* before;
+    const Plan *before, *withdrawn;
     double rate_hz;
-    Heirs heirs;
+    Heirs heirs, heirs_of_withdrawn;
     std::vector<bool> going;
 };
 

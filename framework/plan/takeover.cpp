@@ -29,9 +29,12 @@ void Takeover::carryOut (std::span<const Instance> instances, Ramps& ramps) cons
         knob.value = *instances[i].param (k);
         ramps.head (i, k, stored);
     }
-    for (const auto& [i, k, value, at_once] : changes)
+    for (const auto& [i, k, value, at_once, turns] : changes)
     {
-        instances[i].knobs->all[k].target.store (value, std::memory_order_relaxed);
+        auto& knob = instances[i].knobs->all[k];
+        const bool turned_since = static_cast<std::int32_t> (knob.heeded - turns) > 0;
+        if (turned_since) continue;
+        knob.heeded = turns;
         ramps.head (i, k, value, at_once);
     }
 }

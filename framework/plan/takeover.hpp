@@ -3,6 +3,7 @@
 
 #include "ramps.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -23,12 +24,13 @@ struct Takeover
         const void* old;
     };
 
-    /// A value that is another one in the file.
+    /// A value that is another one in the file. Who turned the parameter after that edit has the last word.
     struct Change
     {
         std::size_t instance, knob;
         double value;
         bool at_once;
+        std::uint32_t turns;   ///< of the knob, before the edit
     };
 
     /// A parameter that a wire drove, and none does now: goes back to its stored value.

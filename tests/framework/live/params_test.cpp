@@ -144,6 +144,61 @@ TEST_CASE ("a value changed in the file is ramped to as well", "[live]")
     CHECK (bench.tick (ramp / 2) == 3.0);
 }
 
+TEST_CASE ("of an edit and a turn of one parameter between two ticks, the later counts", "[live]")
+{
+    Bench bench { amplified() };
+    bench.tick();
+    SECTION ("the turn")
+    {
+        bench.edit (graph::SetParam { "", "amp", "gain", 5.0 });
+        bench.set ("amp.gain", 2.0);
+        CHECK (bench.tick (ramp) == 2.0);
+    }
+    SECTION ("the edit")
+    {
+        bench.set ("amp.gain", 2.0);
+        bench.edit (graph::SetParam { "", "amp", "gain", 5.0 });
+        CHECK (bench.tick (ramp) == 5.0);
+    }
+    SECTION ("the turn, with an edit of something else after it")
+    {
+        bench.edit (graph::SetParam { "", "amp", "gain", 5.0 });
+        bench.set ("amp.gain", 2.0);
+        bench.edit (graph::SetParam { "", "one", "value", 3.0 });
+        CHECK (bench.tick (ramp) == 6.0);
+    }
+}
+
+TEST_CASE ("a parameter of a node that no tick has seen stays where it was turned, and in the hand of who turns it, however many edits come before the tick", "[live]")
+{
+    Bench bench { amplified() };
+    bench.tick();
+    bench.edit (graph::AddNode { "", Sketch::makeNode ("new", "signal.gain", { { "gain", 2.0 } }) });
+    const auto gain = std::get<plan::ParamRef> (bench.live.engine().param ("new.gain"));
+    bench.live.engine().set (gain, 7.0);
+    bench.edit (graph::SetNodeKey { "", "one", "note", Json ("moved") });
+    bench.edit (graph::AddWire { "", std::get<graph::Wire> (graph::parseWire ("one.out -> new.in")) });
+    CHECK (std::get<plan::ParamRef> (bench.live.engine().param ("new.gain")).knobs == gain.knobs);
+    const auto out = [&]
+    {
+        const auto& plan = bench.live.engine().plan();
+        const auto node = std::ranges::find (plan.flat.nodes, "new", &plan::FlatNode::path);
+        return *plan.instances[static_cast<std::size_t> (node - plan.flat.nodes.begin())].param (0);
+    };
+    bench.tick();
+    CHECK (out() == 7.0);
+    bench.live.engine().set (gain, 3.0);
+    bench.tick (ramp);
+    CHECK (out() == 3.0);
+
+    bench.edit (graph::AddNode { "", Sketch::makeNode ("late", "signal.gain", { { "gain", 2.0 } }) });
+    bench.set ("late.gain", 7.0);
+    bench.edit (graph::SetParam { "", "late", "gain", 4.0 });   // of a later edit
+    bench.tick();
+    const auto late = std::get<plan::ParamRef> (bench.live.engine().param ("late.gain"));
+    CHECK (late.knobs->all[late.index].value == 4.0);
+}
+
 TEST_CASE ("a node of other settings keeps what was turned", "[live]")
 {
     auto sketch = Sketch {}.node ("one", "signal.constant", { { "value", 1.0 } }).node ("mix", "signal.mix").wire ("one.out -> mix.in[0]").wire ("one.out -> mix.in[1]");
