@@ -33,11 +33,21 @@ Effort total (const Plan::RoleUse& role, double* scratch) noexcept
 
 Engine::Engine (std::shared_ptr<Plan> p) : rate_hz (p->rate_hz), handover (makeRunning (std::move (p))), running (&handover.newest()) {}
 
+Engine::Channel* Engine::find (std::string_view role) const noexcept
+{
+    const auto at = std::find_if (channels.rbegin(), channels.rend(), [&] (const auto& c)
+                                  { return c->role == role; });
+    return at != channels.rend() ? at->get() : nullptr;
+}
+
 Engine::Channel& Engine::channelOf (const std::string& role)
 {
-    const auto at = std::ranges::find (channels, role, [] (const auto& c) -> const std::string&
-                                       { return c->role; });
-    if (at != channels.end()) return **at;
+    auto* found = find (role);
+    return found ? *found : makeChannel (role);
+}
+
+Engine::Channel& Engine::makeChannel (const std::string& role)
+{
     channels.push_back (std::make_unique<Channel> (Channel { role }));
     channels.back()->guard.prepare ({}, 1.0 / rate_hz);
     channels.back()->bumpless.prepare (1.0 / rate_hz);
@@ -73,11 +83,26 @@ std::shared_ptr<Plan> Engine::withdraw()
     return back ? back->plan : nullptr;
 }
 
-void Engine::submit (std::shared_ptr<Plan> next)
+/// The tick thread may be using the channel that the role has without a device, so that it gets another one. Plans that
+/// are submitted from now on use that.
+void Engine::join (const Joining& joining, const Plan& plan)
+{
+    if (std::ranges::find (plan.roles, joining.role, &Plan::RoleUse::name) == plan.roles.end()) throw std::out_of_range ("the plan has no role '" + joining.role + "'");
+    if (const auto* channel = find (joining.role); channel && channel->device) throw std::invalid_argument ("the role '" + joining.role + "' has a device already");
+    auto& channel = makeChannel (joining.role);
+    channel.device = &joining.device;
+    channel.guard.prepare (joining.limits, 1.0 / rate_hz);
+    channel.bumpless.begin();
+    joining.device.prepare (1.0 / rate_hz);
+}
+
+void Engine::submit (std::shared_ptr<Plan> next, std::span<const Joining> joining)
 {
     if (next)
     {
         if (next->rate_hz != rate_hz) throw std::invalid_argument ("a plan for another rate cannot take over");
+        for (const auto& j : joining)
+            join (j, *next);
         handover.takeBack();
         handover.give (makeRunning (std::move (next)));
     }
@@ -118,7 +143,7 @@ void Engine::turnKnobs() noexcept
     fresh = false;
 }
 
-void Engine::tick() noexcept
+void Engine::beforePlan() noexcept
 {
     if (auto* next = handover.take()) takeOver (*next);
     if (fresh || touched.load (std::memory_order_relaxed)) turnKnobs();
@@ -128,8 +153,11 @@ void Engine::tick() noexcept
         if (used[i]->device) plan->roles[i].state->reading = used[i]->device->read();
 
     plan->ramps.step();
-    plan->tick();
+}
 
+void Engine::afterPlan() noexcept
+{
+    auto& [plan, used, scratch] = *running;
     for (std::size_t i = 0; i < used.size(); ++i)
     {
         const auto& role = plan->roles[i];
@@ -142,10 +170,22 @@ void Engine::tick() noexcept
     ++ticks;
 }
 
+void Engine::tick() noexcept
+{
+    tick ([] (Plan& p) noexcept
+          { p.tick(); });
+}
+
 void Engine::halt() noexcept
 {
     for (auto* channel : running->channels)
         channel->guard.halt();
+}
+
+void Engine::resume() noexcept
+{
+    for (auto* channel : running->channels)
+        channel->guard.resume();
 }
 
 bool Engine::isAtRest() const noexcept
@@ -156,8 +196,7 @@ bool Engine::isAtRest() const noexcept
 
 const Guard& Engine::guardOf (std::string_view role) const
 {
-    for (const auto& channel : channels)
-        if (channel->role == role) return channel->guard;
+    if (const auto* channel = find (role)) return channel->guard;
     throw std::out_of_range ("the plan has no role '" + std::string (role) + "'");
 }
 

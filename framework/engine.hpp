@@ -10,6 +10,8 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -28,11 +30,19 @@ public:
     /// Gives a role its device, which must outlive the engine, and the limits of its guard. [main thread, before ticking]
     void attach (std::string_view role, Device&, const GuardLimits& = {});
 
+    /// A device for a role that has none.
+    struct Joining
+    {
+        std::string role;
+        Device& device;
+        GuardLimits limits {};
+    };
+
     //==========================================================================
     // Another plan. It is compiled with newest() as CompileOptions::before, so that it is built on the one it replaces:
     //
     //     auto waiting = engine.withdraw();
-    //     auto compiled = compile (graph, catalogue(), { .before = &engine.newest() });
+    //     auto compiled = compile (graph, catalogue(), { .before = &engine.newest(), .withdrawn = waiting.get() });
     //     engine.submit (compiled.plan ? compiled.plan : waiting);
 
     /// Takes back the plan that was submitted last, if no tick has taken it yet; else null. [main thread]
@@ -41,8 +51,10 @@ public:
     /// The plan that ticks, or is about to. [main thread]
     const Plan& newest() noexcept { return *handover.newest().plan; }
 
-    /// The next tick takes it. Null changes nothing. Its rate must be that of the first. [main thread]
-    void submit (std::shared_ptr<Plan>);
+    /// The next tick takes it, and from that tick on, devices that join are read and written; their efforts rise from
+    /// zero as after any takeover. They must outlive the engine. Null changes nothing. The plan's rate must be that of the
+    /// first, it must have the roles that are joined, and none of them may have a device already. [main thread]
+    void submit (std::shared_ptr<Plan>, std::span<const Joining> = {});
 
     /// Frees plans that are used no more, as submit does too. Returns how many there still are. [main thread]
     std::size_t clear();
@@ -58,13 +70,38 @@ public:
     /// One sample. Allocates nothing, takes no lock, asks no clock. [tick thread]
     void tick() noexcept;
 
+    /// The same to the bit, where `step` has the plan tick: by Plan::tick, or by all of its records in their order, for those
+    /// who want to do something in between. [tick thread]
+    template <typename Step>
+    void tick (Step&& step) noexcept
+    {
+        beforePlan();
+        step (*running->plan);
+        afterPlan();
+    }
+
     /// Brings the efforts of all roles to zero, smoothly, and keeps them there. [tick thread]
     void halt() noexcept;
+
+    /// After a halt: the efforts rise again, as the guards' ramps allow. [tick thread]
+    void resume() noexcept;
 
     /// True once nothing is on any device, so that it can be let go without a step. [tick thread]
     bool isAtRest() const noexcept;
 
     Plan& plan() noexcept { return *running->plan; }   ///< the one that ticks   [tick thread]
+
+    /// A role of the plan that ticks. What is referred to lives as long as the engine, and the name never changes.
+    struct RoleView
+    {
+        std::string_view name;
+        const Effort& applied;   ///< on the last tick
+        const Guard& guard;
+    };
+
+    std::size_t roleCount() const noexcept { return running->channels.size(); }                                                                                    ///< [tick thread]
+    RoleView role (std::size_t i) const noexcept { return { running->channels[i]->role, running->plan->roles[i].state->applied, running->channels[i]->guard }; }   ///< as plan().roles   [tick thread]
+
     const Guard& guardOf (std::string_view role) const;
     double time_s() const noexcept { return static_cast<double> (ticks) / rate_hz; }
 
@@ -85,13 +122,19 @@ private:
         std::vector<double> scratch;      // to sum the sinks of a role in
     };
 
+    void beforePlan() noexcept;
+    void afterPlan() noexcept;
+
+    Channel* find (std::string_view role) const noexcept;
     Channel& channelOf (const std::string& role);
+    Channel& makeChannel (const std::string& role);
+    void join (const Joining&, const Plan&);
     std::unique_ptr<Running> makeRunning (std::shared_ptr<Plan>);
     void takeOver (Running&) noexcept;
     void turnKnobs() noexcept;
 
     double rate_hz;
-    std::vector<std::unique_ptr<Channel>> channels;   // of all roles there ever were   [main thread]
+    std::vector<std::unique_ptr<Channel>> channels;   // of all roles there ever were; the last of a role is the one in force   [main thread]
     Handover<Running> handover;
     std::atomic<bool> touched = true;   // some knob is, or a plan is new
 

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// Devices of roles that come up while a graph runs.
+
+#include "support/chance_hand.hpp"
+#include "support/no_allocation.hpp"
+#include "support/sketch.hpp"
+
+#include <framework/live.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <numbers>
+#include <stdexcept>
+
+using namespace tactus;
+
+namespace
+{
+constexpr double rate_hz = 4000.0;
+
+/// A hand on a wall that is below it nowhere, so that it is pushed from the first tick.
+test::Sketch pushed()
+{
+    test::Sketch s;
+    s.node ("hand", "device.position").node ("wall", "deform.plane", { { "offset", "1 cm" } }).node ("motor", "device.force");
+    return s.wire ("hand.position -> wall.position").wire ("wall.force -> motor.force");
+}
+
+/// And a thumb on another one.
+test::Sketch& addThumb (test::Sketch& s)
+{
+    s.node ("thumb", "device.position").node ("nail", "deform.plane", { { "offset", "2 cm" } }).node ("thimble", "device.force");
+    for (const auto* name : { "thumb", "thimble" })
+        std::ranges::find (s.graph.root.nodes, name, &graph::Node::name)->role = "thumb";
+    return s.wire ("thumb.position -> nail.position").wire ("nail.force -> thimble.force");
+}
+
+/// Knows when it was read first.
+struct Thumb final : Device
+{
+    void prepare (double dt_s) override { dt = dt_s; }
+    Reading read() noexcept override
+    {
+        ++reads;
+        return {};
+    }
+    void write (const Effort& e) noexcept override { efforts.push_back (e.force.z()); }
+
+    double dt = 0.0;
+    int reads = 0;
+    std::vector<double> efforts;
+};
+
+std::shared_ptr<Plan> after (const test::Sketch& s, Engine& engine) { return s.compile ({ .rate_hz = rate_hz, .before = &engine.newest() }).plan; }
+}   // namespace
+
+TEST_CASE ("a device joins on the tick that takes the plan with its role, and its force rises without a step", "[live]")
+{
+    auto sketch = pushed();
+    Engine engine { sketch.compile ({ .rate_hz = rate_hz }).plan }, alone { sketch.compile ({ .rate_hz = rate_hz }).plan };
+    test::ChanceHand hand { 1 }, other { 1 };
+    engine.attach ("stylus", hand);
+    alone.attach ("stylus", other);
+    const auto tick = [&] (int n)
+    {
+        const NoAllocation watch;
+        for (int k = 0; k < n; ++k)
+        {
+            engine.tick();
+            alone.tick();
+        }
+        return watch.allocations() + watch.locks();
+    };
+    tick (100);
+
+    Thumb thumb;
+    thumb.efforts.reserve (1000);
+    addThumb (sketch);
+    const Engine::Joining joining { "thumb", thumb, { .max_force = 15.0 } };
+    engine.submit (after (sketch, engine), std::span (&joining, 1));
+    CHECK (thumb.dt == 1.0 / rate_hz);
+    CHECK (thumb.reads == 0);
+    CHECK (tick (200) == 0);
+    CHECK (thumb.reads == 200);
+    REQUIRE (thumb.efforts.size() == 200);
+    CHECK (thumb.efforts[0] == 0.0);
+    double largest = 0.0;
+    for (std::size_t k = 1; k < thumb.efforts.size(); ++k)
+        largest = std::max (largest, std::abs (thumb.efforts[k] - thumb.efforts[k - 1]));
+    CHECK (largest <= 20.0 * std::numbers::pi / (2.0 * Bumpless::fade_s * rate_hz) * (1.0 + 1e-9));
+    CHECK (thumb.efforts.back() == Approx (15.0));   // of 20, what its guard lets through
+    CHECK (hand.digest == other.digest);
+}
+
+TEST_CASE ("a role that ran without a device can be given one, with its plan or a later one", "[live]")
+{
+    auto sketch = pushed();
+    Engine engine { addThumb (sketch).compile ({ .rate_hz = rate_hz }).plan };
+    for (int k = 0; k < 100; ++k)
+        engine.tick();
+    Thumb thumb;
+    const Engine::Joining joining { "thumb", thumb };
+    engine.submit (after (sketch, engine), std::span (&joining, 1));
+    for (int k = 0; k < 200; ++k)
+        engine.tick();
+    CHECK (thumb.reads == 200);
+    CHECK (thumb.efforts[0] == 0.0);
+    CHECK (thumb.efforts.back() == Approx (20.0));
+    CHECK (&engine.guardOf ("thumb") == &engine.role (1).guard);
+    CHECK (engine.role (1).name == "thumb");
+}
+
+TEST_CASE ("a device stays with its role when the plan it joined with never ran", "[live]")
+{
+    auto sketch = pushed();
+    Engine engine { sketch.compile ({ .rate_hz = rate_hz }).plan };
+    addThumb (sketch);
+    Thumb thumb;
+    const Engine::Joining joining { "thumb", thumb };
+    engine.submit (after (sketch, engine), std::span (&joining, 1));
+    engine.withdraw();
+    engine.tick();
+    CHECK (thumb.reads == 0);
+    engine.submit (after (sketch, engine));
+    engine.tick();
+    CHECK (thumb.reads == 1);
+}
+
+TEST_CASE ("nobody joins a role that the plan does not have, or that has a device", "[live]")
+{
+    auto sketch = pushed();
+    Engine engine { addThumb (sketch).compile ({ .rate_hz = rate_hz }).plan };
+    Thumb thumb;
+    engine.attach ("thumb", thumb);
+    const Engine::Joining again { "thumb", thumb }, nobody { "toe", thumb };
+    CHECK_THROWS_AS (engine.submit (after (sketch, engine), std::span (&again, 1)), std::invalid_argument);
+    CHECK_THROWS_AS (engine.submit (after (sketch, engine), std::span (&nobody, 1)), std::out_of_range);
+    engine.tick();
+    CHECK (thumb.reads == 1);
+}
