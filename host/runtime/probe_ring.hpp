@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "ring_index.hpp"
+
 #include <framework/plan/plan.hpp>
 
 #include <algorithm>
@@ -10,8 +12,6 @@
 #include <span>
 #include <string_view>
 #include <vector>
-
-#include <juce_core/juce_core.h>
 
 namespace tactus::host
 {
@@ -51,38 +51,32 @@ public:
     {
         const auto n = count.load (std::memory_order_acquire);
         if (n == 0 || tick % interval.load (std::memory_order_relaxed) != 0) return;
-        int start = 0, size = 0, start2 = 0, size2 = 0;
-        fifo.prepareToWrite (1, start, size, start2, size2);
-        if (size + size2 == 0) return;
-        auto& frame = frames[static_cast<std::size_t> (size > 0 ? start : start2)];
+        const auto slot = index.next();
+        if (! slot) return;
+        auto& frame = frames[*slot];
         frame.plan = &plan;
         frame.tick = tick;
         frame.size = n;
         for (std::size_t i = 0; i < n; ++i)   // of the plan before, until the new one has taken over, which nobody reads then
             if (const auto tap = selected[i].load (std::memory_order_relaxed); tap < plan.taps.size()) frame.values[i] = *plan.taps[tap].value;
-        fifo.finishedWrite (1);
+        index.push();
     }
 
-    /// Hands over all frames there are. [main thread]
+    /// Hands over all frames there are. [one thread at a time]
     template <typename F>
     void drain (F&& f)
     {
-        int start = 0, size = 0, start2 = 0, size2 = 0;
-        fifo.prepareToRead (fifo.getNumReady(), start, size, start2, size2);
-        for (int i = 0; i < size; ++i)
-            f (frames[static_cast<std::size_t> (start + i)]);
-        for (int i = 0; i < size2; ++i)
-            f (frames[static_cast<std::size_t> (start2 + i)]);
-        fifo.finishedRead (size + size2);
+        index.drain ([&] (std::size_t slot)
+                     { f (frames[slot]); });
     }
 
 private:
-    static constexpr int capacity = 1024;
+    static constexpr std::size_t capacity = 1024;
 
     std::array<std::atomic<std::size_t>, most> selected {};
     std::atomic<std::uint32_t> interval = 1;
     std::atomic<std::size_t> count = 0;
-    juce::AbstractFifo fifo { capacity };
+    RingIndex index { capacity };
     std::vector<Frame> frames = std::vector<Frame> (capacity);
 };
 
