@@ -7,7 +7,6 @@
 #include <framework/number_text.hpp>
 #include <framework/turn.hpp>
 #include <host/assets/nearest_by_embree.hpp>
-#include <host/devices/make_device.hpp>
 
 #include <cmath>
 #include <filesystem>
@@ -87,9 +86,9 @@ void Session::readFeed()
     rate_hz = feed->rate();
 }
 
-Compiled Session::compileNow (const graph::Graph& graph, const Plan* before, const std::vector<std::string>& probes)
+Compiled Session::compileNow (const graph::Graph& graph, const Plan* before, const Plan* withdrawn, const std::vector<std::string>& probes)
 {
-    CompileOptions wanted { .rate_hz = rate_hz, .records = records, .assets = &assets, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() }, .before = before };
+    CompileOptions wanted { .rate_hz = rate_hz, .records = records, .assets = &assets, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() }, .before = before, .withdrawn = withdrawn };
     wanted.records.insert (wanted.records.end(), probes.begin(), probes.end());
     if (feed) wanted.feeds = feed->ports();
     for (const auto& set : told.sets)
@@ -99,7 +98,7 @@ Compiled Session::compileNow (const graph::Graph& graph, const Plan* before, con
 
 void Session::compileGraph()
 {
-    auto compiled = compileNow (loaded.graph, nullptr);
+    auto compiled = compileNow (loaded.graph, nullptr, nullptr);
     with_placeholders = hasErrors (compiled.messages);
     if (compiled.plan) warnOnly (compiled.messages);
     report (compiled.messages, loaded, told.graph);
@@ -135,27 +134,43 @@ void Session::bindDevices()
         }
     }
 
-    int errors = 0;
+    Messages messages;
     for (const auto& role : roles)
-    {
-        const auto option = std::ranges::find (chosen, role, &DeviceOption::role);
-        const auto* described = descriptionOf (loaded.graph, role);
-        const bool in_graph = option == chosen.end() && described != nullptr;
-        const Json description = option != chosen.end() ? option->description : in_graph ? *described
-                                                                                         : Json { { "driver", "sim" } };
-
-        if (option == chosen.end() && ! in_graph)
-            std::cerr << "warning: nobody says which device role '" << role << "' is; a simulated tool at rest stands in for it\n    describe it under `devices`, or give --device " << role << "=gesture:stroke [device/undescribed]\n";
-
-        auto made = makeDevice (description, option != chosen.end() ? option->folder : folder);
-        for (auto& m : made.messages)
-            m.where = in_graph ? "/devices/" + role + m.where : "--device " + role + m.where;
-        errors += report (made.messages, loaded, told.graph);
-        devices.push_back ({ role, std::move (made.device), made.limits, option != chosen.end() });
-    }
-    if (errors > 0) throw Stop {};
+        if (auto bound = open (role, loaded.graph, chosen, messages)) devices.push_back (std::move (*bound));
+    if (report (messages, loaded, told.graph) > 0) throw Stop {};
     for (auto& d : devices)
         running->attach (d.role, *d.device, d.limits);
+}
+
+/// The device that an option names, else the one that the graph describes, else a simulated tool that nobody moves.
+std::optional<Session::Bound> Session::open (const std::string& role, const graph::Graph& graph, const std::vector<DeviceOption>& options, Messages& messages) const
+{
+    const auto folder = std::filesystem::path (told.graph).parent_path();
+    const auto option = std::ranges::find (options, role, &DeviceOption::role);
+    const auto* described = descriptionOf (graph, role);
+    const bool by_option = option != options.end();
+    if (! by_option && ! described)
+        messages.push_back (warning ("device/undescribed", "/devices", "nobody says which device role '" + role + "' is; a simulated tool at rest stands in for it", "describe it under `devices`, or give --device " + role + "=gesture:stroke"));
+
+    const Json stand_in { { "driver", "sim" } };
+    auto made = makeDevice (by_option ? option->description : described ? *described
+                                                                        : stand_in,
+                            by_option ? option->folder : folder);
+    for (auto& m : made.messages)
+        m.where = by_option ? "--device " + role + m.where : "/devices/" + role + m.where;
+    std::ranges::move (made.messages, std::back_inserter (messages));
+    if (! made.device) return std::nullopt;
+    return Bound { role, std::move (made.device), made.limits, by_option };
+}
+
+/// The devices of roles that there were not before.
+std::vector<Session::Bound> Session::openNew (const Plan& plan, const graph::Graph& graph, Messages& messages) const
+{
+    std::vector<Bound> opened;
+    for (const auto& role : plan.roles)
+        if (std::ranges::find (devices, role.name, &Bound::role) == devices.end())
+            if (auto bound = open (role.name, graph, {}, messages)) opened.push_back (std::move (*bound));
+    return opened;
 }
 
 void Session::decideLength()
@@ -182,15 +197,21 @@ bool Session::reload()
 
     forgetProbes();
     auto waiting = running->withdraw();
-    auto [plan, messages] = compileNow (next.graph, &running->newest());
+    auto [plan, messages] = compileNow (next.graph, &running->newest(), waiting.get());
     const bool placeholders = plan && hasErrors (messages);
     if (placeholders && with_placeholders) warnOnly (messages);
-    if (plan)
-        std::ranges::move (rolesWithoutDevice (*plan, next.graph), std::back_inserter (messages));
-    const bool fits = report (messages, next, told.graph) == 0;
-    if (fits) ring.select ({}, 1);
-    running->submit (fits ? std::move (plan) : std::move (waiting));
-    if (! fits) return false;
+    auto opened = plan ? openNew (*plan, next.graph, messages) : std::vector<Bound> {};
+    if (report (messages, next, told.graph) > 0)
+    {
+        running->submit (std::move (waiting));
+        return false;
+    }
+    ring.select ({}, 1);
+    std::vector<Engine::Joining> joining;
+    for (const auto& d : opened)
+        joining.push_back ({ d.role, *d.device, d.limits });
+    running->submit (std::move (plan), joining);
+    std::ranges::move (opened, std::back_inserter (devices));
 
     report (notTakenOver (next.graph), next, told.graph);
     loaded = std::move (next);
@@ -202,7 +223,7 @@ std::variant<std::vector<std::string>, Message> Session::probe (const std::vecto
 {
     forgetProbes();
     auto waiting = running->withdraw();
-    auto [plan, messages] = compileNow (loaded.graph, &running->newest(), ports);
+    auto [plan, messages] = compileNow (loaded.graph, &running->newest(), waiting.get(), ports);
     std::vector<std::string> names;
     std::vector<std::size_t> taps;
     for (std::size_t i = 0; plan && i < plan->taps.size(); ++i)
@@ -228,19 +249,6 @@ std::variant<std::vector<std::string>, Message> Session::probe (const std::vecto
 void Session::forgetProbes()
 {
     ring.drain ([] (const auto&) {});
-}
-
-/// A device is opened, and its guard set, before the first tick.
-Messages Session::rolesWithoutDevice (const Plan& plan, const graph::Graph& graph) const
-{
-    Messages messages;
-    for (const auto& role : plan.roles)
-    {
-        if (std::ranges::find (devices, role.name, &Bound::role) != devices.end()) continue;
-        const auto node = std::ranges::find (graph.root.nodes, role.name, &graph::Node::role);
-        messages.push_back ({ .id = "watch/new_role", .where = node != graph.root.nodes.end() ? "/nodes/" + node->name + "/role" : "/nodes", .text = "no device was opened for the role '" + role.name + "' when the run began", .remedy = "start `tactus play` anew to open one; until then the graph before goes on" });
-    }
-    return messages;
 }
 
 Messages Session::notTakenOver (const graph::Graph& graph) const
@@ -284,11 +292,18 @@ void Session::reportRun() const
         std::cerr << "warning: " << late << (late == 1 ? " time" : " times") << " a slow answer (the search of a large surface) was not there when it was due\n    give it more ticks in the settings of the node, as in search_ticks [run/late_answers]\n";
 }
 
+void Session::before (std::uint64_t tick) noexcept
+{
+    if (feed) (*feed) (tick, running->plan().feeds);
+}
+
+void Session::after (std::uint64_t tick, bool) noexcept { ring.note (running->plan(), tick); }
+
 void Session::tick() noexcept
 {
-    if (feed) (*feed) (now, running->plan().feeds);
+    before (now);
     running->tick();
-    ring.note (running->plan(), now);
+    after (now, false);
     ++now;
 }
 

@@ -8,7 +8,9 @@
 #include <framework/plan/compile.hpp>
 #include <framework/slow_question.hpp>
 #include <host/assets/file_assets.hpp>
+#include <host/devices/make_device.hpp>
 #include <host/runtime/probe_ring.hpp>
+#include <host/runtime/runner.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -31,8 +33,8 @@ struct SessionOptions
     void addTo (CLI::App&);
 };
 
-/// A graph with its devices, compiled and ready to tick.
-class Session
+/// A graph with its devices, compiled and ready to tick: by tick(), or by a Runner whose hooks it is.
+class Session final : public TickHooks
 {
 public:
     enum class Pace
@@ -53,11 +55,15 @@ public:
     /// One sample. [tick thread]
     void tick() noexcept;
 
+    void before (std::uint64_t tick) noexcept override;              // [tick thread]
+    void after (std::uint64_t tick, bool halts) noexcept override;   // [tick thread]
+
     //==========================================================================
     // While it ticks. [main thread]
 
     /// Reads the graph file again and has it take over from the one that runs; what both have lives on. Says on stderr what
-    /// is wrong with it, and then returns false: the graph before goes on. Roles keep the devices they have.
+    /// is wrong with it, and then returns false: the graph before goes on. Roles keep the devices they have; one that is
+    /// new gets the device that the file describes.
     bool reload();
 
     /// From now on these ports are looked at, some 1000 times a second, and no others; what ticks is not touched. Returns the
@@ -103,19 +109,20 @@ private:
     std::unique_ptr<Engine> running;
     double rate_hz = 0.0;
     std::optional<std::size_t> count;
-    std::size_t now = 0;
+    std::uint64_t now = 0;
 
     bool with_placeholders = false;
     ProbeRing ring;
     std::vector<std::string> records;   // the same for all plans, so that a recording goes on
 
+    std::optional<Bound> open (const std::string& role, const graph::Graph&, const std::vector<DeviceOption>&, Messages&) const;
+    std::vector<Bound> openNew (const Plan&, const graph::Graph&, Messages&) const;
     void forgetProbes();
     void readFeed();
     void compileGraph();
     void bindDevices();
     void decideLength();
-    Compiled compileNow (const graph::Graph&, const Plan* before, const std::vector<std::string>& probes = {});
-    Messages rolesWithoutDevice (const Plan&, const graph::Graph&) const;
+    Compiled compileNow (const graph::Graph&, const Plan* before, const Plan* withdrawn, const std::vector<std::string>& probes = {});
     Messages notTakenOver (const graph::Graph&) const;
 };
 

@@ -20,6 +20,7 @@ constexpr std::size_t most_probes = 16;
 constexpr double highest_rate = 1000.0, usual_rate = 50.0;   // Hz
 constexpr double longest = 60.0, usual_length = 5.0;         // s
 constexpr int most_at_a_time = 512;                          // messages
+constexpr double most_costs = 100, usual_costs = 10;         // nodes
 
 Message refused (std::string id, std::string text, std::string remedy)
 {
@@ -94,11 +95,28 @@ void RemoteControl::carryOut (const OSCMessage& m, Clock::time_point now)
         { return static_cast<juce::int32> (n & 0x7fffffffu); };
         port.send (m[0].getInt32(), OSCMessage ("/tactus/status", juce::String::fromUTF8 (s.name.c_str()), static_cast<float> (s.rate_hz), static_cast<float> (s.time_s), static_cast<float> (s.force), static_cast<float> (s.peak), whole (s.ticks), whole (s.misses)));
     }
+    else if (address == "/tactus/costs" && m.size() >= 1 && m.size() <= 2 && isPort (m[0]))
+    {
+        const auto wanted = m.size() > 1 ? numberOf (m[1]) : std::optional (usual_costs);
+        if (wanted && *wanted >= 1.0)
+            sendCosts (m[0].getInt32(), static_cast<std::size_t> (std::min (*wanted, most_costs)));
+        else
+            answer (m[0].getInt32(), address, "", badArguments ("the port for the answer, and perhaps how many nodes"));
+    }
     else if (address == "/tactus/stop")
     {
         controlled.stop();
         answer (answerPort (m, 0), address, "", std::nullopt);
     }
+}
+
+void RemoteControl::sendCosts (int to, std::size_t most)
+{
+    auto costs = controlled.costs();
+    costs.resize (std::min (costs.size(), most));
+    for (const auto& c : costs)
+        port.send (to, OSCMessage ("/tactus/cost", juce::String::fromUTF8 (c.node.c_str()), juce::String::fromUTF8 (c.type.c_str()), static_cast<float> (c.mean_s), static_cast<float> (c.share)));
+    answer (to, "/tactus/costs", "", std::nullopt);
 }
 
 std::optional<Message> RemoteControl::subscribe (const OSCMessage& m, Clock::time_point now)

@@ -5,6 +5,7 @@
 
 #include <framework/json.hpp>
 #include <framework/message.hpp>
+#include <host/runtime/node_costs.hpp>
 
 #include <chrono>
 #include <cstdint>
@@ -38,6 +39,10 @@ public:
     virtual std::variant<std::vector<std::string>, Message> probe (const std::vector<std::string>& ports) = 0;
 
     virtual Status status() = 0;
+
+    /// What the nodes cost, the costliest first; of those that were measured.
+    virtual std::vector<NodeCost> costs() = 0;
+
     virtual void stop() = 0;
 };
 
@@ -72,6 +77,7 @@ private:
     };
 
     void carryOut (const juce::OSCMessage&, Clock::time_point);
+    void sendCosts (int to, std::size_t most);
     std::optional<Message> subscribe (const juce::OSCMessage&, Clock::time_point);
     std::optional<Message> look (const std::vector<Probe>&);
     void answer (int to, const std::string& address, const std::string& subject, const std::optional<Message>&);

@@ -11,9 +11,6 @@ namespace tactus::host
 /// Asks the system to let the calling thread be on time: before all that is not real time (SCHED_FIFO), on one core if
 /// one is named, woken without slack. Returns a sentence for each thing that is not granted; the thread runs all the
 /// same. [the thread itself, before its first tick]
-///
-/// Denormal numbers are left as they are. To flush them to zero would spare a slow tick now and then, but give other bits
-/// than an offline run; nodes that decay flush their own state (physics, not the processor, says when they are silent).
 std::vector<std::string> becomeRealTime (std::optional<int> core);
 
 /// Keeps the memory of the process from being paged out. Returns why not, if not. [main thread]

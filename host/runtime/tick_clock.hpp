@@ -8,20 +8,34 @@
 namespace tactus::host
 {
 
-/// Who owns the clock of a run: says when each tick is due. A timer and a free run are below; a device's reports or the
-/// callbacks of an audio card can be one as well. All of it is for the tick thread.
+/// What a clock ticks.
+class Ticked
+{
+public:
+    virtual ~Ticked() = default;
+
+    /// One tick, which is due and begins this much late, in s. False after the last one. [tick thread]
+    virtual bool tick (double late_s) noexcept = 0;
+};
+
+/// Who owns the clock of a run: has it tick whenever a tick is due. A timer and a free run are below. A device is one that
+/// waits for its next report; the callback of an audio card is one that ticks a block at a time on a thread of its own.
 class TickClock
 {
 public:
     virtual ~TickClock() = default;
 
-    /// The first tick is due now.
-    virtual void begin() noexcept = 0;
+    /// Ticks, the first time at once, until tick() returns false, and then returns. Whether on this thread or on one that
+    /// something calls back on is the clock's affair, as long as it is one at a time; that is the tick thread then, and
+    /// its floating-point mode is the default one. Who waits for something from outside does not wait for ever: a
+    /// device that falls silent is ticked on, with a reading that grows old, so that its guard takes the force off and a
+    /// request to stop is heard. [a thread of the run]
+    virtual void drive (Ticked&) noexcept = 0;
 
-    /// Waits until the next tick is due. Returns by how much it is late, in s.
-    virtual double wait() noexcept = 0;
+    /// False if ticks are never late, so that a graph cannot take too long for them.
+    virtual bool isRealTime() const noexcept { return true; }
 
-    /// The time in s, from any beginning.
+    /// The time in s, from any beginning. [tick thread]
     virtual double now() const noexcept { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
 };
 
@@ -33,11 +47,21 @@ class AbsoluteTimer final : public TickClock
 public:
     explicit AbsoluteTimer (double period_s) : period (toDuration (period_s)), spin (std::min (toDuration (50e-6), period / 5)) {}
 
-    void begin() noexcept override { deadline = Clock::now() - period; }
-
-    double wait() noexcept override
+    void drive (Ticked& ticked) noexcept override
     {
-        deadline += period;
+        deadline = Clock::now();
+        while (ticked.tick (wait()))
+            deadline += period;
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    static Clock::duration toDuration (double s) { return std::chrono::duration_cast<Clock::duration> (std::chrono::duration<double> (s)); }
+
+    /// Until the deadline; returns by how much it is over, in s.
+    double wait() noexcept
+    {
         auto at = Clock::now();
         if (deadline - spin > at) std::this_thread::sleep_until (deadline - spin);
         while ((at = Clock::now()) < deadline)
@@ -47,11 +71,6 @@ public:
         return std::chrono::duration<double> (late).count();
     }
 
-private:
-    using Clock = std::chrono::steady_clock;
-
-    static Clock::duration toDuration (double s) { return std::chrono::duration_cast<Clock::duration> (std::chrono::duration<double> (s)); }
-
     Clock::duration period, spin;
     Clock::time_point deadline;
 };
@@ -60,8 +79,13 @@ private:
 class FreeRun final : public TickClock
 {
 public:
-    void begin() noexcept override {}
-    double wait() noexcept override { return 0.0; }
+    void drive (Ticked& ticked) noexcept override
+    {
+        while (ticked.tick (0.0))
+            ;
+    }
+
+    bool isRealTime() const noexcept override { return false; }
 };
 
 }   // namespace tactus::host

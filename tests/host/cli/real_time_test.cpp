@@ -30,6 +30,22 @@ TEST_CASE ("play ends with how late its ticks were, and how many it missed", "[c
     CHECK (ticks >= 800);
 }
 
+TEST_CASE ("asked for, what the costliest nodes take stands at the end", "[cli]")
+{
+    const auto ran = runTactus ({ "play", TACTUS_SOURCE_DIR "/graphs/dry_wood.json", "--duration", "1", "--osc", "off", "--costs" });
+    INFO (ran.err);
+    CHECK (ran.status == 0);
+    const auto line = ran.err.find ("mean us   share   node\n");
+    REQUIRE (line != std::string::npos);
+    double mean = -1.0, share = -1.0;
+    REQUIRE (std::sscanf (ran.err.c_str() + ran.err.find ('\n', line), "%lf %lf %%", &mean, &share) == 2);
+    CHECK (mean > 0.0);
+    CHECK (mean < 1000.0);
+    CHECK (share > 5.0);
+    CHECK (share <= 100.0);
+    CHECK (ran.err.find ("(friction.elasto_plastic)", line) != std::string::npos);
+}
+
 TEST_CASE ("a graph that takes longer than its ticks last is stopped, its costliest node named, its recording kept", "[cli]")
 {
     const Scratch scratch;

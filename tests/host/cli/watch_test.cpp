@@ -90,7 +90,7 @@ TEST_CASE ("a file with errors is reported with its place, and the graph before 
     };
     refused ("{ \"format\": \"tactus-graph\", ", "file/syntax", "1:");
     refused (counter (R"("idle": { "type": "signal.abss" },)"), "node/unknown_type", "3:");
-    refused (counter (R"("idle": { "type": "device.force", "role": "thumb" },)"), "watch/new_role", "3:");
+    refused (counter (R"("idle": { "type": "device.force", "role": "thumb" },)", "1", R"("thumb": { "driver": "sim", "mass": -1 },)"), "device/out_of_range", "2:");
     auto misspelt = counter();
     refused (misspelt.replace (misspelt.find ("count.in[0]"), 11, "count.on[0]"), "port/unknown", "4:");
 
@@ -98,6 +98,31 @@ TEST_CASE ("a file with errors is reported with its place, and the graph before 
     CHECK (play.says (": taken over"));
     const auto ran = play.stop();
     CHECK (ran.status == 0);
+    const auto table = host::readTable (std::filesystem::path (scratch.path ("p.csv")));
+    REQUIRE (table);
+    CHECK (table->at (table->rows() - 1, 1) == static_cast<double> (table->rows()));
+}
+
+TEST_CASE ("a role that the edited file has first gets its device, and is felt", "[cli][watch]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("g.json", counter());
+    Running play { { "play", file, "--watch", "--duration", "60", "--record", "count.out", "--out", scratch.path ("p.csv") } };
+    REQUIRE (play.says ("Ctrl-C stops"));
+    const std::string thumb = R"("thumb": { "type": "device.position", "role": "thumb" }, "wall": { "type": "deform.plane" }, "thimble": { "type": "device.force", "role": "thumb" },)";
+    auto edited = counter (thumb, "1", R"("thumb": { "driver": "sim", "position": [0, 0, "-5 mm"], "mass": 1000 },)");
+    edited.replace (edited.find (R"("wires": [)"), 10, R"("wires": [ "thumb.position -> wall.position", "wall.force -> thimble.force",)");
+    scratch.write ("g.json", edited);
+    REQUIRE (play.says (": taken over"));
+    CHECK (play.err().find ("device/undescribed") == std::string::npos);
+
+    scratch.write ("g.json", counter (R"("toe": { "type": "device.force", "role": "toe" },)"));
+    REQUIRE (play.says (": taken over", 2));
+    CHECK (play.says ("[device/undescribed]"));
+    const auto ran = play.stop();
+    INFO (ran.err);
+    CHECK (ran.status == 0);
+    CHECK (ran.err.find ("peak  5.000 N") != std::string::npos);   // N: 5 mm into 1000 N/m
     const auto table = host::readTable (std::filesystem::path (scratch.path ("p.csv")));
     REQUIRE (table);
     CHECK (table->at (table->rows() - 1, 1) == static_cast<double> (table->rows()));

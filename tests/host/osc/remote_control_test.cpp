@@ -50,6 +50,7 @@ struct Puppet : Controlled
     }
 
     Status status() override { return { "Puppet", 1000.0, 2.5, 0.5, 1.5, 2500, 3 }; }
+    std::vector<NodeCost> costs() override { return std::vector<NodeCost> (20, { "wood/drag", "friction.elasto_plastic", 2e-6, 0.05 }); }
     void stop() override { stopped = true; }
 
     std::string said;
@@ -202,6 +203,31 @@ TEST_CASE ("a probe sends what was asked for, as often as asked, and ends when i
     stage.control.attend (stage.now);
     CHECK_FALSE (stage.control.isProbing());
     CHECK (stage.puppet.probed.empty());
+}
+
+TEST_CASE ("asked for, what the costliest nodes take is told, node by node", "[osc]")
+{
+    Stage stage;
+    const auto told = [&] (auto... how_many)
+    {
+        auto message = stage.ask ("/tactus/costs", stage.me(), how_many...);
+        int n = 0;
+        for (; address (message) == "/tactus/cost"; ++n)
+        {
+            CHECK (text (message, 0) == "wood/drag");
+            CHECK (text (message, 1) == "friction.elasto_plastic");
+            CHECK (message[2].getFloat32() == 2e-6f);
+            CHECK (message[3].getFloat32() == 0.05f);
+            message = *stage.other->next (20s);
+        }
+        CHECK (address (message) == "/tactus/done");
+        CHECK (text (message, 0) == "/tactus/costs");
+        return n;
+    };
+    CHECK (told() == 10);
+    CHECK (told (3) == 3);
+    CHECK (told (1000.0f) == 20);
+    CHECK (text (stage.ask ("/tactus/costs", stage.me(), 0), 2) == "osc/arguments");
 }
 
 TEST_CASE ("a probe of what is not there, or one too many, is refused and the others go on", "[osc]")

@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/runtime/costliest_node.hpp>
 #include <host/runtime/tick_account.hpp>
-#include <host/runtime/tick_clock.hpp>
-
-#include "support/sketch.hpp"
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -51,25 +47,6 @@ TEST_CASE ("a tick that begins a period late is a miss; a graph is overrun when 
     CHECK_FALSE (account.isOverrun());
 }
 
-TEST_CASE ("an absolute timer never lets a tick begin early, and does not make up for what was missed", "[runtime]")
-{
-    constexpr double period = 1e-3;
-    AbsoluteTimer timer { period };
-    const double begin = timer.now();
-    timer.begin();
-    double least = begin;
-    for (int k = 0; k < 50; ++k)
-    {
-        const double late = timer.wait(), now = timer.now();
-        CHECK (late >= 0.0);
-        CHECK (now >= least - 1e-6);
-        least = now - late + period;
-        if (k == 20) std::this_thread::sleep_for (std::chrono::milliseconds (20));
-        if (late > period) least = now - 1e-3;   // anew from here, give or take the time between two looks at the clock
-    }
-    CHECK (timer.now() - begin > 0.04);
-}
-
 TEST_CASE ("looking at an account while it is kept is no race", "[runtime]")
 {
     TickAccount account { 1e-3 };
@@ -89,15 +66,4 @@ TEST_CASE ("looking at an account while it is kept is no race", "[runtime]")
     keeper.join();
     CHECK (forward);
     CHECK (account.ticks() == 20000);
-}
-
-TEST_CASE ("the costliest node is named", "[runtime]")
-{
-    auto modes = Json::array();
-    for (int i = 0; i < 500; ++i)
-        modes.push_back ({ { "frequency", 100.0 + i }, { "decay", 5.0 }, { "amplitude", 1.0 } });
-    const auto plan = test::Sketch {}.node ("idle", "signal.abs").node ("bar", "vibration.modal", Json::object(), { { "modes", modes } }).wire ("idle.out -> bar.hit").compile().plan;
-    REQUIRE (plan);
-    CHECK (costliestNode (*plan).starts_with ("'bar' (vibration.modal) takes "));
-    CHECK (costliestNode (*test::Sketch {}.compile().plan) == "there is no node");
 }

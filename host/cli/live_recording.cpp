@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "live_recording.hpp"
+
+#include <cstdio>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr double room_s = 1.0;   // of frames that wait to be written
+}   // namespace
+
+LiveRecording::LiveRecording (Session& s, const std::vector<std::string>& files)
+    : session (s), recorder (files, s.engine().plan().taps, s.rate(), false), ring (s.engine().plan().taps.size(), static_cast<std::size_t> (room_s * s.rate()) + 1)
+{
+}
+
+void LiveRecording::after (std::uint64_t tick, bool halts) noexcept
+{
+    session.after (tick, halts);
+    if (halts) return;
+    const auto frame = ring.next();
+    if (frame.empty()) return;
+    const auto& taps = session.engine().plan().taps;
+    for (std::size_t i = 0; i < frame.size(); ++i)
+        frame[i] = *taps[i].value;
+    ring.push();
+}
+
+void LiveRecording::drain()
+{
+    ring.drain ([this] (std::span<const double> frame)
+                { recorder.frame (frame); });
+}
+
+void LiveRecording::commit()
+{
+    drain();
+    if (ring.lost() > 0) std::fprintf (stderr, "warning: %zu ticks were not recorded, because writing could not keep up\n", ring.lost());
+    recorder.commit();
+}
+
+}   // namespace tactus::host

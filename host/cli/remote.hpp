@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "session.hpp"
+
+#include <framework/turn.hpp>
+#include <host/osc/remote_control.hpp>
+#include <host/runtime/runner.hpp>
+
+namespace tactus::host
+{
+
+/// A session that runs, for those who reach it by OSC. [main thread]
+class Remote final : public Controlled
+{
+public:
+    Remote (Session& s, Runner& r) : session (s), running (r) {}
+
+    std::optional<Message> setParam (const std::string& name, const Json& value) override { return turnParam (session.engine(), name, value); }
+    std::optional<Message> turnControl (const std::string& id, double value) override { return tactus::turnControl (session.engine(), session.graph(), id, value); }
+    std::variant<std::vector<std::string>, Message> probe (const std::vector<std::string>& ports) override { return session.probe (ports); }
+    std::vector<NodeCost> costs() override { return running.costs(); }
+    void stop() override { running.stop(); }
+
+    Status status() override
+    {
+        const auto now = running.status();
+        return { session.name(), session.rate(), static_cast<double> (now.ticks) / session.rate(), now.force, now.peak, now.ticks, now.misses };
+    }
+
+private:
+    Session& session;
+    Runner& running;
+};
+
+}   // namespace tactus::host

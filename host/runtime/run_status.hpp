@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <framework/guard.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace tactus::host
+{
+
+/// How a run stands after a tick.
+struct RunStatus
+{
+    enum class Phase : std::uint32_t
+    {
+        running,
+        halting,   ///< the forces are on their way to zero
+        over
+    };
+
+    /// Why it halts, or did.
+    enum class End : std::uint32_t
+    {
+        none,
+        length,    ///< it has run for as long as it was to
+        asked,     ///< somebody wanted it to stop
+        overrun,   ///< the graph takes longer than its ticks last
+    };
+
+    /// What is on the device of a role.
+    struct Role
+    {
+        std::string_view name;                  ///< lives as long as the engine
+        double force = 0.0, torque = 0.0;       ///< N, N m; lengths
+        Guard::Stop stop = Guard::Stop::none;   ///< why the guard withholds the effort now
+
+        // Of the latest stop, what its Guard::Event says.
+        Guard::Stop latest = Guard::Stop::none;
+        std::array<double, 6> wanted {};
+        double age = 0.0, watchdog = 0.0;
+        std::uint64_t valid = 1;
+
+        /// For describe().
+        Guard::Event latestEvent() const { return { .why = latest, .wanted = { Vec3 (wanted.data()), Vec3 (wanted.data() + 3) }, .age = age, .watchdog = watchdog, .valid = valid != 0 }; }
+    };
+
+    static constexpr std::size_t most_roles = 16;
+
+    std::uint64_t ticks = 0, misses = 0;   ///< a miss began a period late, or more
+    double force = 0.0, peak = 0.0;        ///< N, the largest of all roles: now, and since the run began
+    Phase phase = Phase::running;
+    End end = End::none;
+    std::uint64_t let_go_under_force = 0;    ///< 1: a slew limit made the way to zero too long
+    std::uint64_t role_count = 0;            ///< of the plan that ticks; there is more to see of the first `most_roles`
+    std::array<Role, most_roles> roles {};   ///< by name; last, since most of them are seldom there
+
+    std::span<const Role> shown() const noexcept { return std::span (roles).first (role_count < most_roles ? static_cast<std::size_t> (role_count) : most_roles); }
+};
+
+}   // namespace tactus::host
