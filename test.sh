@@ -4,7 +4,8 @@
 #
 #   ./test.sh           the tests, also under ASan and UBSan (framework and nodes), and a newcomer's node
 #   ./test.sh --quick   the tests only
-#   ./test.sh --long    before that: each fuzzer for 60 s, and the tests under TSan
+#   ./test.sh --long    before that: each fuzzer for 60 s, the tests under TSan with those of threads for 30 s each, and
+#                       after it a soak of 1.2e8 ticks
 #   ./test.sh --figures draws docs/figures/ and counts docs/instructions.md anew, and does nothing else
 . "$(dirname "$0")/.ci/setup.sh"
 
@@ -41,7 +42,7 @@ if [ "$mode" = --long ]; then
     done
     build tsan
     say "Tests under TSan"
-    run_tests tsan
+    TACTUS_LIVE_SECONDS=30 run_tests tsan
 fi
 
 if [ "$mode" != --quick ]; then
@@ -57,3 +58,7 @@ if [ "$mode" != --quick ]; then
 fi
 say "Tests"
 run_tests release
+if [ "$mode" = --long ]; then
+    say "Soak"
+    TACTUS_SOAK_TICKS=120000000 build/release/bin/tactus_tests "[soak]"
+fi

@@ -41,7 +41,7 @@ test::Sketch wood()
 }
 }   // namespace
 
-TEST_CASE ("a million ticks with edits beside it give the same bits, and no memory is lost", "[live]")
+TEST_CASE ("a million ticks with edits beside it give the same bits, and no memory is lost", "[live][soak]")
 {
     const auto* wanted = std::getenv ("TACTUS_SOAK_TICKS");
     const auto ticks = wanted ? std::strtoull (wanted, nullptr, 10) : 1'000'000ull;
