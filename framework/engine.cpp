@@ -115,7 +115,14 @@ std::size_t Engine::clear()
     return handover.size();
 }
 
-std::variant<plan::ParamRef, Message> Engine::param (std::string_view name) { return plan::findParam (newest(), name); }
+std::variant<plan::ParamRef, Message> Engine::param (std::string_view name)
+{
+    auto found = params (name);
+    if (auto* message = std::get_if<Message> (&found)) return std::move (*message);
+    return std::move (std::get<std::vector<plan::ParamRef>> (found).front());
+}
+
+std::variant<std::vector<plan::ParamRef>, Message> Engine::params (std::string_view name) { return plan::findParams (newest(), name); }
 
 void Engine::set (const plan::ParamRef& param, double value) noexcept
 {

@@ -60,8 +60,12 @@ public:
     std::size_t clear();
 
     //==========================================================================
-    /// A parameter of the newest plan by its name: one component of a vector, one entry of a list. [main thread]
+    /// A parameter of the newest plan by its name: one component of a vector, one entry of a list. Of several instances
+    /// the first. [main thread]
     std::variant<plan::ParamRef, Message> param (std::string_view name);
+
+    /// The same, of all instances that the name stands for. [main thread]
+    std::variant<std::vector<plan::ParamRef>, Message> params (std::string_view name);
 
     /// Turns a parameter; a ramp leads there (plan/ramps.hpp). [any thread]
     void set (const plan::ParamRef&, double) noexcept;

@@ -47,17 +47,19 @@ std::optional<Message> add (Engine& engine, const std::string& name, const Json&
             if (auto message = add (engine, name + (vector ? std::string (".") + "xyz"[i] : "[" + std::to_string (i) + "]"), low[i], high[i], amount, turns)) return message;
         return std::nullopt;
     }
-    auto found = engine.param (name);
+    auto found = engine.params (name);
     if (auto* message = std::get_if<Message> (&found)) return std::move (*message);
-    auto& param = std::get<plan::ParamRef> (found);
-    double ends[2];
-    for (auto [end, json] : { std::pair { &ends[0], &low }, { &ends[1], &high } })
+    for (auto& param : std::get<std::vector<plan::ParamRef>> (found))
     {
-        auto number = read (*json, *param.sheet, name);
-        if (auto* message = std::get_if<Message> (&number)) return std::move (*message);
-        *end = std::get<double> (number);
+        double ends[2];
+        for (auto [end, json] : { std::pair { &ends[0], &low }, { &ends[1], &high } })
+        {
+            auto number = read (*json, *param.sheet, name);
+            if (auto* message = std::get_if<Message> (&number)) return std::move (*message);
+            *end = std::get<double> (number);
+        }
+        turns.emplace_back (std::move (param), amount == 0.0 ? ends[0] : ends[0] + amount * (ends[1] - ends[0]));
     }
-    turns.emplace_back (std::move (param), amount == 0.0 ? ends[0] : ends[0] + amount * (ends[1] - ends[0]));
     return std::nullopt;
 }
 

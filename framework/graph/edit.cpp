@@ -145,8 +145,14 @@ public:
         return back;
     }
 
-    Result operator() (const SetParam& c) { return setMember (c, &Node::params, c.param); }
-    Result operator() (const SetSetting& c) { return setMember (c, &Node::settings, c.setting); }
+    Result operator() (const SetParam& c) { return checked() && c.value && ! isId (c.param) ? badId (c.param) : setMember (c, &Node::params, &SetParam::param); }
+    Result operator() (const SetSetting& c) { return checked() && c.value && ! isId (c.setting) ? badId (c.setting) : setMember (c, &Node::settings, &SetSetting::setting); }
+
+    Result operator() (const SetOverride& c)
+    {
+        if (const auto parsed = parseOverride (c.path); checked() && parsed.index() == 1) return refused ("graph/bad_path", std::get<std::string> (parsed), "write node.param, or [3]/node.param for one instance");
+        return setMember (c, &Node::overrides, &SetOverride::path);
+    }
 
     Result operator() (const SetNodeKey& c)
     {
@@ -445,19 +451,16 @@ private:
     std::vector<Control>::iterator findControl (const std::string& id) { return std::ranges::find (graph.controls, id, &Control::id); }
 
     template <typename C>
-    Result setMember (const C& c, Json Node::*object, const std::string& id)
+    Result setMember (const C& c, Json Node::*object, std::string C::*key)
     {
         auto* patch = find (c.patch);
         if (patch == nullptr) return noPatch (c.patch);
         auto* node = find (*patch, c.node);
         if (node == nullptr) return noNode (c.patch, c.node);
         if (checked() && c.value)
-        {
-            if (! isId (id)) return badId (id);
             if (auto wrong = problemOf (*c.value)) return refused ("edit/bad_value", *wrong);
-        }
-        auto old = exchangeMember (node->*object, id, c.value, c.place);
-        return C { c.patch, c.node, id, std::move (old.value), old.place };
+        auto old = exchangeMember (node->*object, c.*key, c.value, c.place);
+        return C { c.patch, c.node, c.*key, std::move (old.value), old.place };
     }
 
     /// The nodes of a subgraph, but for those inside of it, as a sentence lists them.

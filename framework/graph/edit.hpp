@@ -68,6 +68,14 @@ struct SetSetting
     Place place {};
 };
 
+/// A parameter inside a subgraph node, under its key among the overrides: "drag.mu", or "[3]/drag.mu" of one instance.
+struct SetOverride
+{
+    std::string patch, node, path;
+    std::optional<Json> value {};
+    Place place {};
+};
+
 /// Any other key of a node: type, role, roles, bypass, overrides, count, every, times, hold, ui, and unknown ones.
 struct SetNodeKey
 {
@@ -143,7 +151,9 @@ struct CollapseNodes
 
 /// The reverse: what is in its subgraph takes the node's place, with the params, overrides and roles that the node gave
 /// it. A subgraph that no other node is of goes; of one that is shared, copies are made, which know their origin. A node
-/// whose name is taken outside is given another one that begins with the name of the subgraph node.
+/// whose name is taken outside is given another one that begins with the name of the subgraph node. A node with a `count`
+/// becomes a node for each instance, "finger_0", "finger_1" …, which can be expanded one by one; a wire from all of them
+/// becomes as many, which compile refuses (wire/two_into_one) where their sum went into a port for a single one.
 struct ExpandNode
 {
     std::string patch, name;
@@ -191,7 +201,7 @@ struct Batch
 /// Any of these. No variant itself, since apply would then find std::apply.
 struct Command
 {
-    using Edit = std::variant<AddNode, RemoveNode, RenameNode, SetParam, SetSetting, SetNodeKey, AddWire, RemoveWire, ChangeWire, AddControl, RemoveControl, ChangeControl, AddSubgraph, RemoveSubgraph, RenameSubgraph, CollapseNodes, ExpandNode, ReplaceGraph, ChangeExpose, SetDevice, SetHeader, Batch>;
+    using Edit = std::variant<AddNode, RemoveNode, RenameNode, SetParam, SetSetting, SetOverride, SetNodeKey, AddWire, RemoveWire, ChangeWire, AddControl, RemoveControl, ChangeControl, AddSubgraph, RemoveSubgraph, RenameSubgraph, CollapseNodes, ExpandNode, ReplaceGraph, ChangeExpose, SetDevice, SetHeader, Batch>;
 
     template <typename T>
     requires (! std::same_as<T, Command>)

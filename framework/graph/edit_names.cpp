@@ -15,6 +15,7 @@ struct Namer
     std::string operator() (const RenameNode& c) const { return "rename " + inQuotes (c.name) + " to " + inQuotes (c.to); }
     std::string operator() (const SetParam& c) const { return (c.value ? "set " : "reset ") + inQuotes (c.node + "." + c.param); }
     std::string operator() (const SetSetting& c) const { return (c.value ? "set " : "reset ") + inQuotes (c.node + "." + c.setting); }
+    std::string operator() (const SetOverride& c) const { return (c.value ? "set " : "reset ") + inQuotes (c.node + (c.path.starts_with ('[') ? "" : "/") + c.path); }
     std::string operator() (const SetNodeKey& c) const { return "change " + c.key + " of " + inQuotes (c.node); }
     std::string operator() (const AddWire& c) const { return "add wire " + inQuotes (toText (c.wire)); }
     std::string operator() (const RemoveWire&) const { return "remove wire"; }

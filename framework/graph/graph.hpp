@@ -22,6 +22,15 @@ using Id = std::uint64_t;
 
 Id newId() noexcept;   // [any thread]
 
+/// What a copy was made from, or a node that stands for several; then which of them.
+struct Ancestor
+{
+    Id id = 0;
+    int instance = 0;
+
+    bool operator== (const Ancestor&) const = default;
+};
+
 /// One end of a wire or a port address: `node.port`, `in[2]`, `position.x`, `finger[3].x`, `grain/wave.phase`.
 struct Endpoint
 {
@@ -36,7 +45,7 @@ struct Endpoint
 struct Wire
 {
     Id id = newId();
-    std::vector<Id> origin {};   ///< of a copy that expanding made: the subgraph nodes around what it is a copy of, and that; state follows
+    std::vector<Ancestor> origin {};   ///< of a copy that expanding made: the subgraph nodes around what it is a copy of, and that; state follows
     Endpoint from, to;
     int delay = 0;                 ///< ticks; 0 is no delay
     bool add = false;              ///< `(+)`: onto a parameter's stored value instead of replacing it
@@ -48,7 +57,7 @@ struct Wire
 struct Node
 {
     Id id = newId();
-    std::vector<Id> origin {};   ///< as of a wire
+    std::vector<Ancestor> origin {};   ///< as of a wire
     std::string name;
     std::string type;               ///< id in the catalogue, "graph:NAME" or "file:path.json"
     std::string role;               ///< of a device node

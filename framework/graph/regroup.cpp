@@ -2,6 +2,9 @@
 #include "regroup.hpp"
 
 #include "endpoints.hpp"
+#include "instances.hpp"
+#include "overrides.hpp"
+#include "separate.hpp"
 #include "text.hpp"
 
 #include <framework/file/json_text.hpp>
@@ -121,9 +124,11 @@ public:
         const auto* body = node.type.starts_with ("graph:") ? graph.find (node.type.substr (6)) : nullptr;
         if (body == nullptr) return cannot ("is a node of no subgraph in this graph");
         if (node.bypass) return cannot ("is bypassed");
-        for (const auto* key : { "count", "every", "times" })
+        for (const auto* key : { "every", "times" })
             if (node.extra.contains (key)) return cannot ("has a `" + std::string (key) + "`");
-        if (! node.roles.is_null() && ! mapsRoles()) return cannot ("gives roles to several instances");
+        if (node.roles.is_object() && std::ranges::any_of (node.roles, [] (const Json& outer)
+                                                           { return outer.is_array() && outer.size() != 1; }))
+            return cannot ("gives roles to several instances");
         for (const auto& n : body->nodes)
             if (n.type == node.type) return cannot ("contains itself");
         inner = *body;
@@ -147,12 +152,6 @@ private:
         m.text = inQuotes (command.name) + " " + why;
         m.remedy = "change that first";
         return m;
-    }
-
-    bool mapsRoles() const
-    {
-        return node.roles.is_object() && std::ranges::all_of (node.roles, [] (const Json& outer)
-                                                              { return outer.is_string(); });
     }
 
     void chooseNames()
@@ -190,26 +189,36 @@ private:
 
     void giveRoles (Node& n) const
     {
-        if (! node.roles.is_object()) return;
-        const auto outerOf = [&] (const std::string& role)
-        { return node.roles.contains (role) ? node.roles.at (role).get<std::string>() : role; };
-        if (! n.role.empty()) n.role = outerOf (n.role);
+        const auto outer = rolesOf (node, 0);
+        if (! outer.is_object()) return;
+        const auto outerOf = [&] (const Json& role)
+        { return role.is_string() && outer.contains (role.get<std::string>()) ? outer.at (role.get<std::string>()) : role; };
+        if (! n.role.empty()) n.role = outerOf (n.role).get<std::string>();
         if (n.type.find (':') == std::string::npos) return;
 
         auto roles = Json::object();
         if (n.roles.is_object())
-            for (const auto& [role, outer] : n.roles.items())
-                append (roles, role, outer.is_string() ? Json (outerOf (outer.get<std::string>())) : outer);
-        for (const auto& [role, outer] : node.roles.items())
-            if (! roles.contains (role)) append (roles, role, outer);
+            for (const auto& [role, means] : n.roles.items())
+            {
+                auto now = means;
+                if (means.is_array())
+                    for (auto& one : now)
+                        one = outerOf (one);
+                else
+                    now = outerOf (means);
+                append (roles, role, std::move (now));
+            }
+        for (const auto& [role, means] : outer.items())
+            if (! roles.contains (role)) append (roles, role, means);
         n.roles = std::move (roles);
     }
 
-    /// What the node said of the params inside is said inside. Later values outrank earlier ones, so they are put last.
+    /// What the node said of the params inside is said inside, where it outranks what is there.
     std::optional<Message> giveValues (const Json& values, bool of_shown)
     {
-        for (const auto& [key, value] : values.items())
+        for (const auto* entry : byPrecedence (values))
         {
+            const auto& [key, value] = *entry;
             const auto parsed = parseEndpoint (of_shown ? "x." + key : key);
             if (! std::holds_alternative<Endpoint> (parsed)) return cannot ("has a value for " + inQuotes (key) + ", which names no parameter inside");
             auto e = std::get<Endpoint> (parsed);
@@ -222,28 +231,51 @@ private:
             else
                 renameEnd (e);
 
-            const auto first = firstNameOf (e.node);
-            const auto n = std::ranges::find (inner.nodes, first, &Node::name);
-            if (n == inner.nodes.end() || e.node.starts_with (first + "[")) return cannot ("has a value for " + inQuotes (key) + ", and there is no such node inside");
-            const bool deeper = e.node.size() > first.size();
-            auto& into = deeper ? n->overrides : n->params;
-            const auto text = toText (Endpoint { deeper ? e.node.substr (first.size() + 1) : "x", e.port, e.index, e.component });
-            const auto wanted = deeper ? text : text.substr (2);
-            auto changed = Json::object();
-            for (const auto& [k, v] : into.items())
-                if (k != wanted) append (changed, k, v);
-            append (changed, wanted, value);
-            into = std::move (changed);
+            const auto step = firstStep (e.node);
+            const auto n = std::ranges::find (inner.nodes, step.name, &Node::name);
+            if (n == inner.nodes.end()) return cannot ("has a value for " + inQuotes (key) + ", and there is no such node inside");
+            if (auto problem = give (*n, e, value)) return problem;
         }
         return std::nullopt;
     }
 
-    /// What a port that the subgraph shows stands for.
-    std::optional<Endpoint> throughShown (const Endpoint& e, Side side) const
+    /// A shown parameter of a node that says more about its inside becomes one of that, to stay above it.
+    std::optional<Message> give (Node& n, const Endpoint& e, const Json& value) const
+    {
+        const auto step = firstStep (e.node);
+        const auto instance = step.instance >= 0 ? "[" + std::to_string (step.instance) + "]/" : "";
+        if (! step.rest.empty())
+            giveOverride (n.overrides, instance + toText ({ std::string (step.rest), e.port, e.index, e.component }), value);
+        else if (const auto* inside = subgraphOf (n); inside && (! instance.empty() || ! n.overrides.empty()))
+        {
+            auto shown = shownBy (*inside, e, Side::param);
+            if (! shown) return cannot ("has a value for " + inQuotes (toText (e)) + ", and there is no such parameter inside");
+            giveOverride (n.overrides, instance + toText (*shown), value);
+        }
+        else if (! instance.empty())
+            return cannot ("has a value for " + inQuotes (toText (e)) + ", one instance of a subgraph in another file");
+        else
+        {
+            auto changed = Json::object();
+            const auto wanted = toText ({ "x", e.port, e.index, e.component }).substr (2);
+            for (const auto& [k, v] : n.params.items())
+                if (k != wanted) append (changed, k, v);
+            append (changed, wanted, value);
+            n.params = std::move (changed);
+        }
+        return std::nullopt;
+    }
+
+    const Patch* subgraphOf (const Node& n) const { return n.type.starts_with ("graph:") ? graph.find (std::string_view (n.type).substr (6)) : nullptr; }
+
+    std::optional<Endpoint> throughShown (const Endpoint& e, Side side) const { return shownBy (inner, e, side); }
+
+    /// What a port that a subgraph shows stands for.
+    static std::optional<Endpoint> shownBy (const Patch& patch, const Endpoint& e, Side side)
     {
         using List = const std::vector<std::pair<std::string, Endpoint>>*;
-        const auto lists = side == Side::start ? std::vector<List> { &inner.expose.outputs } : side == Side::end ? std::vector<List> { &inner.expose.inputs, &inner.expose.params }
-                                                                                                                 : std::vector<List> { &inner.expose.params };
+        const auto lists = side == Side::start ? std::vector<List> { &patch.expose.outputs } : side == Side::end ? std::vector<List> { &patch.expose.inputs, &patch.expose.params }
+                                                                                                                 : std::vector<List> { &patch.expose.params };
         for (const auto* list : lists)
             if (const auto at = std::ranges::find (*list, e.port, &std::pair<std::string, Endpoint>::first); at != list->end())
             {
@@ -292,13 +324,11 @@ private:
         { return n.type == type && n.id != id; };
         const bool shared = std::ranges::any_of (graph.root.nodes, isOfIt) || std::ranges::any_of (graph.graphs, [&] (const auto& g)
                                                                                                    { return std::ranges::any_of (g.second.nodes, isOfIt); });
-        const auto originOf = [] (const auto& x)
-        { return x.origin.empty() ? std::vector { x.id } : x.origin; };
-        const auto around = originOf (node);
+        const auto around = ancestryOf (node);
         const auto copy = [&] (auto& x)
         {
             auto origin = around;
-            std::ranges::copy (originOf (x), std::back_inserter (origin));
+            std::ranges::copy (ancestryOf (x), std::back_inserter (origin));
             x.origin = std::move (origin);
             x.id = newId();
         };
@@ -328,6 +358,10 @@ std::optional<Message> collapse (Graph& graph, const CollapseNodes& command)
     return std::nullopt;
 }
 
-std::optional<Message> expand (Graph& graph, const ExpandNode& command) { return Expand (graph, command).run(); }
+std::optional<Message> expand (Graph& graph, const ExpandNode& command)
+{
+    const bool counted = patchOf (graph, command.patch).find (command.name)->extra.contains ("count");
+    return counted ? separate (graph, command) : Expand (graph, command).run();
+}
 
 }   // namespace tactus::graph

@@ -240,7 +240,8 @@ private:
             }
         }
         for (std::size_t f = 0; f < outside.feeds.size(); ++f)
-            if (const auto& port = outside.feeds[f]) all.push_back ({ slots (*port, port->component), { Driver::Kind::feed, { &plan->feeds[f], 1.0 } } });
+            for (const auto& port : outside.feeds[f])
+                all.push_back ({ slots (port, port.component), { Driver::Kind::feed, { &plan->feeds[f], 1.0 } } });
         drivers.emplace (slots.count(), [&] (auto visit)
                          {
                              for (const auto& [slot, driver] : all)

@@ -21,7 +21,7 @@ struct Outside
         std::optional<PortRef> port;
     };
 
-    std::vector<std::optional<PortRef>> feeds;   ///< one component each
+    std::vector<std::vector<PortRef>> feeds;   ///< one component each, perhaps in several instances
     std::vector<Read> records;
 };
 

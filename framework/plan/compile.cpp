@@ -3,6 +3,7 @@
 #include "build.hpp"
 #include "slots.hpp"
 
+#include <framework/graph/instances.hpp>
 #include <framework/graph/text.hpp>
 
 #include <map>
@@ -33,14 +34,18 @@ void checkDelays (Flat& flat)
 
 bool addsUp (Quantity q) { return q == Quantity::force || q == Quantity::torque || q == Quantity::hit; }
 
-/// Several wires into one place add up if the quantity does; else it is an error that names both.
+/// Several wires into one place add up if the quantity does; else it is an error that names both. So do the instances that
+/// one wire starts from, also where no other wire may join them.
 void checkFanIn (Flat& flat, const PortUnits& units)
 {
+    const auto inWords = [] (Quantity q)
+    { return q == Quantity::any ? "value" : std::string (name (q)); };
     const Slots slots (flat);
     std::vector<const FlatWire*> taken (slots.count(), nullptr);
+    Identity wrong {};   // the wire last spoken of
     for (const auto& w : flat.wires)
     {
-        if (w.add || (w.to.role == Role::input && addsUp (units (w.to).quantity))) continue;
+        if (w.identity == wrong || w.add || (w.to.role == Role::input && addsUp (units (w.to).quantity))) continue;
         const int first = w.to.component >= 0 ? w.to.component : 0;
         for (int c = first; c < first + flat.widthOf (w.to); ++c)
         {
@@ -50,9 +55,16 @@ void checkFanIn (Flat& flat, const PortUnits& units)
                 other = &w;
                 continue;
             }
-            const auto& quantity = units (w.to).quantity;
-            flat.error ("wire/two_into_one", w.origin, "\"" + toText (*other->written) + "\" and \"" + toText (*w.written) + "\" both end at '" + flat.nameOf (w.to) + "', and a " + (quantity == Quantity::any ? "value" : std::string (name (quantity))) + " does not add up",
-                        w.to.role == Role::param ? "add the second with (+), or remove one" : "join them in a signal.add or vector.add, or remove one");
+            if (other->identity == w.identity)
+            {
+                const auto quantity = w.from ? units (*w.from).quantity : Quantity::any;
+                if (addsUp (quantity)) continue;
+                flat.error ("wire/which_instance", w.origin, "\"" + toText (*w.written) + "\" starts from several instances, and a " + inWords (quantity) + " does not add up", other->from ? "name one, as in " + flat.nameOf (*other->from) : "name one");
+            }
+            else
+                flat.error ("wire/two_into_one", w.origin, "\"" + toText (*other->written) + "\" and \"" + toText (*w.written) + "\" both end at '" + flat.nameOf (w.to) + "', and a " + inWords (units (w.to).quantity) + " does not add up",
+                            w.to.role == Role::param ? "add the second with (+), or remove one" : "join them in a signal.add or vector.add, or remove one");
+            wrong = w.identity;
             break;
         }
     }
@@ -88,46 +100,93 @@ PortUnits check (Flat& flat, const Setup& setup, std::vector<int>& ordered)
 }
 
 /// The params that subgraphs show, by their names from the top.
-std::map<std::string, PortRef, std::less<>> shownParams (const Scope& scope)
+void addShown (const Scope& scope, std::map<std::string, Ports>& all)
 {
-    std::map<std::string, PortRef, std::less<>> all;
     for (const auto& member : scope.members)
+        for (const auto& inside : member.instances)
+        {
+            if (inside->stand_in >= 0) continue;
+            for (const auto& x : inside->exposed)
+                if (x.role == Role::param && ! x.to.empty()) all.emplace (inside->prefix.substr (0, inside->prefix.size() - 1) + "." + x.name, x.to);
+            addShown (*inside, all);
+        }
+}
+
+/// Of two columns for one port, the one that says which instance it means goes before the one for all.
+void sortOut (std::vector<Ports>& feeds, const std::vector<std::string>& names)
+{
+    if (std::ranges::all_of (feeds, [] (const Ports& p)
+                             { return p.size() <= 1; }))
+        return;
+    for (std::size_t f = 0; f < feeds.size(); ++f)
+        std::erase_if (feeds[f], [&] (const PortRef& port)
+                       {
+                           for (std::size_t other = 0; other < feeds.size(); ++other)
+                               if (graph::instancesSaid (names[other]) > graph::instancesSaid (names[f]) && std::ranges::count (feeds[other], port) > 0) return true;
+                           return false; });
+}
+
+void readFeeds (Flat& flat, const Scope& top, const std::vector<std::string>& names, std::vector<Ports>& feeds)
+{
+    for (const auto& name : names)
     {
-        if (! member.inside || member.node >= 0) continue;
-        const auto& inside = *member.inside;
-        for (const auto& x : inside.exposed)
-            if (x.role == Role::param && x.to) all.emplace (inside.prefix.substr (0, inside.prefix.size() - 1) + "." + x.name, *x.to);
-        all.merge (shownParams (inside));
+        const auto origin = flat.asIs ({}, "feed column " + name);
+        auto& ports = feeds.emplace_back();
+        find (name, Side::end, top, origin, flat, ports);
+        for (const auto& port : ports)
+        {
+            const auto& sheet = flat.sheet (port);
+            if (! sheet.choices.empty())
+                flat.error ("feed/choice", origin, "'" + name + "' is a choice among names and cannot be fed", "set it with --set, or in the file");
+            else if (flat.widthOf (port) != 1)
+                flat.error ("feed/width", origin, "'" + name + "' is a vector", "feed its components: " + name + ".x, " + name + ".y, " + name + ".z");
+            else if (sheet.list && port.index < 0)
+                flat.error ("feed/width", origin, "'" + name + "' is an array port", "feed its entries: " + name + "[0], …");
+            else
+                continue;
+            break;
+        }
     }
-    return all;
+    sortOut (feeds, names);
+}
+
+/// Each instance has columns of its own, under its own name.
+void readRecord (Flat& flat, const Scope& top, const std::string& name, std::vector<Outside::Read>& records)
+{
+    const auto origin = flat.asIs ({}, "record " + name);
+    Ports ports;
+    const auto parsed = graph::parseEndpoint (name);
+    const auto* asked = std::get_if<graph::Endpoint> (&parsed);
+    if (asked == nullptr)
+    {
+        find (name, Side::record, top, origin, flat, ports);
+        return;
+    }
+    for (auto& path : spelledOut (asked->node, top))
+    {
+        auto one = *asked;
+        one.node = std::move (path);
+        if (! find (one, Side::record, top, origin, flat, ports)) return;
+        const auto column = one.node == asked->node ? name : graph::toText (one);
+        if (ports.empty()) records.push_back ({ column, {} });
+        for (const auto& port : ports)
+        {
+            if (! flat.sheet (port).choices.empty())
+            {
+                flat.error ("record/choice", origin, "'" + name + "' is a choice among names and has no number to record", "record a port that carries a number");
+                return;
+            }
+            records.push_back ({ ports.size() == 1 ? column : flat.nameOf (port), port });
+        }
+    }
 }
 
 Outside findOutside (Flat& flat, const Scope& top, const CompileOptions& options)
 {
     Outside outside;
-    for (const auto& name : options.feeds)
-    {
-        const auto origin = flat.asIs ({}, "feed column " + name);
-        const auto port = find (name, Side::end, top, origin, flat);
-        outside.feeds.push_back (port);
-        if (! port) continue;
-        const auto& sheet = flat.sheet (*port);
-        if (! sheet.choices.empty())
-            flat.error ("feed/choice", origin, "'" + name + "' is a choice among names and cannot be fed", "set it with --set, or in the file");
-        else if (flat.widthOf (*port) != 1)
-            flat.error ("feed/width", origin, "'" + name + "' is a vector", "feed its components: " + name + ".x, " + name + ".y, " + name + ".z");
-        else if (sheet.list && port->index < 0)
-            flat.error ("feed/width", origin, "'" + name + "' is an array port", "feed its entries: " + name + "[0], …");
-    }
-
+    readFeeds (flat, top, options.feeds, outside.feeds);
     for (const auto& name : options.records)
-    {
-        const auto origin = flat.asIs ({}, "record " + name);
-        const auto port = find (name, Side::record, top, origin, flat);
-        if (port && ! flat.sheet (*port).choices.empty())
-            flat.error ("record/choice", origin, "'" + name + "' is a choice among names and has no number to record", "record a port that carries a number");
-        outside.records.push_back ({ name, port });
-    }
+        readRecord (flat, top, name, outside.records);
     if (options.records.empty())
         for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
             if (const auto& node = flat.nodes[static_cast<std::size_t> (n)]; node.type->effort && ! node.muted)
@@ -163,9 +222,8 @@ Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const Compi
     auto messages = std::move (flat.messages);
     if (! runs (messages)) return { nullptr, std::move (messages) };
 
-    auto shown = shownParams (*top);
     auto made = build (flat, units, ordered, outside, setup, options.before, options.withdrawn);
-    made->shown = std::move (shown);
+    addShown (*top, made->shown);
     return { std::move (made), std::move (messages) };
 }
 

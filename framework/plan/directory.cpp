@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "directory.hpp"
 
+#include <framework/graph/instances.hpp>
 #include <framework/graph/text.hpp>
 #include <framework/near_miss.hpp>
 
@@ -47,47 +48,64 @@ std::string nameOf (Side side)
     return "port";
 }
 
-/// Looks a port up by name among the rows of a node, or among what a subgraph exposes.
+/// Looks a port up by name among the rows of a node, or among what a subgraph exposes. Each step is false once something
+/// is wrong, and said.
 struct Finder
 {
     Flat& flat;
     Origin origin;
     Side side;
+    const graph::Endpoint& e;
+    Ports& found;
 
-    std::optional<PortRef> in (const Scope& scope, const graph::Endpoint& e) const
+    bool in (const Scope& scope, std::string_view path) const
     {
-        const auto slash = e.node.find ('/');
-        const auto head = std::string_view (e.node).substr (0, slash);
-        const auto member = scope.find (head);
-        if (member == nullptr)
-        {
-            if (flat.isFull()) return {};
-            if (head.find ('[') != std::string::npos)
-                flat.error ("graph/not_yet", origin, "'" + scope.prefix + std::string (head) + "' addresses one of several instances, which this version does not run", "give each a node of its own");
-            else
-            {
-                std::vector<std::string> names;
-                for (const auto& n : scope.patch->nodes)
-                    names.push_back (n.name);
-                flat.error ("port/unknown_node", origin, "there is no node '" + scope.prefix + std::string (head) + "'" + didYouMean (head, names), "nodes here: " + listed (names));
-            }
-            return {};
-        }
+        const auto step = graph::firstStep (path);
+        const auto* at = scope.find (step.name);
+        if (at == nullptr) return unknownNode (scope, step.name);
+        const auto& member = *at;
+        if (member.node < 0 && member.instances.empty()) return true;
+        if (! hasInstance (scope, member, step)) return false;
 
-        const auto& [node, inside] = *member;
-        if (slash != std::string::npos)
+        if (member.node >= 0)
         {
-            if (inside) return in (*inside, { e.node.substr (slash + 1), e.port, e.index, e.component });
-            if (node >= 0)
-                flat.error ("port/not_a_subgraph", origin, "'" + scope.prefix + std::string (head) + "' is a node, so nothing lies inside it", "address it as " + std::string (head) + "." + e.port);
-            return {};
+            if (step.rest.empty()) return amongRows (member.node);
+            flat.error ("port/not_a_subgraph", origin, "'" + scope.prefix + std::string (step.name) + "' is a node, so nothing lies inside it", "address it as " + std::string (step.name) + "." + e.port);
+            return false;
         }
-        if (node >= 0) return amongRows (node, e);
-        return inside ? amongExposed (*inside, e) : std::nullopt;
+        const auto inside = [&] (const Scope& s)
+        {
+            if (! step.rest.empty()) return in (s, step.rest);
+            return s.stand_in >= 0 ? amongRows (s.stand_in) : amongExposed (s);
+        };
+        if (step.instance >= 0) return inside (*member.instances[static_cast<std::size_t> (step.instance)]);
+        return std::ranges::all_of (member.instances, [&] (const auto& s)
+                                    { return inside (*s); });
     }
 
 private:
-    std::optional<PortRef> amongRows (int node, const graph::Endpoint& e) const
+    bool unknownNode (const Scope& scope, std::string_view name) const
+    {
+        if (flat.isFull()) return false;
+        std::vector<std::string> names;
+        for (const auto& n : scope.patch->nodes)
+            names.push_back (n.name);
+        flat.error ("port/unknown_node", origin, "there is no node '" + scope.prefix + std::string (name) + "'" + didYouMean (name, names), "nodes here: " + listed (names));
+        return false;
+    }
+
+    bool hasInstance (const Scope& scope, const Scope::Member& member, const graph::Step& step) const
+    {
+        if (step.instance == graph::Step::not_said || (member.counted && step.instance < static_cast<int> (member.instances.size()))) return true;
+        const auto name = scope.prefix + std::string (step.name);
+        if (member.counted)
+            flat.error ("port/no_instance", origin, "'" + name + "' has " + std::to_string (member.instances.size()) + " instances, counted from 0, and no [" + std::to_string (step.instance) + "]", "use a smaller number, or raise its `count`");
+        else
+            flat.error ("port/not_counted", origin, "'" + name + "' has no `count`, so none of its instances can be meant", "leave out the brackets after its name" + std::string (member.node >= 0 ? "" : ", or give it a `count`"));
+        return false;
+    }
+
+    bool amongRows (int node) const
     {
         const auto& n = flat.nodes[static_cast<std::size_t> (node)];
         for (const auto role : rolesOf (side))
@@ -95,57 +113,58 @@ private:
             const auto& rows = n.ports (role);
             const auto row = std::ranges::find (rows, e.port, &PortSheet::id);
             if (row != rows.end())
-                return narrow ({ node, role, static_cast<int> (row - rows.begin()), -1, -1 }, e);
+                return narrow ({ node, role, static_cast<int> (row - rows.begin()), -1, -1 });
         }
 
-        if (flat.isFull()) return {};
+        if (flat.isFull()) return false;
         if (side == Side::param && std::ranges::count (n.type->settings, e.port, &SettingSheet::id) > 0)
         {
             flat.error ("param/unknown", origin, "'" + n.path + "." + e.port + "' is a setting of " + std::string (n.type->info.id), "move it to settings");
-            return {};
+            return false;
         }
 
         std::vector<std::string> names;
         for (const auto role : rolesOf (side))
             for (const auto& row : n.ports (role))
                 names.emplace_back (row.id);
-        unknownPort (n.path, std::string (n.type->info.id), e.port, names, [&] (Role role)
-                     { return std::ranges::count (n.ports (role), e.port, &PortSheet::id) > 0; });
-        return {};
+        return unknownPort (n.path, std::string (n.type->info.id), names, [&] (Role role)
+                            { return std::ranges::count (n.ports (role), e.port, &PortSheet::id) > 0; });
     }
 
-    std::optional<PortRef> amongExposed (const Scope& inside, const graph::Endpoint& e) const
+    bool amongExposed (const Scope& inside) const
     {
         for (const auto role : rolesOf (side))
             for (const auto& x : inside.exposed)
                 if (x.role == role && x.name == e.port)
-                    return x.to ? narrow (*x.to, e) : std::nullopt;
+                    return std::ranges::all_of (x.to, [&] (const PortRef& r)
+                                                { return narrow (r); });
 
         std::vector<std::string> names;
         for (const auto role : rolesOf (side))
             for (const auto& x : inside.exposed)
                 if (x.role == role) names.push_back (x.name);
-        unknownPort (inside.prefix.substr (0, inside.prefix.size() - 1), "subgraph", e.port, names, [&] (Role role)
-                     { return std::ranges::any_of (inside.exposed, [&] (const auto& x)
-                                                   { return x.role == role && x.name == e.port; }); });
-        return {};
+        return unknownPort (inside.prefix.substr (0, inside.prefix.size() - 1), "subgraph", names, [&] (Role role)
+                            { return std::ranges::any_of (inside.exposed, [&] (const auto& x)
+                                                          { return x.role == role && x.name == e.port; }); });
     }
 
     template <typename Has>
-    void unknownPort (const std::string& path, const std::string& type, const std::string& port, const std::vector<std::string>& names, Has has) const
+    bool unknownPort (const std::string& path, const std::string& type, const std::vector<std::string>& names, Has has) const
     {
+        const auto& port = e.port;
         const std::string wanted = nameOf (side);
         for (const auto role : { Role::output, Role::input, Role::param })
             if (has (role))
             {
                 flat.error ("port/wrong_side", origin, "'" + path + "." + port + "' is " + withArticle (role) + ", not " + (wanted.starts_with ('p') ? "a " : "an ") + wanted, side == Side::param && role == Role::input ? "wire something into it, such as a signal.constant" : "it has: " + listed (names));
-                return;
+                return false;
             }
         flat.error (side == Side::param ? "param/unknown" : "port/unknown", origin, "'" + path + "' (" + type + ") has no " + wanted + " '" + port + "'" + didYouMean (port, names), "it has: " + listed (names));
+        return false;
     }
 
-    /// Applies the index and component of an endpoint to the port it names.
-    std::optional<PortRef> narrow (PortRef r, const graph::Endpoint& e) const
+    /// Applies the index and component of the endpoint to the port it names.
+    bool narrow (PortRef r) const
     {
         const auto& sheet = flat.sheet (r);
         const auto& node = flat.node (r);
@@ -154,25 +173,26 @@ private:
             if (! sheet.list || r.index >= 0)
             {
                 flat.error ("port/bad_index", origin, "'" + flat.nameOf (r) + "' is not an array port", "leave out [" + std::to_string (e.index) + "]");
-                return {};
+                return false;
             }
             r.index = e.index;
         }
         if (sheet.list && r.index >= node.list_size)
         {
             flat.error ("port/bad_index", origin, "'" + flat.nameOf (r) + "' does not exist: '" + node.path + "' has " + std::to_string (node.list_size) + " entries, counted from 0", "raise its setting `inputs`, or use a smaller index");
-            return {};
+            return false;
         }
         if (e.component >= 0)
         {
             if (sheet.width != 3 || r.component >= 0)
             {
                 flat.error ("port/not_a_vector", origin, "'" + flat.nameOf (r) + "' is a scalar and has no component " + component_names[e.component], "leave out " + std::string (component_names[e.component]));
-                return {};
+                return false;
             }
             r.component = e.component;
         }
-        return r;
+        found.push_back (r);
+        return true;
     }
 };
 }   // namespace
@@ -187,17 +207,44 @@ std::string listed (const std::vector<std::string>& names)
     return all.empty() ? "none" : all;
 }
 
-std::optional<PortRef> find (const graph::Endpoint& e, Side side, const Scope& scope, Origin origin, Flat& flat)
+bool find (const graph::Endpoint& e, Side side, const Scope& scope, Origin origin, Flat& flat, Ports& found)
 {
-    return Finder { flat, origin, side }.in (scope, e);
+    found.clear();
+    if (Finder { flat, origin, side, e, found }.in (scope, e.node)) return true;
+    found.clear();
+    return false;
 }
 
-std::optional<PortRef> find (std::string_view text, Side side, const Scope& scope, Origin origin, Flat& flat)
+bool find (std::string_view text, Side side, const Scope& scope, Origin origin, Flat& flat, Ports& found)
 {
     const auto parsed = graph::parseEndpoint (text);
-    if (const auto* endpoint = std::get_if<graph::Endpoint> (&parsed)) return find (*endpoint, side, scope, origin, flat);
+    if (const auto* endpoint = std::get_if<graph::Endpoint> (&parsed)) return find (*endpoint, side, scope, origin, flat, found);
+    found.clear();
     flat.error ("port/syntax", origin, std::get<std::string> (parsed), "name a port, as in drag.force or hand.position.x");
-    return {};
+    return false;
+}
+
+std::vector<std::string> spelledOut (std::string_view path, const Scope& scope)
+{
+    const auto step = graph::firstStep (path);
+    const auto* member = scope.find (step.name);
+    const auto size = member == nullptr ? 0 : member->instances.size();
+    if (size == 0 || (step.instance != graph::Step::not_said && ! member->counted)) return { std::string (path) };
+
+    std::vector<std::string> all;
+    const bool every = step.instance < 0;
+    for (auto k = every ? 0 : static_cast<std::size_t> (step.instance); k < (every ? size : std::min (size, static_cast<std::size_t> (step.instance) + 1)); ++k)
+    {
+        auto name = std::string (step.name);
+        if (member->counted) name += '[' + std::to_string (k) + ']';
+        if (step.rest.empty())
+            all.push_back (std::move (name));
+        else
+            for (const auto& rest : spelledOut (step.rest, *member->instances[k]))
+                all.push_back (name + '/' + rest);
+    }
+    if (all.empty()) all.emplace_back (path);
+    return all;
 }
 
 }   // namespace tactus::plan

@@ -2,6 +2,7 @@
 #include "find_param.hpp"
 #include "directory.hpp"
 
+#include <framework/graph/instances.hpp>
 #include <framework/graph/text.hpp>
 #include <framework/in_quotes.hpp>
 #include <framework/near_miss.hpp>
@@ -20,44 +21,47 @@ Message refused (std::string id, std::string text, std::string remedy)
     return m;
 }
 
-std::variant<PortRef, Message> findPort (const Flat& flat, const graph::Endpoint& e)
+bool isCovered (std::string_view path, std::string_view by) { return graph::covers (by, path) == path.size(); }
+
+std::variant<Ports, Message> findPorts (const Flat& flat, const graph::Endpoint& e)
 {
-    const auto node = std::ranges::find (flat.nodes, e.node, &FlatNode::path);
-    if (node == flat.nodes.end())
+    Ports found;
+    const FlatNode* node = nullptr;
+    for (std::size_t i = 0; i < flat.nodes.size(); ++i)
+    {
+        if (! isCovered (flat.nodes[i].path, e.node)) continue;
+        node = &flat.nodes[i];
+        const auto row = std::ranges::find (node->type->params, e.port, &PortSheet::id);
+        if (node->type->make != nullptr && row != node->type->params.end()) found.push_back ({ static_cast<int> (i), Role::param, static_cast<int> (row - node->type->params.begin()) });
+    }
+    if (node == nullptr)
     {
         std::vector<std::string> names;
         for (const auto& n : flat.nodes)
             names.push_back (n.path);
         return refused ("port/unknown_node", "there is no node " + inQuotes (e.node) + didYouMean (e.node, names), "nodes here: " + listed (names));
     }
-    const auto& rows = node->type->params;
-    const auto row = std::ranges::find (rows, e.port, &PortSheet::id);
-    if (node->type->make == nullptr || row == rows.end())
+    if (found.empty())
     {
         std::vector<std::string> names;
-        for (const auto& r : rows)
+        for (const auto& r : node->type->params)
             names.emplace_back (r.id);
         return refused ("param/unknown", inQuotes (e.node) + " (" + std::string (node->type->info.id) + ") has no parameter " + inQuotes (e.port) + didYouMean (e.port, names), "it has: " + listed (names));
     }
-    return PortRef { static_cast<int> (node - flat.nodes.begin()), Role::param, static_cast<int> (row - rows.begin()) };
+    return found;
 }
-}   // namespace
 
-std::variant<ParamRef, Message> findParam (const Plan& plan, std::string_view name)
+/// What subgraphs show under the name.
+Ports shownAs (const std::string& name, const Plan& plan)
 {
-    const auto parsed = graph::parseEndpoint (name);
-    if (const auto* problem = std::get_if<std::string> (&parsed)) return refused ("param/name", *problem, "name a parameter, as in drag.mu");
-    const auto& e = std::get<graph::Endpoint> (parsed);
+    Ports found;
+    for (const auto& [text, ports] : plan.shown)
+        if (isCovered (text, name)) found.insert (found.end(), ports.begin(), ports.end());
+    return found;
+}
 
-    PortRef port;
-    if (const auto shown = plan.shown.find (e.node + "." + e.port); shown != plan.shown.end())
-        port = shown->second;
-    else
-    {
-        auto found = findPort (plan.flat, e);
-        if (auto* message = std::get_if<Message> (&found)) return std::move (*message);
-        port = std::get<PortRef> (found);
-    }
+std::variant<ParamRef, Message> oneNumber (const Plan& plan, PortRef port, const graph::Endpoint& e, std::string_view name)
+{
     if (e.index >= 0 && port.index < 0) port.index = e.index;
     if (e.component >= 0 && port.component < 0) port.component = e.component;
 
@@ -70,6 +74,30 @@ std::variant<ParamRef, Message> findParam (const Plan& plan, std::string_view na
         return refused ("param/shape", inQuotes (name) + " is not one number", sheet.list ? "name one of its " + std::to_string (size) + " entries, as in " + e.node + "." + e.port + "[0]" : sheet.width > 1 ? "name a component: .x, .y or .z"
                                                                                                                                                                                                               : "it is a plain number: leave out the component and the entry");
     return ParamRef { plan.instances[static_cast<std::size_t> (port.node)].knobs, Knobs::indexOf (*plan.flat.node (port).type, static_cast<std::size_t> (port.port), static_cast<std::size_t> (component)), &sheet };
+}
+}   // namespace
+
+std::variant<std::vector<ParamRef>, Message> findParams (const Plan& plan, std::string_view name)
+{
+    const auto parsed = graph::parseEndpoint (name);
+    if (const auto* problem = std::get_if<std::string> (&parsed)) return refused ("param/name", *problem, "name a parameter, as in drag.mu");
+    const auto& e = std::get<graph::Endpoint> (parsed);
+
+    auto ports = shownAs (e.node + "." + e.port, plan);
+    if (ports.empty())
+    {
+        auto found = findPorts (plan.flat, e);
+        if (auto* message = std::get_if<Message> (&found)) return std::move (*message);
+        ports = std::move (std::get<Ports> (found));
+    }
+    std::vector<ParamRef> params;
+    for (const auto& port : ports)
+    {
+        auto one = oneNumber (plan, port, e, name);
+        if (auto* message = std::get_if<Message> (&one)) return std::move (*message);
+        params.push_back (std::move (std::get<ParamRef> (one)));
+    }
+    return params;
 }
 
 }   // namespace tactus::plan

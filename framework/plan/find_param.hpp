@@ -7,12 +7,14 @@
 
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace tactus::plan
 {
 
-/// A parameter of a plan by the names people use: "drag.mu", "grain/wave.direction.x", "mix.gain[2]", and what a subgraph
-/// shows as its own, "grain.roughness". Of a vector one component, of a list one entry. [main thread]
-std::variant<ParamRef, Message> findParam (const Plan&, std::string_view name);
+/// A parameter of a plan by the names people use: "drag.mu", "grain/wave.direction.x", "mix.gain[2]", "finger[3]/drag.mu",
+/// and what a subgraph shows as its own, "grain.roughness". Of a vector one component, of a list one entry; of a subgraph
+/// with a count, where the name does not say which, one in each instance. Never none. [main thread]
+std::variant<std::vector<ParamRef>, Message> findParams (const Plan&, std::string_view name);
 
 }   // namespace tactus::plan

@@ -37,6 +37,20 @@ Message messageAt (Origin origin, Message::Severity severity, std::string id, st
     const auto file = fileOf (origin);
     return { severity, std::move (id), pointerTo (origin), std::move (text), std::move (remedy), file ? std::string (file->text) : "", 0, 0 };
 }
+/// A sentence about "finger[3]/drag" as if it were about "finger/drag".
+std::string withoutInstances (const std::string& text)
+{
+    std::string result;
+    std::size_t copied = 0;
+    for (auto end = text.find ("]/"); end != std::string::npos; end = text.find ("]/", end + 1))
+    {
+        const auto begin = text.rfind ('[', end);
+        if (begin == std::string::npos || begin < copied) continue;
+        result.append (text, copied, begin - copied);
+        copied = end + 1;
+    }
+    return result.append (text, copied);
+}
 }   // namespace
 
 Origin fileOf (Origin place) noexcept
@@ -65,12 +79,18 @@ std::string Flat::nameOf (const PortRef& r) const
 
 void Flat::error (std::string id, Origin origin, std::string text, std::string remedy)
 {
-    if (! isFull()) messages.push_back (messageAt (origin, Message::Severity::error, std::move (id), std::move (text), std::move (remedy)));
+    if (! isFull()) say (messageAt (origin, Message::Severity::error, std::move (id), std::move (text), std::move (remedy)));
 }
 
 void Flat::warn (std::string id, Origin origin, std::string text, std::string remedy)
 {
-    if (! isFull()) messages.push_back (messageAt (origin, Message::Severity::warning, std::move (id), std::move (text), std::move (remedy)));
+    if (! isFull()) say (messageAt (origin, Message::Severity::warning, std::move (id), std::move (text), std::move (remedy)));
+}
+
+void Flat::say (Message m)
+{
+    if (auto key = withoutInstances (m.text); key.size() < m.text.size() && ! said.insert (m.id + m.file + m.where + key).second) return;
+    messages.push_back (std::move (m));
 }
 
 }   // namespace tactus::plan

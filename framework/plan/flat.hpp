@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace tactus::plan
@@ -45,6 +46,7 @@ struct Identity
 {
     int scope = 0;      ///< where it stands: in which of Flat::scopes
     graph::Id id = 0;   ///< its own
+    int instance = 0;   ///< of a subgraph node with a count: which one
 
     bool operator== (const Identity&) const = default;
 };
@@ -105,20 +107,20 @@ struct FlatWire
     std::optional<Dimension> gain_dimension {};   ///< if the gain has a unit
     Origin origin {};
     const graph::Wire* written = nullptr;   ///< in the graph, as long as it is being compiled
-    Identity identity {};
+    Identity identity {};                   ///< of all wires that one wire of the graph stands for, where its ends are instances
 };
 
 struct Flat
 {
     std::vector<FlatNode> nodes;   ///< in file order, a subgraph's nodes where it stands
     std::vector<FlatWire> wires;
-    std::vector<double> values;                                      ///< of all params, node by node and row by row
-    std::vector<Assignment> assignments;                             ///< in order of precedence, lowest first
-    std::deque<NodeType> made_types;                                 ///< of bypassed subgraphs
-    std::deque<std::string> made_names;                              ///< text that stands in no graph: of their ports, of origins
-    std::deque<Place> places;                                        ///< what origins point to
-    std::vector<Identity> scopes { { -1, 0 } };                      ///< the graph itself, then the subgraph node of each patch that was expanded
-    std::unordered_map<graph::Id, std::vector<graph::Id>> origins;   ///< of copies
+    std::vector<double> values;                                            ///< of all params, node by node and row by row
+    std::vector<Assignment> assignments;                                   ///< in order of precedence, lowest first
+    std::deque<NodeType> made_types;                                       ///< of bypassed subgraphs
+    std::deque<std::string> made_names;                                    ///< text that stands in no graph: of their ports, of origins
+    std::deque<Place> places;                                              ///< what origins point to
+    std::vector<Identity> scopes { { -1, 0 } };                            ///< the graph itself, then the subgraph node of each patch that was expanded
+    std::unordered_map<graph::Id, std::vector<graph::Ancestor>> origins;   ///< of copies
     Messages messages;
 
     const PortSheet& sheet (const PortRef& r) const { return nodes[static_cast<std::size_t> (r.node)].ports (r.role)[static_cast<std::size_t> (r.port)]; }
@@ -143,8 +145,14 @@ struct Flat
     Origin inFile (std::string_view name) { return &places.emplace_back (Place { nullptr, name, 0, Place::Kind::file }); }
     Origin asIs (Origin around, std::string text) { return &places.emplace_back (Place { around, made_names.emplace_back (std::move (text)), 0, Place::Kind::as_is }); }
 
+    /// What is wrong with several instances of one thing is said of the first.
     void error (std::string id, Origin, std::string text, std::string remedy);
     void warn (std::string id, Origin, std::string text, std::string remedy);
+
+private:
+    void say (Message);
+
+    std::unordered_set<std::string> said;   ///< about instances, whichever they were
 };
 
 }   // namespace tactus::plan

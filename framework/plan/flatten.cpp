@@ -3,6 +3,8 @@
 #include "settings.hpp"
 #include "values.hpp"
 
+#include <framework/graph/instances.hpp>
+#include <framework/graph/overrides.hpp>
 #include <framework/graph/text.hpp>
 #include <framework/near_miss.hpp>
 
@@ -15,6 +17,7 @@ namespace
 {
 constexpr int max_depth = 32;
 constexpr std::size_t max_nodes = 1'000'000;   // subgraphs within subgraphs multiply: a small file can ask for 2^32
+constexpr std::size_t max_wires = 4'000'000;   // from all instances to all instances; and as many values for them
 
 /// Room for more, which many small steps do not move each time.
 template <typename T>
@@ -51,10 +54,10 @@ public:
         top->owner = &g;
         top->patch = &g.root;
         expand (*top, {}, false);
-        if (flat.nodes.size() >= max_nodes)
-            flat.error ("graph/too_large", at ({}, "nodes"), "with its subgraphs expanded the graph has more than " + std::to_string (max_nodes) + " nodes", "use a subgraph fewer times");
         readControls (g);
         readOverrides();
+        if (too_large)
+            flat.error ("graph/too_large", *too_large, "with its subgraphs expanded the graph has more than " + std::to_string (max_nodes) + " nodes, or " + std::to_string (max_wires) + " wires or values for them", "use a subgraph fewer times, or with fewer instances");
     }
 
 private:
@@ -65,7 +68,10 @@ private:
     Assets* assets;
     Flattened& result;
     Flat& flat;
-    std::vector<const graph::Patch*> open;   // the patches we are inside of
+    std::vector<const graph::Patch*> open;      // the patches we are inside of
+    Origin all_nodes = flat.at ({}, "nodes");   // of the graph itself
+    std::optional<Origin> too_large;            // where the graph came to be
+    Ports starts, ends;                         // of the wire, or the value, that is being read
 
     template <typename... Steps>
     Origin at (Origin around, Steps... steps)
@@ -83,7 +89,7 @@ private:
         const auto list = at (scope.origin, "nodes");
         for (const auto& node : scope.patch->nodes)
         {
-            if (flat.nodes.size() >= max_nodes || flat.isFull()) break;
+            if (isTooLarge (all_nodes) || flat.isFull()) break;
             const auto here = at (list, node.name);
             refuseUnsupported (node, here);
             if (! node.origin.empty()) flat.origins.emplace (node.id, node.origin);
@@ -100,9 +106,15 @@ private:
 
     void refuseUnsupported (const graph::Node& node, Origin here)
     {
-        for (const auto* key : { "count", "every", "times", "hold" })
+        for (const auto* key : { "every", "times", "hold" })
             if (node.extra.contains (key))
-                flat.error ("graph/not_yet", at (here, key), "'" + node.name + "' asks for `" + key + "`, which this version does not run yet", "remove it, and give each instance a node of its own");
+                flat.error ("graph/not_yet", at (here, key), "'" + node.name + "' asks for `" + key + "`, which this version does not run yet", "remove it");
+    }
+
+    bool isTooLarge (Origin here)
+    {
+        if (! too_large && (flat.nodes.size() + flat.scopes.size() > max_nodes || flat.wires.size() > max_wires || flat.assignments.size() > max_wires)) too_large = here;
+        return too_large.has_value();
     }
 
     void addNode (Scope& scope, const graph::Node& node, Origin here, const Roles& roles, bool muted, Scope::Member& member)
@@ -117,6 +129,9 @@ private:
                         "it is kept as a placeholder whose outputs are 0; `tactus nodes` lists the types there are");
             return;
         }
+
+        if (node.extra.contains ("count"))
+            flat.error ("node/needless_count", at (here, "count"), "'" + scope.prefix + node.name + "' (" + node.type + ") is no subgraph, and only these have several instances", "collapse it to a subgraph and give that the `count`, or remove it");
 
         member.node = static_cast<int> (flat.nodes.size());
         flat.nodes.push_back ({ .path = scope.prefix + node.name, .identity = { scope.number, node.id }, .type = type, .origin = here, .bypass = node.bypass, .muted = muted });
@@ -198,47 +213,97 @@ private:
 
     void addSubgraph (Scope& scope, const graph::Node& node, Origin here, const Roles& roles, bool muted, Scope::Member& member)
     {
-        auto inside = std::make_unique<Scope>();
-        if (! findSubgraph (scope, node, here, *inside)) return;
+        Scope first;
+        if (! findSubgraph (scope, node, here, first)) return;
 
         if (open.size() >= max_depth)
         {
             flat.error ("graph/too_deep", at (here, "type"), "'" + scope.prefix + node.name + "' lies " + std::to_string (max_depth) + " subgraphs deep", "nest them less deeply");
             return;
         }
-        if (std::ranges::count (open, inside->patch) > 0)
+        if (std::ranges::count (open, first.patch) > 0)
         {
             flat.error ("graph/recursive", at (here, "type"), "'" + scope.prefix + node.name + "' contains itself through '" + node.type + "'", "a subgraph may hold others, but not one it is inside of");
             return;
         }
-
-        inside->prefix = scope.prefix + node.name + "/";
-        inside->number = static_cast<int> (flat.scopes.size());
-        flat.scopes.push_back ({ scope.number, node.id });
-        Roles mapped;
-        for (const auto& [inner, outer] : membersOf (node.roles))
+        const auto count = graph::countOf (node);
+        if (count == 0)
         {
-            if (! hasRole (*inside->patch, inner))
-                flat.warn ("node/unknown_role", at (here, "roles", inner), "nothing in '" + scope.prefix + node.name + "' has the role '" + inner + "'", "name a role of the subgraph's device nodes");
-            if (outer.is_string())
-            {
-                const auto through = roles.find (outer.get<std::string>());
-                mapped[inner] = through == roles.end() ? outer.get<std::string>() : through->second;
-            }
-            else
-                flat.error ("node/bad_roles", at (here, "roles", inner), "role '" + inner + "' of '" + scope.prefix + node.name + "' must be the name of a role", "write { \"" + inner + "\": \"stylus\" }");
+            flat.error ("node/bad_count", at (here, "count"), "the `count` of '" + scope.prefix + node.name + "' is " + shown (node.extra.at ("count")), "a whole number from 1 to " + std::to_string (graph::most_instances) + "; it is 1 where there is none");
+            return;
         }
-        for (const auto& [inner, outer] : roles)
-            mapped.try_emplace (inner, outer);
+        checkRoles (scope, node, here, *first.patch, count.value_or (1));
 
-        expand (*inside, mapped, muted || node.bypass);
-        member.inside = std::move (inside);
+        member.counted = count.has_value();
+        const auto place = count ? at (here, "count") : all_nodes;
+        for (int k = 0; k < count.value_or (1) && ! isTooLarge (place) && ! flat.isFull(); ++k)
+        {
+            auto inside = std::make_unique<Scope>();
+            inside->owner = first.owner;
+            inside->patch = first.patch;
+            inside->origin = first.origin;
+            inside->prefix = scope.prefix + node.name + (count ? "[" + std::to_string (k) + "]/" : "/");
+            inside->number = static_cast<int> (flat.scopes.size());
+            flat.scopes.push_back ({ scope.number, node.id, k });
+            expand (*inside, rolesInside (node, roles, k), muted || node.bypass);
+            member.instances.push_back (std::move (inside));
+        }
 
         for (const auto& [key, value] : membersOf (node.params))
             assign (scope, node.name + "." + key, value, at (here, "params", key));
-        for (const auto& [key, value] : membersOf (node.overrides))
-            assign (*member.inside, key, value, at (here, "overrides", key));
-        if (node.bypass) bypassSubgraph (scope, node, here, muted, member);
+        readOverrides (scope, node, here);
+        if (node.bypass)
+            for (std::size_t k = 0; k < member.instances.size(); ++k)
+                bypassSubgraph (scope, node, here, muted, *member.instances[k], static_cast<int> (k));
+    }
+
+    void readOverrides (const Scope& scope, const graph::Node& node, Origin here)
+    {
+        for (const auto* entry : graph::byPrecedence (node.overrides))
+        {
+            const auto& [key, value] = *entry;
+            const auto origin = at (here, "overrides", key);
+            auto parsed = graph::parseOverride (key);
+            if (auto* inner = std::get_if<graph::Endpoint> (&parsed))
+            {
+                inner->node.insert (0, node.name + (inner->node.starts_with ('[') ? "" : "/"));
+                assign (scope, *inner, value, origin);
+            }
+            else
+                flat.error ("param/name", origin, std::get<std::string> (parsed), "name a parameter, as in drag.mu");
+        }
+    }
+
+    void checkRoles (const Scope& scope, const graph::Node& node, Origin here, const graph::Patch& patch, int count)
+    {
+        for (const auto& [inner, outer] : membersOf (node.roles))
+        {
+            const auto origin = at (here, "roles", inner);
+            if (! hasRole (patch, inner))
+                flat.warn ("node/unknown_role", origin, "nothing in '" + scope.prefix + node.name + "' has the role '" + inner + "'", "name a role of the subgraph's device nodes");
+            const bool is_list = outer.is_array() && std::ranges::all_of (outer, &Json::is_string);
+            if (! is_list && ! outer.is_string())
+                flat.error ("node/bad_roles", origin, "role '" + inner + "' of '" + scope.prefix + node.name + "' must be the name of a role, or a list of names", "write { \"" + inner + "\": \"stylus\" }");
+            else if (is_list && outer.size() != static_cast<std::size_t> (count))
+                flat.error ("node/bad_roles", origin, "role '" + inner + "' of '" + scope.prefix + node.name + "' is given " + std::to_string (outer.size()) + " names, and there " + (count == 1 ? "is 1 instance" : "are " + std::to_string (count) + " instances"), "one name for each instance, or a single one, not in a list, for all");
+        }
+    }
+
+    /// What the roles inside an instance mean outside of all. Those that are wrong have been spoken of.
+    static Roles rolesInside (const graph::Node& node, const Roles& roles, int instance)
+    {
+        Roles mapped;
+        const auto k = static_cast<std::size_t> (instance);
+        for (const auto& [inner, outer] : membersOf (node.roles))
+        {
+            const auto& name = outer.is_array() && k < outer.size() ? outer[k] : outer;
+            if (! name.is_string()) continue;
+            const auto through = roles.find (name.get_ref<const std::string&>());
+            mapped[inner] = through == roles.end() ? name.get_ref<const std::string&>() : through->second;
+        }
+        for (const auto& [inner, outer] : roles)
+            mapped.try_emplace (inner, outer);
+        return mapped;
     }
 
     /// True if a device node of the patch, or of a subgraph it hands the role on to, has the role.
@@ -274,22 +339,23 @@ private:
     }
 
     /// A bypassed subgraph keeps its exposed ports, as a node whose outputs pass the inputs of the same name.
-    void bypassSubgraph (const Scope& scope, const graph::Node& node, Origin here, bool muted, Scope::Member& member)
+    void bypassSubgraph (const Scope& scope, const graph::Node& node, Origin here, bool muted, Scope& inside, int instance)
     {
         NodeType type {};
         type.info = { .id = "subgraph", .name = "Bypassed subgraph", .summary = "", .source = "" };
         std::size_t offset = 0;
         int list_size = 0;
-        for (const auto& x : member.inside->exposed)
+        for (const auto& x : inside.exposed)
         {
-            if (! x.to) continue;
-            auto row = flat.sheet (*x.to);
+            if (x.to.empty()) continue;
+            const auto& to = x.to.front();
+            auto row = flat.sheet (to);
             row.role = x.role;
             row.id = flat.made_names.emplace_back (x.name);
             if (row.unit.kind != UnitRule::Kind::fixed) row.unit = each_its_unit;
-            row.width = flat.widthOf (*x.to);
-            row.list = row.list && x.to->index < 0;
-            if (row.list) list_size = std::max (list_size, flat.node (*x.to).list_size);
+            row.width = flat.widthOf (to);
+            row.list = row.list && to.index < 0;
+            if (row.list) list_size = std::max (list_size, flat.node (to).list_size);
             if (x.role == Role::output)
             {
                 row.offset = offset;
@@ -303,8 +369,8 @@ private:
         type.outputs_align = alignof (double);
         flat.made_types.push_back (std::move (type));
 
-        member.node = static_cast<int> (flat.nodes.size());
-        flat.nodes.push_back ({ .path = scope.prefix + node.name, .identity = { scope.number, node.id }, .type = &flat.made_types.back(), .origin = here, .bypass = true, .muted = muted });
+        inside.stand_in = static_cast<int> (flat.nodes.size());
+        flat.nodes.push_back ({ .path = inside.prefix.substr (0, inside.prefix.size() - 1), .identity = { scope.number, node.id, instance }, .type = &flat.made_types.back(), .origin = here, .bypass = true, .muted = muted });
         flat.nodes.back().list_size = list_size;
         addValues (flat.nodes.back());
     }
@@ -315,8 +381,8 @@ private:
         {
             for (const auto& [name, endpoint] : entries)
             {
-                const auto origin = at (at (scope.origin, "expose", key), name);
-                scope.exposed.push_back ({ role, name, find (endpoint, side, scope, origin, flat) });
+                auto& shown = scope.exposed.emplace_back (Scope::Exposed { role, name, {} });
+                find (endpoint, side, scope, at (at (scope.origin, "expose", key), name), flat, shown.to);
             }
         };
         add (Role::input, Side::end, "inputs", scope.patch->expose.inputs);
@@ -332,16 +398,31 @@ private:
             const auto& wire = scope.patch->wires[i];
             const auto origin = flat.entry (list, static_cast<int> (i));
             if (! wire.origin.empty()) flat.origins.emplace (wire.id, wire.origin);
-            const auto before = flat.messages.size();
-            const auto from = find (wire.from, Side::start, scope, origin, flat);
-            const bool from_failed = flat.messages.size() > before;
-            const auto to = find (wire.to, Side::end, scope, origin, flat);
-            if (from_failed || ! to) continue;
+            const bool starts_somewhere = find (wire.from, Side::start, scope, origin, flat, starts);
+            if (! find (wire.to, Side::end, scope, origin, flat, ends) || ! starts_somewhere) continue;
 
-            FlatWire w { .from = from, .to = *to, .delay = wire.delay, .add = wire.add, .origin = origin, .written = &wire, .identity = { scope.number, wire.id } };
-            if (readGain (wire, w) && wireFits (w) && ! muted && wire.enabled.value_or (true))
-                flat.wires.push_back (std::move (w));
+            FlatWire w { .from = {}, .to = {}, .delay = wire.delay, .add = wire.add, .origin = origin, .written = &wire, .identity = { scope.number, wire.id } };
+            const bool is_drawn = readGain (wire, w) && ! muted && wire.enabled.value_or (true);
+            addEach (w, is_drawn);
         }
+    }
+
+    /// From all starts to all ends.
+    void addEach (FlatWire& w, bool is_drawn)
+    {
+        const auto from = std::max (starts.size(), std::size_t { 1 });
+        for (const auto& to : ends)
+            for (std::size_t k = 0; k < from; ++k)
+            {
+                if (isTooLarge (w.origin)) return;
+                w.to = to;
+                if (! starts.empty()) w.from = starts[k];
+                if (! wireFits (w) || ! is_drawn) continue;
+                if (from == 1 && ends.size() == 1)
+                    flat.wires.push_back (std::move (w));
+                else
+                    flat.wires.push_back (w);
+            }
     }
 
     bool readGain (const graph::Wire& wire, FlatWire& w)
@@ -390,19 +471,22 @@ private:
 
     void assign (const Scope& scope, std::string_view name, const Json& value, Origin origin)
     {
-        if (const auto to = target (scope, name, origin))
-            flat.assignments.push_back ({ *to, &value, &value, 0.0, origin });
+        if (const auto e = parameter (name, origin)) assign (scope, *e, value, origin);
     }
 
-    std::optional<PortRef> target (const Scope& scope, std::string_view name, Origin origin)
+    void assign (const Scope& scope, const graph::Endpoint& e, const Json& value, Origin origin)
     {
-        const auto parsed = graph::parseEndpoint (name);
-        if (const auto* problem = std::get_if<std::string> (&parsed))
-        {
-            flat.error ("param/name", origin, *problem, "name a parameter, as in drag.mu");
-            return {};
-        }
-        return find (std::get<graph::Endpoint> (parsed), Side::param, scope, origin, flat);
+        find (e, Side::param, scope, origin, flat, ends);
+        for (const auto& to : ends)
+            if (! isTooLarge (origin)) flat.assignments.push_back ({ to, &value, &value, 0.0, origin });
+    }
+
+    std::optional<graph::Endpoint> parameter (std::string_view name, Origin origin)
+    {
+        auto parsed = graph::parseEndpoint (name);
+        if (auto* e = std::get_if<graph::Endpoint> (&parsed)) return std::move (*e);
+        flat.error ("param/name", origin, std::get<std::string> (parsed), "name a parameter, as in drag.mu");
+        return {};
     }
 
     void readControls (const graph::Graph& g)
@@ -424,8 +508,14 @@ private:
                 flat.error ("control/value", at (origin, "value"), "control '" + control.id + "' is out of its range", "a number from 0 to 1");
 
             for (const auto& t : control.to)
-                if (const auto to = target (*result.top, t.path, at (at (origin, "to"), t.path)))
-                    flat.assignments.push_back ({ *to, &t.low, &t.high, value, at (at (origin, "to"), t.path) });
+            {
+                const auto here = at (at (origin, "to"), t.path);
+                const auto e = parameter (t.path, here);
+                if (! e) continue;
+                find (*e, Side::param, *result.top, here, flat, ends);
+                for (const auto& to : ends)
+                    flat.assignments.push_back ({ to, &t.low, &t.high, value, here });
+            }
         }
     }
 

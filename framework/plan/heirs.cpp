@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -11,8 +12,19 @@ namespace tactus::plan
 
 namespace
 {
-/// The ids of the subgraph nodes around something, the outermost first, then its own.
-using Chain = std::vector<graph::Id>;
+/// The subgraph nodes around something, the outermost first, then itself.
+using Chain = std::vector<graph::Ancestor>;
+
+/// What something may be known by: its chain or, where that is enough, its identity alone; and of a wire that is one of
+/// several, from all instances to all, the nodes at its ends.
+template <typename Name>
+struct Key
+{
+    Name name;
+    std::pair<int, int> ends;
+
+    bool operator== (const Key&) const = default;
+};
 
 struct Hash
 {
@@ -21,19 +33,32 @@ struct Hash
         h = (h ^ static_cast<std::size_t> (v)) * 0x9e3779b97f4a7c15ull;
         return h ^ (h >> 32);
     }
+    static std::size_t mixed (std::size_t h, int v) noexcept { return mixed (h, static_cast<std::uint64_t> (v)); }
 
-    std::size_t operator() (const Identity& i) const noexcept { return mixed (static_cast<std::size_t> (i.scope), i.id); }
+    std::size_t operator() (const graph::Ancestor& a) const noexcept { return mixed (a.id, a.instance); }
+    std::size_t operator() (const Identity& i) const noexcept { return mixed (mixed (static_cast<std::size_t> (i.scope), i.id), i.instance); }
     std::size_t operator() (const Chain& chain) const noexcept
     {
         std::size_t h = 0;
-        for (const auto id : chain)
-            h = mixed (h, id);
+        for (const auto& a : chain)
+            h = mixed (h, (*this) (a));
         return h;
+    }
+    template <typename Name>
+    std::size_t operator() (const Key<Name>& k) const noexcept
+    {
+        return mixed (mixed ((*this) (k.name), k.ends.first), k.ends.second);
     }
 };
 
-/// What is still to be paired up: its number and identity.
-using Rest = std::vector<std::pair<int, Identity>>;
+/// Something still to be paired up.
+struct One
+{
+    int number;
+    Identity identity;
+    std::pair<int, int> ends;   ///< of a wire: numbers of nodes before, of which those at its ends are the heirs
+};
+using Rest = std::vector<One>;
 
 /// Pairs up what has the same key, where that is the only one of its side to have it.
 template <typename Key, typename KeyNow, typename KeyBefore>
@@ -44,29 +69,29 @@ void pair (Rest& now, Rest& before, std::vector<int>& found, KeyNow keyNow, KeyB
     {
         std::unordered_map<Key, int, Hash> by_key;
         by_key.reserve (rest.size());
-        for (const auto& [number, identity] : rest)
-            if (const auto [entry, fresh] = by_key.try_emplace (key (identity), number); ! fresh) entry->second = several;
+        for (const auto& x : rest)
+            if (const auto [entry, fresh] = by_key.try_emplace (key (x), x.number); ! fresh) entry->second = several;
         return by_key;
     };
     const auto here = list (now, keyNow);
     auto there = list (before, keyBefore);
     Rest left;
     std::unordered_set<int> taken;
-    for (const auto& [number, identity] : now)
+    for (const auto& x : now)
     {
-        const auto key = keyNow (identity);
+        const auto key = keyNow (x);
         const auto other = there.find (key);
         if (other == there.end() || other->second == several || here.at (key) == several)
         {
-            left.emplace_back (number, identity);
+            left.push_back (x);
             continue;
         }
-        found[static_cast<std::size_t> (number)] = other->second;
+        found[static_cast<std::size_t> (x.number)] = other->second;
         taken.insert (other->second);
     }
     now = std::move (left);
-    std::erase_if (before, [&] (const auto& x)
-                   { return taken.contains (x.first); });
+    std::erase_if (before, [&] (const One& x)
+                   { return taken.contains (x.number); });
 }
 
 /// Chains in terms of what copies were made from.
@@ -80,10 +105,14 @@ public:
         Chain chain;   // the innermost first
         for (;; i = flat.scopes[static_cast<std::size_t> (i.scope)])
         {
-            if (const auto* origin = originOf (i.id))
-                chain.insert (chain.end(), origin->rbegin(), origin->rend());
+            const auto* origin = originOf (i.id);
+            if (origin && (i.instance == 0 || origin->back().instance == 0))
+            {
+                chain.push_back ({ origin->back().id, origin->back().instance + i.instance });
+                chain.insert (chain.end(), origin->rbegin() + 1, origin->rend());
+            }
             else
-                chain.push_back (i.id);
+                chain.push_back ({ i.id, i.instance });
             if (i.scope == 0) break;
         }
         std::ranges::reverse (chain);
@@ -91,7 +120,7 @@ public:
     }
 
 private:
-    const Chain* originOf (graph::Id id) const
+    const std::vector<graph::Ancestor>* originOf (graph::Id id) const
     {
         for (const auto* flat : flats)
             if (const auto copy = flat->origins.find (id); copy != flat->origins.end()) return &copy->second;
@@ -109,30 +138,33 @@ std::vector<int> scopesBefore (const Flat& now, const Flat& before)
     for (std::size_t i = 0; i < before.scopes.size(); ++i)
         numbers.emplace (before.scopes[i], static_cast<int> (i));
     std::vector<int> all;
-    for (const auto& [around, id] : now.scopes)
+    for (const auto& [around, id, instance] : now.scopes)
     {
-        const auto at = numbers.find ({ around < 0 ? around : all[static_cast<std::size_t> (around)], id });
+        const auto at = numbers.find ({ around < 0 ? around : all[static_cast<std::size_t> (around)], id, instance });
         all.push_back (at == numbers.end() ? none : at->second);
     }
     return all;
 }
 
-template <typename List, typename Takes>
-std::vector<int> match (const Flat& now, const Flat& before, const std::vector<int>& scopes, List Flat::*list, Takes takes)
+/// Finds for each of what is there now the number of what it was before, or -1.
+std::vector<int> match (Rest here, Rest there, const Flat& now, const Flat& before, const std::vector<int>& scopes, std::size_t size)
 {
-    const auto all = [&] (const Flat& flat)
+    std::vector<int> found (size, -1);
+    const auto by = [&]<typename Name> (Name*, auto nameNow, auto nameBefore)
     {
-        Rest rest;
-        for (std::size_t i = 0; i < (flat.*list).size(); ++i)
-            if (const auto& x = (flat.*list)[i]; takes (x)) rest.emplace_back (static_cast<int> (i), x.identity);
-        return rest;
+        const auto alone = [] (auto nameOf)
+        { return [nameOf] (const One& x)
+          { return nameOf (x.identity); }; };
+        const auto withEnds = [] (auto nameOf)
+        { return [nameOf] (const One& x)
+          { return Key<Name> { nameOf (x.identity), x.ends }; }; };
+        if (! here.empty() && ! there.empty()) pair<Name> (here, there, found, alone (nameNow), alone (nameBefore));
+        if (! here.empty() && ! there.empty()) pair<Key<Name>> (here, there, found, withEnds (nameNow), withEnds (nameBefore));
     };
-    auto here = all (now), there = all (before);
-    std::vector<int> found ((now.*list).size(), -1);
 
-    pair<Identity> (
-        here, there, found, [&] (const Identity& i)
-        { return Identity { scopes[static_cast<std::size_t> (i.scope)], i.id }; },
+    by (
+        static_cast<Identity*> (nullptr), [&] (const Identity& i)
+        { return Identity { scopes[static_cast<std::size_t> (i.scope)], i.id, i.instance }; },
         [] (const Identity& i)
         { return i; });
     if (here.empty() || there.empty()) return found;
@@ -143,47 +175,73 @@ std::vector<int> match (const Flat& now, const Flat& before, const std::vector<i
         return [&, shorten] (const Identity& i)
         { return shorten (descent.chainOf (flat, i)); };
     };
-    const auto by = [&] (auto shorten)
-    { pair<Chain> (here, there, found, chains (now, shorten), chains (before, shorten)); };
+    const auto byChain = [&] (auto shorten)
+    { by (static_cast<Chain*> (nullptr), chains (now, shorten), chains (before, shorten)); };
 
     const auto as_it_is = [] (Chain c)
     { return c; };
-    by (as_it_is);
+    byChain (as_it_is);
     if (here.empty() || there.empty()) return found;
 
-    // Of what stands at the end, the ids around it that either side has.
-    std::unordered_map<graph::Id, std::unordered_set<graph::Id>> around, around_before;
-    const auto note = [] (const Rest& rest, auto chainOf, auto& ids)
+    // Of what stands at the end, what is around it on either side.
+    std::unordered_map<graph::Ancestor, std::unordered_set<graph::Ancestor, Hash>, Hash> around, around_before;
+    const auto note = [] (const Rest& rest, auto chainOf, auto& all)
     {
-        for (const auto& [number, identity] : rest)
+        for (const auto& x : rest)
         {
-            const auto chain = chainOf (identity);
-            ids[chain.back()].insert (chain.begin(), chain.end());
+            const auto chain = chainOf (x.identity);
+            all[chain.back()].insert (chain.begin(), chain.end());
         }
     };
     note (here, chains (now, as_it_is), around);
     note (there, chains (before, as_it_is), around_before);
-    by ([&] (Chain c)
-        {
+    byChain ([&] (Chain c)
+             {
             const auto end = c.back();
             const auto a = around.find (end), b = around_before.find (end);
             if (a == around.end() || b == around_before.end()) return c;
-            std::erase_if (c, [&] (graph::Id id)
-                           { return ! a->second.contains (id) || ! b->second.contains (id); });
+            std::erase_if (c, [&] (const graph::Ancestor& x)
+                           { return ! a->second.contains (x) || ! b->second.contains (x); });
             return c; });
-    by ([] (const Chain& c)
-        { return Chain { c.back() }; });
+    byChain ([] (const Chain& c)
+             { return Chain { c.back() }; });
     return found;
+}
+
+std::vector<int> matchNodes (const Flat& now, const Flat& before, const std::vector<int>& scopes)
+{
+    const auto all = [] (const Flat& flat)
+    {
+        Rest rest;
+        for (std::size_t i = 0; i < flat.nodes.size(); ++i)
+            rest.push_back ({ static_cast<int> (i), flat.nodes[i].identity, {} });
+        return rest;
+    };
+    return match (all (now), all (before), now, before, scopes, now.nodes.size());
+}
+
+std::vector<int> matchWires (const Flat& now, const Flat& before, const std::vector<int>& scopes, const std::vector<int>& nodes)
+{
+    constexpr int new_node = -2;
+    const auto all = [] (const Flat& flat, auto numberBefore)
+    {
+        Rest rest;
+        for (std::size_t i = 0; i < flat.wires.size(); ++i)
+            if (const auto& w = flat.wires[i]; w.delay > 0) rest.push_back ({ static_cast<int> (i), w.identity, { w.from ? numberBefore (w.from->node) : -1, numberBefore (w.to.node) } });
+        return rest;
+    };
+    const auto heirOf = [&] (int node)
+    { return nodes[static_cast<std::size_t> (node)] >= 0 ? nodes[static_cast<std::size_t> (node)] : new_node; };
+    return match (all (now, heirOf), all (before, std::identity()), now, before, scopes, now.wires.size());
 }
 }   // namespace
 
 Heirs findHeirs (const Flat& now, const Flat& before)
 {
     const auto scopes = scopesBefore (now, before);
-    return { match (now, before, scopes, &Flat::nodes, [] (const FlatNode&)
-                    { return true; }),
-             match (now, before, scopes, &Flat::wires, [] (const FlatWire& w)
-                    { return w.delay > 0; }) };
+    auto nodes = matchNodes (now, before, scopes);
+    auto wires = matchWires (now, before, scopes, nodes);
+    return { std::move (nodes), std::move (wires) };
 }
 
 }   // namespace tactus::plan

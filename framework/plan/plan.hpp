@@ -92,8 +92,8 @@ public:
     plan::Flat flat;                                           ///< what it was built from
     std::vector<plan::Instance> instances;                     ///< as flat.nodes
     std::vector<LineUse> lines;                                ///< by wire, then component
-    std::vector<std::optional<plan::PortRef>> fed;             ///< as feeds
-    std::map<std::string, plan::PortRef, std::less<>> shown;   ///< params by the names under which subgraphs show them
+    std::vector<std::vector<plan::PortRef>> fed;               ///< as feeds: what each drives
+    std::map<std::string, std::vector<plan::PortRef>> shown;   ///< params by the names under which subgraphs show them
     plan::Ramps ramps;
     plan::Takeover takeover;
 };

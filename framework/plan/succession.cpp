@@ -71,7 +71,8 @@ private:
             visit (w.to.node, e);
         }
         for (std::size_t f = 0; f < plan.fed.size(); ++f)
-            if (const auto& port = plan.fed[f]) visit (port->node, { port->role, port->port, port->index, port->component, ~f, 0, 0, 0, 0, false, 1.0 });
+            for (const auto& port : plan.fed[f])
+                visit (port.node, { port.role, port.port, port.index, port.component, ~f, 0, 0, 0, 0, false, 1.0 });
     }
 
     std::vector<Entry> all;

@@ -28,79 +28,169 @@ double sorted (std::vector<double> values)
         total += values[i];
     return total;
 }
+
+/// "finger" of "finger[2]/drag", what is in the brackets, and the rest of the path.
+struct Head
+{
+    std::string name, instance, rest;
+};
+
+Head headOf (const std::string& path)
+{
+    const auto slash = path.find ('/');
+    Head head { path.substr (0, slash), "", slash == std::string::npos ? "" : path.substr (slash + 1) };
+    if (const auto bracket = head.name.find ('['); bracket != std::string::npos)
+    {
+        head.instance = head.name.substr (bracket + 1, head.name.size() - bracket - 2);
+        head.name.resize (bracket);
+    }
+    return head;
+}
+
+/// "finger[0]", "finger[1]" … of those that are meant; "finger" if it is not counted.
+std::vector<std::string> instancesOf (const graph::Node& n, const std::string& meant)
+{
+    if (! n.extra.contains ("count")) return { n.name };
+    std::vector<std::string> all;
+    for (int k = 0; k < n.extra.at ("count").get<int>(); ++k)
+        if (meant.empty() || meant == "*" || meant == std::to_string (k)) all.push_back (withIndex (n.name, k));
+    return all;
+}
 }   // namespace
 
-Interpreter::Interpreter (const graph::Graph& graph_, double rate_hz) : g (graph_) { expand (g.root, "", rate_hz); }
-
-void Interpreter::expand (const graph::Patch& patch, const std::string& prefix, double rate_hz)
+Interpreter::Interpreter (const graph::Graph& graph_, double rate_hz) : g (graph_)
 {
-    for (const auto& n : patch.nodes)
+    expand (g.root, "", {});
+    for (auto& [path, i] : instances)
     {
-        if (n.type.starts_with ("graph:"))
-        {
-            expand (*g.find (n.type.substr (6)), prefix + n.name + "/", rate_hz);
-            continue;
-        }
-        auto& i = instances[prefix + n.name];
-        i.type = catalogue().find (n.type);
-        i.source = &n;
-        i.node = i.type->make();
-        i.outputs.assign (i.type->outputs_size / sizeof (double) + 1, 0.0);
-        i.type->initialiseOutputs (i.outputs.data());
-
-        for (const auto& s : i.type->settings)
-        {
-            if (s.id == "inputs") i.entries = n.settings.value ("inputs", static_cast<int> (std::get<double> (s.initial)));
-            if (! n.settings.contains (s.id)) continue;
-            const auto& v = n.settings.at (std::string (s.id));
-            if (v.is_number()) s.set (i.node.get(), v.get<double>());
-            if (v.is_string()) s.set (i.node.get(), v.get<std::string>());
-            if (v.is_array()) s.set (i.node.get(), Records { { v[0]["frequency"].get<double>(), v[0]["decay"].get<double>(), v[0]["amplitude"].get<double>() } });
-        }
-        for (const auto& p : i.type->params)
-        {
-            i.params.emplace_back (static_cast<std::size_t> (p.list ? i.entries : p.width), p.initial[0]);
-            if (p.width == 3) i.params.back().assign (p.initial, p.initial + 3);
-            if (! p.choices.empty() && n.params.contains (p.id))
-            {
-                const int chosen = static_cast<int> (std::ranges::find (p.choices, n.params.at (std::string (p.id)).get<std::string>()) - p.choices.begin());
-                std::memcpy (static_cast<char*> (i.type->paramsOf (i.node.get())) + p.offset, &chosen, sizeof chosen);
-            }
-        }
-        if (i.type->bind && ! n.bypass)
-        {
-            auto& state = roles[n.role];
-            if (! state) state = std::make_unique<DeviceState>();
-            i.type->bind (i.node.get(), *state);
-        }
         if (i.type->prepare) i.type->prepare (i.node.get(), { .rate_hz = rate_hz });
         if (i.type->update) i.type->update (i.node.get());
     }
+}
+
+void Interpreter::expand (const graph::Patch& patch, const std::string& prefix, const Roles& outer)
+{
+    for (const auto& n : patch.nodes)
+        if (n.type.starts_with ("graph:"))
+            expandInstances (n, prefix, outer);
+        else
+            add (n, prefix + n.name, outer);
     for (const auto& w : patch.wires)
     {
         double gain = 1.0;
         if (w.gain.is_number()) gain = w.gain.get<double>();
         if (w.gain.is_string()) gain = std::get<Measure> (parseMeasure (w.gain.get<std::string>())).value;
-        wires.push_back ({ resolve (patch, prefix, w.from, true), resolve (patch, prefix, w.to, false), &w, gain, {} });
+        for (const auto& from : resolve (patch, prefix, w.from, true))
+            for (const auto& to : resolve (patch, prefix, w.to, false))
+                wires.push_back ({ from, to, &w, gain, {} });
     }
 }
 
-Interpreter::End Interpreter::resolve (const graph::Patch& patch, const std::string& prefix, const graph::Endpoint& e, bool start) const
+void Interpreter::expandInstances (const graph::Node& n, const std::string& prefix, const Roles& outer)
 {
-    const auto& n = *patch.find (e.node);
+    for (std::size_t k = 0; const auto& name : instancesOf (n, ""))
+    {
+        auto inner = outer;
+        for (const auto& [role, means] : n.roles.items())
+        {
+            const auto called = means.is_array() ? means.at (k).get<std::string>() : means.get<std::string>();
+            inner[role] = outer.contains (called) ? outer.at (called) : called;
+        }
+        expand (*g.find (n.type.substr (6)), prefix + name + "/", inner);
+        ++k;
+    }
+    override (n, prefix);
+}
+
+/// What is said of one instance comes last.
+void Interpreter::override (const graph::Node& n, const std::string& prefix)
+{
+    for (const bool of_one : { false, true })
+        for (const auto& [key, value] : n.overrides.items())
+        {
+            const auto bracket = key.starts_with ('[') ? key.find (']') : std::string::npos;
+            const auto meant = bracket == std::string::npos ? "*" : key.substr (1, bracket - 1);
+            if (of_one != (meant != "*")) continue;
+            const auto inside = bracket == std::string::npos ? key : key.substr (bracket + 2);
+            const auto dot = inside.find ('.');
+            for (const auto& name : instancesOf (n, meant))
+            {
+                auto& i = instances.at (prefix + name + "/" + inside.substr (0, dot));
+                const auto row = std::ranges::find (i.type->params, inside.substr (dot + 1), &PortSheet::id);
+                i.params[static_cast<std::size_t> (row - i.type->params.begin())][0] = value.get<double>();
+                *reinterpret_cast<double*> (static_cast<char*> (i.type->paramsOf (i.node.get())) + row->offset) = value.get<double>();
+            }
+        }
+}
+
+void Interpreter::add (const graph::Node& n, const std::string& path, const Roles& outer)
+{
+    auto& i = instances[path];
+    i.type = catalogue().find (n.type);
+    i.source = &n;
+    i.role = outer.contains (n.role) ? outer.at (n.role) : n.role;
+    i.node = i.type->make();
+    i.outputs.assign (i.type->outputs_size / sizeof (double) + 1, 0.0);
+    i.type->initialiseOutputs (i.outputs.data());
+
+    for (const auto& s : i.type->settings)
+    {
+        if (s.id == "inputs") i.entries = n.settings.value ("inputs", static_cast<int> (std::get<double> (s.initial)));
+        if (! n.settings.contains (s.id)) continue;
+        const auto& v = n.settings.at (std::string (s.id));
+        if (v.is_number()) s.set (i.node.get(), v.get<double>());
+        if (v.is_string()) s.set (i.node.get(), v.get<std::string>());
+        if (v.is_array()) s.set (i.node.get(), Records { { v[0]["frequency"].get<double>(), v[0]["decay"].get<double>(), v[0]["amplitude"].get<double>() } });
+    }
+    for (const auto& p : i.type->params)
+    {
+        i.params.emplace_back (static_cast<std::size_t> (p.list ? i.entries : p.width), p.initial[0]);
+        if (p.width == 3) i.params.back().assign (p.initial, p.initial + 3);
+        if (! p.choices.empty() && n.params.contains (p.id))
+        {
+            const int chosen = static_cast<int> (std::ranges::find (p.choices, n.params.at (std::string (p.id)).get<std::string>()) - p.choices.begin());
+            std::memcpy (static_cast<char*> (i.type->paramsOf (i.node.get())) + p.offset, &chosen, sizeof chosen);
+        }
+    }
+    if (i.type->bind && ! n.bypass)
+    {
+        auto& state = roles[i.role];
+        if (! state) state = std::make_unique<DeviceState>();
+        i.type->bind (i.node.get(), *state);
+    }
+}
+
+std::vector<Interpreter::End> Interpreter::resolve (const graph::Patch& patch, const std::string& prefix, const graph::Endpoint& e, bool start) const
+{
+    const auto head = headOf (e.node);
+    const auto& n = *patch.find (head.name);
     if (! n.type.starts_with ("graph:"))
-        return { prefix + e.node, withIndex (e.port, e.index), e.component };
+        return { { prefix + head.name, withIndex (e.port, e.index), e.component } };
 
     const auto& inside = *g.find (n.type.substr (6));
-    for (const auto* list : start ? std::vector { &inside.expose.outputs } : std::vector { &inside.expose.inputs, &inside.expose.params })
-        for (const auto& [name, to] : *list)
-            if (name == e.port)
-            {
-                auto end = resolve (inside, prefix + e.node + "/", to, start);
-                if (e.component >= 0) end.component = e.component;
-                return end;
-            }
-    return {};
+    std::vector<End> ends;
+    for (const auto& name : instancesOf (n, head.instance))
+    {
+        const auto deeper = prefix + name + "/";
+        if (! head.rest.empty())
+        {
+            std::ranges::move (resolve (inside, deeper, { head.rest, e.port, e.index, e.component }, start), std::back_inserter (ends));
+            continue;
+        }
+        const auto look = [&]
+        {
+            for (const auto* list : start ? std::vector { &inside.expose.outputs } : std::vector { &inside.expose.inputs, &inside.expose.params })
+                for (const auto& [shown, to] : *list)
+                    if (shown == e.port) return resolve (inside, deeper, to, start);
+            return std::vector<End> {};
+        };
+        for (auto& end : look())
+        {
+            if (e.component >= 0) end.component = e.component;
+            ends.push_back (std::move (end));
+        }
+    }
+    return ends;
 }
 
 double Interpreter::output (const End& end, int component)

@@ -30,6 +30,7 @@ private:
     {
         const NodeType* type = nullptr;
         const graph::Node* source = nullptr;
+        std::string role;
         std::shared_ptr<void> node;
         std::vector<double> outputs;   // as doubles: Outputs structs hold nothing else
         std::vector<std::vector<double>> params;
@@ -54,8 +55,13 @@ private:
     std::vector<Wire> wires;
     std::map<std::string, std::unique_ptr<DeviceState>> roles;
 
-    void expand (const graph::Patch&, const std::string& prefix, double rate_hz);
-    End resolve (const graph::Patch&, const std::string& prefix, const graph::Endpoint&, bool start) const;
+    using Roles = std::map<std::string, std::string>;
+
+    void expand (const graph::Patch&, const std::string& prefix, const Roles&);
+    void expandInstances (const graph::Node&, const std::string& prefix, const Roles&);
+    void add (const graph::Node&, const std::string& path, const Roles&);
+    void override (const graph::Node&, const std::string& prefix);
+    std::vector<End> resolve (const graph::Patch&, const std::string& prefix, const graph::Endpoint&, bool start) const;
     void evaluate (const std::string& path);
     double output (const End&, int component);
     bool driven (const std::string& path, const std::string& port, int component, bool add, double& value);

@@ -76,7 +76,7 @@ private:
         case 6:
             return graph::SetNodeKey { in, node->name, "bypass", oneIn (2) ? std::optional<Json> (true) : std::nullopt };
         case 7:
-            if (node->type.starts_with ("graph:")) return std::nullopt;
+            if (node->type.starts_with ("graph:")) return graph::SetNodeKey { in, node->name, "count", oneIn (4) ? std::nullopt : std::optional<Json> (1 + below (4)) };
             return graph::SetNodeKey { in, node->name, "type", Json (newNode().type) };
         case 8:
         case 9:
@@ -153,7 +153,7 @@ graph::Graph prefixed (graph::Graph g, const std::string& prefix, const std::str
     {
         for (auto at = names.find ('/'); at != std::string::npos; at = names.find ('/', at + 1))
             names.insert (at + 1, prefix);
-        return prefix + names;
+        return names.starts_with ('[') ? names : prefix + names;
     };
     const auto rename = [&] (graph::Patch& patch)
     {
@@ -162,6 +162,7 @@ graph::Graph prefixed (graph::Graph g, const std::string& prefix, const std::str
             n.name = prefix + n.name;
             if (n.type.starts_with ("graph:")) n.type.insert (6, prefix);
             if (! n.role.empty()) n.role = role;
+            n.roles = {};
             auto overrides = Json::object();
             for (const auto& [key, value] : n.overrides.items())
                 overrides[path (key)] = value;

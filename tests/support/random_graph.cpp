@@ -2,6 +2,7 @@
 #include "random_graph.hpp"
 
 #include <framework/catalogue.hpp>
+#include <framework/graph/endpoints.hpp>
 #include <framework/graph/text.hpp>
 #include <framework/plan/compile.hpp>
 #include <framework/units.hpp>
@@ -42,7 +43,11 @@ public:
         graph::Node n;
         n.name = std::move (name);
         if (! g.graphs.empty() && oneIn (8))
-            n.type = "graph:" + g.graphs[static_cast<std::size_t> (below (static_cast<int> (g.graphs.size())))].first;
+        {
+            const auto& [kind, patch] = g.graphs[static_cast<std::size_t> (below (static_cast<int> (g.graphs.size())))];
+            n.type = "graph:" + kind;
+            if (oneIn (2)) multiply (n, patch);
+        }
         else
         {
             const auto& type = *(catalogue().begin() + below (static_cast<int> (std::distance (catalogue().begin(), catalogue().end()))));
@@ -90,6 +95,28 @@ private:
         return n;
     }
 
+    static int countOf (const graph::Node& n) { return n.extra.value ("count", 0); }
+
+    /// Makes a node several instances, which are not quite alike.
+    void multiply (graph::Node& n, const graph::Patch& inside)
+    {
+        n.extra["count"] = 1 + below (4);
+        for (const auto* role : { "left", "right" })
+            if (oneIn (2)) n.roles[role] = oneIn (2) ? Json ("left") : Json (std::vector<std::string> (static_cast<std::size_t> (countOf (n)), "left"));
+        for (auto& [role, means] : n.roles.items())
+            if (means.is_array()) means[0] = "right";
+        for (const auto& m : inside.nodes)
+        {
+            const auto* type = catalogue().find (m.type);
+            if (type == nullptr || type->params.empty() || type->problem) continue;
+            const auto& row = type->params[static_cast<std::size_t> (below (static_cast<int> (type->params.size())))];
+            const auto key = m.name + "." + std::string (row.id);
+            if (row.list || row.width != 1 || ! row.choices.empty()) continue;
+            if (oneIn (3)) n.overrides["[" + std::to_string (below (countOf (n))) + "]/" + key] = row.limits.hard.clamp (0.5 * below (9));
+            if (oneIn (3)) n.overrides[(oneIn (2) ? "[*]/" : "") + key] = row.limits.hard.clamp (0.3 * below (9));
+        }
+    }
+
     void fill (graph::Patch& patch, int size, const graph::Graph& g)
     {
         for (int i = 0; i < size; ++i)
@@ -114,8 +141,16 @@ private:
             const auto& e = g.find (n.type.substr (6))->expose;
             const auto& list = start ? e.outputs : oneIn (4) && ! e.params.empty() ? e.params
                                                                                    : e.inputs;
+            auto path = n.name;
+            if (const int count = countOf (n); count > 0 && oneIn (2)) path += oneIn (3) ? "[*]" : "[" + std::to_string (below (count)) + "]";
+            if (const auto& nodes = g.find (n.type.substr (6))->nodes; ! nodes.empty() && oneIn (4))
+            {
+                auto inner = port (nodes[static_cast<std::size_t> (below (static_cast<int> (nodes.size())))], start, g);
+                if (inner) inner->endpoint.node.insert (0, path + "/");
+                return inner;
+            }
             if (list.empty()) return {};
-            return Port { { n.name, list[static_cast<std::size_t> (below (static_cast<int> (list.size())))].first }, 0 };
+            return Port { { path, list[static_cast<std::size_t> (below (static_cast<int> (list.size())))].first }, 0 };
         }
         const auto& type = *catalogue().find (n.type);
         const auto& rows = start ? type.outputs : oneIn (4) && ! type.params.empty() ? type.params
@@ -170,6 +205,7 @@ private:
         {
             const auto messages = compile (g, catalogue()).messages;
             std::set<std::pair<graph::Patch*, std::size_t>> doomed;
+            bool mended = false;
             for (const auto& m : messages)
             {
                 if (m.severity != Message::Severity::error) continue;
@@ -181,6 +217,7 @@ private:
                 }
                 auto& patch = patchOf (g, m.where);
                 const auto index = static_cast<std::size_t> (std::stoul (m.where.substr (at + 7)));
+                mended = true;
                 if (m.id == "graph/loop")
                     patch.wires[index].delay = 1 + below (3);
                 else if (m.id == "wire/add_to_input")
@@ -191,6 +228,7 @@ private:
                     doomed.emplace (&patch, index);
             }
             if (! hasErrors (messages)) return;
+            if (doomed.empty() && ! mended) doomed.emplace (&g.root, g.root.wires.size() - 1);   // what clashes inside was wired outside
             for (auto i = doomed.rbegin(); i != doomed.rend(); ++i)
                 i->first->wires.erase (i->first->wires.begin() + static_cast<std::ptrdiff_t> (i->second));
         }
@@ -202,7 +240,7 @@ private:
         const auto name = node_pointer.substr (node_pointer.rfind ('/') + 1);
         auto& patch = node_pointer.starts_with ("/graphs/") ? patchOf (g, node_pointer) : g.root;
         for (std::size_t i = patch.wires.size(); i-- > 0;)
-            if (patch.wires[i].to.node == name || patch.wires[i].from.node == name)
+            if (graph::firstNameOf (patch.wires[i].to.node) == name || graph::firstNameOf (patch.wires[i].from.node) == name)
             {
                 doomed.emplace (&patch, i);
                 return;

@@ -2,6 +2,7 @@
 #include <framework/file/graph_file.hpp>
 #include <framework/graph/edit.hpp>
 #include <framework/graph/history.hpp>
+#include <framework/graph/param_edit.hpp>
 #include <framework/graph/text.hpp>
 
 #include "wild_graph.hpp"
@@ -343,11 +344,123 @@ TEST_CASE ("expanding gives params, overrides and roles to what is inside, and l
     REQUIRE (g.find ("pair"));
     CHECK (g.find ("pair")->nodes[0].id == shared);
     CHECK (g.root.find ("a_amp")->id != shared);
-    CHECK (g.root.find ("a_amp")->origin.back() == shared);
+    CHECK (g.root.find ("a_amp")->origin.back().id == shared);
 
     perform (g, ExpandNode { "", "b" });
     CHECK (g.find ("pair") == nullptr);
     CHECK (g.root.find ("b_amp")->id == shared);
+}
+
+TEST_CASE ("a node with a count expands to a node for each instance, and all that names them finds them there")
+{
+    auto g = woodGraph();
+    perform (g, SetNodeKey { "", "grain", "roles", Json { { "tip", Json::array ({ "thumb", "index" }) }, { "base", "palm" } } });
+    perform (g, SetNodeKey { "", "grain", "ui", Json { { "at", 1 } } });
+    g.controls[0].to.push_back ({ "grain[1]/wave.phase", 3, 4 });
+    const auto grain = g.root.find ("grain")->id;
+    const auto force = g.root.wires[3].id, single = g.root.wires[1].id;
+    perform (g, ExpandNode { "", "grain" });
+
+    REQUIRE (g.root.nodes.size() == 5);
+    CHECK (g.root.nodes[2].name == "grain_0");
+    CHECK (g.root.nodes[3].name == "grain_1");
+    for (int k = 0; k < 2; ++k)
+    {
+        const auto& one = g.root.nodes[static_cast<std::size_t> (2 + k)];
+        CHECK (one.type == "graph:grain");
+        CHECK (one.extra == Json { { "ui", { { "at", 1 } } } });
+        CHECK (one.origin == std::vector { Ancestor { grain, k } });
+        CHECK (one.roles == Json { { "tip", k == 0 ? "thumb" : "index" }, { "base", "palm" } });
+        CHECK (one.overrides == (k == 0 ? Json { { "wave.phase", 1 } } : Json { { "wave.phase", 1 }, { "wave.angle", 2 } }));
+    }
+    REQUIRE (g.root.wires.size() == 5);
+    CHECK (toText (g.root.wires[1]) == "hand.position -> grain_1/wave.position");
+    CHECK (g.root.wires[1].id == single);
+    CHECK (toText (g.root.wires[3]) == "grain_0.force -> motor.force");
+    CHECK (toText (g.root.wires[4]) == "grain_1.force -> motor.force");
+    CHECK (g.root.wires[4].origin == std::vector { Ancestor { force } });
+    std::vector<std::string> targets;
+    for (const auto& t : g.controls[0].to)
+        targets.push_back (t.path);
+    CHECK (targets == std::vector<std::string> { "grain_0/wave.amplitude", "grain_1/wave.amplitude", "drag.mu", "grain_1/wave.phase" });
+
+    perform (g, ExpandNode { "", "grain_1" });
+    CHECK (g.root.find ("wave")->params == Json { { "phase", 1 }, { "angle", 2 } });
+    CHECK (g.root.find ("wave")->origin.front() == Ancestor { grain, 1 });
+}
+
+TEST_CASE ("instances inside a subgraph expand for all that reach through it, unless it shows them as one")
+{
+    auto g = woodGraph();
+    g.graphs.emplace_back ("board", Patch {});
+    auto& board = g.graphs.back().second;
+    board.nodes.push_back (*g.root.find ("grain"));
+    board.nodes.back().id = newId();
+    board.wires.push_back (wire ("grain[0]/gain.out -> grain[1]/gain.in"));
+    board.expose.outputs = { { "force", { "grain[1]", "force" } } };
+    g.root.nodes.push_back (node ("plank"));
+    g.root.nodes.back().type = "graph:board";
+    g.root.nodes.back().extra["count"] = 3;
+    g.root.nodes.back().overrides = { { "[2]/grain[1]/wave.phase", 5 }, { "grain/wave.phase", 4 }, { "[0]/grain/wave.phase", 3 } };
+    g.controls[0].to.push_back ({ "plank[1]/grain/wave.angle", 0, 1 });
+    auto shown = g;
+
+    perform (g, ExpandNode { "board", "grain" });
+    CHECK (toText (g.find ("board")->wires[0]) == "grain_0/gain.out -> grain_1/gain.in");
+    CHECK (toText (g.find ("board")->expose.outputs[0].second) == "grain_1.force");
+    CHECK (g.root.find ("plank")->overrides == Json { { "grain_0/wave.phase", 4 }, { "grain_1/wave.phase", 4 }, { "[0]/grain_0/wave.phase", 3 }, { "[0]/grain_1/wave.phase", 3 }, { "[2]/grain_1/wave.phase", 5 } });
+    CHECK (g.controls[0].to[2].path == "plank[1]/grain_0/wave.angle");
+    CHECK (g.controls[0].to[3].path == "plank[1]/grain_1/wave.angle");
+
+    shown.graphs.back().second.expose.outputs[0].second.node = "grain";
+    CHECK (refusal (shown, ExpandNode { "board", "grain" }) == "edit/cannot_expand");
+    g = woodGraph();
+    apply (g, AddWire { "", wire ("grain[2].force -> motor.force") }, Checks::none);
+    CHECK (refusal (g, ExpandNode { "", "grain" }) == "edit/cannot_expand");
+}
+
+TEST_CASE ("what a node says of instances inside goes with it when it is expanded")
+{
+    auto g = woodGraph();
+    perform (g, CollapseNodes { "", { "grain", "hand" }, "tool", "tool" });
+    CHECK (toText (g.find ("tool")->wires[0]) == "hand.position -> grain[1]/wave.position");
+    CHECK (g.controls[0].to[0].path == "tool/grain/wave.amplitude");
+    perform (g, SetOverride { "", "tool", "grain[0]/wave.phase", 7 });
+    perform (g, SetOverride { "", "tool", "grain/wave.angle", 8 });
+    perform (g, ExpandNode { "", "tool" });
+    CHECK (g.root.find ("grain")->overrides == Json { { "wave.phase", 1 }, { "wave.angle", 8 }, { "[0]/wave.phase", 7 } });   // 8 was said from outside, of all
+    CHECK (g.controls[0].to[0].path == "grain/wave.amplitude");
+}
+
+TEST_CASE ("a parameter that was turned is kept under the name it was turned by")
+{
+    auto g = woodGraph();
+    g.graphs[0].second.expose.params = { { "angle", { "wave", "angle" } } };
+    const auto keep = [&] (const std::string& name, std::optional<Json> value)
+    {
+        auto command = paramEdit (g, name, std::move (value));
+        if (auto* message = std::get_if<Message> (&command)) return message->id;
+        perform (g, std::get<Command> (command));
+        return std::string();
+    };
+    CHECK (keep ("drag.mu", 0.5) == "");
+    CHECK (g.root.find ("drag")->params["mu"] == 0.5);
+    CHECK (keep ("grain.angle", 0.6) == "");
+    CHECK (keep ("grain[*].angle", 0.7) == "");
+    CHECK (g.root.find ("grain")->params == Json { { "angle", 0.7 } });
+    CHECK (keep ("grain[0].angle", 0.1) == "");
+    CHECK (keep ("grain/wave.phase", 0.2) == "");
+    CHECK (keep ("grain[1]/wave.angle", 0.3) == "");
+    CHECK (keep ("grain[*]/gain.gain", 0.4) == "");
+    CHECK (g.root.find ("grain")->overrides == Json { { "wave.phase", 0.2 }, { "[1]/wave.angle", 0.3 }, { "[0]/wave.angle", 0.1 }, { "gain.gain", 0.4 } });
+    CHECK (keep ("grain[0]/wave.angle", std::nullopt) == "");
+    CHECK_FALSE (g.root.find ("grain")->overrides.contains ("[0]/wave.angle"));
+    CHECK (keep ("none.mu", 1) == "edit/unknown_node");
+    CHECK (keep ("mu", 1) == "param/name");
+    CHECK (keep ("grain[0].mu", 1) == "param/unknown");
+    CHECK (keep ("drag.mu.x", 1) == "param/shape");
+    CHECK (refusal (g, SetOverride { "", "grain", "no path", 1 }) == "graph/bad_path");
+    CHECK (refusal (g, SetOverride { "", "none", "wave.mu", 1 }) == "edit/unknown_node");
 }
 
 TEST_CASE ("a subgraph takes another name, and its nodes follow")
@@ -369,7 +482,6 @@ TEST_CASE ("what cannot be collapsed or expanded is refused, and nothing is chan
     CHECK (refusal (g, CollapseNodes { "", { "drag" }, "a", "grain" }) == "edit/name_taken");
     CHECK (refusal (g, CollapseNodes { "", { "drag" }, "A", "b" }) == "graph/bad_id");
     CHECK (refusal (g, ExpandNode { "", "drag" }) == "edit/cannot_expand");
-    CHECK (refusal (g, ExpandNode { "", "grain" }) == "edit/cannot_expand");   // it is two instances
     perform (g, SetNodeKey { "", "grain", "count", std::nullopt });
     perform (g, SetNodeKey { "", "grain", "overrides", std::nullopt });
     perform (g, RemoveWire { "", g.root.wires[1].id });

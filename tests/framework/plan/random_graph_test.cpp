@@ -6,6 +6,8 @@
 #include "support/random_graph.hpp"
 #include "support/sketch.hpp"
 
+#include <framework/graph/edit.hpp>
+
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
 
@@ -143,6 +145,38 @@ TEST_CASE ("no bit depends on the order in which nodes and wires were written", 
         RC_ASSERT (runPlan (g, seed) == runPlan (other, seed)); });
 }
 
+TEST_CASE ("a subgraph in several instances gives the bits of as many nodes drawn by hand", "[plan][property]")
+{
+    rc::prop ("on random graphs of up to 200 nodes", []
+              {
+        const auto seed = *rc::gen::arbitrary<unsigned>();
+        const auto g = test::randomGraph (seed, *rc::gen::inRange (13, 200));
+        auto drawn = g;
+        for (const auto& node : g.root.nodes)
+            if (node.extra.contains ("count")) RC_ASSERT (std::holds_alternative<graph::Command> (graph::apply (drawn, graph::ExpandNode { "", node.name })));
+
+        RC_PRE (! test::has (compile (drawn, catalogue()).messages, "wire/two_into_one"));   // a sum of forces onto a parameter wants a signal.add
+
+        auto run = runPlan (g, seed), other = runPlan (drawn, seed);
+        for (auto& row : run)
+        {
+            Run::value_type renamed;
+            for (const auto& [name, value] : row)
+            {
+                auto path = name;
+                if (const auto bracket = path.find ('['); bracket < path.find ('/') && path.find ('/') < path.find ('.'))
+                {
+                    path.erase (path.find (']', bracket), 1);
+                    path[bracket] = '_';
+                }
+                renamed[path] = value;
+            }
+            row = std::move (renamed);
+        }
+        RC_LOG (difference (run, other));
+        RC_ASSERT (run == other); });
+}
+
 TEST_CASE ("a tick allocates nothing and takes no lock, whatever the graph", "[plan][property]")
 {
     if (! NoAllocation::watches)
@@ -166,7 +200,7 @@ TEST_CASE ("a tick allocates nothing and takes no lock, whatever the graph", "[p
 
 TEST_CASE ("random graphs have wires, loops through delays, and parameters that are driven", "[plan][property]")
 {
-    int wires = 0, delayed = 0, driven = 0, inside = 0;
+    int wires = 0, delayed = 0, driven = 0, inside = 0, several = 0, counted = 0, own = 0;
     for (unsigned seed = 0; seed < 20; ++seed)
     {
         const auto g = test::randomGraph (seed, 100);
@@ -176,11 +210,21 @@ TEST_CASE ("random graphs have wires, loops through delays, and parameters that 
         {
             ++wires;
             delayed += w.delay > 0;
-            if (const auto* node = g.root.find (w.to.node); const auto* type = catalogue().find (node->type)) driven += std::ranges::count (type->params, w.to.port, &PortSheet::id) > 0;
+            several += w.from.node.find ('[') != std::string::npos || w.to.node.find ('[') != std::string::npos;
+            if (const auto* node = g.root.find (w.to.node); const auto* type = node ? catalogue().find (node->type) : nullptr) driven += std::ranges::count (type->params, w.to.port, &PortSheet::id) > 0;
         }
+        for (const auto& node : g.root.nodes)
+            if (node.extra.contains ("count"))
+            {
+                ++counted;
+                own += ! node.overrides.empty();
+            }
     }
     CHECK (wires > 20 * 30);
     CHECK (delayed > 20 * 3);
     CHECK (driven > 20 * 3);
     CHECK (inside > 20);
+    CHECK (several > 20);
+    CHECK (counted > 20);
+    CHECK (own > 20);
 }

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Instances of a subgraph under edit: what goes on, and what begins.
+
+#include "support/sketch.hpp"
+
+#include <framework/graph/param_edit.hpp>
+#include <framework/live.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+using namespace tactus;
+using graph::SetNodeKey;
+using test::Sketch;
+
+namespace
+{
+/// Instances that each count their ticks, through a delay inside, and hear their input four ticks late.
+Sketch counters (int count)
+{
+    Sketch s;
+    auto& part = s.subgraph ("part");
+    s.add (part, "count", "signal.add").add (part, "one", "signal.constant", { { "value", 1.0 } }).add (part, "heard", "signal.gain");
+    s.add (part, "one.out -> count.in[0]").add (part, "count.out -> [1] -> count.in[1]");
+    part.expose = { { { "in", { "heard", "in" } } }, { { "out", { "count", "out" } }, { "heard", { "heard", "out" } } }, { { "step", { "one", "value" } } } };
+    s.node ("clock", "graph:part").node ("finger", "graph:part").wire ("clock.out -> [4] -> finger.in");
+    if (count > 0) s.graph.root.nodes.back().extra["count"] = count;
+    return s;
+}
+
+struct Bench
+{
+    explicit Bench (const Sketch& s) : live (s.graph, catalogue(), {}, s.compile().plan) {}
+
+    void edit (graph::Command command)
+    {
+        const auto messages = live.perform (std::move (command));
+        INFO (test::text (messages));
+        REQUIRE_FALSE (hasErrors (messages));
+    }
+
+    void count (std::optional<Json> n) { edit (SetNodeKey { "", "finger", "count", std::move (n) }); }
+
+    void tick (int n = 1)
+    {
+        for (int k = 0; k < n; ++k)
+            live.engine().tick();
+    }
+
+    /// What stands on an output of a node now.
+    double at (const std::string& path, const std::string& port)
+    {
+        const auto& plan = live.engine().plan();
+        const auto node = std::ranges::find (plan.flat.nodes, path, &plan::FlatNode::path);
+        REQUIRE (node != plan.flat.nodes.end());
+        const auto& instance = plan.instances[static_cast<std::size_t> (node - plan.flat.nodes.begin())];
+        const auto record = std::ranges::find (plan.records, instance.node.get(), &Record::self);
+        REQUIRE (record != plan.records.end());
+        const auto row = std::ranges::find (node->type->outputs, port, &PortSheet::id);
+        return *reinterpret_cast<const double*> (static_cast<const std::byte*> (record->outputs) + row->offset);
+    }
+
+    double counted (const std::string& part) { return at (part + "/count", "out"); }
+    double heard (const std::string& part) { return at (part + "/heard", "out"); }
+
+    double param (const std::string& name)
+    {
+        const auto ref = std::get<plan::ParamRef> (live.engine().param (name));
+        return ref.knobs->all[ref.index].value;
+    }
+
+    Live live;
+};
+}   // namespace
+
+TEST_CASE ("when the count is raised or lowered, the instances that stay go on, with what is on its way to them", "[live][instances]")
+{
+    Bench bench { counters (2) };
+    bench.tick (10);
+    CHECK (bench.counted ("finger[1]") == 10.0);
+    CHECK (bench.heard ("finger[1]") == 6.0);
+
+    bench.count (4);
+    bench.tick();
+    for (const auto* old : { "finger[0]", "finger[1]" })
+    {
+        CHECK (bench.counted (old) == 11.0);
+        CHECK (bench.heard (old) == 7.0);
+    }
+    CHECK (bench.counted ("finger[3]") == 1.0);
+    CHECK (bench.heard ("finger[3]") == 0.0);
+
+    bench.count (1);
+    bench.tick();
+    CHECK (bench.counted ("finger[0]") == 12.0);
+    CHECK (bench.heard ("finger[0]") == 8.0);
+    bench.count (std::nullopt);
+    bench.tick();
+    CHECK (bench.counted ("finger") == 13.0);
+    CHECK (bench.heard ("finger") == 9.0);
+    bench.count (3);
+    bench.tick();
+    CHECK (bench.counted ("finger[0]") == 14.0);
+    CHECK (bench.heard ("finger[0]") == 10.0);
+    CHECK (bench.counted ("finger[2]") == 1.0);
+    bench.live.undo();
+    bench.tick();
+    CHECK (bench.counted ("finger") == 15.0);
+}
+
+TEST_CASE ("instances go on as the nodes they become, and back, and wherever they are put", "[live][instances]")
+{
+    Bench bench { counters (3) };
+    bench.count (1);
+    bench.tick (5);
+    bench.count (3);
+    bench.tick (5);   // so that the instances differ
+    const auto check = [&] (const std::string& first, const std::string& last, double ticks)
+    {
+        bench.tick();
+        CHECK (bench.counted (first) == ticks);
+        CHECK (bench.heard (first) == ticks - 4.0);
+        CHECK (bench.counted (last) == ticks - 5.0);
+        CHECK (bench.heard (last) == (ticks - 5.0 < 5.0 ? 0.0 : ticks - 4.0));
+    };
+    check ("finger[0]", "finger[2]", 11.0);
+    bench.edit (graph::CollapseNodes { "", { "finger" }, "hand", "hand" });
+    check ("hand/finger[0]", "hand/finger[2]", 12.0);
+    bench.edit (graph::RenameNode { "hand", "finger", "digit" });
+    check ("hand/digit[0]", "hand/digit[2]", 13.0);
+    bench.edit (graph::CollapseNodes { "part", { "count", "one" }, "inner", "inner" });
+    bench.tick();
+    CHECK (bench.counted ("hand/digit[2]/inner") == 9.0);
+    bench.live.undo();
+    check ("hand/digit[0]", "hand/digit[2]", 15.0);
+    bench.edit (graph::ExpandNode { "", "hand" });
+    check ("digit[0]", "digit[2]", 16.0);
+    bench.edit (graph::ExpandNode { "", "digit" });
+    check ("digit_0", "digit_2", 17.0);
+    bench.edit (graph::ExpandNode { "", "digit_2" });
+    bench.tick();
+    CHECK (bench.at ("count", "out") == 13.0);
+    CHECK (bench.counted ("digit_0") == 18.0);
+    bench.live.undo();
+    check ("digit_0", "digit_2", 19.0);
+    bench.live.undo();
+    check ("digit[0]", "digit[2]", 20.0);
+    bench.live.undo();
+    check ("hand/digit[0]", "hand/digit[2]", 21.0);
+}
+
+TEST_CASE ("a parameter is turned in all instances or in one, by any of its names", "[live][instances][turn]")
+{
+    Bench bench { counters (3) };
+    bench.tick();
+    const auto turn = [&] (const std::string& name, double value, std::vector<double> expected)
+    {
+        INFO (name);
+        CHECK_FALSE (bench.live.set (name, value));
+        bench.tick (200);
+        for (std::size_t k = 0; k < 3; ++k)
+            CHECK (bench.param ("finger[" + std::to_string (k) + "]/one.value") == expected[k]);
+    };
+    turn ("finger.step", 2.0, { 2.0, 2.0, 2.0 });
+    turn ("finger[1].step", 3.0, { 2.0, 3.0, 2.0 });
+    turn ("finger[2]/one.value", 4.0, { 2.0, 3.0, 4.0 });
+    turn ("finger[*]/one.value", 5.0, { 5.0, 5.0, 5.0 });
+    turn ("finger/one.value", 6.0, { 6.0, 6.0, 6.0 });
+    turn ("finger[*].step", 7.0, { 7.0, 7.0, 7.0 });
+    CHECK (bench.param ("clock.step") == 1.0);
+    for (const auto* wrong : { "finger[3].step", "finger[3]/one.value", "clock[0].step" })
+    {
+        const auto message = bench.live.set (wrong, 1.0);
+        REQUIRE (message);
+        CHECK (message->id == "port/unknown_node");
+    }
+}
+
+TEST_CASE ("a turn that is kept by an edit moves its instance, and no other", "[live][instances]")
+{
+    Bench bench { counters (3) };
+    bench.tick();
+    bench.edit (std::get<graph::Command> (graph::paramEdit (bench.live.graph(), "finger[1]/one.value", 0.5)));
+    bench.tick (200);
+    CHECK (bench.param ("finger[0].step") == 1.0);
+    CHECK (bench.param ("finger[1].step") == 0.5);
+    bench.edit (std::get<graph::Command> (graph::paramEdit (bench.live.graph(), "finger.step", 2.0)));
+    bench.tick (200);
+    CHECK (bench.param ("finger[0].step") == 2.0);
+    CHECK (bench.param ("finger[1].step") == 0.5);
+    bench.live.undo();
+    bench.live.undo();
+    bench.tick (200);
+    CHECK (bench.param ("finger[1].step") == 1.0);
+}
