@@ -3,6 +3,7 @@
 #include "report.hpp"
 
 #include <framework/graph/reconcile.hpp>
+#include <framework/in_quotes.hpp>
 #include <framework/near_miss.hpp>
 #include <framework/number_text.hpp>
 #include <framework/turn.hpp>
@@ -233,9 +234,13 @@ std::variant<std::vector<std::string>, Message> Session::probe (const std::vecto
             names.push_back (plan->taps[i].name);
             taps.push_back (i);
         }
-    if (! plan || taps.size() > ProbeRing::most)
+    const auto unseen = std::ranges::find_if (ports, [&] (const std::string& port)
+                                              { return std::ranges::none_of (names, [&] (const std::string& name)
+                                                                             { return isPartOf (name, port); }); });
+    if (! plan || taps.size() > ProbeRing::most || unseen != ports.end())
     {
         running->submit (std::move (waiting));
+        if (plan && unseen != ports.end()) return Message { .id = "probe/several", .where = {}, .text = inQuotes (*unseen) + " stands for ports of several instances inside", .remedy = "name them inside, as in hand/finger[*]/drag.force" };
         if (! plan) return *std::ranges::find (messages, Message::Severity::error, &Message::severity);
         return Message { .id = "probe/too_many", .where = {}, .text = "all probes together would have " + std::to_string (taps.size()) + " components, and there is room for " + std::to_string (ProbeRing::most), .remedy = "wait until others are over" };
     }

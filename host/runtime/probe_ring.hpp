@@ -3,6 +3,7 @@
 
 #include "ring_index.hpp"
 
+#include <framework/graph/instances.hpp>
 #include <framework/plan/plan.hpp>
 
 #include <algorithm>
@@ -16,10 +17,11 @@
 namespace tactus::host
 {
 
-/// True of "drag.force.x" and "drag.force", of "mix.in[0]" and "mix.in".
+/// True of "drag.force.x" and "drag.force", of "mix.in[0]" and "mix.in", of "finger[2].force" and "finger.force".
 inline bool isPartOf (std::string_view component, std::string_view port) noexcept
 {
-    return component.starts_with (port) && (component.size() == port.size() || component[port.size()] == '.' || component[port.size()] == '[');
+    const auto end = graph::covers (port, component);
+    return end && (*end == component.size() || component[*end] == '.' || component[*end] == '[');
 }
 
 /// What stands on some ports now and then, from the tick thread to those who want to see it. Neither ever waits: what

@@ -114,3 +114,17 @@ TEST_CASE ("frames come whole and in order, while others are selected, and the t
     ticking.join();
     CHECK (broken == 0);
 }
+
+TEST_CASE ("a port has as parts its components, its entries, and those of all instances it is meant of", "[runtime]")
+{
+    CHECK (isPartOf ("drag.force", "drag.force"));
+    CHECK (isPartOf ("drag.force.x", "drag.force"));
+    CHECK_FALSE (isPartOf ("drag.forced", "drag.force"));
+    CHECK (isPartOf ("mix.in[0]", "mix.in"));
+    for (const auto* port : { "finger.force", "finger[*].force", "finger[12].force" })
+        CHECK (isPartOf ("finger[12].force.x", port));
+    CHECK_FALSE (isPartOf ("finger[12].force.x", "finger[1].force"));
+    CHECK (isPartOf ("hand[1]/finger[0]/mix.in[2]", "hand[1]/finger/mix.in"));
+    CHECK_FALSE (isPartOf ("hand[1]/finger[0]/mix.in[2]", "hand[2]/finger/mix.in"));
+    CHECK_FALSE (isPartOf ("hand[1]/finger[0]/mix.in[2]", "hand.in"));
+}
