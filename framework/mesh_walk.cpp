@@ -46,6 +46,12 @@ MeshWalk::MeshWalk (Mesh m) : body (std::move (m)), rim (rimOf (body)), first (b
         const Vec3 &a = at (0), &b = at (1), &c = at (2);
         boxes.push_back ({ a.cwiseMin (b).cwiseMin (c) - slack, a.cwiseMax (b).cwiseMax (c) + slack });
     }
+    for (std::size_t t = 0; t < boxes.size(); ++t)
+    {
+        if (t % block == 0) blocks.push_back (boxes[t]);
+        blocks.back().low = blocks.back().low.cwiseMin (boxes[t].low);
+        blocks.back().high = blocks.back().high.cwiseMax (boxes[t].high);
+    }
 
     for (const auto& corners : body.triangles)
         for (const int c : corners)
@@ -73,7 +79,7 @@ public:
         around = { centre - reach, centre + reach };
     }
 
-    /// True if all of a triangle certainly lies beyond; false says nothing.
+    /// True if all that is in a box certainly lies beyond; false says nothing.
     bool misses (const Box& box) const noexcept
     {
         for (int i = 0; i < 3; ++i)
@@ -96,10 +102,15 @@ Spot MeshWalk::nearestOfAll (const Vec3& p, int guess) const noexcept
     Spot best;
     double least = std::numeric_limits<double>::infinity();
     Reach reach { p, guess >= 0 ? (at (guess, p).on.point - p).squaredNorm() : least };
-    for (int t = 0; t < static_cast<int> (body.triangles.size()); ++t)
+    for (std::size_t t = 0; t < boxes.size(); ++t)
     {
-        if (reach.misses (boxes[static_cast<std::size_t> (t)])) continue;
-        const Spot there = at (t, p);
+        if (t % block == 0 && reach.misses (blocks[t / block]))
+        {
+            t += block - 1;
+            continue;
+        }
+        if (reach.misses (boxes[t])) continue;
+        const Spot there = at (static_cast<int> (t), p);
         if (const double distance2 = (there.on.point - p).squaredNorm(); distance2 < least)
         {
             best = there;

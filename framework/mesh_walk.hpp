@@ -54,7 +54,7 @@ public:
     Spot nearestOfAll (const Vec3& p, int guess = -1) const noexcept;
 
 private:
-    /// Around a triangle, a little wider than it is.
+    /// Around a triangle or several, a little wider than they are.
     struct Box
     {
         Vec3 low, high;
@@ -63,7 +63,10 @@ private:
     class Reach;
 
     Mesh body;
+    static constexpr std::size_t block = 8;   // triangles; neighbours in a list are mostly neighbours on the mesh
+
     std::vector<Box> boxes;
+    std::vector<Box> blocks;                // around so many triangles one after another
     std::vector<std::array<bool, 3>> rim;   // of each triangle, the edge opposite of each corner has nothing beyond it
     std::vector<int> first, around;         // around[first[i]] … around[first[i + 1]]: the triangles that share point i
 };
