@@ -222,6 +222,38 @@ private:
             else
                 for (auto& f : frames)
                     f *= rotationMatrix (s.rotation).transpose();
+            for (const auto& f : frames)
+                squared.push_back (square (f));
+            for (const auto& corners : walk.mesh().triangles)
+            {
+                const auto at = [&] (std::size_t i) -> const Mat3&
+                { return frames[static_cast<std::size_t> (corners[i])]; };
+                even.push_back (at (0) == at (1) && at (0) == at (2));
+            }
+        }
+
+        /// The frame at a spot: that of its corners where they are alike, as on a flat patch, else in between.
+        Mat3 frameAt (const Spot& spot) const noexcept
+        {
+            const auto t = static_cast<std::size_t> (spot.triangle);
+            const auto& corners = walk.mesh().triangles[t];
+            if (even[t]) return squared[static_cast<std::size_t> (corners[0])];
+
+            Mat3 sum = Mat3::Zero();
+            for (std::size_t i = 0; i < 3; ++i)
+                sum += spot.on.weights[i] * frames[static_cast<std::size_t> (corners[i])];
+            return square (sum);
+        }
+
+        /// With u^z of length 1, u^x square to it, and u^y to both.
+        static Mat3 square (const Mat3& frame) noexcept
+        {
+            const Vec3 z = direction (frame.row (2).transpose());
+            Vec3 x = frame.row (0).transpose();
+            x = direction (x - x.dot (z) * z);
+            Mat3 squared_frame;
+            squared_frame << x.transpose(), z.cross (x).transpose(), z.transpose();
+            return squared_frame;
         }
 
         static Mesh placed (const Settings& s)
@@ -242,7 +274,8 @@ private:
         }
 
         MeshWalk walk;
-        std::vector<Mat3> frames;
+        std::vector<Mat3> frames, squared;
+        std::vector<bool> even;   // of each triangle: its corners have the same frame
     };
 
     /// Two neighbouring shapes of tool, and how much there is of the second.
@@ -405,28 +438,13 @@ private:
     Felt feel (const Spot& spot, const Vec3& p, const Tool& tool) const noexcept
     {
         Felt felt;
-        felt.frame = frameAt (spot);
+        felt.frame = body->frameAt (spot);
         felt.d = felt.frame * (p - spot.on.point);
         add (felt, spot, tool.lower, 1.0 - tool.amount);
         if (tool.amount > 0.0) add (felt, spot, tool.upper, tool.amount);
         for (std::size_t i = 0; i < 3; ++i)
             felt.energy += spot.on.weights[i] * felt.energies[i];
         return felt;
-    }
-
-    Mat3 frameAt (const Spot& spot) const noexcept
-    {
-        const auto& corners = body->walk.mesh().triangles[static_cast<std::size_t> (spot.triangle)];
-        Mat3 sum = Mat3::Zero();
-        for (std::size_t i = 0; i < 3; ++i)
-            sum += spot.on.weights[i] * body->frames[static_cast<std::size_t> (corners[i])];
-
-        const Vec3 z = direction (sum.row (2).transpose());
-        Vec3 x = sum.row (0).transpose();
-        x = direction (x - x.dot (z) * z);
-        Mat3 frame;
-        frame << x.transpose(), z.cross (x).transpose(), z.transpose();
-        return frame;
     }
 
     /// The part of one tool in the forces and energies.
