@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <framework/length.hpp>
 #include <framework/node.hpp>
 
 #include <limits>
@@ -81,7 +82,7 @@ struct PredictiveHold
         last = { .force = in.in, .contact = wired ? in.contact : last.contact, .wired = wired || last.wired, .known = true };
 
         const Vec3 quarter = 0.25 * in.in + 0.5 * (0.25 * in.in - 0.25 * before);   // of the force: this cannot overflow
-        if (quarter.stableNorm() > 0.25 * params.limit) return { .out = finiteOrZero (params.limit * direction (quarter)) };
+        if (length (quarter) > 0.25 * params.limit) return { .out = finiteOrZero (params.limit * direction (quarter)) };
         return { .out = finiteOrZero (4.0 * quarter) };
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <framework/length.hpp>
 #include <framework/node.hpp>
 
 #include <algorithm>
@@ -115,7 +116,7 @@ struct Velocity
             v[i] = slope (axis) / dt;
         }
 
-        const Outputs out { .velocity = v, .speed = v.stableNorm() };
+        const Outputs out { .velocity = v, .speed = length (v) };
         if (! isFinite (out.velocity, out.speed))
         {
             known = 0;
@@ -127,6 +128,14 @@ struct Velocity
 private:
     static constexpr int capacity = longest_window + 1;
     static constexpr double rounding = 1e-10;   // m; no encoder is finer
+
+    static constexpr auto inverses = []   // 1/n: a product costs a fifth of a division
+    {
+        std::array<double, capacity> all {};
+        for (int n = 1; n < capacity; ++n)
+            all[static_cast<std::size_t> (n)] = 1.0 / n;
+        return all;
+    }();
 
     struct Axis
     {
@@ -160,19 +169,21 @@ private:
         const double now = ago (axis, 0);
 
         // Slopes whose line from now into the past has met every sample so far; and how far these lie apart.
-        double least = -inf, most = inf, lowest = now, highest = now, best = 0.0;
+        double least = -inf, most = inf, lowest = now, highest = now;
+        int fitting = 0;
         for (int n = 1; n <= longest && least <= most; ++n)
         {
-            const double then = ago (axis, n), step = (now - then) / n;
-            if (step >= least && step <= most) best = step;
-            least = std::max (least, step - noise / n);
-            most = std::min (most, step + noise / n);
+            const double then = ago (axis, n), inverse = inverses[static_cast<std::size_t> (n)], step = (now - then) * inverse, play = noise * inverse;
+            if (step >= least && step <= most) fitting = n;
+            least = std::max (least, step - play);
+            most = std::min (most, step + play);
             lowest = std::min (lowest, then);
             highest = std::max (highest, then);
         }
 
         const bool rests = least <= most && highest - lowest <= noise && (told || longest > 1);
-        return rests && ! isRamp (axis, longest) ? 0.0 : best;
+        if (fitting == 0 || (rests && ! isRamp (axis, longest))) return 0.0;
+        return (now - ago (axis, fitting)) / fitting;
     }
 
     /// True if the samples of a window lie on a line.
