@@ -190,6 +190,7 @@ private:
     {
         bool touching = false;
         Vec3 p = Vec3::Zero(), n = Vec3::UnitZ();   // tool and unit normal
+        Vec3 given = Vec3::UnitZ();                 // the normal of any length it was made of
         Vec3 d = Vec3::Zero();                      // stretch; the contact point is c = p - d
         double sigma = 0.0, d_max = 0.0, d_stick = 0.0;
         Adhesion adhesion {};
@@ -241,7 +242,8 @@ inline ElastoPlastic::Outputs ElastoPlastic::tick (const Inputs& in) noexcept
     if (longest == 0.0 || ! isFinite (sigma)) return fault();
 
     Contact now = contact;
-    now.n = (in.normal / longest).normalized();
+    if (in.normal != contact.given) now.n = (in.normal / longest).normalized();
+    now.given = in.normal;
     now.p = in.position;
     now.sigma = sigma;
     now.d_max = params.d_max;
