@@ -159,6 +159,7 @@ void Engine::beforePlan() noexcept
     for (std::size_t i = 0; i < used.size(); ++i)
         if (used[i]->device) plan->roles[i].state->reading = used[i]->device->read();
 
+    plan->number = ticks;
     plan->ramps.step();
 }
 

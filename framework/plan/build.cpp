@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "build.hpp"
+#include "crossings.hpp"
 #include "grouped.hpp"
 #include "ops.hpp"
 #include "slots.hpp"
@@ -46,10 +47,12 @@ struct Storage
     std::deque<DelayLine> delays;
     std::deque<DrivenNode> driven;
     std::deque<Bypass> bypasses;
+    std::vector<RunningSection> sections;   // as in the flat graph; the first, which is the plan, is empty
+    std::deque<std::vector<double>> samples;
 };
 
 /// Records in running order, each with the node it works for.
-struct Steps
+struct Owned
 {
     std::vector<Record> records;
     std::vector<std::uint32_t> owners;
@@ -58,6 +61,12 @@ struct Steps
     {
         records.push_back (r);
         owners.push_back (static_cast<std::uint32_t> (node));
+    }
+
+    void append (const Owned& more)
+    {
+        records.insert (records.end(), more.records.begin(), more.records.end());
+        owners.insert (owners.end(), more.owners.begin(), more.owners.end());
     }
 };
 
@@ -78,8 +87,8 @@ struct Driver
 class Builder
 {
 public:
-    Builder (Flat& f, const PortUnits& u, std::span<const int> o, const Outside& out, const Setup& s, const Plan* b, const Plan* withdrawn)
-        : flat (f), units (u), order (o), outside (out), setup (s), before (b), succession (f, b, withdrawn, s.rate_hz), slots (f)
+    Builder (Flat& f, const PortUnits& u, const Order& o, const Outside& out, const Setup& s, const Plan* b, const Plan* withdrawn)
+        : flat (f), units (u), order (o), outside (out), setup (s), before (b), succession (f, b, withdrawn, s.rate_hz), slots (f), steps (f.sections.size())
     {
     }
 
@@ -91,20 +100,11 @@ public:
         plan->fed = outside.feeds;
         makeNodes();
         connectDrivers();
-        plan->records.reserve (order.size());
-        for (const int n : order)
-            if (const auto& node = flat.nodes[at (n)]; ! node.muted)
-            {
-                connectInputs (n);
-                node.bypass ? addBypass (n) : addNode (n);
-            }
-        for (const auto* part : { &peeks, &ticks, &writes })
-        {
-            plan->records.insert (plan->records.end(), part->records.begin(), part->records.end());
-            plan->owners.insert (plan->owners.end(), part->owners.begin(), part->owners.end());
-        }
+        auto all = recordsOf (0);
+        plan->records = std::move (all.records);
+        plan->owners = std::move (all.owners);
         addTaps();
-        plan->delays = pathDelays (flat, nodeDelays());
+        plan->delays = pathDelays (flat, units, nodeDelays());
         plan->storage = storage;
         keepFlat();
         succession.compare (*plan);
@@ -112,9 +112,14 @@ public:
     }
 
 private:
+    struct Steps
+    {
+        Owned peeks, body, writes;
+    };
+
     Flat& flat;
     const PortUnits& units;
-    std::span<const int> order;
+    const Order& order;
     const Outside& outside;
     const Setup& setup;
     const Plan* before;
@@ -125,10 +130,12 @@ private:
     std::shared_ptr<Storage> storage;
     std::vector<std::size_t> output_at;       // of each node: into the arena
     std::optional<Grouped<Driver>> drivers;   // by slot; of each slot in the order of the wires, then of the feeds
-    Steps peeks, ticks, writes;
+    std::vector<Steps> steps;                 // by section
     std::set<std::string> tap_names;
 
     std::byte* outputsOf (int n) { return storage->outputs.bytes + output_at[at (n)]; }
+    const double** sourcesOf (int n) { return storage->sources.data() + slots.firstInput (n); }
+    Steps& stepsOf (int n) { return steps[at (flat.nodes[at (n)].section)]; }
     void* nodeOf (int n) { return plan->instances[at (n)].node.get(); }
 
     void layOut()
@@ -145,6 +152,44 @@ private:
         storage = std::make_shared<Storage> (size);
         storage->defaults.resize (slots.inputCount());
         storage->sources.resize (slots.inputCount());
+        storage->sections.resize (flat.sections.size());
+        for (int s = 1; s < static_cast<int> (flat.sections.size()); ++s)
+        {
+            const int around = flat.section (s).around;
+            auto& running = storage->sections[at (s)];
+            running.around = around == 0 ? &plan->number : &storage->sections[at (around)].number;
+            running.factor = static_cast<std::uint64_t> (flat.section (s).factor);
+        }
+    }
+
+    /// What a section runs, in order: delayed wires and peeking nodes give what they have, nodes run, delayed wires take
+    /// what they get.
+    Owned recordsOf (int section)
+    {
+        auto& [peeks, body, writes] = steps[at (section)];
+        body.records.reserve (order[at (section)].size());
+        for (const auto& step : order[at (section)])
+            if (step.section >= 0)
+                addSection (step.section, body);
+            else if (const auto& node = flat.nodes[at (step.node)]; ! node.muted)
+            {
+                connectInputs (step.node);
+                node.bypass ? addBypass (step.node) : addNode (step.node);
+            }
+        if (peeks.records.empty() && writes.records.empty()) return std::move (body);
+        peeks.append (body);
+        peeks.append (writes);
+        return std::move (peeks);
+    }
+
+    /// The record of a section belongs to the first node that runs in it.
+    void addSection (int section, Owned& around)
+    {
+        auto& running = storage->sections[at (section)];
+        auto inside = recordsOf (section);
+        if (inside.records.empty()) return;
+        running.records = std::move (inside.records);
+        around.add ({ flat.section (section).kind == Section::Kind::every ? &RunningSection::every : &RunningSection::times, &running, nullptr, nullptr }, static_cast<int> (inside.owners.front()));
     }
 
     void makeNodes()
@@ -163,6 +208,8 @@ private:
     {
         const auto& n = flat.nodes[at (i)];
         auto& instance = plan->instances[at (i)];
+        instance.outputs = outputsOf (i);
+        instance.sources = sourcesOf (i);
         const bool goes_on = succession.goesOn (at (i));
         if (goes_on)
         {
@@ -177,6 +224,7 @@ private:
             instance.node = plan::makeNode (flat, i);
         }
         instance.knobs = succession.knobsOf (at (i), plan->takeover);
+        keepOutputs (i);
 
         if (! instance.node)
         {
@@ -192,10 +240,38 @@ private:
     {
         const auto& n = flat.nodes[at (i)];
         auto& instance = plan->instances[at (i)];
-        if (n.type->prepare) n.type->prepare (instance.node.get(), setup);
+        auto own = setup;
+        own.rate_hz *= flat.speed (n.section);
+        if (n.type->prepare) n.type->prepare (instance.node.get(), own);
         if (n.type->update) n.type->update (instance.node.get());
         if (n.type->delay) instance.delay = n.type->delay (instance.node.get());
         succession.succeed (at (i), plan->takeover);
+    }
+
+    /// The node before whose values stand until this one runs, if its section rests; null if there is none.
+    const Instance* standsFor (int i) const
+    {
+        const auto& n = flat.nodes[at (i)];
+        const auto* old = flat.rests (n.section) ? succession.heritageOf (at (i)) : nullptr;
+        if (old == nullptr) return nullptr;
+        const auto& then = before->flat.nodes[static_cast<std::size_t> (old - before->instances.data())];
+        return ! then.muted && then.bypass == n.bypass && then.list_size == n.list_size ? old : nullptr;
+    }
+
+    void keepOutputs (int i)
+    {
+        if (const auto* old = standsFor (i)) plan->takeover.standing.push_back ({ outputsOf (i), old->outputs, flat.nodes[at (i)].type->outputs_size });
+    }
+
+    /// Of sums at the inputs of a node, from this one on; nobody but a tap sees them before it runs.
+    void keepSums (int i, std::size_t first)
+    {
+        const auto* old = first < storage->sums.size() ? standsFor (i) : nullptr;
+        if (old == nullptr) return;
+        const auto begin = slots.firstInput (i), end = slots.firstInput (i + 1);
+        for (auto slot = begin; slot < end; ++slot)
+            for (auto s = first; s < storage->sums.size(); ++s)
+                if (auto& sum = storage->sums[s]; storage->sources[slot] == &sum.out) plan->takeover.standing.push_back ({ &sum.out, old->sources[slot - begin], sizeof (double) });
     }
 
     void use (int i, bool is_bound)
@@ -224,6 +300,7 @@ private:
 
     void connectDrivers()
     {
+        Crossings crossings { flat, succession, *plan, storage->sections };
         std::vector<std::pair<std::size_t, Driver>> all;   // with their slots
         all.reserve (flat.wires.size() + outside.feeds.size());
         for (int i = 0; i < static_cast<int> (flat.wires.size()); ++i)
@@ -235,13 +312,20 @@ private:
                 const int from_component = w.from && w.from->component >= 0 ? w.from->component : c;
                 const int to_component = w.to.component >= 0 ? w.to.component : c;
                 const double* from = w.from ? output (*w.from, from_component) : &zero;
+                Traveller traveller { i, c, w.crosses ? carriedBy (flat, units, w) : Carries::signal };
+                if (w.from && w.crosses) from = crossings.leave (from, flat.node (*w.from).section, w.section, traveller);
                 if (w.delay > 0) from = delayed (from, i, c);
+                if (w.crosses) from = crossings.enter (from, w.section, flat.node (w.to).section, traveller);
                 all.push_back ({ slots (w.to, to_component), { w.add ? Driver::Kind::add : Driver::Kind::replace, { from, w.gain } } });
             }
         }
         for (std::size_t f = 0; f < outside.feeds.size(); ++f)
-            for (const auto& port : outside.feeds[f])
-                all.push_back ({ slots (port, port.component), { Driver::Kind::feed, { &plan->feeds[f], 1.0 } } });
+            for (int k = 0; k < static_cast<int> (outside.feeds[f].size()); ++k)
+            {
+                const auto& port = outside.feeds[f][at (k)];
+                Traveller traveller { static_cast<int> (flat.wires.size() + f), k, carriedBy (flat, units, port) };
+                all.push_back ({ slots (port, port.component), { Driver::Kind::feed, { crossings.enter (&plan->feeds[f], 0, flat.node (port).section, traveller), 1.0 } } });
+            }
         drivers.emplace (slots.count(), [&] (auto visit)
                          {
                              for (const auto& [slot, driver] : all)
@@ -254,9 +338,10 @@ private:
         auto line = succession.lineOf (wire, component, w.delay, plan->takeover);
         auto& d = storage->delays.emplace_back (DelayLine { from, line.get() });
         plan->lines.push_back ({ wire, component, std::move (line) });
-        peeks.add ({ &DelayLine::read, &d, nullptr, nullptr }, w.to.node);
-        writes.add ({ &DelayLine::write, &d, nullptr, nullptr }, w.to.node);
-        return &d.out;
+        auto& section = steps[at (w.section)];
+        section.peeks.add ({ &DelayLine::read, &d, nullptr, nullptr }, w.to.node);
+        section.writes.add ({ &DelayLine::write, &d, nullptr, nullptr }, w.to.node);
+        return &d.line->out;
     }
 
     /// One value for the drivers of a kind, to a node: the wire itself where there is one without gain, else a sum; null for none.
@@ -271,7 +356,7 @@ private:
         for (const auto& d : all)
             if (is_meant (d)) s.terms.push_back (d.term);
         s.scratch.resize (s.terms.size());
-        ticks.add ({ &Sum::step, &s, nullptr, nullptr }, node);
+        stepsOf (node).body.add ({ &Sum::step, &s, nullptr, nullptr }, node);
         return &s.out;
     }
 
@@ -281,6 +366,7 @@ private:
     {
         const auto& n = flat.nodes[at (i)];
         auto slot = slots.firstInput (i);
+        const auto first_sum = storage->sums.size();
         for (const auto& row : n.type->inputs)
             for (int k = 0; k < n.slots (row); ++k, ++slot)
             {
@@ -291,18 +377,19 @@ private:
                 const auto* feed = feedAmong (all);
                 storage->sources[slot] = feed ? feed : joined (all, Driver::Kind::replace, i);
             }
+        keepSums (i, first_sum);
     }
 
     void addNode (int i)
     {
         const auto& n = flat.nodes[at (i)];
-        const double* const* sources = storage->sources.data() + slots.firstInput (i);
-        if (n.type->peek) peeks.add ({ n.type->peek, nodeOf (i), sources, outputsOf (i) }, i);
+        const double* const* sources = sourcesOf (i);
+        if (n.type->peek) stepsOf (i).peeks.add ({ n.type->peek, nodeOf (i), sources, outputsOf (i) }, i);
 
         auto drives = drivesOf (i);
         if (drives.empty())
         {
-            ticks.add ({ n.type->tick, nodeOf (i), sources, outputsOf (i) }, i);
+            stepsOf (i).body.add ({ n.type->tick, nodeOf (i), sources, outputsOf (i) }, i);
             return;
         }
         auto& d = storage->driven.emplace_back();
@@ -310,7 +397,7 @@ private:
         d.node = nodeOf (i);
         d.drives = std::move (drives);
         d.faulted.assign (slots.firstInput (i + 1) - slots.firstInput (i), &not_a_number);
-        ticks.add ({ &DrivenNode::step, &d, sources, outputsOf (i) }, i);
+        stepsOf (i).body.add ({ &DrivenNode::step, &d, sources, outputsOf (i) }, i);
     }
 
     std::vector<DrivenNode::Drive> drivesOf (int i)
@@ -352,7 +439,7 @@ private:
             const bool is_factor = out.width == 1 && out.unit.kind == UnitRule::Kind::fixed && out.unit.unit.quantity == Quantity::gain;   // a vector in 1 is a direction
             if (is_factor) *to = 1.0;
         }
-        ticks.add ({ &Bypass::step, &bypass, storage->sources.data() + slots.firstInput (i), nullptr }, i);
+        stepsOf (i).body.add ({ &Bypass::step, &bypass, sourcesOf (i), nullptr }, i);
     }
 
     /// The sources that make up one component of what a bypassed input passes on.
@@ -372,7 +459,7 @@ private:
         {
             if (! port)
             {
-                addTap (name, Quantity::any, "", &zero);
+                addTap (name, Quantity::any, "", &zero, 0);
                 continue;
             }
             const auto& row = flat.sheet (*port);
@@ -384,16 +471,23 @@ private:
                 for (int c = every_component ? 0 : port->component; c <= (every_component ? 2 : port->component); ++c)
                 {
                     const PortRef one { port->node, port->role, port->port, i, c };
-                    addTap (every_component ? entry + "." + "xyz"[c] : entry, units (one).quantity, units.symbol (one), valueOf (one));
+                    addTap (every_component ? entry + "." + "xyz"[c] : entry, units (one).quantity, units.symbol (one), valueOf (one), flat.node (one).section);
                 }
             }
         }
     }
 
     /// Nobody wants a column twice.
-    void addTap (const std::string& name, Quantity quantity, std::string symbol, const double* value)
+    void addTap (const std::string& name, Quantity quantity, std::string symbol, const double* value, int section)
     {
-        if (tap_names.insert (name).second) plan->taps.push_back ({ name, quantity, std::move (symbol), value });
+        if (! tap_names.insert (name).second) return;
+        plan->taps.push_back ({ name, quantity, std::move (symbol), value });
+        const double speed = flat.rests (section) ? 1.0 : flat.speed (section);
+        if (speed == 1.0) return;
+        auto& samples = storage->samples.emplace_back (static_cast<std::size_t> (speed));
+        storage->sections[at (section)].samples.push_back ({ value, samples.data(), samples.size() });
+        plan->taps.back().per_tick = static_cast<int> (samples.size());
+        plan->taps.back().samples = samples.data();
     }
 
     const double* valueOf (const PortRef& r)
@@ -417,6 +511,8 @@ private:
             w.origin = {};
             w.written = {};
         }
+        for (auto& s : plan->flat.sections)
+            s.origin = {};
     }
 
     std::vector<int> nodeDelays()
@@ -456,7 +552,7 @@ std::shared_ptr<void> makeNode (const Flat& flat, int number)
     return node;
 }
 
-std::shared_ptr<Plan> build (Flat& flat, const PortUnits& units, std::span<const int> order, const Outside& outside, const Setup& setup, const Plan* before, const Plan* withdrawn)
+std::shared_ptr<Plan> build (Flat& flat, const PortUnits& units, const Order& order, const Outside& outside, const Setup& setup, const Plan* before, const Plan* withdrawn)
 {
     return Builder { flat, units, order, outside, setup, before, withdrawn }.run();
 }

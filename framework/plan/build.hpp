@@ -6,8 +6,6 @@
 
 #include <framework/node.hpp>
 
-#include <span>
-
 namespace tactus::plan
 {
 
@@ -31,6 +29,6 @@ std::shared_ptr<void> makeNode (const Flat&, int number);
 /// Makes the nodes, lays out their outputs, and writes the records in the given order. For a graph without errors, which
 /// goes over into the plan. The plan before is null, or the one this is to take over from; likewise the withdrawn one
 /// (CompileOptions).
-std::shared_ptr<Plan> build (Flat&, const PortUnits&, std::span<const int> order, const Outside&, const Setup&, const Plan* before, const Plan* withdrawn);
+std::shared_ptr<Plan> build (Flat&, const PortUnits&, const Order&, const Outside&, const Setup&, const Plan* before, const Plan* withdrawn);
 
 }   // namespace tactus::plan

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compile.hpp"
 #include "build.hpp"
+#include "sections.hpp"
 #include "slots.hpp"
 
 #include <framework/graph/instances.hpp>
@@ -77,25 +78,28 @@ void askNodes (Flat& flat, const Setup& setup)
     {
         const auto& n = flat.nodes[static_cast<std::size_t> (i)];
         if (! n.type->problem && ! n.type->warning) continue;
+        auto own = setup;
+        own.rate_hz *= flat.speed (n.section);
         const std::string id (n.type->info.id), remedy = "`tactus nodes " + id + "` says what it takes";
         const auto node = makeNode (flat, i);
         const auto problem = n.type->problem ? n.type->problem (node.get()) : std::string {};
         if (! problem.empty())
             flat.error ("node/problem", n.origin, "'" + n.path + "' (" + id + "): " + problem, remedy);
         else if (n.type->warning)
-            if (const auto warning = n.type->warning (node.get(), setup); ! warning.empty())
+            if (const auto warning = n.type->warning (node.get(), own); ! warning.empty())
                 flat.warn ("node/warning", n.origin, "'" + n.path + "' (" + id + "): " + warning, remedy);
     }
 }
 
 /// All that can be said of a flat graph without what is outside of it.
-PortUnits check (Flat& flat, const Setup& setup, std::vector<int>& ordered)
+PortUnits check (Flat& flat, const Setup& setup, Order& ordered)
 {
     auto units = checkUnits (flat);
     checkFanIn (flat, units);
     checkDelays (flat);
     askNodes (flat, setup);
     ordered = order (flat);
+    checkSections (flat, setup.rate_hz);
     return units;
 }
 
@@ -207,13 +211,13 @@ Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const Compi
         flat.error ("graph/rate", flat.at ({}, "rate_hz"), "the rate must be from 1 Hz to 1 MHz", "haptic graphs run at 1000 to 10000 Hz");
 
     const Setup setup { .rate_hz = rate, .services = options.services };
-    std::vector<int> ordered;
+    Order ordered;
     const auto units = check (flat, setup, ordered);
     for (const auto& [name, patch] : g.graphs)   // a subgraph nobody uses yet is checked by itself
         if (! used.contains (&patch))
         {
             auto alone = flattenUnused (g, name, catalogue, options.assets);
-            std::vector<int> unneeded;
+            Order unneeded;
             check (alone.flat, setup, unneeded);
             flat.messages.insert (flat.messages.end(), alone.flat.messages.begin(), alone.flat.messages.end());
         }

@@ -45,6 +45,7 @@ struct Scope
     std::string prefix;   // of paths
     int number = 0;       // in Flat::scopes
     int stand_in = -1;    // the node that has its ports while it is bypassed
+    int section = 0;      // in Flat::sections
     Origin origin {};     // of the patch
     Names names;
     std::vector<Member> members;   // by the numbers of their names

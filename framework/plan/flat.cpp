@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "flat.hpp"
 
+#include <algorithm>
+
 namespace tactus::plan
 {
 
@@ -76,6 +78,33 @@ std::string Flat::nameOf (const PortRef& r) const
     if (r.component >= 0) name += std::string (".") + "xyz"[r.component];
     return name;
 }
+
+std::vector<int> Flat::sectionsBetween (int around, int within) const
+{
+    std::vector<int> way;
+    for (int s = within; s != around; s = section (s).around)
+        way.push_back (s);
+    std::ranges::reverse (way);
+    return way;
+}
+
+double Flat::speed (int s) const
+{
+    double up = 1.0, down = 1.0;   // apart, so that what is the same rate has the same bits
+    for (; s > 0; s = section (s).around)
+        (section (s).kind == Section::Kind::times ? up : down) *= section (s).factor;
+    return up / down;
+}
+
+int Flat::ticksOf (int s) const
+{
+    int ticks = 1;
+    for (; s > 0; s = section (s).around)
+        if (section (s).kind == Section::Kind::every) ticks *= section (s).factor;
+    return ticks;
+}
+
+bool Flat::rests (int s) const { return ticksOf (s) > 1; }
 
 void Flat::error (std::string id, Origin origin, std::string text, std::string remedy)
 {

@@ -81,6 +81,7 @@ struct FlatNode
     Origin origin {};
     bool bypass = false;
     bool muted = false;   ///< inside a bypassed subgraph: takes no part
+    int section = 0;      ///< of Flat::sections, whose rate it runs at
     std::vector<SettingValue> settings {};
     std::size_t values = 0;   ///< where those of its params begin in Flat::values
     int list_size = 0;
@@ -108,6 +109,26 @@ struct FlatWire
     Origin origin {};
     const graph::Wire* written = nullptr;   ///< in the graph, as long as it is being compiled
     Identity identity {};                   ///< of all wires that one wire of the graph stands for, where its ends are instances
+    int section = 0;                        ///< where it is written, and in whose ticks its delay counts: at its ends, or around them
+    bool crosses = false;                   ///< an end of it is in a section within
+};
+
+/// What runs as a whole, at a rate of its own: the graph itself, and the inside of each subgraph node with `every` or
+/// `times`.
+struct Section
+{
+    enum class Kind
+    {
+        every,   ///< on each `factor`-th tick of the section around
+        times    ///< `factor` times in each tick of the section around
+    };
+
+    int around = -1;   ///< of Flat::sections; -1 for the graph itself
+    Kind kind = Kind::every;
+    int factor = 1;
+    bool linear = false;   ///< its outputs go from value to value in straight lines
+    std::string path {};   ///< of the subgraph node
+    Origin origin {};
 };
 
 struct Flat
@@ -120,6 +141,7 @@ struct Flat
     std::deque<std::string> made_names;                                    ///< text that stands in no graph: of their ports, of origins
     std::deque<Place> places;                                              ///< what origins point to
     std::vector<Identity> scopes { { -1, 0 } };                            ///< the graph itself, then the subgraph node of each patch that was expanded
+    std::vector<Section> sections { {} };                                  ///< the graph itself, then those within, each after the one around it
     std::unordered_map<graph::Id, std::vector<graph::Ancestor>> origins;   ///< of copies
     Messages messages;
 
@@ -135,6 +157,21 @@ struct Flat
 
     /// How many components a reference stands for.
     int widthOf (const PortRef& r) const { return r.component >= 0 ? 1 : sheet (r).width; }
+
+    const Section& section (int s) const { return sections[static_cast<std::size_t> (s)]; }
+
+    /// The sections on the way from one, which is not among them, to one within, which comes last.
+    std::vector<int> sectionsBetween (int around, int within) const;
+
+    /// Ticks of a section in one of the graph.
+    double speed (int section) const;
+
+    /// How many ticks of the graph one of a section lasts. In a `times` section, where nothing returns to the hand, as
+    /// many as one of the section around.
+    int ticksOf (int section) const;
+
+    /// True if the section, or one around it, rests on some ticks.
+    bool rests (int section) const;
 
     /// True once so much is wrong that nobody reads on; what is found beyond is not kept, so need not be put in words.
     bool isFull() const noexcept { return messages.size() >= 1000; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "flatten.hpp"
+#include "sections.hpp"
 #include "settings.hpp"
 #include "values.hpp"
 
@@ -91,24 +92,19 @@ private:
         {
             if (isTooLarge (all_nodes) || flat.isFull()) break;
             const auto here = at (list, node.name);
-            refuseUnsupported (node, here);
             if (! node.origin.empty()) flat.origins.emplace (node.id, node.origin);
             auto& member = scope.members[scope.names.add (node.name)];
             if (node.type.starts_with ("graph:") || node.type.starts_with ("file:"))
                 addSubgraph (scope, node, here, roles, muted, member);
             else
+            {
+                refuseSection (node, scope.prefix + node.name, here, flat);
                 addNode (scope, node, here, roles, muted, member);
+            }
         }
         expose (scope);
         addWires (scope, muted);
         open.pop_back();
-    }
-
-    void refuseUnsupported (const graph::Node& node, Origin here)
-    {
-        for (const auto* key : { "every", "times", "hold" })
-            if (node.extra.contains (key))
-                flat.error ("graph/not_yet", at (here, key), "'" + node.name + "' asks for `" + key + "`, which this version does not run yet", "remove it");
     }
 
     bool isTooLarge (Origin here)
@@ -134,7 +130,7 @@ private:
             flat.error ("node/needless_count", at (here, "count"), "'" + scope.prefix + node.name + "' (" + node.type + ") is no subgraph, and only these have several instances", "collapse it to a subgraph and give that the `count`, or remove it");
 
         member.node = static_cast<int> (flat.nodes.size());
-        flat.nodes.push_back ({ .path = scope.prefix + node.name, .identity = { scope.number, node.id }, .type = type, .origin = here, .bypass = node.bypass, .muted = muted });
+        flat.nodes.push_back ({ .path = scope.prefix + node.name, .identity = { scope.number, node.id }, .type = type, .origin = here, .bypass = node.bypass, .muted = muted, .section = scope.section });
         auto& made = flat.nodes.back();
         readRole (node, here, roles, made);
         readSettings (scope, node, here, made);
@@ -245,6 +241,7 @@ private:
             inside->prefix = scope.prefix + node.name + (count ? "[" + std::to_string (k) + "]/" : "/");
             inside->number = static_cast<int> (flat.scopes.size());
             flat.scopes.push_back ({ scope.number, node.id, k });
+            inside->section = openSection (node, scope.section, inside->prefix.substr (0, inside->prefix.size() - 1), here, flat);
             expand (*inside, rolesInside (node, roles, k), muted || node.bypass);
             member.instances.push_back (std::move (inside));
         }
@@ -370,7 +367,7 @@ private:
         flat.made_types.push_back (std::move (type));
 
         inside.stand_in = static_cast<int> (flat.nodes.size());
-        flat.nodes.push_back ({ .path = inside.prefix.substr (0, inside.prefix.size() - 1), .identity = { scope.number, node.id, instance }, .type = &flat.made_types.back(), .origin = here, .bypass = true, .muted = muted });
+        flat.nodes.push_back ({ .path = inside.prefix.substr (0, inside.prefix.size() - 1), .identity = { scope.number, node.id, instance }, .type = &flat.made_types.back(), .origin = here, .bypass = true, .muted = muted, .section = scope.section });
         flat.nodes.back().list_size = list_size;
         addValues (flat.nodes.back());
     }
@@ -401,7 +398,7 @@ private:
             const bool starts_somewhere = find (wire.from, Side::start, scope, origin, flat, starts);
             if (! find (wire.to, Side::end, scope, origin, flat, ends) || ! starts_somewhere) continue;
 
-            FlatWire w { .from = {}, .to = {}, .delay = wire.delay, .add = wire.add, .origin = origin, .written = &wire, .identity = { scope.number, wire.id } };
+            FlatWire w { .from = {}, .to = {}, .delay = wire.delay, .add = wire.add, .origin = origin, .written = &wire, .identity = { scope.number, wire.id }, .section = scope.section };
             const bool is_drawn = readGain (wire, w) && ! muted && wire.enabled.value_or (true);
             addEach (w, is_drawn);
         }
@@ -417,6 +414,7 @@ private:
                 if (isTooLarge (w.origin)) return;
                 w.to = to;
                 if (! starts.empty()) w.from = starts[k];
+                w.crosses = (w.from && flat.node (*w.from).section != w.section) || flat.node (to).section != w.section;
                 if (! wireFits (w) || ! is_drawn) continue;
                 if (from == 1 && ends.size() == 1)
                     flat.wires.push_back (std::move (w));

@@ -227,7 +227,7 @@ std::vector<int> matchWires (const Flat& now, const Flat& before, const std::vec
     {
         Rest rest;
         for (std::size_t i = 0; i < flat.wires.size(); ++i)
-            if (const auto& w = flat.wires[i]; w.delay > 0) rest.push_back ({ static_cast<int> (i), w.identity, { w.from ? numberBefore (w.from->node) : -1, numberBefore (w.to.node) } });
+            if (const auto& w = flat.wires[i]; w.delay > 0 || w.crosses) rest.push_back ({ static_cast<int> (i), w.identity, { w.from ? numberBefore (w.from->node) : -1, numberBefore (w.to.node) } });
         return rest;
     };
     const auto heirOf = [&] (int node)

@@ -6,7 +6,8 @@
 namespace tactus::plan
 {
 
-/// Which node and which delayed wire of the graph before each of a graph is: its number there, or -1.
+/// Which node, and which wire that is delayed or leads from one rate to another, of the graph before each of a graph is:
+/// its number there, or -1.
 struct Heirs
 {
     std::vector<int> nodes, wires;

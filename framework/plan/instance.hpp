@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What lives on from plan to plan: nodes, their parameters, and what is under way on delayed wires.
+/// What lives on from plan to plan: nodes, their parameters, and what is under way on wires that are delayed or lead
+/// from one rate to another.
 
 #include "knobs.hpp"
 
@@ -15,12 +16,14 @@ namespace tactus::plan
 /// A node as it stands in a plan, beside its entry in the flat graph.
 struct Instance
 {
-    std::uint64_t serial = 0;       ///< of the node; a new one if it was made anew
-    std::shared_ptr<void> node;     ///< none for a bypassed subgraph
-    std::shared_ptr<Knobs> knobs;   ///< none without params
-    std::vector<bool> driven;       ///< by knob: a wire or feed has the last word; empty if none is
-    int delay = 1;                  ///< ticks from input to output, if it peeks
-    bool dirty = true;              ///< is not what it was in the plan before, or hears from something that is not
+    std::uint64_t serial = 0;                 ///< of the node; a new one if it was made anew
+    std::shared_ptr<void> node;               ///< none for a bypassed subgraph
+    std::shared_ptr<Knobs> knobs;             ///< none without params
+    std::vector<bool> driven;                 ///< by knob: a wire or feed has the last word; empty if none is
+    int delay = 1;                            ///< ticks from input to output, if it peeks
+    void* outputs = nullptr;                  ///< in the plan's storage, as its type lays them out
+    const double* const* sources = nullptr;   ///< of its inputs, in the plan's storage
+    bool dirty = true;                        ///< is not what it was in the plan before, or hears from something that is not
 
     /// Its place in the node. Not for a knob of a choice.
     double* param (std::size_t knob) const noexcept;
@@ -34,6 +37,7 @@ struct Line
     std::uint64_t serial = 0;
     std::vector<double> samples;
     std::size_t now = 0;
+    double out = 0.0;   ///< what arrives on this tick
 
     /// Goes on from a line of another length: the newest samples stay, and beyond the oldest is held. [tick thread]
     void adopt (const Line& old) noexcept
@@ -42,6 +46,43 @@ struct Line
         for (std::size_t age = 1; age <= size; ++age)
             samples[size - age] = old.samples[(old.now + had - std::min (age, had)) % had];
         now = 0;
+        out = old.out;
+    }
+};
+
+/// How one component of a wire enters or leaves a section.
+struct Way
+{
+    enum class Kind
+    {
+        latch,    ///< as it stands when the section runs
+        gather,   ///< all there was since it last arrived, added up
+        line,     ///< in a straight line from the value before to the newest
+        pulse     ///< on the first tick, then 0
+    };
+
+    Kind kind = Kind::latch;
+    int factor = 1;   ///< of the section
+    bool enters = true;
+
+    bool operator== (const Way&) const = default;
+};
+
+/// What is under way there.
+struct Passage
+{
+    std::uint64_t serial = 0;
+    double out = 0.0;                    ///< what arrives
+    double gathered = 0.0;               ///< and has not arrived yet
+    double before = 0.0, newest = 0.0;   ///< the ends of the line
+    bool begun = false;                  ///< there is a newest
+
+    /// Goes on where another way stood. [tick thread]
+    void adopt (const Passage& old) noexcept
+    {
+        const auto own = serial;
+        *this = old;
+        serial = own;
     }
 };
 

@@ -42,17 +42,16 @@ struct DelayLine
 {
     const double* from = nullptr;
     Line* line = nullptr;
-    double out = 0.0;
 
     static void read (void* self, const double* const*, void*) noexcept
     {
-        auto& d = *static_cast<DelayLine*> (self);
-        d.out = d.line->samples[d.line->now];
+        auto& line = *static_cast<DelayLine*> (self)->line;
+        line.out = line.samples[line.now];
     }
 
     static void write (void* self, const double* const*, void*) noexcept
     {
-        auto& [from, line, out] = *static_cast<DelayLine*> (self);
+        auto& [from, line] = *static_cast<DelayLine*> (self);
         line->samples[line->now] = *from;
         if (++line->now == line->samples.size()) line->now = 0;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "order.hpp"
-#include "grouped.hpp"
+#include "carries.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -12,10 +12,7 @@
 namespace tactus::plan
 {
 
-namespace
-{
-/// Strongly connected components of a graph given by successors, numbered so that each comes after those it leads to
-/// (Tarjan 1972, without recursion, so that a chain of 10^5 nodes does not overflow the stack).
+/// Tarjan 1972, without recursion, so that a chain of 10^5 nodes does not overflow the stack.
 std::vector<int> components (std::size_t size, const Grouped<int>& next)
 {
     std::vector<int> number (size, -1), low (size, 0), component (size, -1), path;
@@ -65,84 +62,121 @@ std::vector<int> components (std::size_t size, const Grouped<int>& next)
     return component;
 }
 
+namespace
+{
 std::size_t at (int i) { return static_cast<std::size_t> (i); }
 
 /// A bypassed node passes its inputs on at once, so it does not peek.
 bool peeks (const FlatNode& n) { return n.type->peek != nullptr && ! n.bypass; }
 
-/// All nodes by their paths. The first eight characters settle nearly all comparisons.
-std::vector<int> sortedByPath (const Flat& flat)
+/// What runs as one in the section where a wire stands: nodes by their numbers, and after them the sections.
+struct Blocks
+{
+    const Flat& flat;
+
+    std::size_t size() const { return flat.nodes.size() + flat.sections.size(); }
+    int ofSection (int s) const { return static_cast<int> (flat.nodes.size()) + s; }
+
+    /// The node, or the section it is in, as seen from the section around.
+    int of (int node, int around) const
+    {
+        int block = node;
+        for (int s = flat.nodes[at (node)].section; s != around; s = flat.section (s).around)
+            block = ofSection (s);
+        return block;
+    }
+    int from (const FlatWire& w) const { return of (w.from->node, w.section); }
+    int to (const FlatWire& w) const { return of (w.to.node, w.section); }
+
+    bool isSection (int block) const { return block >= static_cast<int> (flat.nodes.size()); }
+    int section (int block) const { return block - static_cast<int> (flat.nodes.size()); }
+    const std::string& path (int block) const { return isSection (block) ? flat.section (section (block)).path : flat.nodes[at (block)].path; }
+    int around (int block) const { return isSection (block) ? flat.section (section (block)).around : flat.nodes[at (block)].section; }
+
+    /// True if the wire makes its end wait for its start within a tick. What leaves a section waits for all of it.
+    bool bind (const FlatWire& w) const
+    {
+        if (! w.from || w.delay > 0) return false;
+        const auto& start = flat.node (*w.from);
+        return start.section != w.section || ! peeks (start);
+    }
+};
+
+/// All blocks by their paths. The first eight characters settle nearly all comparisons.
+std::vector<int> sortedByPath (const Blocks& blocks)
 {
     struct Entry
     {
         std::uint64_t head;
-        int node;
+        int block;
     };
     std::vector<Entry> entries;
-    entries.reserve (flat.nodes.size());
-    for (const auto& n : flat.nodes)
+    entries.reserve (blocks.size());
+    for (int b = 0; b < static_cast<int> (blocks.size()); ++b)
     {
+        const auto& path = blocks.path (b);
         std::uint64_t head = 0;
         for (std::size_t i = 0; i < 8; ++i)
-            head = head << 8 | (i < n.path.size() ? static_cast<unsigned char> (n.path[i]) : 0u);
-        entries.push_back ({ head, static_cast<int> (entries.size()) });
+            head = head << 8 | (i < path.size() ? static_cast<unsigned char> (path[i]) : 0u);
+        entries.push_back ({ head, b });
     }
     std::ranges::sort (entries, [&] (const Entry& a, const Entry& b)
-                       { return a.head != b.head ? a.head < b.head : flat.nodes[at (a.node)].path < flat.nodes[at (b.node)].path; });
+                       {
+        if (a.head != b.head) return a.head < b.head;
+        const int order = blocks.path (a.block).compare (blocks.path (b.block));
+        return order != 0 ? order < 0 : a.block < b.block; });
 
     std::vector<int> sorted;
     sorted.reserve (entries.size());
     for (const auto& e : entries)
-        sorted.push_back (e.node);
+        sorted.push_back (e.block);
     return sorted;
 }
 
-/// True if the wire makes its end wait for its start within a tick.
-bool binds (const Flat& flat, const FlatWire& w) { return w.from && w.delay == 0 && ! peeks (flat.node (*w.from)); }
-
-/// Steps from the nearest node without inputs to each node; what is far from the sources is near the end of a chain.
-std::vector<int> distances (const Flat& flat, const Grouped<int>& next)
+/// Steps from the nearest block without inputs to each; what is far from the sources is near the end of a chain.
+std::vector<int> distances (const Blocks& blocks, const Grouped<int>& next)
 {
-    std::vector<bool> fed (flat.nodes.size(), false);
-    for (const auto& w : flat.wires)
-        if (w.from) fed[at (w.to.node)] = true;
+    const auto size = blocks.size();
+    std::vector<bool> fed (size, false);
+    for (const auto& w : blocks.flat.wires)
+        if (w.from) fed[at (blocks.to (w))] = true;
 
-    std::vector<int> distance (flat.nodes.size(), static_cast<int> (flat.nodes.size()));
+    std::vector<int> distance (size, static_cast<int> (size));
     std::queue<int> open;
-    for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
-        if (! fed[at (n)] || peeks (flat.nodes[at (n)]))
+    for (int b = 0; b < static_cast<int> (size); ++b)
+        if (! fed[at (b)] || (! blocks.isSection (b) && peeks (blocks.flat.nodes[at (b)])))
         {
-            distance[at (n)] = 0;
-            open.push (n);
+            distance[at (b)] = 0;
+            open.push (b);
         }
     for (; ! open.empty(); open.pop())
-        for (const int n : next[at (open.front())])
-            if (distance[at (n)] > distance[at (open.front())] + 1)
+        for (const int b : next[at (open.front())])
+            if (distance[at (b)] > distance[at (open.front())] + 1)
             {
-                distance[at (n)] = distance[at (open.front())] + 1;
-                open.push (n);
+                distance[at (b)] = distance[at (open.front())] + 1;
+                open.push (b);
             }
     return distance;
 }
 
-/// Wires that bind, by the node they start from.
+/// Wires that bind, by the block they start from.
 using Outgoing = Grouped<const FlatWire*>;
 
 /// The shortest loop through `start` that stays within its component, as wires.
-std::vector<const FlatWire*> loopThrough (int start, const Outgoing& out, const std::vector<int>& component)
+std::vector<const FlatWire*> loopThrough (int start, const Blocks& blocks, const Outgoing& out, const std::vector<int>& component)
 {
-    std::map<int, const FlatWire*> by;   // how each node was reached
+    std::map<int, const FlatWire*> by;   // how each block was reached
     std::queue<int> open;
     open.push (start);
     for (; ! open.empty() && ! by.contains (start); open.pop())
         for (const auto* w : out[at (open.front())])
-            if (component[at (w->to.node)] == component[at (start)] && by.try_emplace (w->to.node, w).second) open.push (w->to.node);
+            if (const int to = blocks.to (*w); component[at (to)] == component[at (start)] && by.try_emplace (to, w).second) open.push (to);
 
     std::vector<const FlatWire*> loop;
-    for (int n = start; loop.empty() || n != start;)
+    for (int b = start; loop.empty() || b != start;)
     {
-        loop.push_back (by.at (n));
-        n = by.at (n)->from->node;
+        loop.push_back (by.at (b));
+        b = blocks.from (*by.at (b));
     }
     std::ranges::reverse (loop);
     return loop;
@@ -150,80 +184,101 @@ std::vector<const FlatWire*> loopThrough (int start, const Outgoing& out, const 
 
 std::string textOf (const Flat& flat, const FlatWire& w, const char* arrow = " -> ") { return flat.nameOf (*w.from) + arrow + flat.nameOf (w.to); }
 
-void reportLoops (Flat& flat, const Grouped<int>& next)
+void reportLoops (Flat& flat, const Blocks& blocks, const Grouped<int>& next)
 {
-    const auto component = components (flat.nodes.size(), next);
-    const auto distance = distances (flat, next);
-    const Outgoing outgoing (flat.nodes.size(), [&] (auto visit)
+    const auto component = components (blocks.size(), next);
+    const auto distance = distances (blocks, next);
+    const Outgoing outgoing (blocks.size(), [&] (auto visit)
                              {
                                  for (const auto& w : flat.wires)
-                                     if (binds (flat, w)) visit (w.from->node, &w); });
-    std::vector<int> members (flat.nodes.size(), 0);
+                                     if (blocks.bind (w)) visit (blocks.from (w), &w); });
+    std::vector<int> members (blocks.size(), 0);
     for (const int c : component)
         ++members[at (c)];
-    std::vector<bool> reported (flat.nodes.size(), false);
+    std::vector<bool> reported (blocks.size(), false);
 
-    for (const int n : sortedByPath (flat))
+    for (const int b : sortedByPath (blocks))
     {
-        const auto c = at (component[at (n)]);
-        const bool loops = members[c] > 1 || std::ranges::count (next[at (n)], n) > 0;
+        const auto c = at (component[at (b)]);
+        const bool loops = members[c] > 1 || std::ranges::count (next[at (b)], b) > 0;
         if (! loops || reported[c]) continue;
         reported[c] = true;
 
-        const auto loop = loopThrough (n, outgoing, component);
-        std::string chain;
+        const auto loop = loopThrough (b, blocks, outgoing, component);
+        std::string chain, whole;
         for (const auto* w : loop)
+        {
             chain += (chain.empty() ? "" : ", then ") + textOf (flat, *w);
+            if (const int from = blocks.from (*w); blocks.isSection (from)) whole += "; '" + blocks.path (from) + "' runs as a whole, so nothing comes out of it before all that goes in is there";
+        }
 
         // A delay costs least on the wire that leads back: from far from the sources to near them.
         const auto* back = *std::ranges::max_element (loop, {}, [&] (const FlatWire* w)
-                                                      { return distance[at (w->from->node)] - distance[at (w->to.node)]; });
+                                                      { return distance[at (blocks.from (*w))] - distance[at (blocks.to (*w))]; });
         const auto origin = back->origin;
-        flat.error ("graph/loop", origin, "a loop without a delay: " + chain, "put a delay where it goes back: \"" + textOf (flat, *back, " -> [1] -> ") + "\"");
+        flat.error ("graph/loop", origin, "a loop without a delay: " + chain + whole, "put a delay where it goes back: \"" + textOf (flat, *back, " -> [1] -> ") + "\"");
     }
 }
 }   // namespace
 
-std::vector<int> order (Flat& flat)
+Order order (Flat& flat)
 {
-    const auto size = flat.nodes.size();
-    std::vector<int> waiting (size, 0);
+    const Blocks blocks { flat };
+    const auto size = blocks.size();
     const Grouped<int> next (size, [&] (auto visit)
                              {
                                  for (const auto& w : flat.wires)
-                                     if (binds (flat, w)) visit (w.from->node, w.to.node); });
-    for (std::size_t n = 0; n < size; ++n)
-        for (const int m : next[n])
+                                     if (blocks.bind (w)) visit (blocks.from (w), blocks.to (w)); });
+    std::vector<int> waiting (size, 0);
+    for (std::size_t b = 0; b < size; ++b)
+        for (const int m : next[b])
             ++waiting[at (m)];
 
-    const auto by_path = sortedByPath (flat);
+    const auto by_path = sortedByPath (blocks);
     std::vector<int> rank (size);
     for (std::size_t r = 0; r < size; ++r)
         rank[at (by_path[r])] = static_cast<int> (r);
 
     std::priority_queue<int, std::vector<int>, std::greater<>> ready;   // ranks
-    for (std::size_t n = 0; n < size; ++n)
-        if (waiting[n] == 0) ready.push (rank[n]);
+    for (std::size_t b = 0; b < size; ++b)
+        if (waiting[b] == 0) ready.push (rank[b]);
 
-    std::vector<int> ordered;
-    ordered.reserve (size);
-    while (! ready.empty())
+    Order ordered (flat.sections.size());
+    ordered.front().reserve (size);
+    std::size_t done = 0;
+    for (; ! ready.empty(); ++done)
     {
-        const int n = by_path[at (ready.top())];
+        const int b = by_path[at (ready.top())];
         ready.pop();
-        ordered.push_back (n);
-        for (const int m : next[at (n)])
+        if (const int around = blocks.around (b); around >= 0) ordered[at (around)].push_back (blocks.isSection (b) ? Step { .section = blocks.section (b) } : Step { .node = b });
+        for (const int m : next[at (b)])
             if (--waiting[at (m)] == 0) ready.push (rank[at (m)]);
     }
-    if (ordered.size() < size) reportLoops (flat, next);
+    if (done < size) reportLoops (flat, blocks, next);
     return ordered;
 }
 
-std::vector<PathDelay> pathDelays (const Flat& flat, const std::vector<int>& node_delays)
+namespace
+{
+/// How long, in ticks of the graph, what enters a section from one around it may wait until the section runs.
+int waitOf (const Flat& flat, int around, int section) { return flat.ticksOf (section) - flat.ticksOf (around); }
+}   // namespace
+
+std::int64_t delayOf (const Flat& flat, const PortUnits& units, const FlatWire& w)
+{
+    auto delay = std::int64_t { w.delay } * flat.ticksOf (w.section);
+    if (w.crosses && carriedBy (flat, units, w) == Carries::signal)
+        for (const int s : flat.sectionsBetween (w.section, flat.node (*w.from).section))
+            if (flat.section (s).linear) delay += flat.ticksOf (s);
+    return delay;
+}
+
+std::vector<PathDelay> pathDelays (const Flat& flat, const PortUnits& units, const std::vector<int>& node_delays)
 {
     struct Edge
     {
-        int to, delay;
+        int to;
+        std::int64_t shortest, longest;
     };
     const auto acts = [&] (int n)
     { return flat.nodes[at (n)].type->effort != nullptr; };
@@ -235,10 +290,16 @@ std::vector<PathDelay> pathDelays (const Flat& flat, const std::vector<int>& nod
     { return std::ranges::any_of (std::views::iota (0, static_cast<int> (size)), is); };
     if (! any (acts) || ! any (reads)) return {};
 
+    const auto edgeOf = [&] (const FlatWire& w)
+    {
+        const auto from = at (w.from->node);
+        const auto delay = delayOf (flat, units, w) + std::int64_t { node_delays[from] } * flat.ticksOf (flat.nodes[from].section);
+        return Edge { w.to.node, delay, delay + waitOf (flat, w.section, flat.nodes[at (w.to.node)].section) };
+    };
     const Grouped<Edge> edges (size, [&] (auto visit)
                                {
                                    for (const auto& w : flat.wires)
-                                       if (w.from) visit (w.from->node, Edge { w.to.node, w.delay + node_delays[at (w.from->node)] }); });
+                                       if (w.from) visit (w.from->node, edgeOf (w)); });
     const Grouped<int> next (size, [&] (auto visit)
                              {
                                  for (const auto& w : flat.wires)
@@ -258,22 +319,24 @@ std::vector<PathDelay> pathDelays (const Flat& flat, const std::vector<int>& nod
     {
         if (! reads (source)) continue;
 
-        constexpr int unreached = -1;
-        std::vector<int> shortest (size, unreached), longest (size, unreached);
+        constexpr std::int64_t unreached = -1;
+        std::vector<std::int64_t> shortest (size, unreached), longest (size, unreached);
         std::vector<bool> recirculates (size, false);
-        shortest[at (source)] = longest[at (source)] = 0;
+        shortest[at (source)] = 0;
+        longest[at (source)] = waitOf (flat, 0, flat.nodes[at (source)].section);
 
-        std::priority_queue<std::pair<int, int>, std::vector<std::pair<int, int>>, std::greater<>> open;
+        using Arrival = std::pair<std::int64_t, int>;
+        std::priority_queue<Arrival, std::vector<Arrival>, std::greater<>> open;
         for (open.emplace (0, source); ! open.empty();)
         {
             const auto [delay, n] = open.top();
             open.pop();
             if (delay > shortest[at (n)]) continue;
             for (const auto& e : edges[at (n)])
-                if (shortest[at (e.to)] == unreached || delay + e.delay < shortest[at (e.to)])
+                if (shortest[at (e.to)] == unreached || delay + e.shortest < shortest[at (e.to)])
                 {
-                    shortest[at (e.to)] = delay + e.delay;
-                    open.emplace (delay + e.delay, e.to);
+                    shortest[at (e.to)] = delay + e.shortest;
+                    open.emplace (delay + e.shortest, e.to);
                 }
         }
         for (const int n : walk)
@@ -283,7 +346,7 @@ std::vector<PathDelay> pathDelays (const Flat& flat, const std::vector<int>& nod
             longest[at (n)] = std::max (longest[at (n)], shortest[at (n)]);
             for (const auto& e : edges[at (n)])
             {
-                if (component[at (e.to)] != component[at (n)]) longest[at (e.to)] = std::max (longest[at (e.to)], longest[at (n)] + e.delay);
+                if (component[at (e.to)] != component[at (n)]) longest[at (e.to)] = std::max (longest[at (e.to)], longest[at (n)] + e.longest);
                 recirculates[at (e.to)] = recirculates[at (e.to)] || recirculates[at (n)];
             }
         }

@@ -34,6 +34,11 @@ struct Tap
     Quantity quantity = Quantity::any;
     std::string unit;   ///< SI symbol, "" if nothing says
     const double* value = nullptr;
+    int per_tick = 1;                  ///< samples in a tick: more than one in a section that runs `times` a tick
+    const double* samples = nullptr;   ///< all of the tick, if there are several; the last of them is the value
+
+    /// The sample that stands at the end of the i-th of n equal parts of the tick.
+    double sample (int i, int n) const noexcept { return samples ? samples[((i + 1) * per_tick + n - 1) / n - 1] : *value; }
 };
 
 /// What compiling a graph results in: contiguous records in running order, and the storage they point into. It never
@@ -66,10 +71,20 @@ public:
         std::shared_ptr<plan::Line> line;
     };
 
+    /// One component of a wire where it enters or leaves a section; feeds are counted after the wires.
+    struct PassageUse
+    {
+        int wire, component;
+        int step;   ///< of its way through the sections
+        plan::Way way;
+        std::shared_ptr<plan::Passage> passage;
+    };
+
     void tick() noexcept   // [tick thread]
     {
         for (const auto& r : records)
             r.step (r.self, r.sources, r.outputs);
+        ++number;
     }
 
     /// Goes on where the plan it was compiled to follow stands now. Before the first tick. [tick thread]
@@ -79,7 +94,8 @@ public:
         takeover.carryOut (instances, ramps);
     }
 
-    double rate_hz = 0.0;   ///< what the nodes were prepared for
+    double rate_hz = 0.0;       ///< of its ticks
+    std::uint64_t number = 0;   ///< of the tick that comes next, counted through all plans; whoever steps the records one by one sets it before each tick
     std::vector<Record> records;
     std::vector<std::uint32_t> owners;     ///< by record: the node it works for, as flat.nodes; of a wire's, the node where it ends
     std::vector<RoleUse> roles;            ///< sorted by name
@@ -92,6 +108,7 @@ public:
     plan::Flat flat;                                           ///< what it was built from
     std::vector<plan::Instance> instances;                     ///< as flat.nodes
     std::vector<LineUse> lines;                                ///< by wire, then component
+    std::vector<PassageUse> passages;                          ///< by wire, then component, then step
     std::vector<std::vector<plan::PortRef>> fed;               ///< as feeds: what each drives
     std::map<std::string, std::vector<plan::PortRef>> shown;   ///< params by the names under which subgraphs show them
     plan::Ramps ramps;

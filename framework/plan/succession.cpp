@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <compare>
 #include <span>
+#include <tuple>
 #include <utility>
 
 namespace tactus::plan
@@ -21,7 +22,8 @@ struct Entry
     int port = 0, index = 0, component = 0;
     std::uint64_t from = 0;   ///< serial of the node, or a feed; 0 for nothing
     int from_port = 0, from_index = 0, from_component = 0;
-    std::uint64_t line = 0;   ///< serial, if there is a delay
+    std::uint64_t line = 0;      ///< serial, if there is a delay
+    std::uint64_t passage = 0;   ///< serial of the first, if it enters or leaves sections
     bool add = false;
     double gain = 1.0;
 
@@ -55,12 +57,22 @@ private:
     {
         const auto& wires = plan.flat.wires;
         auto line = plan.lines.begin();
+        auto passage = plan.passages.begin();
+        const auto passageOf = [&] (std::size_t wire, int component = 0)
+        {
+            const auto wanted = std::pair { wire, component };
+            const auto here = [&]
+            { return std::pair { at (passage->wire), passage->component }; };
+            while (passage != plan.passages.end() && here() < wanted)
+                ++passage;
+            return passage != plan.passages.end() && here() == wanted ? passage->passage->serial : 0;
+        };
         for (std::size_t i = 0; i < wires.size(); ++i)
         {
             const auto& w = wires[i];
             while (line != plan.lines.end() && at (line->wire) < i)
                 ++line;
-            Entry e { w.to.role, w.to.port, w.to.index, w.to.component, 0, 0, 0, 0, w.delay > 0 ? line->line->serial : 0, w.add, w.gain };
+            Entry e { w.to.role, w.to.port, w.to.index, w.to.component, 0, 0, 0, 0, w.delay > 0 ? line->line->serial : 0, passageOf (i), w.add, w.gain };
             if (w.from)
             {
                 e.from = plan.instances[at (w.from->node)].serial;
@@ -71,8 +83,11 @@ private:
             visit (w.to.node, e);
         }
         for (std::size_t f = 0; f < plan.fed.size(); ++f)
-            for (const auto& port : plan.fed[f])
-                visit (port.node, { port.role, port.port, port.index, port.component, ~f, 0, 0, 0, 0, false, 1.0 });
+            for (int k = 0; k < static_cast<int> (plan.fed[f].size()); ++k)
+            {
+                const auto& port = plan.fed[f][at (k)];
+                visit (port.node, { port.role, port.port, port.index, port.component, ~f, 0, 0, 0, 0, passageOf (wires.size() + f, k), false, 1.0 });
+            }
     }
 
     std::vector<Entry> all;
@@ -127,7 +142,7 @@ bool Succession::isSame (std::size_t i) const
     const auto& now = flat.nodes[i];
     const auto& then = before->flat.nodes[at (heirs.nodes[i])];
     if (now.type->make == nullptr) return then.type->make == nullptr && now.list_size == then.list_size && sameShape (*now.type, *then.type);
-    return now.type == then.type && rate_hz == before->rate_hz && now.role == then.role && (then.runs() || ! now.runs()) && same (now.settings, then.settings);
+    return now.type == then.type && rate_hz * flat.speed (now.section) == before->rate_hz * before->flat.speed (then.section) && now.role == then.role && (then.runs() || ! now.runs()) && same (now.settings, then.settings);
 }
 
 const Instance* Succession::heritageOf (std::size_t i) const noexcept
@@ -220,6 +235,35 @@ std::shared_ptr<Line> Succession::lineOf (int wire, int component, int ticks, Ta
     line->samples.assign (at (ticks), 0.0);
     if (old) takeover.relays.push_back ({ line.get(), old });
     return line;
+}
+
+std::shared_ptr<Passage> Succession::passageOf (int wire, int component, int step, Way way, Takeover& takeover) const
+{
+    const auto wires = static_cast<int> (flat.wires.size());
+    int heir = -1;
+    if (wire < wires)
+        heir = heirs.wires[at (wire)];
+    else if (before != nullptr)
+        heir = static_cast<int> (before->flat.wires.size()) + wire - wires;
+
+    const Passage* old = nullptr;
+    if (heir >= 0)
+    {
+        using Key = std::tuple<int, int, int>;
+        const auto key = [] (const Plan::PassageUse& use)
+        { return Key { use.wire, use.component, use.step }; };
+        const Key wanted { heir, component, step };
+        const auto use = std::ranges::lower_bound (before->passages, wanted, {}, key);
+        if (use != before->passages.end() && key (*use) == wanted)
+        {
+            if (use->way == way) return use->passage;
+            old = use->passage.get();
+        }
+    }
+    auto passage = std::make_shared<Passage>();
+    passage->serial = newSerial();
+    if (old) takeover.passings.push_back ({ passage.get(), old });
+    return passage;
 }
 
 std::vector<bool> Succession::changed (const Plan& plan) const

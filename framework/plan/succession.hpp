@@ -31,6 +31,9 @@ public:
     /// What is under way on a component of a delayed wire.
     std::shared_ptr<Line> lineOf (int wire, int component, int ticks, Takeover&) const;
 
+    /// What is under way on a component of a wire, or of a feed that is counted after them, where it enters or leaves a section.
+    std::shared_ptr<Passage> passageOf (int wire, int component, int step, Way, Takeover&) const;
+
     /// Once all else of the plan is in place, the flat graph too: its nodes that are changed or hear from what is changed, and with them
     /// the roles; and the params that are not driven any more.
     void compare (Plan&) const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "takeover.hpp"
 
+#include <cstring>
+
 namespace tactus::plan
 {
 
@@ -8,6 +10,10 @@ void Takeover::carryOut (std::span<const Instance> instances, Ramps& ramps) cons
 {
     for (const auto& [line, old] : relays)
         line->adopt (*old);
+    for (const auto& [passage, old] : passings)
+        passage->adopt (*old);
+    for (const auto& [to, from, bytes] : standing)
+        std::memcpy (to, from, bytes);
 
     for (const auto& [i, adopt, old] : successors)
     {

@@ -46,10 +46,27 @@ struct Takeover
         const Line* old;
     };
 
+    /// A wire that enters or leaves a section in another way.
+    struct Passing
+    {
+        Passage* passage;
+        const Passage* old;
+    };
+
+    /// What stands in a section that rests until its next tick.
+    struct Standing
+    {
+        void* to;
+        const void* from;
+        std::size_t bytes;
+    };
+
     std::vector<Successor> successors;
     std::vector<Change> changes;
     std::vector<Release> releases;
     std::vector<Relay> relays;
+    std::vector<Passing> passings;
+    std::vector<Standing> standing;
 
     void carryOut (std::span<const Instance>, Ramps&) const noexcept;   // [tick thread]
 };

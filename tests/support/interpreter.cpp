@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "interpreter.hpp"
 
+#include <framework/plan/compile.hpp>
 #include <framework/units.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
+#include <utility>
 
 namespace tactus::test
 {
@@ -60,21 +63,24 @@ std::vector<std::string> instancesOf (const graph::Node& n, const std::string& m
 
 Interpreter::Interpreter (const graph::Graph& graph_, double rate_hz) : g (graph_)
 {
-    expand (g.root, "", {});
+    expand (g.root, "", {}, 0);
     for (auto& [path, i] : instances)
     {
-        if (i.type->prepare) i.type->prepare (i.node.get(), { .rate_hz = rate_hz });
+        const auto& section = sections[static_cast<std::size_t> (i.section)];
+        if (i.type->prepare) i.type->prepare (i.node.get(), { .rate_hz = rate_hz * (section.up / section.down) });
         if (i.type->update) i.type->update (i.node.get());
     }
+    route();
+    if (sections.size() > 1) findWhatIsCarried();
 }
 
-void Interpreter::expand (const graph::Patch& patch, const std::string& prefix, const Roles& outer)
+void Interpreter::expand (const graph::Patch& patch, const std::string& prefix, const Roles& outer, int section)
 {
     for (const auto& n : patch.nodes)
         if (n.type.starts_with ("graph:"))
-            expandInstances (n, prefix, outer);
+            expandInstances (n, prefix, outer, section);
         else
-            add (n, prefix + n.name, outer);
+            add (n, prefix + n.name, outer, section);
     for (const auto& w : patch.wires)
     {
         double gain = 1.0;
@@ -82,11 +88,11 @@ void Interpreter::expand (const graph::Patch& patch, const std::string& prefix, 
         if (w.gain.is_string()) gain = std::get<Measure> (parseMeasure (w.gain.get<std::string>())).value;
         for (const auto& from : resolve (patch, prefix, w.from, true))
             for (const auto& to : resolve (patch, prefix, w.to, false))
-                wires.push_back ({ from, to, &w, gain, {} });
+                wires.push_back ({ from, to, &w, section, gain, {}, {}, {}, {}, {}, {}, {} });
     }
 }
 
-void Interpreter::expandInstances (const graph::Node& n, const std::string& prefix, const Roles& outer)
+void Interpreter::expandInstances (const graph::Node& n, const std::string& prefix, const Roles& outer, int section)
 {
     for (std::size_t k = 0; const auto& name : instancesOf (n, ""))
     {
@@ -96,7 +102,7 @@ void Interpreter::expandInstances (const graph::Node& n, const std::string& pref
             const auto called = means.is_array() ? means.at (k).get<std::string>() : means.get<std::string>();
             inner[role] = outer.contains (called) ? outer.at (called) : called;
         }
-        expand (*g.find (n.type.substr (6)), prefix + name + "/", inner);
+        expand (*g.find (n.type.substr (6)), prefix + name + "/", inner, sectionOf (n, section));
         ++k;
     }
     override (n, prefix);
@@ -123,11 +129,22 @@ void Interpreter::override (const graph::Node& n, const std::string& prefix)
         }
 }
 
-void Interpreter::add (const graph::Node& n, const std::string& path, const Roles& outer)
+/// Each instance of a subgraph with a rate of its own is a section of its own.
+int Interpreter::sectionOf (const graph::Node& n, int around)
+{
+    const int every = n.extra.value ("every", 1), times = n.extra.value ("times", 1);
+    if (every <= 1 && times <= 1) return around;
+    const auto outer = sections[static_cast<std::size_t> (around)];
+    sections.push_back ({ around, every, times, n.extra.value ("hold", "latch") == std::string ("linear"), outer.up * times, outer.down * every });
+    return static_cast<int> (sections.size()) - 1;
+}
+
+void Interpreter::add (const graph::Node& n, const std::string& path, const Roles& outer, int section)
 {
     auto& i = instances[path];
     i.type = catalogue().find (n.type);
     i.source = &n;
+    i.section = section;
     i.role = outer.contains (n.role) ? outer.at (n.role) : n.role;
     i.node = i.type->make();
     i.outputs.assign (i.type->outputs_size / sizeof (double) + 1, 0.0);
@@ -157,6 +174,64 @@ void Interpreter::add (const graph::Node& n, const std::string& path, const Role
         auto& state = roles[i.role];
         if (! state) state = std::make_unique<DeviceState>();
         i.type->bind (i.node.get(), *state);
+    }
+}
+
+const PortSheet& Interpreter::sheet (const End& end, bool start) const
+{
+    const auto& type = *instances.at (end.node).type;
+    const auto id = end.port.substr (0, end.port.find ('['));
+    for (const auto* rows : start ? std::vector { &type.outputs } : std::vector { &type.inputs, &type.params })
+        if (const auto row = std::ranges::find (*rows, id, &PortSheet::id); row != rows->end()) return *row;
+    throw std::out_of_range (end.node + "." + end.port);
+}
+
+std::vector<int> Interpreter::components (const Wire& w) const
+{
+    if (w.to.component >= 0) return { w.to.component };
+    const auto& row = sheet (w.to, false);
+    return row.width == 3 ? std::vector { 0, 1, 2 } : std::vector { 0 };
+}
+
+int Interpreter::fromComponent (const Wire& w, int component) { return w.from.component >= 0 ? w.from.component : w.to.component >= 0 ? 0
+                                                                                                                                      : component; }
+
+/// The sections each wire leaves, the innermost first, and enters, the outermost first.
+void Interpreter::route()
+{
+    for (auto& w : wires)
+    {
+        for (int s = instances.at (w.from.node).section; s != w.section; s = sections[static_cast<std::size_t> (s)].around)
+            w.leaves.push_back (s);
+        for (int s = instances.at (w.to.node).section; s != w.section; s = sections[static_cast<std::size_t> (s)].around)
+            w.enters.insert (w.enters.begin(), s);
+        if (w.wire->delay > 0)
+            for (const int c : components (w))
+                w.line[c].assign (static_cast<std::size_t> (w.wire->delay), 0.0);
+    }
+}
+
+void Interpreter::findWhatIsCarried()
+{
+    CompileOptions options { .rate_hz = g.rate_hz };
+    const auto nameOf = [] (const End& e)
+    { return e.node + "." + e.port; };
+    for (const auto& w : wires)
+        for (const auto* end : { &w.from, &w.to })
+            options.records.push_back (nameOf (*end));
+    const auto compiled = compile (g, catalogue(), options);
+    const auto quantityOf = [&] (const End& e)
+    {
+        for (const auto& tap : compiled.plan->taps)
+            if (tap.name == nameOf (e) || tap.name == nameOf (e) + ".x") return tap.quantity;
+        throw std::out_of_range (nameOf (e));
+    };
+    for (auto& w : wires)
+    {
+        const auto& row = sheet (w.from, true);
+        const auto a = quantityOf (w.from), b = quantityOf (w.to);
+        w.hits = a == Quantity::hit || b == Quantity::hit;
+        w.steps = ! w.hits && (a == Quantity::state || b == Quantity::state || (row.width == 1 && row.unit.kind == UnitRule::Kind::fixed && row.unit.unit == unit::count));
     }
 }
 
@@ -193,14 +268,40 @@ std::vector<Interpreter::End> Interpreter::resolve (const graph::Patch& patch, c
     return ends;
 }
 
+double Interpreter::stands (const End& end, int component) const
+{
+    const auto bracket = end.port.find ('[');
+    const auto entry = bracket == std::string::npos ? std::max (component, 0) : std::stoi (end.port.substr (bracket + 1));
+    return instances.at (end.node).outputs[sheet (end, true).offset / sizeof (double) + static_cast<std::size_t> (entry)];
+}
+
 double Interpreter::output (const End& end, int component)
 {
     const auto& i = instances.at (end.node);
     if (! i.type->peek || i.source->bypass) evaluate (end.node);   // a peeking node's outputs stand since the tick began
-    const auto bracket = end.port.find ('[');
-    const auto& row = *std::ranges::find (i.type->outputs, end.port.substr (0, bracket), &PortSheet::id);
-    const auto entry = bracket == std::string::npos ? std::max (component, 0) : std::stoi (end.port.substr (bracket + 1));
-    return i.outputs[row.offset / sizeof (double) + static_cast<std::size_t> (entry)];
+    return stands (end, component);
+}
+
+/// Where a wire has been led into so many sections.
+double Interpreter::arrives (Wire& w, int component, std::size_t entered)
+{
+    if (entered > 0) return w.entering[component][w.enters[entered - 1]].out;
+    if (w.wire->delay > 0) return w.line.at (component).front();
+    if (w.leaves.empty()) return output (w.from, fromComponent (w, component));
+    step (w.leaves.back());
+    return w.leaving[component][w.leaves.back()].out;
+}
+
+double Interpreter::enteringValue (Wire& w, int section, int component)
+{
+    const auto entered = std::ranges::find (w.enters, section) - w.enters.begin();
+    return arrives (w, component, static_cast<std::size_t> (entered));
+}
+
+double Interpreter::leavingValue (Wire& w, int section, int component)
+{
+    const auto left = std::ranges::find (w.leaves, section) - w.leaves.begin();
+    return left == 0 ? stands (w.from, fromComponent (w, component)) : w.leaving[component][w.leaves[static_cast<std::size_t> (left) - 1]].out;
 }
 
 /// Sums what is wired to one component of a port; false if nothing is.
@@ -210,17 +311,7 @@ bool Interpreter::driven (const std::string& path, const std::string& port, int 
     for (auto& w : wires)
     {
         if (w.to.node != path || w.to.port != port || w.wire->add != add || (w.to.component >= 0 && w.to.component != component)) continue;
-        const int from = w.from.component >= 0 ? w.from.component : w.to.component >= 0 ? 0
-                                                                                        : component;
-        double v = 0.0;
-        if (w.wire->delay == 0)
-            v = output (w.from, from);
-        else
-        {
-            auto& line = w.line[component];
-            if (line.empty()) line.assign (static_cast<std::size_t> (w.wire->delay), 0.0);
-            v = line.front();
-        }
+        const double v = arrives (w, component, w.enters.size());
         terms.push_back (v * w.gain);
     }
     if (! terms.empty()) value = sorted (terms);
@@ -296,24 +387,107 @@ void Interpreter::evaluate (const std::string& path)
     if (fault && in.empty()) i.type->initialiseOutputs (i.outputs.data());
 }
 
-void Interpreter::tick (const std::map<std::string, Reading>& readings)
+/// One tick of a section's own.
+void Interpreter::run (int section)
 {
-    for (auto& [role, state] : roles)
-        if (const auto r = readings.find (role); r != readings.end()) state->reading = r->second;
+    for (auto& s : sections)
+        if (s.around == section) s.done = false;
     for (auto& [path, i] : instances)
     {
+        if (i.section != section) continue;
         i.done = false;
         if (i.type->peek && ! i.source->bypass) i.type->peek (i.node.get(), nullptr, i.outputs.data());
     }
     for (auto& [path, i] : instances)
-        evaluate (path);
+        if (i.section == section) evaluate (path);
+    for (std::size_t s = 1; s < sections.size(); ++s)
+        if (sections[s].around == section) step (static_cast<int> (s));
     for (auto& w : wires)
-        for (auto& [component, line] : w.line)
+        if (w.section == section)
+            for (auto& [component, line] : w.line)
+            {
+                line.push_back (w.leaves.empty() ? output (w.from, fromComponent (w, component)) : w.leaving[component][w.leaves.back()].out);
+                line.pop_front();
+            }
+}
+
+/// What a section does in one tick of the section around.
+void Interpreter::step (int section)
+{
+    auto& s = sections[static_cast<std::size_t> (section)];
+    if (s.done) return;
+    s.done = true;
+
+    const auto passing = [&] (std::vector<int> Wire::*way, std::map<int, std::map<int, Crossing>> Wire::*crossings, auto visit)
+    {
+        for (auto& w : wires)
+            if (std::ranges::count (w.*way, section) > 0)
+                for (const int c : components (w))
+                    visit (w, c, (w.*crossings)[c][section]);
+    };
+    const auto entering = [&] (auto visit)
+    { passing (&Wire::enters, &Wire::entering, visit); };
+    const auto leaving = [&] (auto visit)
+    { passing (&Wire::leaves, &Wire::leaving, visit); };
+    const auto newEnd = [] (Crossing& x, double value)
+    {
+        x.before = x.begun ? x.newest : value;
+        x.newest = value;
+        x.begun = true;
+    };
+
+    const auto number = sections[static_cast<std::size_t> (s.around)].number;
+    if (s.every > 1)
+    {
+        const auto every = static_cast<std::uint64_t> (s.every), phase = number % every;
+        entering ([&] (Wire& w, int c, Crossing& x)
+                  {
+            const double value = enteringValue (w, section, c);
+            if (w.hits)
+            {
+                x.gathered += value;
+                if (phase == 0) x.out = std::exchange (x.gathered, 0.0);
+            }
+            else if (phase == 0)
+                x.out = value; });
+        if (phase == 0)
         {
-            line.push_back (output (w.from, w.from.component >= 0 ? w.from.component : w.to.component >= 0 ? 0
-                                                                                                           : component));
-            line.pop_front();
+            s.number = number / every;
+            run (section);
         }
+        leaving ([&] (Wire& w, int c, Crossing& x)
+                 {
+            const double value = leavingValue (w, section, c);
+            if (phase == 0) newEnd (x, value);
+            x.out = w.hits ? (phase == 0 ? value : 0.0) : ! s.linear || w.steps ? value
+                                                                               : std::lerp (x.before, x.newest, static_cast<double> (phase) / s.every); });
+        return;
+    }
+
+    entering ([&] (Wire& w, int c, Crossing& x)
+              { newEnd (x, enteringValue (w, section, c)); });
+    for (int i = 0; i < s.times; ++i)
+    {
+        s.number = number * static_cast<std::uint64_t> (s.times) + static_cast<std::uint64_t> (i);
+        entering ([&] (Wire& w, int, Crossing& x)
+                  { x.out = w.hits ? (i == 0 ? x.newest : 0.0) : w.steps ? x.newest
+                                                                         : std::lerp (x.before, x.newest, (i + 1.0) / s.times); });
+        run (section);
+        leaving ([&] (Wire& w, int c, Crossing& x)
+                 { x.gathered += leavingValue (w, section, c); });
+    }
+    leaving ([&] (Wire& w, int c, Crossing& x)
+             {
+        const double sum = std::exchange (x.gathered, 0.0);
+        x.out = w.hits ? sum : leavingValue (w, section, c); });
+}
+
+void Interpreter::tick (const std::map<std::string, Reading>& readings)
+{
+    for (auto& [role, state] : roles)
+        if (const auto r = readings.find (role); r != readings.end()) state->reading = r->second;
+    run (0);
+    ++sections[0].number;
 }
 
 std::map<std::string, double> Interpreter::outputs() const

@@ -14,7 +14,8 @@ namespace tactus::test
 {
 
 /// What a graph means, written as plainly as possible and as slowly: each tick pulls every output by name, through
-/// subgraphs and wires. Plans are compared with it. For graphs that compile.
+/// subgraphs and wires, in and out of sections with a rate of their own. Plans are compared with it. For graphs that
+/// compile; what a port carries, a hit or a signal, is asked of the compiler.
 class Interpreter
 {
 public:
@@ -35,34 +36,66 @@ private:
         std::vector<double> outputs;   // as doubles: Outputs structs hold nothing else
         std::vector<std::vector<double>> params;
         int entries = 0;
+        int section = 0;
         bool done = false;
+    };
+    struct Section
+    {
+        int around = -1;
+        int every = 1, times = 1;
+        bool linear = false;
+        double up = 1.0, down = 1.0;   // ticks in one of the graph
+        std::uint64_t number = 0;      // of its own tick
+        bool done = false;             // in this tick of the section around
     };
     struct End
     {
         std::string node, port;   // node by full path, port as "in", "in[2]"
         int component = -1;
     };
+    struct Crossing
+    {
+        double out = 0.0, gathered = 0.0, before = 0.0, newest = 0.0;
+        bool begun = false;
+    };
     struct Wire
     {
         End from, to;
         const graph::Wire* wire = nullptr;
+        int section = 0;   // where it is written
         double gain = 1.0;
-        std::map<int, std::deque<double>> line;   // by component
+        bool hits = false, steps = false;                           // else a signal
+        std::vector<int> leaves, enters;                            // sections on its way
+        std::map<int, std::deque<double>> line;                     // by component
+        std::map<int, std::map<int, Crossing>> leaving, entering;   // by component, by section
     };
 
     const graph::Graph& g;
     std::map<std::string, Instance> instances;
     std::vector<Wire> wires;
+    std::vector<Section> sections { {} };
     std::map<std::string, std::unique_ptr<DeviceState>> roles;
 
     using Roles = std::map<std::string, std::string>;
 
-    void expand (const graph::Patch&, const std::string& prefix, const Roles&);
-    void expandInstances (const graph::Node&, const std::string& prefix, const Roles&);
-    void add (const graph::Node&, const std::string& path, const Roles&);
+    void expand (const graph::Patch&, const std::string& prefix, const Roles&, int section);
+    void expandInstances (const graph::Node&, const std::string& prefix, const Roles&, int section);
+    int sectionOf (const graph::Node&, int around);
+    void add (const graph::Node&, const std::string& path, const Roles&, int section);
     void override (const graph::Node&, const std::string& prefix);
+    void route();
+    void findWhatIsCarried();
+    const PortSheet& sheet (const End&, bool start) const;
+    std::vector<int> components (const Wire&) const;
+    static int fromComponent (const Wire&, int component);
     std::vector<End> resolve (const graph::Patch&, const std::string& prefix, const graph::Endpoint&, bool start) const;
     void evaluate (const std::string& path);
+    void run (int section);
+    void step (int section);
+    double enteringValue (Wire&, int section, int component);
+    double leavingValue (Wire&, int section, int component);
+    double arrives (Wire&, int component, std::size_t sections_entered);
+    double stands (const End&, int component) const;
     double output (const End&, int component);
     bool driven (const std::string& path, const std::string& port, int component, bool add, double& value);
 };

@@ -60,6 +60,7 @@ private:
         if (node == nullptr || ! isOurs (node->name)) return oneIn (20) ? std::optional<graph::Command> (graph::AddNode { in, newNode() }) : std::nullopt;
         const auto* type = catalogue().find (node->type);
 
+        if (node->type.starts_with ("graph:") && oneIn (3)) return setRate (*node);
         switch (below (12))
         {
         case 0:
@@ -84,6 +85,15 @@ private:
         default:
             return changeWire();
         }
+    }
+
+    graph::Command setRate (const graph::Node& node)
+    {
+        if (node.extra.contains ("every") && oneIn (3)) return graph::SetNodeKey { in, node.name, "hold", Json (oneIn (2) ? "linear" : "latch") };
+        const auto* key = node.extra.contains ("every") ? "every" : node.extra.contains ("times") ? "times"
+                                                                : oneIn (2)                       ? "every"
+                                                                                                  : "times";
+        return graph::SetNodeKey { in, node.name, key, oneIn (3) ? std::nullopt : std::optional<Json> (1 + below (4)) };
     }
 
     std::optional<graph::Command> setParam (const graph::Node& node, const NodeType& type)

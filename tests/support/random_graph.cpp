@@ -47,6 +47,7 @@ public:
             const auto& [kind, patch] = g.graphs[static_cast<std::size_t> (below (static_cast<int> (g.graphs.size())))];
             n.type = "graph:" + kind;
             if (oneIn (2)) multiply (n, patch);
+            giveRate (n);
         }
         else
         {
@@ -86,6 +87,17 @@ private:
 
     int below (int n) { return std::uniform_int_distribution { 0, std::max (n, 1) - 1 }(random); }
     bool oneIn (int n) { return below (n) == 0; }
+
+    void giveRate (graph::Node& n)
+    {
+        if (oneIn (3))
+        {
+            n.extra["every"] = 2 + below (3);
+            if (oneIn (2)) n.extra["hold"] = oneIn (2) ? "linear" : "latch";
+        }
+        else if (oneIn (2))
+            n.extra["times"] = 2 + below (2);
+    }
 
     static int count (const graph::Graph& g)
     {
@@ -210,6 +222,11 @@ private:
             {
                 if (m.severity != Message::Severity::error) continue;
                 const auto at = m.where.rfind ("/wires/");
+                if (m.id == "rate/to_the_hand")
+                {
+                    slowDown (g, m.where);
+                    continue;
+                }
                 if (at == std::string::npos)
                 {
                     unwire (g, m.where, doomed);
@@ -232,6 +249,14 @@ private:
             for (auto i = doomed.rbegin(); i != doomed.rend(); ++i)
                 i->first->wires.erase (i->first->wires.begin() + static_cast<std::ptrdiff_t> (i->second));
         }
+    }
+
+    /// What returns to the hand does not run several times a tick: "/graphs/sub1/nodes/n3/times".
+    static void slowDown (graph::Graph& g, std::string pointer)
+    {
+        pointer.erase (pointer.rfind ('/'));
+        auto& patch = pointer.starts_with ("/graphs/") ? patchOf (g, pointer) : g.root;
+        std::ranges::find (patch.nodes, pointer.substr (pointer.rfind ('/') + 1), &graph::Node::name)->extra.erase ("times");
     }
 
     /// A node whose units clash loses a wire.

@@ -10,9 +10,9 @@
 namespace tactus::test
 {
 
-/// A graph that compiles, drawn by chance: `size` nodes of any type, some inside subgraphs (nested, shared, in several
-/// instances with values and roles of their own), wires between whole ports and components, to one instance and to all,
-/// delays, gains with units, wires onto parameters with and without (+), bypassed nodes.
+/// A graph that compiles, drawn by chance: up to `size` nodes of any type, some inside subgraphs (nested, shared, in several
+/// instances with values and roles of their own, at rates of their own), wires between whole ports and components, to one
+/// instance and to all, delays, gains with units, wires onto parameters with and without (+), bypassed nodes.
 graph::Graph randomGraph (unsigned seed, int size);
 
 /// A node of any type, subgraphs of the graph among them, as randomGraph draws them.

@@ -198,12 +198,19 @@ TEST_CASE ("a tick allocates nothing and takes no lock, whatever the graph", "[p
     }
 }
 
-TEST_CASE ("random graphs have wires, loops through delays, and parameters that are driven", "[plan][property]")
+TEST_CASE ("random graphs have wires, loops through delays, parameters that are driven, and sections with rates of their own", "[plan][property]")
 {
-    int wires = 0, delayed = 0, driven = 0, inside = 0, several = 0, counted = 0, own = 0;
+    int wires = 0, delayed = 0, driven = 0, inside = 0, several = 0, counted = 0, own = 0, slow = 0, fast = 0, nested = 0, crossing = 0;
     for (unsigned seed = 0; seed < 20; ++seed)
     {
         const auto g = test::randomGraph (seed, 100);
+        const auto flat = compile (g, catalogue()).plan->flat;
+        for (const auto& s : flat.sections)
+        {
+            (s.kind == plan::Section::Kind::every ? slow : fast) += s.around >= 0;
+            nested += s.around > 0;
+        }
+        crossing += static_cast<int> (std::ranges::count (flat.wires, true, &plan::FlatWire::crosses));
         for (const auto& [name, patch] : g.graphs)
             inside += static_cast<int> (patch.wires.size());
         for (const auto& w : g.root.wires)
@@ -227,4 +234,8 @@ TEST_CASE ("random graphs have wires, loops through delays, and parameters that 
     CHECK (several > 20);
     CHECK (counted > 20);
     CHECK (own > 20);
+    CHECK (slow > 20);
+    CHECK (fast > 10);
+    CHECK (nested > 10);
+    CHECK (crossing > 100);
 }

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "sections.hpp"
+
+#include <framework/number_text.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <queue>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace tactus::plan
+{
+
+namespace
+{
+std::size_t at (int i) { return static_cast<std::size_t> (i); }
+
+int readFactor (const Json& value, const char* key, const std::string& path, Origin here, Flat& flat)
+{
+    constexpr double most = 1e6;
+    const double n = value.is_number() ? value.get<double>() : 0.0;
+    if (n >= 1.0 && n <= most && n == std::floor (n)) return static_cast<int> (n);
+    flat.error ("rate/value", flat.at (here, key), "`" + std::string (key) + "` of '" + path + "' is " + value.dump() + ", and should be a whole number from 1 to 1000000", "write 2 or more, or leave it out");
+    return 1;
+}
+
+bool isWithin (const Flat& flat, int section, int outer)
+{
+    while (section > outer)
+        section = flat.section (section).around;
+    return section == outer;
+}
+
+/// Who leads to something that acts on a hand, and how.
+class Downstream
+{
+public:
+    explicit Downstream (const Flat& f) : flat (f), out (f.nodes.size()), leads (f.nodes.size(), false)
+    {
+        std::vector<std::vector<int>> into (flat.nodes.size());
+        for (const auto& w : flat.wires)
+            if (w.from)
+            {
+                out[at (w.from->node)].push_back (&w);
+                into[at (w.to.node)].push_back (w.from->node);
+            }
+        std::vector<int> open;
+        const auto reach = [&] (int n)
+        {
+            if (leads[at (n)]) return;
+            leads[at (n)] = true;
+            open.push_back (n);
+        };
+        for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
+            if (acts (n)) reach (n);
+        while (! open.empty())
+        {
+            const int n = open.back();
+            open.pop_back();
+            std::ranges::for_each (into[at (n)], reach);
+        }
+    }
+
+    bool leadsToTheHand (int node) const { return leads[at (node)]; }
+
+    /// The shortest way there from a section that has one, in words.
+    std::string wayFrom (int section) const
+    {
+        std::vector<const FlatWire*> by (flat.nodes.size(), nullptr);   // how each node was reached; nothing within the section
+        std::vector<bool> seen (flat.nodes.size(), false);
+        std::queue<int> open;
+        const auto reach = [&] (int n, const FlatWire* w)
+        {
+            if (seen[at (n)]) return;
+            seen[at (n)] = true;
+            by[at (n)] = w;
+            open.push (n);
+        };
+        for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
+            if (isWithin (flat, flat.nodes[at (n)].section, section)) reach (n, nullptr);
+        for (; ! acts (open.front()); open.pop())
+            for (const auto* w : out[at (open.front())])
+                reach (w->to.node, w);
+
+        const int sink = open.front();
+        if (by[at (sink)] == nullptr) return "'" + flat.nodes[at (sink)].path + "' is inside of it";
+        std::string text;
+        for (int n = sink; by[at (n)] != nullptr; n = by[at (n)]->from->node)
+            text = flat.nameOf (*by[at (n)]->from) + " -> " + flat.nameOf (by[at (n)]->to) + (text.empty() ? "" : ", then " + text);
+        return text;
+    }
+
+private:
+    const Flat& flat;
+    std::vector<std::vector<const FlatWire*>> out;
+    std::vector<bool> leads;
+
+    bool acts (int n) const { return flat.nodes[at (n)].type->effort != nullptr && flat.nodes[at (n)].runs(); }
+};
+}   // namespace
+
+int openSection (const graph::Node& node, int around, const std::string& path, Origin here, Flat& flat)
+{
+    const bool every = node.extra.contains ("every"), times = node.extra.contains ("times");
+    if (node.extra.contains ("hold") && ! every)
+        flat.warn ("rate/hold_alone", flat.at (here, "hold"), "'" + path + "' has a `hold`, but no `every` that leaves ticks to hold anything over", "remove it, or add \"every\"");
+    if (every && times)
+        flat.error ("rate/both", flat.at (here, "times"), "'" + path + "' has an `every` and a `times`, and can run either less often or more often", "remove one of them");
+    if (every == times) return around;
+
+    const auto* key = every ? "every" : "times";
+    const int factor = readFactor (node.extra.at (key), key, path, here, flat);
+    if (factor == 1) return around;
+    flat.sections.push_back ({ .around = around, .kind = every ? Section::Kind::every : Section::Kind::times, .factor = factor, .linear = every && node.extra.value ("hold", Json()) == "linear", .path = path, .origin = flat.at (here, key) });
+    return static_cast<int> (flat.sections.size()) - 1;
+}
+
+void refuseSection (const graph::Node& node, const std::string& path, Origin here, Flat& flat)
+{
+    for (const auto* key : { "every", "times", "hold" })
+        if (node.extra.contains (key))
+            flat.error ("rate/no_subgraph", flat.at (here, key), "'" + path + "' (" + node.type + ") has a `" + key + "`, but only subgraphs run at a rate of their own", "collapse it into a subgraph, and say so there");
+}
+
+void checkSections (Flat& flat, double rate_hz)
+{
+    if (flat.sections.size() == 1) return;
+    constexpr double lowest = 1.0, highest = 1e6;
+    constexpr int none = -1;
+    std::vector<int> fast (flat.sections.size(), none);   // the outermost `times` section around
+    for (int s = 1; s < static_cast<int> (flat.sections.size()); ++s)
+    {
+        const auto section = flat.section (s);
+        const double rate = rate_hz * flat.speed (s);
+        if (rate < lowest || rate > highest)
+            flat.error ("rate/value", section.origin, "'" + section.path + "' would run at " + numberText (rate) + " Hz", "sections run at 1 Hz to 1 MHz; the graph runs at " + numberText (rate_hz) + " Hz");
+
+        fast[at (s)] = fast[at (section.around)];
+        if (fast[at (s)] == none && section.kind == Section::Kind::times) fast[at (s)] = s;
+    }
+    if (std::ranges::count (fast, none) == std::ssize (fast)) return;
+
+    const Downstream downstream { flat };
+    std::set<int> told;
+    for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
+    {
+        const int s = fast[at (flat.nodes[at (n)].section)];
+        if (s == none || ! downstream.leadsToTheHand (n) || flat.isFull() || ! told.insert (s).second) continue;
+        const auto section = flat.section (s);
+        flat.error ("rate/to_the_hand", section.origin, "'" + section.path + "' runs " + std::to_string (section.factor) + " times a tick, on inputs that lie between two ticks and so in the past, but returns to the hand: " + downstream.wayFrom (s),
+                    "leave out `times`; what the hand feels is computed once a tick, from where it is");
+    }
+}
+
+}   // namespace tactus::plan
