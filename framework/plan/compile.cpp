@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "compile.hpp"
+#include "aliasing.hpp"
 #include "build.hpp"
 #include "sections.hpp"
 #include "slots.hpp"
@@ -100,6 +101,7 @@ PortUnits check (Flat& flat, const Setup& setup, Order& ordered)
     askNodes (flat, setup);
     ordered = order (flat);
     checkSections (flat, setup.rate_hz);
+    warnOfAliasing (flat, units, setup);
     return units;
 }
 

@@ -6,7 +6,7 @@
 ///   flatten      subgraphs expanded, names resolved, values read      flatten.hpp, directory.hpp, values.hpp
 ///   unit_check   units of wires and values, generic nodes typed       unit_check.hpp
 ///   order        running order, loops, delays                         order.hpp
-///   sections     what runs less or more often than once a tick        sections.hpp, crossings.hpp
+///   sections     what runs less or more often than once a tick        sections.hpp, aliasing.hpp, crossings.hpp
 ///   build        nodes made, storage laid out, records written        build.hpp
 ///   succession   what goes on from the plan before                    succession.hpp, heirs.hpp, takeover.hpp
 

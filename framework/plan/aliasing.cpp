@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "aliasing.hpp"
+#include "build.hpp"
+#include "carries.hpp"
+
+#include <framework/number_text.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+namespace tactus::plan
+{
+
+namespace
+{
+std::size_t at (int i) { return static_cast<std::size_t> (i); }
+
+/// The frequencies that a node's datasheet names, as its params and settings have them.
+class Frequencies
+{
+public:
+    Frequencies (const Flat& flat, int node)
+    {
+        const auto& n = flat.nodes[at (node)];
+        for (std::size_t p = 0; p < n.type->params.size(); ++p)
+            for (const double value : flat.param (node, p))
+                note (n.type->params[p].unit, n.type->params[p].id, value);
+        for (std::size_t s = 0; s < n.settings.size(); ++s)
+            look (n.type->settings[s], n.settings[s]);
+    }
+
+    /// Samples at some rate hold up to half of it, where nothing is said of what they are made of. 0 for none.
+    double highest() const noexcept { return named > 0.0 ? named : sampled; }
+
+private:
+    double named = 0.0, sampled = 0.0;   // Hz
+
+    void note (const UnitRule& unit, std::string_view id, double value)
+    {
+        if (unit.kind != UnitRule::Kind::fixed || unit.unit.quantity != Quantity::frequency) return;
+        auto& most = id == "rate" ? sampled : named;
+        most = std::max (most, id == "rate" ? 0.5 * value : std::abs (value));
+    }
+
+    void look (const SettingSheet& sheet, const SettingValue& value)
+    {
+        if (const auto* number = std::get_if<double> (&value))
+            note (sheet.unit, sheet.id, *number);
+        else if (const auto* record = std::get_if<Values> (&value))
+            look (sheet, *record);
+        else if (const auto* records = std::get_if<Records> (&value))
+            for (const auto& each : *records)
+                look (sheet, each);
+    }
+
+    void look (const SettingSheet& sheet, const Values& record)
+    {
+        for (std::size_t i = 0; i < record.size(); ++i)
+            look (sheet.fields[i], record[i]);
+    }
+};
+
+/// What a signal has above half of some rate.
+struct Content
+{
+    enum class Kind
+    {
+        none,
+        unknown,
+        some
+    };
+
+    Kind kind = Kind::none;
+    std::string what {};   ///< "'bar' (vibration.modal) has up to 3000 Hz"
+};
+
+class Listener
+{
+public:
+    Listener (const Flat& f, const Setup& s) : flat (f), setup (s), into (f.nodes.size())
+    {
+        for (const auto& w : flat.wires)
+            if (w.from) into[at (w.to.node)].push_back (w.from->node);
+    }
+
+    /// Of what comes out of a node.
+    Content behind (int node, double rate_hz) const
+    {
+        std::set<int> seen { node };
+        std::vector<int> open { node };
+        Content worst;
+        while (! open.empty())
+        {
+            const int n = open.back();
+            open.pop_back();
+            const auto content = of (n, rate_hz);
+            if (content && content->kind > worst.kind) worst = *content;
+            if (! content)
+                for (const int source : into[at (n)])
+                    if (seen.insert (source).second) open.push_back (source);
+        }
+        return worst;
+    }
+
+    /// Of what a node makes itself; nothing for a generic one, which has what it gets.
+    std::optional<Content> of (int node, double rate_hz) const
+    {
+        const auto& n = flat.nodes[at (node)];
+        if (! n.runs()) return std::nullopt;
+        const auto name = "'" + n.path + "' (" + std::string (n.type->info.id) + ")";
+
+        if (const double highest = Frequencies (flat, node).highest(); highest > 0.0)
+        {
+            if (highest <= 0.5 * rate_hz) return Content {};
+            return Content { Content::Kind::some, name + " has up to " + numberText (highest) + " Hz" };
+        }
+        if (! n.type->claims && ! n.type->warning) return generic (n) ? std::nullopt : std::optional (Content { Content::Kind::unknown });
+
+        constexpr double fast = 1.0;   // m/s, of a stroke
+        const auto made = makeNode (flat, node);
+        const double k = n.type->claims ? n.type->claims (made.get()).spatial_frequency : 0.0;
+        if (k * fast > 0.5 * rate_hz) return Content { Content::Kind::some, name + " has up to " + numberText (k) + " 1/m, stroked faster than " + numberText (std::round (500.0 * rate_hz / k) / 1000.0) + " m/s" };
+        if (k > 0.0) return Content {};
+
+        auto slower = setup, own = setup;
+        slower.rate_hz = rate_hz;
+        own.rate_hz *= flat.speed (n.section);
+        if (n.type->warning && n.type->warning (made.get(), own).empty())
+            if (const auto text = n.type->warning (made.get(), slower); ! text.empty()) return Content { Content::Kind::some, name + " says of that rate: " + text };
+        return generic (n) ? std::nullopt : std::optional (Content { Content::Kind::unknown });
+    }
+
+private:
+    const Flat& flat;
+    const Setup& setup;
+    std::vector<std::vector<int>> into;   // the nodes from which each hears
+
+    static bool generic (const FlatNode& n)
+    {
+        return std::ranges::none_of (n.type->outputs, [] (const PortSheet& row)
+                                     { return row.unit.kind == UnitRule::Kind::fixed; });
+    }
+};
+
+std::string folded (double rate_hz) { return "; above " + numberText (0.5 * rate_hz) + " Hz it comes out as something else"; }
+}   // namespace
+
+void warnOfAliasing (Flat& flat, const PortUnits& units, const Setup& setup)
+{
+    if (flat.sections.size() == 1 || hasErrors (flat.messages)) return;   // nodes with errors are not to be asked
+    const Listener listener { flat, setup };
+    const auto rateOf = [&] (int section)
+    { return setup.rate_hz * flat.speed (section); };
+    const auto warn = [&] (const Origin& origin, const std::string& text)
+    { flat.warn ("rate/aliasing", origin, text, "put a low-pass with a cutoff below half the slower rate before it, or run it at the faster one"); };
+
+    for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
+    {
+        const auto& node = flat.nodes[at (n)];
+        if (! node.runs() || ! flat.rests (node.section)) continue;
+        const auto content = listener.of (n, rateOf (node.section));
+        if (! content || content->kind != Content::Kind::some) continue;
+        if (const auto outside = listener.of (n, setup.rate_hz); outside && outside->kind == Content::Kind::some) continue;   // not for the section's sake
+        warn (node.origin, content->what + ", and runs at " + numberText (rateOf (node.section)) + " Hz in '" + flat.section (node.section).path + "'" + folded (rateOf (node.section)));
+    }
+
+    for (const auto& w : flat.wires)
+    {
+        if (! w.from || ! w.crosses || carriedBy (flat, units, w) != Carries::signal) continue;
+        const int start = flat.node (*w.from).section, end = flat.node (w.to).section;
+        const double outside = rateOf (w.section), inside = rateOf (end), before = rateOf (start);
+        const double slowest = std::min (outside, inside);
+        if (slowest >= before) continue;
+
+        const auto content = listener.behind (w.from->node, slowest);
+        const bool out_of_times = outside < before;
+        if (content.kind == Content::Kind::none || (content.kind == Content::Kind::unknown && ! out_of_times)) continue;
+        const auto what = content.kind == Content::Kind::some ? content.what : "nothing says what there is above";
+        warn (w.origin, "\"" + w.text + "\" leads from " + numberText (before) + " Hz to " + numberText (slowest) + " Hz, and " + what + folded (slowest));
+    }
+}
+
+}   // namespace tactus::plan
