@@ -2,6 +2,7 @@
 #include "build.hpp"
 #include "crossings.hpp"
 #include "grouped.hpp"
+#include "lateness.hpp"
 #include "ops.hpp"
 #include "slots.hpp"
 #include "succession.hpp"
@@ -104,7 +105,9 @@ public:
         plan->records = std::move (all.records);
         plan->owners = std::move (all.owners);
         addTaps();
-        plan->delays = pathDelays (flat, units, nodeDelays());
+        const auto delays = nodeDelays();
+        plan->delays = pathDelays (flat, units, delays);
+        warnOfDelays (flat, units, delays);
         plan->storage = storage;
         keepFlat();
         succession.compare (*plan);

@@ -8,7 +8,9 @@
 #include <framework/graph/instances.hpp>
 #include <framework/graph/text.hpp>
 
+#include <iterator>
 #include <map>
+#include <utility>
 
 namespace tactus
 {
@@ -230,6 +232,7 @@ Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const Compi
 
     auto made = build (flat, units, ordered, outside, setup, options.before, options.withdrawn);
     addShown (*top, made->shown);
+    std::ranges::move (std::exchange (made->flat.messages, {}), std::back_inserter (messages));
     return { std::move (made), std::move (messages) };
 }
 

@@ -8,6 +8,7 @@
 ///   order        running order, loops, delays                         order.hpp
 ///   sections     what runs less or more often than once a tick        sections.hpp, aliasing.hpp, crossings.hpp
 ///   build        nodes made, storage laid out, records written        build.hpp
+///   lateness     what holds back what returns to the hand             lateness.hpp
 ///   succession   what goes on from the plan before                    succession.hpp, heirs.hpp, takeover.hpp
 
 #include "flatten.hpp"
