@@ -3,6 +3,7 @@
 #include "build.hpp"
 #include "carries.hpp"
 
+#include <framework/graph/text.hpp>
 #include <framework/number_text.hpp>
 
 #include <algorithm>
@@ -153,7 +154,7 @@ void warnOfAliasing (Flat& flat, const PortUnits& units, const Setup& setup)
     const Listener listener { flat, setup };
     const auto rateOf = [&] (int section)
     { return setup.rate_hz * flat.speed (section); };
-    const auto warn = [&] (const Origin& origin, const std::string& text)
+    const auto warn = [&] (Origin origin, const std::string& text)
     { flat.warn ("rate/aliasing", origin, text, "put a low-pass with a cutoff below half the slower rate before it, or run it at the faster one"); };
 
     for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
@@ -178,7 +179,7 @@ void warnOfAliasing (Flat& flat, const PortUnits& units, const Setup& setup)
         const bool out_of_times = outside < before;
         if (content.kind == Content::Kind::none || (content.kind == Content::Kind::unknown && ! out_of_times)) continue;
         const auto what = content.kind == Content::Kind::some ? content.what : "nothing says what there is above";
-        warn (w.origin, "\"" + w.text + "\" leads from " + numberText (before) + " Hz to " + numberText (slowest) + " Hz, and " + what + folded (slowest));
+        warn (w.origin, "\"" + graph::toText (*w.written) + "\" leads from " + numberText (before) + " Hz to " + numberText (slowest) + " Hz, and " + what + folded (slowest));
     }
 }
 

@@ -12,7 +12,7 @@ constexpr double room_s = 1.0;   // of frames that wait to be written
 }   // namespace
 
 LiveRecording::LiveRecording (Session& s, const std::vector<std::string>& files)
-    : session (s), recorder (files, s.engine().plan().taps, s.rate(), false), ring (s.engine().plan().taps.size(), static_cast<std::size_t> (room_s * s.rate()) + 1)
+    : session (s), recorder (files, s.engine().plan().taps, s.rate(), false), ring (recorder.width(), static_cast<std::size_t> (room_s * s.rate()) + 1)
 {
 }
 
@@ -22,9 +22,7 @@ void LiveRecording::after (std::uint64_t tick, bool halts) noexcept
     if (halts) return;
     const auto frame = ring.next();
     if (frame.empty()) return;
-    const auto& taps = session.engine().plan().taps;
-    for (std::size_t i = 0; i < frame.size(); ++i)
-        frame[i] = *taps[i].value;
+    recorder.note (session.engine().plan().taps, frame);
     ring.push();
 }
 

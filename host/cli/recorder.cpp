@@ -4,6 +4,7 @@
 
 #include <framework/number_text.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -22,25 +23,29 @@ void printRow (std::span<const double> values)
     }
     std::cout << line << '\n';
 }
+
+bool isWave (const std::string& file) { return std::filesystem::path (file).extension() == ".wav"; }
 }   // namespace
 
-Recorder::Recorder (const std::vector<std::string>& files, const std::vector<Tap>& taps, double rate, bool to_standard_output) : rate_hz (rate), print (to_standard_output && files.empty())
+Recorder::Recorder (const std::vector<std::string>& files, const std::vector<Tap>& all, double rate, bool to_standard_output) : rate_hz (rate), taps (all.size()), print (to_standard_output && files.empty())
 {
-    if (taps.empty() && (print || ! files.empty()))
+    if (all.empty() && (print || ! files.empty()))
         fail ("record/nothing", "there is nothing to record: the graph has no sink", "name ports with --record, as in --record drag.force");
 
     std::vector<std::string> columns { "t" };
-    for (const auto& tap : taps)
+    for (const auto& tap : all)
         columns.push_back (tap.name);
     row.resize (columns.size());
+    const bool alike = ! all.empty() && std::ranges::all_of (all, [&] (const Tap& tap)
+                                                             { return tap.per_tick == all[0].per_tick; });
+    if (alike && std::ranges::any_of (files, isWave)) per_tick = static_cast<std::size_t> (all[0].per_tick);
 
     for (const auto& file : files)
     {
-        const auto kind = std::filesystem::path (file).extension();
-        if (kind == ".csv")
+        if (std::filesystem::path (file).extension() == ".csv")
             tables.push_back (orFail (TableWriter::create (file, columns)));
-        else if (kind == ".wav")
-            waves.push_back (orFail (WavWriter::create (file, rate_hz, taps.size())));
+        else if (isWave (file))
+            waves.push_back (orFail (WavWriter::create (file, rate_hz * static_cast<double> (per_tick), taps)));
         else
             fail ({ "output/kind", file, "the ending says neither CSV nor WAV", "name it .csv or .wav" });
     }
@@ -50,14 +55,21 @@ Recorder::Recorder (const std::vector<std::string>& files, const std::vector<Tap
     std::cout << '\n';
 }
 
+void Recorder::note (const std::vector<Tap>& all, std::span<double> values) const noexcept
+{
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = all[i % taps].sample (static_cast<int> (i / taps), static_cast<int> (per_tick));
+}
+
 void Recorder::frame (std::span<const double> values)
 {
     row[0] = static_cast<double> (ticks++) / rate_hz;
-    std::ranges::copy (values, row.begin() + 1);
+    std::ranges::copy (values.last (taps), row.begin() + 1);
     for (auto& table : tables)
         orFail (table.row (row));
     for (auto& wave : waves)
-        orFail (wave.frame (values));
+        for (std::size_t i = 0; i < per_tick; ++i)
+            orFail (wave.frame (values.subspan (i * taps, taps)));
     if (print) printRow (row);
 }
 

@@ -15,17 +15,26 @@ namespace tactus::host
 {
 
 /// Writes what a run records: a row or frame per tick into each file, or CSV to the standard output if there is none.
+/// Of taps that have several samples a tick, a CSV has the last; a WAV has all, if all taps have as many.
 /// Files appear on commit() or not at all. Any failure ends the command with a message.
 class Recorder
 {
 public:
     Recorder (const std::vector<std::string>& files, const std::vector<Tap>&, double rate_hz, bool to_standard_output);
 
+    /// How many numbers there are to a tick.
+    std::size_t width() const noexcept { return taps * per_tick; }
+
+    /// Takes down what stands on the taps, those of the first plan or of one that followed, after a tick. [tick thread]
+    void note (const std::vector<Tap>&, std::span<double> values) const noexcept;
+
+    /// What was noted at a tick.
     void frame (std::span<const double> values);
     void commit();
 
 private:
     double rate_hz;
+    std::size_t taps, per_tick = 1;   // samples of each
     std::size_t ticks = 0;
     bool print = false;
     std::vector<TableWriter> tables;

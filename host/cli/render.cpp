@@ -37,15 +37,14 @@ void run (const Options& options)
     if (! options.plot.empty()) orFail (createFile (options.plot));   // refused now, not after an hour
     if (! options.plot.empty()) plotter.emplace (options.plot, taps, options.over, session.rate(), options.records.empty());
 
-    std::vector<double> values (taps.size());
+    std::vector<double> values (recorder.width());
     Progress progress { *session.ticks() };
     for (std::size_t k = 0; k < *session.ticks(); ++k)
     {
         session.tick();
-        for (std::size_t i = 0; i < taps.size(); ++i)
-            values[i] = *taps[i].value;
+        recorder.note (taps, values);
         recorder.frame (values);
-        if (plotter) plotter->frame (values);
+        if (plotter) plotter->frame (std::span (values).last (taps.size()));
         progress (k);
         if (stopRequested()) fail ("run/interrupted", "stopped after " + std::to_string (k + 1) + " of " + std::to_string (*session.ticks()) + " ticks; nothing was written", "run it again, or with a shorter --duration");
     }

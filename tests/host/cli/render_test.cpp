@@ -202,3 +202,45 @@ TEST_CASE ("what the standard output cannot take is an error", "[cli]")
     if (! std::filesystem::exists ("/dev/full")) return;
     CHECK (test::runProgram ("sh", { "-c", std::string (TACTUS_PROGRAM) + " nodes > /dev/full" }).status == 1);
 }
+
+TEST_CASE ("ports of a section that runs `times` a tick are recorded at its rate if all do, else as they stand", "[cli][rates]")
+{
+    const Scratch scratch;
+    const auto graph = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 1, "name": "Fast", "rate_hz": 1000,
+      "nodes": { "sec": { "type": "graph:part", "times": 4 }, "amp": { "type": "signal.gain" } },
+      "wires": [],
+      "graphs": { "part": { "nodes": { "twice": { "type": "signal.gain", "params": { "gain": 2 } } }, "wires": [],
+                            "expose": { "inputs": { "in": "twice.in" }, "outputs": { "out": "twice.out" } } } } })"),
+               feed = scratch.write ("f.csv", "sec.in,amp.in\n0,1\n4,2\n0,3\n");
+
+    const auto column = [] (const host::Table& table, std::size_t c)
+    {
+        std::vector<double> values;
+        for (std::size_t r = 0; r < table.rows(); ++r)
+            values.push_back (table.at (r, c));
+        return values;
+    };
+    const auto recorded = [&] (const std::string& ports)
+    {
+        const auto ran = runTactus ({ "render", graph, "--feed", feed, "--record", ports, "--out", scratch.path ("out.csv"), "--out", scratch.path ("out.wav") });
+        INFO (ran.err);
+        REQUIRE (ran.status == 0);
+        const auto table = host::readTable (std::filesystem::path (scratch.path ("out.csv")));
+        REQUIRE (table);
+        const auto wave = host::readWav (scratch.path ("out.wav"));
+        REQUIRE (wave);
+        return std::pair { *table, *wave };
+    };
+
+    const auto [rows, fast] = recorded ("sec.out,sec/twice.in");
+    CHECK (column (rows, 1) == std::vector { 0.0, 8.0, 0.0 });
+    CHECK (fast.rate_hz == 4000.0);
+    REQUIRE (fast.channels.size() == 2);
+    CHECK (fast.channels[0] == std::vector { 0.0, 0.0, 0.0, 0.0, 2.0, 4.0, 6.0, 8.0, 6.0, 4.0, 2.0, 0.0 });
+    CHECK (fast.channels[1] == std::vector { 0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 3.0, 2.0, 1.0, 0.0 });
+
+    const auto [both, slow] = recorded ("sec.out,amp.out");
+    CHECK (column (both, 2) == std::vector { 1.0, 2.0, 3.0 });
+    CHECK (slow.rate_hz == 1000.0);
+    CHECK (slow.channels[0] == std::vector { 0.0, 8.0, 0.0 });
+}
