@@ -18,7 +18,7 @@ namespace
 {
 constexpr int max_depth = 32;
 constexpr std::size_t max_nodes = 1'000'000;   // subgraphs within subgraphs multiply: a small file can ask for 2^32
-constexpr std::size_t max_wires = 4'000'000;   // from all instances to all instances; and as many values for them
+constexpr std::size_t max_wires = 2'000'000;   // from all instances to all instances; and as many values for them
 
 /// Room for more, which many small steps do not move each time.
 template <typename T>
@@ -107,9 +107,11 @@ private:
         open.pop_back();
     }
 
-    bool isTooLarge (Origin here)
+    /// Asked before anything that multiplies is made.
+    bool isTooLarge (Origin here, std::size_t more_nodes = 0, std::size_t more_wires = 0)
     {
-        if (! too_large && (flat.nodes.size() + flat.scopes.size() > max_nodes || flat.wires.size() > max_wires || flat.assignments.size() > max_wires)) too_large = here;
+        const bool is_over = flat.nodes.size() + flat.scopes.size() + more_nodes > max_nodes || std::max (flat.wires.size(), flat.assignments.size()) + more_wires > max_wires;
+        if (is_over && ! too_large) too_large = here;
         return too_large.has_value();
     }
 
@@ -230,9 +232,9 @@ private:
         }
         checkRoles (scope, node, here, *first.patch, count.value_or (1));
 
+        if (count && isTooLarge (at (here, "count"), static_cast<std::size_t> (*count) * (first.patch->nodes.size() + 1))) return;
         member.counted = count.has_value();
-        const auto place = count ? at (here, "count") : all_nodes;
-        for (int k = 0; k < count.value_or (1) && ! isTooLarge (place) && ! flat.isFull(); ++k)
+        for (int k = 0; k < count.value_or (1) && ! isTooLarge (all_nodes) && ! flat.isFull(); ++k)
         {
             auto inside = std::make_unique<Scope>();
             inside->owner = first.owner;
@@ -248,13 +250,13 @@ private:
 
         for (const auto& [key, value] : membersOf (node.params))
             assign (scope, node.name + "." + key, value, at (here, "params", key));
-        readOverrides (scope, node, here);
+        giveOverrides (scope, node, here);
         if (node.bypass)
             for (std::size_t k = 0; k < member.instances.size(); ++k)
                 bypassSubgraph (scope, node, here, muted, *member.instances[k], static_cast<int> (k));
     }
 
-    void readOverrides (const Scope& scope, const graph::Node& node, Origin here)
+    void giveOverrides (const Scope& scope, const graph::Node& node, Origin here)
     {
         for (const auto* entry : graph::byPrecedence (node.overrides))
         {
@@ -408,10 +410,10 @@ private:
     void addEach (FlatWire& w, bool is_drawn)
     {
         const auto from = std::max (starts.size(), std::size_t { 1 });
+        if (isTooLarge (w.origin, 0, from * ends.size())) return;
         for (const auto& to : ends)
             for (std::size_t k = 0; k < from; ++k)
             {
-                if (isTooLarge (w.origin)) return;
                 w.to = to;
                 if (! starts.empty()) w.from = starts[k];
                 w.crosses = (w.from && flat.node (*w.from).section != w.section) || flat.node (to).section != w.section;
@@ -475,8 +477,9 @@ private:
     void assign (const Scope& scope, const graph::Endpoint& e, const Json& value, Origin origin)
     {
         find (e, Side::param, scope, origin, flat, ends);
+        if (isTooLarge (origin, 0, ends.size())) return;
         for (const auto& to : ends)
-            if (! isTooLarge (origin)) flat.assignments.push_back ({ to, &value, &value, 0.0, origin });
+            flat.assignments.push_back ({ to, &value, &value, 0.0, origin });
     }
 
     std::optional<graph::Endpoint> parameter (std::string_view name, Origin origin)
@@ -511,6 +514,7 @@ private:
                 const auto e = parameter (t.path, here);
                 if (! e) continue;
                 find (*e, Side::param, *result.top, here, flat, ends);
+                if (isTooLarge (here, 0, ends.size())) return;
                 for (const auto& to : ends)
                     flat.assignments.push_back ({ to, &t.low, &t.high, value, here });
             }

@@ -71,7 +71,8 @@ private:
             return graph::RenameNode { in, node->name, freshName() };
         case 3:
         case 4:
-            return type ? setParam (*node, *type) : std::nullopt;
+            return type ? setParam (*node, *type) : node->type.starts_with ("graph:") ? setOverride (*node)
+                                                                                      : std::nullopt;
         case 5:
             return type ? setSetting (*node, *type) : std::nullopt;
         case 6:
@@ -111,6 +112,18 @@ private:
         };
         if (sheet->width == 1) return graph::SetParam { in, node.name, id, Json (number()) };
         return graph::SetParam { in, node.name, id, Json::array ({ number(), number(), number() }) };
+    }
+
+    /// Of something inside, in all instances or in one.
+    std::optional<graph::Command> setOverride (const graph::Node& node)
+    {
+        const auto* inner = oneOf (g.find (node.type.substr (6))->nodes);
+        const auto* type = inner ? catalogue().find (inner->type) : nullptr;
+        const auto set = type ? setParam (*inner, *type) : std::nullopt;
+        if (! set) return std::nullopt;
+        const auto& [in_patch, name, param, value, place] = std::get<graph::SetParam> (set->edit);
+        const auto instance = oneIn (2) && node.extra.contains ("count") ? "[" + std::to_string (below (3)) + "]/" : "";
+        return graph::SetOverride { in, node.name, instance + name + "." + param, value };
     }
 
     std::optional<graph::Command> setSetting (const graph::Node& node, const NodeType& type)

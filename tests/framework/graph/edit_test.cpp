@@ -118,6 +118,7 @@ public:
             return SetNodeKey { patch, nodeIn (p), oneOf ({ "count", "ui", "note", "bypass" }), maybe (oneIn (2) ? Json (2) : oneIn (2) ? Json (true)
                                                                                                                                         : Json::object()) };
         case 7:
+            if (oneIn (2)) return SetOverride { patch, nodeIn (p), oneOf ({ "n1.mu", "[1]/n1.mu", "[*]/n2[0]/n1.x", "bad" }), maybe (1), place() };
             return SetNodeKey { patch, nodeIn (p), "overrides", maybe (Json { { "n1.mu", 1 }, { "[1]/n1.mu", 2 }, { "n2/n1.x", 3 } }) };
         case 8:
             return AddWire { patch, anyWire (p), place() };

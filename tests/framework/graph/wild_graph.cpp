@@ -153,7 +153,7 @@ private:
         n.params = dice.object ({ "mu", "gain", "position" });
         n.settings = dice.object ({ "curve", "table" });
         if (dice.oneIn (5)) n.roles = Json { { "tip", Json::array ({ "thumb", "index" }) }, { "base", "palm" } };
-        if (dice.oneIn (5)) n.overrides = dice.object ({ "drag.mu", "[3]/drag.mu", "a/b.c" });
+        if (dice.oneIn (5)) n.overrides = dice.object ({ "drag.mu", "[3]/drag.mu", "[*]/n1.mu", "[0]/n1[2]/b.c", "a/b.c" });
         n.bypass = dice.oneIn (5);
         n.extra = dice.extra();
         if (dice.oneIn (5)) n.extra["count"] = 1 + dice.upTo (5);
@@ -164,7 +164,7 @@ private:
     {
         const auto& n = patch.nodes[static_cast<std::size_t> (dice.upTo (static_cast<int> (patch.nodes.size()) - 1))];
         Endpoint e;
-        e.node = n.name + (dice.oneIn (6) ? "[2]" : "") + (n.type.starts_with ("graph:") && dice.oneIn (2) ? "/n1" : "");
+        e.node = n.name + (dice.oneIn (6) ? dice.oneOf ({ "[2]", "[*]" }) : "") + (n.type.starts_with ("graph:") && dice.oneIn (2) ? "/n1" : "");
         e.port = dice.oneOf ({ "position", "force", "in", "x" });
         if (dice.oneIn (4)) e.index = dice.upTo (3);
         if (dice.oneIn (4)) e.component = dice.upTo (2);

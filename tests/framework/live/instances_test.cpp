@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Instances of a subgraph under edit: what goes on, and what begins.
 
+#include "support/chance_hand.hpp"
 #include "support/sketch.hpp"
 
 #include <framework/graph/param_edit.hpp>
 #include <framework/live.hpp>
 
 #include <catch2/catch.hpp>
-#include <rapidcheck/catch.h>
 
 using namespace tactus;
 using graph::SetNodeKey;
@@ -192,4 +192,43 @@ TEST_CASE ("a turn that is kept by an edit moves its instance, and no other", "[
     bench.live.undo();
     bench.tick (200);
     CHECK (bench.param ("finger[1].step") == 1.0);
+}
+
+TEST_CASE ("fingers of one hand come and go, and the other hand feels nothing of it", "[live][instances]")
+{
+    Sketch s;
+    auto& finger = s.subgraph ("finger");
+    s.add (finger, "at", "device.position").add (finger, "wall", "deform.plane").add (finger, "drag", "friction.elasto_plastic").add (finger, "motor", "device.force");
+    s.add (finger, "at.position -> wall.position").add (finger, "at.position -> drag.position").add (finger, "wall.resistance -> drag.normal_force").add (finger, "wall.force -> [3] -> motor.force").add (finger, "drag.force -> motor.force");
+    for (const std::string hand : { "left", "right" })
+    {
+        s.node (hand, "graph:finger");
+        s.graph.root.nodes.back().extra["count"] = 3;
+        s.graph.root.nodes.back().roles = { { "stylus", hand } };
+        s.graph.root.nodes.back().overrides = { { "[1]/drag.mu", 0.9 }, { "[2]/wall.offset", "0.5 mm" } };
+    }
+    constexpr std::size_t ticks = 2000;
+    const auto felt = [&] (bool edited)
+    {
+        Bench bench { s };
+        test::ChanceHand left { 1, ticks }, right { 2, ticks };
+        bench.live.engine().attach ("left", left);
+        bench.live.engine().attach ("right", right);
+        for (std::size_t k = 0; k < ticks; ++k)
+        {
+            if (edited && k % 10 == 9) bench.edit (SetNodeKey { "", "right", "count", Json (3 + static_cast<int> (k / 10) % 4) });
+            bench.tick();
+        }
+        return std::pair { left.efforts, right.efforts };
+    };
+    const auto [left, right] = felt (true);
+    const auto [quiet_left, quiet_right] = felt (false);
+    std::size_t left_differs = 0, right_differs = 0;
+    for (std::size_t k = 0; k < ticks; ++k)
+    {
+        left_differs += ! test::operator== (left[k], quiet_left[k]);
+        right_differs += ! test::operator== (right[k], quiet_right[k]);
+    }
+    CHECK (left_differs == 0);
+    CHECK (right_differs > ticks / 2);
 }
