@@ -133,11 +133,33 @@ void Engine::set (const plan::ParamRef& param, double value) noexcept
 void Engine::takeOver (Running& next) noexcept
 {
     next.plan->takeOver (*running->plan);
-    for (std::size_t i = 0; i < next.channels.size(); ++i)
-        if (! next.plan->roles[i].untouched) next.channels[i]->bumpless.begin();
     running = &next;
+    fade();
     handover.done (running);
     fresh = true;
+    settled = running->plan->rests.empty();
+    taken_at = ticks;
+}
+
+void Engine::fade() noexcept
+{
+    for (std::size_t i = 0; i < running->channels.size(); ++i)
+        if (! running->plan->roles[i].untouched) running->channels[i]->bumpless.begin();
+}
+
+/// What is changed in a section that rests comes when it runs, and so does the step.
+void Engine::fadeAgain() noexcept
+{
+    const auto since = ticks - taken_at;
+    bool runs = false;
+    settled = true;
+    for (const auto rests : running->plan->rests)
+    {
+        const auto first = (rests - taken_at % rests) % rests;
+        runs = runs || (first > 0 && since == first);
+        settled = settled && since >= first;
+    }
+    if (runs) fade();
 }
 
 /// What was set for a plan that had not come yet waits in its knobs, so a fresh one is looked through as well.
@@ -153,6 +175,7 @@ void Engine::turnKnobs() noexcept
 void Engine::beforePlan() noexcept
 {
     if (auto* next = handover.take()) takeOver (*next);
+    if (! settled) fadeAgain();
     if (fresh || touched.load (std::memory_order_relaxed)) turnKnobs();
 
     auto& [plan, used, scratch] = *running;

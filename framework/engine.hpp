@@ -135,6 +135,8 @@ private:
     void join (const Joining&, const Plan&);
     std::unique_ptr<Running> makeRunning (std::shared_ptr<Plan>);
     void takeOver (Running&) noexcept;
+    void fade() noexcept;
+    void fadeAgain() noexcept;
     void turnKnobs() noexcept;
 
     double rate_hz;
@@ -144,8 +146,9 @@ private:
 
     // Of the tick thread.
     Running* running;
-    bool fresh = true;   // the plan has not ticked yet
-    std::uint64_t ticks = 0;
+    bool fresh = true;     // the plan has not ticked yet
+    bool settled = true;   // all that is changed in the plan has run
+    std::uint64_t ticks = 0, taken_at = 0;
 };
 
 }   // namespace tactus

@@ -107,6 +107,7 @@ public:
     // For the plan that follows, and for those who turn knobs.
     plan::Flat flat;                                           ///< what it was built from
     std::vector<plan::Instance> instances;                     ///< as flat.nodes
+    std::vector<std::uint64_t> rests;                          ///< ticks from run to run of sections in which something is changed from the plan before
     std::vector<LineUse> lines;                                ///< by wire, then component
     std::vector<PassageUse> passages;                          ///< by wire, then component, then step
     std::vector<std::vector<plan::PortRef>> fed;               ///< as feeds: what each drives

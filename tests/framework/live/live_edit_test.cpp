@@ -43,6 +43,8 @@ graph::Graph touchable (unsigned seed, int size)
     s.add (branch, "a.force -> all.in[0]").add (branch, "b.force -> [1] -> all.in[1]").add (branch, "wall.force -> all.in[2]");
     branch.expose = { { { "position", { "wall", "position" } }, { "at_a", { "a", "position" } }, { "at_b", { "b", "position" } } }, { { "force", { "all", "out" } } }, { { "offset", { "wall", "offset" } }, { "mu", { "b/drag", "mu" } } } };
 
+    branch.nodes[2].extra["every"] = 3;
+    branch.nodes[2].extra["hold"] = "linear";
     s.node ("hand", "device.position").node ("left", "graph:branch").node ("right", "graph:branch", { { "offset", "1 mm" }, { "mu", 0.5 } }).node ("motor", "device.force");
     for (const std::string which : { "left", "right" })
     {
@@ -76,7 +78,10 @@ public:
             wanted.force += e.force;
             wanted.torque += e.torque;
         }
-        if (taken_over && ! role->untouched)
+        if (taken_over) taken_at = plan.number;
+        const bool comes_late = ! taken_over && std::ranges::any_of (plan.rests, [&] (std::uint64_t rests)
+                                                                     { return (plan.number - 1) % rests == 0 && plan.number - taken_at < rests; });
+        if ((taken_over || comes_late) && ! role->untouched)
         {
             difference = (last.force - wanted.force).cwiseAbs() + (last.torque - wanted.torque).cwiseAbs();
             own = { Vec3::Zero(), Vec3::Zero() };
@@ -102,6 +107,7 @@ private:
     Effort last, last_wanted, own;
     Vec3 difference = Vec3::Zero();
     int since = 1 << 20;
+    std::uint64_t taken_at = 0;   // number of the tick after
     bool was_stopped = false;
 };
 

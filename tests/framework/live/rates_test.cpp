@@ -218,3 +218,26 @@ TEST_CASE ("a node that is put into a section gives what it gave until the secti
         CHECK (bench.value() == (n < 8 ? 5.0 : 8.0));
     }
 }
+
+TEST_CASE ("what is put into a section that rests is felt when it runs, and without a step", "[live][rates]")
+{
+    auto sketch = with ({ { "every", 16 } }, { Sketch::makeNode ("motor", "device.force") }, {}, { { "force", "motor.force" } }, {});
+    sketch.graph.graphs[0].second.nodes[0].role = "stylus";
+    sketch.node ("push", "signal.constant", { { "value", "2 N" } });
+    Bench bench { sketch, {}, {} };
+    const auto applied = [&]
+    { return bench.live.engine().plan().roles[0].state->applied.force.x(); };
+    for (int n = 0; n < 21; ++n)
+        bench.tick();
+    bench.edit (graph::AddWire { "", std::get<graph::Wire> (graph::parseWire ("push.out -> sec.force.x")) });
+    double step = 0.0, last = applied();
+    for (int n = 21; n < 100; ++n)
+    {
+        bench.tick();
+        if (n <= 32) CHECK (applied() == 0.0);
+        step = std::max (step, std::abs (applied() - last));
+        last = applied();
+    }
+    CHECK (last == 2.0);
+    CHECK (step <= 2.0 * 3.14159266 / 80.0);
+}
