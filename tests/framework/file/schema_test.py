@@ -43,7 +43,7 @@ bad = [
     (["rate_hz"], 0), (["rate_hz"], "4 kHz"), (["devices", "Left"], {}), (["devices", "stylus"], "sim"), (["nodes"], []),
     (["nodes", "Hand"], {"type": "x"}), (["nodes", "hand", "type"], None), (["nodes", "hand", "type"], "graph:No"),
     (["nodes", "hand", "type"], "file:"), (["nodes", "hand", "role"], "Left"), (["nodes", "hand", "params"], {"d max": 1}),
-    (["nodes", "grain", "count"], 0), (["nodes", "grain", "hold"], "slow"), (["nodes", "grain", "bypass"], 1),
+    (["nodes", "grain", "count"], 0), (["nodes", "grain", "hold"], "slow"), (["nodes", "grain", "times"], 2), (["nodes", "grain", "bypass"], 1),
     (["nodes", "grain", "roles", "tip"], 3), (["nodes", "grain", "overrides", "phase"], 1), (["wires", 0], "a -> b"),
     (["wires", 0], "a.out => b.in"), (["wires", 0], "a.out -> [0] -> b.in"), (["wires", 2, "wire"], None),
     (["wires", 2, "gain"], "much"), (["wires", 2, "enabled"], 1), (["controls", "roughness", "value"], 2),

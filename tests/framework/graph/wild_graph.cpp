@@ -157,6 +157,8 @@ private:
         n.bypass = dice.oneIn (5);
         n.extra = dice.extra();
         if (dice.oneIn (5)) n.extra["count"] = 1 + dice.upTo (5);
+        if (dice.oneIn (5)) n.extra[dice.oneIn (2) ? "every" : "times"] = 1 + dice.upTo (5);
+        if (dice.oneIn (5)) n.extra["hold"] = dice.oneOf ({ "latch", "linear" });
         return n;
     }
 
