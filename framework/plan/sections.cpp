@@ -107,6 +107,8 @@ int openSection (const graph::Node& node, int around, const std::string& path, O
     const bool every = node.extra.contains ("every"), times = node.extra.contains ("times");
     if (node.extra.contains ("hold") && ! every)
         flat.warn ("rate/hold_alone", flat.at (here, "hold"), "'" + path + "' has a `hold`, but no `every` that leaves ticks to hold anything over", "remove it, or add \"every\"");
+    if (const auto hold = node.extra.value ("hold", Json ("latch")); hold != "latch" && hold != "linear")
+        flat.error ("rate/value", flat.at (here, "hold"), "`hold` of '" + path + "' is " + hold.dump() + ", and should be \"latch\" or \"linear\"", "write \"latch\", or leave it out");
     if (every && times)
         flat.error ("rate/both", flat.at (here, "times"), "'" + path + "' has an `every` and a `times`, and can run either less often or more often", "remove one of them");
     if (every == times) return around;

@@ -356,6 +356,7 @@ TEST_CASE ("what is wrong with a rate is said, each with its id and place", "[pl
     CHECK (is (problem ({ { "every", 0 } }), "rate/value", "/nodes/sec/every"));
     CHECK (is (problem ({ { "every", 2.5 } }), "rate/value", "/nodes/sec/every"));
     CHECK (is (problem ({ { "times", "two" } }), "rate/value", "/nodes/sec/times"));
+    CHECK (is (problem (every (2, "slow")), "rate/value", "/nodes/sec/hold"));
     CHECK (is (problem (every (5000)), "rate/value", "/nodes/sec/every"));   // below 1 Hz
     CHECK (is (problem (times (500)), "rate/value", "/nodes/sec/times"));    // above 1 MHz
     CHECK (is (problem ({ { "every", 2 }, { "times", 2 } }), "rate/both", "/nodes/sec/times"));
