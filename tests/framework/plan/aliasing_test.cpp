@@ -8,10 +8,10 @@ using namespace tactus::test;
 
 TEST_CASE ("aliasing is told where the rate falls", "[plan][rates]")
 {
-    const auto into = [] (std::string type, Json params, Json settings, int k, const std::string& output, const std::string& filter = "signal.gain", double cutoff = 0.0)
+    const auto into = [] (std::string type, Json params, Json settings, int k, const std::string& output, const std::string& filter = "signal.gain", Json filtered = Json::object())
     {
         auto sketch = doubling (every (k));
-        sketch.node ("source", std::move (type), std::move (params), std::move (settings)).node ("filter", filter, cutoff > 0.0 ? Json { { "cutoff", cutoff } } : Json::object());
+        sketch.node ("source", std::move (type), std::move (params), std::move (settings)).node ("filter", filter, std::move (filtered));
         sketch.wire (output + " -> filter.in").wire ("filter.out -> sec.in");
         return sketch.compile().messages;
     };
@@ -19,7 +19,9 @@ TEST_CASE ("aliasing is told where the rate falls", "[plan][rates]")
     { return Json { { "modes", Json::array ({ { { "frequency", f }, { "decay", 20.0 }, { "amplitude", 0.5 } } }) } }; };
     CHECK (has (into ("vibration.modal", Json::object(), mode (800.0), 4, "source.value"), "rate/aliasing"));   // 1 kHz
     CHECK_FALSE (has (into ("vibration.modal", Json::object(), mode (300.0), 4, "source.value"), "rate/aliasing"));
-    CHECK_FALSE (has (into ("vibration.modal", Json::object(), mode (800.0), 4, "source.value", "filter.one_pole", 200.0), "rate/aliasing"));
+    CHECK_FALSE (has (into ("vibration.modal", Json::object(), mode (800.0), 4, "source.value", "filter.one_pole", { { "cutoff", 200.0 } }), "rate/aliasing"));
+    CHECK (has (into ("vibration.modal", Json::object(), mode (800.0), 4, "source.value", "filter.biquad", { { "cutoff", 200.0 }, { "kind", "high" } }), "rate/aliasing"));
+    CHECK_FALSE (has (into ("vibration.modal", Json::object(), mode (800.0), 4, "source.value", "filter.biquad", { { "cutoff", 200.0 }, { "kind", "low" } }), "rate/aliasing"));
     CHECK (has (into ("texture.grating", { { "spatial_frequency", 1200.0 } }, Json::object(), 4, "source.value"), "rate/aliasing"));
     CHECK_FALSE (has (into ("texture.grating", { { "spatial_frequency", 100.0 } }, Json::object(), 4, "source.value"), "rate/aliasing"));
 
