@@ -22,15 +22,15 @@ std::optional<int> countOf (const Node& node) noexcept
     return n >= 1.0 && n <= most_instances && n == std::floor (n) ? static_cast<int> (n) : 0;
 }
 
-Step firstStep (std::string_view path) noexcept
+PathStep firstStep (std::string_view path) noexcept
 {
     const auto end = std::min (path.find ('/'), path.size());
     const auto bracket = std::min (path.find ('['), end);
-    Step step { .name = path.substr (0, bracket), .rest = path.substr (std::min (end + 1, path.size())) };
+    PathStep step { .name = path.substr (0, bracket), .rest = path.substr (std::min (end + 1, path.size())) };
     if (bracket == end) return step;
 
     const auto number = path.substr (bracket + 1, end - bracket - 2);
-    step.instance = Step::all;
+    step.instance = PathStep::all;
     if (number != "*" && std::from_chars (number.data(), number.data() + number.size(), step.instance).ec != std::errc {}) step.instance = std::numeric_limits<int>::max();
     return step;
 }

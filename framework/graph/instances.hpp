@@ -19,7 +19,7 @@ inline constexpr int most_instances = 1'000'000;
 std::optional<int> countOf (const Node&) noexcept;
 
 /// The first name of a path, and which of its instances is meant.
-struct Step
+struct PathStep
 {
     static constexpr int not_said = -2, all = -1;
 
@@ -28,7 +28,7 @@ struct Step
     std::string_view rest;     ///< of the path, without the '/'
 };
 
-Step firstStep (std::string_view path) noexcept;
+PathStep firstStep (std::string_view path) noexcept;
 
 /// How many names of a path, or of the path of a port, say one instance: "a[3]/b[*]/c.in[2]" is 1. Of two values for one
 /// parameter the one whose path says more holds.

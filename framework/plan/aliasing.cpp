@@ -109,7 +109,7 @@ public:
     std::optional<Content> of (int node, double rate_hz) const
     {
         const auto& n = flat.nodes[at (node)];
-        if (! n.runs() || ! limits (n)) return std::nullopt;
+        if (! n.runs() || ! limits (node)) return std::nullopt;
         const auto name = "'" + n.path + "' (" + std::string (n.type->info.id) + ")";
 
         if (const double highest = Frequencies (flat, node).highest(); highest > 0.0)
@@ -139,11 +139,12 @@ private:
     std::vector<std::vector<int>> into;   // the nodes from which each hears
 
     /// Of a filter that may be of several kinds, only the low-pass is one for all that is above.
-    static bool limits (const FlatNode& n)
+    bool limits (int node) const
     {
+        const auto& n = flat.nodes[at (node)];
         if (! generic (n) || n.type->inputs.empty()) return true;
-        for (std::size_t p = 0; p < n.params.size(); ++p)
-            if (const auto& names = n.type->params[p].choices; ! names.empty() && names[static_cast<std::size_t> (n.params[p][0])] != "low") return false;
+        for (std::size_t p = 0; p < n.type->params.size(); ++p)
+            if (const auto& names = n.type->params[p].choices; ! names.empty() && names[static_cast<std::size_t> (flat.param (node, p)[0])] != "low") return false;
         return true;
     }
 

@@ -94,9 +94,9 @@ private:
         return false;
     }
 
-    bool hasInstance (const Scope& scope, const Scope::Member& member, const graph::Step& step) const
+    bool hasInstance (const Scope& scope, const Scope::Member& member, const graph::PathStep& step) const
     {
-        if (step.instance == graph::Step::not_said || (member.counted && step.instance < static_cast<int> (member.instances.size()))) return true;
+        if (step.instance == graph::PathStep::not_said || (member.counted && step.instance < static_cast<int> (member.instances.size()))) return true;
         const auto name = scope.prefix + std::string (step.name);
         if (member.counted)
             flat.error ("port/no_instance", origin, "'" + name + "' has " + std::to_string (member.instances.size()) + " instances, counted from 0, and no [" + std::to_string (step.instance) + "]", "use a smaller number, or raise its `count`");
@@ -229,7 +229,7 @@ std::vector<std::string> spelledOut (std::string_view path, const Scope& scope)
     const auto step = graph::firstStep (path);
     const auto* member = scope.find (step.name);
     const auto size = member == nullptr ? 0 : member->instances.size();
-    if (size == 0 || (step.instance != graph::Step::not_said && ! member->counted)) return { std::string (path) };
+    if (size == 0 || (step.instance != graph::PathStep::not_said && ! member->counted)) return { std::string (path) };
 
     std::vector<std::string> all;
     const bool every = step.instance < 0;

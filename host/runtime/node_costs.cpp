@@ -9,6 +9,18 @@
 namespace tactus::host
 {
 
+namespace
+{
+/// The outermost section that a node runs in with others, as one record; null if it runs by itself.
+const plan::Section* sectionAround (const plan::Flat& flat, const plan::FlatNode& node)
+{
+    int section = node.section;
+    while (section > 0 && flat.section (section).around > 0)
+        section = flat.section (section).around;
+    return section > 0 ? &flat.sections[static_cast<std::size_t> (section)] : nullptr;
+}
+}   // namespace
+
 NodeCosts::NodeCosts (const TickClock& c) : clock (c) {}
 
 void NodeCosts::begin() noexcept
@@ -105,7 +117,8 @@ std::vector<NodeCost> NodeCosts::of (const Plan& plan)
         still_there.insert (*mean);
         if (records[i] == 0) continue;   // muted
         // A sample is of any of its records, each as often as the others.
-        costs.push_back ({ plan.flat.nodes[i].path, std::string (plan.flat.nodes[i].type->info.id), mean->second.value * records[i], 0.0 });
+        const auto* section = sectionAround (plan.flat, plan.flat.nodes[i]);
+        costs.push_back ({ section ? section->path : plan.flat.nodes[i].path, section ? "subgraph" : std::string (plan.flat.nodes[i].type->info.id), mean->second.value * records[i], 0.0 });
         all += costs.back().mean_s;
     }
     means = std::move (still_there);

@@ -15,7 +15,8 @@
 namespace tactus::host
 {
 
-/// What a node costs, with the sums, delays and driven parameters before it.
+/// What a node costs, with the sums, delays and driven parameters before it. Of a subgraph with a rate of its own, which runs
+/// as a whole, all of it: its type is "subgraph".
 struct NodeCost
 {
     std::string node, type;   ///< "left/drag", "friction.elasto_plastic"

@@ -153,3 +153,30 @@ TEST_CASE ("what a node costs is found, also when it is driven, summed up to and
     run (*next);
     CHECK (costOf (costs.of (*next), "new").mean_s < before);
 }
+
+TEST_CASE ("what runs at a rate of its own is one part of the costs", "[runtime]")
+{
+    test::Sketch s;
+    s.node ("idle", "signal.abs").node ("part", "graph:bell");
+    s.graph.root.nodes.back().extra = { { "every", 2 } };
+    s.add (s.subgraph ("bell"), "bar", "vibration.modal", Json::object(), modes (500));
+    s.add (s.subgraph ("bell"), "other", "vibration.modal", Json::object(), modes (50));
+    const auto plan = s.compile().plan;
+    REQUIRE (plan);
+    REQUIRE (plan->owners.size() == plan->records.size());
+
+    const FreeRun clock;
+    NodeCosts costs { clock };
+    costs.begin();
+    for (int k = 0; k < 2000; ++k)
+    {
+        plan->number = static_cast<std::uint64_t> (k);
+        costs.earn (1.0);
+        costs.tick (*plan);
+        costs.collect();
+    }
+    const auto all = costs.of (*plan);
+    REQUIRE (all.size() == 2);
+    CHECK (describe (all[0]).starts_with ("'part' (subgraph) takes "));
+    CHECK (all[0].share > 0.5);
+}
