@@ -77,6 +77,12 @@ void Engine::attach (std::string_view role, Device& device, const GuardLimits& l
     device.prepare (1.0 / rate_hz);
 }
 
+void Engine::report (Journal& to) noexcept
+{
+    journal = &to;
+    journal->tookOver (*running->plan);
+}
+
 std::shared_ptr<Plan> Engine::withdraw()
 {
     const auto back = handover.takeBack();
@@ -132,7 +138,8 @@ void Engine::set (const plan::ParamRef& param, double value) noexcept
 
 void Engine::takeOver (Running& next) noexcept
 {
-    next.plan->takeOver (*running->plan);
+    if (journal) journal->tookOver (*next.plan);
+    next.plan->takeOver (*running->plan, journal);
     running = &next;
     fade();
     handover.done (running);
@@ -162,19 +169,24 @@ void Engine::fadeAgain() noexcept
     if (runs) fade();
 }
 
+void Engine::takeSubmitted() noexcept
+{
+    if (auto* next = handover.take()) takeOver (*next);
+}
+
 /// What was set for a plan that had not come yet waits in its knobs, so a fresh one is looked through as well.
 void Engine::turnKnobs() noexcept
 {
     touched.exchange (false, std::memory_order_acquire);
     auto& ramps = running->plan->ramps;
-    ramps.look();
+    ramps.look (journal);
     if (fresh) ramps.startAll();
     fresh = false;
 }
 
 void Engine::beforePlan() noexcept
 {
-    if (auto* next = handover.take()) takeOver (*next);
+    takeSubmitted();
     if (! settled) fadeAgain();
     if (fresh || touched.load (std::memory_order_relaxed)) turnKnobs();
 
@@ -198,6 +210,7 @@ void Engine::afterPlan() noexcept
         if (channel.guard.stop() != Guard::Stop::none) channel.bumpless.stop (role.state->applied);
         if (channel.device) channel.device->write (role.state->applied);
     }
+    if (journal) journal->ticked (*plan);
     ++ticks;
 }
 
@@ -209,12 +222,14 @@ void Engine::tick() noexcept
 
 void Engine::halt() noexcept
 {
+    if (journal) journal->halted();
     for (auto* channel : running->channels)
         channel->guard.halt();
 }
 
 void Engine::resume() noexcept
 {
+    if (journal) journal->resumed();
     for (auto* channel : running->channels)
         channel->guard.resume();
 }

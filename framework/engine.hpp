@@ -4,6 +4,7 @@
 #include "bumpless.hpp"
 #include "guard.hpp"
 #include "handover.hpp"
+#include "journal.hpp"
 #include "message.hpp"
 #include "plan/plan.hpp"
 
@@ -29,6 +30,9 @@ public:
 
     /// Gives a role its device, which must outlive the engine, and the limits of its guard. [main thread, before ticking]
     void attach (std::string_view role, Device&, const GuardLimits& = {});
+
+    /// Tells a journal, which must outlive the engine, all that comes in. [main thread, before ticking]
+    void report (Journal&) noexcept;
 
     /// A device for a role that has none.
     struct Joining
@@ -83,6 +87,10 @@ public:
         step (*running->plan);
         afterPlan();
     }
+
+    /// Takes the plan that was submitted, if there is one, as the next tick would do first: what is set afterwards is set
+    /// for that plan. [tick thread]
+    void takeSubmitted() noexcept;
 
     /// Brings the efforts of all roles to zero, smoothly, and keeps them there. [tick thread]
     void halt() noexcept;
@@ -146,6 +154,7 @@ private:
 
     // Of the tick thread.
     Running* running;
+    Journal* journal = nullptr;
     bool fresh = true;     // the plan has not ticked yet
     bool settled = true;   // all that is changed in the plan has run
     std::uint64_t ticks = 0, taken_at = 0;

@@ -100,4 +100,14 @@ std::variant<std::vector<ParamRef>, Message> findParams (const Plan& plan, std::
     return params;
 }
 
+std::string nameOf (const Plan& plan, std::size_t instance, std::size_t knob)
+{
+    const auto& params = plan.flat.nodes[instance].type->params;
+    std::size_t p = 0;
+    for (; knob >= Knobs::roomOf (params[p]); ++p)
+        knob -= Knobs::roomOf (params[p]);
+    const int component = static_cast<int> (knob);
+    return plan.flat.nameOf ({ .node = static_cast<int> (instance), .role = Role::param, .port = static_cast<int> (p), .index = params[p].list ? component : -1, .component = ! params[p].list && params[p].width > 1 ? component : -1 });
+}
+
 }   // namespace tactus::plan

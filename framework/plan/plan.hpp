@@ -88,11 +88,13 @@ public:
     }
 
     /// Goes on where the plan it was compiled to follow stands now. Before the first tick. [tick thread]
-    void takeOver (const Plan& before) noexcept
+    void takeOver (const Plan& before, Journal* journal = nullptr) noexcept
     {
         if (feeds.size() == before.feeds.size()) std::ranges::copy (before.feeds, feeds.begin());
-        takeover.carryOut (instances, ramps);
+        takeover.carryOut (instances, ramps, journal);
     }
+
+    std::uint64_t serial = plan::newSerial();   ///< of this plan, in its process; a later one has a higher one
 
     double rate_hz = 0.0;       ///< of its ticks
     std::uint64_t number = 0;   ///< of the tick that comes next, counted through all plans; whoever steps the records one by one sets it before each tick

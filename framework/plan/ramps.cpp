@@ -13,7 +13,7 @@ void Ramps::prepare (std::span<const Instance> all, double rate_hz)
     ticks = std::max (1, static_cast<int> (std::lround (ramp_s * rate_hz)));
 }
 
-void Ramps::look() noexcept
+void Ramps::look (Journal* journal) noexcept
 {
     for (std::size_t i = 0; i < instances.size(); ++i)
     {
@@ -25,7 +25,9 @@ void Ramps::look() noexcept
             const auto turns = knob.turns.load (std::memory_order_acquire);
             if (turns == knob.heeded) continue;
             knob.heeded = turns;
-            head (i, k, knob.target.load (std::memory_order_relaxed));
+            const double target = knob.target.load (std::memory_order_relaxed);
+            head (i, k, target);
+            if (journal) journal->turned (i, k, target);
         }
     }
 }

@@ -3,6 +3,8 @@
 
 #include "instance.hpp"
 
+#include <framework/journal.hpp>
+
 #include <span>
 
 namespace tactus::plan
@@ -17,10 +19,10 @@ public:
 
     void prepare (std::span<const Instance>, double rate_hz);   // [main thread]
 
-    void look() noexcept;       ///< heads for all targets that were set since it last looked   [tick thread]
-    void goOn() noexcept;       ///< with what is on its way from the plan before               [tick thread]
-    void step() noexcept;       ///< one tick further                                           [tick thread]
-    void startAll() noexcept;   ///< all nodes have ticked now                                  [tick thread]
+    void look (Journal* = nullptr) noexcept;   ///< heads for all targets that were set since it last looked   [tick thread]
+    void goOn() noexcept;                      ///< with what is on its way from the plan before               [tick thread]
+    void step() noexcept;                      ///< one tick further                                           [tick thread]
+    void startAll() noexcept;                  ///< all nodes have ticked now                                  [tick thread]
 
     void head (std::size_t instance, std::size_t knob, double to, bool at_once = false) noexcept;   // [tick thread]
 

@@ -6,7 +6,7 @@
 namespace tactus::plan
 {
 
-void Takeover::carryOut (std::span<const Instance> instances, Ramps& ramps) const noexcept
+void Takeover::carryOut (std::span<const Instance> instances, Ramps& ramps, Journal* journal) const noexcept
 {
     for (const auto& [line, old] : relays)
         line->adopt (*old);
@@ -39,7 +39,11 @@ void Takeover::carryOut (std::span<const Instance> instances, Ramps& ramps) cons
     {
         auto& knob = instances[i].knobs->all[k];
         const bool turned_since = static_cast<std::int32_t> (knob.heeded - turns) > 0;
-        if (turned_since) continue;
+        if (turned_since)
+        {
+            if (journal) journal->outdone (i, k);
+            continue;
+        }
         knob.heeded = turns;
         ramps.head (i, k, value, at_once);
     }

@@ -68,7 +68,7 @@ struct Takeover
     std::vector<Passing> passings;
     std::vector<Standing> standing;
 
-    void carryOut (std::span<const Instance>, Ramps&) const noexcept;   // [tick thread]
+    void carryOut (std::span<const Instance>, Ramps&, Journal*) const noexcept;   // [tick thread]
 };
 
 }   // namespace tactus::plan

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "ids.hpp"
+
+#include <algorithm>
+
+namespace tactus::graph
+{
+
+namespace
+{
+/// Every node and wire, in the order of the file.
+template <typename Graph, typename Visit>
+void forEach (Graph& graph, Visit visit)
+{
+    const auto patch = [&] (auto& p)
+    {
+        for (auto& node : p.nodes)
+            visit (node);
+        for (auto& wire : p.wires)
+            visit (wire);
+    };
+    patch (graph.root);
+    for (auto& [name, subgraph] : graph.graphs)
+        patch (subgraph);
+}
+
+bool isId (const Json& value) { return value.is_number_unsigned(); }
+
+bool isEntry (const Json& value) { return isId (value) || (value.is_array() && value.size() > 1 && std::ranges::all_of (value, isId)); }
+}   // namespace
+
+Json idsOf (const Graph& graph)
+{
+    auto all = Json::array();
+    forEach (graph, [&] (const auto& thing)
+             {
+        if (thing.origin.empty())
+        {
+            all.push_back (thing.id);
+            return;
+        }
+        auto& entry = all.emplace_back (Json::array ({ thing.id }));
+        for (const Id id : thing.origin)
+            entry.push_back (id); });
+    return all;
+}
+
+bool giveIds (Graph& graph, const Json& ids)
+{
+    if (! ids.is_array() || ! std::ranges::all_of (ids, isEntry)) return false;
+    std::size_t count = 0;
+    forEach (graph, [&] (const auto&)
+             { ++count; });
+    if (count != ids.size()) return false;
+
+    auto next = ids.begin();
+    forEach (graph, [&] (auto& thing)
+             {
+        const auto& entry = *next++;
+        thing.origin.clear();
+        thing.id = entry.is_array() ? entry[0].get<Id>() : entry.get<Id>();
+        for (std::size_t i = 1; entry.is_array() && i < entry.size(); ++i)
+            thing.origin.push_back (entry[i].get<Id>()); });
+    return true;
+}
+
+}   // namespace tactus::graph
