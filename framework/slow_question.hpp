@@ -5,20 +5,16 @@
 /// is near. A question asked on tick k is answered on tick k + `ticks`, never earlier and never later, so that every run
 /// of the same inputs gives the same bits.
 ///
-/// Live, a SlowAnswers thread works the answers out. One that is not ready when it is due is dropped, and as long as its
-/// question is still being worked on, no other takes its place: such a tick is *late*, and is kept for the record.
-/// Without a thread, as when rendering, answers are worked out when they are due.
+/// Live, an AnsweringThread works the answers out. One that is not ready when it is due is dropped, and as long as its
+/// question is still being worked on, no other takes its place: such a tick is *late*, and a journal is told.
+/// Without a thread, as when rendering, answers are worked out when they are due; RepeatedAnswers makes late what was.
 
 #include <atomic>
 #include <concepts>
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <mutex>
 #include <optional>
-#include <span>
-#include <thread>
 #include <vector>
 
 namespace tactus
@@ -34,32 +30,22 @@ public:
     virtual bool answer() noexcept = 0;
 };
 
-/// The thread that answers. Nothing here is called on the tick thread.
+/// Who answers the slow questions of a graph, and says which answers are late.
 class SlowAnswers
 {
 public:
-    SlowAnswers();
-    ~SlowAnswers();
+    SlowAnswers() = default;
+    virtual ~SlowAnswers() = default;
     SlowAnswers (const SlowAnswers&) = delete;
     SlowAnswers& operator= (const SlowAnswers&) = delete;
 
-    void add (Asker&);      // [main thread]
-    void remove (Asker&);   // [main thread] waits until nothing of this asker is being answered
+    virtual void add (Asker&) = 0;      // [main thread]
+    virtual void remove (Asker&) = 0;   // [main thread] nothing of this asker is being answered any more
 
-    void noteLate() noexcept { late_ticks.fetch_add (1, std::memory_order_relaxed); }                  // [tick thread]
-    std::uint64_t lateTicks() const noexcept { return late_ticks.load (std::memory_order_relaxed); }   ///< of all askers together [any thread]
-
-private:
-    void run();
-    std::unique_lock<std::mutex> turn();
-
-    std::mutex guard;   // of askers
-    std::condition_variable woken;
-    std::atomic<int> waiting = 0;
-    std::vector<Asker*> askers;
-    std::atomic<bool> stopping = false;
-    std::atomic<std::uint64_t> late_ticks = 0;
-    std::thread thread;
+    /// Whether what is due is late, by whether it is ready. Each stream of questions asks once each tick, in the order in
+    /// which its node ticks; so these calls, counted from 0 since the start, are the same ones in a run that is repeated,
+    /// and their number is what the journal is told. [tick thread]
+    virtual bool isLate (bool ready) noexcept = 0;
 };
 
 /// One stream of questions, at most one a tick. Question and Answer are small and copied.
@@ -70,7 +56,6 @@ public:
     /// `how` must be noexcept, and give the same answer to the same question. `ticks` is at least 1. [main thread]
     SlowQuestion (std::function<Answer (const Question&)> how_, int ticks, SlowAnswers* by) : how (std::move (how_)), slots (static_cast<std::size_t> (ticks)), answers (by)
     {
-        late_ticks.reserve (late_capacity);
         if (answers) answers->add (*this);
     }
 
@@ -86,32 +71,27 @@ public:
     /// `ticks` from now. To be called once each tick. [tick thread]
     std::optional<Answer> operator() (const std::optional<Question>& next) noexcept
     {
-        auto& slot = slots[static_cast<std::size_t> (now % slots.size())];
-        std::optional<Answer> due;
-        if (isLate (slot))
-            noteLate();
-        else
+        auto& slot = slots[now];
+        now = now + 1 < slots.size() ? now + 1 : 0;
+
+        const State state = slot.state.load (std::memory_order_acquire);
+        if (answers && answers->isLate (state != State::asked))
         {
-            const State state = slot.state.load (std::memory_order_acquire);
-            if (! slot.dropped && state == State::answered) due = slot.answer;
-            if (! slot.dropped && state == State::asked) due = how (slot.question);   // there is no thread
-            slot.dropped = false;
-            slot.state.store (State::empty, std::memory_order_relaxed);
-            if (next)
-            {
-                slot.question = *next;
-                slot.state.store (State::asked, std::memory_order_release);
-            }
+            slot.dropped = true;
+            return std::nullopt;
         }
-        ++now;
+        std::optional<Answer> due;
+        if (! slot.dropped && state == State::answered) due = slot.answer;
+        if (! slot.dropped && state == State::asked) due = how (slot.question);   // there is no thread
+        slot.dropped = false;
+        slot.state.store (State::empty, std::memory_order_relaxed);
+        if (next)
+        {
+            slot.question = *next;
+            slot.state.store (State::asked, std::memory_order_release);
+        }
         return due;
     }
-
-    /// The late ticks so far, the first 4096 of them. [tick thread, or after it]
-    std::span<const std::uint64_t> lateTicks() const noexcept { return late_ticks; }
-
-    /// Makes these ticks late, and no others: an earlier run is repeated. Only without a thread, before the first tick.
-    void repeat (std::vector<std::uint64_t> late) { to_repeat = std::move (late); }
 
     bool answer() noexcept override
     {
@@ -142,28 +122,10 @@ private:
         bool dropped = false;   // was late: what comes of it is not wanted any more   [tick thread]
     };
 
-    bool isLate (Slot& slot) noexcept
-    {
-        if (answers) return slot.state.load (std::memory_order_acquire) == State::asked;
-        return next_repeat < to_repeat.size() && to_repeat[next_repeat] == now;
-    }
-
-    void noteLate() noexcept
-    {
-        slots[static_cast<std::size_t> (now % slots.size())].dropped = true;
-        if (late_ticks.size() < late_capacity) late_ticks.push_back (now);
-        if (answers) answers->noteLate();
-        if (next_repeat < to_repeat.size()) ++next_repeat;
-    }
-
-    static constexpr std::size_t late_capacity = 4096;
-
     std::function<Answer (const Question&)> how;
     std::vector<Slot> slots;
     SlowAnswers* answers;
-    std::uint64_t now = 0;
-    std::vector<std::uint64_t> late_ticks, to_repeat;
-    std::size_t next_repeat = 0;
+    std::size_t now = 0;   // the slot of this tick
 };
 
 }   // namespace tactus

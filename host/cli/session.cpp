@@ -71,7 +71,7 @@ void SessionOptions::addTo (CLI::App& app)
 
 Session::Session (const SessionOptions& options, Pace pace) : told (options), loaded (loadGraph (options.graph)), records (options.records)
 {
-    if (pace == Pace::live) answers = std::make_unique<SlowAnswers>();
+    if (pace == Pace::live) answers = std::make_unique<AnsweringThread>();
     if (report (loaded.messages, loaded, told.graph) > 0) throw Stop {};
     readFeed();
     compileGraph();

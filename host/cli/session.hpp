@@ -3,10 +3,10 @@
 
 #include "feed.hpp"
 
+#include <framework/answering_thread.hpp>
 #include <framework/engine.hpp>
 #include <framework/file/graph_file.hpp>
 #include <framework/plan/compile.hpp>
-#include <framework/slow_question.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/devices/make_device.hpp>
 #include <host/runtime/probe_ring.hpp>
@@ -105,7 +105,7 @@ private:
     FileAssets assets;
     std::optional<Feed> feed;
     std::vector<Bound> devices;
-    std::unique_ptr<SlowAnswers> answers;   // before the engine, whose nodes ask it
+    std::unique_ptr<AnsweringThread> answers;   // before the engine, whose nodes ask it
     std::unique_ptr<Engine> running;
     double rate_hz = 0.0;
     std::optional<std::size_t> count;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <framework/slow_question.hpp>
+#include <framework/answering_thread.hpp>
+#include <framework/repeated_answers.hpp>
 
 #include "support/no_allocation.hpp"
 
@@ -7,6 +8,7 @@
 #include <rapidcheck/catch.h>
 
 #include <chrono>
+#include <deque>
 #include <limits>
 
 using namespace tactus;
@@ -54,11 +56,23 @@ struct Run
 {
     std::vector<std::optional<Answer>> answers;
     std::vector<std::uint64_t> late;
-
-    bool operator== (const Run&) const = default;
 };
 
-std::vector<std::uint64_t> copied (std::span<const std::uint64_t> s) { return { s.begin(), s.end() }; }
+/// Notes which answers were late. Of a single stream of questions, these are the ticks.
+struct Lateness final : Journal
+{
+    Lateness() { questions.reserve (20'000); }
+
+    void tookOver (const Plan&) noexcept override {}
+    void turned (std::size_t, std::size_t, double) noexcept override {}
+    void outdone (std::size_t, std::size_t) noexcept override {}
+    void late (std::uint64_t question) noexcept override { questions.push_back (question); }
+    void halted() noexcept override {}
+    void resumed() noexcept override {}
+    void ticked (const Plan&) noexcept override {}
+
+    std::vector<std::uint64_t> questions;
+};
 
 std::vector<bool> asksFrom (const std::vector<int>& dice)
 {
@@ -70,15 +84,15 @@ std::vector<bool> asksFrom (const std::vector<int>& dice)
 
 std::optional<Question> asked (const std::vector<bool>& asks, std::size_t k) { return asks[k] ? std::optional (static_cast<Question> (k)) : std::nullopt; }
 
-void checkAnswers (const std::vector<bool>& asks, const Run& run, int ticks)
+void checkAnswers (const std::vector<bool>& asks, const Run& run, int ticks, std::size_t stream, std::size_t streams)
 {
-    for (std::size_t k = 0; k < run.answers.size(); ++k)
-        if (run.answers[k])
+    for (std::size_t k = 0; k < asks.size(); ++k)
+        if (const auto& answer = run.answers[k * streams + stream])
         {
             RC_ASSERT (k >= static_cast<std::size_t> (ticks));
             const auto then = k - static_cast<std::size_t> (ticks);
             RC_ASSERT (asks[then]);
-            RC_ASSERT (*run.answers[k] == square (static_cast<Question> (then)));
+            RC_ASSERT (*answer == square (static_cast<Question> (then)));
         }
 }
 }   // namespace
@@ -96,30 +110,33 @@ TEST_CASE ("without a thread a question is answered exactly so many ticks later,
             const auto then = static_cast<long long> (k) - ticks;
             const bool due = then >= 0 && asks[static_cast<std::size_t> (then)];
             RC_ASSERT (answer == (due ? std::optional (square (then)) : std::nullopt));
-        }
-        RC_ASSERT (slow.lateTicks().empty()); });
+        } });
 }
 
 TEST_CASE ("with a thread that is in time the answers are the same", "[slow]")
 {
-    SlowAnswers thread;
+    AnsweringThread thread;
     Rounds rounds;
     Slow with { square, 3, &thread }, without { square, 3, nullptr };
     thread.add (rounds);
+    std::vector<bool> asks;
+    for (int k = 0; k < 100; ++k)
+        asks.push_back (k % 3 != 1);
     for (Question k = 0; k < 100; ++k)
     {
-        const auto ask = k % 3 == 1 ? std::nullopt : std::optional (k);
+        const auto ask = asked (asks, static_cast<std::size_t> (k));
         CHECK (with (ask) == without (ask));
         rounds.wait();
     }
     thread.remove (rounds);
-    CHECK (with.lateTicks().empty());
     CHECK (thread.lateTicks() == 0);
 }
 
 TEST_CASE ("an answer that is late is dropped, and its place stays taken until it is there", "[slow]")
 {
-    SlowAnswers thread;
+    AnsweringThread thread;
+    Lateness lateness;
+    thread.report (lateness);
     Gate gate;
     Rounds rounds;
     Slow slow { std::ref (gate), 3, &thread };
@@ -139,7 +156,7 @@ TEST_CASE ("an answer that is late is dropped, and its place stays taken until i
     thread.remove (rounds);
 
     // What was asked on ticks 0, 1, 2 fills all places until 8; their answers are not wanted any more.
-    CHECK (copied (slow.lateTicks()) == std::vector<std::uint64_t> { 3, 4, 5, 6, 7 });
+    CHECK (lateness.questions == std::vector<std::uint64_t> { 3, 4, 5, 6, 7 });
     CHECK (thread.lateTicks() == 5);
     for (std::size_t k = 0; k < 11; ++k)
         CHECK_FALSE (run.answers[k]);
@@ -148,44 +165,57 @@ TEST_CASE ("an answer that is late is dropped, and its place stays taken until i
     CHECK (run.answers[13] == 100);
 }
 
-TEST_CASE ("whatever was late, a run is repeated exactly from its late ticks", "[slow]")
+TEST_CASE ("whatever was late, a run of several streams is repeated exactly from it", "[slow]")
 {
     int late_runs = 0, answered_runs = 0;
     rc::prop ("any latenesses", [&]
               {
-        const int ticks = *rc::gen::inRange (1, 7);
+        const auto lengths = *rc::gen::container<std::vector<int>> (3, rc::gen::inRange (1, 7));
         const auto asks = asksFrom (*rc::gen::container<std::vector<int>> (30, rc::gen::inRange (0, 4)));
         const auto lags = *rc::gen::container<std::vector<Question>> (asks.size(), rc::gen::inRange<Question> (0, 8));
+        const auto ask = [&] (std::deque<Slow>& streams, std::size_t k, Run& run)
+        {
+            for (auto& slow : streams)
+                run.answers.push_back (slow (asked (asks, k)));
+        };
 
         Run live;
         {
-            SlowAnswers thread;
+            AnsweringThread thread;
+            Lateness lateness;
+            thread.report (lateness);
             Gate gate;
             Rounds rounds;
-            Slow slow { std::ref (gate), ticks, &thread };
+            std::deque<Slow> streams;
+            for (const int ticks : lengths)
+                streams.emplace_back (std::ref (gate), ticks, &thread);
             thread.add (rounds);
             for (std::size_t k = 0; k < asks.size(); ++k)
             {
                 gate.open_to = std::max (gate.open_to.load(), static_cast<Question> (k) - lags[k]);
                 if (lags[k] <= 0) rounds.wait();
-                live.answers.push_back (slow (asked (asks, k)));
+                ask (streams, k, live);
             }
-            live.late = copied (slow.lateTicks());
+            live.late = lateness.questions;
             RC_ASSERT (thread.lateTicks() == live.late.size());
             gate.open();
             thread.remove (rounds);
         }
-        checkAnswers (asks, live, ticks);
         late_runs += live.late.empty() ? 0 : 1;
         answered_runs += std::ranges::any_of (live.answers, [] (const auto& a) { return a.has_value(); }) ? 1 : 0;
 
         Run again;
-        Slow slow { square, ticks, nullptr };
-        slow.repeat (live.late);
+        RepeatedAnswers repeated;
+        repeated.repeat (live.late);
+        std::deque<Slow> streams;
+        for (const int ticks : lengths)
+        {
+            checkAnswers (asks, live, ticks, streams.size(), lengths.size());
+            streams.emplace_back (square, ticks, &repeated);
+        }
         for (std::size_t k = 0; k < asks.size(); ++k)
-            again.answers.push_back (slow (asked (asks, k)));
-        again.late = copied (slow.lateTicks());
-        RC_ASSERT (again == live); });
+            ask (streams, k, again);
+        RC_ASSERT (again.answers == live.answers); });
     CHECK (late_runs > 10);
     CHECK (answered_runs > 10);
 }
@@ -197,7 +227,9 @@ TEST_CASE ("asking allocates nothing and takes no lock, however many ticks are l
         WARN ("skipped: a sanitizer has its own allocator");
         return;
     }
-    SlowAnswers thread;
+    AnsweringThread thread;
+    Lateness lateness;
+    thread.report (lateness);
     Gate gate;
     Slow slow { std::ref (gate), 2, &thread }, alone { square, 2, nullptr };
     int allocations = 0, locks = 0;
@@ -214,7 +246,7 @@ TEST_CASE ("asking allocates nothing and takes no lock, however many ticks are l
     gate.open();
     CHECK (allocations == 0);
     CHECK (locks == 0);
-    CHECK (slow.lateTicks().size() == 4096);
+    CHECK (lateness.questions.size() == 9'998);
     CHECK (thread.lateTicks() == 9'998);
 }
 
@@ -231,7 +263,7 @@ TEST_CASE ("an asker comes and goes while others keep the thread busy", "[slow]"
             return true;
         }
     };
-    SlowAnswers thread;
+    AnsweringThread thread;
     Busy busy;
     thread.add (busy);
 
@@ -253,7 +285,7 @@ TEST_CASE ("an asker comes and goes while others keep the thread busy", "[slow]"
 
 TEST_CASE ("what is asked last is answered even when the asker leaves at once", "[slow]")
 {
-    SlowAnswers thread;
+    AnsweringThread thread;
     for (int i = 0; i < 200; ++i)
     {
         Slow slow { square, 2, &thread };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <nodes/deform/surface.hpp>
 
+#include <framework/answering_thread.hpp>
+
 #include <support/no_allocation.hpp>
 
 #include <catch2/catch.hpp>
@@ -452,7 +454,7 @@ TEST_CASE ("surface: searched by a thread on 100 000 triangles, live runs repeat
 
     for (std::chrono::microseconds pause { 500 };; pause *= 2)   // the busier the machine, the more time it gets
     {
-        SlowAnswers answers;
+        AnsweringThread answers;
         const auto live = run (&answers, pause);
         if (answers.lateTicks() > 0 && pause < std::chrono::milliseconds (20)) continue;
         CHECK (answers.lateTicks() == 0);

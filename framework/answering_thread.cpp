@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "slow_question.hpp"
+#include "answering_thread.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -7,12 +7,12 @@
 namespace tactus
 {
 
-SlowAnswers::SlowAnswers() : thread ([this]
-                                     { run(); })
+AnsweringThread::AnsweringThread() : thread ([this]
+                                             { run(); })
 {
 }
 
-SlowAnswers::~SlowAnswers()
+AnsweringThread::~AnsweringThread()
 {
     {
         const auto lock = turn();
@@ -22,21 +22,30 @@ SlowAnswers::~SlowAnswers()
     thread.join();
 }
 
-void SlowAnswers::add (Asker& asker)
+void AnsweringThread::add (Asker& asker)
 {
     const auto lock = turn();
     askers.push_back (&asker);
     woken.notify_one();
 }
 
-void SlowAnswers::remove (Asker& asker)
+void AnsweringThread::remove (Asker& asker)
 {
     const auto lock = turn();
     std::erase (askers, &asker);
 }
 
+bool AnsweringThread::isLate (bool ready) noexcept
+{
+    const auto question = asked++;
+    if (ready) return false;
+    late_ticks.fetch_add (1, std::memory_order_relaxed);
+    if (journal) journal->late (question);
+    return true;
+}
+
 /// A mutex is not fair: a busy thread would take it again at once, round after round.
-std::unique_lock<std::mutex> SlowAnswers::turn()
+std::unique_lock<std::mutex> AnsweringThread::turn()
 {
     ++waiting;
     std::unique_lock lock (guard);
@@ -44,7 +53,7 @@ std::unique_lock<std::mutex> SlowAnswers::turn()
     return lock;
 }
 
-void SlowAnswers::run()
+void AnsweringThread::run()
 {
     // It polls while there is somebody who may ask, because to wake a thread is a system call, and who asks is on the tick.
     constexpr std::chrono::microseconds pause { 200 };
