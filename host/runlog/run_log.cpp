@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run_log.hpp"
+#include "log_number.hpp"
+
+#include <framework/plan/find_param.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <span>
+#include <system_error>
+
+namespace tactus::host
+{
+
+namespace
+{
+/// A second, and room for turning everything at once; not more than 64 MB.
+std::size_t roomFor (const RunHead& head)
+{
+    constexpr double spare = 65536.0, most = 8388608.0;
+    const auto words = 2.0 + static_cast<double> (head.guards.size() * reading_size + head.feeds.size());
+    return static_cast<std::size_t> (std::min (most, words * std::ceil (head.rate_hz) + spare));
+}
+
+std::string textOf (const Json& value) { return value.dump (-1, ' ', false, Json::error_handler_t::replace); }
+
+std::string listOf (std::span<const double> numbers)
+{
+    if (numbers.size() == 1) return logNumber (numbers.front());
+    std::string text;
+    for (const double v : numbers)
+        text += (text.empty() ? "[" : ",") + logNumber (v);
+    return text.empty() ? "[]" : text + "]";
+}
+
+Json toJson (const std::map<std::string, GuardLimits>& guards)
+{
+    auto json = Json::object();
+    for (const auto& [role, limits] : guards)
+        for (const auto& [key, value] : guard_fields)
+            json[role][std::string (key)] = toLog (limits.*value);
+    return json;
+}
+
+std::string headLine (const RunHead& head)
+{
+    return textOf ({ { "format", run_format }, { "version", run_version }, { "program", head.program }, { "rate_hz", head.rate_hz }, { "sets", head.sets }, { "feeds", head.feeds }, { "guards", toJson (head.guards) } }) + "\n";
+}
+
+bool same (std::span<const double> a, std::span<const double> b) noexcept { return a.size() == b.size() && (a.empty() || std::memcmp (a.data(), b.data(), a.size_bytes()) == 0); }
+}   // namespace
+
+RunLog::RunLog (const std::filesystem::path& p, const RunHead& head) : path (p), place (p.parent_path()), out (p, std::ios::binary | std::ios::trunc), taken (roomFor (head))
+{
+    out << headLine (head) << std::flush;
+}
+
+tl::expected<std::unique_ptr<RunLog>, Error> RunLog::create (const std::filesystem::path& path, const RunHead& head)
+{
+    errno = 0;
+    std::unique_ptr<RunLog> log { new RunLog (path, head) };
+    if (auto problem = log->written(); ! problem) return tl::unexpected (std::move (problem.error()));
+    return log;
+}
+
+tl::expected<void, Error> RunLog::written()
+{
+    if (out.good()) return {};
+    const auto reason = errno != 0 ? std::generic_category().message (errno) : "the system gives no reason";
+    return tl::unexpected (Error { "output/unwritable", path.string(), "cannot be written: " + reason, "choose another file, or make its folder and room for it" });
+}
+
+void RunLog::expect (std::shared_ptr<const Plan> plan, const Json& snapshot, const std::map<std::string, GuardLimits>& joining)
+{
+    expected.push_back ({ std::move (plan), textOf (snapshot) });
+    joined.insert (joining.begin(), joining.end());
+}
+
+tl::expected<void, Error> RunLog::drain()
+{
+    while (taken.words().hasMore())
+        take();
+    out.flush();
+    return written();
+}
+
+void RunLog::take()
+{
+    auto& words = taken.words();
+    const auto number = [&]
+    { return std::bit_cast<double> (words.take()); };
+    const auto begin = words.take();
+    const auto of = static_cast<std::size_t> (begin >> 8u);
+    switch (static_cast<RunJournal::Kind> (begin & 0xffu))
+    {
+    case RunJournal::Kind::took:
+        takeOver (words.take());
+        break;
+    case RunJournal::Kind::turned:
+    {
+        const auto knob = static_cast<std::size_t> (words.take());
+        turns += (turns.empty() ? "" : ",") + textOf (plan::nameOf (*expected.front().plan, of, knob)) + ":" + logNumber (number());
+        break;
+    }
+    case RunJournal::Kind::outdone:
+        kept += (kept.empty() ? "" : ",") + textOf (plan::nameOf (*expected.front().plan, of, static_cast<std::size_t> (words.take())));
+        break;
+    case RunJournal::Kind::late:
+        late += (late.empty() ? "" : ",") + std::to_string (words.take());
+        break;
+    case RunJournal::Kind::halted:
+        add ("halt", "true");
+        break;
+    case RunJournal::Kind::resumed:
+        add ("halt", "false");
+        break;
+    case RunJournal::Kind::ticked:
+        takeTick (of, static_cast<std::size_t> (words.take()));
+    }
+}
+
+/// The plans before it are not needed any more.
+void RunLog::takeOver (std::uint64_t serial)
+{
+    while (expected.front().plan->serial != serial)
+        expected.pop_front();
+    if (expected.front().graph == graph) return;   // made anew for a probe
+    graph = expected.front().graph;
+    add ("graph", graph);
+
+    std::map<std::string, GuardLimits> guards;
+    for (const auto& role : expected.front().plan->roles)
+        if (auto joining = joined.extract (role.name)) guards.insert (std::move (joining));
+    if (! guards.empty()) add ("guards", textOf (toJson (guards)));
+}
+
+void RunLog::takeTick (std::size_t roles, std::size_t feeds)
+{
+    auto& words = taken.words();
+    const auto number = [&]
+    { return std::bit_cast<double> (words.take()); };
+
+    if (! kept.empty()) add ("kept", "[" + kept + "]");
+    if (! turns.empty()) add ("turn", "{" + turns + "}");
+    if (! late.empty()) add ("late", "[" + late + "]");
+    kept.clear();
+    turns.clear();
+    late.clear();
+
+    std::string read;
+    for (std::size_t r = 0; r < roles; ++r)
+    {
+        ReadingNumbers numbers;
+        std::ranges::generate (numbers, number);
+        const auto& role = expected.front().plan->roles[r].name;
+        auto& before = readings.try_emplace (role, toNumbers ({})).first->second;
+        std::string changed;
+        for (const auto& [key, first, size] : reading_fields)
+            if (const auto field = std::span (numbers).subspan (first, size); ! same (field, std::span (before).subspan (first, size)))
+                changed += (changed.empty() ? "\"" : ",\"") + std::string (key) + "\":" + listOf (field);
+        if (! changed.empty()) read += (read.empty() ? "" : ",") + textOf (role) + ":{" + changed + "}";
+        before = numbers;
+    }
+    if (! read.empty()) add ("read", "{" + read + "}");
+
+    std::vector<double> values (feeds);
+    std::ranges::generate (values, number);
+    if (! same (values, feed))
+    {
+        std::string list;
+        for (const double v : values)
+            list += (list.empty() ? "" : ",") + logNumber (v);
+        add ("feed", "[" + list + "]");
+    }
+    feed = std::move (values);
+
+    if (! line.empty()) endLine();
+    ++now;
+}
+
+void RunLog::add (std::string_view key, std::string_view value)
+{
+    line += ",\"";
+    line += key;
+    line += "\":";
+    line += value;
+}
+
+void RunLog::endLine()
+{
+    out << "{\"tick\":" << now << line << "}\n";
+    line.clear();
+}
+
+tl::expected<void, Error> RunLog::finish()
+{
+    if (auto problem = drain(); ! problem) return problem;
+    add (brokenAt() ? "broken" : "end", "true");
+    endLine();
+    out.close();
+    return written();
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A run that is written down gives the same bits again.
+
+#include "host/io/temporary_folder.hpp"
+#include "support/chance_hand.hpp"
+#include "support/no_allocation.hpp"
+#include "support/random_edit.hpp"
+#include "support/random_graph.hpp"
+#include "support/sketch.hpp"
+
+#include <framework/graph/history.hpp>
+#include <framework/plan/find_param.hpp>
+#include <host/runlog/graph_snapshot.hpp>
+#include <host/runlog/run_log.hpp>
+#include <host/runlog/run_log_reader.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <bit>
+#include <limits>
+#include <random>
+#include <thread>
+
+using namespace tactus;
+using namespace tactus::host;
+
+namespace
+{
+constexpr double rate_hz = 1000.0;
+const GuardLimits limits { .max_force = 2.0, .max_slew = 500.0, .ramp = 0.01 };
+
+/// A hand that shows all that a reading can hold, and what has no number.
+class OddHand final : public Device
+{
+public:
+    explicit OddHand (unsigned seed) : random (seed), hand (seed) {}
+
+    void prepare (double) override {}
+    void write (const Effort&) noexcept override {}
+
+    Reading read() noexcept override
+    {
+        auto r = hand.read();
+        r.rotation = -0.0 * r.position;
+        r.buttons = random() % 7 == 0 ? static_cast<std::uint32_t> (random()) : 0u;
+        r.age = random() % 5 == 0 ? 1e-3 : 0.0;
+        r.valid = random() % 50 != 0;
+        constexpr double odd[] { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), -0.0, 5e-324, 1.7976931348623157e308 };
+        if (random() % 20 == 0) r.position[static_cast<int> (random() % 3)] = odd[random() % 6];
+        if (random() % 20 == 0) r.true_velocity[static_cast<int> (random() % 3)] = odd[random() % 6];
+        return r;
+    }
+
+private:
+    std::mt19937 random;
+    test::ChanceHand hand;
+};
+
+struct Held final : Device
+{
+    void prepare (double) override {}
+    Reading read() noexcept override { return reading; }
+    void write (const Effort&) noexcept override {}
+
+    Reading reading;
+};
+
+graph::Graph anyGraph (unsigned seed)
+{
+    test::Sketch felt;
+    felt.node ("hand", "device.position").node ("wall", "deform.plane").node ("drag", "friction.elasto_plastic").node ("motor", "device.force");
+    felt.wire ("hand.position -> wall.position").wire ("hand.position -> drag.position").wire ("wall.resistance -> drag.normal_force").wire ("wall.force -> motor.force").wire ("drag.force -> motor.force");
+    return test::besides (felt.graph, test::prefixed (test::randomGraph (seed, 10), "e_", "stylus"));
+}
+
+/// The bits of all that is recorded, and of what the guard let through.
+std::uint64_t digestOf (const Plan& plan)
+{
+    std::uint64_t digest = 0;
+    const auto add = [&] (double v)
+    { digest = (digest ^ (v != v ? 1u : std::bit_cast<std::uint64_t> (v))) * 0x100000001b3ull; };
+    for (const auto& tap : plan.taps)
+        add (*tap.value);
+    for (const auto& role : plan.roles)
+        for (const double v : role.state->applied.force)
+            add (v);
+    return digest;
+}
+
+/// A run with edits, turned knobs and a halt by chance, written to a log.
+std::vector<std::uint64_t> run (const std::filesystem::path& file, unsigned seed, int ticks)
+{
+    std::mt19937 random (seed);
+    const auto dice = [&] (unsigned sides)
+    { return random() % sides == 0; };
+
+    graph::History edits (anyGraph (seed));
+    auto first = compile (edits.graph(), catalogue(), { .rate_hz = rate_hz }).plan;
+    Engine engine (first);
+    OddHand hand (seed);
+    engine.attach ("stylus", hand, limits);
+    auto log = *RunLog::create (file, { .program = "test", .rate_hz = rate_hz, .guards = { { "stylus", limits } } });
+    log->expect (first, snapshotOf (edits.graph(), {}, file.parent_path()));
+    engine.report (log->journal());
+    first.reset();
+
+    const auto turn = [&]
+    {
+        const auto& plan = engine.newest();
+        const auto i = random() % plan.instances.size();
+        const auto& node = plan.flat.nodes[i];
+        if (! plan.instances[i].knobs || node.type->params.empty() || node.type->params[0].list) return;
+        const auto param = engine.param (plan::nameOf (plan, i, 0));
+        engine.set (std::get<plan::ParamRef> (param), std::generate_canonical<double, 53> (random));
+    };
+
+    std::vector<std::uint64_t> digests;
+    for (int k = 0; k < ticks; ++k)
+    {
+        while (dice (20))
+        {
+            auto waiting = engine.withdraw();
+            edits.perform (dice (3) ? test::randomRegrouping (random, edits.graph()) : test::randomEdit (random, edits.graph(), "e_", "stylus"));
+            if (dice (4)) edits.undo();
+            auto plan = compile (edits.graph(), catalogue(), { .rate_hz = rate_hz, .before = &engine.newest(), .withdrawn = waiting.get() }).plan;
+            if (dice (3)) turn();   // after the edit
+            if (plan) log->expect (plan, snapshotOf (edits.graph(), {}, file.parent_path()));
+            engine.submit (plan ? plan : waiting);
+        }
+        while (dice (10))
+            turn();
+        if (k >= ticks * 8 / 10 && k < ticks * 9 / 10) engine.halt();
+        if (k == ticks * 9 / 10) engine.resume();
+        engine.tick();
+        digests.push_back (digestOf (engine.plan()));
+        if (dice (30)) REQUIRE (log->drain());
+    }
+    REQUIRE (log->finish());
+    REQUIRE_FALSE (log->brokenAt());
+    return digests;
+}
+
+/// The same from the log.
+std::vector<std::uint64_t> runAgain (const std::filesystem::path& file)
+{
+    auto log = *RunLogReader::open (file.string());
+    std::unique_ptr<Engine> engine;
+    Held hand;
+    bool halting = false;
+    std::vector<std::uint64_t> digests;
+    for (;;)
+    {
+        const auto read = log.next();
+        INFO ((read ? "" : describe (read.error())));
+        REQUIRE (read);
+        REQUIRE (*read);
+        const RunTick& line = **read;
+        while (digests.size() < line.tick)
+        {
+            if (halting) engine->halt();
+            engine->tick();
+            digests.push_back (digestOf (engine->plan()));
+        }
+        if (line.last != RunTick::Last::no) break;
+        if (line.graph)
+        {
+            const auto graph = readSnapshot (*line.graph, file.parent_path());
+            REQUIRE (std::holds_alternative<graph::Graph> (graph));
+            auto plan = compile (std::get<graph::Graph> (graph), catalogue(), { .rate_hz = log.head().rate_hz, .before = engine ? &engine->newest() : nullptr }).plan;
+            REQUIRE (plan);
+            std::erase_if (plan->takeover.changes, [&] (const auto& change)
+                           { return std::ranges::count (line.kept, plan::nameOf (*plan, change.instance, change.knob)) > 0; });
+            if (engine)
+            {
+                engine->submit (plan);
+                engine->takeSubmitted();
+            }
+            else
+            {
+                engine = std::make_unique<Engine> (plan);
+                engine->attach ("stylus", hand, log.head().guards.at ("stylus"));
+            }
+        }
+        for (const auto& [param, target] : line.turns)
+        {
+            const auto found = engine->param (param);
+            REQUIRE (std::holds_alternative<plan::ParamRef> (found));
+            engine->set (std::get<plan::ParamRef> (found), target);
+        }
+        if (line.halt) halting = *line.halt;
+        if (line.halt == false) engine->resume();
+        if (halting) engine->halt();
+        for (const auto& [role, reading] : line.readings)
+            hand.reading = reading;
+        engine->tick();
+        digests.push_back (digestOf (engine->plan()));
+    }
+    REQUIRE_FALSE (log.isCutOff());
+    return digests;
+}
+}   // namespace
+
+TEST_CASE ("whatever was edited and turned, a run from its log gives the same bits", "[runlog][property]")
+{
+    const TemporaryFolder folder;
+    const auto file = folder / "run.jsonl";
+    rc::prop ("any run", [&]
+              {
+        const auto seed = *rc::gen::arbitrary<unsigned>();
+        const auto live = run (file, seed, 600);
+        RC_ASSERT (runAgain (file) == live); });
+}
+
+TEST_CASE ("every reading comes back to the bit", "[runlog]")
+{
+    const TemporaryFolder folder;
+    const auto file = folder / "run.jsonl";
+    auto plan = test::Sketch {}.node ("hand", "device.position").compile().plan;
+    Engine engine (plan);
+    OddHand hand (7), same (7);
+    engine.attach ("stylus", hand);
+    auto log = *RunLog::create (file, { .program = "test", .rate_hz = 4000.0, .guards = { { "stylus", {} } } });
+    log->expect (plan, snapshotOf (test::Sketch {}.node ("hand", "device.position").graph, {}, folder.path()));
+    engine.report (log->journal());
+    for (int k = 0; k < 2000; ++k)
+        engine.tick();
+    REQUIRE (log->finish());
+
+    auto reader = *RunLogReader::open (file.string());
+    CHECK (reader.head().program == "test");
+    CHECK (reader.head().rate_hz == 4000.0);
+    CHECK (reader.head().guards.at ("stylus") == GuardLimits {});
+    int ticks = 0, different = 0;
+    for (auto line = *reader.next(); line && line->last == RunTick::Last::no; line = *reader.next(), ++ticks)
+    {
+        REQUIRE (line->tick == static_cast<std::uint64_t> (ticks));
+        const auto wanted = toNumbers (same.read()), got = toNumbers (line->readings.at (0).second);
+        for (std::size_t i = 0; i < reading_size; ++i)
+            different += std::isnan (wanted[i]) ? ! std::isnan (got[i]) : std::bit_cast<std::uint64_t> (wanted[i]) != std::bit_cast<std::uint64_t> (got[i]);
+    }
+    CHECK (ticks == 2000);
+    CHECK (different == 0);
+}
+
+TEST_CASE ("a log that cannot keep up ends where it lost something, and says so", "[runlog]")
+{
+    const TemporaryFolder folder;
+    const auto file = folder / "run.jsonl";
+    const auto sketch = test::Sketch {}.node ("hand", "device.position");
+    auto plan = sketch.compile().plan;
+    Engine engine (plan);
+    OddHand hand (7);
+    engine.attach ("stylus", hand);
+    auto log = *RunLog::create (file, { .program = "test", .rate_hz = 1.0, .guards = { { "stylus", {} } } });
+    log->expect (plan, snapshotOf (sketch.graph, {}, folder.path()));
+    engine.report (log->journal());
+    std::uint64_t ticks = 0;
+    for (; ! log->brokenAt() && ticks < 100'000; ++ticks)   // nobody drains it
+        engine.tick();
+    REQUIRE (log->brokenAt() == ticks - 1);
+    REQUIRE (log->drain());
+    for (int k = 0; k < 10; ++k)
+        engine.tick();
+    REQUIRE (log->finish());
+    CHECK (log->brokenAt() == ticks - 1);
+
+    auto reader = *RunLogReader::open (file.string());
+    std::optional<RunTick> last;
+    std::uint64_t lines = 0;
+    for (auto line = *reader.next(); line; line = *reader.next(), ++lines)
+        last = line;
+    REQUIRE (last);
+    CHECK (last->last == RunTick::Last::broken);
+    CHECK (last->tick == ticks - 1);
+    CHECK (lines == ticks);
+    CHECK_FALSE (reader.isCutOff());
+}
+
+TEST_CASE ("the tick thread that tells a log allocates nothing and takes no lock", "[runlog]")
+{
+    if (! NoAllocation::watches)
+    {
+        WARN ("skipped: a sanitizer has its own allocator");
+        return;
+    }
+    const TemporaryFolder folder;
+    const auto sketch = test::Sketch {}.node ("hand", "device.position").node ("amp", "signal.gain");
+    auto plan = sketch.compile().plan;
+    Engine engine (plan);
+    OddHand hand (7);
+    engine.attach ("stylus", hand);
+    auto log = *RunLog::create (folder / "run.jsonl", { .program = "test", .rate_hz = 4000.0, .guards = { { "stylus", {} } } });
+    log->expect (plan, snapshotOf (sketch.graph, {}, folder.path()));
+    engine.report (log->journal());
+    const auto gain = std::get<plan::ParamRef> (engine.param ("amp.gain"));
+    auto next = compile (sketch.graph, catalogue(), { .before = &engine.newest() }).plan;
+    log->expect (next, snapshotOf (sketch.graph, {}, folder.path()));
+    engine.submit (next);
+    int allocations = 0, locks = 0;
+    {
+        const NoAllocation watch;
+        for (int k = 0; k < 20'000; ++k)   // until long after it is full
+        {
+            engine.set (gain, 1e-3 * k);
+            engine.tick();
+        }
+        engine.halt();
+        engine.tick();
+        allocations = watch.allocations();
+        locks = watch.locks();
+    }
+    CHECK (allocations == 0);
+    CHECK (locks == 0);
+    CHECK (log->brokenAt());
+}
