@@ -86,6 +86,7 @@ void run (const Options& options)
     {
         std::this_thread::sleep_for (std::chrono::milliseconds (20));
         if (recording) recording->drain();
+        session.drainLog();
         if (options.watch && i % 10 == 0 && watch.look()) reload();
         if (control)
         {
@@ -97,6 +98,7 @@ void run (const Options& options)
         if (terminal && i % 5 == 0) printStatus (runner, session.rate(), true, "");
     }
     runner.wait();
+    session.finishLog();
     printStatus (runner, session.rate(), terminal, "\n");
 
     session.reportRun();
@@ -116,6 +118,7 @@ void addPlay (CLI::App& app)
     options->addTo (*command);
     command->add_flag ("--watch", options->watch, "Take the graph file over each time it is edited; what has not changed in it goes on");
     command->add_flag ("--costs", options->costs, "At the end, say what the costliest nodes took of a tick");
+    command->add_option ("--log", options->log, "Write down all that comes in, for `tactus render --replay`: see docs/replay.md");
     command->add_option ("--core", options->core, "Keep the ticks on this core of the processor")->check (CLI::Range (0, 1023));
     auto* osc = command->add_option ("--osc", options->osc, "The UDP port to be reached by from this machine, see docs/osc.md; 0 for any that is free, or off")->check (CLI::IsMember ({ "off" }) | CLI::Range (0, 65535));
     command->footer ("However it stops, the guards bring all forces to zero smoothly first.\n"
@@ -125,7 +128,8 @@ void addPlay (CLI::App& app)
                      "  tactus play graphs/dry_wood.json\n"
                      "  tactus play graphs/dry_wood.json --device stylus=gesture:circle --duration 10\n"
                      "  tactus play graphs/dry_wood.json --watch\n"
-                     "  tactus play graphs/dry_wood.json --record drag.force,drag.state --out wood.csv");
+                     "  tactus play graphs/dry_wood.json --record drag.force,drag.state --out wood.csv\n"
+                     "  tactus play graphs/dry_wood.json --log wood.jsonl");
     command->callback ([options, osc]
                        {
         options->osc_asked_for = osc->count() > 0;

@@ -8,6 +8,7 @@
 #include <framework/number_text.hpp>
 #include <framework/turn.hpp>
 #include <host/assets/nearest_by_embree.hpp>
+#include <host/runlog/graph_snapshot.hpp>
 
 #include <cmath>
 #include <filesystem>
@@ -16,8 +17,6 @@
 namespace tactus::host
 {
 
-namespace
-{
 plan::Override readSet (const std::string& text)
 {
     const auto equals = text.find ('=');
@@ -26,6 +25,8 @@ plan::Override readSet (const std::string& text)
     return { text.substr (0, equals), readValue (text.substr (equals + 1)) };
 }
 
+namespace
+{
 /// A placeholder does not keep the rest from running.
 void warnOnly (Messages& messages)
 {
@@ -74,9 +75,10 @@ Session::Session (const SessionOptions& options, Pace pace) : told (options), lo
     if (pace == Pace::live) answers = std::make_unique<AnsweringThread>();
     if (report (loaded.messages, loaded, told.graph) > 0) throw Stop {};
     readFeed();
-    compileGraph();
+    auto first = compileGraph();
     bindDevices();
     decideLength();
+    if (! told.log.empty()) startLog (std::move (first));
 }
 
 void Session::readFeed()
@@ -89,7 +91,8 @@ void Session::readFeed()
 
 Compiled Session::compileNow (const graph::Graph& graph, const Plan* before, const Plan* withdrawn, const std::vector<std::string>& probes)
 {
-    CompileOptions wanted { .rate_hz = rate_hz, .records = records, .assets = &assets, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() }, .before = before, .withdrawn = withdrawn };
+    CompileOptions wanted { .rate_hz = rate_hz, .records = records, .assets = &noted, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() }, .before = before, .withdrawn = withdrawn };
+    noted.paths.clear();
     wanted.records.insert (wanted.records.end(), probes.begin(), probes.end());
     if (feed) wanted.feeds = feed->ports();
     for (const auto& set : told.sets)
@@ -97,7 +100,7 @@ Compiled Session::compileNow (const graph::Graph& graph, const Plan* before, con
     return compile (graph, catalogue(), wanted);
 }
 
-void Session::compileGraph()
+std::shared_ptr<const Plan> Session::compileGraph()
 {
     auto compiled = compileNow (loaded.graph, nullptr, nullptr);
     with_placeholders = hasErrors (compiled.messages);
@@ -110,7 +113,8 @@ void Session::compileGraph()
         for (const auto& tap : compiled.plan->taps)
             records.push_back (tap.name);
     }
-    running = std::make_unique<Engine> (std::move (compiled.plan));
+    running = std::make_unique<Engine> (compiled.plan);
+    return compiled.plan;
 }
 
 void Session::bindDevices()
@@ -190,6 +194,43 @@ void Session::decideLength()
     }
 }
 
+void Session::startLog (std::shared_ptr<const Plan> first)
+{
+    RunHead head { .program = TACTUS_VERSION, .rate_hz = rate_hz, .sets = told.sets, .feeds = feed ? feed->ports() : std::vector<std::string> {} };
+    for (const auto& d : devices)
+        head.guards.emplace (d.role, d.limits);
+    log = orFail (RunLog::create (told.log, head));
+    log->expect (std::move (first), snapshotOf (loaded.graph, noted.paths, log->folder()));
+    running->report (log->journal());
+    if (answers) answers->report (log->journal());
+}
+
+void Session::submit (std::shared_ptr<Plan> plan, const graph::Graph& graph, std::span<const Engine::Joining> joining)
+{
+    if (log)
+    {
+        std::map<std::string, GuardLimits> guards;
+        for (const auto& j : joining)
+            guards.emplace (j.role, j.limits);
+        log->expect (plan, snapshotOf (graph, noted.paths, log->folder()), guards);
+    }
+    running->submit (std::move (plan), joining);
+}
+
+void Session::drainLog()
+{
+    if (! log) return;
+    orFail (log->drain());
+    if (std::exchange (log_broke, log->brokenAt().has_value()) || ! log_broke) return;
+    std::cerr << told.log << ": warning: writing the log could not keep up, and it ends at tick " << *log->brokenAt() << "; the run goes on\n    write it to a faster disk, or log at a lower --rate [log/broken]\n";
+}
+
+void Session::finishLog()
+{
+    drainLog();
+    if (log) orFail (log->finish());
+}
+
 bool Session::reload()
 {
     auto next = loadGraph (told.graph);
@@ -211,7 +252,7 @@ bool Session::reload()
     std::vector<Engine::Joining> joining;
     for (const auto& d : opened)
         joining.push_back ({ d.role, *d.device, d.limits });
-    running->submit (std::move (plan), joining);
+    submit (std::move (plan), next.graph, joining);
     std::ranges::move (opened, std::back_inserter (devices));
 
     report (notTakenOver (next.graph), next, told.graph);
@@ -246,7 +287,7 @@ std::variant<std::vector<std::string>, Message> Session::probe (const std::vecto
     }
     constexpr double highest_rate_hz = 1000.0;
     ring.select (taps, static_cast<std::uint32_t> (std::max (1.0, std::round (rate_hz / highest_rate_hz))));
-    running->submit (std::move (plan));
+    submit (std::move (plan), loaded.graph);
     return names;
 }
 

@@ -9,6 +9,8 @@
 #include <framework/plan/compile.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/devices/make_device.hpp>
+#include <host/runlog/noted_assets.hpp>
+#include <host/runlog/run_log.hpp>
 #include <host/runtime/probe_ring.hpp>
 #include <host/runtime/runner.hpp>
 
@@ -28,10 +30,14 @@ struct SessionOptions
 {
     std::string graph, feed;
     std::vector<std::string> records, outputs, sets, devices;
+    std::string log;   ///< where what comes in is to be written down; "": nowhere
     double rate_hz = 0.0, duration_s = 0.0;
 
     void addTo (CLI::App&);
 };
+
+/// NODE.PARAM=VALUE, as --set takes it.
+plan::Override readSet (const std::string&);
 
 /// A graph with its devices, compiled and ready to tick: by tick(), or by a Runner whose hooks it is.
 class Session final : public TickHooks
@@ -80,6 +86,10 @@ public:
             if (frame.plan == newest) f (frame.tick, std::span (frame.values).first (frame.size)); });
     }
 
+    /// Writes down what has come in. To be called many times a second, and finishLog once after the last tick.
+    void drainLog();
+    void finishLog();
+
     const graph::Graph& graph() const noexcept { return loaded.graph; }
 
     /// The graph file, and those that it includes.
@@ -103,15 +113,18 @@ private:
     SessionOptions told;
     LoadedGraph loaded;
     FileAssets assets;
+    NotedAssets noted { assets };
     std::optional<Feed> feed;
     std::vector<Bound> devices;
-    std::unique_ptr<AnsweringThread> answers;   // before the engine, whose nodes ask it
+    std::unique_ptr<AnsweringThread> answers;   // before the engine and the log, whose nodes ask it
+    std::unique_ptr<RunLog> log;                // before the engine, which tells it
     std::unique_ptr<Engine> running;
     double rate_hz = 0.0;
     std::optional<std::size_t> count;
     std::uint64_t now = 0;
 
     bool with_placeholders = false;
+    bool log_broke = false;
     ProbeRing ring;
     std::vector<std::string> records;   // the same for all plans, so that a recording goes on
 
@@ -119,9 +132,11 @@ private:
     std::vector<Bound> openNew (const Plan&, const graph::Graph&, Messages&) const;
     void forgetProbes();
     void readFeed();
-    void compileGraph();
+    std::shared_ptr<const Plan> compileGraph();
     void bindDevices();
     void decideLength();
+    void startLog (std::shared_ptr<const Plan>);
+    void submit (std::shared_ptr<Plan>, const graph::Graph&, std::span<const Engine::Joining> = {});
     Compiled compileNow (const graph::Graph&, const Plan* before, const Plan* withdrawn, const std::vector<std::string>& probes = {});
     Messages notTakenOver (const graph::Graph&) const;
 };
