@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
+#include "float_text.hpp"
 #include "osc_client.hpp"
 #include "report.hpp"
+#include "triggered_probe.hpp"
 
 #include <framework/number_text.hpp>
 #include <host/platform/signals.hpp>
 
-#include <charconv>
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -24,21 +25,20 @@ struct Options
 {
     std::string port;
     double rate_hz = 50.0, duration_s = 0.0;
+    TriggerOptions trigger;
     OscOption osc;
 };
-
-/// The shortest text that reads back to the same float.
-std::string shortest (float v)
-{
-    char text[32];
-    const auto end = std::to_chars (std::begin (text), std::end (text), v).ptr;
-    return { text, end };
-}
 
 void run (const Options& options)
 {
     watchForStop();
     OscClient client { options.osc.number };
+    if (! options.trigger.watched.empty())
+    {
+        auto trigger = options.trigger;
+        trigger.duration_s = options.duration_s;
+        return probeTriggered (client, options.port, trigger);
+    }
     const auto subscribe = [&]
     { client.send (juce::OSCMessage ("/tactus/probe", juce::String::fromUTF8 (options.port.c_str()), client.own(), static_cast<float> (options.rate_hz), 5.0f)); };
 
@@ -78,7 +78,7 @@ void run (const Options& options)
         if (options.duration_s > 0.0 && tick - *first > options.duration_s * rate_hz) break;
         std::cout << numberText (tick / rate_hz);
         for (int i = 2; i < m->size(); ++i)
-            if ((*m)[i].isFloat32()) std::cout << ',' << shortest ((*m)[i].getFloat32());
+            if ((*m)[i].isFloat32()) std::cout << ',' << floatText ((*m)[i].getFloat32());
         std::cout << std::endl;   // somebody watches, or waits at the other end of a pipe
     }
 }
@@ -89,13 +89,24 @@ void addProbe (CLI::App& app)
     const auto options = std::make_shared<Options>();
     auto* command = app.add_subcommand ("probe", "Watch a port of a graph that `tactus play` runs, as CSV");
     command->add_option ("port", options->port, "node.port, or one component of it")->required();
-    command->add_option ("--rate", options->rate_hz, "How often, in Hz")->check (CLI::Range (0.01, 1000.0));
+    auto* rate = command->add_option ("--rate", options->rate_hz, "How often, in Hz")->check (CLI::Range (0.01, 1000.0));
     command->add_option ("--duration", options->duration_s, "How long, in s of the run; else until Ctrl-C")->check (CLI::Range (1e-3, 1e9));
+    auto* trigger = command->add_option ("--trigger", options->trigger.watched, "Print only one window, every tick of it, around an edge of this port")->excludes (rate);
+    const auto with_trigger = [&] (CLI::Option* option)
+    { option->needs (trigger); };
+    auto* level = command->add_option ("--level", options->trigger.level, "The level that makes the edge, in the unit of that port");
+    trigger->needs (level);
+    with_trigger (level);
+    with_trigger (command->add_option ("--edge", options->trigger.edge, "rising (from below to the level or above), falling, or either")->check (CLI::IsMember ({ "rising", "falling", "either" })));
+    with_trigger (command->add_option ("--before", options->trigger.before, "Ticks to print before the edge; 100 if nothing is said")->check (CLI::Range (0, 65535)));
+    with_trigger (command->add_option ("--after", options->trigger.after, "Ticks to print after it; 400 if nothing is said")->check (CLI::Range (0, 65535)));
     options->osc.addTo (*command);
-    command->footer ("Values come in single precision, now and then one is missing; `tactus play --record` keeps all, to the bit.\n\n"
+    command->footer ("Values come in single precision, now and then one is missing; `tactus play --record` keeps all, to the bit.\n"
+                     "With --trigger, t is 0 at the edge.\n\n"
                      "Examples:\n"
                      "  tactus probe drag.force\n"
-                     "  tactus probe drag.deflection.x --rate 200 --duration 5 > deflection.csv");
+                     "  tactus probe drag.deflection.x --rate 200 --duration 5 > deflection.csv\n"
+                     "  tactus probe drag.force --trigger drag.state --level 1.5 --before 50 --after 200");
     command->callback ([options]
                        { run (*options); });
 }

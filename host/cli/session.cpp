@@ -39,6 +39,32 @@ Message warning (std::string id, std::string where, std::string text, std::strin
     return { .severity = Message::Severity::warning, .id = std::move (id), .where = std::move (where), .text = std::move (text), .remedy = std::move (remedy) };
 }
 
+Message refused (std::string id, std::string text, std::string remedy)
+{
+    return { .id = std::move (id), .where = {}, .text = std::move (text), .remedy = std::move (remedy) };
+}
+
+const Message& firstError (const Messages& messages) { return *std::ranges::find (messages, Message::Severity::error, &Message::severity); }
+
+/// The numbers of the taps that are parts of one of these ports.
+std::vector<std::size_t> tapsOf (const Plan& plan, const std::vector<std::string>& ports)
+{
+    std::vector<std::size_t> taps;
+    for (std::size_t i = 0; i < plan.taps.size(); ++i)
+        if (std::ranges::any_of (ports, [&] (const std::string& port)
+                                 { return isPartOf (plan.taps[i].name, port); }))
+            taps.push_back (i);
+    return taps;
+}
+
+std::vector<std::string> namesOf (const Plan& plan, const std::vector<std::size_t>& taps)
+{
+    std::vector<std::string> names;
+    for (const auto tap : taps)
+        names.push_back (plan.taps[tap].name);
+    return names;
+}
+
 const Json* descriptionOf (const graph::Graph& graph, const std::string& role)
 {
     const auto at = std::ranges::find (graph.devices, role, &std::pair<std::string, Json>::first);
@@ -89,11 +115,11 @@ void Session::readFeed()
     rate_hz = feed->rate();
 }
 
-Compiled Session::compileNow (const graph::Graph& graph, const Plan* before, const Plan* withdrawn, const std::vector<std::string>& probes)
+Compiled Session::compileNow (const graph::Graph& graph, const Plan* before, const Plan* withdrawn, const std::vector<std::string>& watched)
 {
     CompileOptions wanted { .rate_hz = rate_hz, .records = records, .assets = &noted, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() }, .before = before, .withdrawn = withdrawn };
     noted.paths.clear();
-    wanted.records.insert (wanted.records.end(), probes.begin(), probes.end());
+    wanted.records.insert (wanted.records.end(), watched.begin(), watched.end());
     if (feed) wanted.feeds = feed->ports();
     for (const auto& set : told.sets)
         wanted.overrides.push_back (readSet (set));
@@ -249,6 +275,8 @@ bool Session::reload()
         return false;
     }
     ring.select ({}, 1);
+    probed.clear();
+    endCapture();
     std::vector<Engine::Joining> joining;
     for (const auto& d : opened)
         joining.push_back ({ d.role, *d.device, d.limits });
@@ -261,34 +289,73 @@ bool Session::reload()
     return true;
 }
 
+/// What is captured comes first, so that it has the same numbers in all plans as long as it is, whatever is probed.
+Compiled Session::compileWatched (const Plan* withdrawn)
+{
+    auto ports = captured_ports;
+    ports.insert (ports.end(), probed.begin(), probed.end());
+    return compileNow (loaded.graph, &running->newest(), withdrawn, ports);
+}
+
+void Session::selectProbes (const Plan& plan)
+{
+    constexpr double highest_rate_hz = 1000.0;
+    ring.select (tapsOf (plan, probed), static_cast<std::uint32_t> (std::max (1.0, std::round (rate_hz / highest_rate_hz))));
+}
+
 std::variant<std::vector<std::string>, Message> Session::probe (const std::vector<std::string>& ports)
 {
     forgetProbes();
     auto waiting = running->withdraw();
-    auto [plan, messages] = compileNow (loaded.graph, &running->newest(), waiting.get(), ports);
-    std::vector<std::string> names;
-    std::vector<std::size_t> taps;
-    for (std::size_t i = 0; plan && i < plan->taps.size(); ++i)
-        if (std::ranges::any_of (ports, [&] (const std::string& port)
-                                 { return isPartOf (plan->taps[i].name, port); }))
-        {
-            names.push_back (plan->taps[i].name);
-            taps.push_back (i);
-        }
+    auto before = std::exchange (probed, ports);
+    auto [plan, messages] = compileWatched (waiting.get());
+    const auto taps = plan ? tapsOf (*plan, ports) : std::vector<std::size_t> {};
     const auto unseen = std::ranges::find_if (ports, [&] (const std::string& port)
-                                              { return std::ranges::none_of (names, [&] (const std::string& name)
-                                                                             { return isPartOf (name, port); }); });
+                                              { return plan && tapsOf (*plan, { port }).empty(); });
     if (! plan || taps.size() > ProbeRing::most || unseen != ports.end())
     {
+        probed = std::move (before);
         running->submit (std::move (waiting));
-        if (plan && unseen != ports.end()) return Message { .id = "probe/several", .where = {}, .text = inQuotes (*unseen) + " stands for ports of several instances inside", .remedy = "name them inside, as in hand/finger[*]/drag.force" };
-        if (! plan) return *std::ranges::find (messages, Message::Severity::error, &Message::severity);
-        return Message { .id = "probe/too_many", .where = {}, .text = "all probes together would have " + std::to_string (taps.size()) + " components, and there is room for " + std::to_string (ProbeRing::most), .remedy = "wait until others are over" };
+        if (! plan) return firstError (messages);
+        if (unseen != ports.end()) return refused ("probe/several", inQuotes (*unseen) + " stands for ports of several instances inside", "name them inside, as in hand/finger[*]/drag.force");
+        return refused ("probe/too_many", "all probes together would have " + std::to_string (taps.size()) + " components, and there is room for " + std::to_string (ProbeRing::most), "wait until others are over");
     }
-    constexpr double highest_rate_hz = 1000.0;
-    ring.select (taps, static_cast<std::uint32_t> (std::max (1.0, std::round (rate_hz / highest_rate_hz))));
+    auto names = namesOf (*plan, taps);
+    selectProbes (*plan);
     submit (std::move (plan), loaded.graph);
     return names;
+}
+
+std::variant<std::vector<std::string>, Message> Session::capture (const std::string& port, const std::string& watched, const Trigger& trigger)
+{
+    endCapture();
+    forgetProbes();
+    auto waiting = running->withdraw();
+    captured_ports = { port, watched };
+    auto [plan, messages] = compileWatched (waiting.get());
+    const auto refuse = [&] (Message m)
+    {
+        captured_ports.clear();
+        running->submit (std::move (waiting));
+        return m;
+    };
+    if (! plan) return refuse (firstError (messages));
+    auto taps = tapsOf (*plan, { port });
+    const auto triggers = tapsOf (*plan, { watched });
+    if (triggers.size() != 1) return refuse (refused ("probe/trigger", inQuotes (watched) + " has " + std::to_string (triggers.size()) + " components, and a trigger watches one", triggers.empty() ? std::string ("name a port with one component") : "name one of them, as in " + plan->taps[triggers.front()].name));
+    if (taps.size() * trigger.ticks() > TriggeredCapture::most) return refuse (refused ("probe/too_many", std::to_string (trigger.ticks()) + " ticks of " + std::to_string (taps.size()) + " components are more than the " + std::to_string (TriggeredCapture::most) + " numbers there is room for", "ask for fewer before and after, or for one component"));
+
+    auto names = namesOf (*plan, taps);
+    selectProbes (*plan);
+    slot.arm (std::make_unique<TriggeredCapture> (trigger, plan->serial, std::move (taps), triggers.front()));
+    submit (std::move (plan), loaded.graph);
+    return names;
+}
+
+void Session::endCapture()
+{
+    slot.disarm();
+    captured_ports.clear();
 }
 
 /// A plan may come to stand where one stood that was freed: what is still there of that one is not to be taken for its.
@@ -343,7 +410,11 @@ void Session::before (std::uint64_t tick) noexcept
     if (feed) (*feed) (tick, running->plan().feeds);
 }
 
-void Session::after (std::uint64_t tick, bool) noexcept { ring.note (running->plan(), tick); }
+void Session::after (std::uint64_t tick, bool) noexcept
+{
+    ring.note (running->plan(), tick);
+    slot.note (running->plan(), tick);
+}
 
 void Session::tick() noexcept
 {

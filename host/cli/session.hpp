@@ -13,6 +13,7 @@
 #include <host/runlog/run_log.hpp>
 #include <host/runtime/probe_ring.hpp>
 #include <host/runtime/runner.hpp>
+#include <host/runtime/triggered_capture.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -76,6 +77,12 @@ public:
     /// names of their components, each once, or why not: then all is as it was. A graph that is reloaded is not looked at.
     std::variant<std::vector<std::string>, Message> probe (const std::vector<std::string>& ports);
 
+    /// Takes down what stands on a port around the tick on which another one triggers, in place of what was asked for
+    /// before. Returns the names of its components, or why not. A graph that is reloaded is not waited for.
+    std::variant<std::vector<std::string>, Message> capture (const std::string& port, const std::string& watched, const Trigger&);
+    const TriggeredCapture* captured() const noexcept { return slot.complete(); }   ///< null until it has triggered
+    void endCapture();
+
     /// Hands on what was seen there since the last time: the tick, and the values by component.
     template <typename F>
     void drainProbes (F&& f)
@@ -126,6 +133,8 @@ private:
     bool with_placeholders = false;
     bool log_broke = false;
     ProbeRing ring;
+    CaptureSlot slot;
+    std::vector<std::string> probed, captured_ports;
     std::vector<std::string> records;   // the same for all plans, so that a recording goes on
 
     std::optional<Bound> open (const std::string& role, const graph::Graph&, const std::vector<DeviceOption>&, Messages&) const;
@@ -137,7 +146,9 @@ private:
     void decideLength();
     void startLog (std::shared_ptr<const Plan>);
     void submit (std::shared_ptr<Plan>, const graph::Graph&, std::span<const Engine::Joining> = {});
-    Compiled compileNow (const graph::Graph&, const Plan* before, const Plan* withdrawn, const std::vector<std::string>& probes = {});
+    Compiled compileNow (const graph::Graph&, const Plan* before, const Plan* withdrawn, const std::vector<std::string>& watched = {});
+    Compiled compileWatched (const Plan* withdrawn);
+    void selectProbes (const Plan&);
     Messages notTakenOver (const graph::Graph&) const;
 };
 

@@ -19,8 +19,11 @@ using juce::OSCMessage;
 constexpr std::size_t most_probes = 16;
 constexpr double highest_rate = 1000.0, usual_rate = 50.0;   // Hz
 constexpr double longest = 60.0, usual_length = 5.0;         // s
+constexpr int usual_before = 100, usual_after = 400;         // ticks
 constexpr int most_at_a_time = 512;                          // messages
 constexpr double most_costs = 100, usual_costs = 10;         // nodes
+constexpr int most_rows_at_a_time = 32;                      // messages with rows of a capture, so that none is lost on the way
+constexpr std::size_t most_numbers = 240;                    // in such a message
 
 Message refused (std::string id, std::string text, std::string remedy)
 {
@@ -50,6 +53,17 @@ bool isPort (const OSCArgument& a) { return a.isInt32() && a.getInt32() > 0 && a
 /// The last argument, if it stands where a port may stand; 0: nobody is to be answered.
 int answerPort (const OSCMessage& m, int place) { return m.size() == place + 1 && isPort (m[place]) ? m[place].getInt32() : 0; }
 
+RemoteControl::Clock::duration durationOf (double seconds) { return std::chrono::duration_cast<RemoteControl::Clock::duration> (std::chrono::duration<double> (std::min (seconds, longest))); }
+
+std::optional<Trigger::Edge> edgeOf (const OSCArgument& a)
+{
+    const auto name = a.isString() ? textOf (a.getString()) : std::string();
+    if (name == "rising") return Trigger::Edge::rising;
+    if (name == "falling") return Trigger::Edge::falling;
+    if (name == "either") return Trigger::Edge::either;
+    return std::nullopt;
+}
+
 Message badArguments (const std::string& remedy) { return refused ("osc/arguments", "the arguments are not what belongs here", remedy); }
 }   // namespace
 
@@ -64,6 +78,13 @@ void RemoteControl::attend (Clock::time_point now)
     const auto left = std::erase_if (probes, [&] (const Probe& p)
                                      { return now >= p.end; });
     if (left > 0 && probes.empty()) look ({});
+
+    sendCapture();
+    if (capture && capture->sent == 0 && now >= capture->end)
+    {
+        capture.reset();
+        controlled.endCapture();
+    }
 }
 
 void RemoteControl::carryOut (const OSCMessage& m, Clock::time_point now)
@@ -87,6 +108,10 @@ void RemoteControl::carryOut (const OSCMessage& m, Clock::time_point now)
     else if (address == "/tactus/probe")
     {
         if (auto problem = subscribe (m, now); problem && m.size() >= 2 && isPort (m[1])) answer (m[1].getInt32(), address, subject, problem);
+    }
+    else if (address == "/tactus/trigger")
+    {
+        if (auto problem = subscribeCapture (m, now); problem && m.size() >= 2 && isPort (m[1])) answer (m[1].getInt32(), address, subject, problem);
     }
     else if (address == "/tactus/status" && m.size() == 1 && isPort (m[0]))
     {
@@ -127,7 +152,7 @@ std::optional<Message> RemoteControl::subscribe (const OSCMessage& m, Clock::tim
     if (m.size() < 2 || m.size() > 4 || ! m[0].isString() || ! isPort (m[1]) || ! rate || ! length || ! (*rate > 0.0) || ! (*length > 0.0))
         return badArguments ("a port of the graph, the port for the answers, and perhaps how often (Hz) and how long (s)");
 
-    Probe probe { .name = textOf (m[0].getString()), .to = m[1].getInt32(), .rate = std::min (*rate, highest_rate), .end = now + std::chrono::duration_cast<Clock::duration> (std::chrono::duration<double> (std::min (*length, longest))) };
+    Probe probe { .name = textOf (m[0].getString()), .to = m[1].getInt32(), .rate = std::min (*rate, highest_rate), .end = now + durationOf (*length) };
     const auto same = std::ranges::find_if (probes, [&] (const Probe& p)
                                             { return p.name == probe.name && p.to == probe.to; });
     if (same != probes.end())
@@ -150,6 +175,63 @@ std::optional<Message> RemoteControl::subscribe (const OSCMessage& m, Clock::tim
         done.addString (juce::String::fromUTF8 (components[c].c_str()));
     port.send (probe.to, done);
     return std::nullopt;
+}
+
+std::optional<Message> RemoteControl::subscribeCapture (const juce::OSCMessage& m, Clock::time_point now)
+{
+    const auto whole = [&] (int i, int otherwise)
+    { return m.size() <= i ? otherwise : m[i].isInt32() ? m[i].getInt32()
+                                                        : -1; };
+    const auto number = [&] (int i, double otherwise)
+    { return m.size() <= i ? otherwise : numberOf (m[i]).value_or (std::nan ("")); };
+    const double level = number (3, std::nan ("")), length = number (7, usual_length);
+    const auto edge = m.size() > 4 ? edgeOf (m[4]) : std::optional (Trigger::Edge::rising);
+    const int before = whole (5, usual_before), after = whole (6, usual_after);
+    if (m.size() < 4 || m.size() > 8 || ! m[0].isString() || ! isPort (m[1]) || ! m[2].isString() || ! std::isfinite (level) || ! edge || before < 0 || after < 0 || ! (length > 0.0))
+        return badArguments ("a port of the graph, the port for the answers, the port of the graph that triggers, its level, and perhaps rising, falling or either, ticks before, ticks after, and for how long (s)");
+
+    Capture wanted { .name = textOf (m[0].getString()), .watched = textOf (m[2].getString()), .to = m[1].getInt32(), .trigger = { level, *edge, static_cast<std::size_t> (before), static_cast<std::size_t> (after) }, .end = now + durationOf (length) };
+    if (! capture) return arm (std::move (wanted));
+    if (capture->to != wanted.to || capture->name != wanted.name) return refused ("probe/busy", "somebody else waits for a trigger", "wait until that is over");
+    capture->end = wanted.end;
+    confirmCapture();
+    return std::nullopt;
+}
+
+std::optional<Message> RemoteControl::arm (Capture wanted)
+{
+    auto armed = controlled.capture (wanted.name, wanted.watched, wanted.trigger);
+    if (auto* problem = std::get_if<Message> (&armed)) return std::move (*problem);
+    wanted.components = std::move (std::get<std::vector<std::string>> (armed));
+    capture = std::move (wanted);
+    confirmCapture();
+    return std::nullopt;
+}
+
+void RemoteControl::confirmCapture()
+{
+    OSCMessage done ("/tactus/done", juce::String ("/tactus/trigger"), juce::String::fromUTF8 (capture->name.c_str()), static_cast<float> (controlled.status().rate_hz));
+    for (const auto& name : capture->components)
+        done.addString (juce::String::fromUTF8 (name.c_str()));
+    port.send (capture->to, done);
+}
+
+void RemoteControl::sendCapture()
+{
+    const auto* whole = capture ? controlled.captured() : nullptr;
+    if (whole == nullptr) return;
+    const auto ticks = whole->window().ticks(), at_a_time = std::max<std::size_t> (1, most_numbers / std::max<std::size_t> (1, capture->components.size()));
+    for (int i = 0; i < most_rows_at_a_time && capture->sent < ticks; ++i)
+    {
+        OSCMessage rows ("/tactus/capture", juce::String::fromUTF8 (capture->name.c_str()), static_cast<juce::int32> (whole->triggeredAt() & 0x7fffffffu), static_cast<juce::int32> (ticks), static_cast<juce::int32> (capture->sent) - static_cast<juce::int32> (whole->window().before));
+        for (const auto end = std::min (ticks, capture->sent + at_a_time); capture->sent < end; ++capture->sent)
+            for (const double value : whole->frame (capture->sent))
+                rows.addFloat32 (static_cast<float> (value));
+        port.send (capture->to, rows);
+    }
+    if (capture->sent < ticks) return;
+    capture.reset();
+    controlled.endCapture();
 }
 
 /// Takes these probes for the ones there are, if all their ports can be looked at together.
@@ -175,6 +257,13 @@ std::optional<Message> RemoteControl::look (const std::vector<Probe>& wanted)
 
 void RemoteControl::graphChanged()
 {
+    if (auto again = std::exchange (capture, std::nullopt))
+    {
+        const auto to = again->to;
+        const auto name = again->name;
+        again->sent = 0;
+        if (const auto problem = arm (std::move (*again))) answer (to, "/tactus/trigger", name, problem);
+    }
     if (probes.empty()) return;
     auto before = std::exchange (probes, {});
     look ({});

@@ -6,6 +6,7 @@
 #include <framework/json.hpp>
 #include <framework/message.hpp>
 #include <host/runtime/node_costs.hpp>
+#include <host/runtime/triggered_capture.hpp>
 
 #include <chrono>
 #include <cstdint>
@@ -37,6 +38,11 @@ public:
     /// From now on these ports are looked at, and no others. Returns the names of their components, each once, or why
     /// not; then all is as it was.
     virtual std::variant<std::vector<std::string>, Message> probe (const std::vector<std::string>& ports) = 0;
+
+    /// One window of a port around an edge of another port, in place of what was asked for before. Returns as probe() does.
+    virtual std::variant<std::vector<std::string>, Message> capture (const std::string& port, const std::string& watched, const Trigger&) = 0;
+    virtual const TriggeredCapture* captured() = 0;   ///< null until there was the edge, and what comes after it
+    virtual void endCapture() = 0;
 
     virtual Status status() = 0;
 
@@ -76,15 +82,31 @@ private:
         std::vector<std::size_t> components {};
     };
 
+    /// A window that is waited for, or on its way to who asked for it.
+    struct Capture
+    {
+        std::string name, watched;
+        int to;   // port
+        Trigger trigger;
+        Clock::time_point end;
+        std::vector<std::string> components {};
+        std::size_t sent = 0;   // ticks
+    };
+
     void carryOut (const juce::OSCMessage&, Clock::time_point);
     void sendCosts (int to, std::size_t most);
     std::optional<Message> subscribe (const juce::OSCMessage&, Clock::time_point);
+    std::optional<Message> subscribeCapture (const juce::OSCMessage&, Clock::time_point);
+    std::optional<Message> arm (Capture);
+    void confirmCapture();
+    void sendCapture();
     std::optional<Message> look (const std::vector<Probe>&);
     void answer (int to, const std::string& address, const std::string& subject, const std::optional<Message>&);
 
     OscPort& port;
     Controlled& controlled;
     std::vector<Probe> probes;
+    std::optional<Capture> capture;
     std::vector<std::string> components;
     double rate_hz = 0.0;
 };

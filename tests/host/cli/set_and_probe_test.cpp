@@ -136,3 +136,47 @@ TEST_CASE ("a probe goes on when the graph is edited, and ends when its port is 
     CHECK (stays.stop().status == 0);
     CHECK (play.stop().status == 0);
 }
+
+TEST_CASE ("a window is taken around an edge, with every tick of it", "[cli][osc]")
+{
+    const Scratch scratch;
+    const auto graph = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 1, "name": "Saw", "rate_hz": 500,
+      "nodes": { "one": { "type": "signal.constant", "params": { "value": 1 } }, "count": { "type": "signal.add" }, "saw": { "type": "signal.lfo", "params": { "frequency": 5, "shape": "saw" } }, "turn": { "type": "signal.constant" } },
+      "wires": [ "one.out -> count.in[0]", "count.out -> [1] -> count.in[1]" ] })");
+    Running play { { "play", graph, "--osc", "0", "--duration", "600" } };
+    const auto port = portOf (play);
+    const auto capture = [&] (std::vector<std::string> more)
+    {
+        std::vector<std::string> arguments { "probe", "count.out", "--osc", port, "--trigger", "saw.out" };
+        arguments.insert (arguments.end(), more.begin(), more.end());
+        return runTactus (arguments);
+    };
+
+    const auto ran = capture ({ "--level", "0.5", "--before", "30", "--after", "600" });
+    INFO (ran.err);
+    REQUIRE (ran.status == 0);
+    CHECK (ran.err.starts_with ("triggered at "));
+    const auto window = host::readTable (scratch.write ("window.csv", ran.out));
+    REQUIRE (window);
+    CHECK (window->columns == std::vector<std::string> { "t", "count.out" });
+    REQUIRE (window->rows() == 631);
+    const double edge = std::stod (ran.err.substr (13)) * 500.0;   // tick, from which count.out is 1 away
+    int wrong = 0;
+    for (std::size_t r = 0; r < window->rows(); ++r)
+    {
+        wrong += std::abs (window->at (r, 0) * 500.0 - (static_cast<double> (r) - 30.0)) > 1e-9;
+        wrong += std::abs (window->at (r, 1) - (edge + 1.0 + static_cast<double> (r) - 30.0)) > 1e-3;
+    }
+    CHECK (wrong == 0);
+
+    CHECK (capture ({ "--level", "-0.5", "--edge", "falling", "--before", "0", "--after", "0" }).out.find ("\n0,") != std::string::npos);
+    const auto never = capture ({ "--level", "7", "--duration", "0.3" });
+    CHECK (never.status == 1);
+    CHECK (never.err.find ("[probe/no_edge]") != std::string::npos);
+    play.stop();
+
+    CHECK (capture ({}).status == 2);
+    CHECK (capture ({ "--level", "1", "--rate", "5" }).status == 2);
+    CHECK (capture ({ "--level", "1", "--edge", "sideways" }).status == 2);
+    CHECK (runTactus ({ "probe", "count.out", "--before", "5" }).status == 2);
+}

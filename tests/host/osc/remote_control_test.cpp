@@ -49,6 +49,17 @@ struct Puppet : Controlled
         return names;
     }
 
+    std::variant<std::vector<std::string>, Message> capture (const std::string& port, const std::string& watched, const Trigger& trigger) override
+    {
+        if (watched == "drag.nothing") return Message { .id = "port/unknown", .where = {}, .text = "no such port", .remedy = "" };
+        said = port + " by " + watched + " at " + std::to_string (trigger.level);
+        wanted = trigger;
+        capturing = std::make_unique<TriggeredCapture> (trigger, 1, std::vector<std::size_t> { 0, 1 }, 1);
+        return std::vector<std::string> { port + ".x", port + ".y" };
+    }
+    const TriggeredCapture* captured() override { return capturing && capturing->isComplete() ? capturing.get() : nullptr; }
+    void endCapture() override { capturing.reset(); }
+
     Status status() override { return { "Puppet", 1000.0, 2.5, 0.5, 1.5, 2500, 3 }; }
     std::vector<NodeCost> costs() override { return std::vector<NodeCost> (20, { "wood/drag", "friction.elasto_plastic", 2e-6, 0.05 }); }
     void stop() override { stopped = true; }
@@ -56,7 +67,23 @@ struct Puppet : Controlled
     std::string said;
     std::vector<std::string> probed;
     bool stopped = false, force_is_gone = false;
+    Trigger wanted;
+    std::unique_ptr<TriggeredCapture> capturing;
 };
+
+/// Ticks a capture with x = k, and y = 1 from a tick on.
+void run (TriggeredCapture& capture, int ticks, int edge)
+{
+    Plan plan;
+    double values[2] {};
+    plan.taps = { { .name = "x", .unit = {}, .value = &values[0] }, { .name = "y", .unit = {}, .value = &values[1] } };
+    for (int k = 0; k < ticks; ++k)
+    {
+        values[0] = k;
+        values[1] = k >= edge;
+        capture.note (plan, static_cast<std::uint64_t> (k));
+    }
+}
 
 struct Stage
 {
@@ -260,4 +287,71 @@ TEST_CASE ("when the graph is another one, probes go on as far as their ports ar
     REQUIRE (value);
     CHECK (text (*value, 0) == "drag.state");
     CHECK ((*value)[2].getFloat32() == 7.0f);
+}
+
+TEST_CASE ("a trigger sends its window whole, and then is over", "[osc]")
+{
+    Stage stage;
+    const auto done = stage.ask ("/tactus/trigger", String ("drag.force"), stage.me(), String ("drag.state"), 0.5f, String ("either"), 20, 1000);
+    CHECK (address (done) == "/tactus/done");
+    CHECK (text (done, 0) == "/tactus/trigger");
+    CHECK (done[2].getFloat32() == 1000.0f);
+    CHECK (text (done, 4) == "drag.force.y");
+    CHECK (stage.puppet.said == "drag.force by drag.state at 0.500000");
+    CHECK (stage.puppet.wanted.edge == Trigger::Edge::either);
+    CHECK (stage.puppet.wanted.before == 20);
+    CHECK (stage.puppet.wanted.after == 1000);
+
+    run (*stage.puppet.capturing, 2000, 300);
+    int next = -20;
+    stage.control.attend (stage.now);
+    for (;;)
+    {
+        const auto rows = stage.other->next (next < 1001 ? 20s : 50ms);
+        if (! rows) break;
+        REQUIRE (address (*rows) == "/tactus/capture");
+        CHECK (text (*rows, 0) == "drag.force");
+        CHECK ((*rows)[1].getInt32() == 300);
+        CHECK ((*rows)[2].getInt32() == 1021);
+        CHECK ((*rows)[3].getInt32() == next);
+        int wrong = 0;
+        for (int i = 4; i + 1 < rows->size(); i += 2, ++next)
+        {
+            wrong += (*rows)[i].getFloat32() != static_cast<float> (300 + next);
+            wrong += (*rows)[i + 1].getFloat32() != (next >= 0 ? 1.0f : 0.0f);
+        }
+        CHECK (wrong == 0);
+    }
+    CHECK (next == 1001);
+    CHECK_FALSE (stage.puppet.capturing);
+}
+
+TEST_CASE ("one trigger is waited for at a time, until its time is over", "[osc]")
+{
+    Stage stage;
+    const auto id = [] (const OSCMessage& m)
+    { return address (m) == "/tactus/error" ? text (m, 2) : address (m); };
+    CHECK (id (stage.ask ("/tactus/trigger", String ("drag.force"), stage.me(), String ("drag.nothing"), 0.5f)) == "port/unknown");
+    CHECK (id (stage.ask ("/tactus/trigger", String ("drag.force"), stage.me(), String ("drag.state"))) == "osc/arguments");
+    for (const auto* edge : { "up", "" })
+        CHECK (id (stage.ask ("/tactus/trigger", String ("drag.force"), stage.me(), String ("drag.state"), 0.5f, String (edge))) == "osc/arguments");
+    CHECK (id (stage.ask ("/tactus/trigger", String ("drag.force"), stage.me(), String ("drag.state"), 0.5f, String ("rising"), -1)) == "osc/arguments");
+    CHECK (id (stage.ask ("/tactus/trigger", String ("drag.force"), stage.me(), String ("drag.state"), std::numeric_limits<float>::quiet_NaN())) == "osc/arguments");
+    CHECK_FALSE (stage.puppet.capturing);
+
+    const auto ask = [&] (const char* port)
+    { return id (stage.ask ("/tactus/trigger", String (port), stage.me(), String ("drag.state"), 0.5f)); };
+    CHECK (ask ("drag.force") == "/tactus/done");
+    CHECK (ask ("drag.state") == "probe/busy");
+    stage.now += 4s;
+    CHECK (ask ("drag.force") == "/tactus/done");   // goes on
+    stage.now += 4s;
+    stage.control.attend (stage.now);
+    CHECK (stage.puppet.capturing);
+    stage.control.graphChanged();
+    CHECK (address (*stage.other->next (20s)) == "/tactus/done");
+    stage.now += 2s;
+    stage.control.attend (stage.now);
+    CHECK_FALSE (stage.puppet.capturing);
+    CHECK (ask ("drag.state") == "/tactus/done");
 }

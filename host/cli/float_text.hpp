@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <charconv>
+#include <iterator>
+#include <string>
+
+namespace tactus::host
+{
+
+/// The shortest text that reads back to the same float, which is what OSC has for numbers.
+inline std::string floatText (float v)
+{
+    char text[32];
+    const auto end = std::to_chars (std::begin (text), std::end (text), v).ptr;
+    return { text, end };
+}
+
+}   // namespace tactus::host
