@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ids.hpp"
+#include "instances.hpp"
 
 #include <algorithm>
 
@@ -26,7 +27,13 @@ void forEach (Graph& graph, Visit visit)
 
 bool isId (const Json& value) { return value.is_number_unsigned(); }
 
-bool isEntry (const Json& value) { return isId (value) || (value.is_array() && value.size() > 1 && std::ranges::all_of (value, isId)); }
+bool isAncestor (const Json& value) { return value.is_array() && value.size() == 2 && isId (value[0]) && isId (value[1]) && value[1].get<Id>() < static_cast<Id> (most_instances); }
+
+bool isEntry (const Json& value)
+{
+    if (! value.is_array()) return isId (value);
+    return value.size() > 1 && isId (value[0]) && std::all_of (value.begin() + 1, value.end(), isAncestor);
+}
 }   // namespace
 
 Json idsOf (const Graph& graph)
@@ -40,8 +47,8 @@ Json idsOf (const Graph& graph)
             return;
         }
         auto& entry = all.emplace_back (Json::array ({ thing.id }));
-        for (const Id id : thing.origin)
-            entry.push_back (id); });
+        for (const auto& [id, instance] : thing.origin)
+            entry.push_back (Json::array ({ id, static_cast<Id> (instance) })); });
     return all;
 }
 
@@ -60,7 +67,7 @@ bool giveIds (Graph& graph, const Json& ids)
         thing.origin.clear();
         thing.id = entry.is_array() ? entry[0].get<Id>() : entry.get<Id>();
         for (std::size_t i = 1; entry.is_array() && i < entry.size(); ++i)
-            thing.origin.push_back (entry[i].get<Id>()); });
+            thing.origin.push_back ({ entry[i][0].get<Id>(), entry[i][1].get<int>() }); });
     return true;
 }
 

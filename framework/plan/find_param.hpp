@@ -18,7 +18,7 @@ namespace tactus::plan
 /// with a count, where the name does not say which, one in each instance. Never none. [main thread]
 std::variant<std::vector<ParamRef>, Message> findParams (const Plan&, std::string_view name);
 
-/// The name under which findParam finds a knob of an instance. [main thread]
+/// The name under which findParams finds a knob of an instance. [main thread]
 std::string nameOf (const Plan&, std::size_t instance, std::size_t knob);
 
 }   // namespace tactus::plan

@@ -118,10 +118,12 @@ TEST_CASE ("every knob of a graph is found by its name", "[plan][property]")
             for (std::size_t p = 0; p < node.type->params.size(); first += plan::Knobs::roomOf (node.type->params[p++]))
                 for (std::size_t c = 0; c < plan->flat.param (static_cast<int> (i), p).size(); ++c)
                 {
-                    const auto found = plan::findParam (*plan, plan::nameOf (*plan, i, first + c));
-                    RC_ASSERT (std::holds_alternative<plan::ParamRef> (found));
-                    RC_ASSERT (std::get<plan::ParamRef> (found).knobs == instance.knobs);
-                    RC_ASSERT (std::get<plan::ParamRef> (found).index == first + c);
+                    const auto found = plan::findParams (*plan, plan::nameOf (*plan, i, first + c));
+                    RC_ASSERT (std::holds_alternative<std::vector<plan::ParamRef>> (found));
+                    const auto& refs = std::get<std::vector<plan::ParamRef>> (found);
+                    RC_ASSERT (refs.size() == 1u);
+                    RC_ASSERT (refs[0].knobs == instance.knobs);
+                    RC_ASSERT (refs[0].index == first + c);
                 }
         } });
 }
@@ -131,7 +133,7 @@ TEST_CASE ("a graph that is read again can be given the ids it had", "[graph]")
     auto graph = Sketch {}.node ("one", "signal.constant").node ("amp", "signal.gain").wire ("one.out -> amp.in").graph;
     auto& part = graph.graphs.emplace_back ("part", graph::Patch {}).second;
     part.nodes.push_back (Sketch::makeNode ("inner", "signal.abs"));
-    part.nodes.back().origin = { 7, 8 };
+    part.nodes.back().origin = { { 7, 0 }, { 8, 2 } };
     auto again = graph;
     for (auto* node : { &again.root.nodes[0], &again.root.nodes[1], &again.graphs[0].second.nodes[0] })
     {
@@ -143,8 +145,8 @@ TEST_CASE ("a graph that is read again can be given the ids it had", "[graph]")
     const auto ids = graph::idsOf (graph);
     REQUIRE (graph::giveIds (again, Json::parse (ids.dump())));
     CHECK (graph::idsOf (again) == ids);
-    CHECK (again.graphs[0].second.nodes[0].origin == std::vector<graph::Id> { 7, 8 });
-    for (const auto* wrong : { "[1,2,3]", "[1,2,3,4,5]", "{}", "[1,2,3,-4]", "[1,2,3,[4]]", "[1,2,3,[4,\"x\"]]", "[1,2,3,null]" })
+    CHECK (again.graphs[0].second.nodes[0].origin == std::vector<graph::Ancestor> { { 7, 0 }, { 8, 2 } });
+    for (const auto* wrong : { "[1,2,3]", "[1,2,3,4,5]", "{}", "[1,2,3,-4]", "[1,2,3,[4]]", "[1,2,3,[4,5]]", "[1,2,3,[4,[5,-1]]]", "[1,2,3,[4,\"x\"]]", "[1,2,3,null]" })
         CHECK_FALSE (graph::giveIds (again, Json::parse (wrong)));
     CHECK (graph::idsOf (again) == ids);
 }
