@@ -20,13 +20,18 @@ Messages Live::undo() { return edits.undo() ? compileAndSubmit() : Messages {}; 
 
 Messages Live::redo() { return edits.redo() ? compileAndSubmit() : Messages {}; }
 
-Messages Live::compileAndSubmit()
+Messages Live::join (std::span<const Engine::Joining> devices) { return compileAndSubmit (devices); }
+
+Messages Live::compileAndSubmit (std::span<const Engine::Joining> joining)
 {
     auto waiting = running.withdraw();
     options.before = &running.newest();
     options.withdrawn = waiting.get();
     auto [plan, messages] = compile (edits.graph(), catalogue, options);
-    running.submit (plan ? std::move (plan) : std::move (waiting));
+    if (plan)
+        running.submit (std::move (plan), joining);
+    else
+        running.submit (std::move (waiting));
     if (edits.graph().rate_hz != first_rate_hz)
         messages.push_back ({ Message::Severity::warning, "live/rate", "/rate_hz", "the graph's rate was changed, and devices and guards run at another already", "start anew to run at it" });
     return std::move (messages);

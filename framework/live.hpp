@@ -5,6 +5,8 @@
 #include "graph/history.hpp"
 #include "plan/compile.hpp"
 
+#include <span>
+
 namespace tactus
 {
 
@@ -26,11 +28,15 @@ public:
     Messages undo();
     Messages redo();
 
+    /// Gives devices to roles that the graph has got since it began to run; they are there from a tick to come, as
+    /// Engine::submit has it. Returns what there is to say about the graph; with errors, nobody has joined.
+    Messages join (std::span<const Engine::Joining>);
+
     /// Turns parameters without an edit, by a value as a file would have it: 0.4, "0.4 mm", "stick", [0, 0, 1].
     std::optional<Message> set (const std::string& name, const Json& value);
 
 private:
-    Messages compileAndSubmit();
+    Messages compileAndSubmit (std::span<const Engine::Joining> = {});
 
     graph::History edits;
     const Catalogue& catalogue;

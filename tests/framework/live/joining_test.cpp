@@ -110,6 +110,23 @@ TEST_CASE ("a role that ran without a device can be given one, with its plan or 
     CHECK (engine.role (1).name == "thumb");
 }
 
+TEST_CASE ("a role that comes with an edit is given its device then, though the edit itself has not run yet", "[live]")
+{
+    auto sketch = pushed();
+    Live live { sketch.graph, catalogue(), { .rate_hz = rate_hz }, sketch.compile ({ .rate_hz = rate_hz }).plan };
+    auto thimble = test::Sketch::makeNode ("thimble", "device.force");
+    thimble.role = "thumb";
+    CHECK_FALSE (hasErrors (live.perform (graph::AddNode { "", thimble })));
+    CHECK_FALSE (hasErrors (live.perform (graph::AddWire { "", std::get<graph::Wire> (graph::parseWire ("wall.force -> thimble.force")) })));
+    Thumb thumb;
+    const Engine::Joining joining { "thumb", thumb };
+    CHECK_FALSE (hasErrors (live.join (std::span (&joining, 1))));
+    for (int k = 0; k < 200; ++k)
+        live.engine().tick();
+    CHECK (thumb.reads == 200);
+    CHECK (thumb.efforts.back() == Approx (10.0));
+}
+
 TEST_CASE ("a device stays with its role when the plan it joined with never ran", "[live]")
 {
     auto sketch = pushed();
