@@ -32,6 +32,23 @@ int NoAllocation::locks() const noexcept { return locks_seen; }
 
 #if ! defined(__SANITIZE_ADDRESS__) && ! defined(__SANITIZE_THREAD__) && defined(__GLIBC__)
 
+namespace
+{
+/// The function that ours stands in front of.
+template <typename Lock>
+auto next (const char* name) noexcept
+{
+    return reinterpret_cast<int (*) (Lock*)> (dlsym (RTLD_NEXT, name));
+}
+
+template <typename Lock>
+int locking (int (*real) (Lock*), Lock* lock) noexcept
+{
+    if (watching) ++locks_seen;
+    return real (lock);
+}
+}   // namespace
+
 // The executable's own symbols come before those of libc, also for calls from inside libstdc++.
 extern "C"
 {
@@ -79,10 +96,23 @@ extern "C"
     }
     int pthread_mutex_lock (pthread_mutex_t* m) noexcept
     {
-        using Lock = int (*) (pthread_mutex_t*);
-        static const auto real = reinterpret_cast<Lock> (dlsym (RTLD_NEXT, "pthread_mutex_lock"));
-        if (watching) ++locks_seen;
-        return real (m);
+        static const auto real = next<pthread_mutex_t> ("pthread_mutex_lock");
+        return locking (real, m);
+    }
+    int pthread_mutex_trylock (pthread_mutex_t* m) noexcept
+    {
+        static const auto real = next<pthread_mutex_t> ("pthread_mutex_trylock");
+        return locking (real, m);
+    }
+    int pthread_rwlock_rdlock (pthread_rwlock_t* l) noexcept
+    {
+        static const auto real = next<pthread_rwlock_t> ("pthread_rwlock_rdlock");
+        return locking (real, l);
+    }
+    int pthread_rwlock_wrlock (pthread_rwlock_t* l) noexcept
+    {
+        static const auto real = next<pthread_rwlock_t> ("pthread_rwlock_wrlock");
+        return locking (real, l);
     }
 }
 

@@ -4,7 +4,7 @@
 #include <cstddef>   // so that __GLIBC__ is known where this comes first
 
 /// Counts what has no place on the tick thread: while one of these lives, every call of malloc and its family and
-/// every lock of a mutex on this thread. Under ASan and TSan, which have an allocator of their own, it counts nothing.
+/// every lock of a mutex, shared or not, on this thread. Under ASan and TSan, which have an allocator of their own, it counts nothing.
 class NoAllocation
 {
 public:

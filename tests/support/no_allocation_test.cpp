@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <mutex>
+#include <shared_mutex>
 
 TEST_CASE ("the watch on allocation sees an allocation, a release and a lock")
 {
@@ -14,16 +15,24 @@ TEST_CASE ("the watch on allocation sees an allocation, a release and a lock")
         return;
     }
     std::mutex mutex;
+    std::shared_mutex shared;
     int allocations = 0, locks = 0;
     {
         const NoAllocation watch;
         auto number = std::make_unique<int> (1);
         volatile int kept = *number;   // so that the allocation is not optimised away
         (void)kept;
-        const std::lock_guard lock (mutex);
+        {
+            const std::lock_guard lock (mutex);
+        }
+        const std::unique_lock tried (mutex, std::try_to_lock);
+        {
+            const std::shared_lock reading (shared);
+        }
+        const std::lock_guard writing (shared);
         allocations = watch.allocations();
         locks = watch.locks();
     }
     CHECK (allocations > 0);
-    CHECK (locks == 1);
+    CHECK (locks == 4);
 }

@@ -2,6 +2,7 @@
 // An editor, a hand on the knobs and the tick at the same time. What TSan is to look at; TACTUS_LIVE_SECONDS makes it longer.
 
 #include "support/chance_hand.hpp"
+#include "support/no_allocation.hpp"
 #include "support/random_edit.hpp"
 #include "support/random_graph.hpp"
 #include "support/sketch.hpp"
@@ -35,14 +36,18 @@ TEST_CASE ("edited and turned from other threads, a graph ticks on, and what was
     live.engine().attach ("stylus", hand);
 
     std::atomic<bool> stop = false;
-    std::atomic<int> taken = 0;
+    std::atomic<int> taken = 0, unclean = 0;
     std::uint64_t ticks = 0;
     std::thread ticker { [&]
                          {
                              const Plan* last = nullptr;
                              for (; ! stop; ++ticks)
                              {
-                                 live.engine().tick();
+                                 {
+                                     const NoAllocation watch;
+                                     live.engine().tick();
+                                     unclean += watch.allocations() + watch.locks();
+                                 }
                                  if (last != &live.engine().plan()) ++taken;
                                  last = &live.engine().plan();
                                  if (ticks % 16 == 0) std::this_thread::yield();
@@ -75,6 +80,7 @@ TEST_CASE ("edited and turned from other threads, a graph ticks on, and what was
     turner.join();
 
     CHECK (taken > 1);
+    CHECK (unclean == 0);
     CHECK (most_kept <= 3);
     Engine alone { sketch.compile (options).plan };
     test::ChanceHand other { 1 };

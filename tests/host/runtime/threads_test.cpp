@@ -6,6 +6,7 @@
 #include <host/runtime/runner.hpp>
 
 #include "support/chance_hand.hpp"
+#include "support/no_allocation.hpp"
 #include "support/random_edit.hpp"
 #include "support/random_graph.hpp"
 #include "support/sketch.hpp"
@@ -40,7 +41,7 @@ class Taps final : public TickHooks
 public:
     explicit Taps (Engine& e) : engine (e) {}
 
-    void before (std::uint64_t) noexcept override {}
+    void before (std::uint64_t) noexcept override { watch.emplace(); }
     void after (std::uint64_t tick, bool) noexcept override
     {
         probes.note (engine.plan(), tick);
@@ -50,13 +51,17 @@ public:
                 frame[i] = *engine.plan().taps[i].value;
             frames.push();
         }
+        unclean += watch->allocations() + watch->locks();
+        watch.reset();
     }
 
     FrameRing frames { 2, 4096 };
     ProbeRing probes;
+    int unclean = 0;   ///< allocations, frees and locks of all ticks
 
 private:
     Engine& engine;
+    std::optional<NoAllocation> watch;
 };
 }   // namespace
 
@@ -131,6 +136,7 @@ TEST_CASE ("an editor, a hand on a knob, a probe reader, a recorder and whoever 
     const auto ticks = runner.status().ticks;
     INFO (ticks << " ticks, " << edits << " edits");
     CHECK (broken == 0);
+    CHECK (taps.unclean == 0);
     CHECK (edits > 10);
     CHECK (probed > 10);
     CHECK (recorded > 10);
