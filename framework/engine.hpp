@@ -111,8 +111,9 @@ public:
         const Guard& guard;
     };
 
-    std::size_t roleCount() const noexcept { return running->channels.size(); }                                                                                    ///< [tick thread]
-    RoleView role (std::size_t i) const noexcept { return { running->channels[i]->role, running->plan->roles[i].state->applied, running->channels[i]->guard }; }   ///< as plan().roles   [tick thread]
+    /// Roles are numbered as plan().roles. [tick thread]
+    std::size_t roleCount() const noexcept { return running->channels.size(); }
+    RoleView role (std::size_t i) const noexcept { return { running->channels[i]->role, running->plan->roles[i].state->applied, running->channels[i]->guard }; }
 
     const Guard& guardOf (std::string_view role) const;
     double time_s() const noexcept { return static_cast<double> (ticks) / rate_hz; }

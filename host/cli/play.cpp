@@ -45,7 +45,7 @@ std::unique_ptr<OscPort> openPort (const Options& options)
     char took[32];
     std::snprintf (took, sizeof took, "%.3f", 1e3 * runner.account().computing().quantile (0.5));
     const auto costs = runner.costs();
-    fail ("run/overrun", "stopped, because the graph takes longer than its ticks last: " + std::string (took) + " ms of " + numberText (1e3 / rate_hz) + " ms; " + (costs.empty() ? "there is no node" : describe (costs.front())), "give it less to do, or a lower --rate");
+    fail ("run/overrun", "stopped, because the graph takes longer than its ticks last: " + std::string (took) + " ms of " + numberText (1e3 / rate_hz) + " ms; " + (costs.empty() ? "no node was measured" : describe (costs.front())), "give it less to do, or a lower --rate");
 }
 
 void run (const Options& options)
@@ -103,7 +103,7 @@ void run (const Options& options)
 
     session.reportRun();
     const auto end = runner.status();
-    if (end.let_go_under_force != 0)
+    if (end.let_go_under_force)
         std::fprintf (stderr, "warning: the slew limit kept force on a device for %g s, so it was let go under force\n", Runner::longest_halt_s);
     if (recording) recording->commit();
     if (options.costs) printCosts (runner);

@@ -26,6 +26,7 @@ NodeCosts::NodeCosts (const TickClock& c) : clock (c) {}
 void NodeCosts::begin() noexcept
 {
     constexpr int rounds = 16, looks = 64;
+    constexpr double first_looks = 1000;   // a graph may be so heavy that there is no second tick to look at
     look_s = 1.0;
     for (int r = 0; r < rounds; ++r)   // the least counts: the rest is other programs
     {
@@ -36,6 +37,7 @@ void NodeCosts::begin() noexcept
         look_s = std::min (look_s, (after - before) / looks);
     }
     look_s = std::max (look_s, 1e-9);
+    credit_s = first_looks * look_s;
 }
 
 void NodeCosts::tick (Plan& plan) noexcept

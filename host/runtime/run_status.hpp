@@ -42,10 +42,10 @@ struct RunStatus
         Guard::Stop latest = Guard::Stop::none;
         std::array<double, 6> wanted {};
         double age = 0.0, watchdog = 0.0;
-        std::uint64_t valid = 1;
+        bool valid = true;
 
         /// For describe().
-        Guard::Event latestEvent() const { return { .why = latest, .wanted = { Vec3 (wanted.data()), Vec3 (wanted.data() + 3) }, .age = age, .watchdog = watchdog, .valid = valid != 0 }; }
+        Guard::Event latestEvent() const { return { .why = latest, .wanted = { Vec3 (wanted.data()), Vec3 (wanted.data() + 3) }, .age = age, .watchdog = watchdog, .valid = valid }; }
     };
 
     static constexpr std::size_t most_roles = 16;
@@ -54,7 +54,7 @@ struct RunStatus
     double force = 0.0, peak = 0.0;        ///< N, the largest of all roles: now, and since the run began
     Phase phase = Phase::running;
     End end = End::none;
-    std::uint64_t let_go_under_force = 0;    ///< 1: a slew limit made the way to zero too long
+    bool let_go_under_force = false;         ///< a slew limit made the way to zero too long
     std::uint64_t role_count = 0;            ///< of the plan that ticks; there is more to see of the first `most_roles`
     std::array<Role, most_roles> roles {};   ///< by name; last, since most of them are seldom there
 

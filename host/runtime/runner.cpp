@@ -78,7 +78,7 @@ bool Runner::goesOn() noexcept
     engine.halt();   // each time, for a plan may have brought another role
     if (engine.isAtRest()) return false;
     now.let_go_under_force = ticks - halted_at > longest_halt;
-    return now.let_go_under_force == 0;
+    return ! now.let_go_under_force;
 }
 
 void Runner::publish() noexcept

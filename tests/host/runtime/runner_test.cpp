@@ -78,7 +78,7 @@ TEST_CASE ("a run ticks for its length and then until no force is left, with the
     const auto end = play (runner);
     CHECK (end.phase == Phase::over);
     CHECK (end.end == End::length);
-    CHECK (end.let_go_under_force == 0);
+    CHECK_FALSE (end.let_go_under_force);
     CHECK (end.ticks == notes.halts.size());
     CHECK (end.ticks > 1000);
     CHECK (end.ticks <= 1000 + static_cast<std::uint64_t> (Guard::fade_s * rate_hz) + 2);
@@ -154,7 +154,7 @@ TEST_CASE ("a device that a slew limit keeps under force is let go after a while
     FreeRun clock;
     Runner runner { engine, clock, rate_hz, { .length = 400000 } };
     const auto end = play (runner);
-    CHECK (end.let_go_under_force == 1);
+    CHECK (end.let_go_under_force);
     CHECK (end.ticks == 400000 + static_cast<std::uint64_t> (Runner::longest_halt_s * rate_hz) + 1);
     CHECK (end.force == Approx (1.0 - 0.02 * Runner::longest_halt_s).epsilon (0.01));
 }
