@@ -140,33 +140,24 @@ void Engine::takeOver (Running& next) noexcept
 {
     if (journal) journal->tookOver (*next.plan);
     next.plan->takeOver (*running->plan, journal);
+    for (std::size_t i = 0; i < next.channels.size(); ++i)
+        if (! next.plan->roles[i].untouched)
+        {
+            next.channels[i]->bumpless.begin();
+            next.channels[i]->touched_at = ticks;
+        }
     running = &next;
-    fade();
     handover.done (running);
     fresh = true;
-    settled = running->plan->rests.empty();
-    taken_at = ticks;
-}
-
-void Engine::fade() noexcept
-{
-    for (std::size_t i = 0; i < running->channels.size(); ++i)
-        if (! running->plan->roles[i].untouched) running->channels[i]->bumpless.begin();
+    if (const auto& rests = next.plan->rests; ! rests.empty()) settled_at = ticks + rests.back();
 }
 
 /// What is changed in a section that rests comes when it runs, and so does the step.
 void Engine::fadeAgain() noexcept
 {
-    const auto since = ticks - taken_at;
-    bool runs = false;
-    settled = true;
-    for (const auto rests : running->plan->rests)
-    {
-        const auto first = (rests - taken_at % rests) % rests;
-        runs = runs || (first > 0 && since == first);
-        settled = settled && since >= first;
-    }
-    if (runs) fade();
+    for (auto* channel : running->channels)
+        for (const auto rests : running->plan->rests)
+            if (ticks % rests == 0 && ticks > channel->touched_at && ticks < channel->touched_at + rests) channel->bumpless.begin();
 }
 
 void Engine::takeSubmitted() noexcept
@@ -187,7 +178,7 @@ void Engine::turnKnobs() noexcept
 void Engine::beforePlan() noexcept
 {
     takeSubmitted();
-    if (! settled) fadeAgain();
+    if (ticks < settled_at) fadeAgain();
     if (fresh || touched.load (std::memory_order_relaxed)) turnKnobs();
 
     auto& [plan, used, scratch] = *running;

@@ -125,6 +125,7 @@ private:
         Device* device = nullptr;
         Guard guard {};
         Bumpless bumpless {};
+        std::uint64_t touched_at = 0;   // the tick that took the last plan to change what leads here
     };
 
     /// A plan with what the engine keeps beside it.
@@ -144,7 +145,6 @@ private:
     void join (const Joining&, const Plan&);
     std::unique_ptr<Running> makeRunning (std::shared_ptr<Plan>);
     void takeOver (Running&) noexcept;
-    void fade() noexcept;
     void fadeAgain() noexcept;
     void turnKnobs() noexcept;
 
@@ -156,9 +156,9 @@ private:
     // Of the tick thread.
     Running* running;
     Journal* journal = nullptr;
-    bool fresh = true;     // the plan has not ticked yet
-    bool settled = true;   // all that is changed in the plan has run
-    std::uint64_t ticks = 0, taken_at = 0;
+    bool fresh = true;   // the plan has not ticked yet
+    std::uint64_t ticks = 0;
+    std::uint64_t settled_at = 0;   // the tick by which all has run that was changed
 };
 
 }   // namespace tactus

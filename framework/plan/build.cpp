@@ -104,6 +104,10 @@ public:
         auto all = recordsOf (0);
         plan->records = std::move (all.records);
         plan->owners = std::move (all.owners);
+        std::set<int> rests;
+        for (int s = 1; s < static_cast<int> (flat.sections.size()); ++s)
+            if (flat.rests (s)) rests.insert (flat.ticksOf (s));
+        plan->rests.assign (rests.begin(), rests.end());
         addTaps();
         const auto delays = nodeDelays();
         plan->delays = pathDelays (flat, units, delays);

@@ -100,6 +100,7 @@ public:
     std::uint64_t number = 0;   ///< of the tick that comes next, counted through all plans; whoever steps the records one by one sets it before each tick
     std::vector<Record> records;
     std::vector<std::uint32_t> owners;     ///< by record: the node it works for, as flat.nodes; of a wire's, the node where it ends
+    std::vector<std::uint64_t> rests;      ///< ticks from run to run of sections that do not run on each, rising
     std::vector<RoleUse> roles;            ///< sorted by name
     std::vector<Tap> taps;                 ///< what CompileOptions::records asked for, in order
     std::vector<double> feeds;             ///< one value per CompileOptions::feeds, set before each tick
@@ -109,7 +110,6 @@ public:
     // For the plan that follows, and for those who turn knobs.
     plan::Flat flat;                                           ///< what it was built from
     std::vector<plan::Instance> instances;                     ///< as flat.nodes
-    std::vector<std::uint64_t> rests;                          ///< ticks from run to run of sections in which something is changed from the plan before
     std::vector<LineUse> lines;                                ///< by wire, then component
     std::vector<PassageUse> passages;                          ///< by wire, then component, then step
     std::vector<std::vector<plan::PortRef>> fed;               ///< as feeds: what each drives

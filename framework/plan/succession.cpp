@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <compare>
-#include <set>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -311,11 +310,6 @@ void Succession::compare (Plan& plan) const
     if (before == nullptr) return;
 
     spread (changed (plan), plan);
-
-    std::set<int> rests;
-    for (std::size_t i = 0; i < going.size(); ++i)
-        if (const auto& n = plan.flat.nodes[i]; plan.instances[i].dirty && ! n.muted && plan.flat.rests (n.section)) rests.insert (plan.flat.ticksOf (n.section));
-    plan.rests.assign (rests.begin(), rests.end());
 
     for (auto& role : plan.roles)
     {

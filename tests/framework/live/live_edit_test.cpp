@@ -78,10 +78,11 @@ public:
             wanted.force += e.force;
             wanted.torque += e.torque;
         }
-        if (taken_over) taken_at = plan.number;
-        const bool comes_late = ! taken_over && std::ranges::any_of (plan.rests, [&] (std::uint64_t rests)
-                                                                     { return (plan.number - 1) % rests == 0 && plan.number - taken_at < rests; });
-        if ((taken_over || comes_late) && ! role->untouched)
+        const auto tick = plan.number - 1;
+        if (taken_over && ! role->untouched) touched_at = tick;
+        const bool comes_late = std::ranges::any_of (plan.rests, [&] (std::uint64_t rests)
+                                                     { return tick % rests == 0 && tick > touched_at && tick < touched_at + rests; });
+        if ((taken_over && ! role->untouched) || comes_late)
         {
             difference = (last.force - wanted.force).cwiseAbs() + (last.torque - wanted.torque).cwiseAbs();
             own = { Vec3::Zero(), Vec3::Zero() };
@@ -107,7 +108,7 @@ private:
     Effort last, last_wanted, own;
     Vec3 difference = Vec3::Zero();
     int since = 1 << 20;
-    std::uint64_t taken_at = 0;   // number of the tick after
+    std::uint64_t touched_at = 0;
     bool was_stopped = false;
 };
 

@@ -7,7 +7,7 @@
 #include <rapidcheck/catch.h>
 
 #include <cmath>
-#include <numeric>
+#include <utility>
 
 using namespace tactus;
 using namespace tactus::test;
