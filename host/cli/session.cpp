@@ -343,7 +343,7 @@ std::variant<std::vector<std::string>, Message> Session::capture (const std::str
     auto taps = tapsOf (*plan, { port });
     const auto triggers = tapsOf (*plan, { watched });
     if (triggers.size() != 1) return refuse (refused ("probe/trigger", inQuotes (watched) + " has " + std::to_string (triggers.size()) + " components, and a trigger watches one", triggers.empty() ? std::string ("name a port with one component") : "name one of them, as in " + plan->taps[triggers.front()].name));
-    if (taps.size() * trigger.ticks() > TriggeredCapture::most) return refuse (refused ("probe/too_many", std::to_string (trigger.ticks()) + " ticks of " + std::to_string (taps.size()) + " components are more than the " + std::to_string (TriggeredCapture::most) + " numbers there is room for", "ask for fewer before and after, or for one component"));
+    if (taps.size() > ProbeRing::most || taps.size() * trigger.ticks() > TriggeredCapture::most) return refuse (refused ("probe/too_many", std::to_string (trigger.ticks()) + " ticks of " + std::to_string (taps.size()) + " components are more than the " + std::to_string (TriggeredCapture::most) + " numbers, of at most " + std::to_string (ProbeRing::most) + " components, that there is room for", "ask for fewer before and after, or for one component"));
 
     auto names = namesOf (*plan, taps);
     selectProbes (*plan);

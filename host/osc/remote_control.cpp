@@ -23,7 +23,7 @@ constexpr int usual_before = 100, usual_after = 400;         // ticks
 constexpr int most_at_a_time = 512;                          // messages
 constexpr double most_costs = 100, usual_costs = 10;         // nodes
 constexpr int most_rows_at_a_time = 32;                      // messages with rows of a capture, so that none is lost on the way
-constexpr std::size_t most_numbers = 240;                    // in such a message
+constexpr std::size_t most_numbers = 60;                     // in such a message, since readPacket takes 64 arguments
 
 Message refused (std::string id, std::string text, std::string remedy)
 {
