@@ -74,11 +74,9 @@ private:
     std::optional<Origin> too_large;            // where the graph came to be
     Ports starts, ends;                         // of the wire, or the value, that is being read
 
-    template <typename... Steps>
-    Origin at (Origin around, Steps... steps)
-    {
-        return flat.at (around, steps...);
-    }
+    // By view, not by copy: a place goes on pointing at the name.
+    Origin at (Origin around, std::string_view name) { return flat.at (around, name); }
+    Origin at (Origin around, std::string_view name, std::string_view inner) { return flat.at (around, name, inner); }
 
     void expand (Scope& scope, const Roles& roles, bool muted)
     {
