@@ -10,6 +10,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <utility>
 
 namespace tactus::host
 {
@@ -75,7 +76,7 @@ void Replay::fetch() { next = orFail (log.next()); }
 bool Replay::tick()
 {
     if (! next || (most && now >= *most)) return false;
-    if (next->tick == now)
+    while (next && next->tick == now)
     {
         if (next->last == RunTick::Last::broken) broken_at = now;
         if (next->last != RunTick::Last::no || next->halt == true) return false;
@@ -102,7 +103,7 @@ void Replay::takeOver()
 
 void Replay::carryOut()
 {
-    if (now > 0 && next->graph && told.graph.empty()) takeOver();
+    if (next->graph && std::exchange (has_first, true) && told.graph.empty()) takeOver();
     for (const auto& [param, target] : next->turns)
         turn (param, target);
     for (const auto& [role, reading] : next->readings)

@@ -67,6 +67,7 @@ private:
     std::optional<RunTick> next;   // what is to come in; nothing once the log is over
     std::optional<std::uint64_t> broken_at;
     std::uint64_t now = 0;
+    bool has_first = false;              // the graph of tick 0
     std::optional<std::uint64_t> most;   // ticks
     std::set<std::string> not_turned;
 };

@@ -129,6 +129,7 @@ void RunLog::takeOver (std::uint64_t serial)
         expected.pop_front();
     if (expected.front().graph == graph) return;   // made anew for a probe
     graph = expected.front().graph;
+    if (line.find (R"("graph":)") != std::string::npos) endLine();   // before the first tick another may follow the first
     add ("graph", graph);
 
     std::map<std::string, GuardLimits> guards;

@@ -248,7 +248,8 @@ tl::expected<RunTick, Error> RunLogReader::readTick (const std::string& text)
     if (! line.problem() && line.fields.isKind (line.json.root, JsonKind::object, "")) line.read (line.json.root, "", keys);
     if (line.problem()) return tl::unexpected (toError (line, placeOf (number)));
     if (! k) return tl::unexpected (at ("log/missing", "the line does not say of which tick it is", as_written));
-    if (before ? *k <= *before : *k != 0) return tl::unexpected (at ("log/order", before ? "tick " + std::to_string (*k) + " comes after tick " + std::to_string (*before) : "the first tick is " + std::to_string (*k) + ", and should be 0", as_written));
+    const bool follows = ! before ? *k == 0 : *k > *before || (*k == 0 && tick.graph);
+    if (! follows) return tl::unexpected (at ("log/order", before ? "tick " + std::to_string (*k) + " comes after tick " + std::to_string (*before) : "the first tick is " + std::to_string (*k) + ", and should be 0", as_written));
     if (! before && tick.last == RunTick::Last::no && ! tick.graph) return tl::unexpected (at ("log/missing", "tick 0 does not say which graph runs", as_written));
     before = k;
     tick.tick = *k;

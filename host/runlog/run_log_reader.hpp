@@ -60,7 +60,8 @@ public:
 
     const RunHead& head() const noexcept { return begin; }
 
-    /// The next tick on which something came in that was not there before; nothing after the last.
+    /// The next tick on which something came in that was not there before; nothing after the last. A graph that took over
+    /// from the first before any tick comes as tick 0 once more.
     tl::expected<std::optional<RunTick>, Error> next();
 
     /// True if the last line was not whole, or no line said that it is the last: the program died. Once next() gave nothing.
