@@ -88,12 +88,12 @@ void SessionOptions::addTo (CLI::App& app)
 {
     app.add_option ("graph", graph, "Graph file, as in graphs/dry_wood.json")->required();
     app.add_option ("--feed", feed, "CSV whose columns drive ports: node.port or node.port.x, and t in s");
-    app.add_option ("--record", records, "Ports to record, separated by commas; default: the inputs of every sink")->delimiter (',');
-    app.add_option ("--out", outputs, "Where to: a .csv or a .wav; may be given more than once");
+    app.add_option ("--record", records, "Ports to record, separated by commas; default: the inputs of every sink")->delimiter (',')->allow_extra_args (false);
+    app.add_option ("--out", outputs, "Where to: a .csv or a .wav; may be given more than once")->allow_extra_args (false);
     app.add_option ("--rate", rate_hz, "Ticks per second; default: the feed's, else the graph's")->check (finiteWithin (1.0, 1e6));
     app.add_option ("--duration", duration_s, "Length of the run in s")->check (finiteWithin (1e-9, 1e9));
-    app.add_option ("--set", sets, "NODE.PARAM=VALUE, or CONTROL=0…1; may be given more than once");
-    app.add_option ("--device", devices, "ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv or ROLE=gesture:NAME");
+    app.add_option ("--set", sets, "NODE.PARAM=VALUE, or CONTROL=0…1; may be given more than once")->allow_extra_args (false);
+    app.add_option ("--device", devices, "ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv or ROLE=gesture:NAME")->allow_extra_args (false);
 }
 
 Session::Session (const SessionOptions& options, Pace pace) : told (options), loaded (loadGraph (options.graph)), records (options.records)

@@ -169,8 +169,9 @@ TEST_CASE ("a log is replayed as far as it goes, on another graph, or refused wi
     const auto log = textOf (scratch.path ("run.jsonl"));
     const auto replay = [&] (const std::string& text, std::vector<std::string> more = {})
     {
-        std::vector<std::string> arguments { "render", "--replay", scratch.write ("other.jsonl", text), "--record", "motor.force" };
+        std::vector<std::string> arguments { "render" };
         arguments.insert (arguments.end(), more.begin(), more.end());
+        arguments.insert (arguments.end(), { "--replay", scratch.write ("other.jsonl", text), "--record", "motor.force" });
         return runTactus (arguments);
     };
     const auto rows = [] (const Ran& ran)
