@@ -83,6 +83,7 @@ void NodeCosts::look (Plan& plan, std::size_t first, std::size_t end) noexcept
     }
     for (std::size_t r = end; r < plan.records.size(); ++r)
         step (r);
+    ++plan.number;
 }
 
 void NodeCosts::earn (double took_s) noexcept
