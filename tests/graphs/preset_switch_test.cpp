@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "support/chance_hand.hpp"
+#include "support/sketch.hpp"
+
+#include <framework/file/graph_file.hpp>
+#include <framework/live.hpp>
+#include <host/assets/file_assets.hpp>
+#include <host/assets/nearest_by_embree.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <thread>
+
+using namespace tactus;
+
+namespace
+{
+std::vector<std::shared_ptr<const graph::Graph>> presets()
+{
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator (std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs"))
+        if (entry.path().extension() == ".json") files.push_back (entry.path());
+    std::ranges::sort (files);
+    std::vector<std::shared_ptr<const graph::Graph>> all;
+    for (const auto& file : files)
+        all.push_back (std::make_shared<const graph::Graph> (loadGraph (file).graph));
+    return all;
+}
+}   // namespace
+
+TEST_CASE ("presets are switched as fast as they come while a hand trembles on them, and no force steps", "[graphs][live]")
+{
+    const auto graphs = presets();
+    host::FileAssets assets;
+    CompileOptions options { .rate_hz = 4000.0, .assets = &assets, .services = { .nearest_triangle = host::nearestByEmbree } };
+    const auto first = std::ranges::find (graphs, std::string ("Dry wood"), [] (const auto& g)
+                                          { return g->name; });
+    REQUIRE (first != graphs.end());
+    Live live { **first, catalogue(), options, compile (**first, catalogue(), options).plan };
+    test::ChanceHand hand (5);
+    live.engine().attach ("stylus", hand);
+
+    std::atomic<bool> over = false;
+    std::atomic<int> switched = 0;
+    int steps = 0, moved = 0;   // of the tick thread, until it is joined
+    {
+        std::jthread ticking ([&]
+                              {
+            const Plan* plan = nullptr;
+            while (! over)
+            {
+                const auto before = hand.last;
+                live.engine().tick();
+                moved += before.force != hand.last.force;
+                if (plan != nullptr && plan != &live.engine().plan())
+                {
+                    ++switched;
+                    steps += ! ((hand.last.force - before.force).norm() <= 1e-9 * (1.0 + before.force.norm()));
+                }
+                plan = &live.engine().plan();
+            } });
+        for (int round = 0; round < 4; ++round)
+            for (const auto& graph : graphs)
+            {
+                const int seen = switched;
+                const auto messages = live.perform (graph::ReplaceGraph { graph });
+                INFO (graph->name << ": " << test::text (messages));
+                CHECK_FALSE (hasErrors (messages));
+                if (hasErrors (messages)) continue;
+                while (switched == seen)
+                    std::this_thread::yield();
+            }
+        over = true;
+    }
+    CHECK (switched == 4 * static_cast<int> (graphs.size()));
+    CHECK (steps == 0);
+    CHECK (moved > switched);
+}
