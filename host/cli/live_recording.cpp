@@ -12,7 +12,7 @@ constexpr double room_s = 1.0;   // of frames that wait to be written
 }   // namespace
 
 LiveRecording::LiveRecording (Session& s, const std::vector<std::string>& files)
-    : session (s), recorder (files, s.engine().plan().taps, s.rate(), false), ring (recorder.width(), static_cast<std::size_t> (room_s * s.rate()) + 1)
+    : session (s), recorder (files, s.engine().plan().taps, s.rate(), false), ring (recorder.width() + 1, static_cast<std::size_t> (room_s * s.rate()) + 1)
 {
 }
 
@@ -22,14 +22,15 @@ void LiveRecording::after (std::uint64_t tick, bool halts) noexcept
     if (halts) return;
     const auto frame = ring.next();
     if (frame.empty()) return;
-    recorder.note (session.engine().plan().taps, frame);
+    frame[0] = static_cast<double> (tick);
+    recorder.note (session.engine().plan().taps, frame.subspan (1));
     ring.push();
 }
 
 void LiveRecording::drain()
 {
     ring.drain ([this] (std::span<const double> frame)
-                { recorder.frame (frame); });
+                { recorder.frame (static_cast<std::uint64_t> (frame[0]), frame.subspan (1)); });
 }
 
 void LiveRecording::commit()

@@ -33,7 +33,7 @@ public:
 private:
     Session& session;
     Recorder recorder;
-    FrameRing ring;
+    FrameRing ring;   // a tick, and what was noted then
 };
 
 }   // namespace tactus::host

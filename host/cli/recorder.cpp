@@ -36,6 +36,7 @@ Recorder::Recorder (const std::vector<std::string>& files, const std::vector<Tap
     for (const auto& tap : all)
         columns.push_back (tap.name);
     row.resize (columns.size());
+    held.resize (taps);
     const bool alike = ! all.empty() && std::ranges::all_of (all, [&] (const Tap& tap)
                                                              { return tap.per_tick == all[0].per_tick; });
     if (alike && std::ranges::any_of (files, isWave)) per_tick = static_cast<std::size_t> (all[0].per_tick);
@@ -61,15 +62,21 @@ void Recorder::note (const std::vector<Tap>& all, std::span<double> values) cons
         values[i] = all[i % taps].sample (static_cast<int> (i / taps), static_cast<int> (per_tick));
 }
 
-void Recorder::frame (std::span<const double> values)
+void Recorder::frame (std::uint64_t tick, std::span<const double> values)
 {
-    row[0] = static_cast<double> (ticks++) / rate_hz;
+    row[0] = static_cast<double> (tick) / rate_hz;
     std::ranges::copy (values.last (taps), row.begin() + 1);
     for (auto& table : tables)
         orFail (table.row (row));
     for (auto& wave : waves)
+    {
+        for (auto missing = (tick - next) * per_tick; missing > 0; --missing)
+            orFail (wave.frame (held));
         for (std::size_t i = 0; i < per_tick; ++i)
             orFail (wave.frame (values.subspan (i * taps, taps)));
+    }
+    std::ranges::copy (values.last (taps), held.begin());
+    next = tick + 1;
     if (print) printRow (row);
 }
 

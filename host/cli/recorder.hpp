@@ -6,6 +6,7 @@
 #include <host/io/wav.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,14 +29,15 @@ public:
     /// Takes down what stands on the taps, those of the first plan or of one that followed, after a tick. [tick thread]
     void note (const std::vector<Tap>&, std::span<double> values) const noexcept;
 
-    /// What was noted at a tick.
-    void frame (std::span<const double> values);
+    /// What was noted at a tick. If some before it are missing, a WAV holds the last values until then, so that it keeps time.
+    void frame (std::uint64_t tick, std::span<const double> values);
     void commit();
 
 private:
     double rate_hz;
     std::size_t taps, per_tick = 1;   // samples of each
-    std::size_t ticks = 0;
+    std::uint64_t next = 0;           // tick
+    std::vector<double> held;         // what came last
     bool print = false;
     std::vector<TableWriter> tables;
     std::vector<WavWriter> waves;

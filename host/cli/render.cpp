@@ -10,6 +10,7 @@
 #include <host/io/atomic_file.hpp>
 #include <host/platform/signals.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -38,9 +39,8 @@ public:
     void frame (const Plan& plan)
     {
         recorder.note (plan.taps, values);
-        recorder.frame (values);
+        recorder.frame (ticks++, values);
         if (plotter) plotter->frame (std::span (values).last (plan.taps.size()));
-        ++ticks;
         if (stopRequested()) fail ("run/interrupted", "stopped after " + std::to_string (ticks) + " ticks; nothing was written", "run it again, or with a shorter --duration");
     }
 
@@ -55,7 +55,7 @@ private:
     Recorder recorder;
     std::optional<Plotter> plotter;
     std::vector<double> values;
-    std::size_t ticks = 0;
+    std::uint64_t ticks = 0;
 };
 
 void render (const Options& options)
