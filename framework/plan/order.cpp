@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
-#include <numeric>
 #include <queue>
 #include <ranges>
 
@@ -307,23 +306,26 @@ std::vector<PathDelay> pathDelays (const Flat& flat, const PortUnits& units, con
 
     // Components come numbered sinks first; walking them from high to low visits each node after all that lead to it.
     const auto component = components (size, next);
-    std::vector<int> members (size, 0), walk (size);
+    std::vector<int> members (size, 0);
     for (const int c : component)
         ++members[at (c)];
-    std::iota (walk.begin(), walk.end(), 0);
-    std::ranges::stable_sort (walk, std::greater {}, [&] (int n)
-                              { return component[at (n)]; });
 
+    // What a source does not reach costs nothing: of many sources each mostly has a few nodes of its own.
+    struct Reach
+    {
+        std::int64_t shortest = -1, longest = -1;   // -1: not
+        bool recirculates = false;
+    };
+    std::vector<Reach> reach (size);
+    std::vector<int> reached;
     std::vector<PathDelay> found;
     for (int source = 0; source < static_cast<int> (size); ++source)
     {
         if (! reads (source)) continue;
-
-        constexpr std::int64_t unreached = -1;
-        std::vector<std::int64_t> shortest (size, unreached), longest (size, unreached);
-        std::vector<bool> recirculates (size, false);
-        shortest[at (source)] = 0;
-        longest[at (source)] = waitOf (flat, 0, flat.nodes[at (source)].section);
+        for (const int n : reached)
+            reach[at (n)] = {};
+        reached = { source };
+        reach[at (source)] = { 0, waitOf (flat, 0, flat.nodes[at (source)].section), false };
 
         using Arrival = std::pair<std::int64_t, int>;
         std::priority_queue<Arrival, std::vector<Arrival>, std::greater<>> open;
@@ -331,28 +333,32 @@ std::vector<PathDelay> pathDelays (const Flat& flat, const PortUnits& units, con
         {
             const auto [delay, n] = open.top();
             open.pop();
-            if (delay > shortest[at (n)]) continue;
-            for (const auto& e : edges[at (n)])
-                if (shortest[at (e.to)] == unreached || delay + e.shortest < shortest[at (e.to)])
-                {
-                    shortest[at (e.to)] = delay + e.shortest;
-                    open.emplace (delay + e.shortest, e.to);
-                }
-        }
-        for (const int n : walk)
-        {
-            if (shortest[at (n)] == unreached) continue;
-            if (members[at (component[at (n)])] > 1 || std::ranges::count (next[at (n)], n) > 0) recirculates[at (n)] = true;
-            longest[at (n)] = std::max (longest[at (n)], shortest[at (n)]);
+            if (delay > reach[at (n)].shortest) continue;
             for (const auto& e : edges[at (n)])
             {
-                if (component[at (e.to)] != component[at (n)]) longest[at (e.to)] = std::max (longest[at (e.to)], longest[at (n)] + e.longest);
-                recirculates[at (e.to)] = recirculates[at (e.to)] || recirculates[at (n)];
+                auto& shortest = reach[at (e.to)].shortest;
+                if (shortest >= 0 && delay + e.shortest >= shortest) continue;
+                if (shortest < 0) reached.push_back (e.to);
+                shortest = delay + e.shortest;
+                open.emplace (shortest, e.to);
             }
         }
-        for (int sink = 0; sink < static_cast<int> (size); ++sink)
-            if (acts (sink) && shortest[at (sink)] != unreached)
-                found.push_back ({ flat.nodes[at (source)].path, flat.nodes[at (sink)].path, shortest[at (sink)], longest[at (sink)], recirculates[at (sink)] });
+        std::ranges::sort (reached, [&] (int a, int b)
+                           { return component[at (a)] != component[at (b)] ? component[at (a)] > component[at (b)] : a < b; });
+        for (const int n : reached)
+        {
+            auto& here = reach[at (n)];
+            if (members[at (component[at (n)])] > 1 || std::ranges::count (next[at (n)], n) > 0) here.recirculates = true;
+            here.longest = std::max (here.longest, here.shortest);
+            for (const auto& e : edges[at (n)])
+            {
+                auto& there = reach[at (e.to)];
+                if (component[at (e.to)] != component[at (n)]) there.longest = std::max (there.longest, here.longest + e.longest);
+                there.recirculates = there.recirculates || here.recirculates;
+            }
+        }
+        for (const int sink : reached)
+            if (acts (sink)) found.push_back ({ flat.nodes[at (source)].path, flat.nodes[at (sink)].path, reach[at (sink)].shortest, reach[at (sink)].longest, reach[at (sink)].recirculates });
     }
     std::ranges::sort (found, {}, [] (const PathDelay& d)
                        { return std::pair { d.source, d.sink }; });
