@@ -55,8 +55,8 @@ public:
         top->owner = &g;
         top->patch = &g.root;
         expand (*top, {}, false);
-        readControls (g);
-        readOverrides();
+        if (! too_large) readControls (g);
+        if (! too_large) readOverrides();
         if (too_large)
             flat.error ("graph/too_large", *too_large, "with its subgraphs expanded the graph has more than " + std::to_string (max_nodes) + " nodes, or " + std::to_string (max_wires) + " wires or values for them", "use a subgraph fewer times, or with fewer instances");
     }
@@ -100,8 +100,11 @@ private:
                 addNode (scope, node, here, roles, muted, member);
             }
         }
-        expose (scope);
-        addWires (scope, muted);
+        if (! too_large)   // else not all is there that names may stand for
+        {
+            expose (scope);
+            addWires (scope, muted);
+        }
         open.pop_back();
     }
 
@@ -474,6 +477,7 @@ private:
 
     void assign (const Scope& scope, const graph::Endpoint& e, const Json& value, Origin origin)
     {
+        if (too_large) return;
         find (e, Side::param, scope, origin, flat, ends);
         if (isTooLarge (origin, 0, ends.size())) return;
         for (const auto& to : ends)
