@@ -71,10 +71,11 @@ void probeTriggered (OscClient& client, const std::string& port, const TriggerOp
 {
     const auto text = [] (const std::string& s)
     { return juce::String::fromUTF8 (s.c_str()); };
-    const auto ask = [&]
-    { client.send (juce::OSCMessage ("/tactus/trigger", text (port), client.own(), text (options.watched), static_cast<float> (options.level), text (options.edge), options.before, options.after, 5.0f)); };
+    constexpr float patience_s = 5.0f, at_once_s = 1e-3f;
+    const auto ask = [&] (float wait_s)
+    { client.send (juce::OSCMessage ("/tactus/trigger", text (port), client.own(), text (options.watched), static_cast<float> (options.level), text (options.edge), options.before, options.after, wait_s)); };
 
-    ask();
+    ask (patience_s);
     std::optional<juce::OSCMessage> done;
     Window window;
     const auto begin = Clock::now();
@@ -84,12 +85,15 @@ void probeTriggered (OscClient& client, const std::string& port, const TriggerOp
     {
         if (since (asked) > 2.0 && window.rows.empty())
         {
-            ask();   // which is answered
+            ask (patience_s);   // which is answered
             asked = Clock::now();
         }
         if (since (heard) > 10.0) fail ({ done ? "osc/gone" : "osc/no_answer", port, done ? "nothing has come from there for 10 s" : "what listens there does not answer", "see whether `tactus play` still runs" });
         if (options.duration_s > 0.0 && since (begin) > options.duration_s && window.rows.empty())
+        {
+            ask (at_once_s);   // so that others may wait
             fail ({ "probe/no_edge", options.watched, "there was no edge at " + numberText (options.level) + " within " + numberText (options.duration_s) + " s", "choose another --level or --edge, or wait longer; `tactus probe " + options.watched + "` shows what stands there" });
+        }
 
         const auto m = client.next (100ms);
         if (! m) continue;
@@ -99,7 +103,10 @@ void probeTriggered (OscClient& client, const std::string& port, const TriggerOp
         if (address == "/tactus/done" && m->size() > 3 && (*m)[2].isFloat32()) done = *m;
         if (address == "/tactus/capture" && done) window.add (*m, static_cast<std::size_t> (done->size() - 3));
     }
-    if (window.isWhole()) print (window, *done, (*done)[2].getFloat32());
+    if (window.isWhole())
+        print (window, *done, (*done)[2].getFloat32());
+    else
+        ask (at_once_s);
 }
 
 }   // namespace tactus::host
