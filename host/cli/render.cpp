@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
+#include "overwriting.hpp"
 #include "plotter.hpp"
 #include "progress.hpp"
 #include "recorder.hpp"
@@ -64,6 +65,8 @@ void render (const Options& options)
     if (! session.ticks())
         fail ("run/no_length", "nothing says how long to run: there is no feed, trace or gesture", "give --duration S, --feed IN.csv, or --device ROLE=gesture:NAME");
 
+    if (! options.plot.empty()) refuseOverwriting ({ options.plot }, session.inputs());
+    watchForStop();
     Output output { options, session.engine().plan().taps, session.rate() };
     Progress progress { *session.ticks() };
     for (std::size_t k = 0; k < *session.ticks(); ++k)
@@ -78,7 +81,11 @@ void render (const Options& options)
 
 void replay (const Options& options)
 {
+    auto outputs = options.outputs;
+    if (! options.plot.empty()) outputs.push_back (options.plot);
+    refuseOverwriting (outputs, { options.replay, options.graph });
     Replay run { options, options.replay };
+    watchForStop();
     Output output { options, run.engine().plan().taps, run.rate() };
     while (run.tick())
         output.frame (run.engine().plan());

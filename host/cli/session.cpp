@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "session.hpp"
+#include "overwriting.hpp"
 #include "report.hpp"
 
 #include <framework/graph/reconcile.hpp>
@@ -104,6 +105,9 @@ Session::Session (const SessionOptions& options, Pace pace) : told (options), lo
     auto first = compileGraph();
     bindDevices();
     decideLength();
+    auto outputs = told.outputs;
+    if (! told.log.empty()) outputs.push_back (told.log);
+    refuseOverwriting (outputs, inputs());
     if (! told.log.empty()) startLog (std::move (first));
 }
 
@@ -393,6 +397,28 @@ std::vector<std::filesystem::path> Session::files() const
         }
     };
     add (add, loaded.graph);
+    return all;
+}
+
+std::vector<std::filesystem::path> Session::inputs() const
+{
+    auto all = files();
+    if (! told.feed.empty()) all.emplace_back (told.feed);
+    all.insert (all.end(), noted.paths.begin(), noted.paths.end());
+    const auto add = [&] (const std::filesystem::path& folder, const Json& description)
+    {
+        for (const auto* at : { "/path", "/hand/path" })
+            if (const Json::json_pointer path (at); description.is_object() && description.contains (path) && description.at (path).is_string()) all.push_back (folder / description.at (path).get<std::string>());
+    };
+    const auto folder = std::filesystem::path (told.graph).parent_path();
+    for (const auto& [role, description] : loaded.graph.devices)
+        add (folder, description);
+    for (const auto& text : told.devices)
+    {
+        all.emplace_back (text.substr (text.find ('=') + 1));
+        const auto parsed = parseDeviceOption (text, loaded.graph.devices, folder);
+        if (const auto* option = std::get_if<DeviceOption> (&parsed)) add (option->folder, option->description);
+    }
     return all;
 }
 

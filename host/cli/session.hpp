@@ -102,6 +102,9 @@ public:
     /// The graph file, and those that it includes.
     std::vector<std::filesystem::path> files() const;
 
+    /// All files that are read: those, what nodes and devices take, and the feed.
+    std::vector<std::filesystem::path> inputs() const;
+
     //==========================================================================
     /// Says on stderr why the guards withheld forces, if they did, and how many slow answers were late. [after the run]
     void reportRun() const;

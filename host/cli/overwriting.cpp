@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "overwriting.hpp"
+#include "report.hpp"
+
+#include <algorithm>
+
+namespace tactus::host
+{
+
+namespace
+{
+/// By name, or as the file system knows it, under whatever name.
+bool isSame (const std::filesystem::path& a, const std::filesystem::path& b)
+{
+    std::error_code failed;
+    return a.lexically_normal() == b.lexically_normal() || std::filesystem::equivalent (a, b, failed);
+}
+}   // namespace
+
+void refuseOverwriting (const std::vector<std::string>& outputs, const std::vector<std::filesystem::path>& inputs)
+{
+    for (auto out = outputs.begin(); out != outputs.end(); ++out)
+    {
+        const auto is_it = [&] (const std::filesystem::path& other)
+        { return isSame (*out, other); };
+        if (std::ranges::any_of (inputs, is_it)) fail ({ "output/is_input", *out, "is read by this run, and would be written over", "name another file" });
+        if (std::any_of (outputs.begin(), out, is_it)) fail ({ "output/twice", *out, "is to be written twice", "name two files" });
+    }
+}
+
+}   // namespace tactus::host
