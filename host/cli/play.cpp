@@ -98,7 +98,7 @@ void run (const Options& options)
         if (terminal && i % 5 == 0) printStatus (runner, session.rate(), true, "");
     }
     runner.wait();
-    session.finishLog();
+    const auto log_failure = session.finishLog();
     printStatus (runner, session.rate(), terminal, "\n");
 
     session.reportRun();
@@ -107,6 +107,7 @@ void run (const Options& options)
         std::fprintf (stderr, "warning: the slew limit kept force on a device for %g s, so it was let go under force\n", Runner::longest_halt_s);
     if (recording) recording->commit();
     if (options.costs) printCosts (runner);
+    if (log_failure) fail (*log_failure);
     if (end.end == RunStatus::End::overrun) failOverrun (runner, session.rate());
 }
 }   // namespace

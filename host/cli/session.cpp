@@ -249,16 +249,23 @@ void Session::submit (std::shared_ptr<Plan> plan, const graph::Graph& graph, std
 
 void Session::drainLog()
 {
-    if (! log) return;
-    orFail (log->drain());
+    if (! log || log_failure) return;
+    if (auto drained = log->drain(); ! drained)
+    {
+        log_failure = std::move (drained.error());
+        std::cerr << told.log << ": warning: " << log_failure->what << ", and the log ends here; the run goes on [" << log_failure->id << "]\n";
+        return;
+    }
     if (std::exchange (log_broke, log->brokenAt().has_value()) || ! log_broke) return;
     std::cerr << told.log << ": warning: writing the log could not keep up, and it ends at tick " << *log->brokenAt() << "; the run goes on\n    write it to a faster disk, or log at a lower --rate [log/broken]\n";
 }
 
-void Session::finishLog()
+std::optional<Error> Session::finishLog()
 {
     drainLog();
-    if (log) orFail (log->finish());
+    if (log && ! log_failure)
+        if (auto finished = log->finish(); ! finished) log_failure = std::move (finished.error());
+    return log_failure;
 }
 
 bool Session::reload()

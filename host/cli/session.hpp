@@ -95,7 +95,9 @@ public:
 
     /// Writes down what has come in. To be called many times a second, and finishLog once after the last tick.
     void drainLog();
-    void finishLog();
+
+    /// Why the log ends before the run did, if it does.
+    std::optional<Error> finishLog();
 
     const graph::Graph& graph() const noexcept { return loaded.graph; }
 
@@ -135,6 +137,7 @@ private:
 
     bool with_placeholders = false;
     bool log_broke = false;
+    std::optional<Error> log_failure;
     ProbeRing ring;
     CaptureSlot slot;
     std::vector<std::string> probed, captured_ports;

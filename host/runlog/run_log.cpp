@@ -63,6 +63,7 @@ tl::expected<std::unique_ptr<RunLog>, Error> RunLog::create (const std::filesyst
     errno = 0;
     std::unique_ptr<RunLog> log { new RunLog (path, head) };
     if (auto problem = log->written(); ! problem) return tl::unexpected (std::move (problem.error()));
+    log->whole = static_cast<std::uintmax_t> (log->out.tellp());
     return log;
 }
 
@@ -81,10 +82,20 @@ void RunLog::expect (std::shared_ptr<const Plan> plan, const Json& snapshot, con
 
 tl::expected<void, Error> RunLog::drain()
 {
+    if (! out.is_open()) return {};
     while (taken.words().hasMore())
         take();
     out.flush();
-    return written();
+    auto result = written();
+    if (result)
+        whole = static_cast<std::uintmax_t> (out.tellp());
+    else
+    {
+        std::error_code ignored;
+        out.close();
+        std::filesystem::resize_file (path, whole, ignored);
+    }
+    return result;
 }
 
 void RunLog::take()
@@ -198,7 +209,7 @@ void RunLog::endLine()
 
 tl::expected<void, Error> RunLog::finish()
 {
-    if (auto problem = drain(); ! problem) return problem;
+    if (auto problem = drain(); ! problem || ! out.is_open()) return problem;
     add (brokenAt() ? "broken" : "end", "true");
     endLine();
     out.close();

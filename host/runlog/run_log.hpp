@@ -42,7 +42,8 @@ public:
     /// before it is submitted.
     void expect (std::shared_ptr<const Plan>, const Json& snapshot, const std::map<std::string, GuardLimits>& joining = {});
 
-    /// Writes what has come in. To be called many times a second, and to the last after the ticks.
+    /// Writes what has come in. To be called many times a second, and to the last after the ticks. Where that fails the log
+    /// ends, after the last line that was whole, and nothing more is written.
     tl::expected<void, Error> drain();
 
     /// The end of the run. Ids: output/unwritable.
@@ -69,6 +70,7 @@ private:
 
     std::filesystem::path path, place;
     std::ofstream out;
+    std::uintmax_t whole = 0;   // bytes that are known to be in the file, and end a line
     RunJournal taken;
 
     std::deque<Expected> expected;               // the plan that ticks, and those that may come

@@ -250,6 +250,8 @@ tl::expected<RunTick, Error> RunLogReader::readTick (const std::string& text)
     if (! k) return tl::unexpected (at ("log/missing", "the line does not say of which tick it is", as_written));
     const bool follows = ! before ? *k == 0 : *k > *before || (*k == 0 && tick.graph);
     if (! follows) return tl::unexpected (at ("log/order", before ? "tick " + std::to_string (*k) + " comes after tick " + std::to_string (*before) : "the first tick is " + std::to_string (*k) + ", and should be 0", as_written));
+    constexpr std::uint64_t longest = 10'000'000'000;   // ticks, as of a render
+    if (*k > longest) return tl::unexpected (at ("log/order", "tick " + std::to_string (*k) + " is further than a run goes", as_written));
     if (! before && tick.last == RunTick::Last::no && ! tick.graph) return tl::unexpected (at ("log/missing", "tick 0 does not say which graph runs", as_written));
     before = k;
     tick.tick = *k;
