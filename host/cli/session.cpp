@@ -292,9 +292,9 @@ bool Session::reload()
     for (const auto& d : opened)
         joining.push_back ({ d.role, *d.device, d.limits });
     submit (std::move (plan), next.graph, joining);
+    report (notTakenOver (next.graph), next, told.graph);
     std::ranges::move (opened, std::back_inserter (devices));
 
-    report (notTakenOver (next.graph), next, told.graph);
     loaded = std::move (next);
     with_placeholders = placeholders;
     return true;
@@ -383,8 +383,8 @@ Messages Session::notTakenOver (const graph::Graph& graph) const
     for (const auto& device : devices)
     {
         const auto *present = descriptionOf (graph, device.role), *before = descriptionOf (loaded.graph, device.role);
-        const bool same = present == nullptr || before == nullptr ? present == before : *present == *before;
-        if (! same && ! device.by_option)
+        const bool differs = present != nullptr && (before == nullptr || *present != *before);
+        if (differs && ! device.by_option)
             messages.push_back (warning ("watch/device", "/devices/" + device.role, "the device of '" + device.role + "' goes on as it was opened, with the guard it had", "start the run anew for the one described now"));
     }
     return messages;
