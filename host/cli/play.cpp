@@ -52,9 +52,9 @@ void run (const Options& options)
 {
     if (! options.records.empty() && options.outputs.empty())
         throw CLI::RequiredError ("--record names what to record, but not where to: --out FILE");
-    watchForStop();
     FileWatch watch { { options.graph } };   // before it is read, so that no edit is missed
     Session session { options, Session::Pace::live };
+    watchForStop();   // until now there was nothing that had to be brought to an end
     std::optional<LiveRecording> recording;
     if (! options.outputs.empty()) recording.emplace (session, options.outputs);
     const auto port = openPort (options);

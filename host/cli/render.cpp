@@ -98,7 +98,6 @@ void run (const Options& options)
     if (! options.plot.empty() && ! options.plot.ends_with (".png"))
         throw CLI::ValidationError ("--plot", "'" + options.plot + "' should end in .png");
     if (options.graph.empty() && options.replay.empty()) throw CLI::RequiredError ("graph");
-    watchForStop();
     options.replay.empty() ? render (options) : replay (options);
 }
 }   // namespace
