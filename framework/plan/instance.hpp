@@ -77,12 +77,14 @@ struct Passage
     double before = 0.0, newest = 0.0;   ///< the ends of the line
     bool begun = false;                  ///< there is a newest
 
-    /// Goes on where another way stood. [tick thread]
+    /// Goes on where another way stood. The serial is not touched, since the next plan is made of it meanwhile. [tick thread]
     void adopt (const Passage& old) noexcept
     {
-        const auto own = serial;
-        *this = old;
-        serial = own;
+        out = old.out;
+        gathered = old.gathered;
+        before = old.before;
+        newest = old.newest;
+        begun = old.begun;
     }
 };
 
