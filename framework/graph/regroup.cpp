@@ -145,14 +145,7 @@ public:
     }
 
 private:
-    Message cannot (const std::string& why) const
-    {
-        Message m;
-        m.id = "edit/cannot_expand";
-        m.text = inQuotes (command.name) + " " + why;
-        m.remedy = "change that first";
-        return m;
-    }
+    Message cannot (const std::string& why) const { return cannotExpand (command.name, why); }
 
     void chooseNames()
     {

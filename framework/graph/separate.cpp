@@ -42,14 +42,7 @@ public:
     }
 
 private:
-    Message cannot (const std::string& why) const
-    {
-        Message m;
-        m.id = "edit/cannot_expand";
-        m.text = inQuotes (command.name) + " " + why;
-        m.remedy = "change that first";
-        return m;
-    }
+    Message cannot (const std::string& why) const { return cannotExpand (command.name, why); }
 
     void chooseNames()
     {
@@ -228,6 +221,15 @@ private:
     std::optional<Message> problem;
 };
 }   // namespace
+
+Message cannotExpand (const std::string& node, const std::string& why)
+{
+    Message m;
+    m.id = "edit/cannot_expand";
+    m.text = inQuotes (node) + " " + why;
+    m.remedy = "change that first";
+    return m;
+}
 
 std::optional<Message> separate (Graph& graph, const ExpandNode& command) { return Separate (graph, command).run(); }
 

@@ -10,4 +10,7 @@ namespace tactus::graph
 /// why it cannot be done, and then leaves the graph half done.
 std::optional<Message> separate (Graph&, const ExpandNode&);
 
+/// "'hand' is bypassed": why a node cannot be expanded, with or without a `count`.
+Message cannotExpand (const std::string& node, const std::string& why);
+
 }   // namespace tactus::graph
