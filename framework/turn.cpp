@@ -6,6 +6,7 @@
 #include "near_miss.hpp"
 #include "plan/directory.hpp"
 #include "plan/values.hpp"
+#include "refused.hpp"
 
 namespace tactus
 {
@@ -13,11 +14,6 @@ namespace tactus
 namespace
 {
 using Turns = std::vector<std::pair<plan::ParamRef, double>>;
-
-Message refused (std::string id, std::string text, std::string remedy)
-{
-    return { .id = std::move (id), .where = {}, .text = std::move (text), .remedy = std::move (remedy) };
-}
 
 std::variant<double, Message> read (const Json& value, const PortSheet& sheet, const std::string& name)
 {

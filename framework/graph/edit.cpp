@@ -8,6 +8,7 @@
 #include <framework/file/graph_parts.hpp>
 #include <framework/file/json_text.hpp>
 #include <framework/in_quotes.hpp>
+#include <framework/refused.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,15 +20,6 @@ namespace tactus::graph
 namespace
 {
 using Result = std::variant<Command, Message>;
-
-Message refused (std::string id, std::string text, std::string remedy = {})
-{
-    Message m;
-    m.id = std::move (id);
-    m.text = std::move (text);
-    m.remedy = std::move (remedy);
-    return m;
-}
 
 template <typename T>
 typename std::vector<T>::iterator iteratorAt (std::vector<T>& list, Place place)

@@ -5,6 +5,7 @@
 #include "text.hpp"
 
 #include <framework/in_quotes.hpp>
+#include <framework/refused.hpp>
 
 #include <algorithm>
 
@@ -13,15 +14,6 @@ namespace tactus::graph
 
 namespace
 {
-Message refused (std::string id, std::string text, std::string remedy)
-{
-    Message m;
-    m.id = std::move (id);
-    m.text = std::move (text);
-    m.remedy = std::move (remedy);
-    return m;
-}
-
 const Patch* insideOf (const Graph& graph, const Node& node)
 {
     if (node.type.starts_with ("graph:")) return graph.find (std::string_view (node.type).substr (6));

@@ -6,21 +6,13 @@
 #include <framework/graph/text.hpp>
 #include <framework/in_quotes.hpp>
 #include <framework/near_miss.hpp>
+#include <framework/refused.hpp>
 
 namespace tactus::plan
 {
 
 namespace
 {
-Message refused (std::string id, std::string text, std::string remedy)
-{
-    Message m;
-    m.id = std::move (id);
-    m.text = std::move (text);
-    m.remedy = std::move (remedy);
-    return m;
-}
-
 bool isCovered (std::string_view path, std::string_view by) { return graph::covers (by, path) == path.size(); }
 
 std::variant<Ports, Message> findPorts (const Flat& flat, const graph::Endpoint& e)

@@ -7,6 +7,7 @@
 #include <framework/in_quotes.hpp>
 #include <framework/near_miss.hpp>
 #include <framework/number_text.hpp>
+#include <framework/refused.hpp>
 #include <framework/turn.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/runlog/graph_snapshot.hpp>
@@ -38,11 +39,6 @@ void warnOnly (Messages& messages)
 Message warning (std::string id, std::string where, std::string text, std::string remedy)
 {
     return { .severity = Message::Severity::warning, .id = std::move (id), .where = std::move (where), .text = std::move (text), .remedy = std::move (remedy) };
-}
-
-Message refused (std::string id, std::string text, std::string remedy)
-{
-    return { .id = std::move (id), .where = {}, .text = std::move (text), .remedy = std::move (remedy) };
 }
 
 const Message& firstError (const Messages& messages) { return *std::ranges::find (messages, Message::Severity::error, &Message::severity); }

@@ -2,6 +2,7 @@
 #include "remote_control.hpp"
 
 #include <framework/in_quotes.hpp>
+#include <framework/refused.hpp>
 #include <framework/turn.hpp>
 #include <host/runtime/probe_ring.hpp>
 
@@ -24,11 +25,6 @@ constexpr int most_at_a_time = 512;                          // messages
 constexpr double most_costs = 100, usual_costs = 10;         // nodes
 constexpr int most_rows_at_a_time = 32;                      // messages with rows of a capture, so that none is lost on the way
 constexpr std::size_t most_numbers = 60;                     // in such a message, since readPacket takes 64 arguments
-
-Message refused (std::string id, std::string text, std::string remedy)
-{
-    return { .id = std::move (id), .where = {}, .text = std::move (text), .remedy = std::move (remedy) };
-}
 
 std::string textOf (const juce::String& s) { return s.toStdString(); }
 
