@@ -238,8 +238,12 @@ TEST_CASE ("surface: work of the hand is what is stored and what is lost", "[nod
             moved = hand.moved;
             return hand.work - hand.out.stored_energy - hand.out.dissipated_energy;
         };
-        const double coarse = missing (1000), fine = missing (2000);   // what slips within a step is of the order of the step
-        RC_ASSERT (std::abs (2.0 * fine - coarse) <= 5e-3 * moved); });
+        // What slips within a step is of the order of the step. A stroke that only grazes has few of them in contact, and is
+        // walked in finer ones: what is really missing stays however fine they are.
+        const auto extrapolated = [&] (int steps)
+        { return std::abs (2.0 * missing (2 * steps) - missing (steps)); };
+        const double at_once = extrapolated (1000);
+        RC_ASSERT ((at_once <= 5e-3 * moved || extrapolated (16000) <= 5e-3 * moved)); });
 }
 
 TEST_CASE ("surface: a pad of one softness never gives energy on a closed path", "[nodes][deform]")
