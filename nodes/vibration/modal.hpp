@@ -109,8 +109,8 @@ struct Modal
         {
             auto& [z, factor] = voices[i];
             z = times (z, factor);
+            if (std::norm (z) < flush * flush) z = {};   // whether or not it is struck again now
             if (factor != Phasor {}) z += settings.modes[i].amplitude * v;
-            if (std::norm (z) < flush * flush) z = {};
             sum += z.imag();
         }
 
