@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "actions.hpp"
+
+#include <framework/graph/endpoints.hpp>
+#include <host/app/model/fragment.hpp>
+#include <host/app/model/wire_rules.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::host
+{
+
+namespace
+{
+const graph::Patch& patchOf (const graph::Graph& g, const std::string& name)
+{
+    static const graph::Patch none;
+    const auto* patch = name.empty() ? &g.root : g.find (name);
+    return patch == nullptr ? none : *patch;
+}
+
+graph::Endpoint endpoint (const std::string& node, const FacePort& port)
+{
+    const auto bracket = port.id.find ('[');
+    return { node, port.id.substr (0, bracket), bracket == std::string::npos ? -1 : std::atoi (port.id.c_str() + bracket + 1), -1 };
+}
+
+bool leadsTo (const graph::Wire& w, const std::string& node) { return w.to.node == node; }
+bool comesFrom (const graph::Wire& w, const std::string& node) { return w.from.node == node; }
+
+std::vector<std::string> namesOf (const graph::Patch& patch, const Selection& ids)
+{
+    std::vector<std::string> names;
+    for (const auto& n : patch.nodes)
+        if (ids.contains (n.id)) names.push_back (n.name);
+    return names;
+}
+
+/// The wires that take over from a node that goes, if what came in is what went out.
+std::vector<graph::Wire> healed (const graph::Patch& patch, const Scene& scene, const SceneNode& gone)
+{
+    std::vector<const graph::Wire*> in, out;
+    for (const auto& w : patch.wires)
+    {
+        if (leadsTo (w, gone.name) && gone.face->find (Role::input, gone.face->endOf (w.to) ? gone.face->endOf (w.to)->id : "") != nullptr) in.push_back (&w);
+        if (comesFrom (w, gone.name)) out.push_back (&w);
+    }
+    if (in.size() != 1) return {};
+    const auto start = std::ranges::find (scene.nodes(), graph::firstNameOf (in[0]->from.node), &SceneNode::name);
+    const auto* from = start == scene.nodes().end() ? nullptr : start->face->startOf (in[0]->from);
+    if (from == nullptr) return {};
+    std::vector<graph::Wire> wires;
+    for (const auto* w : out)
+    {
+        const auto end = std::ranges::find (scene.nodes(), graph::firstNameOf (w->to.node), &SceneNode::name);
+        const auto* to = end == scene.nodes().end() ? nullptr : end->face->endOf (w->to);
+        if (to == nullptr || start->quantityOf (*from) != end->quantityOf (*to) || whyNot ({ from, start->quantityOf (*from) }, { to, end->quantityOf (*to) })) continue;
+        graph::Wire through;
+        through.from = in[0]->from;
+        through.to = w->to;
+        through.delay = in[0]->delay + w->delay;
+        wires.push_back (through);
+    }
+    return wires;
+}
+}   // namespace
+
+graph::Command placeNodes (const graph::Graph& g, const std::string& patch, const std::vector<std::pair<graph::Id, juce::Point<float>>>& places)
+{
+    graph::Batch batch { places.size() == 1 ? "move a node" : "move nodes", {} };
+    for (const auto& [id, at] : places)
+    {
+        const auto& nodes = patchOf (g, patch).nodes;
+        const auto node = std::ranges::find (nodes, id, &graph::Node::id);
+        if (node == nodes.end()) continue;
+        auto ui = node->extra.value ("ui", Json::object());
+        if (! ui.is_object()) ui = Json::object();
+        ui["at"] = Json::array ({ std::round (static_cast<double> (at.x)), std::round (static_cast<double> (at.y)) });
+        batch.commands.push_back (graph::SetNodeKey { patch, node->name, "ui", ui });
+    }
+    return batch;
+}
+
+graph::Command removeSelected (const graph::Graph& g, const std::string& name, const Scene& scene, const Selection& ids)
+{
+    const auto& patch = patchOf (g, name);
+    graph::Batch batch { "delete", {} };
+    const auto names = namesOf (patch, ids);
+    const auto goes = [&] (const std::string& node)
+    { return std::ranges::count (names, graph::firstNameOf (node)) > 0; };
+
+    std::vector<graph::Wire> through;
+    for (const auto& n : scene.nodes())
+        if (ids.contains (n.id))
+            for (auto& w : healed (patch, scene, n))
+                if (! goes (w.from.node) && ! goes (w.to.node)) through.push_back (std::move (w));
+    for (const auto& w : patch.wires)
+        if (ids.contains (w.id) && ! goes (w.from.node) && ! goes (w.to.node)) batch.commands.push_back (graph::RemoveWire { name, w.id });
+    for (const auto& n : names)
+        batch.commands.push_back (graph::RemoveNode { name, n });
+    for (auto& w : through)
+        batch.commands.push_back (graph::AddWire { name, std::move (w) });
+    return batch;
+}
+
+graph::Command toggleBypass (const graph::Graph& g, const std::string& name, const Selection& ids)
+{
+    bool any_runs = false;
+    for (const auto& n : patchOf (g, name).nodes)
+        any_runs = any_runs || (ids.contains (n.id) && ! n.bypass);
+    graph::Batch batch { any_runs ? "bypass" : "end bypass", {} };
+    for (const auto& n : patchOf (g, name).nodes)
+        if (ids.contains (n.id) && n.bypass != any_runs)
+            batch.commands.push_back (graph::SetNodeKey { name, n.name, "bypass", any_runs ? std::optional<Json> (true) : std::nullopt });
+    return batch;
+}
+
+std::optional<graph::Command> group (const graph::Graph& g, const std::string& name, const Selection& ids)
+{
+    const auto& patch = patchOf (g, name);
+    auto names = namesOf (patch, ids);
+    if (names.empty()) return std::nullopt;
+    std::string subgraph = "group";
+    for (int i = 2; g.find (subgraph) != nullptr; ++i)
+        subgraph = "group_" + std::to_string (i);
+    return graph::CollapseNodes { name, std::move (names), freeName (patch, {}, subgraph), subgraph };
+}
+
+graph::Command addNode (const graph::Graph& g, const std::string& patch, const std::string& type, juce::Point<float> at, graph::Id& made)
+{
+    graph::Node node;
+    const auto cut = type.find_last_of (".:");
+    node.name = freeName (patchOf (g, patch), {}, type.substr (cut == std::string::npos ? 0 : cut + 1));
+    node.type = type;
+    node.extra["ui"] = Json { { "at", Json::array ({ std::round (static_cast<double> (at.x)), std::round (static_cast<double> (at.y)) }) } };
+    if (type.starts_with ("device.") && ! g.devices.empty()) node.role = g.devices.front().first;
+    made = node.id;
+    return graph::AddNode { patch, std::move (node) };
+}
+
+graph::Command connect (const graph::Graph& g, const std::string& patch, const SceneNode& from, const FacePort& out, const SceneNode& to, const FacePort& in)
+{
+    graph::Wire wire;
+    wire.from = endpoint (from.name, out);
+    wire.to = endpoint (to.name, in);
+    const bool several = in.role == Role::input && addsUp (to.quantityOf (in));
+    graph::Batch batch { "connect", {} };
+    for (const auto& w : patchOf (g, patch).wires)
+        if (w.to == wire.to && (! several || w.from == wire.from)) batch.commands.push_back (graph::RemoveWire { patch, w.id });
+    batch.commands.push_back (graph::AddWire { patch, wire });
+    return batch;
+}
+
+std::optional<graph::Command> insertInto (const graph::Graph& g, const std::string& patch, const Scene& scene, graph::Id wire_id, graph::Id node_id)
+{
+    const auto& wires = patchOf (g, patch).wires;
+    const auto wire = std::ranges::find (wires, wire_id, &graph::Wire::id);
+    const auto* shown = scene.findWire (wire_id);
+    const auto* node = scene.find (node_id);
+    if (wire == wires.end() || shown == nullptr || node == nullptr || shown->start < 0 || shown->end < 0) return std::nullopt;
+    const auto &a = scene.nodes()[static_cast<std::size_t> (shown->start)], &b = scene.nodes()[static_cast<std::size_t> (shown->end)];
+    const auto *start = a.face->startOf (wire->from), *end = b.face->endOf (wire->to);
+    if (start == nullptr || end == nullptr || a.id == node_id || b.id == node_id) return std::nullopt;
+
+    for (const auto& in : node->face->inputs)
+        for (const auto& out : node->face->outputs)
+        {
+            if (whyNot ({ start, a.quantityOf (*start) }, { &in, node->quantityOf (in) }) || whyNot ({ &out, node->quantityOf (out) }, { end, b.quantityOf (*end) })) continue;
+            graph::Wire first = *wire, second;
+            first.to = endpoint (node->name, in);
+            first.add = false;
+            second.from = endpoint (node->name, out);
+            second.to = wire->to;
+            second.add = wire->add;
+            return graph::Batch { "insert", { graph::ChangeWire { patch, wire_id, std::move (first) }, graph::AddWire { patch, std::move (second) } } };
+        }
+    return std::nullopt;
+}
+
+}   // namespace tactus::host

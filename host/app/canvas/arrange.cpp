@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "arrange.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr float between_columns = 72.0f, between_boxes = 24.0f, grid = 8.0f;
+
+using Wires = std::vector<std::pair<int, int>>;
+
+std::size_t at (int i) { return static_cast<std::size_t> (i); }
+
+/// The wires that close no loop, when they are followed from the first box on.
+Wires withoutLoops (std::size_t size, const Wires& wires)
+{
+    std::vector<std::vector<int>> next (size);
+    for (const auto& [from, to] : wires)
+        if (from != to) next[at (from)].push_back (to);
+
+    enum class Mark
+    {
+        fresh,
+        open,
+        done
+    };
+    std::vector<Mark> mark (size, Mark::fresh);
+    Wires kept;
+    for (int start = 0; start < static_cast<int> (size); ++start)
+    {
+        if (mark[at (start)] != Mark::fresh) continue;
+        std::vector<std::pair<int, std::size_t>> way { { start, 0 } };
+        mark[at (start)] = Mark::open;
+        while (! way.empty())
+        {
+            const auto [box, i] = way.back();
+            if (i == next[at (box)].size())
+            {
+                mark[at (box)] = Mark::done;
+                way.pop_back();
+                continue;
+            }
+            ++way.back().second;
+            const int to = next[at (box)][i];
+            if (mark[at (to)] == Mark::open) continue;
+            kept.emplace_back (box, to);
+            if (mark[at (to)] == Mark::fresh)
+            {
+                mark[at (to)] = Mark::open;
+                way.emplace_back (to, 0);
+            }
+        }
+    }
+    return kept;
+}
+
+std::vector<int> columnsOf (std::size_t size, const Wires& wires)
+{
+    std::vector<int> waiting (size, 0), column (size, 0), ready;
+    std::vector<std::vector<int>> next (size);
+    for (const auto& [from, to] : wires)
+    {
+        next[at (from)].push_back (to);
+        ++waiting[at (to)];
+    }
+    for (int i = 0; i < static_cast<int> (size); ++i)
+        if (waiting[at (i)] == 0) ready.push_back (i);
+    for (std::size_t i = 0; i < ready.size(); ++i)
+        for (const int to : next[at (ready[i])])
+        {
+            column[at (to)] = std::max (column[at (to)], column[at (ready[i])] + 1);
+            if (--waiting[at (to)] == 0) ready.push_back (to);
+        }
+
+    // A source that feeds only what is far to the right stands next to it.
+    for (auto box = ready.rbegin(); box != ready.rend(); ++box)
+    {
+        const bool is_source = std::ranges::none_of (wires, [&] (const auto& w)
+                                                     { return w.second == *box; });
+        if (! is_source || next[at (*box)].empty() || column[at (*box)] > 0) continue;
+        int nearest = column[at (next[at (*box)].front())];
+        for (const int to : next[at (*box)])
+            nearest = std::min (nearest, column[at (to)]);
+        column[at (*box)] = std::max (0, nearest - 1);
+    }
+    return column;
+}
+
+/// Boxes in columns, and beside them a free place in each column that a wire passes.
+class Columns
+{
+public:
+    Columns (const std::vector<juce::Point<float>>& s, const Wires& forward) : sizes (s), column (columnsOf (s.size(), forward))
+    {
+        for (const auto& [from, to] : forward)
+        {
+            int last = from;
+            for (int c = column[at (from)] + 1; c < column[at (to)]; ++c)
+            {
+                sizes.emplace_back (0.0f, passage);
+                column.push_back (c);
+                steps.emplace_back (last, static_cast<int> (sizes.size()) - 1);
+                last = steps.back().second;
+            }
+            steps.emplace_back (last, to);
+        }
+        columns.resize (at (*std::ranges::max_element (column)) + 1);
+        for (int i = 0; i < static_cast<int> (sizes.size()); ++i)
+            columns[at (column[at (i)])].push_back (i);
+        places.resize (sizes.size());
+        stackAll();
+        for (int sweep = 0; sweep < sweeps; ++sweep)
+            sortByNeighbours (sweep % 2 == 0);
+    }
+
+    const std::vector<juce::Point<float>>& result() const noexcept { return places; }
+
+private:
+    static constexpr float passage = 16.0f;
+    static constexpr int sweeps = 8;
+
+    std::vector<juce::Point<float>> sizes, places;
+    std::vector<int> column;
+    Wires steps;   // from column to column
+    std::vector<std::vector<int>> columns;
+
+    float middle (int b) const { return places[at (b)].y + sizes[at (b)].y / 2; }
+
+    void stackAll()
+    {
+        float x = 0.0f;
+        for (const auto& boxes : columns)
+        {
+            float widest = 0.0f, y = between_boxes / 2;
+            for (const int b : boxes)
+            {
+                widest = std::max (widest, sizes[at (b)].x);
+                y -= (sizes[at (b)].y + between_boxes) / 2;
+            }
+            for (const int b : boxes)
+            {
+                places[at (b)] = { x, y };
+                y += sizes[at (b)].y + between_boxes;
+            }
+            x += widest + between_columns;
+        }
+    }
+
+    void sortByNeighbours (bool on_the_left)
+    {
+        std::vector<float> pull (sizes.size(), 0.0f);
+        std::vector<int> count (sizes.size(), 0);
+        for (const auto& [from, to] : steps)
+        {
+            const int moved = on_the_left ? to : from, fixed = on_the_left ? from : to;
+            pull[at (moved)] += middle (fixed);
+            ++count[at (moved)];
+        }
+        for (auto& boxes : columns)
+            std::ranges::stable_sort (boxes, {}, [&] (int b)
+                                      { return count[at (b)] > 0 ? pull[at (b)] / static_cast<float> (count[at (b)]) : middle (b); });
+        stackAll();
+    }
+};
+}   // namespace
+
+std::vector<juce::Point<float>> arrange (const std::vector<juce::Point<float>>& sizes, const Wires& wires)
+{
+    if (sizes.empty()) return {};
+    auto places = Columns (sizes, withoutLoops (sizes.size(), wires)).result();
+    places.resize (sizes.size());
+    float top = 0.0f;
+    for (const auto& p : places)
+        top = std::min (top, p.y);
+    for (auto& p : places)
+        p = { std::round (p.x / grid) * grid, std::round ((p.y - top) / grid) * grid };
+    return places;
+}
+
+}   // namespace tactus::host

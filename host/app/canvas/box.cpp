@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "box.hpp"
+
+#include <framework/number_text.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr float glyph_width = 22.0f, gap = 20.0f;
+
+float toGrid (float x) { return std::ceil (x / Box::grid) * Box::grid; }
+
+/// The value a param of a node has: its own, or the default.
+Json valueOf (const graph::Node& node, const FacePort& port)
+{
+    const auto bracket = port.id.find ('[');
+    const auto own = node.params.find (port.id.substr (0, bracket));
+    if (own != node.params.end() && bracket == std::string::npos) return *own;
+    if (own != node.params.end() && own->is_array())
+        if (const auto entry = static_cast<std::size_t> (std::atoi (port.id.c_str() + bracket + 1)); entry < own->size()) return (*own)[entry];
+    if (port.sheet == nullptr) return {};
+    if (port.isChoice()) return std::string (port.sheet->choices[static_cast<std::size_t> (port.sheet->initial[0])]);
+    if (port.width == 3) return Json::array ({ port.sheet->initial[0], port.sheet->initial[1], port.sheet->initial[2] });
+    return port.sheet->initial[0];
+}
+}   // namespace
+
+std::string valueText (const Json& value, const FacePort& port)
+{
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number())
+    {
+        const auto symbol = port.unit.kind == UnitRule::Kind::fixed ? port.unit.unit.symbol : std::string_view {};
+        const auto number = numberText (value.get<double>());
+        return symbol.empty() || symbol == "1" ? number : number + ' ' + std::string (symbol);
+    }
+    if (! value.is_array()) return {};
+    std::string text;
+    for (const auto& part : value)
+        text += (text.empty() ? "" : ", ") + (part.is_number() ? numberText (part.get<double>()) : part.is_string() ? part.get<std::string>()
+                                                                                                                    : std::string ("?"));
+    return '(' + text + ')';
+}
+
+const Socket* Box::find (Role role, std::string_view id) const noexcept
+{
+    const auto socket = std::ranges::find_if (sockets, [&] (const Socket& s)
+                                              { return s.port->role == role && s.port->id == id; });
+    return socket == sockets.end() ? nullptr : &*socket;
+}
+
+Box boxOf (const graph::Node& node, const Face& face, const std::function<bool (const FacePort&)>& wired, const TextWidth& widthOf)
+{
+    std::vector<const FacePort*> params;
+    for (const auto& p : face.params)
+        if (wired (p)) params.push_back (&p);
+    int room = Box::most_params;
+    for (const auto& p : face.params)
+        if (room > 0 && ! wired (p) && node.params.contains (p.id.substr (0, p.id.find ('['))))
+        {
+            params.push_back (&p);
+            --room;
+        }
+
+    Box box;
+    const auto label = [&] (const std::string& text)
+    { return widthOf (text, Box::label_size, false); };
+    const auto rows = std::max (face.inputs.size(), face.outputs.size());
+    box.width = glyph_width + widthOf (node.name, Box::title_size, true) + 2 * Box::padding;
+    for (std::size_t i = 0; i < rows; ++i)
+    {
+        const float left = i < face.inputs.size() ? label (face.inputs[i].id) : 0.0f, right = i < face.outputs.size() ? label (face.outputs[i].id) : 0.0f;
+        box.width = std::max (box.width, left + right + (left > 0.0f && right > 0.0f ? gap : 0.0f) + 2 * Box::padding);
+    }
+    std::vector<std::string> values;
+    for (const auto* p : params)
+    {
+        values.push_back (valueText (valueOf (node, *p), *p));
+        box.width = std::max (box.width, label (p->id) + label (values.back()) + gap + 2 * Box::padding);
+    }
+    box.width = toGrid (box.width);
+
+    float y = Box::header_height;
+    for (std::size_t i = 0; i < rows; ++i, y += Box::row_height)
+    {
+        const juce::Rectangle<float> row { 0.0f, y, box.width, Box::row_height };
+        if (i < face.inputs.size()) box.sockets.push_back ({ &face.inputs[i], { 0.0f, row.getCentreY() }, row.withWidth (box.width / 2), {} });
+        if (i < face.outputs.size()) box.sockets.push_back ({ &face.outputs[i], { box.width, row.getCentreY() }, row.withTrimmedLeft (box.width / 2), {} });
+    }
+    for (std::size_t i = 0; i < params.size(); ++i, y += Box::row_height)
+    {
+        const juce::Rectangle<float> row { 0.0f, y, box.width, Box::row_height };
+        box.sockets.push_back ({ params[i], { 0.0f, row.getCentreY() }, row, values[i] });
+    }
+    box.height = toGrid (y + 4.0f);
+    return box;
+}
+
+}   // namespace tactus::host

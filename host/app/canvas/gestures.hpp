@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "canvas.hpp"
+
+namespace tactus::host
+{
+
+std::unique_ptr<Gesture> panBy (Canvas&, const juce::MouseEvent&);
+
+/// Selects what a rectangle touches; with shift or command held, besides what is selected.
+std::unique_ptr<Gesture> lasso (Canvas&, const juce::MouseEvent&);
+
+/// Moves what is selected, on the grid unless alt is held. One node that is let go on a wire goes into it.
+std::unique_ptr<Gesture> moveSelection (Canvas&, const juce::MouseEvent&);
+
+/// Draws a wire from a port, whichever end it is.
+std::unique_ptr<Gesture> drawWire (Canvas&, WireStart);
+
+}   // namespace tactus::host

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene.hpp"
+#include "arrange.hpp"
+
+#include <framework/graph/endpoints.hpp>
+#include <framework/graph/text.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::host
+{
+
+namespace
+{
+std::size_t at (int i) { return static_cast<std::size_t> (i); }
+
+constexpr Dimension none {};
+
+/// True if the unit of a generic port is that of another one, times nothing.
+bool follows (const UnitRule& rule) { return rule.kind == UnitRule::Kind::same && rule.unit.dimension == none; }
+
+/// "in" of "in[2]".
+std::string_view baseOf (std::string_view id) { return id.substr (0, id.find ('[')); }
+}   // namespace
+
+Quantity SceneNode::quantityOf (const FacePort& port) const
+{
+    if (const auto fixed = port.quantity(); fixed != Quantity::any) return fixed;
+    const auto found = carried.find ({ port.role, port.id });
+    return found == carried.end() ? Quantity::any : found->second;
+}
+
+juce::Path SceneWire::path() const
+{
+    juce::Path p;
+    const float reach = std::clamp (std::abs (to.x - from.x) / 2, 24.0f, 160.0f);
+    p.startNewSubPath (from);
+    p.cubicTo (from.translated (reach, 0.0f), to.translated (-reach, 0.0f), to);
+    return p;
+}
+
+Scene::Scene (const graph::Graph& graph, const std::string& name, const Catalogue& catalogue, const TextWidth& widthOf)
+{
+    const auto* patch = name.empty() ? &graph.root : graph.find (name);
+    if (patch == nullptr) return;
+    addNodes (graph, *patch, catalogue, widthOf);
+    place (*patch);
+    findQuantities (*patch);
+    addWires (*patch);
+}
+
+void Scene::addNodes (const graph::Graph& graph, const graph::Patch& patch, const Catalogue& catalogue, const TextWidth& widthOf)
+{
+    for (const auto& node : patch.nodes)
+    {
+        auto& made = all_nodes.emplace_back();
+        made.id = node.id;
+        made.name = node.name;
+        made.type = node.type;
+        made.bypass = node.bypass;
+        made.face = std::make_unique<Face> (faceOf (graph, patch, node, catalogue));
+        const auto wired = [&] (const FacePort& p)
+        {
+            return std::ranges::any_of (patch.wires, [&] (const graph::Wire& w)
+                                        { return w.to.node == node.name && made.face->endOf (w.to) == &p; });
+        };
+        made.box = boxOf (node, *made.face, wired, widthOf);
+        numbers.emplace (node.name, static_cast<int> (all_nodes.size()) - 1);
+    }
+}
+
+void Scene::place (const graph::Patch& patch)
+{
+    std::vector<juce::Point<float>> sizes;
+    std::vector<std::pair<int, int>> wires;
+    for (const auto& n : all_nodes)
+        sizes.emplace_back (n.box.width, n.box.height);
+    for (const auto& w : patch.wires)
+        if (const int from = numberOf (w.from.node), to = numberOf (w.to.node); from >= 0 && to >= 0 && w.delay == 0) wires.emplace_back (from, to);
+    const auto places = arrange (sizes, wires);
+    for (std::size_t i = 0; i < all_nodes.size(); ++i)
+        all_nodes[i].at = placeOf (patch.nodes[i]).value_or (places[i]);
+}
+
+/// What generic ports carry goes from port to port along wires and through nodes, until nothing new is found.
+void Scene::findQuantities (const graph::Patch& patch)
+{
+    const auto learn = [] (SceneNode& node, const FacePort& port, Quantity q)
+    {
+        if (q == Quantity::any || node.quantityOf (port) != Quantity::any) return false;
+        node.carried[{ port.role, port.id }] = q;
+        return true;
+    };
+    for (bool learned = true; learned;)
+    {
+        learned = false;
+        for (const auto& w : patch.wires)
+        {
+            const int from = numberOf (w.from.node), to = numberOf (w.to.node);
+            if (from < 0 || to < 0 || ! w.gain.is_null()) continue;
+            auto &a = all_nodes[at (from)], &b = all_nodes[at (to)];
+            const auto *start = a.face->startOf (w.from), *end = b.face->endOf (w.to);
+            if (start == nullptr || end == nullptr) continue;
+            learned = learn (b, *end, a.quantityOf (*start)) || learned;
+            learned = learn (a, *start, b.quantityOf (*end)) || learned;
+        }
+        for (auto& node : all_nodes)
+            for (const auto* ports : { &node.face->inputs, &node.face->params, &node.face->outputs })
+                for (const auto& port : *ports)
+                    for (const auto* others : { &node.face->inputs, &node.face->params, &node.face->outputs })
+                        for (const auto& other : *others)
+                        {
+                            const bool alike = (follows (port.unit) && port.unit.a == baseOf (other.id))
+                                               || (port.unit.kind == UnitRule::Kind::open && other.unit.kind == UnitRule::Kind::open && &port != &other && baseOf (port.id) == baseOf (other.id));
+                            if (! alike) continue;
+                            learned = learn (node, port, node.quantityOf (other)) || learned;
+                            learned = learn (node, other, node.quantityOf (port)) || learned;
+                        }
+    }
+}
+
+void Scene::addWires (const graph::Patch& patch)
+{
+    for (const auto& w : patch.wires)
+    {
+        const int from = numberOf (w.from.node), to = numberOf (w.to.node);
+        if (from < 0 || to < 0) continue;
+        const auto &a = all_nodes[at (from)], &b = all_nodes[at (to)];
+        const auto *start = a.face->startOf (w.from), *end = b.face->endOf (w.to);
+        SceneWire wire { w.id, a.bounds().getTopRight().translated (0.0f, Box::header_height / 2), b.at.translated (0.0f, Box::header_height / 2), from, to, Quantity::any, 1, w.delay, w.add, w.enabled.value_or (true), graph::toText (w) };
+        if (start != nullptr)
+        {
+            if (const auto* s = a.box.find (start->role, start->id)) wire.from = a.placeOf (*s);
+            wire.quantity = a.quantityOf (*start);
+            wire.width = w.from.component >= 0 ? 1 : start->width;
+        }
+        if (end != nullptr)
+        {
+            if (const auto* s = b.box.find (end->role, end->id)) wire.to = b.placeOf (*s);
+            if (wire.quantity == Quantity::any) wire.quantity = b.quantityOf (*end);
+        }
+        all_wires.push_back (std::move (wire));
+    }
+}
+
+int Scene::numberOf (const std::string& name) const noexcept
+{
+    const auto found = numbers.find (graph::firstNameOf (name));
+    return found == numbers.end() ? -1 : found->second;
+}
+
+juce::Rectangle<float> Scene::bounds() const noexcept
+{
+    juce::Rectangle<float> all;
+    for (const auto& n : all_nodes)
+        all = all.isEmpty() ? n.bounds() : all.getUnion (n.bounds());
+    return all;
+}
+
+const SceneNode* Scene::find (graph::Id id) const noexcept
+{
+    const auto node = std::ranges::find (all_nodes, id, &SceneNode::id);
+    return node == all_nodes.end() ? nullptr : &*node;
+}
+
+const SceneWire* Scene::findWire (graph::Id id) const noexcept
+{
+    const auto wire = std::ranges::find (all_wires, id, &SceneWire::id);
+    return wire == all_wires.end() ? nullptr : &*wire;
+}
+
+const SceneNode* Scene::nodeAt (juce::Point<float> p) const noexcept
+{
+    for (auto n = all_nodes.rbegin(); n != all_nodes.rend(); ++n)
+        if (n->bounds().contains (p)) return &*n;
+    return nullptr;
+}
+
+const SceneWire* Scene::wireAt (juce::Point<float> p, float reach) const
+{
+    const SceneWire* nearest = nullptr;
+    for (const auto& w : all_wires)
+    {
+        const auto path = w.path();
+        if (! path.getBounds().expanded (reach).contains (p)) continue;
+        juce::Point<float> on_path;
+        path.getNearestPoint (p, on_path);
+        if (const float distance = on_path.getDistanceFrom (p); distance <= reach)
+        {
+            reach = distance;
+            nearest = &w;
+        }
+    }
+    return nearest;
+}
+
+SceneSocket Scene::socketAt (juce::Point<float> p, float reach) const noexcept
+{
+    SceneSocket nearest;
+    for (const auto& n : all_nodes)
+    {
+        if (! n.bounds().expanded (reach).contains (p)) continue;
+        for (const auto& s : n.box.sockets)
+            if (const float distance = n.placeOf (s).getDistanceFrom (p); distance <= reach)
+            {
+                reach = distance;
+                nearest = { &n, &s };
+            }
+    }
+    return nearest;
+}
+
+std::optional<juce::Point<float>> placeOf (const graph::Node& node)
+{
+    const auto ui = node.extra.find ("ui");
+    if (ui == node.extra.end() || ! ui->is_object()) return std::nullopt;
+    const auto place = ui->find ("at");
+    if (place == ui->end() || ! place->is_array() || place->size() != 2 || ! (*place)[0].is_number() || ! (*place)[1].is_number()) return std::nullopt;
+    const auto x = (*place)[0].get<double>(), y = (*place)[1].get<double>();
+    if (! (std::abs (x) < 1e6 && std::abs (y) < 1e6)) return std::nullopt;
+    return juce::Point<float> (static_cast<float> (x), static_cast<float> (y));
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "box.hpp"
+
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace tactus::host
+{
+
+struct SceneNode
+{
+    graph::Id id = 0;
+    std::string name, type;
+    std::unique_ptr<Face> face;   ///< stays where it is: the box points at its ports
+    Box box;
+    juce::Point<float> at;
+    bool bypass = false;
+    std::map<std::pair<Role, std::string>, Quantity> carried;   ///< by ports whose unit is found out by what is wired
+
+    juce::Rectangle<float> bounds() const noexcept { return { at.x, at.y, box.width, box.height }; }
+    juce::Point<float> placeOf (const Socket& s) const noexcept { return at + s.at; }
+    Quantity quantityOf (const FacePort&) const;
+};
+
+struct SceneWire
+{
+    graph::Id id = 0;
+    juce::Point<float> from, to;
+    int start = -1, end = -1;   ///< which nodes of the scene
+    Quantity quantity = Quantity::any;
+    int width = 1;   ///< components
+    int delay = 0;   ///< ticks
+    bool add = false, enabled = true;
+    std::string text;   ///< as in the file
+
+    juce::Path path() const;
+};
+
+/// A socket of a node of a scene; null if there is none.
+struct SceneSocket
+{
+    const SceneNode* node = nullptr;
+    const Socket* socket = nullptr;
+
+    explicit operator bool() const noexcept { return socket != nullptr; }
+};
+
+/// What a canvas shows of one patch of a graph: where everything stands, in canvas units. Made anew after each edit.
+class Scene
+{
+public:
+    /// `patch` is "" for the graph itself, else the name of a subgraph. Nodes that say nothing of their place are arranged.
+    Scene (const graph::Graph&, const std::string& patch, const Catalogue&, const TextWidth&);
+
+    const std::vector<SceneNode>& nodes() const noexcept { return all_nodes; }
+    const std::vector<SceneWire>& wires() const noexcept { return all_wires; }
+    juce::Rectangle<float> bounds() const noexcept;
+
+    const SceneNode* find (graph::Id) const noexcept;
+    const SceneWire* findWire (graph::Id) const noexcept;
+
+    /// What stands there, the topmost first; null if nothing does. `reach` is how far beside it still counts.
+    const SceneNode* nodeAt (juce::Point<float>) const noexcept;
+    const SceneWire* wireAt (juce::Point<float>, float reach) const;
+    SceneSocket socketAt (juce::Point<float>, float reach) const noexcept;
+
+private:
+    void addNodes (const graph::Graph&, const graph::Patch&, const Catalogue&, const TextWidth&);
+    void place (const graph::Patch&);
+    void findQuantities (const graph::Patch&);
+    void addWires (const graph::Patch&);
+    int numberOf (const std::string& name) const noexcept;
+
+    std::vector<SceneNode> all_nodes;
+    std::vector<SceneWire> all_wires;
+    std::map<std::string, int, std::less<>> numbers;   // by name
+};
+
+/// The place a node's file gives it, under `ui`; nothing if it gives none.
+std::optional<juce::Point<float>> placeOf (const graph::Node&);
+
+}   // namespace tactus::host

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+
+#include <juce_graphics/juce_graphics.h>
+
+namespace tactus::host
+{
+
+/// Which part of a canvas is seen, and how large.
+struct View
+{
+    static constexpr float smallest = 0.1f, largest = 4.0f;
+
+    float zoom = 1.0f;
+    juce::Point<float> origin;   ///< of the canvas, in pixels of the component
+
+    juce::Point<float> toCanvas (juce::Point<float> pixel) const noexcept { return (pixel - origin) / zoom; }
+    juce::Point<float> toPixels (juce::Point<float> p) const noexcept { return p * zoom + origin; }
+    juce::AffineTransform transform() const noexcept { return juce::AffineTransform::scale (zoom).translated (origin); }
+
+    /// What is under the pointer stays there.
+    void zoomAt (juce::Point<float> pixel, float factor) noexcept
+    {
+        const auto fixed = toCanvas (pixel);
+        zoom = std::clamp (zoom * factor, smallest, largest);
+        origin = pixel - fixed * zoom;
+    }
+
+    /// All of an area, in the middle, no larger than life.
+    void frame (juce::Rectangle<float> area, juce::Rectangle<float> window) noexcept
+    {
+        if (area.isEmpty() || window.isEmpty()) return;
+        constexpr float margin = 48.0f;
+        const auto inside = window.reduced (std::min (margin, window.getWidth() / 4), std::min (margin, window.getHeight() / 4));
+        zoom = std::clamp (std::min ({ 1.0f, inside.getWidth() / area.getWidth(), inside.getHeight() / area.getHeight() }), smallest, largest);
+        origin = inside.getCentre() - area.getCentre() * zoom;
+    }
+};
+
+}   // namespace tactus::host

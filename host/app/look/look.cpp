@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "look.hpp"
+
+#include <host/io/typeface.hpp>
+
+namespace tactus::host
+{
+
+Look::Look() : regular (regularTypeface()), bold_face (boldTypeface()) { setTheme (Theme::dark()); }
+
+void Look::setTheme (const Theme& t)
+{
+    current = &t;
+    setColour (juce::ResizableWindow::backgroundColourId, t.panel);
+    setColour (juce::TextEditor::textColourId, t.text);
+    setColour (juce::TextEditor::backgroundColourId, t.raised);
+    setColour (juce::TextEditor::highlightColourId, t.accent.withAlpha (0.35f));
+    setColour (juce::TextEditor::highlightedTextColourId, t.text);
+    setColour (juce::CaretComponent::caretColourId, t.accent);
+    setColour (juce::Label::textColourId, t.text);
+    setColour (juce::TooltipWindow::backgroundColourId, t.raised);
+    setColour (juce::TooltipWindow::textColourId, t.text);
+    setColour (juce::TooltipWindow::outlineColourId, t.hairline);
+    setColour (juce::ComboBox::textColourId, t.text);
+    setColour (juce::Slider::textBoxTextColourId, t.text);
+    setColour (juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
+    setColour (juce::Slider::trackColourId, juce::Colours::transparentBlack);
+    setColour (juce::PopupMenu::backgroundColourId, t.raised);
+    setColour (juce::PopupMenu::textColourId, t.text);
+    setColour (juce::PopupMenu::highlightedBackgroundColourId, t.accent.withAlpha (0.25f));
+    setColour (juce::PopupMenu::highlightedTextColourId, t.text);
+}
+
+juce::Font Look::font (float size, bool bold) const
+{
+    juce::Font f (bold ? bold_face : regular);
+    f.setHeight (size * 1.2f);   // JUCE's height is from ascent to descent
+    return f;
+}
+
+juce::Typeface::Ptr Look::getTypefaceForFont (const juce::Font& f)
+{
+    if (f.getTypefaceName() == juce::Font::getDefaultSansSerifFontName()) return f.isBold() ? bold_face : regular;
+    return juce::LookAndFeel_V4::getTypefaceForFont (f);
+}
+
+void Look::drawScrollbar (juce::Graphics& g, juce::ScrollBar&, int x, int y, int width, int height, bool vertical, int thumb_start, int thumb_size, bool over, bool down)
+{
+    auto thumb = vertical ? juce::Rectangle<int> (x, thumb_start, width, thumb_size) : juce::Rectangle<int> (thumb_start, y, thumb_size, height);
+    g.setColour (theme().dim.withAlpha (over || down ? 0.7f : 0.35f));
+    g.fillRoundedRectangle (thumb.reduced (2).toFloat(), 3.0f);
+}
+
+void Look::fillTextEditorBackground (juce::Graphics& g, int width, int height, juce::TextEditor&)
+{
+    g.setColour (theme().raised);
+    g.fillRoundedRectangle (juce::Rectangle<int> (width, height).toFloat(), 4.0f);
+}
+
+void Look::drawTextEditorOutline (juce::Graphics& g, int width, int height, juce::TextEditor& editor)
+{
+    g.setColour (editor.hasKeyboardFocus (true) ? theme().accent : theme().hairline);
+    g.drawRoundedRectangle (juce::Rectangle<int> (width, height).toFloat().reduced (0.5f), 4.0f, 1.0f);
+}
+
+void Look::drawComboBox (juce::Graphics& g, int width, int height, bool, int, int, int, int, juce::ComboBox& box)
+{
+    const auto area = juce::Rectangle<int> (width, height).toFloat();
+    g.setColour (theme().raised);
+    g.fillRoundedRectangle (area, 4.0f);
+    g.setColour (box.hasKeyboardFocus (true) ? theme().accent : theme().hairline);
+    g.drawRoundedRectangle (area.reduced (0.5f), 4.0f, 1.0f);
+    juce::Path arrow;
+    const auto at = area.getCentre().withX (area.getRight() - 12.0f);
+    arrow.startNewSubPath (at.translated (-4.0f, -2.0f));
+    arrow.lineTo (at.translated (0.0f, 2.0f));
+    arrow.lineTo (at.translated (4.0f, -2.0f));
+    g.setColour (theme().dim);
+    g.strokePath (arrow, juce::PathStrokeType (1.4f));
+}
+
+void Look::positionComboBoxText (juce::ComboBox& box, juce::Label& label)
+{
+    label.setBounds (box.getLocalBounds().withTrimmedLeft (4).withTrimmedRight (22));
+    label.setFont (getComboBoxFont (box));
+}
+
+void Look::drawLinearSlider (juce::Graphics& g, int x, int y, int width, int height, float at, float, float, juce::Slider::SliderStyle, juce::Slider& slider)
+{
+    const auto area = juce::Rectangle<int> (x, y, width, height).toFloat();
+    g.setColour (theme().raised);
+    g.fillRoundedRectangle (area, 4.0f);
+    g.setColour (theme().accent.withAlpha (0.35f));
+    g.fillRoundedRectangle (area.withRight (juce::jmax (area.getX(), at)), 4.0f);
+    g.setColour (slider.isMouseOverOrDragging() ? theme().dim : theme().hairline);
+    g.drawRoundedRectangle (area.reduced (0.5f), 4.0f, 1.0f);
+}
+
+Look& lookOf (const juce::Component& c) { return dynamic_cast<Look&> (c.getLookAndFeel()); }
+
+void drawNumber (juce::Graphics& g, const juce::String& text, juce::Rectangle<float> area)
+{
+    const auto font = g.getCurrentFont();
+    const float digit = font.getStringWidthFloat ("0");
+    const auto isDigit = [] (juce::juce_wchar c)
+    { return c >= '0' && c <= '9'; };
+    float x = area.getRight();
+    for (int i = text.length(); --i >= 0;)
+    {
+        const auto c = text.substring (i, i + 1);
+        const float width = isDigit (text[i]) ? digit : font.getStringWidthFloat (c);
+        x -= width;
+        g.drawText (c, juce::Rectangle<float> (x, area.getY(), width, area.getHeight()).expanded (2.0f, 0.0f), juce::Justification::centred, false);
+    }
+}
+
+}   // namespace tactus::host

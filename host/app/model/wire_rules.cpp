@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wire_rules.hpp"
+
+#include <array>
+
+namespace tactus::host
+{
+
+Unit unitOf (Quantity q) noexcept
+{
+    constexpr std::array units { unit::metre, unit::radian, unit::speed, unit::newton, unit::torque, unit::joule, unit::hit, unit::kilogram,
+                                 unit::stiffness, unit::damping, unit::hertz, unit::per_second, unit::per_metre, unit::gain, unit::state };
+    for (const auto& u : units)
+        if (u.quantity == q) return u;
+    return {};
+}
+
+bool addsUp (Quantity q) noexcept { return q == Quantity::force || q == Quantity::torque || q == Quantity::hit; }
+
+std::optional<std::string> whyNot (const WireEnd& from, const WireEnd& to)
+{
+    if (from.port->role != Role::output) return "a wire starts at an output";
+    if (to.port->role == Role::output) return "a wire ends at an input or a parameter";
+    if (to.port->isChoice()) return "a choice takes no wire";
+    if (from.port->width != to.port->width) return from.port->width == 3 ? "a vector into a scalar" : "a scalar into a vector";
+
+    const auto unitAt = [] (const WireEnd& e) -> std::optional<Unit>
+    {
+        if (e.port->unit.kind == UnitRule::Kind::fixed) return e.port->unit.unit;
+        if (e.quantity != Quantity::any) return unitOf (e.quantity);
+        return std::nullopt;
+    };
+    const auto a = unitAt (from), b = unitAt (to);
+    if (a && b && a->dimension != b->dimension) return std::string (a->symbol) + " into " + std::string (b->symbol);
+    return std::nullopt;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "palette.hpp"
+
+#include <host/app/look/glyph.hpp>
+
+namespace tactus::host
+{
+
+Palette::Palette()
+{
+    setTitle ("Palette");
+    query.setFont (lookOf (*this).font (14.0f));
+    query.setIndents (10, 6);
+    query.addListener (this);
+    query.addKeyListener (this);
+    list.setRowHeight (40);
+    list.setColour (juce::ListBox::backgroundColourId, juce::Colours::transparentBlack);
+    list.setWantsKeyboardFocus (false);
+    addAndMakeVisible (query);
+    addAndMakeVisible (list);
+    setVisible (false);
+}
+
+void Palette::open (std::function<std::vector<PaletteEntry> (const std::string&)> s, const juce::String& p, std::function<void (const std::string&)> c)
+{
+    search = std::move (s);
+    purpose = p;
+    on_chosen = std::move (c);
+    query.setText ({}, false);
+    query.setTextToShowWhenEmpty ("Search by name, unit, or what it does", themeOf (*this).dim);
+    update();
+    setVisible (true);
+    toFront (false);
+    query.grabKeyboardFocus();
+}
+
+void Palette::close()
+{
+    if (! isVisible()) return;
+    setVisible (false);
+    if (auto* parent = getParentComponent()) parent->grabKeyboardFocus();
+}
+
+void Palette::update()
+{
+    found = search (query.getText().toStdString());
+    list.updateContent();
+    list.selectRow (0);
+    list.repaint();
+    repaint();
+}
+
+void Palette::choose (int row)
+{
+    if (row < 0 || row >= getNumRows()) return;
+    const auto type = found[static_cast<std::size_t> (row)].type;
+    close();
+    if (on_chosen) on_chosen (type);
+}
+
+void Palette::textEditorFocusLost (juce::TextEditor&)
+{
+    if (! hasKeyboardFocus (true)) close();
+}
+
+bool Palette::keyPressed (const juce::KeyPress& key, juce::Component*)
+{
+    const int step = key == juce::KeyPress::downKey ? 1 : key == juce::KeyPress::upKey ? -1
+                                                                                       : 0;
+    if (step == 0) return false;
+    list.selectRow (juce::jlimit (0, std::max (0, getNumRows() - 1), list.getSelectedRow() + step));
+    return true;
+}
+
+void Palette::paint (juce::Graphics& g)
+{
+    const auto& look = lookOf (*this);
+    const auto& theme = look.theme();
+    const auto area = getLocalBounds().toFloat();
+    g.setColour (theme.panel);
+    g.fillRoundedRectangle (area, 6.0f);
+    g.setColour (theme.hairline);
+    g.drawRoundedRectangle (area.reduced (0.5f), 6.0f, 1.0f);
+    g.setFont (look.font (12.0f));
+    g.setColour (theme.dim);
+    g.drawText (purpose, getLocalBounds().reduced (12, 8).removeFromTop (16), juce::Justification::centredLeft, true);
+    if (found.empty()) g.drawFittedText ("Nothing fits. Try a family such as friction or vibration, or a unit such as N.", getLocalBounds().withTrimmedTop (80).reduced (24), juce::Justification::centredTop, 2);
+}
+
+void Palette::resized()
+{
+    auto area = getLocalBounds().reduced (8);
+    area.removeFromTop (20);
+    query.setBounds (area.removeFromTop (32));
+    area.removeFromTop (6);
+    list.setBounds (area);
+}
+
+void Palette::paintListBoxItem (int row, juce::Graphics& g, int w, int h, bool selected)
+{
+    if (row < 0 || row >= getNumRows()) return;
+    const auto& entry = found[static_cast<std::size_t> (row)];
+    const auto& look = lookOf (*this);
+    const auto& theme = look.theme();
+    auto area = juce::Rectangle<int> (w, h);
+    if (selected)
+    {
+        g.setColour (theme.accent.withAlpha (0.18f));
+        g.fillRoundedRectangle (area.toFloat().reduced (1.0f), 4.0f);
+    }
+    g.setColour (theme.dim);
+    g.strokePath (glyphOf (entry.type.substr (0, entry.type.find_first_of (".:"))), juce::PathStrokeType (1.3f), juce::AffineTransform::translation (10.0f, static_cast<float> (h) / 2 - 7.0f));
+    area = area.withTrimmedLeft (34).reduced (0, 3);
+    auto first = area.removeFromTop (area.getHeight() / 2);
+    g.setColour (theme.text);
+    g.setFont (look.font (13.0f, true));
+    g.drawText (entry.type, first.removeFromLeft (w - 44), juce::Justification::centredLeft, true);
+    g.setFont (look.font (12.0f));
+    g.setColour (theme.dim);
+    g.drawText (entry.summary, area.withTrimmedRight (10), juce::Justification::centredLeft, true);
+}
+
+}   // namespace tactus::host

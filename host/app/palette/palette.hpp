@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "search.hpp"
+
+#include <host/app/look/look.hpp>
+
+#include <functional>
+
+namespace tactus::host
+{
+
+/// A list of node types that shrinks as one types. Return or a click chooses; Esc, or a click elsewhere, closes.
+class Palette final : public juce::Component, private juce::ListBoxModel, private juce::TextEditor::Listener, private juce::KeyListener
+{
+public:
+    static constexpr int width = 420, height = 400;
+
+    Palette();
+
+    /// Shows it anew; `search` answers each query.
+    void open (std::function<std::vector<PaletteEntry> (const std::string&)> search, const juce::String& purpose, std::function<void (const std::string& type)> chosen);
+    void close();
+
+    const std::vector<PaletteEntry>& entries() const noexcept { return found; }
+
+    void paint (juce::Graphics&) override;
+    void resized() override;
+
+private:
+    int getNumRows() override { return static_cast<int> (found.size()); }
+    void paintListBoxItem (int row, juce::Graphics&, int w, int h, bool selected) override;
+    void listBoxItemClicked (int row, const juce::MouseEvent&) override { choose (row); }
+    void textEditorTextChanged (juce::TextEditor&) override { update(); }
+    void textEditorReturnKeyPressed (juce::TextEditor&) override { choose (list.getSelectedRow()); }
+    void textEditorEscapeKeyPressed (juce::TextEditor&) override { close(); }
+    void textEditorFocusLost (juce::TextEditor&) override;
+    bool keyPressed (const juce::KeyPress&, juce::Component*) override;
+    void update();
+    void choose (int row);
+
+    std::function<std::vector<PaletteEntry> (const std::string&)> search;
+    std::function<void (const std::string&)> on_chosen;
+    std::vector<PaletteEntry> found;
+    juce::String purpose;
+    juce::TextEditor query;
+    juce::ListBox list { {}, this };
+};
+
+}   // namespace tactus::host

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "performance.hpp"
+
+#include <host/assets/nearest_by_embree.hpp>
+#include <host/devices/sim.hpp>
+
+#include <algorithm>
+
+namespace tactus::host
+{
+
+namespace
+{
+/// A pointer begins this far above the origin, so that a run does not begin inside something. m
+constexpr double hover = 5e-3;
+
+const Json* descriptionOf (const graph::Graph& g, const std::string& role)
+{
+    const auto at = std::ranges::find (g.devices, role, &std::pair<std::string, Json>::first);
+    return at == g.devices.end() ? nullptr : &at->second;
+}
+}   // namespace
+
+Performance::Performance (Document& d, const Catalogue& c) : document (d), catalogue (c) { document.add (*this); }
+
+Performance::~Performance()
+{
+    document.remove (*this);
+    stop();
+}
+
+Compiled Performance::compileNow (const Plan* before, const Plan* withdrawn)
+{
+    return compile (document.graph(), catalogue, { .rate_hz = rate_hz, .assets = &assets, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() }, .before = before, .withdrawn = withdrawn });
+}
+
+std::optional<Performance::Bound> Performance::open (const std::string& role)
+{
+    const auto* described = descriptionOf (document.graph(), role);
+    auto made = makeDevice (described != nullptr ? *described : Json { { "driver", "sim" } }, document.graph().folder);
+    for (auto& m : made.messages)
+        m.where = "/devices/" + role + m.where;
+    std::ranges::move (made.messages, std::back_inserter (said));
+    if (! made.device) return std::nullopt;
+
+    const auto* simulated = dynamic_cast<SimulatedDevice*> (made.device.get());
+    Bound bound { role, nullptr, made.limits, simulated != nullptr ? simulated->simulation().damping : 0.0 };
+    if (moved_by == Hand::pointer && ! pointer)
+    {
+        auto what = simulated != nullptr ? simulated->simulation() : Simulation {};
+        if (what.hand.stiffness == 0.0) what.hand = { 400.0, 4.0, nullptr };
+        what.position = Vec3 (0.0, 0.0, hover);
+        what.velocity.setZero();
+        what.hand_force.setZero();
+        what.hand.path = pointer = std::make_shared<PointerPath> (what.position);
+        bound.damping = what.damping;
+        bound.device = std::make_unique<SimulatedDevice> (std::move (what));
+    }
+    else
+        bound.device = std::move (made.device);
+    return bound;
+}
+
+void Performance::start (Hand who)
+{
+    stop();
+    moved_by = who;
+    rate_hz = document.graph().rate_hz;
+    answers = std::make_unique<SlowAnswers>();
+    auto compiled = compileNow (nullptr, nullptr);
+    said = std::move (compiled.messages);
+    if (! compiled.plan) return;
+
+    noteDelay (*compiled.plan);
+    for (const auto& role : compiled.plan->roles)
+        if (auto bound = open (role.name)) devices.push_back (std::move (*bound));
+    engine = std::make_unique<Engine> (std::move (compiled.plan));
+    for (auto& d : devices)
+        engine->attach (d.role, *d.device, d.limits);
+    clock = std::make_unique<AbsoluteTimer> (1.0 / rate_hz);
+    runner = std::make_unique<Runner> (*engine, *clock, rate_hz, Runner::Options { .hooks = this });
+    runner->start();
+}
+
+void Performance::stop()
+{
+    runner.reset();   // which waits until the forces are zero
+    clock.reset();
+    engine.reset();
+    answers.reset();
+    devices.clear();
+    pointer.reset();
+    delay_ticks.reset();
+}
+
+void Performance::documentChanged()
+{
+    if (engine == nullptr) return start (moved_by);   // perhaps it compiles now
+    auto waiting = engine->withdraw();
+    auto compiled = compileNow (&engine->newest(), waiting.get());
+    said = std::move (compiled.messages);
+    if (! compiled.plan)
+    {
+        engine->submit (std::move (waiting));
+        return;
+    }
+    noteDelay (*compiled.plan);
+    std::vector<Bound> opened;
+    for (const auto& role : compiled.plan->roles)
+        if (std::ranges::find (devices, role.name, &Bound::role) == devices.end())
+            if (auto bound = open (role.name)) opened.push_back (std::move (*bound));
+    std::vector<Engine::Joining> joining;
+    for (const auto& d : opened)
+        joining.push_back ({ d.role, *d.device, d.limits });
+    engine->submit (std::move (compiled.plan), joining);
+    std::ranges::move (opened, std::back_inserter (devices));
+}
+
+void Performance::noteDelay (const Plan& plan)
+{
+    delay_ticks.reset();
+    for (const auto& d : plan.delays)
+        delay_ticks = std::max (delay_ticks.value_or (0), d.shortest);
+}
+
+std::optional<RunStatus> Performance::status() const { return runner ? std::optional (runner->status()) : std::nullopt; }
+
+std::optional<double> Performance::stiffnessLeft() const
+{
+    if (devices.empty() || devices.front().damping <= 0.0 || ! delay_ticks) return std::nullopt;
+    return 2.0 * devices.front().damping * rate_hz / (2.0 * *delay_ticks + 1.0);
+}
+
+void Performance::point (const Vec3& p)
+{
+    if (pointer) pointer->moveTo (p);
+}
+
+std::optional<Performance::Tool> Performance::tool() const
+{
+    if (! isRunning() || devices.empty()) return std::nullopt;
+    const auto values = seen.load();
+    return Tool { Vec3 (values.data()), Vec3 (values.data() + 3) };
+}
+
+void Performance::after (std::uint64_t, bool) noexcept
+{
+    const auto& plan = engine->plan();
+    if (plan.roles.empty()) return;
+    const auto& [reading, applied] = *plan.roles.front().state;
+    const auto &p = reading.position, &f = applied.force;
+    seen.store ({ p.x(), p.y(), p.z(), f.x(), f.y(), f.z() });
+}
+
+void Performance::attend()
+{
+    if (runner) runner->attend();
+}
+
+}   // namespace tactus::host

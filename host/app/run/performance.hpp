@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "pointer_path.hpp"
+
+#include <framework/plan/compile.hpp>
+#include <framework/slow_question.hpp>
+#include <host/app/model/document.hpp>
+#include <host/assets/file_assets.hpp>
+#include <host/devices/make_device.hpp>
+#include <host/runtime/runner.hpp>
+
+#include <memory>
+#include <optional>
+
+namespace tactus::host
+{
+
+/// The graph of a document as it runs: on the devices it describes, in real time, and each edit is taken over between two
+/// ticks. What does not compile is said, and the graph before goes on. [main thread]
+class Performance final : private Document::Listener, private TickHooks
+{
+public:
+    /// Who moves the simulated tool of the first role.
+    enum class Hand
+    {
+        described,   ///< what the graph says: a gesture or a recording
+        pointer      ///< the mouse
+    };
+
+    Performance (Document&, const Catalogue&);
+    ~Performance() override;
+
+    void start (Hand);   ///< anew, if it runs
+    void stop();         ///< the forces go to zero first
+
+    bool isRunning() const noexcept { return runner != nullptr && ! runner->isOver(); }
+    Hand hand() const noexcept { return moved_by; }
+
+    /// What is wrong with the graph as it is, and what is to be said of it.
+    const Messages& messages() const noexcept { return said; }
+
+    std::optional<RunStatus> status() const;
+    double rate() const noexcept { return rate_hz; }   ///< Hz; of the run
+
+    /// How late the latest answer of a sink to a source is on its shortest way, in ticks; nothing if none are joined.
+    std::optional<int> delay() const noexcept { return delay_ticks; }
+
+    /// How stiff a wall may be on the first device before it buzzes, K < 2b/((2d+1)T), in N/m; nothing where nobody says how
+    /// much the device damps.
+    std::optional<double> stiffnessLeft() const;
+
+    /// Where the mouse wants the tool, in m.
+    void point (const Vec3&);
+
+    /// The tool of the first role, as its device measures it, and the force on it.
+    struct Tool
+    {
+        Vec3 position = Vec3::Zero();   ///< m
+        Vec3 force = Vec3::Zero();      ///< N, on the tool
+    };
+    std::optional<Tool> tool() const;   ///< nothing while nothing runs
+
+    /// Frees what is used no more. To be called many times a second.
+    void attend();
+
+private:
+    struct Bound
+    {
+        std::string role;
+        std::unique_ptr<Device> device;
+        GuardLimits limits;
+        double damping = 0.0;   // N s/m, of a simulated one
+    };
+
+    void documentChanged() override;
+    void before (std::uint64_t) noexcept override {}
+    void after (std::uint64_t tick, bool halts) noexcept override;
+
+    Compiled compileNow (const Plan* before, const Plan* withdrawn);
+    std::optional<Bound> open (const std::string& role);
+    void noteDelay (const Plan&);
+
+    Document& document;
+    const Catalogue& catalogue;
+    FileAssets assets;
+    Messages said;
+    Hand moved_by = Hand::described;
+    double rate_hz = 0.0;
+    std::optional<int> delay_ticks;
+    std::shared_ptr<PointerPath> pointer;
+    std::vector<Bound> devices;
+    Snapshot<std::array<double, 6>> seen;   // position and force
+    std::unique_ptr<SlowAnswers> answers;   // before the engine, whose nodes ask it
+    std::unique_ptr<Engine> engine;
+    std::unique_ptr<AbsoluteTimer> clock;
+    std::unique_ptr<Runner> runner;   // last: it ticks the engine
+};
+
+}   // namespace tactus::host
