@@ -21,7 +21,14 @@ const Json* descriptionOf (const graph::Graph& g, const std::string& role)
 }
 }   // namespace
 
-Performance::Performance (Document& d, const Catalogue& c) : document (d), catalogue (c) { document.add (*this); }
+Performance::Performance (Document& d, const Catalogue& c) : document (d), catalogue (c) 
+{
+    document.add (*this);
+    probes.onWanted = [this]
+    {
+        if (engine != nullptr) takeOver();
+    };
+}
 
 Performance::~Performance()
 {
@@ -31,7 +38,7 @@ Performance::~Performance()
 
 Compiled Performance::compileNow (const Plan* before, const Plan* withdrawn)
 {
-    return compile (document.graph(), catalogue, { .rate_hz = rate_hz, .assets = &assets, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() }, .before = before, .withdrawn = withdrawn });
+    return compile (document.graph(), catalogue, { .rate_hz = rate_hz, .records = probes.ports(), .assets = &assets, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() }, .before = before, .withdrawn = withdrawn });
 }
 
 std::optional<Performance::Bound> Performance::open (const std::string& role)
@@ -66,7 +73,7 @@ void Performance::start (Hand who)
     stop();
     moved_by = who;
     rate_hz = document.graph().rate_hz;
-    answers = std::make_unique<SlowAnswers>();
+    answers = std::make_unique<AnsweringThread>();
     auto compiled = compileNow (nullptr, nullptr);
     said = std::move (compiled.messages);
     if (! compiled.plan) return;
@@ -74,6 +81,7 @@ void Performance::start (Hand who)
     noteDelay (*compiled.plan);
     for (const auto& role : compiled.plan->roles)
         if (auto bound = open (role.name)) devices.push_back (std::move (*bound));
+    probes.select (*compiled.plan, rate_hz, true);
     engine = std::make_unique<Engine> (std::move (compiled.plan));
     for (auto& d : devices)
         engine->attach (d.role, *d.device, d.limits);
@@ -96,6 +104,11 @@ void Performance::stop()
 void Performance::documentChanged()
 {
     if (engine == nullptr) return start (moved_by);   // perhaps it compiles now
+    takeOver();
+}
+
+void Performance::takeOver()
+{
     auto waiting = engine->withdraw();
     auto compiled = compileNow (&engine->newest(), waiting.get());
     said = std::move (compiled.messages);
@@ -112,6 +125,7 @@ void Performance::documentChanged()
     std::vector<Engine::Joining> joining;
     for (const auto& d : opened)
         joining.push_back ({ d.role, *d.device, d.limits });
+    probes.select (*compiled.plan, rate_hz, false);
     engine->submit (std::move (compiled.plan), joining);
     std::ranges::move (opened, std::back_inserter (devices));
 }
@@ -128,8 +142,10 @@ std::optional<RunStatus> Performance::status() const { return runner ? std::opti
 std::optional<double> Performance::stiffnessLeft() const
 {
     if (devices.empty() || devices.front().damping <= 0.0 || ! delay_ticks) return std::nullopt;
-    return 2.0 * devices.front().damping * rate_hz / (2.0 * *delay_ticks + 1.0);
+    return 2.0 * devices.front().damping * rate_hz / (2.0 * static_cast<double> (*delay_ticks) + 1.0);
 }
+
+std::vector<NodeCost> Performance::costs() { return runner ? runner->costs() : std::vector<NodeCost> {}; }
 
 void Performance::point (const Vec3& p)
 {
@@ -143,9 +159,10 @@ std::optional<Performance::Tool> Performance::tool() const
     return Tool { Vec3 (values.data()), Vec3 (values.data() + 3) };
 }
 
-void Performance::after (std::uint64_t, bool) noexcept
+void Performance::after (std::uint64_t tick, bool) noexcept
 {
     const auto& plan = engine->plan();
+    probes.note (plan, tick);
     if (plan.roles.empty()) return;
     const auto& [reading, applied] = *plan.roles.front().state;
     const auto &p = reading.position, &f = applied.force;
@@ -155,6 +172,7 @@ void Performance::after (std::uint64_t, bool) noexcept
 void Performance::attend()
 {
     if (runner) runner->attend();
+    probes.collect();
 }
 
 }   // namespace tactus::host

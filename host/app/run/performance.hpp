@@ -2,9 +2,10 @@
 #pragma once
 
 #include "pointer_path.hpp"
+#include "traces.hpp"
 
 #include <framework/plan/compile.hpp>
-#include <framework/slow_question.hpp>
+#include <framework/answering_thread.hpp>
 #include <host/app/model/document.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/devices/make_device.hpp>
@@ -44,7 +45,7 @@ public:
     double rate() const noexcept { return rate_hz; }   ///< Hz; of the run
 
     /// How late the latest answer of a sink to a source is on its shortest way, in ticks; nothing if none are joined.
-    std::optional<int> delay() const noexcept { return delay_ticks; }
+    std::optional<std::int64_t> delay() const noexcept { return delay_ticks; }
 
     /// How stiff a wall may be on the first device before it buzzes, K < 2b/((2d+1)T), in N/m; nothing where nobody says how
     /// much the device damps.
@@ -61,7 +62,13 @@ public:
     };
     std::optional<Tool> tool() const;   ///< nothing while nothing runs
 
-    /// Frees what is used no more. To be called many times a second.
+    /// What stands on the ports that somebody wants to see.
+    Traces& traces() noexcept { return probes; }
+
+    /// What the nodes cost, the costliest first; of those that were measured.
+    std::vector<NodeCost> costs();
+
+    /// Frees what is used no more, and takes in what was seen. To be called many times a second.
     void attend();
 
 private:
@@ -77,6 +84,7 @@ private:
     void before (std::uint64_t) noexcept override {}
     void after (std::uint64_t tick, bool halts) noexcept override;
 
+    void takeOver();
     Compiled compileNow (const Plan* before, const Plan* withdrawn);
     std::optional<Bound> open (const std::string& role);
     void noteDelay (const Plan&);
@@ -85,13 +93,14 @@ private:
     const Catalogue& catalogue;
     FileAssets assets;
     Messages said;
+    Traces probes;
     Hand moved_by = Hand::described;
     double rate_hz = 0.0;
-    std::optional<int> delay_ticks;
+    std::optional<std::int64_t> delay_ticks;
     std::shared_ptr<PointerPath> pointer;
     std::vector<Bound> devices;
     Snapshot<std::array<double, 6>> seen;   // position and force
-    std::unique_ptr<SlowAnswers> answers;   // before the engine, whose nodes ask it
+    std::unique_ptr<AnsweringThread> answers;   // before the engine, whose nodes ask it
     std::unique_ptr<Engine> engine;
     std::unique_ptr<AbsoluteTimer> clock;
     std::unique_ptr<Runner> runner;   // last: it ticks the engine

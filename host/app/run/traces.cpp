@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "traces.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace tactus::host
+{
+
+Trace::Trace (const Tap& tap, double rate)
+    : tap_name (tap.name), what (tap.quantity), si (tap.unit), rate_hz (rate), values (static_cast<std::size_t> (std::max (1.0, seconds * rate)), std::numeric_limits<double>::quiet_NaN())
+{
+}
+
+void Trace::add (std::uint64_t tick, double value) noexcept
+{
+    if (first_tick == end_tick || tick < end_tick || tick - end_tick > values.size())
+        first_tick = end_tick = tick;
+    for (; end_tick < tick; ++end_tick)
+        values[end_tick % values.size()] = std::numeric_limits<double>::quiet_NaN();
+    values[tick % values.size()] = value;
+    end_tick = tick + 1;
+}
+
+Traces::Client::~Client()
+{
+    std::erase (traces.clients, this);
+    if (! ports.empty() && traces.onWanted) traces.onWanted();
+}
+
+void Traces::Client::want (std::vector<std::string> wanted)
+{
+    if (wanted == ports) return;
+    ports = std::move (wanted);
+    if (traces.onWanted) traces.onWanted();
+}
+
+std::vector<std::string> Traces::ports() const
+{
+    std::vector<std::string> all;
+    for (const auto* c : clients)
+        for (const auto& p : c->ports)
+            if (std::ranges::count (all, p) == 0) all.push_back (p);
+    return all;
+}
+
+std::vector<std::shared_ptr<const Trace>> Traces::of (const std::string& port) const
+{
+    std::vector<std::shared_ptr<const Trace>> found;
+    for (const auto& [name, trace] : by_name)
+        if (isPartOf (name, port)) found.push_back (trace);
+    return found;
+}
+
+void Traces::select (const Plan& plan, double rate_hz, bool anew)
+{
+    if (anew) by_name.clear();
+    const auto wanted = ports();
+    std::vector<std::size_t> taps;
+    in_frame.clear();
+    std::map<std::string, std::shared_ptr<Trace>> kept;
+    for (std::size_t i = 0; i < plan.taps.size() && taps.size() < ProbeRing::most; ++i)
+    {
+        const auto& tap = plan.taps[i];
+        if (std::ranges::none_of (wanted, [&] (const std::string& port)
+                                  { return isPartOf (tap.name, port); })) continue;
+        auto& trace = kept[tap.name];
+        if (const auto old = by_name.find (tap.name); old != by_name.end() && old->second->unit() == tap.unit) trace = old->second;
+        if (! trace) trace = std::make_shared<Trace> (tap, rate_hz);
+        taps.push_back (i);
+        in_frame.push_back (trace);
+    }
+    by_name = std::move (kept);
+    selected = &plan;
+    ring.select (taps, 1);
+}
+
+void Traces::collect()
+{
+    ring.drain ([this] (const ProbeRing::Frame& frame)
+                {
+        if (frame.plan != selected || frame.size != in_frame.size()) return;
+        for (std::size_t i = 0; i < frame.size; ++i)
+            in_frame[i]->add (frame.tick, frame.values[i]); });
+}
+
+}   // namespace tactus::host
