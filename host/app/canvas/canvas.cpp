@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "canvas.hpp"
-#include "gestures.hpp"
+#include "drags.hpp"
 
 #include <host/app/model/fragment.hpp>
 #include <host/app/model/wire_rules.hpp>
@@ -152,7 +152,7 @@ void Canvas::paint (juce::Graphics& g)
         g.drawText ("Nothing here yet. Press space, or double click, for the first node.", getLocalBounds(), juce::Justification::centred, true);
     }
     paintScene (g, *shown, window, look, highlights);
-    if (gesture) gesture->paint (g);
+    if (drag) drag->paint (g);
 }
 
 void Canvas::resized()
@@ -162,7 +162,7 @@ void Canvas::resized()
     frameAll();
 }
 
-std::unique_ptr<Gesture> Canvas::gestureFor (const juce::MouseEvent& e)
+std::unique_ptr<Drag> Canvas::dragFor (const juce::MouseEvent& e)
 {
     if (e.mods.isMiddleButtonDown() || e.mods.isRightButtonDown()) return panBy (*this, e);
     const auto at = window.toCanvas (e.position);
@@ -195,17 +195,17 @@ std::unique_ptr<Gesture> Canvas::gestureFor (const juce::MouseEvent& e)
 void Canvas::mouseDown (const juce::MouseEvent& e)
 {
     grabKeyboardFocus();
-    gesture = gestureFor (e);
+    drag = dragFor (e);
 }
 
 void Canvas::mouseDrag (const juce::MouseEvent& e)
 {
-    if (gesture) gesture->drag (e);
+    if (drag) drag->move (e);
 }
 
 void Canvas::mouseUp (const juce::MouseEvent& e)
 {
-    if (const auto ended = std::exchange (gesture, nullptr)) ended->end (e);
+    if (const auto ended = std::exchange (drag, nullptr)) ended->end (e);
     repaint();
 }
 

@@ -10,11 +10,11 @@ namespace tactus::host
 {
 
 /// What the mouse is doing from button down to button up.
-class Gesture
+class Drag
 {
 public:
-    virtual ~Gesture() = default;
-    virtual void drag (const juce::MouseEvent&) = 0;
+    virtual ~Drag() = default;
+    virtual void move (const juce::MouseEvent&) = 0;
     virtual void end (const juce::MouseEvent&) {}
     virtual void paint (juce::Graphics&) const {}   ///< over the scene, in pixels
 };
@@ -87,7 +87,7 @@ public:
 private:
     void documentChanged() override;
     void rebuild();
-    std::unique_ptr<Gesture> gestureFor (const juce::MouseEvent&);
+    std::unique_ptr<Drag> dragFor (const juce::MouseEvent&);
 
     Document& document;
     const Catalogue& catalogue;
@@ -95,7 +95,7 @@ private:
     View window;
     Highlights highlights;
     std::vector<std::pair<std::string, std::string>> entered;
-    std::unique_ptr<Gesture> gesture;
+    std::unique_ptr<Drag> drag;
     bool framed = false;   // once there was room
 };
 

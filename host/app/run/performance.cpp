@@ -38,7 +38,13 @@ Performance::~Performance()
 
 Compiled Performance::compileNow (const Plan* before, const Plan* withdrawn)
 {
-    return compile (document.graph(), catalogue, { .rate_hz = rate_hz, .records = probes.ports(), .assets = &assets, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() }, .before = before, .withdrawn = withdrawn });
+    CompileOptions options { .rate_hz = rate_hz, .records = probes.ports(), .assets = &assets, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() }, .before = before, .withdrawn = withdrawn };
+    auto compiled = compile (document.graph(), catalogue, options);
+    // What somebody wants to see may be gone. That is no reason not to run.
+    const auto gone = [&] (const std::string& port)
+    { return std::ranges::count (compiled.messages, "record " + port, &Message::where) > 0; };
+    if (std::erase_if (options.records, gone) > 0) compiled = compile (document.graph(), catalogue, options);
+    return compiled;
 }
 
 std::optional<Performance::Bound> Performance::open (const std::string& role)

@@ -10,13 +10,16 @@ namespace tactus::host
 
 namespace
 {
-constexpr int presets_width = 232, inspector_width = 304, line_height = 26, hand_height = 240, hand_width = 420, refreshes_per_second = 30;
+constexpr int line_height = 26, hand_width = 420, refreshes_per_second = 30;
+constexpr int least_canvas = 240;   // pixels, each way
 }
 
 MainView::MainView (const Catalogue& c) : catalogue (c)
 {
     setWantsKeyboardFocus (true);
-    presets = std::make_unique<PresetBrowser> (presetFolder());
+    auto browser = std::make_unique<PresetBrowser> (presetFolder());
+    presets = browser.get();
+    left.add ("Presets", std::move (browser));
     presets->onOpen = [this] (const Preset& p)
     { open (p.file); };
     strip.onStop = [this]
@@ -29,7 +32,8 @@ MainView::MainView (const Catalogue& c) : catalogue (c)
     { performance->start (Performance::Hand::pointer); };
     addAndMakeVisible (strip);
     addAndMakeVisible (hand);
-    addAndMakeVisible (*presets);
+    addAndMakeVisible (left);
+    addAndMakeVisible (bottom);
     show ({}, {});
     addChildComponent (palette);
     startTimerHz (refreshes_per_second);
@@ -64,6 +68,12 @@ void MainView::show (graph::Graph g, const std::filesystem::path& file)
     addAndMakeVisible (*top);
     addAndMakeVisible (*patching);
     addAndMakeVisible (*inspector);
+    for (auto* edge : { &left_edge, &right_edge, &bottom_edge })
+    {
+        edge->onMove = [this]
+        { resized(); };
+        addAndMakeVisible (*edge);
+    }
     palette.toFront (false);
     presets->showOpen (file);
     resized();
@@ -160,9 +170,11 @@ void MainView::resized()
     strip.setBounds (area.removeFromTop (SafetyStrip::height));
     top->setBounds (area.removeFromTop (TopBar::height));
     area.removeFromBottom (line_height);
-    presets->setBounds (area.removeFromLeft (presets_width));
-    inspector->setBounds (area.removeFromRight (inspector_width));
-    hand.setBounds (area.removeFromBottom (hand_height).removeFromLeft (hand_width));
+    auto low = bottom_edge.take (area, least_canvas);
+    left.setBounds (left_edge.take (area, least_canvas));
+    inspector->setBounds (right_edge.take (area, least_canvas));
+    hand.setBounds (low.removeFromLeft (std::min (hand_width, low.getWidth() / 2)));
+    bottom.setBounds (low);
     patching->setBounds (area);
 }
 

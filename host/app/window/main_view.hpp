@@ -7,6 +7,8 @@
 #include <host/app/presets/browser.hpp>
 #include <host/app/run/hand_view.hpp>
 #include <host/app/run/safety_strip.hpp>
+#include <host/app/window/splitter.hpp>
+#include <host/app/window/tabs.hpp>
 #include <host/app/window/top_bar.hpp>
 
 namespace tactus::host
@@ -44,8 +46,10 @@ private:
     std::unique_ptr<Performance> performance;   // after the document, before what shows it
     SafetyStrip strip;
     HandView hand;
+    Tabs left, bottom;
+    Splitter left_edge { Splitter::Edge::right, 232, 160 }, right_edge { Splitter::Edge::left, 304, 220 }, bottom_edge { Splitter::Edge::top, 264, 140 };
     std::unique_ptr<TopBar> top;
-    std::unique_ptr<PresetBrowser> presets;
+    PresetBrowser* presets = nullptr;   // in the left tabs
     std::unique_ptr<Canvas> patching;
     std::unique_ptr<Inspector> inspector;
     Palette palette;

@@ -6,15 +6,15 @@
 namespace tactus::host
 {
 
-std::unique_ptr<Gesture> panBy (Canvas&, const juce::MouseEvent&);
+std::unique_ptr<Drag> panBy (Canvas&, const juce::MouseEvent&);
 
 /// Selects what a rectangle touches; with shift or command held, besides what is selected.
-std::unique_ptr<Gesture> lasso (Canvas&, const juce::MouseEvent&);
+std::unique_ptr<Drag> lasso (Canvas&, const juce::MouseEvent&);
 
 /// Moves what is selected, on the grid unless alt is held. One node that is let go on a wire goes into it.
-std::unique_ptr<Gesture> moveSelection (Canvas&, const juce::MouseEvent&);
+std::unique_ptr<Drag> moveSelection (Canvas&, const juce::MouseEvent&);
 
 /// Draws a wire from a port, whichever end it is.
-std::unique_ptr<Gesture> drawWire (Canvas&, WireStart);
+std::unique_ptr<Drag> drawWire (Canvas&, WireStart);
 
 }   // namespace tactus::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gestures.hpp"
+#include "drags.hpp"
 
 #include <framework/graph/endpoints.hpp>
 #include <host/app/model/wire_rules.hpp>
@@ -13,12 +13,12 @@ namespace
 {
 constexpr float reach_px = 14.0f;   // from the middle of a port
 
-class Pan final : public Gesture
+class Pan final : public Drag
 {
 public:
     Pan (Canvas& c, const juce::MouseEvent& e) : canvas (c), origin (c.view().origin), grabbed (e.position) {}
 
-    void drag (const juce::MouseEvent& e) override
+    void move (const juce::MouseEvent& e) override
     {
         canvas.view().origin = origin + (e.position - grabbed);
         canvas.repaint();
@@ -29,7 +29,7 @@ private:
     juce::Point<float> origin, grabbed;
 };
 
-class Lasso final : public Gesture
+class Lasso final : public Drag
 {
 public:
     Lasso (Canvas& c, const juce::MouseEvent& e) : canvas (c), corner (c.view().toCanvas (e.position)), area (corner, corner)
@@ -38,7 +38,7 @@ public:
         c.select (before);
     }
 
-    void drag (const juce::MouseEvent& e) override
+    void move (const juce::MouseEvent& e) override
     {
         area = { corner, canvas.view().toCanvas (e.position) };
         auto chosen = before;
@@ -66,7 +66,7 @@ private:
     Selection before;
 };
 
-class Move final : public Gesture
+class Move final : public Drag
 {
 public:
     Move (Canvas& c, const juce::MouseEvent& e) : canvas (c), grabbed (c.view().toCanvas (e.position))
@@ -78,7 +78,7 @@ public:
             if (! c.selection().contains (n.id)) others.emplace_back (n.id, n.at);
     }
 
-    void drag (const juce::MouseEvent& e) override
+    void move (const juce::MouseEvent& e) override
     {
         auto way = canvas.view().toCanvas (e.position) - grabbed;
         if (! e.mods.isAltDown()) way = { std::round (way.x / Box::grid) * Box::grid, std::round (way.y / Box::grid) * Box::grid };
@@ -113,10 +113,10 @@ private:
     bool begun = false;
 };
 
-class WireGesture final : public Gesture
+class DrawWire final : public Drag
 {
 public:
-    WireGesture (Canvas& c, WireStart s) : canvas (c), start (std::move (s))
+    DrawWire (Canvas& c, WireStart s) : canvas (c), start (std::move (s))
     {
         const auto* node = c.scene().find (start.node);
         const auto* socket = node == nullptr ? nullptr : node->box.find (start.role, start.port);
@@ -126,13 +126,13 @@ public:
         { return ! problemAt (n, p); };
     }
 
-    ~WireGesture() override
+    ~DrawWire() override
     {
         canvas.lit().fits = nullptr;
         canvas.repaint();
     }
 
-    void drag (const juce::MouseEvent& e) override
+    void move (const juce::MouseEvent& e) override
     {
         end_at = canvas.view().toCanvas (e.position);
         const auto over = canvas.scene().socketAt (end_at, reach_px / canvas.view().zoom);
@@ -197,9 +197,9 @@ private:
 };
 }   // namespace
 
-std::unique_ptr<Gesture> panBy (Canvas& c, const juce::MouseEvent& e) { return std::make_unique<Pan> (c, e); }
-std::unique_ptr<Gesture> lasso (Canvas& c, const juce::MouseEvent& e) { return std::make_unique<Lasso> (c, e); }
-std::unique_ptr<Gesture> moveSelection (Canvas& c, const juce::MouseEvent& e) { return std::make_unique<Move> (c, e); }
-std::unique_ptr<Gesture> drawWire (Canvas& c, WireStart s) { return std::make_unique<WireGesture> (c, std::move (s)); }
+std::unique_ptr<Drag> panBy (Canvas& c, const juce::MouseEvent& e) { return std::make_unique<Pan> (c, e); }
+std::unique_ptr<Drag> lasso (Canvas& c, const juce::MouseEvent& e) { return std::make_unique<Lasso> (c, e); }
+std::unique_ptr<Drag> moveSelection (Canvas& c, const juce::MouseEvent& e) { return std::make_unique<Move> (c, e); }
+std::unique_ptr<Drag> drawWire (Canvas& c, WireStart s) { return std::make_unique<DrawWire> (c, std::move (s)); }
 
 }   // namespace tactus::host

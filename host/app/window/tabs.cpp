@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tabs.hpp"
+
+namespace tactus::host
+{
+
+void Tabs::add (const juce::String& name, std::unique_ptr<juce::Component> panel)
+{
+    addChildComponent (*panel);
+    tabs.push_back ({ name, std::move (panel) });
+    show (current);
+    resized();
+}
+
+void Tabs::clear() { tabs.clear(); }
+
+void Tabs::show (int index)
+{
+    if (index < 0 || index >= static_cast<int> (tabs.size())) return;
+    current = index;
+    for (std::size_t i = 0; i < tabs.size(); ++i)
+        tabs[i].panel->setVisible (static_cast<int> (i) == current);
+    repaint();
+}
+
+std::vector<juce::Rectangle<float>> Tabs::places() const
+{
+    std::vector<juce::Rectangle<float>> all;
+    float x = 4.0f;
+    for (const auto& t : tabs)
+    {
+        const float width = lookOf (*this).font (13.0f, true).getStringWidthFloat (t.name) + 24.0f;
+        all.push_back ({ x, 0.0f, width, static_cast<float> (row_height) });
+        x += width;
+    }
+    return all;
+}
+
+void Tabs::paint (juce::Graphics& g)
+{
+    const auto& look = lookOf (*this);
+    const auto& theme = look.theme();
+    g.fillAll (theme.panel);
+    g.setColour (theme.hairline);
+    g.drawHorizontalLine (row_height - 1, 0.0f, static_cast<float> (getWidth()));
+    const auto all = places();
+    for (std::size_t i = 0; i < tabs.size(); ++i)
+    {
+        const bool is_current = static_cast<int> (i) == current;
+        g.setFont (look.font (13.0f, true));
+        g.setColour (is_current ? theme.text : theme.dim);
+        g.drawText (tabs[i].name, all[i], juce::Justification::centred, false);
+        if (! is_current) continue;
+        g.setColour (theme.accent);
+        g.fillRect (all[i].reduced (12.0f, 0.0f).removeFromBottom (2.0f));
+    }
+}
+
+void Tabs::resized()
+{
+    for (auto& t : tabs)
+        t.panel->setBounds (getLocalBounds().withTrimmedTop (row_height));
+}
+
+void Tabs::mouseDown (const juce::MouseEvent& e)
+{
+    const auto all = places();
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (all[i].contains (e.position)) show (static_cast<int> (i));
+}
+
+}   // namespace tactus::host

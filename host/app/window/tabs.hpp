@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <host/app/look/look.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace tactus::host
+{
+
+/// Panels of which one is seen at a time, and a row of their names.
+class Tabs final : public juce::Component
+{
+public:
+    static constexpr int row_height = 32;
+
+    void add (const juce::String& name, std::unique_ptr<juce::Component>);
+    void clear();
+
+    void show (int index);
+    int shown() const noexcept { return current; }
+
+    void paint (juce::Graphics&) override;
+    void resized() override;
+    void mouseDown (const juce::MouseEvent&) override;
+
+private:
+    struct Tab
+    {
+        juce::String name;
+        std::unique_ptr<juce::Component> panel;
+    };
+
+    std::vector<juce::Rectangle<float>> places() const;
+
+    std::vector<Tab> tabs;
+    int current = 0;
+};
+
+}   // namespace tactus::host
