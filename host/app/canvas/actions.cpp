@@ -26,6 +26,12 @@ graph::Endpoint endpoint (const std::string& node, const FacePort& port)
     return { node, port.id.substr (0, bracket), bracket == std::string::npos ? -1 : std::atoi (port.id.c_str() + bracket + 1), -1 };
 }
 
+/// True if both are the same component, or one is all of the other.
+bool overlap (const graph::Endpoint& a, const graph::Endpoint& b)
+{
+    return a.node == b.node && a.port == b.port && a.index == b.index && (a.component == b.component || a.component < 0 || b.component < 0);
+}
+
 bool leadsTo (const graph::Wire& w, const std::string& node) { return w.to.node == node; }
 bool comesFrom (const graph::Wire& w, const std::string& node) { return w.from.node == node; }
 
@@ -139,17 +145,59 @@ graph::Command addNode (const graph::Graph& g, const std::string& patch, const s
     return graph::AddNode { patch, std::move (node) };
 }
 
-graph::Command connect (const graph::Graph& g, const std::string& patch, const SceneNode& from, const FacePort& out, const SceneNode& to, const FacePort& in)
+graph::Command connect (const graph::Graph& g, const std::string& patch, const SceneNode& from, const FacePort& out, const SceneNode& to, const FacePort& in, int from_component, int to_component)
 {
     graph::Wire wire;
     wire.from = endpoint (from.name, out);
     wire.to = endpoint (to.name, in);
+    wire.from.component = from_component;
+    wire.to.component = to_component;
     const bool several = in.role == Role::input && addsUp (to.quantityOf (in));
     graph::Batch batch { "connect", {} };
     for (const auto& w : patchOf (g, patch).wires)
-        if (w.to == wire.to && (! several || w.from == wire.from)) batch.commands.push_back (graph::RemoveWire { patch, w.id });
+        if (overlap (w.to, wire.to) && (! several || w.from == wire.from)) batch.commands.push_back (graph::RemoveWire { patch, w.id });
     batch.commands.push_back (graph::AddWire { patch, wire });
     return batch;
+}
+
+std::optional<graph::Command> duplicate (const graph::Graph& g, const std::string& name, const Scene& scene, const Selection& ids, Selection& made)
+{
+    constexpr float beside = 32.0f;
+    const auto& patch = patchOf (g, name);
+    graph::Batch all { "duplicate", {} };
+    Selection copies;
+    auto pasted = paste (g, name, copyText (g, name, ids), static_cast<double> (beside), static_cast<double> (beside), copies);
+    if (auto* command = std::get_if<graph::Command> (&pasted); command != nullptr && ! copies.empty())
+    {
+        // The copies come in the order of what they are copies of.
+        std::vector<std::string> names;
+        for (const auto& c : std::get<graph::Batch> (command->edit).commands)
+            if (const auto* add = std::get_if<graph::AddNode> (&c.edit)) names.push_back (add->node.name);
+        const auto originals = namesOf (patch, ids);
+        all.commands.push_back (std::move (*command));
+        for (const auto& w : patch.wires)
+        {
+            const auto copy = std::ranges::find (originals, w.to.node);
+            if (copy == originals.end() || std::ranges::count (originals, graph::firstNameOf (w.from.node)) > 0) continue;
+            graph::Wire in = w;
+            in.id = graph::newId();
+            in.to.node = names[static_cast<std::size_t> (copy - originals.begin())];
+            all.commands.push_back (graph::AddWire { name, std::move (in) });
+        }
+    }
+    made = std::move (copies);
+    auto notes = scene.notes();
+    const auto count = notes.size();
+    for (std::size_t i = 0; i < count; ++i)
+        if (ids.contains (noteId (i)))
+        {
+            made.insert (noteId (notes.size()));
+            notes.push_back (notes[i]);
+            notes.back().area += juce::Point<float> (beside, beside);
+        }
+    if (notes.size() > count) all.commands.push_back (setNotes (g, name, notes, "duplicate"));
+    if (made.empty()) return std::nullopt;
+    return all;
 }
 
 std::optional<graph::Command> insertInto (const graph::Graph& g, const std::string& patch, const Scene& scene, graph::Id wire_id, graph::Id node_id)

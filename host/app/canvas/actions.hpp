@@ -31,8 +31,13 @@ std::optional<graph::Command> group (const graph::Graph&, const std::string& pat
 /// A node of a type at a place, under a free name made of its type; its id is filled in.
 graph::Command addNode (const graph::Graph&, const std::string& patch, const std::string& type, juce::Point<float>, graph::Id& made);
 
-/// A wire from an output to an input or param. If only one wire fits there, it takes the place of the one that is there.
-graph::Command connect (const graph::Graph&, const std::string& patch, const SceneNode& from, const FacePort&, const SceneNode& to, const FacePort&);
+/// A copy of the selected nodes and notes beside them, with the wires among them and those that come in from others. Nothing
+/// if nothing is selected that can be copied.
+std::optional<graph::Command> duplicate (const graph::Graph&, const std::string& patch, const Scene&, const Selection&, Selection& made);
+
+/// A wire from an output to an input or param, or a component of either. If only one wire fits there, it takes the place of
+/// the one that is there.
+graph::Command connect (const graph::Graph&, const std::string& patch, const SceneNode& from, const FacePort&, const SceneNode& to, const FacePort&, int from_component = -1, int to_component = -1);
 
 /// A node that stands on a wire goes into it, by its first ports that fit; nothing if none do.
 std::optional<graph::Command> insertInto (const graph::Graph&, const std::string& patch, const Scene&, graph::Id wire, graph::Id node);

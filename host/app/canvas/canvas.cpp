@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "canvas.hpp"
+#include "commands.hpp"
 #include "drags.hpp"
 
-#include <host/app/model/fragment.hpp>
 #include <host/app/model/wire_rules.hpp>
+
+#include <limits>
 
 namespace tactus::host
 {
@@ -30,7 +32,7 @@ void Canvas::documentChanged()
         entered.pop_back();
     rebuild();
     std::erase_if (highlights.selected, [this] (graph::Id id)
-                   { return shown->find (id) == nullptr && shown->findWire (id) == nullptr; });
+                   { return isNote (id) ? noteOf (id) >= shown->notes().size() : shown->find (id) == nullptr && shown->findWire (id) == nullptr; });
     if (onWay) onWay();
     if (onSelection) onSelection();
 }
@@ -55,26 +57,70 @@ void Canvas::select (Selection s)
     if (onSelection) onSelection();
 }
 
-void Canvas::leaveTo (std::size_t depth)
+void Canvas::selectAll()
 {
-    if (depth >= entered.size()) return;
-    entered.resize (depth);
+    Selection all;
+    for (const auto& n : shown->nodes())
+        all.insert (n.id);
+    for (std::size_t i = 0; i < shown->notes().size(); ++i)
+        all.insert (noteId (i));
+    select (std::move (all));
+}
+
+void Canvas::selectNext (juce::Point<float> direction)
+{
+    const SceneNode *from = nullptr, *next = nullptr;
+    for (const auto& n : shown->nodes())
+        if (highlights.selected.contains (n.id)) from = &n;
+    float least = std::numeric_limits<float>::max();
+    for (const auto& n : shown->nodes())
+    {
+        if (&n == from) continue;
+        const auto way = n.bounds().getCentre() - (from == nullptr ? shown->bounds().getTopLeft() : from->bounds().getCentre());
+        const float along = way.getDotProduct (direction), beside = std::abs (way.x * direction.y - way.y * direction.x);
+        if (from != nullptr && along <= beside * 0.5f) continue;
+        if (const float distance = along + 2.0f * beside; distance < least)
+        {
+            least = distance;
+            next = &n;
+        }
+    }
+    if (next != nullptr) select ({ next->id });
+}
+
+std::string Canvas::address (const std::string& port) const
+{
+    std::string path;
+    for (const auto& [node, subgraph] : entered)
+        path += node + '/';
+    return path + port;
+}
+
+void Canvas::wayChanged()
+{
     highlights = {};
+    endTyping (false);
     rebuild();
     frameAll();
     if (onWay) onWay();
     if (onSelection) onSelection();
 }
 
+void Canvas::leaveTo (std::size_t depth)
+{
+    if (depth >= entered.size()) return;
+    const auto left = entered[depth].first;
+    entered.resize (depth);
+    wayChanged();
+    for (const auto& n : shown->nodes())
+        if (n.name == left) select ({ n.id });
+}
+
 void Canvas::enter (const SceneNode& node)
 {
     if (! node.type.starts_with ("graph:") || document.graph().find (node.type.substr (6)) == nullptr) return;
     entered.emplace_back (node.name, node.type.substr (6));
-    highlights = {};
-    rebuild();
-    frameAll();
-    if (onWay) onWay();
-    if (onSelection) onSelection();
+    wayChanged();
 }
 
 void Canvas::frameAll()
@@ -86,59 +132,39 @@ void Canvas::frameAll()
 void Canvas::frameSelection()
 {
     juce::Rectangle<float> area;
+    const auto include = [&] (juce::Rectangle<float> r)
+    { area = area.isEmpty() ? r : area.getUnion (r); };
     for (const auto& n : shown->nodes())
-        if (highlights.selected.contains (n.id)) area = area.isEmpty() ? n.bounds() : area.getUnion (n.bounds());
+        if (highlights.selected.contains (n.id)) include (n.bounds());
+    for (std::size_t i = 0; i < shown->notes().size(); ++i)
+        if (highlights.selected.contains (noteId (i))) include (shown->notes()[i].area);
     window.frame (area.isEmpty() ? shown->bounds() : area, getLocalBounds().toFloat());
     repaint();
 }
 
-void Canvas::removeSelection()
+void Canvas::zoomBy (float factor)
 {
-    if (! highlights.selected.empty()) document.perform (removeSelected (document.graph(), patch(), *shown, highlights.selected));
+    window.zoomAt (getLocalBounds().getCentre().toFloat(), factor);
+    repaint();
 }
 
-void Canvas::duplicateSelection()
+void Canvas::toggleMap()
 {
-    Selection made;
-    auto command = paste (document.graph(), patch(), copyText (document.graph(), patch(), highlights.selected), 32.0, 32.0, made);
-    if (made.empty() || std::holds_alternative<Message> (command)) return;
-    std::get<graph::Batch> (std::get<graph::Command> (command).edit).name = "duplicate";
-    if (document.perform (std::get<graph::Command> (std::move (command)))) select (made);
+    with_map = ! with_map;
+    repaint();
 }
 
-void Canvas::copySelection() const
+juce::Point<float> Canvas::pointerOrCentre() const
 {
-    if (! highlights.selected.empty()) juce::SystemClipboard::copyTextToClipboard (copyText (document.graph(), patch(), highlights.selected));
+    const auto pointer = getMouseXYRelative();
+    return window.toCanvas ((getLocalBounds().contains (pointer) ? pointer : getLocalBounds().getCentre()).toFloat());
 }
 
-void Canvas::pasteText()
+void Canvas::showLive (Live live)
 {
-    Selection made;
-    auto command = paste (document.graph(), patch(), juce::SystemClipboard::getTextFromClipboard().toStdString(), 32.0, 32.0, made);
-    if (const auto* problem = std::get_if<Message> (&command))
-        hint ("Nothing to paste: " + juce::String (problem->text));
-    else if (! made.empty() && document.perform (std::get<graph::Command> (std::move (command))))
-        select (made);
-}
-
-void Canvas::addNodeAt (const std::string& type, juce::Point<float> at, const std::optional<WireStart>& start)
-{
-    graph::Id made = 0;
-    if (! document.perform (addNode (document.graph(), patch(), type, at, made))) return;
-    select ({ made });
-    const auto *node = shown->find (made), *other = start ? shown->find (start->node) : nullptr;
-    const auto* port = other == nullptr ? nullptr : other->face->find (start->role, start->port);
-    if (port == nullptr || node == nullptr) return;
-
-    const WireEnd there { port, other->quantityOf (*port) };
-    const auto& ports = start->role == Role::output ? node->face->inputs : node->face->outputs;
-    for (const auto& p : ports)
-    {
-        const WireEnd here { &p, node->quantityOf (p) };
-        if (start->role == Role::output ? whyNot (there, here) : whyNot (here, there)) continue;
-        document.perform (start->role == Role::output ? connect (document.graph(), patch(), *other, *port, *node, p) : connect (document.graph(), patch(), *node, p, *other, *port), graph::Step::joined);
-        return;
-    }
+    if (live == highlights.live) return;
+    highlights.live = std::move (live);
+    repaint();
 }
 
 void Canvas::paint (juce::Graphics& g)
@@ -152,6 +178,7 @@ void Canvas::paint (juce::Graphics& g)
         g.drawText ("Nothing here yet. Press space, or double click, for the first node.", getLocalBounds(), juce::Justification::centred, true);
     }
     paintScene (g, *shown, window, look, highlights);
+    if (with_map) Minimap (*shown, window, getLocalBounds()).paint (g, look.theme());
     if (drag) drag->paint (g);
 }
 
@@ -165,21 +192,41 @@ void Canvas::resized()
 std::unique_ptr<Drag> Canvas::dragFor (const juce::MouseEvent& e)
 {
     if (e.mods.isMiddleButtonDown() || e.mods.isRightButtonDown()) return panBy (*this, e);
+    if (const Minimap map { *shown, window, getLocalBounds() }; with_map && map.isShown() && map.bounds().contains (e.position)) return panByMap (*this, e);
     const auto at = window.toCanvas (e.position);
     if (const auto over = shown->socketAt (at, socket_reach / window.zoom); over && ! over.socket->port->isChoice())
+    {
+        if (e.mods.isShiftDown() && over.socket->port->role != Role::output)
+            if (auto replug = replugWire (*this, *over.node, *over.socket->port)) return replug;
         return drawWire (*this, { over.node->id, over.socket->port->role, over.socket->port->id });
+    }
 
     const bool add = e.mods.isShiftDown() || e.mods.isCommandDown();
-    if (const auto* node = shown->nodeAt (at))
+    const auto grab = [&] (graph::Id id)
     {
+        auto chosen = highlights.selected;
         if (add)
         {
-            auto chosen = highlights.selected;
-            if (! chosen.insert (node->id).second) chosen.erase (node->id);
-            select (std::move (chosen));
+            if (! chosen.insert (id).second) chosen.erase (id);
         }
-        else if (! highlights.selected.contains (node->id))
-            select ({ node->id });
+        else if (! chosen.contains (id))
+            chosen = { id };
+        if (chosen != highlights.selected) select (std::move (chosen));
+    };
+    if (const auto* node = shown->nodeAt (at))
+    {
+        if (const auto* socket = node->paramAt (at); socket != nullptr && ! add)
+        {
+            if (! highlights.selected.contains (node->id)) select ({ node->id });
+            if (e.mods.isAltDown())
+            {
+                setParam (*shown->find (node->id), *socket->port, std::nullopt);
+                return nullptr;
+            }
+            if (auto turning = turnParam (*this, *node, *socket)) return turning;
+        }
+        grab (node->id);
+        if (e.mods.isAltDown()) duplicateSelection();
         return moveSelection (*this, e);
     }
     if (const auto* wire = shown->wireAt (at, wire_reach / window.zoom))
@@ -189,11 +236,17 @@ std::unique_ptr<Drag> Canvas::dragFor (const juce::MouseEvent& e)
         select (std::move (chosen));
         return nullptr;
     }
+    if (const auto note = shown->noteAt (at))
+    {
+        grab (noteId (*note));
+        return shown->isCorner (*note, at) ? resizeNote (*this, e, *note) : moveSelection (*this, e);
+    }
     return lasso (*this, e);
 }
 
 void Canvas::mouseDown (const juce::MouseEvent& e)
 {
+    endTyping (true);
     grabKeyboardFocus();
     drag = dragFor (e);
 }
@@ -206,7 +259,36 @@ void Canvas::mouseDrag (const juce::MouseEvent& e)
 void Canvas::mouseUp (const juce::MouseEvent& e)
 {
     if (const auto ended = std::exchange (drag, nullptr)) ended->end (e);
+    if (e.mods.isRightButtonDown() && ! e.mouseWasDraggedSinceMouseDown())
+    {
+        const auto at = window.toCanvas (e.position);
+        const auto* node = shown->nodeAt (at);
+        const auto* wire = node == nullptr ? shown->wireAt (at, wire_reach / window.zoom) : nullptr;
+        if (const auto id = node != nullptr ? node->id : wire != nullptr ? wire->id
+                                                                         : 0;
+            id != 0 && ! highlights.selected.contains (id)) select ({ id });
+        showMenu();
+    }
     repaint();
+}
+
+void Canvas::showMenu()
+{
+    juce::PopupMenu menu;
+    for (const auto& c : canvasCommands())
+    {
+        juce::PopupMenu::Item item (c.name);
+        const auto keys = juce::StringArray::fromTokens (c.keys, "|", {});
+        if (! keys.isEmpty()) item.shortcutKeyDescription = juce::KeyPress::createFromDescription (keys[0]).getTextDescription();
+        item.isEnabled = c.can (*this);
+        item.action = [safe = SafePointer (this), &c]
+        {
+            if (safe != nullptr && c.can (*safe)) c.run (*safe);
+        };
+        menu.addItem (std::move (item));
+        if (c.ends_group) menu.addSeparator();
+    }
+    menu.showMenuAsync (juce::PopupMenu::Options().withMousePosition().withParentComponent (getTopLevelComponent()));
 }
 
 void Canvas::mouseMove (const juce::MouseEvent& e)
@@ -214,22 +296,36 @@ void Canvas::mouseMove (const juce::MouseEvent& e)
     const auto at = window.toCanvas (e.position);
     graph::Id over = 0;
     juce::String text;
+    auto shape = juce::MouseCursor::NormalCursor;
     if (const auto s = shown->socketAt (at, socket_reach / window.zoom))
     {
         const auto unit = s.socket->port->unit.kind == UnitRule::Kind::fixed ? s.socket->port->unit.unit : unitOf (s.node->quantityOf (*s.socket->port));
         over = s.node->id;
         text = s.node->name + "." + s.socket->port->id + "  [" + std::string (unit.symbol) + "]  " + s.socket->port->about;
+        shape = juce::MouseCursor::CrosshairCursor;
     }
     else if (const auto* node = shown->nodeAt (at))
     {
         over = node->id;
         text = node->face->type == nullptr ? node->type : std::string (node->face->type->info.name) + ": " + std::string (node->face->type->info.summary);
+        if (const auto* socket = node->paramAt (at); socket != nullptr && ! socket->port->isChoice())
+        {
+            text = socket->port->id + ": " + socket->port->about + ". Drag up or down; shift is fine";
+            shape = juce::MouseCursor::UpDownResizeCursor;
+        }
     }
     else if (const auto* wire = shown->wireAt (at, wire_reach / window.zoom))
     {
         over = wire->id;
         text = wire->text;
     }
+    else if (const auto note = shown->noteAt (at))
+    {
+        text = "A note: drag it, pull its corner, double click to write";
+        if (shown->isCorner (*note, at)) shape = juce::MouseCursor::BottomRightCornerResizeCursor;
+    }
+    if (const auto problem = highlights.live.problems.find (over); problem != highlights.live.problems.end()) text = problem->second;
+    setMouseCursor (shape);
     hint (text);
     if (over == highlights.hovered) return;
     highlights.hovered = over;
@@ -247,9 +343,16 @@ void Canvas::mouseDoubleClick (const juce::MouseEvent& e)
 {
     const auto at = window.toCanvas (e.position);
     if (const auto* node = shown->nodeAt (at))
-        enter (*node);
+    {
+        const auto* socket = node->paramAt (at);
+        socket == nullptr ? enter (*node) : editParam (*node, *socket);
+    }
+    else if (const auto* wire = shown->wireAt (at, wire_reach / window.zoom))
+        wantNode ({ at, {}, wire->id });
+    else if (const auto note = shown->noteAt (at))
+        editNote (*note);
     else
-        wantNode (at);
+        wantNode ({ at });
 }
 
 void Canvas::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel)
@@ -269,45 +372,14 @@ void Canvas::mouseMagnify (const juce::MouseEvent& e, float factor)
 
 bool Canvas::keyPressed (const juce::KeyPress& key)
 {
-    const auto is = [&] (const char* description)
-    { return key == juce::KeyPress::createFromDescription (description); };
-    if (is ("delete") || is ("backspace"))
-        removeSelection();
-    else if (is ("ctrl + d"))
-        duplicateSelection();
-    else if (is ("ctrl + c"))
-        copySelection();
-    else if (is ("ctrl + x"))
-    {
-        copySelection();
-        removeSelection();
-    }
-    else if (is ("ctrl + v"))
-        pasteText();
-    else if (is ("ctrl + z"))
-        document.undo();
-    else if (is ("ctrl + y") || is ("ctrl + shift + z"))
-        document.redo();
-    else if (is ("ctrl + a"))
-    {
-        Selection all;
-        for (const auto& n : shown->nodes())
-            all.insert (n.id);
-        select (std::move (all));
-    }
-    else if (is ("f"))
-        frameSelection();
-    else if (is ("b"))
-        document.perform (toggleBypass (document.graph(), patch(), highlights.selected));
-    else if (is ("g"))
-    {
-        if (auto command = group (document.graph(), patch(), highlights.selected)) document.perform (std::move (*command));
-    }
-    else if (is ("tab") || is ("spacebar"))
-        wantNode (window.toCanvas (getLocalBounds().contains (getMouseXYRelative()) ? getMouseXYRelative().toFloat() : getLocalBounds().getCentre().toFloat()));
-    else
-        return false;
-    return true;
+    for (const auto& c : canvasCommands())
+        for (const auto& keys : juce::StringArray::fromTokens (c.keys, "|", {}))
+            if (key == juce::KeyPress::createFromDescription (keys))
+            {
+                if (c.can (*this)) c.run (*this);
+                return true;
+            }
+    return false;
 }
 
 }   // namespace tactus::host

@@ -2,6 +2,8 @@
 #include "drags.hpp"
 
 #include <framework/graph/endpoints.hpp>
+#include <framework/turn.hpp>
+#include <host/app/inspector/drag_number.hpp>
 #include <host/app/model/wire_rules.hpp>
 
 #include <cmath>
@@ -69,13 +71,16 @@ private:
 class Move final : public Drag
 {
 public:
-    Move (Canvas& c, const juce::MouseEvent& e) : canvas (c), grabbed (c.view().toCanvas (e.position))
+    Move (Canvas& c, const juce::MouseEvent& e) : canvas (c), grabbed (c.view().toCanvas (e.position)), notes (c.scene().notes())
     {
+        const auto isCarried = [&] (const SceneNode& n)
+        {
+            for (std::size_t i = 0; i < notes.size(); ++i)
+                if (notes[i].isRegion() && c.selection().contains (noteId (i)) && notes[i].area.contains (n.bounds())) return true;
+            return false;
+        };
         for (const auto& n : c.scene().nodes())
-            if (c.selection().contains (n.id)) starts.emplace_back (n.id, n.at);
-        // A scene that arranges itself would move the others too, once one of them has a place of its own.
-        for (const auto& n : c.scene().nodes())
-            if (! c.selection().contains (n.id)) others.emplace_back (n.id, n.at);
+            if (c.selection().contains (n.id) || isCarried (n)) starts.emplace_back (n.id, n.at);
     }
 
     void move (const juce::MouseEvent& e) override
@@ -84,11 +89,22 @@ public:
         if (! e.mods.isAltDown()) way = { std::round (way.x / Box::grid) * Box::grid, std::round (way.y / Box::grid) * Box::grid };
         if (way == moved) return;
         moved = way;
-        auto places = begun ? std::vector<std::pair<graph::Id, juce::Point<float>>> {} : others;
-        for (const auto& [id, at] : starts)
-            places.emplace_back (id, at + way);
-        auto& document = canvas.edited();
-        document.perform (placeNodes (document.graph(), canvas.patch(), places), begun ? graph::Step::joined : graph::Step::own);
+        graph::Batch all { "move", {} };
+        auto places = starts;
+        for (auto& [id, at] : places)
+            at += way;
+        const auto& document = canvas.edited();
+        if (! places.empty()) all.commands.push_back (placeNodes (document.graph(), canvas.patch(), places));
+        auto now = notes;
+        bool with_notes = false;
+        for (std::size_t i = 0; i < now.size(); ++i)
+            if (canvas.selection().contains (noteId (i)))
+            {
+                now[i].area += way;
+                with_notes = true;
+            }
+        if (with_notes) all.commands.push_back (setNotes (document.graph(), canvas.patch(), now, "move"));
+        canvas.perform (std::move (all), begun ? graph::Step::joined : graph::Step::own);
         begun = true;
     }
 
@@ -103,20 +119,87 @@ public:
         const auto* wire = scene.wireAt (node->bounds().getCentre(), node->bounds().getHeight() / 2);
         if (wire == nullptr) return;
         if (auto command = insertInto (canvas.edited().graph(), canvas.patch(), scene, wire->id, node->id))
-            canvas.edited().perform (std::move (*command), graph::Step::joined);
+            canvas.perform (std::move (*command), graph::Step::joined);
     }
 
 private:
     Canvas& canvas;
     juce::Point<float> grabbed, moved;
-    std::vector<std::pair<graph::Id, juce::Point<float>>> starts, others;
+    std::vector<std::pair<graph::Id, juce::Point<float>>> starts;
+    std::vector<Note> notes;
+    bool begun = false;
+};
+
+class ResizeNote final : public Drag
+{
+public:
+    ResizeNote (Canvas& c, const juce::MouseEvent& e, std::size_t n) : canvas (c), grabbed (c.view().toCanvas (e.position)), note (n), notes (c.scene().notes()) {}
+
+    void move (const juce::MouseEvent& e) override
+    {
+        constexpr float least = 6 * Box::grid;
+        const auto way = canvas.view().toCanvas (e.position) - grabbed;
+        auto now = notes;
+        now[note].area.setSize (std::max (least, notes[note].area.getWidth() + way.x), std::max (least, notes[note].area.getHeight() + way.y));
+        canvas.perform (setNotes (canvas.edited().graph(), canvas.patch(), now, "resize a note"), begun ? graph::Step::joined : graph::Step::own);
+        begun = true;
+    }
+
+private:
+    Canvas& canvas;
+    juce::Point<float> grabbed;
+    std::size_t note;
+    std::vector<Note> notes;
+    bool begun = false;
+};
+
+class PanByMap final : public Drag
+{
+public:
+    PanByMap (Canvas& c, const juce::MouseEvent& e) : canvas (c), map (c.scene(), c.view(), c.getLocalBounds()) { move (e); }
+
+    void move (const juce::MouseEvent& e) override
+    {
+        canvas.view().centreOn (map.toCanvas (e.position), canvas.getLocalBounds().toFloat());
+        canvas.repaint();
+    }
+
+private:
+    Canvas& canvas;
+    Minimap map;   // as it was when it was grabbed, so that it does not move under the pointer
+};
+
+class TurnParam final : public Drag
+{
+public:
+    TurnParam (Canvas& c, graph::Id n, const FacePort& p, QuantityText v) : canvas (c), node (n), port (p.id), sheet (*p.sheet), grabbed (v), now (v) {}
+
+    void move (const juce::MouseEvent& e) override
+    {
+        constexpr double fine = 0.1;
+        const auto to = dragged (grabbed, sheet, -static_cast<double> (e.getDistanceFromDragStartY()) * (e.mods.isShiftDown() ? fine : 1.0));
+        const auto* shown = canvas.scene().find (node);
+        const auto* p = shown == nullptr ? nullptr : shown->face->find (Role::param, port);
+        if (to.number == now.number || p == nullptr || ! sheet.limits.hard.contains (to.si())) return;
+        now = to;
+        canvas.setParam (*shown, *p, to.toJson(), begun ? graph::Step::joined : graph::Step::own);
+        begun = true;
+    }
+
+private:
+    Canvas& canvas;
+    graph::Id node;
+    std::string port;
+    const PortSheet& sheet;
+    QuantityText grabbed, now;
     bool begun = false;
 };
 
 class DrawWire final : public Drag
 {
 public:
-    DrawWire (Canvas& c, WireStart s) : canvas (c), start (std::move (s))
+    /// `replugged` is a wire that is taken to another end; 0 if it is a new one.
+    DrawWire (Canvas& c, WireStart s, graph::Id replugged = 0) : canvas (c), start (std::move (s)), wire_id (replugged)
     {
         const auto* node = c.scene().find (start.node);
         const auto* socket = node == nullptr ? nullptr : node->box.find (start.role, start.port);
@@ -152,18 +235,29 @@ public:
         canvas.hint ({});
         const auto at = canvas.view().toCanvas (e.position);
         const auto over = canvas.scene().socketAt (at, reach_px / canvas.view().zoom);
+        if (! over)
+        {
+            if (e.getDistanceFromDragStart() <= least_way_px || canvas.scene().nodeAt (at) != nullptr) return;
+            if (wire_id != 0) return unplug ("disconnect");
+            canvas.wantNode ({ at, start });
+            return;
+        }
+        if (problemAt (*over.node, *over.socket->port)) return;
         const auto* node = canvas.scene().find (start.node);
         const auto* port = node == nullptr ? nullptr : node->face->find (start.role, start.port);
         if (port == nullptr) return;
-        if (over)
+        const WireStart other { over.node->id, over.socket->port->role, over.socket->port->id };
+        if (wire_id != 0)
         {
-            if (problemAt (*over.node, *over.socket->port)) return;
-            auto& document = canvas.edited();
-            document.perform (start.role == Role::output ? connect (document.graph(), canvas.patch(), *node, *port, *over.node, *over.socket->port)
-                                                         : connect (document.graph(), canvas.patch(), *over.node, *over.socket->port, *node, *port));
+            unplug ("re-plug");
+            // The scene is another one now.
+            node = canvas.scene().find (start.node);
+            port = node == nullptr ? nullptr : node->face->find (start.role, start.port);
         }
-        else if (canvas.scene().nodeAt (at) == nullptr && e.getDistanceFromDragStart() > 8)
-            canvas.wantNode (at, start);
+        const auto* there = canvas.scene().find (other.node);
+        const auto* in = there == nullptr ? nullptr : there->face->find (other.role, other.port);
+        if (port == nullptr || in == nullptr) return;
+        start.role == Role::output ? canvas.join (*node, *port, *there, *in) : canvas.join (*there, *in, *node, *port);
     }
 
     void paint (juce::Graphics& g) const override
@@ -188,11 +282,16 @@ private:
         const auto* port = node == nullptr ? nullptr : node->face->find (start.role, start.port);
         if (port == nullptr) return "gone";
         const WireEnd here { port, node->quantityOf (*port) }, there { &p, n.quantityOf (p) };
-        return start.role == Role::output ? whyNot (here, there) : whyNot (there, here);
+        return start.role == Role::output ? whyNotByComponent (here, there) : whyNotByComponent (there, here);
     }
+
+    void unplug (const char* step) { canvas.perform (graph::Batch { step, { graph::RemoveWire { canvas.patch(), wire_id } } }); }
+
+    static constexpr int least_way_px = 8;
 
     Canvas& canvas;
     WireStart start;
+    graph::Id wire_id;
     juce::Point<float> begin, end_at;
 };
 }   // namespace
@@ -201,5 +300,31 @@ std::unique_ptr<Drag> panBy (Canvas& c, const juce::MouseEvent& e) { return std:
 std::unique_ptr<Drag> lasso (Canvas& c, const juce::MouseEvent& e) { return std::make_unique<Lasso> (c, e); }
 std::unique_ptr<Drag> moveSelection (Canvas& c, const juce::MouseEvent& e) { return std::make_unique<Move> (c, e); }
 std::unique_ptr<Drag> drawWire (Canvas& c, WireStart s) { return std::make_unique<DrawWire> (c, std::move (s)); }
+std::unique_ptr<Drag> resizeNote (Canvas& c, const juce::MouseEvent& e, std::size_t note) { return std::make_unique<ResizeNote> (c, e, note); }
+std::unique_ptr<Drag> panByMap (Canvas& c, const juce::MouseEvent& e) { return std::make_unique<PanByMap> (c, e); }
+
+std::unique_ptr<Drag> replugWire (Canvas& c, const SceneNode& node, const FacePort& port)
+{
+    const auto& g = c.edited().graph();
+    const auto* patch = c.patch().empty() ? &g.root : g.find (c.patch());
+    if (patch == nullptr) return nullptr;
+    for (const auto& w : patch->wires)
+    {
+        if (w.to.node != node.name || node.face->endOf (w.to) != &port) continue;
+        const auto start = std::ranges::find (c.scene().nodes(), w.from.node, &SceneNode::name);
+        const auto* out = start == c.scene().nodes().end() ? nullptr : start->face->startOf (w.from);
+        if (out != nullptr) return std::make_unique<DrawWire> (c, WireStart { start->id, Role::output, out->id }, w.id);
+    }
+    return nullptr;
+}
+
+std::unique_ptr<Drag> turnParam (Canvas& c, const SceneNode& node, const Socket& socket)
+{
+    const auto* sheet = socket.port->sheet;
+    if (sheet == nullptr || socket.port->width != 1 || sheet->list || socket.port->isChoice()) return nullptr;
+    const auto value = readQuantity (readValue (socket.value), *sheet);
+    const auto* text = std::get_if<QuantityText> (&value);
+    return text == nullptr ? nullptr : std::make_unique<TurnParam> (c, node.id, *socket.port, *text);
+}
 
 }   // namespace tactus::host

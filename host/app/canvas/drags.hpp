@@ -17,4 +17,13 @@ std::unique_ptr<Drag> moveSelection (Canvas&, const juce::MouseEvent&);
 /// Draws a wire from a port, whichever end it is.
 std::unique_ptr<Drag> drawWire (Canvas&, WireStart);
 
+/// Takes the wire that ends at an input to another one, or off, if it is let go on nothing. Null if none ends there.
+std::unique_ptr<Drag> replugWire (Canvas&, const SceneNode&, const FacePort&);
+
+/// Turns a param up and down. Null if it is none that can be turned.
+std::unique_ptr<Drag> turnParam (Canvas&, const SceneNode&, const Socket&);
+
+std::unique_ptr<Drag> resizeNote (Canvas&, const juce::MouseEvent&, std::size_t note);
+std::unique_ptr<Drag> panByMap (Canvas&, const juce::MouseEvent&);
+
 }   // namespace tactus::host

@@ -3,6 +3,8 @@
 
 #include <host/app/look/glyph.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tactus::host
@@ -33,6 +35,8 @@ public:
         for (const auto& s : node.box.sockets)
             socket (node, s);
         if (node.face->kind == Face::Kind::placeholder) frame (bounds, theme.warning);
+        if (highlights.live.problems.contains (node.id)) frame (bounds, theme.stop);
+        cost (node);
     }
 
 private:
@@ -48,9 +52,31 @@ private:
         g.setColour (theme.text.withMultipliedAlpha (alpha));
         g.setFont (look.font (Box::title_size, true));
         g.drawText (node.name, area.withTrimmedLeft (Box::padding + 22.0f), juce::Justification::centredLeft, false);
+        if (const auto state = highlights.live.states.find (node.id); state != highlights.live.states.end()) light (area, state->second);
         if (node.bypass) g.drawLine ({ area.getBottomLeft().translated (Box::padding, -14.0f), area.getBottomRight().translated (-Box::padding, -14.0f) }, 1.0f);
         g.setColour (theme.hairline);
         g.drawHorizontalLine (juce::roundToInt (area.getBottom()) - 1, area.getX() + 1.0f, area.getRight() - 1.0f);
+    }
+
+    /// What the node is in: nothing, or one state or another.
+    void light (juce::Rectangle<float> header_area, int state) const
+    {
+        constexpr std::array lit { Quantity::energy, Quantity::hit, Quantity::force };
+        const auto at = juce::Rectangle<float> (8.0f, 8.0f).withCentre ({ header_area.getRight() - Box::padding, header_area.getCentreY() });
+        g.setColour (state <= 0 ? theme.hairline : theme.of (lit[static_cast<std::size_t> (state - 1) % lit.size()]));
+        g.fillEllipse (at);
+    }
+
+    void cost (const SceneNode& node) const
+    {
+        const auto found = highlights.live.costs.find (node.id);
+        if (found == highlights.live.costs.end()) return;
+        constexpr double much = 0.5;
+        const auto bar = node.bounds().withTop (node.bounds().getBottom() + 3.0f).withHeight (4.0f);
+        g.setColour (theme.hairline);
+        g.fillRoundedRectangle (bar, 2.0f);
+        g.setColour (found->second > much ? theme.warning : theme.accent);
+        g.fillRoundedRectangle (bar.withWidth (std::max (2.0f, bar.getWidth() * static_cast<float> (std::min (found->second, 1.0)))), 2.0f);
     }
 
     void socket (const SceneNode& node, const Socket& s) const
@@ -97,6 +123,43 @@ private:
     bool words;
 };
 
+juce::Colour colourOf (const Note& note, const Theme& theme)
+{
+    constexpr std::array quantities { Quantity::length, Quantity::force, Quantity::energy, Quantity::angle, Quantity::hit, Quantity::gain };
+    const auto place = std::ranges::find (note_colours, note.colour);
+    return place == std::end (note_colours) ? theme.dim : theme.of (quantities[static_cast<std::size_t> (place - std::begin (note_colours))]);
+}
+
+void paintNote (juce::Graphics& g, const Note& note, const Look& look, bool selected)
+{
+    const auto& theme = look.theme();
+    const auto colour = colourOf (note, theme);
+    if (note.isRegion())
+    {
+        g.setColour (colour.withAlpha (theme.is_dark ? 0.10f : 0.14f));
+        g.fillRoundedRectangle (note.area, 8.0f);
+        g.setColour (colour.withAlpha (0.55f));
+        g.drawRoundedRectangle (note.area.reduced (0.5f), 8.0f, 1.0f);
+        g.setFont (look.font (13.0f, true));
+        g.setColour (theme.text);
+        g.drawText (note.text.empty() ? "Region" : juce::String::fromUTF8 (note.text.c_str()), note.area.withHeight (Box::header_height).reduced (12.0f, 0.0f), juce::Justification::centredLeft, true);
+    }
+    else
+    {
+        g.setColour (theme.dim.withAlpha (0.6f));
+        g.fillRect (note.area.withWidth (2.0f));
+        g.setFont (look.font (13.0f));
+        g.setColour (note.text.empty() ? theme.dim : theme.text);
+        g.drawFittedText (note.text.empty() ? "A note. Double click to write." : juce::String::fromUTF8 (note.text.c_str()), note.area.reduced (10.0f, 4.0f).toNearestInt(), juce::Justification::topLeft, 100, 1.0f);
+    }
+    g.setColour (colour.withAlpha (0.6f));
+    for (const float d : { 5.0f, 9.0f })
+        g.drawLine (note.area.getRight() - d, note.area.getBottom() - 2.0f, note.area.getRight() - 2.0f, note.area.getBottom() - d, 1.0f);
+    if (! selected) return;
+    g.setColour (theme.accent);
+    g.drawRoundedRectangle (note.area.expanded (1.0f), 8.0f, 2.0f);
+}
+
 void paintDelay (juce::Graphics& g, const SceneWire& w, const Look& look)
 {
     const auto path = w.path();
@@ -111,6 +174,21 @@ void paintDelay (juce::Graphics& g, const SceneWire& w, const Look& look)
     g.setFont (font);
     g.setColour (look.theme().text);
     g.drawText (text, box, juce::Justification::centred, false);
+}
+void paintProblem (juce::Graphics& g, const SceneWire& w, const Theme& theme)
+{
+    juce::Path dashed;
+    const float dashes[] { 4.0f, 6.0f };
+    juce::PathStrokeType (4.0f).createDashedStroke (dashed, w.path(), dashes, 2);
+    g.setColour (theme.stop);
+    g.fillPath (dashed);
+}
+
+void paintHit (juce::Graphics& g, const SceneWire& w, double along, const Theme& theme)
+{
+    const auto path = w.path();
+    g.setColour (theme.of (Quantity::hit));
+    g.fillEllipse (juce::Rectangle<float> (9.0f, 9.0f).withCentre (path.getPointAlongPath (path.getLength() * static_cast<float> (std::clamp (along, 0.0, 1.0)))));
 }
 }   // namespace
 
@@ -156,10 +234,14 @@ void paintScene (juce::Graphics& g, const Scene& scene, const View& view, const 
     const juce::Rectangle<float> seen { view.toCanvas (clip.getTopLeft()), view.toCanvas (clip.getBottomRight()) };
     g.addTransform (view.transform());
 
+    for (std::size_t i = 0; i < scene.notes().size(); ++i)
+        if (scene.notes()[i].area.intersects (seen)) paintNote (g, scene.notes()[i], look, highlights.selected.contains (noteId (i)));
     for (const auto& w : scene.wires())
     {
         if (! juce::Rectangle<float> (w.from, w.to).expanded (200.0f, 16.0f).intersects (seen)) continue;
         paintWire (g, w, look.theme(), highlights.selected.contains (w.id), highlights.hovered == w.id);
+        if (highlights.live.problems.contains (w.id)) paintProblem (g, w, look.theme());
+        if (const auto hit = highlights.live.hits.find (w.id); hit != highlights.live.hits.end()) paintHit (g, w, hit->second, look.theme());
         if (w.delay > 0 && view.zoom > too_small_to_read) paintDelay (g, w, look);
     }
     const NodePainter paint { g, look, highlights, view.zoom };

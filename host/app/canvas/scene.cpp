@@ -31,6 +31,13 @@ Quantity SceneNode::quantityOf (const FacePort& port) const
     return found == carried.end() ? Quantity::any : found->second;
 }
 
+const Socket* SceneNode::paramAt (juce::Point<float> p) const noexcept
+{
+    const auto socket = std::ranges::find_if (box.sockets, [&] (const Socket& s)
+                                              { return s.port->role == Role::param && s.row.translated (at.x, at.y).contains (p); });
+    return socket == box.sockets.end() ? nullptr : &*socket;
+}
+
 juce::Path SceneWire::path() const
 {
     juce::Path p;
@@ -48,6 +55,7 @@ Scene::Scene (const graph::Graph& graph, const std::string& name, const Catalogu
     place (*patch);
     findQuantities (*patch);
     addWires (*patch);
+    all_notes = notesOf (graph, name);
 }
 
 void Scene::addNodes (const graph::Graph& graph, const graph::Patch& patch, const Catalogue& catalogue, const TextWidth& widthOf)
@@ -128,16 +136,19 @@ void Scene::addWires (const graph::Patch& patch)
         if (from < 0 || to < 0) continue;
         const auto &a = all_nodes[at (from)], &b = all_nodes[at (to)];
         const auto *start = a.face->startOf (w.from), *end = b.face->endOf (w.to);
-        SceneWire wire { w.id, a.bounds().getTopRight().translated (0.0f, Box::header_height / 2), b.at.translated (0.0f, Box::header_height / 2), from, to, Quantity::any, 1, w.delay, w.add, w.enabled.value_or (true), graph::toText (w) };
+        SceneWire wire { .id = w.id, .from = a.bounds().getTopRight().translated (0.0f, Box::header_height / 2), .to = b.at.translated (0.0f, Box::header_height / 2), .start = from, .end = to, .delay = w.delay, .add = w.add, .enabled = w.enabled.value_or (true), .text = graph::toText (w) };
         if (start != nullptr)
         {
             if (const auto* s = a.box.find (start->role, start->id)) wire.from = a.placeOf (*s);
+            wire.out = start->id;
             wire.quantity = a.quantityOf (*start);
             wire.width = w.from.component >= 0 ? 1 : start->width;
         }
         if (end != nullptr)
         {
             if (const auto* s = b.box.find (end->role, end->id)) wire.to = b.placeOf (*s);
+            wire.in = end->id;
+            wire.in_role = end->role;
             if (wire.quantity == Quantity::any) wire.quantity = b.quantityOf (*end);
         }
         all_wires.push_back (std::move (wire));
@@ -155,6 +166,8 @@ juce::Rectangle<float> Scene::bounds() const noexcept
     juce::Rectangle<float> all;
     for (const auto& n : all_nodes)
         all = all.isEmpty() ? n.bounds() : all.getUnion (n.bounds());
+    for (const auto& n : all_notes)
+        all = all.isEmpty() ? n.area : all.getUnion (n.area);
     return all;
 }
 
@@ -209,6 +222,19 @@ SceneSocket Scene::socketAt (juce::Point<float> p, float reach) const noexcept
             }
     }
     return nearest;
+}
+
+std::optional<std::size_t> Scene::noteAt (juce::Point<float> p) const noexcept
+{
+    for (std::size_t i = all_notes.size(); i-- > 0;)
+        if (const auto& n = all_notes[i]; n.area.contains (p) && (! n.isRegion() || p.y < n.area.getY() + Box::header_height || isCorner (i, p))) return i;
+    return std::nullopt;
+}
+
+bool Scene::isCorner (std::size_t note, juce::Point<float> p) const noexcept
+{
+    constexpr float corner = 16.0f;
+    return note < all_notes.size() && juce::Rectangle<float> (all_notes[note].area.getRight() - corner, all_notes[note].area.getBottom() - corner, corner, corner).contains (p);
 }
 
 std::optional<juce::Point<float>> placeOf (const graph::Node& node)

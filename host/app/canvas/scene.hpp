@@ -2,6 +2,7 @@
 #pragma once
 
 #include "box.hpp"
+#include "notes.hpp"
 
 #include <map>
 #include <memory>
@@ -23,13 +24,18 @@ struct SceneNode
     juce::Rectangle<float> bounds() const noexcept { return { at.x, at.y, box.width, box.height }; }
     juce::Point<float> placeOf (const Socket& s) const noexcept { return at + s.at; }
     Quantity quantityOf (const FacePort&) const;
+
+    /// The param whose value is written there; null if there is none.
+    const Socket* paramAt (juce::Point<float>) const noexcept;
 };
 
 struct SceneWire
 {
     graph::Id id = 0;
     juce::Point<float> from, to;
-    int start = -1, end = -1;   ///< which nodes of the scene
+    int start = -1, end = -1;    ///< which nodes of the scene
+    std::string out {}, in {};   ///< the ports there, as their faces name them; empty if there is no such port
+    Role in_role = Role::input;
     Quantity quantity = Quantity::any;
     int width = 1;   ///< components
     int delay = 0;   ///< ticks
@@ -57,6 +63,7 @@ public:
 
     const std::vector<SceneNode>& nodes() const noexcept { return all_nodes; }
     const std::vector<SceneWire>& wires() const noexcept { return all_wires; }
+    const std::vector<Note>& notes() const noexcept { return all_notes; }
     juce::Rectangle<float> bounds() const noexcept;
 
     const SceneNode* find (graph::Id) const noexcept;
@@ -67,6 +74,12 @@ public:
     const SceneWire* wireAt (juce::Point<float>, float reach) const;
     SceneSocket socketAt (juce::Point<float>, float reach) const noexcept;
 
+    /// Of a region only its title and its corner are there for the pointer, so that one can select what is in it.
+    std::optional<std::size_t> noteAt (juce::Point<float>) const noexcept;
+
+    /// Whether a place is the corner by which a note is made larger.
+    bool isCorner (std::size_t note, juce::Point<float>) const noexcept;
+
 private:
     void addNodes (const graph::Graph&, const graph::Patch&, const Catalogue&, const TextWidth&);
     void place (const graph::Patch&);
@@ -76,6 +89,7 @@ private:
 
     std::vector<SceneNode> all_nodes;
     std::vector<SceneWire> all_wires;
+    std::vector<Note> all_notes;
     std::map<std::string, int, std::less<>> numbers;   // by name
 };
 

@@ -28,6 +28,8 @@ struct View
         origin = pixel - fixed * zoom;
     }
 
+    void centreOn (juce::Point<float> place, juce::Rectangle<float> window) noexcept { origin = window.getCentre() - place * zoom; }
+
     /// All of an area, in the middle, no larger than life.
     void frame (juce::Rectangle<float> area, juce::Rectangle<float> window) noexcept
     {

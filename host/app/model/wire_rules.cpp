@@ -17,12 +17,11 @@ Unit unitOf (Quantity q) noexcept
 
 bool addsUp (Quantity q) noexcept { return q == Quantity::force || q == Quantity::torque || q == Quantity::hit; }
 
-std::optional<std::string> whyNot (const WireEnd& from, const WireEnd& to)
+std::optional<std::string> whyNotByComponent (const WireEnd& from, const WireEnd& to)
 {
     if (from.port->role != Role::output) return "a wire starts at an output";
     if (to.port->role == Role::output) return "a wire ends at an input or a parameter";
     if (to.port->isChoice()) return "a choice takes no wire";
-    if (from.port->width != to.port->width) return from.port->width == 3 ? "a vector into a scalar" : "a scalar into a vector";
 
     const auto unitAt = [] (const WireEnd& e) -> std::optional<Unit>
     {
@@ -32,6 +31,13 @@ std::optional<std::string> whyNot (const WireEnd& from, const WireEnd& to)
     };
     const auto a = unitAt (from), b = unitAt (to);
     if (a && b && a->dimension != b->dimension) return std::string (a->symbol) + " into " + std::string (b->symbol);
+    return std::nullopt;
+}
+
+std::optional<std::string> whyNot (const WireEnd& from, const WireEnd& to)
+{
+    if (const auto problem = whyNotByComponent (from, to)) return problem;
+    if (from.port->width != to.port->width) return from.port->width == 3 ? "a vector into a scalar" : "a scalar into a vector";
     return std::nullopt;
 }
 

@@ -19,6 +19,9 @@ struct WireEnd
 /// Why a wire from an output cannot end there, in few words, as "m into N"; nothing if it can.
 std::optional<std::string> whyNot (const WireEnd& from, const WireEnd& to);
 
+/// The same if a single component of the vector may go, where one end is a vector and the other is not.
+std::optional<std::string> whyNotByComponent (const WireEnd& from, const WireEnd& to);
+
 /// Several wires into such an input add up; any other takes one.
 bool addsUp (Quantity) noexcept;
 

@@ -49,7 +49,7 @@ int rank (const PaletteEntry& e, const std::string& query)
 }
 }   // namespace
 
-std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::Graph& g, const Catalogue& catalogue, const std::optional<WireEnd>& fits)
+std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::Graph& g, const Catalogue& catalogue, const std::vector<WireEnd>& fits)
 {
     const auto words = wordsOf (query);
     std::vector<PaletteEntry> found;
@@ -62,7 +62,9 @@ std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::
         all = lower (std::move (all));
         const bool matches = std::ranges::all_of (words, [&] (const std::string& w)
                                                   { return all.find (w) != std::string::npos; });
-        if (matches && (! fits || fitsSomewhere (face, *fits))) found.push_back (std::move (entry));
+        const bool fitting = std::ranges::all_of (fits, [&] (const WireEnd& end)
+                                                  { return fitsSomewhere (face, end); });
+        if (matches && fitting) found.push_back (std::move (entry));
     };
     const auto face = [&] (const std::string& type)
     {
@@ -78,6 +80,16 @@ std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::
     const auto whole = lower (query);
     if (! whole.empty()) std::ranges::stable_sort (found, {}, [&] (const PaletteEntry& e)
                                                    { return rank (e, whole); });
+    return found;
+}
+
+std::vector<PaletteEntry> matching (const std::vector<PaletteEntry>& entries, const std::string& query)
+{
+    const auto words = wordsOf (query);
+    auto found = entries;
+    std::erase_if (found, [&] (const PaletteEntry& e)
+                   { return ! std::ranges::all_of (words, [text = lower (e.type + ' ' + e.name + ' ' + e.summary)] (const std::string& w)
+                                                   { return text.find (w) != std::string::npos; }); });
     return found;
 }
 

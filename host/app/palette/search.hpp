@@ -3,7 +3,6 @@
 
 #include <host/app/model/wire_rules.hpp>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +17,11 @@ struct PaletteEntry
 };
 
 /// The types of the catalogue and the subgraphs of a graph that have all words of the query in their id, name, sentence, or
-/// in the unit or quantity of a port; those whose id or name begins with it first. With a wire end only those with a port that fits it.
-std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::Graph&, const Catalogue&, const std::optional<WireEnd>& fits);
+/// in the unit or quantity of a port; those whose id or name begins with it first. Only those with a port that fits each of
+/// the wire ends: one that waits, or both of a wire that something is to be put into.
+std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::Graph&, const Catalogue&, const std::vector<WireEnd>& fits);
+
+/// Those that have all words of the query, in the order they came.
+std::vector<PaletteEntry> matching (const std::vector<PaletteEntry>&, const std::string& query);
 
 }   // namespace tactus::host

@@ -21,7 +21,7 @@ const Json* descriptionOf (const graph::Graph& g, const std::string& role)
 }
 }   // namespace
 
-Performance::Performance (Document& d, const Catalogue& c) : document (d), catalogue (c) 
+Performance::Performance (Document& d, const Catalogue& c) : document (d), catalogue (c)
 {
     document.add (*this);
     probes.onWanted = [this]

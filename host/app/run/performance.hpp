@@ -4,8 +4,8 @@
 #include "pointer_path.hpp"
 #include "traces.hpp"
 
-#include <framework/plan/compile.hpp>
 #include <framework/answering_thread.hpp>
+#include <framework/plan/compile.hpp>
 #include <host/app/model/document.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/devices/make_device.hpp>
@@ -99,7 +99,7 @@ private:
     std::optional<std::int64_t> delay_ticks;
     std::shared_ptr<PointerPath> pointer;
     std::vector<Bound> devices;
-    Snapshot<std::array<double, 6>> seen;   // position and force
+    Snapshot<std::array<double, 6>> seen;       // position and force
     std::unique_ptr<AnsweringThread> answers;   // before the engine, whose nodes ask it
     std::unique_ptr<Engine> engine;
     std::unique_ptr<AbsoluteTimer> clock;

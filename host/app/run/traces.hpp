@@ -80,11 +80,11 @@ public:
     void select (const Plan&, double rate_hz, bool anew);
 
     void note (const Plan& plan, std::uint64_t tick) noexcept { ring.note (plan, tick); }   ///< [tick thread]
-    void collect();                                                                        ///< to be called many times a second
+    void collect();                                                                         ///< to be called many times a second
 
 private:
     ProbeRing ring;
-    const Plan* selected = nullptr;                ///< never looked into
+    const Plan* selected = nullptr;                 ///< never looked into
     std::vector<std::shared_ptr<Trace>> in_frame;   ///< by their place in a frame
     std::map<std::string, std::shared_ptr<Trace>> by_name;
     std::vector<Client*> clients;

@@ -12,7 +12,7 @@ namespace
 {
 constexpr int line_height = 26, hand_width = 420, refreshes_per_second = 30;
 constexpr int least_canvas = 240;   // pixels, each way
-}
+}   // namespace
 
 MainView::MainView (const Catalogue& c) : catalogue (c)
 {
@@ -63,8 +63,10 @@ void MainView::show (graph::Graph g, const std::filesystem::path& file)
     { inspector->inspect (patching->patch(), patching->selection()); };
     patching->onHint = inspector->onHint = [this] (const juce::String& text)
     { say (text); };
-    patching->onWantsNode = [this] (juce::Point<float> at, std::optional<WireStart> start)
-    { openPalette (at, std::move (start)); };
+    patching->onWantsNode = [this] (const NodeWish& wish)
+    { openPalette (wish); };
+    patching->onChoose = [this] (const juce::String& purpose, std::vector<PaletteEntry> entries, std::function<void (const std::string&)> chosen)
+    { choose (purpose, std::move (entries), std::move (chosen)); };
     addAndMakeVisible (*top);
     addAndMakeVisible (*patching);
     addAndMakeVisible (*inspector);
@@ -101,25 +103,49 @@ void MainView::timerCallback()
     hand.show (*performance);
 }
 
-void MainView::openPalette (juce::Point<float> at, std::optional<WireStart> start)
+void MainView::openPalette (const NodeWish& wish)
 {
-    // The end a wire waits at is looked up anew at each letter: the node may go meanwhile.
-    const auto end = [this, start]() -> std::optional<WireEnd>
+    // The ends that wait are looked up anew at each letter: a node may go meanwhile.
+    const auto ends = [this, wish]
     {
-        const auto* node = start ? patching->scene().find (start->node) : nullptr;
-        const auto* port = node == nullptr ? nullptr : node->face->find (start->role, start->port);
-        return port == nullptr ? std::nullopt : std::optional (WireEnd { port, node->quantityOf (*port) });
+        std::vector<WireEnd> found;
+        const auto& scene = patching->scene();
+        const auto add = [&] (const SceneNode* node, Role role, const std::string& id)
+        {
+            const auto* port = node == nullptr ? nullptr : node->face->find (role, id);
+            if (port != nullptr) found.push_back ({ port, node->quantityOf (*port) });
+        };
+        if (wish.start) add (scene.find (wish.start->node), wish.start->role, wish.start->port);
+        if (const auto* wire = wish.wire != 0 ? scene.findWire (wish.wire) : nullptr)
+        {
+            add (&scene.nodes()[static_cast<std::size_t> (wire->start)], Role::output, wire->out);
+            add (&scene.nodes()[static_cast<std::size_t> (wire->end)], wire->in_role, wire->in);
+        }
+        return found;
     };
-    const auto place = patching->view().toPixels (at).toInt() + patching->getPosition();
-    palette.setBounds (juce::Rectangle<int> (Palette::width, Palette::height).withPosition (place).constrainedWithin (getLocalBounds().reduced (8)));
-    palette.open ([this, end] (const std::string& query)
-                  { return searchPalette (query, edited->graph(), catalogue, end()); },
-                  start ? "What fits " + juce::String (start->port) : juce::String ("Add a node"),
-                  [this, at, start] (const std::string& type)
+    placePalette (patching->view().toPixels (wish.at).toInt() + patching->getPosition());
+    palette.open ([this, ends] (const std::string& query)
+                  { return searchPalette (query, edited->graph(), catalogue, ends()); },
+                  wish.wire != 0 ? "What goes into this wire" : wish.start ? "What fits " + juce::String (wish.start->port)
+                                                                           : juce::String ("Add a node"),
+                  [this, wish] (const std::string& type)
                   {
-        patching->addNodeAt (type, at, start);
+        patching->addNodeAt (type, wish);
         patching->grabKeyboardFocus(); });
 }
+
+void MainView::choose (const juce::String& purpose, std::vector<PaletteEntry> entries, std::function<void (const std::string&)> chosen)
+{
+    placePalette (getMouseXYRelative());
+    palette.open ([all = std::move (entries)] (const std::string& query)
+                  { return matching (all, query); },
+                  purpose, [this, chosen = std::move (chosen)] (const std::string& type)
+                  {
+        chosen (type);
+        patching->grabKeyboardFocus(); });
+}
+
+void MainView::placePalette (juce::Point<int> at) { palette.setBounds (juce::Rectangle<int> (Palette::width, Palette::height).withPosition (at).constrainedWithin (getLocalBounds().reduced (8))); }
 
 void MainView::say (const juce::String& text)
 {

@@ -37,7 +37,9 @@ private:
     void documentRefused (const Message&) override;
     void timerCallback() override;
     void show (graph::Graph, const std::filesystem::path&);
-    void openPalette (juce::Point<float> at, std::optional<WireStart>);
+    void openPalette (const NodeWish&);
+    void choose (const juce::String& purpose, std::vector<PaletteEntry>, std::function<void (const std::string&)> chosen);
+    void placePalette (juce::Point<int>);
     void say (const juce::String&);
     void save();
 

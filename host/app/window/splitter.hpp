@@ -17,9 +17,9 @@ public:
 
     enum class Edge
     {
-        left,     ///< of a panel at the right
-        right,    ///< of a panel at the left
-        top       ///< of a panel at the bottom
+        left,    ///< of a panel at the right
+        right,   ///< of a panel at the left
+        top      ///< of a panel at the bottom
     };
 
     Splitter (Edge e, int initial, int least) : edge (e), extent (initial), least_extent (least), unfolded (initial)
@@ -41,7 +41,7 @@ public:
         const int room = edge == Edge::top ? area.getHeight() : area.getWidth();
         const int n = std::clamp (extent, 0, std::max (0, room - left_for_others));
         const auto panel = edge == Edge::left ? area.removeFromRight (n) : edge == Edge::right ? area.removeFromLeft (n)
-                                                                                             : area.removeFromBottom (n);
+                                                                                               : area.removeFromBottom (n);
         if (edge == Edge::top)
             setBounds (panel.getX(), panel.getY() - thickness / 2, panel.getWidth(), thickness);
         else

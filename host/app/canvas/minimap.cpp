@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "minimap.hpp"
+
+#include <algorithm>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr float width = 168.0f, height = 112.0f, margin = 12.0f, padding = 6.0f;
+}
+
+Minimap::Minimap (const Scene& s, const View& view, juce::Rectangle<int> window) : scene (s)
+{
+    const auto pixels = window.toFloat();
+    seen = { view.toCanvas (pixels.getTopLeft()), view.toCanvas (pixels.getBottomRight()) };
+    if (scene.nodes().empty() || seen.contains (scene.bounds()) || pixels.getWidth() < 3 * width || pixels.getHeight() < 2 * height) return;
+    area = { pixels.getRight() - width - margin, pixels.getBottom() - height - margin, width, height };
+    world = scene.bounds().getUnion (seen);
+    const auto room = area.reduced (padding);
+    scale = std::min (room.getWidth() / world.getWidth(), room.getHeight() / world.getHeight());
+    inner = room.withSizeKeepingCentre (world.getWidth() * scale, world.getHeight() * scale);
+}
+
+void Minimap::paint (juce::Graphics& g, const Theme& theme) const
+{
+    if (! isShown()) return;
+    g.setColour (theme.panel.withAlpha (0.92f));
+    g.fillRoundedRectangle (area, 4.0f);
+    g.setColour (theme.hairline);
+    g.drawRoundedRectangle (area.reduced (0.5f), 4.0f, 1.0f);
+    g.setColour (theme.dim.withAlpha (0.7f));
+    for (const auto& n : scene.nodes())
+    {
+        const auto box = toMap (n.bounds());
+        g.fillRect (box.withSize (std::max (box.getWidth(), 2.0f), std::max (box.getHeight(), 2.0f)));
+    }
+    g.setColour (theme.accent);
+    g.drawRect (toMap (seen), 1.0f);
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <framework/graph/edit.hpp>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <juce_graphics/juce_graphics.h>
+
+namespace tactus::host
+{
+
+/// A remark on a canvas. With a colour it is a region behind nodes that belong together, which moves with them.
+struct Note
+{
+    juce::Rectangle<float> area;   ///< canvas units
+    std::string text, colour;      ///< colour: one of note_colours, or empty
+    Json extra = Json::object();   ///< unknown keys
+
+    bool isRegion() const noexcept { return ! colour.empty(); }
+};
+
+inline constexpr std::string_view note_colours[] { "blue", "orange", "green", "purple", "yellow", "grey" };
+
+/// The notes of a patch, from its `ui`. What is no note there is left alone and not shown.
+std::vector<Note> notesOf (const graph::Graph&, const std::string& patch);
+
+/// What leaves the patch with these notes, as one step of that name.
+graph::Command setNotes (const graph::Graph&, const std::string& patch, const std::vector<Note>&, std::string step);
+
+/// Notes are told apart by their place in the list; among what is selected they have ids that no node or wire has.
+constexpr graph::Id note_bit = graph::Id { 1 } << 63;
+constexpr graph::Id noteId (std::size_t i) noexcept { return note_bit | i; }
+constexpr bool isNote (graph::Id id) noexcept { return (id & note_bit) != 0; }
+constexpr std::size_t noteOf (graph::Id id) noexcept { return static_cast<std::size_t> (id & ~note_bit); }
+
+}   // namespace tactus::host
