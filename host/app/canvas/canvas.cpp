@@ -13,6 +13,30 @@ namespace tactus::host
 namespace
 {
 constexpr float socket_reach = 9.0f, wire_reach = 6.0f;   // pixels
+
+using Way = std::vector<std::pair<std::string, std::string>>;
+
+/// The subgraph nodes through which one comes to a patch.
+std::optional<Way> wayTo (const graph::Graph& g, const std::string& patch)
+{
+    std::vector<Way> open { {} };
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < open.size(); ++i)
+    {
+        const auto way = open[i];
+        const auto here = way.empty() ? std::string() : way.back().second;
+        if (here == patch) return way;
+        const auto* in = here.empty() ? &g.root : g.find (here);
+        if (in == nullptr || ! seen.insert (here).second) continue;
+        for (const auto& n : in->nodes)
+            if (n.type.starts_with ("graph:"))
+            {
+                open.push_back (way);
+                open.back().emplace_back (n.name, n.type.substr (6));
+            }
+    }
+    return std::nullopt;
+}
 }   // namespace
 
 Canvas::Canvas (Document& d, const Catalogue& c) : document (d), catalogue (c)
@@ -121,6 +145,20 @@ void Canvas::enter (const SceneNode& node)
     if (! node.type.starts_with ("graph:") || document.graph().find (node.type.substr (6)) == nullptr) return;
     entered.emplace_back (node.name, node.type.substr (6));
     wayChanged();
+}
+
+void Canvas::show (const std::string& patch_name, graph::Id id)
+{
+    if (patch() != patch_name)
+    {
+        const auto way_there = wayTo (document.graph(), patch_name);
+        if (! way_there) return;
+        entered = *way_there;
+        wayChanged();
+    }
+    if (id == 0) return;
+    select ({ id });
+    frameSelection();
 }
 
 void Canvas::frameAll()

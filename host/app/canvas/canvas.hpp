@@ -64,6 +64,10 @@ public:
     void leaveTo (std::size_t depth);
     void enter (const SceneNode&);   ///< of a subgraph of this file; else nothing
 
+    /// Goes to the patch, and selects and frames a node or wire of it. A patch that no way leads to from the graph itself is
+    /// not gone to.
+    void show (const std::string& patch, graph::Id);
+
     /// As the whole graph names a port that is in the patch shown: "grain/wave.value".
     std::string address (const std::string& port) const;
 

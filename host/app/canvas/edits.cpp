@@ -7,6 +7,7 @@
 #include <framework/graph/text.hpp>
 #include <framework/turn.hpp>
 #include <host/app/inspector/quantity_text.hpp>
+#include <host/app/model/clipboard.hpp>
 #include <host/app/model/fragment.hpp>
 #include <host/app/model/wire_rules.hpp>
 
@@ -73,13 +74,13 @@ void Canvas::duplicateSelection()
 
 void Canvas::copySelection() const
 {
-    if (! highlights.selected.empty()) juce::SystemClipboard::copyTextToClipboard (copyText (placedGraph(), patch(), highlights.selected));
+    if (! highlights.selected.empty()) copyToClipboard (copyText (placedGraph(), patch(), highlights.selected));
 }
 
 void Canvas::pasteText()
 {
     Selection made;
-    auto command = paste (document.graph(), patch(), juce::SystemClipboard::getTextFromClipboard().toStdString(), 32.0, 32.0, made);
+    auto command = paste (document.graph(), patch(), textFromClipboard(), 32.0, 32.0, made);
     if (const auto* problem = std::get_if<Message> (&command))
         hint ("Nothing to paste: " + juce::String (problem->text));
     else if (! made.empty() && perform (std::get<graph::Command> (std::move (command))))

@@ -45,6 +45,8 @@ void MainView::show (graph::Graph g, const std::filesystem::path& file)
 {
     if (edited) edited->remove (*this);
     inspector.reset();
+    live.reset();
+    bottom.clear();
     patching.reset();
     top.reset();
     performance.reset();
@@ -67,6 +69,12 @@ void MainView::show (graph::Graph g, const std::filesystem::path& file)
     { openPalette (wish); };
     patching->onChoose = [this] (const juce::String& purpose, std::vector<PaletteEntry> entries, std::function<void (const std::string&)> chosen)
     { choose (purpose, std::move (entries), std::move (chosen)); };
+    live = std::make_unique<LiveFeed> (*patching, *performance);
+    auto list = std::make_unique<ProblemList> (*edited);
+    problems = list.get();
+    problems->onShow = [this] (const Culprit& c)
+    { patching->show (c.patch, c.id); };
+    bottom.add ("Problems", std::move (list));
     addAndMakeVisible (*top);
     addAndMakeVisible (*patching);
     addAndMakeVisible (*inspector);
@@ -101,6 +109,9 @@ void MainView::timerCallback()
     performance->attend();
     strip.show (*performance);
     hand.show (*performance);
+    live->refresh();
+    problems->show (performance->messages());
+    bottom.name (*problems, problems->count() == 0 ? juce::String ("Problems") : "Problems " + juce::String (problems->count()));
 }
 
 void MainView::openPalette (const NodeWish& wish)
@@ -214,6 +225,11 @@ bool MainView::keyPressed (const juce::KeyPress& key)
     if (key == juce::KeyPress::createFromDescription ("ctrl + s"))
     {
         save();
+        return true;
+    }
+    if (key == juce::KeyPress::createFromDescription ("c"))
+    {
+        live->shows_costs = ! live->shows_costs;
         return true;
     }
     return patching->keyPressed (key);

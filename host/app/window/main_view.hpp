@@ -5,7 +5,9 @@
 #include <host/app/inspector/inspector.hpp>
 #include <host/app/palette/palette.hpp>
 #include <host/app/presets/browser.hpp>
+#include <host/app/problems/problem_list.hpp>
 #include <host/app/run/hand_view.hpp>
+#include <host/app/run/live_feed.hpp>
 #include <host/app/run/safety_strip.hpp>
 #include <host/app/window/splitter.hpp>
 #include <host/app/window/tabs.hpp>
@@ -53,7 +55,9 @@ private:
     std::unique_ptr<TopBar> top;
     PresetBrowser* presets = nullptr;   // in the left tabs
     std::unique_ptr<Canvas> patching;
+    std::unique_ptr<LiveFeed> live;
     std::unique_ptr<Inspector> inspector;
+    ProblemList* problems = nullptr;   // in the bottom tabs
     Palette palette;
     juce::String said;
     juce::TooltipWindow tooltips { this, 600 };

@@ -14,6 +14,16 @@ void Tabs::add (const juce::String& name, std::unique_ptr<juce::Component> panel
 
 void Tabs::clear() { tabs.clear(); }
 
+void Tabs::name (const juce::Component& panel, const juce::String& name)
+{
+    for (auto& t : tabs)
+        if (t.panel.get() == &panel && t.name != name)
+        {
+            t.name = name;
+            repaint();
+        }
+}
+
 void Tabs::show (int index)
 {
     if (index < 0 || index >= static_cast<int> (tabs.size())) return;

@@ -17,6 +17,7 @@ public:
 
     void add (const juce::String& name, std::unique_ptr<juce::Component>);
     void clear();
+    void name (const juce::Component& panel, const juce::String&);
 
     void show (int index);
     int shown() const noexcept { return current; }

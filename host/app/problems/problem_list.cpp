@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "problem_list.hpp"
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr int row_height = 48, button_width = 144;
+
+juce::String text (const std::string& s) { return juce::String::fromUTF8 (s.c_str()); }
+
+bool alike (const Message& a, const Message& b) { return a.id == b.id && a.where == b.where && a.text == b.text && a.severity == b.severity; }
+}   // namespace
+
+class ProblemList::Row final : public juce::Component
+{
+public:
+    Row (ProblemList& l, Message m) : list (l), message (std::move (m))
+    {
+        setMouseCursor (juce::MouseCursor::PointingHandCursor);
+        const auto fix = fixOf (list.document.graph(), message);
+        if (! fix) return;
+        button = std::make_unique<juce::TextButton> (text (fix->label));
+        button->onClick = [this]
+        {
+            // The graph may be another one than when the button was made.
+            if (auto now = fixOf (list.document.graph(), message)) list.document.perform (std::move (now->command));
+        };
+        addAndMakeVisible (*button);
+    }
+
+    void paint (juce::Graphics& g) override
+    {
+        const auto& look = lookOf (*this);
+        const auto& theme = look.theme();
+        auto area = getLocalBounds().reduced (16, 4);
+        if (button) area.removeFromRight (button_width + 8);
+        const bool is_error = message.severity == Message::Severity::error;
+        g.setColour (is_error ? theme.stop : theme.warning);
+        g.fillEllipse (area.removeFromLeft (20).withSizeKeepingCentre (8, 8).translated (-6, 0).toFloat());
+        g.setColour (theme.text);
+        g.setFont (look.font (13.0f));
+        g.drawText (text (message.text), area.removeFromTop (area.getHeight() / 2), juce::Justification::centredLeft, true);
+        g.setColour (theme.dim);
+        g.setFont (look.font (12.0f));
+        g.drawText (text (message.remedy), area, juce::Justification::centredLeft, true);
+        g.setColour (theme.hairline);
+        g.drawHorizontalLine (getHeight() - 1, 16.0f, static_cast<float> (getWidth() - 16));
+    }
+
+    void resized() override
+    {
+        if (button) button->setBounds (getLocalBounds().reduced (16, 0).removeFromRight (button_width).withSizeKeepingCentre (button_width, 28));
+    }
+
+    void mouseUp (const juce::MouseEvent& e) override
+    {
+        if (! e.mouseWasDraggedSinceMouseDown() && list.onShow) list.onShow (culpritOf (list.document.graph(), message));
+    }
+
+private:
+    ProblemList& list;
+    const Message message;
+    std::unique_ptr<juce::TextButton> button;
+};
+
+ProblemList::ProblemList (Document& d) : document (d)
+{
+    setTitle ("Problems");
+    scroll.setViewedComponent (&column, false);
+    scroll.setScrollBarsShown (true, false);
+    scroll.setScrollBarThickness (8);
+    addAndMakeVisible (scroll);
+}
+
+ProblemList::~ProblemList() = default;
+
+void ProblemList::show (const Messages& messages)
+{
+    if (asked && std::ranges::equal (messages, shown, alike)) return;
+    asked = true;
+    shown = messages;
+    std::ranges::stable_partition (shown, [] (const Message& m)
+                                   { return m.severity == Message::Severity::error; });
+    rows.clear();
+    for (const auto& m : shown)
+        column.addAndMakeVisible (*rows.emplace_back (std::make_unique<Row> (*this, m)));
+    shown = messages;
+    resized();
+    repaint();
+}
+
+void ProblemList::paint (juce::Graphics& g)
+{
+    const auto& look = lookOf (*this);
+    g.fillAll (look.theme().panel);
+    if (! rows.empty()) return;
+    g.setFont (look.font (13.0f));
+    g.setColour (look.theme().dim);
+    g.drawFittedText ("Nothing is wrong. What does not fit together is listed here, with its remedy.", getLocalBounds().reduced (24), juce::Justification::centred, 2);
+}
+
+void ProblemList::resized()
+{
+    scroll.setBounds (getLocalBounds());
+    column.setSize (scroll.getMaximumVisibleWidth(), row_height * static_cast<int> (rows.size()));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        rows[i]->setBounds (0, row_height * static_cast<int> (i), column.getWidth(), row_height);
+}
+
+}   // namespace tactus::host

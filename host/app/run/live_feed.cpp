@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "live_feed.hpp"
+
+#include <host/app/problems/fixes.hpp>
+
+#include <cmath>
+
+namespace tactus::host
+{
+
+void LiveFeed::refresh()
+{
+    Live live;
+    showStates (live);
+    if (shows_costs) showCosts (live);
+    showProblems (live);
+    canvas.showLive (std::move (live));
+}
+
+void LiveFeed::showStates (Live& live)
+{
+    std::vector<std::string> ports;
+    const auto watch = [&] (const std::string& port)
+    {
+        const auto whole = canvas.address (port);
+        if (ports.size() < most_ports && std::ranges::count (ports, whole) == 0) ports.push_back (whole);
+        const auto traces = probes.of (whole);
+        return traces.size() == 1 && traces[0]->begin() < traces[0]->end() ? traces[0] : nullptr;
+    };
+    for (const auto& n : canvas.scene().nodes())
+        if (n.face->find (Role::output, "state") != nullptr && ! n.bypass)
+            if (const auto trace = watch (n.name + ".state"); trace && performance.isRunning())
+                if (const double state = trace->at (trace->end() - 1); std::isfinite (state)) live.states[n.id] = static_cast<int> (state);
+
+    for (const auto& w : canvas.scene().wires())
+        if (w.quantity == Quantity::hit && w.start >= 0)
+            if (const auto trace = watch (canvas.scene().nodes()[static_cast<std::size_t> (w.start)].name + '.' + w.out))
+            {
+                const auto span = static_cast<std::uint64_t> (hit_travels_s * trace->rate());
+                for (auto tick = trace->end(); tick-- > trace->begin() && trace->end() - tick < span;)
+                    if (trace->at (tick) > 0.0)
+                    {
+                        live.hits[w.id] = static_cast<double> (trace->end() - tick) / static_cast<double> (span);
+                        break;
+                    }
+            }
+    probes.want (std::move (ports));
+}
+
+void LiveFeed::showCosts (Live& live)
+{
+    if (++since_costs >= refreshes_per_cost)
+    {
+        since_costs = 0;
+        latest_costs.clear();
+        const auto inside = canvas.address ({});
+        for (const auto& cost : performance.costs())
+        {
+            if (! cost.node.starts_with (inside)) continue;
+            const auto name = cost.node.substr (inside.size());
+            for (const auto& n : canvas.scene().nodes())
+                if (name == n.name || name.starts_with (n.name + '/') || name.starts_with (n.name + '[')) latest_costs[n.id] += cost.mean_s * performance.rate();
+        }
+    }
+    live.costs = latest_costs;
+}
+
+void LiveFeed::showProblems (Live& live) const
+{
+    for (const auto& m : performance.messages())
+    {
+        if (m.severity != Message::Severity::error) continue;
+        const auto culprit = culpritOf (canvas.edited().graph(), m);
+        if (culprit.id != 0 && culprit.patch == canvas.patch()) live.problems[culprit.id] = m.text + (m.remedy.empty() ? "" : "; " + m.remedy);
+    }
+}
+
+}   // namespace tactus::host

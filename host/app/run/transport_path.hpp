@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <host/devices/path.hpp>
+
+#include <atomic>
+#include <cmath>
+#include <memory>
+
+namespace tactus::host
+{
+
+/// A path that is played: stopped, sought and slowed down while a hand follows it. Where the hand is to be never jumps: what a
+/// seek leaves over, it makes up for as a critically damped spring does, and a change of speed takes a moment.
+class TransportPath final : public Path
+{
+public:
+    static constexpr double least_speed = 0.1, most_speed = 2.0;
+
+    explicit TransportPath (std::shared_ptr<const Path> p) : path (std::move (p)), now (path->at (0.0)) {}
+
+    // [any thread]
+    void play (bool on) noexcept { plays = on; }
+    bool isPlaying() const noexcept { return plays; }
+    void setSpeed (double factor) noexcept { speed = factor; }
+    void seek (double to_s) noexcept { wanted = to_s; }
+    double position() const noexcept { return told; }   ///< s, from the start of the path's latest round
+
+    double duration() const noexcept override { return path->duration(); }
+
+    /// To be asked with a time that goes on from call to call. [tick thread]
+    Point at (double t) const noexcept override
+    {
+        const double dt = t - last;
+        last = t;
+        if (! (dt > 0.0)) return now;
+
+        const double pace_wanted = plays ? speed.load (std::memory_order_relaxed) : 0.0;
+        pace = pace_wanted + (pace - pace_wanted) * std::exp (-pace_rate * dt);
+        place += pace * dt;
+        if (const double to = wanted.exchange (none, std::memory_order_relaxed); to >= 0.0)
+        {
+            const auto before = path->at (place), after = path->at (to);
+            offset.position += before.position - after.position;
+            offset.velocity += pace * (before.velocity - after.velocity);
+            place = to;
+        }
+        const Vec3 b = offset.velocity + catch_up_rate * offset.position;
+        const double decay = std::exp (-catch_up_rate * dt);
+        offset.position = decay * (offset.position + b * dt);
+        offset.velocity = decay * b - catch_up_rate * offset.position;
+
+        const auto on_path = path->at (place);
+        now.position = on_path.position + offset.position;
+        now.velocity = pace * on_path.velocity + offset.velocity;
+        const double round = path->duration();
+        told.store (round > 0.0 ? std::fmod (place, round) : place, std::memory_order_relaxed);
+        return now;
+    }
+
+private:
+    static constexpr double none = -1.0;
+    static constexpr double pace_rate = 20.0, catch_up_rate = 12.0;   // 1/s
+
+    std::shared_ptr<const Path> path;
+    std::atomic<bool> plays = true;
+    std::atomic<double> speed = 1.0;
+    mutable std::atomic<double> wanted = none, told = 0.0;
+
+    // Of the tick thread.
+    mutable Point now, offset;
+    mutable double last = 0.0, place = 0.0, pace = 1.0;
+};
+
+}   // namespace tactus::host

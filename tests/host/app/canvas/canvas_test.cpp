@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: MIT
+#include "../support/canvas_rig.hpp"
+
+#include <host/app/model/clipboard.hpp>
+
+#include <catch2/catch.hpp>
+
+using namespace tactus;
+using namespace tactus::host;
+using test::CanvasRig;
+using test::Hand;
+
+namespace
+{
+bool selects (const CanvasRig& rig, const std::string& name) { return rig.canvas->selection().contains (rig.node (name).id); }
+}   // namespace
+
+TEST_CASE ("a wire is drawn from an output to an input that it fits, and back", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto before = rig.text();
+    rig.hand().drag (rig.port ("drag", Role::output, "deflection"), rig.port ("grain", Role::input, "position"));
+    // Only one length fits there: it takes the place of the hand's.
+    CHECK (rig.hasWire ("drag.deflection -> grain.position"));
+    CHECK_FALSE (rig.hasWire ("hand.position -> grain.position"));
+    rig.hand().key ("ctrl + z");
+    CHECK (rig.text() == before);
+
+    // From the input's end it is the same.
+    rig.hand().drag (rig.port ("grain", Role::input, "position"), rig.port ("drag", Role::output, "deflection"));
+    CHECK (rig.hasWire ("drag.deflection -> grain.position"));
+}
+
+TEST_CASE ("forces into one input add up", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto wires = rig.graph().root.wires.size();
+    rig.hand().drag (rig.port ("grain", Role::output, "force"), rig.port ("motor", Role::input, "force"));
+    CHECK (rig.graph().root.wires.size() == wires + 1);
+}
+
+TEST_CASE ("a wire that does not fit says why, and is not drawn", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto before = rig.text();
+    auto hand = rig.hand();
+    hand.press (rig.port ("hand", Role::output, "position"));
+    hand.dragTo (rig.port ("motor", Role::input, "force"));
+    CHECK (rig.hint.contains ("m into N"));
+    REQUIRE (rig.canvas->lit().fits);
+    const auto& drag = rig.node ("drag");
+    CHECK (rig.canvas->lit().fits (drag, *drag.face->find (Role::input, "position")));
+    CHECK_FALSE (rig.canvas->lit().fits (drag, *drag.face->find (Role::input, "normal_force")));
+    hand.release (rig.port ("motor", Role::input, "force"));
+    CHECK (rig.text() == before);
+    CHECK_FALSE (rig.canvas->lit().fits);
+}
+
+TEST_CASE ("a component of a vector is asked for where only a number fits", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    rig.choice = 2;
+    rig.hand().drag (rig.port ("board", Role::output, "force"), rig.port ("drag", Role::input, "normal_force"));
+    REQUIRE (rig.choices.size() == 3);
+    CHECK (rig.choices[2].type == "board.force.z");
+    CHECK (rig.hasWire ("board.force.z -> drag.normal_force"));
+    CHECK (rig.hasWire ("board.resistance -> drag.normal_force"));   // forces add up
+
+    // Into a component the other way round; of another component of the same port it takes nothing away.
+    rig.hand().drag (rig.port ("board", Role::output, "resistance"), rig.port ("motor", Role::input, "force"));
+    CHECK (rig.hasWire ("board.resistance -> motor.force.z"));
+    CHECK (rig.hasWire ("drag.force -> motor.force"));
+}
+
+TEST_CASE ("a wire let go on nothing wants a node, which is joined to it", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    rig.hand().drag (rig.port ("hand", Role::output, "position"), rig.nowhere());
+    REQUIRE (rig.wish);
+    REQUIRE (rig.wish->start);
+    CHECK (rig.wish->start->port == "position");
+    rig.canvas->addNodeAt ("texture.grating", *rig.wish);
+    CHECK (rig.hasWire ("hand.position -> grating.position"));
+    CHECK (rig.document.history().names().size() == 1);   // one step
+}
+
+TEST_CASE ("an inserted node goes into the wire", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    SECTION ("chosen after a double click on it")
+    {
+        rig.hand().doubleClick (rig.middleOf ("touch.gain -> grain_felt.gain"));
+        REQUIRE (rig.wish);
+        REQUIRE (rig.wish->wire != 0);
+        rig.canvas->addNodeAt ("signal.slew", *rig.wish);
+    }
+    SECTION ("or dropped on it")
+    {
+        rig.canvas->addNodeAt ("signal.slew", { rig.canvas->view().toCanvas (rig.nowhere()) });
+        rig.hand().drag (rig.title ("slew"), rig.middleOf ("touch.gain -> grain_felt.gain"));
+    }
+    const auto& slew = rig.node ("slew");
+    const auto in = slew.face->inputs.front().id, out = slew.face->outputs.front().id;
+    CHECK (rig.hasWire ("touch.gain -> slew." + in));
+    CHECK (rig.hasWire ("slew." + out + " -> grain_felt.gain"));
+    CHECK_FALSE (rig.hasWire ("touch.gain -> grain_felt.gain"));
+
+    // Taken away again, the wire heals.
+    rig.hand().click (rig.title ("slew"));
+    rig.hand().key ("backspace");
+    CHECK (rig.hasWire ("touch.gain -> grain_felt.gain"));
+}
+
+TEST_CASE ("with shift, a wire is taken from one input to another, or off", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto shift = Hand::left (juce::ModifierKeys::shiftModifier);
+    rig.hand().drag (rig.port ("grain", Role::input, "position"), rig.nowhere(), shift);
+    CHECK_FALSE (rig.hasWire ("hand.position -> grain.position"));
+    CHECK_FALSE (rig.wish);
+    rig.hand().drag (rig.port ("board", Role::input, "position"), rig.port ("grain", Role::input, "position"), shift);
+    CHECK (rig.hasWire ("hand.position -> grain.position"));
+    CHECK_FALSE (rig.hasWire ("hand.position -> board.position"));
+}
+
+TEST_CASE ("nodes move on the grid, in one step, and nothing else does", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    std::map<std::string, juce::Point<float>> places;
+    for (const auto& n : rig.canvas->scene().nodes())
+        places[n.name] = n.at;
+    rig.hand().drag (rig.title ("grain"), rig.title ("grain") + juce::Point<float> (61.0f, 33.0f));
+    const auto way = rig.node ("grain").at - places["grain"];
+    CHECK (std::fmod (way.x, Box::grid) == 0.0f);
+    CHECK (way.getDistanceFromOrigin() > 40.0f);
+    for (const auto& n : rig.canvas->scene().nodes())
+        if (n.name != "grain") CHECK (n.at == places[n.name]);
+    CHECK (rig.document.history().names() == std::vector<std::string> { "move" });
+}
+
+TEST_CASE ("a copy dragged with alt has the wires that came in", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    rig.hand().drag (rig.title ("grain"), rig.title ("grain") + juce::Point<float> (0.0f, 200.0f), Hand::left (juce::ModifierKeys::altModifier));
+    CHECK (rig.hasWire ("hand.position -> grain_2.position"));
+    CHECK (rig.node ("grain_2").at.y > rig.node ("grain").at.y + 100.0f);
+    CHECK (rig.graph().root.find ("grain_2")->params == rig.graph().root.find ("grain")->params);
+}
+
+TEST_CASE ("what is copied is a graph file, and can be pasted into another graph", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    rig.hand().click (rig.title ("drag"));
+    rig.hand().click (rig.title ("board"), Hand::left (juce::ModifierKeys::shiftModifier));
+    rig.hand().key ("ctrl + c");
+    const auto read = readGraph (textFromClipboard());
+    CHECK_FALSE (hasErrors (read.messages));
+    CHECK (read.graph.root.nodes.size() == 2);
+    CHECK (read.graph.root.wires.size() == 1);
+
+    rig.hand().key ("ctrl + v");
+    CHECK (rig.hasWire ("board_2.resistance -> drag_2.normal_force"));
+    CHECK (rig.canvas->selection().size() == 2);
+    rig.hand().key ("ctrl + z");
+    CHECK (rig.graph().root.find ("drag_2") == nullptr);
+
+    copyToClipboard ("no graph");
+    rig.hand().key ("ctrl + v");
+    CHECK (rig.hint.startsWith ("Nothing to paste"));
+}
+
+TEST_CASE ("a param is turned on its node: dragged in one step, typed with a unit, put back", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const auto mu = [&]
+    { return rig.graph().root.find ("drag")->params.value ("mu", Json()); };
+    const auto first = mu();
+    rig.hand().drag (rig.value ("drag", "mu"), rig.value ("drag", "mu") - juce::Point<float> (0.0f, 40.0f));
+    CHECK (mu() != first);
+    CHECK (rig.document.history().names().size() == 1);
+    const auto coarse = mu().get<double>() - first.get<double>();
+    rig.hand().key ("ctrl + z");
+    CHECK (mu() == first);
+
+    rig.hand().drag (rig.value ("drag", "mu"), rig.value ("drag", "mu") - juce::Point<float> (0.0f, 40.0f), Hand::left());
+    rig.hand().key ("ctrl + z");
+    CHECK (coarse > 0.0);
+
+    rig.hand().click (rig.value ("drag", "mu"), Hand::left (juce::ModifierKeys::altModifier));
+    CHECK (mu().is_null());
+
+    rig.hand().doubleClick (rig.value ("drag", "d_max"));
+    auto* editor = dynamic_cast<juce::TextEditor*> (rig.canvas->getChildComponent (0));
+    REQUIRE (editor != nullptr);
+    editor->setText ("0.2 mm");
+    editor->onReturnKey();
+    CHECK (rig.graph().root.find ("drag")->params["d_max"] == "0.2 mm");
+
+    rig.hand().doubleClick (rig.value ("drag", "d_max"));
+    editor = dynamic_cast<juce::TextEditor*> (rig.canvas->getChildComponent (0));
+    REQUIRE (editor != nullptr);
+    editor->setText ("3 N");
+    editor->onReturnKey();
+    CHECK (rig.hint.contains ("no unit of d_max"));
+    CHECK (rig.graph().root.find ("drag")->params["d_max"] == "0.2 mm");
+}
+
+TEST_CASE ("a subgraph is made, entered, left and dissolved", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    rig.hand().click (rig.title ("grain"));
+    rig.hand().click (rig.title ("grain_felt"), Hand::left (juce::ModifierKeys::shiftModifier));
+    rig.hand().key ("g");
+    REQUIRE (rig.graph().graphs.size() == 1);
+    rig.hand().click (rig.title ("group"));
+    rig.hand().key ("return");
+    CHECK (rig.canvas->patch() == "group");
+    CHECK (rig.canvas->scene().nodes().size() == 2);
+    CHECK (rig.canvas->address ("grain.force") == "group/grain.force");
+
+    // What is done inside is done to the subgraph.
+    rig.hand().click (rig.title ("grain"));
+    rig.hand().key ("b");
+    CHECK (rig.graph().graphs[0].second.find ("grain")->bypass);
+    rig.hand().key ("u");
+    CHECK (rig.canvas->patch().empty());
+    CHECK (selects (rig, "group"));
+    rig.hand().key ("shift + g");
+    CHECK (rig.graph().graphs.empty());
+    CHECK (rig.graph().root.find ("grain") != nullptr);
+
+    // Undone while inside, one is outside again.
+    rig.hand().key ("ctrl + z");
+    rig.hand().doubleClick (rig.title ("group"));
+    CHECK (rig.canvas->patch() == "group");
+    rig.hand().key ("ctrl + z");
+    rig.hand().key ("ctrl + z");
+    CHECK (rig.canvas->patch().empty());
+}
+
+TEST_CASE ("a region moves what lies in it", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    rig.hand().click (rig.title ("grain"));
+    rig.hand().key ("n");
+    REQUIRE (rig.canvas->scene().notes().size() == 1);
+    auto* editor = dynamic_cast<juce::TextEditor*> (rig.canvas->getChildComponent (0));
+    REQUIRE (editor != nullptr);
+    editor->setText ("the grain");
+    editor->onReturnKey();
+    CHECK (rig.canvas->scene().notes()[0].text == "the grain");
+
+    const auto note = rig.canvas->scene().notes()[0].area;
+    const auto node = rig.node ("grain").at, other = rig.node ("board").at;
+    const auto grip = rig.canvas->view().toPixels (note.getTopLeft() + juce::Point<float> (12.0f, 8.0f));
+    rig.hand().drag (grip, grip + juce::Point<float> (0.0f, 80.0f));
+    const auto way = rig.canvas->scene().notes()[0].area.getPosition() - note.getPosition();
+    CHECK (way.y > 40.0f);
+    CHECK (rig.node ("grain").at == node + way);
+    CHECK (rig.node ("board").at == other);
+
+    // It is kept in the file.
+    CHECK (rig.graph().extra["ui"]["notes"][0]["text"] == "the grain");
+    rig.hand().key ("delete");
+    CHECK (rig.canvas->scene().notes().empty());
+    CHECK (rig.graph().root.find ("grain") != nullptr);
+}
+
+TEST_CASE ("a delay is put on a wire and taken off by keys", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    rig.hand().click (rig.middleOf ("touch.gain -> grain_felt.gain"));
+    rig.hand().key ("]");
+    rig.hand().key ("]");
+    CHECK (rig.hasWire ("touch.gain -> [2] -> grain_felt.gain"));
+    rig.hand().key ("[");
+    rig.hand().key ("[");
+    rig.hand().key ("[");
+    CHECK (rig.hasWire ("touch.gain -> grain_felt.gain"));
+    rig.hand().key ("e");
+    CHECK (rig.graph().root.wires[rig.graph().root.wires.size() - 1].id != 0);
+    CHECK (std::ranges::count (rig.graph().root.wires, std::optional (false), &graph::Wire::enabled) == 1);
+}
+
+TEST_CASE ("the keyboard alone finds nodes, wires them and probes them", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    rig.hand().key ("ctrl + cursor right");
+    REQUIRE (rig.canvas->selection().size() == 1);
+    for (int i = 0; i < 20 && ! selects (rig, "motor"); ++i)
+        rig.hand().key ("ctrl + cursor right");
+    CHECK (selects (rig, "motor"));
+
+    rig.canvas->select ({ rig.node ("grain").id });
+    rig.choice = 0;
+    rig.hand().key ("w");
+    REQUIRE_FALSE (rig.choices.empty());
+    CHECK (rig.hasWire (rig.choices[0].type));
+    rig.hand().key ("p");
+    CHECK (rig.probed == std::vector<std::string> { "grain.force" });
+
+    const auto x = rig.node ("grain").at.x;
+    rig.hand().key ("cursor right");
+    CHECK (rig.node ("grain").at.x == x + Box::grid);
+}
+
+TEST_CASE ("what is under the pointer stays there while the wheel zooms", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const juce::Point<float> at { 333.0f, 444.0f };
+    const auto before = rig.canvas->view().toCanvas (at);
+    rig.hand().wheel (at, 0.8f);
+    rig.hand().wheel (at, -0.3f);
+    CHECK (rig.canvas->view().toCanvas (at).getDistanceFrom (before) < 1e-3f);
+    CHECK (rig.canvas->view().zoom != 1.0f);
+    rig.hand().key ("home");
+    CHECK (rig.canvas->getLocalBounds().toFloat().contains (rig.canvas->view().toPixels (rig.canvas->scene().bounds().getTopLeft())));
+}
+
+TEST_CASE ("every preset is drawn, and a rectangle around it selects all of it", "[app][canvas]")
+{
+    for (const auto& entry : std::filesystem::directory_iterator (std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs"))
+    {
+        if (entry.path().extension() != ".json") continue;
+        const auto loaded = loadGraph (entry.path());
+        if (loaded.graph.root.nodes.empty()) continue;
+        INFO (entry.path().string());
+        CanvasRig rig { loaded.graph };
+        const auto all = rig.canvas->scene().bounds();
+        rig.hand().drag (rig.canvas->view().toPixels (all.getTopLeft() - juce::Point<float> (20.0f, 20.0f)), rig.canvas->view().toPixels (all.getBottomRight() + juce::Point<float> (20.0f, 20.0f)));
+        CHECK (rig.canvas->selection().size() == loaded.graph.root.nodes.size());
+        CHECK (rig.canvas->scene().wires().size() == loaded.graph.root.wires.size());
+        for (const auto& a : rig.canvas->scene().nodes())
+            for (const auto& b : rig.canvas->scene().nodes())
+                if (a.id < b.id) CHECK_FALSE (a.bounds().intersects (b.bounds()));
+        const auto picture = rig.canvas->createComponentSnapshot (rig.canvas->getLocalBounds());
+        CHECK (picture.getWidth() == 1200);
+    }
+}

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "hand.hpp"
+
+#include <framework/file/graph_file.hpp>
+#include <host/app/canvas/canvas.hpp>
+
+#include <stdexcept>
+
+namespace tactus::host::test
+{
+
+/// A canvas on a graph, 1200 by 800, and a hand that works on it.
+class CanvasRig
+{
+public:
+    explicit CanvasRig (graph::Graph g = {}) : document (std::move (g))
+    {
+        juce::LookAndFeel::setDefaultLookAndFeel (&look);
+        canvas = std::make_unique<Canvas> (document, catalogue());
+        canvas->setBounds (0, 0, 1200, 800);
+        canvas->onHint = [this] (const juce::String& text)
+        { hint = text; };
+        canvas->onChoose = [this] (const juce::String&, const std::vector<PaletteEntry>& entries, const std::function<void (const std::string&)>& chosen)
+        {
+            choices = entries;
+            if (choice < entries.size()) chosen (entries[choice].type);
+        };
+        canvas->onWantsNode = [this] (const NodeWish& w)
+        { wish = w; };
+        canvas->onProbe = [this] (std::vector<std::string> ports)
+        { probed = std::move (ports); };
+    }
+
+    ~CanvasRig()
+    {
+        canvas.reset();
+        juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
+    }
+
+    static graph::Graph preset (const std::string& name)
+    {
+        auto loaded = loadGraph (std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs" / (name + ".json"));
+        if (hasErrors (loaded.messages)) throw std::runtime_error (loaded.messages.front().text);
+        return std::move (loaded.graph);
+    }
+
+    const graph::Graph& graph() const { return document.graph(); }
+    std::string text() const { return writeGraph (document.graph()); }
+
+    const SceneNode& node (const std::string& name) const
+    {
+        const auto& nodes = canvas->scene().nodes();
+        const auto found = std::ranges::find (nodes, name, &SceneNode::name);
+        if (found == nodes.end()) throw std::runtime_error ("no node " + name);
+        return *found;
+    }
+
+    /// Where things are, in pixels of the canvas.
+    juce::Point<float> title (const std::string& name) const { return canvas->view().toPixels (node (name).at + juce::Point<float> (40.0f, 14.0f)); }
+
+    juce::Point<float> port (const std::string& name, Role role, const std::string& id) const
+    {
+        const auto& n = node (name);
+        const auto* socket = n.box.find (role, id);
+        if (socket == nullptr) throw std::runtime_error ("no port " + name + "." + id);
+        return canvas->view().toPixels (n.placeOf (*socket));
+    }
+
+    juce::Point<float> value (const std::string& name, const std::string& param) const
+    {
+        const auto& n = node (name);
+        const auto* socket = n.box.find (Role::param, param);
+        if (socket == nullptr) throw std::runtime_error ("no param " + name + "." + param);
+        return canvas->view().toPixels (n.at + juce::Point<float> (n.box.width - 20.0f, socket->at.y));
+    }
+
+    /// A place with nothing near it.
+    juce::Point<float> nowhere() const { return canvas->view().toPixels (canvas->scene().bounds().getBottomRight() + juce::Point<float> (120.0f, 120.0f)); }
+
+    juce::Point<float> middleOf (const std::string& wire) const
+    {
+        for (const auto& w : canvas->scene().wires())
+            if (w.text == wire)
+            {
+                const auto path = w.path();
+                return canvas->view().toPixels (path.getPointAlongPath (path.getLength() / 2));
+            }
+        throw std::runtime_error ("no wire " + wire);
+    }
+
+    bool hasWire (const std::string& wire) const
+    {
+        return std::ranges::count (canvas->scene().wires(), wire, &SceneWire::text) > 0;
+    }
+
+private:
+    juce::ScopedJuceInitialiser_GUI juce_runs;
+    Look look;
+
+public:
+    Document document;
+    std::unique_ptr<Canvas> canvas;
+    juce::String hint;
+    std::vector<PaletteEntry> choices;
+    std::size_t choice = 0;
+    std::optional<NodeWish> wish;
+    std::vector<std::string> probed;
+    Hand hand() { return Hand (*canvas); }
+};
+
+}   // namespace tactus::host::test
