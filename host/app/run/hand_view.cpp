@@ -11,11 +11,12 @@ HandView::HandView()
 {
     setTitle ("The hand");
     setMouseCursor (juce::MouseCursor::CrosshairCursor);
+    setWantsKeyboardFocus (true);
 }
 
 void HandView::show (const Performance& p)
 {
-    by_pointer = p.hand() == Performance::Hand::pointer;
+    by_pointer = p.hand().kind == Performance::Hand::Kind::pointer;
     running = p.isRunning();
     tool = p.tool();
     if (tool)
@@ -28,7 +29,7 @@ void HandView::show (const Performance& p)
     repaint();
 }
 
-juce::Rectangle<float> HandView::surface() const { return getLocalBounds().toFloat().withTrimmedTop (28.0f).withTrimmedRight (64.0f).reduced (8.0f, 0.0f).withTrimmedBottom (8.0f); }
+juce::Rectangle<float> HandView::surface() const { return getLocalBounds().toFloat().withTrimmedRight (64.0f); }
 
 juce::Point<float> HandView::toPixels (const Vec3& p) const
 {
@@ -39,6 +40,8 @@ juce::Point<float> HandView::toPixels (const Vec3& p) const
 
 void HandView::point (const juce::MouseEvent& e)
 {
+    // A pen says itself how hard it is pressed.
+    if (pressed && e.isPressureValid() && e.pressure > 0.0f && e.pressure < 1.0f) press_depth = least_depth_m + (most_depth_m - least_depth_m) * static_cast<double> (e.pressure);
     const auto area = surface();
     const double scale = 2.0 * half_width_m / static_cast<double> (area.getWidth());
     target = { static_cast<double> (e.position.x - area.getCentreX()) * scale, static_cast<double> (area.getCentreY() - e.position.y) * scale, pressed ? -press_depth : hover_m };
@@ -52,6 +55,7 @@ void HandView::mouseDrag (const juce::MouseEvent& e) { point (e); }
 
 void HandView::mouseDown (const juce::MouseEvent& e)
 {
+    grabKeyboardFocus();
     pressed = true;
     point (e);
 }
@@ -64,28 +68,29 @@ void HandView::mouseUp (const juce::MouseEvent& e)
 
 void HandView::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel)
 {
-    press_depth = std::clamp (press_depth * std::exp2 (-2.0 * static_cast<double> (wheel.deltaY)), least_depth_m, most_depth_m);
+    pressDeeper (-2.0 * static_cast<double> (wheel.deltaY));
     point (e);
 }
+
+bool HandView::keyPressed (const juce::KeyPress& key)
+{
+    if (key != juce::KeyPress::pageDownKey && key != juce::KeyPress::pageUpKey) return false;
+    pressDeeper (key == juce::KeyPress::pageDownKey ? 0.25 : -0.25);
+    if (pressed) target.z() = -press_depth;
+    if (onPoint) onPoint (target);
+    return true;
+}
+
+void HandView::pressDeeper (double octaves) { press_depth = std::clamp (press_depth * std::exp2 (octaves), least_depth_m, most_depth_m); }
 
 void HandView::paint (juce::Graphics& g)
 {
     const auto& look = lookOf (*this);
     const auto& theme = look.theme();
-    g.fillAll (theme.panel);
+    paintHeight (g);
     const auto area = surface();
     g.setColour (theme.canvas);
     g.fillRoundedRectangle (area, 4.0f);
-
-    auto title = getLocalBounds().toFloat().removeFromTop (28.0f).reduced (12.0f, 0.0f);
-    g.setFont (look.font (12.0f, true));
-    g.setColour (theme.text);
-    g.drawText ("The hand", title, juce::Justification::centredLeft, false);
-    g.setFont (look.font (12.0f));
-    g.setColour (theme.dim);
-    const auto words = ! running ? juce::String ("nothing runs") : by_pointer ? "press " + juce::String (1000.0 * press_depth, 1) + " mm deep; the wheel changes it"
-                                                                              : juce::String ("moved as the graph says; press here to take over");
-    g.drawText (words, title.withTrimmedLeft (72.0f), juce::Justification::centredLeft, true);
 
     // A grid of centimetres, and how long one is.
     const juce::Graphics::ScopedSaveState clipped (g);
@@ -125,12 +130,12 @@ void HandView::paint (juce::Graphics& g)
     g.fillEllipse (juce::Rectangle<float> (9.0f, 9.0f).withCentre (at));
 }
 
-void HandView::paintOverChildren (juce::Graphics& g)
+/// How high the tool is, and whether something pushes it up.
+void HandView::paintHeight (juce::Graphics& g) const
 {
-    // How high the tool is, and what pushes it up.
     const auto& look = lookOf (*this);
     const auto& theme = look.theme();
-    const auto bar = getLocalBounds().toFloat().removeFromRight (56.0f).withTrimmedTop (28.0f).withTrimmedBottom (8.0f).withTrimmedRight (8.0f);
+    const auto bar = getLocalBounds().toFloat().removeFromRight (56.0f);
     g.setColour (theme.canvas);
     g.fillRoundedRectangle (bar, 4.0f);
     const auto heightOf = [&] (double z)

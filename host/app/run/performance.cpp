@@ -2,7 +2,6 @@
 #include "performance.hpp"
 
 #include <host/assets/nearest_by_embree.hpp>
-#include <host/devices/sim.hpp>
 
 #include <algorithm>
 
@@ -13,6 +12,9 @@ namespace
 {
 /// A pointer begins this far above the origin, so that a run does not begin inside something. m
 constexpr double hover = 5e-3;
+
+// Of a hand that the graph says nothing of.
+constexpr double usual_stiffness = 400.0, usual_damping = 4.0;   // N/m, N s/m
 
 const Json* descriptionOf (const graph::Graph& g, const std::string& role)
 {
@@ -58,26 +60,50 @@ std::optional<Performance::Bound> Performance::open (const std::string& role)
 
     const auto* simulated = dynamic_cast<SimulatedDevice*> (made.device.get());
     Bound bound { role, nullptr, made.limits, simulated != nullptr ? simulated->simulation().damping : 0.0 };
-    if (moved_by == Hand::pointer && ! pointer)
-    {
-        auto what = simulated != nullptr ? simulated->simulation() : Simulation {};
-        if (what.hand.stiffness == 0.0) what.hand = { 400.0, 4.0, nullptr };
-        what.position = Vec3 (0.0, 0.0, hover);
-        what.velocity.setZero();
-        what.hand_force.setZero();
-        what.hand.path = pointer = std::make_shared<PointerPath> (what.position);
-        bound.damping = what.damping;
-        bound.device = std::make_unique<SimulatedDevice> (std::move (what));
-    }
+    if (auto hand = devices.empty() ? chosenHand (simulated, bound.damping) : nullptr)
+        bound.device = std::move (hand);
     else
         bound.device = std::move (made.device);
     return bound;
 }
 
+/// The simulated tool of the first role, in the hand that was chosen; null if the device is to be as it is described.
+std::unique_ptr<Device> Performance::chosenHand (const SimulatedDevice* described, double& damping)
+{
+    auto what = described != nullptr ? described->simulation() : Simulation {};
+    if (what.hand.stiffness == 0.0) what.hand = { usual_stiffness, usual_damping, nullptr };
+    switch (moved_by.kind)
+    {
+    case Hand::Kind::described:
+        if (described == nullptr || ! what.hand.path) return nullptr;
+        what.hand.path = transported = std::make_shared<TransportPath> (what.hand.path);
+        break;
+    case Hand::Kind::pointer:
+        what.position = Vec3 (0.0, 0.0, hover);
+        what.velocity.setZero();
+        what.hand_force.setZero();
+        what.hand.path = pointer = std::make_shared<PointerPath> (what.position);
+        break;
+    case Hand::Kind::path:
+    {
+        auto made = makeDevice ({ { "driver", "sim" }, { "hand", { { "path", moved_by.path } } } }, document.graph().folder);
+        std::ranges::move (made.messages, std::back_inserter (said));
+        const auto* chosen = dynamic_cast<SimulatedDevice*> (made.device.get());
+        if (chosen == nullptr) return nullptr;
+        what.hand.path = transported = std::make_shared<TransportPath> (chosen->simulation().hand.path);
+        what.position = what.hand.path->at (0.0).position;
+        what.velocity.setZero();
+        break;
+    }
+    }
+    damping = what.damping;
+    return std::make_unique<SimulatedDevice> (std::move (what));
+}
+
 void Performance::start (Hand who)
 {
     stop();
-    moved_by = who;
+    moved_by = std::move (who);
     rate_hz = document.graph().rate_hz;
     answers = std::make_unique<AnsweringThread>();
     auto compiled = compileNow (nullptr, nullptr);
@@ -104,6 +130,7 @@ void Performance::stop()
     answers.reset();
     devices.clear();
     pointer.reset();
+    transported.reset();
     delay_ticks.reset();
 }
 

@@ -3,12 +3,14 @@
 
 #include "pointer_path.hpp"
 #include "traces.hpp"
+#include "transport_path.hpp"
 
 #include <framework/answering_thread.hpp>
 #include <framework/plan/compile.hpp>
 #include <host/app/model/document.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/devices/make_device.hpp>
+#include <host/devices/sim.hpp>
 #include <host/runtime/runner.hpp>
 
 #include <memory>
@@ -22,11 +24,21 @@ namespace tactus::host
 class Performance final : private Document::Listener, private TickHooks
 {
 public:
-    /// Who moves the simulated tool of the first role.
-    enum class Hand
+    /// Who moves the tool of the first role.
+    struct Hand
     {
-        described,   ///< what the graph says: a gesture or a recording
-        pointer      ///< the mouse
+        enum class Kind
+        {
+            described,   ///< what the graph says: a gesture or a recording
+            pointer,     ///< the mouse
+            path         ///< a gesture or a recording of somebody's choice
+        };
+
+        Kind kind = Kind::described;
+        std::string path {};   ///< name of a gesture, or a CSV file
+
+        static Hand pointer() { return { Kind::pointer }; }
+        bool operator== (const Hand&) const = default;
     };
 
     Performance (Document&, const Catalogue&);
@@ -36,7 +48,10 @@ public:
     void stop();         ///< the forces go to zero first
 
     bool isRunning() const noexcept { return runner != nullptr && ! runner->isOver(); }
-    Hand hand() const noexcept { return moved_by; }
+    const Hand& hand() const noexcept { return moved_by; }
+
+    /// The gesture or recording that the first role follows; null if it follows none that can be stopped.
+    TransportPath* transport() noexcept { return transported.get(); }
 
     /// What is wrong with the graph as it is, and what is to be said of it.
     const Messages& messages() const noexcept { return said; }
@@ -87,6 +102,7 @@ private:
     void takeOver();
     Compiled compileNow (const Plan* before, const Plan* withdrawn);
     std::optional<Bound> open (const std::string& role);
+    std::unique_ptr<Device> chosenHand (const SimulatedDevice* described, double& damping);
     void noteDelay (const Plan&);
 
     Document& document;
@@ -94,10 +110,11 @@ private:
     FileAssets assets;
     Messages said;
     Traces probes;
-    Hand moved_by = Hand::described;
+    Hand moved_by;
     double rate_hz = 0.0;
     std::optional<std::int64_t> delay_ticks;
     std::shared_ptr<PointerPath> pointer;
+    std::shared_ptr<TransportPath> transported;
     std::vector<Bound> devices;
     Snapshot<std::array<double, 6>> seen;       // position and force
     std::unique_ptr<AnsweringThread> answers;   // before the engine, whose nodes ask it

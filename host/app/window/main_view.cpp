@@ -26,10 +26,12 @@ MainView::MainView (const Catalogue& c) : catalogue (c)
     { performance->stop(); };
     strip.onStart = [this]
     { performance->start (performance->hand()); };
-    hand.onPoint = [this] (const Vec3& p)
+    hand.view().onPoint = [this] (const Vec3& p)
     { performance->point (p); };
-    hand.onTakesOver = [this]
-    { performance->start (Performance::Hand::pointer); };
+    hand.view().onTakesOver = [this]
+    { performance->start (Performance::Hand::pointer()); };
+    hand.onHand = [this] (Performance::Hand h)
+    { performance->start (std::move (h)); };
     addAndMakeVisible (strip);
     addAndMakeVisible (hand);
     addAndMakeVisible (left);
@@ -100,7 +102,7 @@ void MainView::open (const std::filesystem::path& file)
         return;
     }
     show (std::move (loaded.graph), file);
-    performance->start (Performance::Hand::described);
+    performance->start ({});
     say ({});
 }
 

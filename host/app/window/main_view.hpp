@@ -6,7 +6,7 @@
 #include <host/app/palette/palette.hpp>
 #include <host/app/presets/browser.hpp>
 #include <host/app/problems/problem_list.hpp>
-#include <host/app/run/hand_view.hpp>
+#include <host/app/run/hand_panel.hpp>
 #include <host/app/run/live_feed.hpp>
 #include <host/app/run/safety_strip.hpp>
 #include <host/app/window/splitter.hpp>
@@ -49,7 +49,7 @@ private:
     std::unique_ptr<Document> edited;
     std::unique_ptr<Performance> performance;   // after the document, before what shows it
     SafetyStrip strip;
-    HandView hand;
+    HandPanel hand;
     Tabs left, bottom;
     Splitter left_edge { Splitter::Edge::right, 232, 160 }, right_edge { Splitter::Edge::left, 304, 220 }, bottom_edge { Splitter::Edge::top, 264, 140 };
     std::unique_ptr<TopBar> top;

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "hand_view.hpp"
+
+namespace tactus::host
+{
+
+/// The hand: who moves the tool, the surface it moves on, and, where that is a gesture or a recording, how it is played.
+class HandPanel final : public juce::Component, public juce::FileDragAndDropTarget
+{
+public:
+    HandPanel();
+
+    void show (Performance&);   ///< many times a second
+
+    HandView& view() noexcept { return surface; }
+
+    std::function<void (Performance::Hand)> onHand;   ///< another hand is wanted
+
+    void paint (juce::Graphics&) override;
+    void resized() override;
+    bool isInterestedInFileDrag (const juce::StringArray&) override;
+    void filesDropped (const juce::StringArray&, int, int) override;
+
+private:
+    class PlayButton;
+
+    void choose();
+
+    HandView surface;
+    juce::ComboBox who;
+    std::unique_ptr<juce::Button> play;
+    juce::Slider position, speed;
+    TransportPath* transport = nullptr;   // valid from one show() to the next, on the same thread
+    juce::String note;
+};
+
+}   // namespace tactus::host
