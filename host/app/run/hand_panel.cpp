@@ -39,7 +39,33 @@ public:
     }
 };
 
-HandPanel::HandPanel() : play (std::make_unique<PlayButton>())
+/// A loudspeaker, with waves while it sounds.
+class HandPanel::SoundButton final : public juce::Button
+{
+public:
+    SoundButton() : Button ("Sound") { setTooltip ("Lets the force be heard through the sound card."); }
+
+    void paintButton (juce::Graphics& g, bool over, bool) override
+    {
+        const auto& theme = themeOf (*this);
+        const auto at = getLocalBounds().toFloat().getCentre();
+        juce::Path p;
+        p.addRectangle (at.x - 8.0f, at.y - 3.0f, 4.0f, 6.0f);
+        p.addTriangle (at.x - 5.0f, at.y, at.x + 1.0f, at.y - 7.0f, at.x + 1.0f, at.y + 7.0f);
+        g.setColour (getToggleState() ? theme.accent : over ? theme.text
+                                                            : theme.dim);
+        g.fillPath (p);
+        if (! getToggleState()) return;
+        for (const float r : { 5.0f, 9.0f })
+        {
+            juce::Path wave;
+            wave.addCentredArc (at.x, at.y, r, r, 0.0f, 0.9f, juce::MathConstants<float>::pi - 0.9f, true);
+            g.strokePath (wave, juce::PathStrokeType (1.5f));
+        }
+    }
+};
+
+HandPanel::HandPanel (Sound& s) : sound (s), play (std::make_unique<PlayButton>()), listen (std::make_unique<SoundButton>())
 {
     who.addItem ("As the graph says", as_described);
     who.addItem ("Mouse or pen", by_pointer);
@@ -76,8 +102,16 @@ HandPanel::HandPanel() : play (std::make_unique<PlayButton>())
     {
         if (transport != nullptr) transport->setSpeed (speed.getValue());
     };
+    listen->onClick = [this]
+    {
+        if (sound.isOn())
+            sound.stop();
+        else if (const auto problem = sound.start(); problem.isNotEmpty() && onHint)
+            onHint ("No sound: " + problem);
+    };
     addAndMakeVisible (surface);
     addAndMakeVisible (who);
+    addAndMakeVisible (*listen);
     for (auto* c : std::initializer_list<juce::Component*> { play.get(), &position, &speed })
         addChildComponent (c);
 }
@@ -95,6 +129,7 @@ void HandPanel::show (Performance& p)
 {
     using Kind = Performance::Hand::Kind;
     surface.show (p);
+    listen->setToggleState (sound.isOn(), juce::dontSendNotification);
     const auto& hand = p.hand();
     int id = hand.kind == Kind::described ? as_described : hand.kind == Kind::pointer ? by_pointer
                                                                                       : by_recording;
@@ -154,6 +189,7 @@ void HandPanel::resized()
 {
     auto area = getLocalBounds();
     auto head = area.removeFromTop (row_height).reduced (margin, 4);
+    listen->setBounds (head.removeFromRight (28));
     who.setBounds (head.removeFromRight (std::min (200, head.getWidth() - 80)));
     auto low = area.removeFromBottom (row_height).reduced (margin, 4);
     play->setBounds (low.removeFromLeft (24));

@@ -10,13 +10,14 @@ namespace tactus::host
 class HandPanel final : public juce::Component, public juce::FileDragAndDropTarget
 {
 public:
-    HandPanel();
+    explicit HandPanel (Sound&);
 
     void show (Performance&);   ///< many times a second
 
     HandView& view() noexcept { return surface; }
 
-    std::function<void (Performance::Hand)> onHand;   ///< another hand is wanted
+    std::function<void (const juce::String&)> onHint;   ///< why something cannot be
+    std::function<void (Performance::Hand)> onHand;     ///< another hand is wanted
 
     void paint (juce::Graphics&) override;
     void resized() override;
@@ -25,12 +26,14 @@ public:
 
 private:
     class PlayButton;
+    class SoundButton;
 
     void choose();
 
+    Sound& sound;
     HandView surface;
     juce::ComboBox who;
-    std::unique_ptr<juce::Button> play;
+    std::unique_ptr<juce::Button> play, listen;
     juce::Slider position, speed;
     TransportPath* transport = nullptr;   // valid from one show() to the next, on the same thread
     juce::String note;

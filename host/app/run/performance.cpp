@@ -23,7 +23,7 @@ const Json* descriptionOf (const graph::Graph& g, const std::string& role)
 }
 }   // namespace
 
-Performance::Performance (Document& d, const Catalogue& c) : document (d), catalogue (c)
+Performance::Performance (Document& d, const Catalogue& c, Sound* s) : document (d), catalogue (c), sound (s)
 {
     document.add (*this);
     probes.onWanted = [this]
@@ -117,6 +117,7 @@ void Performance::start (Hand who)
     engine = std::make_unique<Engine> (std::move (compiled.plan));
     for (auto& d : devices)
         engine->attach (d.role, *d.device, d.limits);
+    if (sound != nullptr) sound->setTickRate (rate_hz);
     clock = std::make_unique<AbsoluteTimer> (1.0 / rate_hz);
     runner = std::make_unique<Runner> (*engine, *clock, rate_hz, Runner::Options { .hooks = this });
     runner->start();
@@ -199,6 +200,7 @@ void Performance::after (std::uint64_t tick, bool) noexcept
     if (plan.roles.empty()) return;
     const auto& [reading, applied] = *plan.roles.front().state;
     const auto &p = reading.position, &f = applied.force;
+    if (sound != nullptr) sound->push (f.sum());
     seen.store ({ p.x(), p.y(), p.z(), f.x(), f.y(), f.z() });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pointer_path.hpp"
+#include "sound.hpp"
 #include "traces.hpp"
 #include "transport_path.hpp"
 
@@ -41,7 +42,8 @@ public:
         bool operator== (const Hand&) const = default;
     };
 
-    Performance (Document&, const Catalogue&);
+    /// The force on the first role's tool is heard, if there is a sound, which outlives this.
+    Performance (Document&, const Catalogue&, Sound* = nullptr);
     ~Performance() override;
 
     void start (Hand);   ///< anew, if it runs
@@ -110,6 +112,7 @@ private:
     FileAssets assets;
     Messages said;
     Traces probes;
+    Sound* sound;
     Hand moved_by;
     double rate_hz = 0.0;
     std::optional<std::int64_t> delay_ticks;

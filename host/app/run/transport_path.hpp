@@ -37,7 +37,6 @@ public:
 
         const double pace_wanted = plays ? speed.load (std::memory_order_relaxed) : 0.0;
         pace = pace_wanted + (pace - pace_wanted) * std::exp (-pace_rate * dt);
-        place += pace * dt;
         if (const double to = wanted.exchange (none, std::memory_order_relaxed); to >= 0.0)
         {
             const auto before = path->at (place), after = path->at (to);
@@ -45,6 +44,7 @@ public:
             offset.velocity += pace * (before.velocity - after.velocity);
             place = to;
         }
+        place += pace * dt;
         const Vec3 b = offset.velocity + catch_up_rate * offset.position;
         const double decay = std::exp (-catch_up_rate * dt);
         offset.position = decay * (offset.position + b * dt);

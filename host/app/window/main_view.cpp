@@ -30,6 +30,8 @@ MainView::MainView (const Catalogue& c) : catalogue (c)
     { performance->point (p); };
     hand.view().onTakesOver = [this]
     { performance->start (Performance::Hand::pointer()); };
+    hand.onHint = [this] (const juce::String& text)
+    { say (text); };
     hand.onHand = [this] (Performance::Hand h)
     { performance->start (std::move (h)); };
     addAndMakeVisible (strip);
@@ -54,7 +56,7 @@ void MainView::show (graph::Graph g, const std::filesystem::path& file)
     performance.reset();
     edited = std::make_unique<Document> (std::move (g), file);
     edited->add (*this);
-    performance = std::make_unique<Performance> (*edited, catalogue);
+    performance = std::make_unique<Performance> (*edited, catalogue, &sound);
 
     top = std::make_unique<TopBar>();
     patching = std::make_unique<Canvas> (*edited, catalogue);

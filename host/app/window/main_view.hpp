@@ -47,9 +47,10 @@ private:
 
     const Catalogue& catalogue;
     std::unique_ptr<Document> edited;
+    Sound sound;
     std::unique_ptr<Performance> performance;   // after the document, before what shows it
     SafetyStrip strip;
-    HandPanel hand;
+    HandPanel hand { sound };
     Tabs left, bottom;
     Splitter left_edge { Splitter::Edge::right, 232, 160 }, right_edge { Splitter::Edge::left, 304, 220 }, bottom_edge { Splitter::Edge::top, 264, 140 };
     std::unique_ptr<TopBar> top;

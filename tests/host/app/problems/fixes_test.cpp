@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include <host/app/problems/fixes.hpp>
+
+#include <framework/catalogue.hpp>
+#include <framework/file/graph_file.hpp>
+#include <framework/plan/compile.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace tactus;
+using namespace tactus::host;
+
+namespace
+{
+graph::Graph graphOf (const std::string& body)
+{
+    auto read = readGraph (R"({"format":"tactus-graph","version":1,"name":"broken",)" + body + "}");
+    return std::move (read.graph);
+}
+
+Messages errorsOf (const graph::Graph& g)
+{
+    auto messages = compile (g, catalogue(), {}).messages;
+    std::erase_if (messages, [] (const Message& m)
+                   { return m.severity != Message::Severity::error; });
+    return messages;
+}
+
+/// Applies what is offered until nothing is, and tells what is still wrong.
+Messages mend (graph::Graph& g)
+{
+    for (int i = 0; i < 20; ++i)
+    {
+        const auto errors = errorsOf (g);
+        const auto fixable = std::ranges::find_if (errors, [&] (const Message& m)
+                                                   { return fixOf (g, m).has_value(); });
+        if (fixable == errors.end()) return errors;
+        const auto done = graph::apply (g, fixOf (g, *fixable)->command);
+        REQUIRE (std::holds_alternative<graph::Command> (done));
+    }
+    return errorsOf (g);
+}
+}   // namespace
+
+TEST_CASE ("a loop is mended by a delay on the wire where it goes back", "[app][problems]")
+{
+    auto g = graphOf (R"("nodes":{"a":{"type":"signal.slew"},"b":{"type":"signal.slew"}},"wires":["a.out -> b.in","b.out -> a.in"])");
+    const auto errors = errorsOf (g);
+    REQUIRE (errors.size() == 1);
+    CHECK (errors[0].id == "graph/loop");
+    CHECK (fixOf (g, errors[0])->label == "Delay it by a tick");
+    CHECK (mend (g).empty());
+    CHECK (std::ranges::count (g.root.wires, 1, &graph::Wire::delay) == 1);
+}
+
+TEST_CASE ("what is wrong inside a subgraph is found and mended there", "[app][problems]")
+{
+    auto g = graphOf (R"("nodes":{"g":{"type":"graph:inner"}},"wires":[],
+        "graphs":{"inner":{"nodes":{"a":{"type":"signal.slew"},"b":{"type":"signal.slew"}},"wires":["a.out -> b.in","b.out -> a.in"]}})");
+    const auto errors = errorsOf (g);
+    REQUIRE_FALSE (errors.empty());
+    CHECK (culpritOf (g, errors[0]).patch == "inner");
+    CHECK (culpritOf (g, errors[0]).id != 0);
+    CHECK (mend (g).empty());
+}
+
+TEST_CASE ("a wire of the wrong unit, a param out of its range, a node of no type", "[app][problems]")
+{
+    auto g = graphOf (R"("nodes":{"hand":{"type":"device.position","role":"r"},"motor":{"type":"device.force","role":"r"},
+        "wall":{"type":"deform.plane","params":{"stiffness":-1}},"what":{"type":"no.such"}},"wires":["hand.position -> motor.force"])");
+    CHECK (errorsOf (g).size() >= 3);
+    CHECK (mend (g).empty());
+    CHECK (g.root.wires.empty());
+    CHECK (g.root.find ("what") == nullptr);
+    CHECK (g.root.find ("wall")->params.empty());
+    CHECK (g.root.find ("motor") != nullptr);
+}

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include <host/app/run/transport_path.hpp>
+#include <host/devices/gestures.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+using namespace tactus;
+using namespace tactus::host;
+
+namespace
+{
+std::shared_ptr<const Path> stroke() { return std::make_shared<GesturePath> (*findGesture ("stroke"), Placement {}); }
+}   // namespace
+
+TEST_CASE ("a path that is only played is the path itself, to the bit", "[app][transport]")
+{
+    const auto path = stroke();
+    const TransportPath played { path };
+    for (int k = 0; k < 20'000; ++k)
+    {
+        const double t = k / 4000.0;
+        const auto a = played.at (t), b = path->at (t);
+        // The time is summed up tick by tick there.
+        REQUIRE ((a.position - b.position).norm() < 1e-12);
+    }
+}
+
+TEST_CASE ("however it is stopped, sought and slowed down, the hand never jumps, and its velocity is that of its place", "[app][transport]")
+{
+    rc::prop ("any presses of the buttons", []
+              {
+        const auto path = stroke();
+        TransportPath played { path };
+        const double dt = 1.0 / 4000.0;
+        auto before = played.at (0.0);
+        for (int k = 1; k < 8000; ++k)
+        {
+            if (k % 800 == 0)
+                switch (*rc::gen::inRange (0, 4))
+                {
+                case 0: played.play (false); break;
+                case 1: played.play (true); break;
+                case 2: played.seek (*rc::gen::inRange (0, 1000) * 1e-3 * path->duration()); break;
+                default: played.setSpeed (*rc::gen::inRange (10, 200) * 1e-2); break;
+                }
+            const auto now = played.at (k * dt);
+            const Vec3 step = now.position - before.position;
+            RC_ASSERT (step.norm() < 3.0 * dt);   // m/s: what catching up over a whole stroke takes
+            RC_ASSERT ((step / dt - 0.5 * (now.velocity + before.velocity)).norm() < 0.05);
+            before = now;
+        } });
+}
+
+TEST_CASE ("a hand that is stopped comes to rest and goes on from there", "[app][transport]")
+{
+    const auto path = stroke();
+    TransportPath played { path };
+    int k = 0;
+    const auto run = [&] (double seconds)
+    {
+        auto p = played.at (k / 4000.0);
+        for (const int end = k + static_cast<int> (4000 * seconds); k < end; ++k)
+            p = played.at (k / 4000.0);
+        return p;
+    };
+    run (0.7);
+    played.play (false);
+    const auto rest = run (1.0);
+    CHECK (rest.velocity.norm() < 1e-6);
+    CHECK ((run (1.0).position - rest.position).norm() < 1e-9);
+    const double place = played.position();
+    played.play (true);
+    run (0.5);
+    CHECK (played.position() > place);
+    played.seek (0.25);
+    run (1.0 / 4000.0);
+    CHECK (played.position() == Approx (0.25).margin (1e-2));
+}
