@@ -30,12 +30,13 @@ Performance::Performance (Document& d, const Catalogue& c, Sound* s) : document 
     {
         if (engine != nullptr) takeOver();
     };
+    documentChanged();
 }
 
 Performance::~Performance()
 {
     document.remove (*this);
-    stop();
+    end();
 }
 
 Compiled Performance::compileNow (const Plan* before, const Plan* withdrawn)
@@ -102,8 +103,22 @@ std::unique_ptr<Device> Performance::chosenHand (const SimulatedDevice* describe
 
 void Performance::start (Hand who)
 {
-    stop();
     moved_by = std::move (who);
+    stop();
+    begins = wanted = true;
+    if (! isRunning()) begin();
+}
+
+void Performance::stop() noexcept
+{
+    begins = wanted = false;
+    if (runner) runner->stop();
+}
+
+void Performance::begin()
+{
+    end();
+    begins = false;
     rate_hz = document.graph().rate_hz;
     answers = std::make_unique<AnsweringThread>();
     auto compiled = compileNow (nullptr, nullptr);
@@ -123,7 +138,7 @@ void Performance::start (Hand who)
     runner->start();
 }
 
-void Performance::stop()
+void Performance::end()
 {
     runner.reset();   // which waits until the forces are zero
     clock.reset();
@@ -137,8 +152,10 @@ void Performance::stop()
 
 void Performance::documentChanged()
 {
-    if (engine == nullptr) return start (moved_by);   // perhaps it compiles now
-    takeOver();
+    if (engine != nullptr) return takeOver();
+    if (wanted) return begin();   // perhaps it compiles now
+    rate_hz = document.graph().rate_hz;
+    said = compileNow (nullptr, nullptr).messages;
 }
 
 void Performance::takeOver()
@@ -206,6 +223,7 @@ void Performance::after (std::uint64_t tick, bool) noexcept
 
 void Performance::attend()
 {
+    if (begins && ! isRunning()) begin();
     if (runner) runner->attend();
     probes.collect();
 }

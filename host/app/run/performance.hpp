@@ -46,8 +46,8 @@ public:
     Performance (Document&, const Catalogue&, Sound* = nullptr);
     ~Performance() override;
 
-    void start (Hand);   ///< anew, if it runs
-    void stop();         ///< the forces go to zero first
+    void start (Hand);      ///< anew, if it runs, as soon as its forces are zero
+    void stop() noexcept;   ///< the forces go to zero first; does not wait for that
 
     bool isRunning() const noexcept { return runner != nullptr && ! runner->isOver(); }
     const Hand& hand() const noexcept { return moved_by; }
@@ -101,6 +101,8 @@ private:
     void before (std::uint64_t) noexcept override {}
     void after (std::uint64_t tick, bool halts) noexcept override;
 
+    void begin();
+    void end();
     void takeOver();
     Compiled compileNow (const Plan* before, const Plan* withdrawn);
     std::optional<Bound> open (const std::string& role);
@@ -114,6 +116,8 @@ private:
     Traces probes;
     Sound* sound;
     Hand moved_by;
+    bool begins = false;   // once the run before is over
+    bool wanted = false;   // started and not stopped: it begins as soon as the graph compiles
     double rate_hz = 0.0;
     std::optional<std::int64_t> delay_ticks;
     std::shared_ptr<PointerPath> pointer;

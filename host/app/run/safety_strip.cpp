@@ -13,12 +13,15 @@ juce::String inNewton (double force) { return juce::String (force, 3) + " N"; }
 juce::String inNewtonPerMillimetre (double stiffness) { return stiffness >= 1000.0 ? juce::String (stiffness / 1000.0, 1) + " N/mm" : juce::String (std::round (stiffness)) + " N/m"; }
 
 /// Why a run ended, in words.
-juce::String reason (const RunStatus& s)
+juce::String reason (const RunStatus& s, Performance& p)
 {
     switch (s.end)
     {
     case RunStatus::End::overrun:
-        return "stopped: the graph takes longer than its ticks last";
+    {
+        const auto costs = p.costs();
+        return "stopped: a tick takes longer than it may" + (costs.empty() ? juce::String() : "; " + juce::String (costs.front().node) + " takes " + juce::String (juce::roundToInt (100.0 * costs.front().share)) + " % of it");
+    }
     case RunStatus::End::length:
         return "came to its end";
     case RunStatus::End::asked:
@@ -62,7 +65,7 @@ SafetyStrip::SafetyStrip() : button (std::make_unique<StopButton>())
 
 SafetyStrip::~SafetyStrip() = default;
 
-void SafetyStrip::show (const Performance& p)
+void SafetyStrip::show (Performance& p)
 {
     Shown now;
     const auto status = p.status();
@@ -75,7 +78,7 @@ void SafetyStrip::show (const Performance& p)
     else
     {
         const bool halting = status->phase == RunStatus::Phase::halting;
-        now.state = now.running ? halting ? juce::String ("stopping") : "running at " + juce::String (p.rate()) + " Hz" : reason (*status);
+        now.state = now.running ? halting ? juce::String ("stopping") : "running at " + juce::String (p.rate()) + " Hz" : reason (*status, p);
         now.alarmed = status->end == RunStatus::End::overrun;
         now.guard = "guard ready";
         for (const auto& role : status->shown())

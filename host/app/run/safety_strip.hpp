@@ -11,7 +11,7 @@ namespace tactus::host
 {
 
 /// What runs and whether it is safe, always in sight: running or why not, force now and the largest so far, ticks that were
-/// missed, the delay and the stiffness it leaves, and the stop.
+/// missed and what took so long, the delay and the stiffness it leaves, and the stop.
 class SafetyStrip final : public juce::Component
 {
 public:
@@ -20,7 +20,7 @@ public:
     SafetyStrip();
     ~SafetyStrip() override;
 
-    void show (const Performance&);   ///< many times a second
+    void show (Performance&);   ///< many times a second
 
     std::function<void()> onStop, onStart;
 

@@ -56,10 +56,10 @@ void Traces::select (const Plan& plan, double rate_hz, bool anew)
 {
     if (anew) by_name.clear();
     const auto wanted = ports();
-    std::vector<std::size_t> taps;
-    in_frame.clear();
+    std::vector<std::size_t> chosen;
+    std::vector<std::shared_ptr<Trace>> columns;
     std::map<std::string, std::shared_ptr<Trace>> kept;
-    for (std::size_t i = 0; i < plan.taps.size() && taps.size() < ProbeRing::most; ++i)
+    for (std::size_t i = 0; i < plan.taps.size() && chosen.size() < ProbeRing::most; ++i)
     {
         const auto& tap = plan.taps[i];
         if (std::ranges::none_of (wanted, [&] (const std::string& port)
@@ -67,19 +67,27 @@ void Traces::select (const Plan& plan, double rate_hz, bool anew)
         auto& trace = kept[tap.name];
         if (const auto old = by_name.find (tap.name); old != by_name.end() && old->second->unit() == tap.unit) trace = old->second;
         if (! trace) trace = std::make_shared<Trace> (tap, rate_hz);
-        taps.push_back (i);
-        in_frame.push_back (trace);
+        chosen.push_back (i);
+        columns.push_back (trace);
     }
     by_name = std::move (kept);
-    selected = &plan;
-    ring.select (taps, 1);
+    if (chosen != taps || columns != in_frame)
+    {
+        ring.drain ([] (const ProbeRing::Frame&) {});
+        selected.clear();
+        taps = std::move (chosen);
+        in_frame = std::move (columns);
+        ring.select (taps, 1);
+    }
+    selected.push_back (&plan);
+    if (selected.size() > most_plans) selected.erase (selected.begin());
 }
 
 void Traces::collect()
 {
     ring.drain ([this] (const ProbeRing::Frame& frame)
                 {
-        if (frame.plan != selected || frame.size != in_frame.size()) return;
+        if (std::ranges::count (selected, frame.plan) == 0 || frame.size != in_frame.size()) return;
         for (std::size_t i = 0; i < frame.size; ++i)
             in_frame[i]->add (frame.tick, frame.values[i]); });
 }

@@ -83,8 +83,11 @@ public:
     void collect();                                                                         ///< to be called many times a second
 
 private:
+    static constexpr std::size_t most_plans = 64;   ///< whose frames may still be on their way
+
     ProbeRing ring;
-    const Plan* selected = nullptr;                 ///< never looked into
+    std::vector<const Plan*> selected;   ///< all of which have the same taps; never looked into
+    std::vector<std::size_t> taps;
     std::vector<std::shared_ptr<Trace>> in_frame;   ///< by their place in a frame
     std::map<std::string, std::shared_ptr<Trace>> by_name;
     std::vector<Client*> clients;

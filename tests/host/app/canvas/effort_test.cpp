@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// What large graphs cost the window. Printed, never judged: machines are shared.
+#include "../support/canvas_rig.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <iostream>
+
+using namespace tactus;
+using namespace tactus::host;
+using test::CanvasRig;
+
+namespace
+{
+graph::Graph chainOf (int nodes)
+{
+    graph::Graph g;
+    for (int i = 0; i < nodes; ++i)
+    {
+        graph::Node n;
+        n.name = "n" + std::to_string (i);
+        n.type = i % 3 == 0 ? "signal.slew" : i % 3 == 1 ? "signal.abs"
+                                                         : "signal.gain";
+        g.root.nodes.push_back (n);
+        if (i == 0) continue;
+        graph::Wire w;
+        w.from = { "n" + std::to_string (i - 1), "out" };
+        w.to = { n.name, "in" };
+        g.root.wires.push_back (w);
+    }
+    return g;
+}
+
+double milliseconds (const std::function<void()>& work)
+{
+    constexpr int times = 10;
+    const auto begin = std::chrono::steady_clock::now();
+    for (int i = 0; i < times; ++i)
+        work();
+    return std::chrono::duration<double, std::milli> (std::chrono::steady_clock::now() - begin).count() / times;
+}
+}   // namespace
+
+TEST_CASE ("what panning, turning a param and moving a node take, with 200 and 1000 nodes", "[app][canvas][effort]")
+{
+    for (const int nodes : { 200, 1000 })
+    {
+        CanvasRig rig { chainOf (nodes) };
+        const auto paint = [&]
+        { rig.canvas->createComponentSnapshot (rig.canvas->getLocalBounds()); };
+        paint();   // glyphs are made once
+        const double all = milliseconds (paint);
+        rig.canvas->zoomBy (1.0f / rig.canvas->view().zoom);
+        const double near = milliseconds ([&]
+                                          {
+            rig.canvas->view().origin.x += 7.0f;
+            paint(); });
+        const double edit = milliseconds ([&]
+                                          { rig.document.perform (graph::SetParam { {}, "n2", "gain", Json (0.5) }); });
+        std::cout << nodes << " nodes: " << all << " ms to draw all of them, " << near << " ms a frame to pan at full size, " << edit << " ms to show an edit\n";
+        CHECK (rig.canvas->scene().nodes().size() == static_cast<std::size_t> (nodes));
+    }
+}

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "../support/canvas_rig.hpp"
+
+#include <host/app/run/performance.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <bit>
+#include <chrono>
+#include <thread>
+
+using namespace tactus;
+using namespace tactus::host;
+using test::CanvasRig;
+
+namespace
+{
+/// Attends to a run until something is so, for 10 s at most.
+template <typename F>
+bool until (
+    Performance& p, F&& isSo, const std::function<void()>& meanwhile = [] {})
+{
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (10);
+    while (! isSo() && std::chrono::steady_clock::now() < end)
+    {
+        meanwhile();
+        p.attend();
+        std::this_thread::sleep_for (std::chrono::milliseconds (2));
+    }
+    return isSo();
+}
+
+/// What the motor gets, tick by tick, while somebody does something else.
+std::vector<std::uint64_t> bitsOf (CanvasRig& rig, std::size_t ticks, const std::function<void()>& meanwhile)
+{
+    Performance p { rig.document, catalogue() };
+    Traces::Client probe { p.traces() };
+    probe.want ({ "motor.force" });
+    p.start ({});
+    const auto traces = [&]
+    { return probe.of ("motor.force"); };
+    REQUIRE (until (
+        p, [&]
+        { return traces().size() == 3 && traces()[0]->end() >= ticks; },
+        meanwhile));
+    std::vector<std::uint64_t> bits;
+    for (std::size_t k = 0; k < ticks; ++k)
+        for (const auto& t : traces())
+            bits.push_back (k >= t->begin() ? std::bit_cast<std::uint64_t> (t->at (k)) : std::bit_cast<std::uint64_t> (std::numeric_limits<double>::quiet_NaN()));
+    return bits;
+}
+
+bool isLost (std::uint64_t bits) { return std::isnan (std::bit_cast<double> (bits)); }
+}   // namespace
+
+TEST_CASE ("whatever is done in the window, the motor gets the same bits", "[app][run]")
+{
+    constexpr std::size_t ticks = 6000;
+    CanvasRig quiet { CanvasRig::preset ("dry_wood") }, busy { CanvasRig::preset ("dry_wood") };
+    const auto expected = bitsOf (quiet, ticks, [] {});
+    int n = 0;
+    const auto got = bitsOf (busy, ticks, [&]
+                             {
+        ++n;
+        const juce::Point<float> way (static_cast<float> (n % 7) * 8.0f - 24.0f, static_cast<float> (n % 5) * 8.0f - 16.0f);
+        busy.hand().drag (busy.title ("drag"), busy.title ("drag") + way);
+        busy.hand().wheel ({ 300.0f, 300.0f }, n % 2 == 0 ? 0.1f : -0.1f);
+        if (n % 3 == 0) busy.canvas->setSize (900 + n % 300, 600 + n % 200);
+        if (n % 4 == 0) busy.canvas->createComponentSnapshot (busy.canvas->getLocalBounds());
+        if (n % 10 == 0) busy.hand().key ("ctrl + z"); });
+    CHECK (n > 5);
+
+    std::size_t compared = 0, different = 0, forces = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+    {
+        if (isLost (expected[i]) || isLost (got[i])) continue;
+        ++compared;
+        different += expected[i] != got[i] ? 1 : 0;
+        forces += std::bit_cast<double> (expected[i]) != 0.0 ? 1 : 0;
+    }
+    CHECK (different == 0);
+    CHECK (compared > expected.size() / 2);   // a busy machine may lose some on their way to the eye
+    CHECK (forces > 1000);
+}
+
+TEST_CASE ("a stop takes the forces off, a start brings them back, and an edit does not start what was stopped", "[app][run]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    Performance p { rig.document, catalogue() };
+    CHECK_FALSE (p.isRunning());
+    rig.hand().click (rig.title ("grain"));
+    rig.hand().key ("b");
+    CHECK_FALSE (p.isRunning());
+
+    p.start ({});
+    REQUIRE (until (p, [&]
+                    { return p.status()->peak > 0.1; }));
+    p.stop();
+    REQUIRE (until (p, [&]
+                    { return ! p.isRunning(); }));
+    CHECK (p.status()->force == 0.0);
+    rig.hand().key ("b");
+    p.attend();
+    CHECK_FALSE (p.isRunning());
+    p.start (Performance::Hand::pointer());
+    CHECK (until (p, [&]
+                  { return p.isRunning() && p.tool().has_value(); }));
+}
+
+TEST_CASE ("under the mouse the tool goes where it points, and meets the surface there", "[app][run]")
+{
+    CanvasRig rig { CanvasRig::preset ("soft_pad") };
+    Performance p { rig.document, catalogue() };
+    p.start (Performance::Hand::pointer());
+    p.point ({ 0.01, -0.02, 0.005 });
+    REQUIRE (until (p, [&]
+                    { return p.tool() && (p.tool()->position - Vec3 (0.01, -0.02, 0.005)).norm() < 1e-3; }));
+    CHECK (p.tool()->force.norm() < 1e-3);
+    p.point ({ 0.01, -0.02, -0.004 });
+    CHECK (until (p, [&]
+                  { return p.tool()->force.z() > 0.1; }));
+}
+
+TEST_CASE ("a graph that breaks while it runs goes on as it was, and says what is wrong", "[app][run]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    Performance p { rig.document, catalogue() };
+    p.start ({});
+    REQUIRE (until (p, [&]
+                    { return p.tool().has_value(); }));
+    rig.hand().drag (rig.port ("drag", Role::output, "deflection"), rig.port ("drag", Role::input, "position"));
+    graph::Wire loop;
+    loop.from = { "drag", "deflection" };
+    loop.to = { "drag", "position" };
+    for (const auto& w : rig.graph().root.wires)
+        if (w.to == loop.to) rig.document.perform (graph::RemoveWire { {}, w.id });
+    rig.document.perform (graph::AddWire { {}, loop });
+    CHECK (hasErrors (p.messages()));
+    CHECK (p.messages().front().id == "graph/loop");
+    CHECK (p.isRunning());
+    rig.document.undo();
+    CHECK_FALSE (hasErrors (p.messages()));
+}
