@@ -52,6 +52,7 @@ public:
     Document& edited() noexcept { return document; }
     const Scene& scene() const noexcept { return *shown; }
     View& view() noexcept { return window; }
+    const View& view() const noexcept { return window; }
     Highlights& lit() noexcept { return highlights; }
     const Selection& selection() const noexcept { return highlights.selected; }
     void select (Selection);
