@@ -175,6 +175,15 @@ void paintDelay (juce::Graphics& g, const SceneWire& w, const Look& look)
     g.setColour (look.theme().text);
     g.drawText (text, box, juce::Justification::centred, false);
 }
+/// All that a wire may cover, with its bends.
+juce::Rectangle<float> boundsOf (const SceneWire& w)
+{
+    juce::Rectangle<float> all { w.from, w.to };
+    for (const auto& p : w.by)
+        all = all.getUnion (juce::Rectangle<float> (p, p).expanded (1.0f));
+    return all.expanded (200.0f, 16.0f);
+}
+
 void paintProblem (juce::Graphics& g, const SceneWire& w, const Theme& theme)
 {
     juce::Path dashed;
@@ -238,7 +247,7 @@ void paintScene (juce::Graphics& g, const Scene& scene, const View& view, const 
         if (scene.notes()[i].area.intersects (seen)) paintNote (g, scene.notes()[i], look, highlights.selected.contains (noteId (i)));
     for (const auto& w : scene.wires())
     {
-        if (! juce::Rectangle<float> (w.from, w.to).expanded (200.0f, 16.0f).intersects (seen)) continue;
+        if (! boundsOf (w).intersects (seen)) continue;
         paintWire (g, w, look.theme(), highlights.selected.contains (w.id), highlights.hovered == w.id);
         if (highlights.live.problems.contains (w.id)) paintProblem (g, w, look.theme());
         if (const auto hit = highlights.live.hits.find (w.id); hit != highlights.live.hits.end()) paintHit (g, w, hit->second, look.theme());

@@ -16,6 +16,7 @@ namespace
 std::size_t at (int i) { return static_cast<std::size_t> (i); }
 
 constexpr Dimension none {};
+constexpr std::size_t most_routed = 300;   // nodes; of larger patches each edit would take too long
 
 /// True if the unit of a generic port is that of another one, times nothing.
 bool follows (const UnitRule& rule) { return rule.kind == UnitRule::Kind::same && rule.unit.dimension == none; }
@@ -38,15 +39,6 @@ const Socket* SceneNode::paramAt (juce::Point<float> p) const noexcept
     return socket == box.sockets.end() ? nullptr : &*socket;
 }
 
-juce::Path SceneWire::path() const
-{
-    juce::Path p;
-    const float reach = std::clamp (std::abs (to.x - from.x) / 2, 24.0f, 160.0f);
-    p.startNewSubPath (from);
-    p.cubicTo (from.translated (reach, 0.0f), to.translated (-reach, 0.0f), to);
-    return p;
-}
-
 Scene::Scene (const graph::Graph& graph, const std::string& name, const Catalogue& catalogue, const TextWidth& widthOf)
 {
     const auto* patch = name.empty() ? &graph.root : graph.find (name);
@@ -55,6 +47,7 @@ Scene::Scene (const graph::Graph& graph, const std::string& name, const Catalogu
     place (*patch);
     findQuantities (*patch);
     addWires (*patch);
+    routeWires();
     all_notes = notesOf (graph, name);
 }
 
@@ -152,6 +145,40 @@ void Scene::addWires (const graph::Patch& patch)
             if (wire.quantity == Quantity::any) wire.quantity = b.quantityOf (*end);
         }
         all_wires.push_back (std::move (wire));
+    }
+}
+
+void Scene::routeWires()
+{
+    if (all_nodes.size() > most_routed) return;
+    // A node that nothing is joined to may be about to be put into a wire: none makes way for it.
+    std::vector<bool> joined (all_nodes.size());
+    for (const auto& w : all_wires)
+        joined[at (w.start)] = joined[at (w.end)] = true;
+    // Wires that go the same way lie side by side.
+    constexpr float apart = 6.0f;
+    std::vector<std::pair<juce::Point<float>, juce::Point<float>>> taken;
+    const auto isTaken = [&] (juce::Point<float> a, juce::Point<float> b)
+    {
+        return std::ranges::any_of (taken, [&] (const auto& t)
+                                    { return std::abs (t.first.y - a.y) < apart - 1.0f && std::min (t.first.x, t.second.x) < std::max (a.x, b.x) && std::min (a.x, b.x) < std::max (t.first.x, t.second.x); });
+    };
+    for (auto& w : all_wires)
+    {
+        std::vector<juce::Rectangle<float>> others;
+        for (std::size_t i = 0; i < all_nodes.size(); ++i)
+            if (joined[i] && i != at (w.start) && i != at (w.end)) others.push_back (all_nodes[i].bounds());
+        w.by = routeAround (w.from, w.to, all_nodes[at (w.start)].bounds(), all_nodes[at (w.end)].bounds(), others);
+        for (std::size_t i = 0; i + 1 < w.by.size(); i += 2)
+        {
+            const float way = w.by[i].y < (w.from.y + w.to.y) / 2 ? -apart : apart;
+            while (isTaken (w.by[i], w.by[i + 1]))
+            {
+                w.by[i].y += way;
+                w.by[i + 1].y += way;
+            }
+            taken.emplace_back (w.by[i], w.by[i + 1]);
+        }
     }
 }
 

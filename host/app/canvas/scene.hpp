@@ -3,6 +3,7 @@
 
 #include "box.hpp"
 #include "notes.hpp"
+#include "route.hpp"
 
 #include <map>
 #include <memory>
@@ -33,8 +34,9 @@ struct SceneWire
 {
     graph::Id id = 0;
     juce::Point<float> from, to;
-    int start = -1, end = -1;    ///< which nodes of the scene
-    std::string out {}, in {};   ///< the ports there, as their faces name them; empty if there is no such port
+    std::vector<juce::Point<float>> by {};   ///< around what stands in the way
+    int start = -1, end = -1;                ///< which nodes of the scene
+    std::string out {}, in {};               ///< the ports there, as their faces name them; empty if there is no such port
     Role in_role = Role::input;
     Quantity quantity = Quantity::any;
     int width = 1;   ///< components
@@ -42,7 +44,7 @@ struct SceneWire
     bool add = false, enabled = true;
     std::string text;   ///< as in the file
 
-    juce::Path path() const;
+    juce::Path path() const { return curveThrough (from, by, to); }
 };
 
 /// A socket of a node of a scene; null if there is none.
@@ -85,6 +87,7 @@ private:
     void place (const graph::Patch&);
     void findQuantities (const graph::Patch&);
     void addWires (const graph::Patch&);
+    void routeWires();
     int numberOf (const std::string& name) const noexcept;
 
     std::vector<SceneNode> all_nodes;

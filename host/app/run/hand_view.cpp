@@ -17,6 +17,7 @@ HandView::HandView()
 void HandView::show (const Performance& p)
 {
     by_pointer = p.hand().kind == Performance::Hand::Kind::pointer;
+    held = held && by_pointer;
     running = p.isRunning();
     tool = p.tool();
     if (tool)
@@ -50,12 +51,26 @@ void HandView::point (const juce::MouseEvent& e)
     repaint();
 }
 
-void HandView::mouseMove (const juce::MouseEvent& e) { point (e); }
+void HandView::mouseMove (const juce::MouseEvent& e)
+{
+    if (! held) point (e);
+}
+
+void HandView::hold()
+{
+    if (! by_pointer) return;
+    held = ! held;
+    target.z() = held || pressed ? -press_depth : hover_m;
+    if (onPoint) onPoint (target);
+    repaint();
+}
+
 void HandView::mouseDrag (const juce::MouseEvent& e) { point (e); }
 
 void HandView::mouseDown (const juce::MouseEvent& e)
 {
     grabKeyboardFocus();
+    held = false;
     pressed = true;
     point (e);
 }
@@ -63,20 +78,22 @@ void HandView::mouseDown (const juce::MouseEvent& e)
 void HandView::mouseUp (const juce::MouseEvent& e)
 {
     pressed = false;
-    point (e);
+    if (! held) point (e);
 }
 
 void HandView::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel)
 {
     pressDeeper (-2.0 * static_cast<double> (wheel.deltaY));
-    point (e);
+    if (held) target.z() = -press_depth;
+    if (! held) point (e);
+    if (held && onPoint) onPoint (target);
 }
 
 bool HandView::keyPressed (const juce::KeyPress& key)
 {
     if (key != juce::KeyPress::pageDownKey && key != juce::KeyPress::pageUpKey) return false;
     pressDeeper (key == juce::KeyPress::pageDownKey ? 0.25 : -0.25);
-    if (pressed) target.z() = -press_depth;
+    if (pressed || held) target.z() = -press_depth;
     if (onPoint) onPoint (target);
     return true;
 }

@@ -25,6 +25,10 @@ public:
 
     double depth() const noexcept { return press_depth; }   ///< m, of a press
 
+    /// Leaves the tool pressed where it is, so that the pointer is free for a knob; or lets it go.
+    void hold();
+    bool isHeld() const noexcept { return held; }
+
     std::function<void (const Vec3&)> onPoint;   ///< m; where the mouse wants the tool
     std::function<void()> onTakesOver;           ///< the mouse wants to be the hand
 
@@ -46,7 +50,7 @@ private:
     void point (const juce::MouseEvent&);
     void pressDeeper (double octaves);
 
-    bool by_pointer = false, pressed = false, running = false;
+    bool by_pointer = false, pressed = false, held = false, running = false;
     double press_depth = 1.5e-3;   // m
     Vec3 target = Vec3::Zero();
     std::optional<Performance::Tool> tool;

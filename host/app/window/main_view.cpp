@@ -231,6 +231,11 @@ bool MainView::keyPressed (const juce::KeyPress& key)
         save();
         return true;
     }
+    if (key == juce::KeyPress::createFromDescription ("h"))
+    {
+        hand.view().hold();
+        return true;
+    }
     if (key == juce::KeyPress::createFromDescription ("c"))
     {
         live->shows_costs = ! live->shows_costs;

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "route.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr float clearance = 12.0f, bend = 24.0f;
+
+void curveTo (juce::Path& path, juce::Point<float> from, juce::Point<float> to)
+{
+    const float reach = std::clamp (std::abs (to.x - from.x) / 2, bend, 160.0f);
+    path.cubicTo (from.translated (reach, 0.0f), to.translated (-reach, 0.0f), to);
+}
+
+bool runsThrough (const juce::Path& path, juce::Rectangle<float> box)
+{
+    constexpr float step = 8.0f;
+    const float length = path.getLength();
+    for (float at = 0.0f; at < length; at += step)
+        if (box.contains (path.getPointAlongPath (at))) return true;
+    return false;
+}
+}   // namespace
+
+juce::Path curveThrough (juce::Point<float> from, const std::vector<juce::Point<float>>& by, juce::Point<float> to)
+{
+    juce::Path path;
+    path.startNewSubPath (from);
+    if (to.x < from.x && by.size() == 2)
+    {
+        // Back: out to the right, down, along below, up again and in from the left.
+        const auto low_right = by[0], low_left = by[1];
+        path.cubicTo (from.translated (2 * bend, 0.0f), { low_right.x + 2 * bend, low_right.y }, low_right);
+        path.lineTo (low_left);
+        path.cubicTo ({ low_left.x - 2 * bend, low_left.y }, to.translated (-2 * bend, 0.0f), to);
+        return path;
+    }
+    auto last = from;
+    for (const auto& p : by)
+    {
+        curveTo (path, last, p);
+        last = p;
+    }
+    curveTo (path, last, to);
+    return path;
+}
+
+std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Point<float> to, juce::Rectangle<float> start, juce::Rectangle<float> end, const std::vector<juce::Rectangle<float>>& obstacles)
+{
+    const auto direct = curveThrough (from, {}, to);
+    const auto reach = direct.getBounds().expanded (clearance);
+    std::vector<juce::Rectangle<float>> met;
+    for (const auto& o : obstacles)
+        if (o.intersects (reach)) met.push_back (o.expanded (2.0f));
+
+    if (to.x < from.x)
+    {
+        float low = std::max (start.getBottom(), end.getBottom());
+        for (const auto& o : obstacles)   // under all that stands between
+            if (o.getX() < from.x && o.getRight() > to.x && o.getY() < low + clearance && o.getBottom() > std::min (from.y, to.y)) low = std::max (low, o.getBottom());
+        return { { from.x, low + 2 * clearance }, { to.x, low + 2 * clearance } };
+    }
+
+    std::erase_if (met, [&] (const juce::Rectangle<float>& o)
+                   { return o.getRight() > to.x || o.getX() < from.x || ! runsThrough (direct, o); });
+    std::ranges::sort (met, {}, &juce::Rectangle<float>::getX);
+    std::vector<juce::Point<float>> by;
+    for (std::size_t i = 0; i < met.size();)
+    {
+        // What stands side by side in a column is passed as one.
+        auto box = met[i++];
+        while (i < met.size() && met[i].getX() < box.getRight() + 2 * clearance)
+            box = box.getUnion (met[i++]);
+        const float middle = from.y + (to.y - from.y) * (box.getCentreX() - from.x) / std::max (1.0f, to.x - from.x);
+        // By the side that is nearer, with room for what else stands there.
+        float above = box.getY() - clearance, below = box.getBottom() + clearance;
+        for (int look = 0; look < 4; ++look)
+            for (const auto& o : obstacles)
+            {
+                if (o.getRight() < box.getX() || o.getX() > box.getRight()) continue;
+                if (o.getY() < above && o.getBottom() > above) above = o.getY() - clearance;
+                if (o.getY() < below && o.getBottom() > below) below = o.getBottom() + clearance;
+            }
+        const float y = middle - above < below - middle ? above : below;
+        by.push_back ({ box.getX(), y });
+        by.push_back ({ box.getRight(), y });
+    }
+    return by;
+}
+
+}   // namespace tactus::host

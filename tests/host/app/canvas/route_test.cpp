@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "../support/canvas_rig.hpp"
+
+#include <host/app/canvas/align.hpp>
+#include <host/app/canvas/route.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+using namespace tactus::host;
+using tactus::host::test::CanvasRig;
+using Box2 = juce::Rectangle<float>;
+using juce::Point;
+
+namespace
+{
+bool touches (const juce::Path& path, Box2 box)
+{
+    for (float at = 0.0f; at < path.getLength(); at += 2.0f)
+        if (box.reduced (1.0f).contains (path.getPointAlongPath (at))) return true;
+    return false;
+}
+
+int between (int low, int high) { return *rc::gen::inRange (low, high); }
+}   // namespace
+
+TEST_CASE ("a wire goes around a node that stands in its way, wherever that is", "[app][route]")
+{
+    rc::prop ("one obstacle", []
+              {
+        const Point<float> from { 0.0f, 0.0f }, to { 600.0f, static_cast<float> (between (-200, 200)) };
+        const Box2 start { -100.0f, -50.0f, 100.0f, 100.0f }, end { to.x, to.y - 50.0f, 100.0f, 100.0f };
+        const Box2 obstacle { static_cast<float> (between (200, 300)), static_cast<float> (between (-200, 200)), static_cast<float> (between (40, 120)), static_cast<float> (between (30, 200)) };
+        const auto by = routeAround (from, to, start, end, { obstacle });
+        RC_ASSERT (! touches (curveThrough (from, by, to), obstacle)); });
+}
+
+TEST_CASE ("a free way is direct, and a way back goes below", "[app][route]")
+{
+    const Box2 start { -100.0f, 0.0f, 100.0f, 100.0f };
+    CHECK (routeAround ({ 0, 50 }, { 400, 90 }, start, { 400, 40, 100, 100 }, { { 100, 400, 80, 80 } }).empty());
+
+    const Box2 end { -400.0f, 0.0f, 100.0f, 160.0f }, between_them { -250.0f, 40.0f, 80.0f, 300.0f };
+    const auto by = routeAround ({ 0, 50 }, { -400, 50 }, start, end, { between_them });
+    REQUIRE (by.size() == 2);
+    CHECK (by[0].y > between_them.getBottom());
+    const auto path = curveThrough ({ 0, 50 }, by, { -400, 50 });
+    for (const auto& box : { start, end, between_them })
+        CHECK_FALSE (touches (path, box));
+}
+
+TEST_CASE ("in the presets hardly a wire runs behind a node, and none lies on another", "[app][route]")
+{
+    int behind = 0, wires = 0;
+    for (const auto& name : { "dry_wood", "layered_cloth", "potato_cut", "squealing_rubber", "two_fingers", "soft_pad" })
+    {
+        CanvasRig rig { CanvasRig::preset (name) };
+        for (const auto& w : rig.canvas->scene().wires())
+        {
+            ++wires;
+            const auto path = w.path();
+            for (int i = 0; i < static_cast<int> (rig.canvas->scene().nodes().size()); ++i)
+                behind += i != w.start && i != w.end && touches (path, rig.canvas->scene().nodes()[static_cast<std::size_t> (i)].bounds()) ? 1 : 0;
+            for (const auto& other : rig.canvas->scene().wires())
+                if (other.id < w.id && w.by.size() >= 2 && other.by.size() >= 2) CHECK_FALSE ((w.by[0].y == other.by[0].y && w.by[0].x == other.by[0].x));
+        }
+    }
+    INFO (behind << " of " << wires);
+    CHECK (behind * 20 <= wires);
+}
+
+TEST_CASE ("what is aligned stands in line, is as large as before, and has not changed places", "[app][align]")
+{
+    rc::prop ("any boxes", []
+              {
+        std::vector<Box2> boxes;
+        for (int i = between (2, 8); i > 0; --i)
+            boxes.emplace_back (static_cast<float> (between (0, 500)), static_cast<float> (between (0, 500)), static_cast<float> (between (20, 200)), static_cast<float> (between (20, 200)));
+        for (const auto how : { Alignment::left, Alignment::right, Alignment::top, Alignment::bottom, Alignment::columns, Alignment::rows })
+        {
+            const auto to = aligned (boxes, how);
+            RC_ASSERT (to.size() == boxes.size());
+            for (std::size_t i = 0; i < to.size(); ++i)
+            {
+                RC_ASSERT (to[i].getWidth() == boxes[i].getWidth());
+                RC_ASSERT (to[i].getHeight() == boxes[i].getHeight());
+                if (how == Alignment::left) RC_ASSERT (to[i].getX() == to[0].getX());
+                if (how == Alignment::bottom) RC_ASSERT (std::abs (to[i].getBottom() - to[0].getBottom()) < 1e-3f);
+                for (std::size_t k = 0; k < i; ++k)
+                {
+                    if (how == Alignment::columns) RC_ASSERT ((to[i].getBottom() <= to[k].getY() || to[k].getBottom() <= to[i].getY()));
+                    if (how == Alignment::rows && boxes[i].getX() < boxes[k].getX()) RC_ASSERT (to[i].getX() < to[k].getX());
+                }
+            }
+        } });
+}
