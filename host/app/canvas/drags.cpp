@@ -116,10 +116,12 @@ public:
         if (node == nullptr) return;
         for (const auto& w : scene.wires())
             if (scene.nodes()[static_cast<std::size_t> (w.start)].id == node->id || scene.nodes()[static_cast<std::size_t> (w.end)].id == node->id) return;
-        const auto* wire = scene.wireAt (node->bounds().getCentre(), node->bounds().getHeight() / 2);
-        if (wire == nullptr) return;
-        if (auto command = insertInto (canvas.edited().graph(), canvas.patch(), scene, wire->id, node->id))
-            canvas.perform (std::move (*command), graph::Step::joined);
+        for (const auto* wire : scene.wiresAt (node->bounds().getCentre(), node->bounds().getHeight() / 2))
+            if (auto command = insertInto (canvas.edited().graph(), canvas.patch(), scene, wire->id, node->id))
+            {
+                canvas.perform (std::move (*command), graph::Step::joined);
+                return;
+            }
     }
 
 private:

@@ -219,20 +219,26 @@ const SceneNode* Scene::nodeAt (juce::Point<float> p) const noexcept
 
 const SceneWire* Scene::wireAt (juce::Point<float> p, float reach) const
 {
-    const SceneWire* nearest = nullptr;
+    const auto near = wiresAt (p, reach);
+    return near.empty() ? nullptr : near.front();
+}
+
+std::vector<const SceneWire*> Scene::wiresAt (juce::Point<float> p, float reach) const
+{
+    std::vector<std::pair<float, const SceneWire*>> near;
     for (const auto& w : all_wires)
     {
         const auto path = w.path();
         if (! path.getBounds().expanded (reach).contains (p)) continue;
         juce::Point<float> on_path;
         path.getNearestPoint (p, on_path);
-        if (const float distance = on_path.getDistanceFrom (p); distance <= reach)
-        {
-            reach = distance;
-            nearest = &w;
-        }
+        if (const float distance = on_path.getDistanceFrom (p); distance <= reach) near.emplace_back (distance, &w);
     }
-    return nearest;
+    std::ranges::stable_sort (near, {}, &std::pair<float, const SceneWire*>::first);
+    std::vector<const SceneWire*> wires;
+    for (const auto& [distance, w] : near)
+        wires.push_back (w);
+    return wires;
 }
 
 SceneSocket Scene::socketAt (juce::Point<float> p, float reach) const noexcept

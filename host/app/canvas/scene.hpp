@@ -74,6 +74,7 @@ public:
     /// What stands there, the topmost first; null if nothing does. `reach` is how far beside it still counts.
     const SceneNode* nodeAt (juce::Point<float>) const noexcept;
     const SceneWire* wireAt (juce::Point<float>, float reach) const;
+    std::vector<const SceneWire*> wiresAt (juce::Point<float>, float reach) const;   ///< the nearest first
     SceneSocket socketAt (juce::Point<float>, float reach) const noexcept;
 
     /// Of a region only its title and its corner are there for the pointer, so that one can select what is in it.
