@@ -1,9 +1,25 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# From a fresh Debian 12 to forces, vibration and pictures under out/. May be run again.
+# From a fresh Debian 12 to the host in its window or, where there is no display, to forces, vibration and pictures under
+# out/. May be run again.
+#
+#   ./demo.sh             the window if there is a display
+#   ./demo.sh --offline   files in any case
 . "$(dirname "$0")/.ci/setup.sh"
 
+offline=${1:-}
+case $offline in
+    ''|--offline) ;;
+    *) echo "usage: ./demo.sh [--offline]" >&2; exit 2 ;;
+esac
+
 install_packages
+if [ -z "$offline" ] && [ -n "${DISPLAY:-}" ]; then
+    build release tactus-host
+    say "Opening the host. What it renders without a display: ./demo.sh --offline"
+    exec build/release/bin/tactus-host
+fi
+
 build release tactus evemu_to_trace switch_to_graph
 export PATH="$PWD/build/release/bin:$PATH"
 mkdir -p out

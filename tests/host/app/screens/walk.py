@@ -1,0 +1,261 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Uses the host as a person would, on a display of its own, and takes a picture of each step: ./test.sh --screens
+
+walk.py HOST OUT [WIDTHxHEIGHT dark|light]
+
+It knows where things are from the file that `tactus-host --places` keeps. A step that does not lead to what it should
+fails; whether it looks good is for people, who look at the pictures.
+"""
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[4]
+PATIENCE = 30.0  # s, for something that should come
+
+
+class Walk:
+    def __init__(self, host, out, size, theme):
+        self.host, self.out, self.size, self.theme = host, out, size, theme
+        self.home = pathlib.Path(tempfile.mkdtemp(prefix="tactus-walk-"))
+        self.places_file = self.home / "places.json"
+        self.shots = 0
+        self.program = None
+        for display in range(90, 200):
+            if pathlib.Path(f"/tmp/.X{display}-lock").exists():
+                continue
+            self.server = subprocess.Popen(["Xvfb", f":{display}", "-screen", "0", f"{size}x24", "-nolisten", "tcp"], stderr=subprocess.DEVNULL)
+            time.sleep(1.0)
+            if self.server.poll() is None:
+                self.display = f":{display}"
+                break
+        self.environment = dict(os.environ, DISPLAY=self.display, TACTUS_HOME=str(self.home / "settings"), HOME=str(self.home))
+
+    def start(self, *arguments):
+        self.places_file.unlink(missing_ok=True)
+        theme = ["--light"] if self.theme == "light" else []
+        self.program = subprocess.Popen([self.host, "--places", str(self.places_file), *theme, *arguments], env=self.environment)
+        self.wait(lambda: self.places_file.exists(), "the window")
+        time.sleep(1.0)
+
+    def kill(self):
+        self.program.send_signal(signal.SIGKILL)
+        self.program.wait()
+
+    def end(self):
+        if self.program and self.program.poll() is None:
+            self.kill()
+        self.server.terminate()
+        self.server.wait()
+        shutil.rmtree(self.home)
+
+    def places(self):
+        for _ in range(20):
+            try:
+                return json.loads(self.places_file.read_text())
+            except (OSError, ValueError):
+                time.sleep(0.05)
+        raise SystemExit(f"{self.places_file} cannot be read")
+
+    def has(self, name):
+        places = self.places()
+        return name in places or name in places["window"]
+
+    def wait(self, so, what):
+        end = time.monotonic() + PATIENCE
+        while not so():
+            if self.program and self.program.poll() is not None:
+                raise SystemExit(f"the host ended with {self.program.returncode} while this was awaited: {what}")
+            if time.monotonic() > end:
+                raise SystemExit(f"{self.size} {self.theme}: after {PATIENCE:.0f} s there is no {what}")
+            time.sleep(0.05)
+
+    def at(self, name):
+        self.wait(lambda: self.has(name), name)
+        places = self.places()
+        return places.get(name) or places["window"][name]
+
+    def xdo(self, *words):
+        subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True)
+
+    def to(self, place):
+        x, y = self.at(place) if isinstance(place, str) else place
+        self.xdo("mousemove", x, y)
+        time.sleep(0.08)
+
+    def click(self, place, times=1):
+        self.to(place)
+        for _ in range(times):
+            self.xdo("click", 1)
+            time.sleep(0.06)
+        time.sleep(0.25)
+
+    def press(self, place):
+        self.to(place)
+        self.xdo("mousedown", 1)
+        time.sleep(0.08)
+
+    def release(self):
+        self.xdo("mouseup", 1)
+        time.sleep(0.3)
+
+    def glide(self, start, end, steps=12):
+        for i in range(1, steps + 1):
+            self.xdo("mousemove", round(start[0] + (end[0] - start[0]) * i / steps), round(start[1] + (end[1] - start[1]) * i / steps))
+            time.sleep(0.02)
+        time.sleep(0.2)
+
+    def drag(self, start, end):
+        a, b = (self.at(p) if isinstance(p, str) else p for p in (start, end))
+        self.press(a)
+        self.glide(a, b)
+        self.release()
+
+    def key(self, *keys):
+        for k in keys:
+            self.xdo("key", k)
+            time.sleep(0.12)
+        time.sleep(0.2)
+
+    def type(self, text):
+        self.xdo("type", "--delay", 25, text)
+        time.sleep(0.4)
+
+    def shot(self, name):
+        time.sleep(0.5)
+        self.shots += 1
+        file = self.out / f"{self.size}-{self.theme}-{self.shots:02}-{name}.png"
+        picture = self.home / "shot.png"
+        subprocess.run(["/usr/bin/import", "-window", "root", str(picture)], env=self.environment, check=True)
+        subprocess.run(["/usr/bin/convert", str(picture), "+dither", "-colors", "128", "-define", "png:compression-level=9", str(file)], check=True)
+        print(f"  {file.name}", flush=True)
+
+    def empty_place(self):
+        """Of the canvas, with no node near."""
+        nodes = [p for name, p in self.places().items() if isinstance(p, list)]
+        canvas = self.at("Canvas")
+        return [canvas[0], max(y for _, y in nodes) + 60]
+
+
+def walk(w):
+    w.start()
+    w.wait(lambda: w.has("Dry wood"), "a welcome with presets")
+    time.sleep(3.0)  # the pictures of forces are drawn meanwhile
+    w.shot("welcome")
+
+    w.click("Dry wood")
+    w.wait(lambda: w.has("drag"), "the graph of dry wood")
+    time.sleep(1.0)
+    w.shot("dry-wood")
+
+    # Stroked with the mouse.
+    surface = w.at("Surface")
+    reach = 90
+    w.press([surface[0] - reach, surface[1]])
+    for _ in range(3):
+        w.glide([surface[0] - reach, surface[1]], [surface[0] + reach, surface[1]])
+        w.glide([surface[0] + reach, surface[1]], [surface[0] - reach, surface[1]])
+    w.glide([surface[0] - reach, surface[1]], [surface[0] + 20, surface[1]])
+    w.shot("stroked")
+
+    # A knob is turned while it presses: H keeps it pressed.
+    w.key("h")
+    w.release()
+    mu = w.at("drag.mu value")
+    w.press(mu)
+    w.glide(mu, [mu[0], mu[1] - 60])
+    w.shot("knob-turned-while-pressing")
+    w.release()
+    w.key("h")
+
+    # A wire: where it fits is lit; let go on nothing, it asks for a node.
+    start = w.at("hand.position")
+    w.press(start)
+    w.glide(start, w.at("drag.normal_force"))
+    w.shot("wire-does-not-fit")
+    w.glide(w.at("drag.normal_force"), w.empty_place())
+    w.release()
+    w.wait(lambda: w.has("Palette"), "the palette")
+    w.type("noise")
+    w.shot("palette")
+    w.key("Return")
+    w.wait(lambda: "noise" in w.places(), "the node 'noise'")
+    w.shot("node-added")
+    w.key("ctrl+z")
+
+    # A loop is made, said, and mended.
+    w.drag("drag.deflection", "board.position")
+    w.wait(lambda: w.has("Problems 1"), "a problem")
+    w.click("Problems 1")
+    w.shot("loop")
+    w.click("Delay it by a tick")
+    w.wait(lambda: w.has("Problems"), "an end of the problem")
+    w.shot("loop-mended")
+    w.key("ctrl+z", "ctrl+z")
+
+    # A vibration is layered.
+    w.click("Layers")
+    w.shot("no-layers")
+    w.click("Add a mixer before the motor")
+    w.wait(lambda: w.has("mix"), "a mixer")
+    w.shot("layers")
+
+    # A subgraph is made of two nodes, and entered.
+    w.click("grain")
+    w.xdo("keydown", "shift")
+    w.click("grain_felt")
+    w.xdo("keyup", "shift")
+    w.key("g")
+    w.wait(lambda: w.has("group"), "the subgraph")
+    w.click("group", times=2)
+    w.wait(lambda: w.has("grain") and not w.has("drag"), "the inside of the subgraph")
+    w.shot("subgraph")
+    w.key("u")
+    w.wait(lambda: w.has("drag"), "the way out")
+
+    w.click("History")
+    w.shot("history")
+    w.key("F1")
+    w.shot("help")
+    w.key("Escape", "Escape")
+
+    # Saved, edited, killed, recovered.
+    w.key("ctrl+s")
+    saved = w.home / "my wood.json"
+    w.save_as(saved)
+    w.wait(saved.exists, "the saved file")
+    w.shot("saved")
+    w.click("board")
+    w.key("b")
+    time.sleep(8.0)  # it is kept some seconds after the edit
+    w.kill()
+    w.start()
+    w.wait(lambda: w.has("Recover") or w.has("Recover without running"), "the offer to recover")
+    w.shot("recovery")
+    w.click("Recover" if w.has("Recover") else "Recover without running")
+    w.wait(lambda: w.has("drag"), "the recovered graph")
+    w.shot("recovered")
+
+
+def main():
+    host, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+    out.mkdir(parents=True, exist_ok=True)
+    runs = [(sys.argv[3], sys.argv[4])] if len(sys.argv) > 4 else [(s, t) for s in ("1280x720", "1920x1080", "3840x2160") for t in ("dark", "light")]
+    for size, theme in runs:
+        print(f"{size} {theme}", flush=True)
+        w = Walk(str(host), out, size, theme)
+        try:
+            walk(w)
+        finally:
+            w.end()
+
+
+if __name__ == "__main__":
+    main()
