@@ -76,8 +76,10 @@ std::optional<Performance::Bound> Performance::open (const std::string& role)
 
 void Performance::start (Hand who)
 {
-    stop();
+    end();
+    wanted = true;
     moved_by = who;
+    run_devices = document.graph().devices;
     rate_hz = document.graph().rate_hz;
     answers = std::make_unique<AnsweringThread>();
     auto compiled = compileNow (nullptr, nullptr);
@@ -98,6 +100,12 @@ void Performance::start (Hand who)
 
 void Performance::stop()
 {
+    wanted = false;
+    end();
+}
+
+void Performance::end()
+{
     runner.reset();   // which waits until the forces are zero
     clock.reset();
     engine.reset();
@@ -109,8 +117,10 @@ void Performance::stop()
 
 void Performance::documentChanged()
 {
-    if (engine == nullptr) return start (moved_by);   // perhaps it compiles now
-    takeOver();
+    if (! wanted) return;
+    const auto& graph = document.graph();
+    const bool is_other_run = engine == nullptr || graph.rate_hz != rate_hz || graph.devices != run_devices;   // or perhaps it compiles now
+    is_other_run ? start (moved_by) : takeOver();
 }
 
 void Performance::takeOver()

@@ -84,6 +84,7 @@ private:
     void before (std::uint64_t) noexcept override {}
     void after (std::uint64_t tick, bool halts) noexcept override;
 
+    void end();
     void takeOver();
     Compiled compileNow (const Plan* before, const Plan* withdrawn);
     std::optional<Bound> open (const std::string& role);
@@ -95,6 +96,8 @@ private:
     Messages said;
     Traces probes;
     Hand moved_by = Hand::described;
+    bool wanted = false;   // to run, as soon as it compiles
+    std::vector<std::pair<std::string, Json>> run_devices;   // the devices, when the run began
     double rate_hz = 0.0;
     std::optional<std::int64_t> delay_ticks;
     std::shared_ptr<PointerPath> pointer;
