@@ -24,7 +24,7 @@ public:
         setVisible (true);
         content->begin (how);
         fitToScreen();   // everything may be of another size now
-        content->grabKeyboardFocus();
+        if (! content->asked().isOpen()) content->grabKeyboardFocus();
     }
 
     MainView& view() noexcept { return *content; }

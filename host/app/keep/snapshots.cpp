@@ -28,13 +28,17 @@ Json valuesOf (const graph::Patch& patch)
     return nodes;
 }
 
-/// Calls for each key whose value differs, with what it was.
-void differences (const Json& now, const Json& then, const std::function<void (const std::string&, std::optional<Json>)>& change)
+/// Calls for each key whose value differs, with what it was and where it stood.
+void differences (const Json& now, const Json& then, const std::function<void (const std::string&, std::optional<Json>, graph::Place)>& change)
 {
-    for (const auto& [key, value] : then.items())
-        if (at (now, key) != value) change (key, value);
     for (const auto& [key, value] : now.items())
-        if (! then.contains (key)) change (key, std::nullopt);
+        if (! then.contains (key)) change (key, std::nullopt, std::nullopt);
+    std::size_t place = 0;
+    for (const auto& [key, value] : then.items())
+    {
+        if (at (now, key) != value) change (key, value, place);
+        ++place;
+    }
 }
 
 void recall (const graph::Patch& patch, const std::string& name, const Json& nodes, std::vector<graph::Command>& commands)
@@ -44,11 +48,11 @@ void recall (const graph::Patch& patch, const std::string& name, const Json& nod
         const auto& then = at (nodes, n.name);
         if (at (then, "type") != n.type) continue;
         if (at (then, "params").is_object())
-            differences (n.params, at (then, "params"), [&] (const std::string& key, std::optional<Json> value)
-                         { commands.push_back (graph::SetParam { name, n.name, key, std::move (value) }); });
+            differences (n.params, at (then, "params"), [&] (const std::string& key, std::optional<Json> value, graph::Place place)
+                         { commands.push_back (graph::SetParam { name, n.name, key, std::move (value), place }); });
         if (at (then, "overrides").is_object())
-            differences (n.overrides, at (then, "overrides"), [&] (const std::string& key, std::optional<Json> value)
-                         { commands.push_back (graph::SetOverride { name, n.name, key, std::move (value) }); });
+            differences (n.overrides, at (then, "overrides"), [&] (const std::string& key, std::optional<Json> value, graph::Place place)
+                         { commands.push_back (graph::SetOverride { name, n.name, key, std::move (value), place }); });
     }
 }
 }   // namespace

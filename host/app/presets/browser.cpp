@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "browser.hpp"
+#include "fitted_words.hpp"
+
+#include <algorithm>
+#include <utility>
 
 namespace tactus::host
 {
@@ -105,6 +109,7 @@ void PresetBrowser::update()
     section ("My graphs", found_own, true, isAny);
     section ("Presets", found, false, [&] (const Preset& p)
              { return ! isFavourite (p); });
+    if (std::ranges::count (shown, nullptr, &Row::preset) == 1) shown.erase (shown.begin());   // one section needs no heading
 
     auto all = found;
     all.insert (all.end(), found_own.begin(), found_own.end());
@@ -204,9 +209,7 @@ void PresetBrowser::paint (juce::Graphics& g)
     g.setColour (look.theme().hairline);
     g.drawHorizontalLine (footer.getY(), static_cast<float> (footer.getX()), static_cast<float> (footer.getRight()));
     if (const auto* p = described()) return paintFooter (g, *p);
-    g.setColour (look.theme().dim);
-    g.setFont (look.font (12.0f));
-    g.drawFittedText ("Point at a preset to read what it feels like. A click opens it and runs it.", footer.reduced (0, 8), juce::Justification::topLeft, 4);
+    drawFittedWords (g, "Point at a preset to read what it feels like. A click opens it and runs it.", look.font (12.0f), look.theme().dim, footer.withTrimmedTop (8));
 }
 
 void PresetBrowser::paintFooter (juce::Graphics& g, const Preset& p)
@@ -224,16 +227,8 @@ void PresetBrowser::paintFooter (juce::Graphics& g, const Preset& p)
     }
     const auto placeholders = placeholderText (p);
     const bool is_fine = p.problem.empty() && placeholders.empty();
-    juce::AttributedString text;
-    text.setWordWrap (juce::AttributedString::byWord);
-    if (! is_fine) text.append (p.problem.empty() ? placeholders + ". They give 0. " : p.problem, look.font (12.0f), look.theme().warning);
-    text.append (p.about, look.font (12.0f), look.theme().dim);
-    juce::TextLayout layout;
-    layout.createLayout (text, static_cast<float> (area.getWidth()));
-    const juce::Graphics::ScopedSaveState clipped (g);
-    const float line = 12.0f * 1.2f;   // no line is cut in the middle
-    g.reduceClipRegion (area.withHeight (static_cast<int> (std::floor (static_cast<float> (area.getHeight()) / line) * line) + 1));
-    layout.draw (g, area.toFloat().withHeight (std::max (layout.getHeight(), 1.0f)));
+    const auto words = ! p.problem.empty() ? p.problem : (is_fine ? "" : placeholders + ". They give 0. ") + p.about;
+    drawFittedWords (g, words, look.font (12.0f), is_fine ? look.theme().dim : look.theme().warning, area);
 }
 
 void PresetBrowser::paintListBoxItem (int row, juce::Graphics& g, int w, int h, bool selected)

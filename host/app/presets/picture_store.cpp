@@ -65,7 +65,13 @@ void drawPicture (juce::Graphics& g, const Look& look, juce::Rectangle<float> ar
         g.drawFittedText (text, words.toNearestInt(), juce::Justification::centredLeft, 2);
         return;
     }
-    const auto plot = area.reduced (6.0f, 4.0f).withTrimmedTop (std::min (14.0f, area.getHeight() / 3));
+    // Words above the plot, or beside it where there is no room above.
+    auto peak = juce::String (picture->peak, picture->peak < 0.1 ? 3 : 2) + " " + picture->unit;
+    auto plot = area.reduced (6.0f, 4.0f);
+    const bool is_low = area.getHeight() < 44.0f;
+    if (! is_low) peak += " at most, " + juce::String (picture->seconds, 1) + " s";
+    const auto place = is_low ? plot.removeFromRight (56.0f).withTrimmedLeft (8.0f) : plot.removeFromTop (16.0f);
+    g.drawText (peak, place, is_low ? juce::Justification::centredRight : juce::Justification::centredLeft, true);
     juce::Path shape;
     shape.startNewSubPath (plot.getBottomLeft());
     for (std::size_t i = 0; i < picture->peaks.size(); ++i)
@@ -78,8 +84,6 @@ void drawPicture (juce::Graphics& g, const Look& look, juce::Rectangle<float> ar
     g.fillPath (shape);
     g.setColour (colour);
     g.strokePath (outline, juce::PathStrokeType (1.2f));
-    g.setColour (theme.dim);
-    g.drawText (juce::String (picture->peak, picture->peak < 0.1 ? 3 : 2) + " " + picture->unit + " at most, " + juce::String (picture->seconds, 1) + " s", words, juce::Justification::topLeft, false);
 }
 
 }   // namespace tactus::host

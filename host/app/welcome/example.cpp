@@ -13,7 +13,7 @@ namespace
 {
 constexpr const char* role = "stylus";
 
-/// Puts a graph together, node by node, each wired to what is there already.
+/// Puts a graph together, node by node.
 class Builder
 {
 public:
@@ -21,7 +21,7 @@ public:
 
     graph::Graph graph;
 
-    /// Adds a node unless it is there. The inputs of a helper are all wired; they fit by name.
+    /// Unless it is there.
     void add (const std::string& name, const std::string& type)
     {
         if (graph.root.find (name) != nullptr) return;
@@ -47,23 +47,24 @@ private:
     const Catalogue& catalogue;
 };
 
-/// Where an input may get its values from: a port of a helper, and which inputs it suits.
+/// Where an input gets its values from.
 struct Spring
 {
     const char* node;
     const char* port;
 };
 
-/// By what an input takes. The name of the port decides where the unit alone does not.
+/// By what an input takes; nothing where its own default is better.
 std::optional<Spring> springFor (const FacePort& input)
 {
     const auto quantity = input.quantity();
+    const bool takes_any = input.unit.kind != UnitRule::Kind::fixed;
     if (input.width == 3)
     {
         if (quantity == Quantity::length) return Spring { "hand", "position" };
         if (quantity == Quantity::force) return Spring { "wall", "force" };
         if (quantity == Quantity::speed) return Spring { "motion", "velocity" };
-        if (quantity == Quantity::any) return Spring { "wall", "force" };
+        if (takes_any) return Spring { "wall", "force" };
         return std::nullopt;
     }
     if (quantity == Quantity::length) return Spring { "wall", "depth" };
@@ -71,7 +72,7 @@ std::optional<Spring> springFor (const FacePort& input)
     if (quantity == Quantity::hit) return Spring { "wall", "hit" };
     if (quantity == Quantity::speed) return Spring { "motion", "speed" };
     if (quantity == Quantity::energy) return Spring { "wall", "stored_energy" };
-    if (quantity == Quantity::any) return Spring { "wall", "resistance" };
+    if (takes_any) return Spring { "wall", "resistance" };
     return std::nullopt;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "welcome_page.hpp"
 
+#include <host/app/presets/fitted_words.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +13,7 @@ namespace tactus::host
 namespace
 {
 constexpr std::size_t most_cards = 6, most_files = 4;
-constexpr int margin = 32, gap = 12, picture_height = 48, low = 420;
+constexpr int margin = 32, gap = 12, line_height = 15, low = 420;
 
 /// The first sentence, or what stands before its colon.
 juce::String feel (const std::string& about)
@@ -44,7 +46,6 @@ public:
     Card (const Preset& p, PictureStore& s) : Button (p.name), preset (p), pictures (s)
     {
         setDescription (p.about);
-        setTooltip (p.about);
         setWantsKeyboardFocus (true);
         setMouseCursor (juce::MouseCursor::PointingHandCursor);
     }
@@ -61,7 +62,6 @@ public:
         g.setColour (over || hasKeyboardFocus (false) ? theme.accent : theme.hairline);
         g.drawRoundedRectangle (area, 8.0f, over ? 1.5f : 1.0f);
         auto inside = getLocalBounds().reduced (12, 8);
-        const bool has_room = inside.getHeight() > 100;
         auto top = inside.removeFromTop (20);
         g.setColour (theme.text);
         g.setFont (look.font (14.0f, true));
@@ -72,10 +72,9 @@ public:
             g.setFont (look.font (12.0f, true));
             g.drawText ("Feel it", top, juce::Justification::centredRight, false);
         }
-        drawPicture (g, look, inside.removeFromBottom (has_room ? picture_height : 28).toFloat(), pictures.get (preset.file).get());
-        g.setColour (theme.dim);
-        g.setFont (look.font (12.0f));
-        g.drawFittedText (feel (preset.about), inside.withTrimmedBottom (4), juce::Justification::topLeft, std::max (1, inside.getHeight() / 15), 1.0f);
+        const int lines = inside.getHeight() > 100 ? 3 : 2;
+        drawFittedWords (g, feel (preset.about), look.font (12.0f), theme.dim, inside.removeFromTop (lines * line_height));
+        drawPicture (g, look, inside.withTrimmedTop (6).toFloat(), pictures.get (preset.file).get());
     }
 
 private:
@@ -158,7 +157,7 @@ void WelcomePage::resized()
     const bool is_low = getHeight() < low;
     auto area = getLocalBounds().reduced (margin, is_low ? 12 : margin);
     area = area.withSizeKeepingCentre (std::min (area.getWidth(), 1040), std::min (area.getHeight(), 560));
-    title = area.removeFromTop (is_low ? 48 : 64);
+    title = area.removeFromTop (is_low ? 56 : 64);
     auto low_row = area.removeFromBottom (32);
     create.setBounds (low_row.removeFromLeft (create.widthFor()));
     low_row.removeFromLeft (8);

@@ -68,7 +68,7 @@ private:
     void restoreNext (bool runs);
     std::string name() const;
 
-    static constexpr double keep_after_s = 2.0, trial_s = 10.0;
+    static constexpr double keep_after_s = 1.0, trial_s = 10.0;
 
     Document& document;
     Question& question;

@@ -39,7 +39,8 @@ MainView::MainView (const Catalogue& c) : catalogue (c), pictures (c), help (c)
     welcome.onFeel = [this] (const std::filesystem::path& file)
     {
         files->openCopy (file, true);
-        say (files->isSafe() ? "Safe mode: press START, then press and drag on the surface below." : "Press and drag on the surface below: the mouse is your hand.");
+        tip = files->isSafe() ? "Safe mode: press START, then press and drag on the surface below." : "Press and drag on the surface below: the mouse is your hand.";
+        repaint();
     };
     welcome.onOpenFile = [this] (const std::filesystem::path& file)
     { files->open (file); };
@@ -125,7 +126,6 @@ void MainView::show()
     }
     palette.toFront (false);
     edited->add (*this);   // after the canvas, so that it shows what is told of
-    shown_identity = edited->identity();
     resized();
     documentChanged();
 }
@@ -234,12 +234,13 @@ void MainView::documentChanged()
     if (is_other)
     {
         shown_identity = edited->identity();
+        tip = "Space: add a node   F: frame   G: group   B: bypass   Ctrl+Z: undo   F1: help";
         patching->leaveTo (0);
         patching->select ({});
         patching->frameAll();
         presets->showOpen (edited->file().empty() ? edited->preset() : edited->file());
     }
-    if (is_other || edited->history().position() > 0) welcome.setVisible (false);
+    if (edited->history().position() > 0) welcome.setVisible (false);
     TopBar::State state { { edited->graph().name.empty() ? juce::String ("A new graph") : juce::String (edited->graph().name) }, edited->isChanged(), {}, {}, {} };
     for (const auto& [node, subgraph] : patching->way())
         state.way.emplace_back (node);
@@ -264,7 +265,7 @@ void MainView::paint (juce::Graphics& g)
     g.drawHorizontalLine (line.getY(), 0.0f, static_cast<float> (getWidth()));
     g.setFont (look.font (12.0f));
     g.setColour (look.theme().dim);
-    g.drawText (said.isEmpty() ? juce::String ("Space: add a node   F: frame   G: group   B: bypass   Ctrl+Z: undo") : said, line.reduced (16, 0), juce::Justification::centredLeft, true);
+    g.drawText (said.isEmpty() ? tip : said, line.reduced (16, 0), juce::Justification::centredLeft, true);
 }
 
 void MainView::resized()
@@ -292,7 +293,12 @@ bool MainView::keyPressed (const juce::KeyPress& key)
         escape();
         return true;
     }
-    if (question.isOpen() || fileKey (key)) return true;
+    if (question.isOpen())
+    {
+        question.keyPressed (key);   // whoever has the focus
+        return true;
+    }
+    if (fileKey (key)) return true;
     if (key == juce::KeyPress::F1Key || key.getTextCharacter() == '?')
     {
         help.isOpen() ? help.close() : helpOnSelection();

@@ -107,7 +107,7 @@ private:
     std::unique_ptr<juce::FileChooser> chooser;
     const void* shown_identity = nullptr;   // of the document
     int ticks_to_remember = 0;              // of the timer; 0: nothing to
-    juce::String said;
+    juce::String said, tip;                 // tip: what the line says while there is nothing else to say
     juce::TooltipWindow tooltips { this, 600 };
 };
 
