@@ -3,6 +3,7 @@
 
 #include <framework/number_text.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -21,7 +22,7 @@ juce::String unitText (const UnitRule& u)
     switch (u.kind)
     {
     case UnitRule::Kind::fixed:
-        return text (u.unit.symbol);
+        return u.unit.symbol == "1" ? juce::String ("no unit") : text (u.unit.symbol);
     case UnitRule::Kind::open:
         return "unit of what is wired";
     case UnitRule::Kind::each:
@@ -203,8 +204,23 @@ void HelpPanel::show (std::unique_ptr<Column> made)
     scroll.setViewPosition (0, 0);
     setVisible (true);
     toFront (false);
-    resized();
+    place();
     repaint();
+}
+
+void HelpPanel::setArea (juce::Rectangle<int> a)
+{
+    area = a;
+    place();
+}
+
+void HelpPanel::place()
+{
+    const int w = std::min (width, area.getWidth());
+    if (column) column->layOut (w - 2 - scroll.getScrollBarThickness());
+    const int h = std::min (area.getHeight(), (column ? column->getHeight() : 0) + bar_height + 2);
+    setBounds (area.withSizeKeepingCentre (w, h).withY (area.getY()));
+    resized();
 }
 
 void HelpPanel::close()
@@ -216,13 +232,13 @@ void HelpPanel::close()
 
 void HelpPanel::resized()
 {
-    auto area = getLocalBounds().reduced (1);
-    auto bar = area.removeFromBottom (bar_height).reduced (16, 12);
+    auto inside = getLocalBounds().reduced (1);
+    auto bar = inside.removeFromBottom (bar_height).reduced (16, 12);
     done.setBounds (bar.removeFromRight (done.widthFor()));
     bar.removeFromRight (8);
     keys.setBounds (bar.removeFromRight (keys.widthFor()));
     example.setBounds (bar.removeFromLeft (example.widthFor()));
-    scroll.setBounds (area);
+    scroll.setBounds (inside);
     if (column) column->layOut (scroll.getMaximumVisibleWidth());
 }
 

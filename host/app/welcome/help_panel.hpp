@@ -22,6 +22,8 @@ public:
     void showKeys();
     void close();
 
+    void setArea (juce::Rectangle<int>);   ///< it is in the middle of its top, as high as it needs to be
+
     bool isOpen() const { return isVisible(); }
     const std::string& type() const noexcept { return shown_type; }   ///< empty: the keys
 
@@ -32,8 +34,10 @@ public:
 
 private:
     void show (std::unique_ptr<Column>);
+    void place();
 
     const Catalogue& catalogue;
+    juce::Rectangle<int> area;
     std::string shown_type;
     std::unique_ptr<Column> column;
     juce::Viewport scroll;

@@ -142,6 +142,9 @@ void Files::saveAs (std::function<void()> then)
 
 void Files::saveTo (const fs::path& file, const std::function<void()>& then)
 {
+    std::error_code failed;
+    const bool is_shipped = ! presetFolder().empty() && fs::equivalent (file.parent_path(), presetFolder(), failed);
+    if (is_shipped && file != document.file() && fs::exists (file, failed)) return ways.say ("Not saved: " + juce::String (file.filename().string()) + " is a preset that comes with Tactus. Choose another name or folder.");
     const auto not_carried = carryFiles (document.graph(), file.parent_path());
     const auto messages = document.save (file);
     if (! messages.empty()) return ways.say ("Not saved: " + inWords (messages.front()));

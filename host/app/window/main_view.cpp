@@ -135,7 +135,7 @@ void MainView::begin (const Start& how)
     home = how.home;
     auto read = loadSettings (home);
     settings = std::move (read.settings);
-    if (how.light) settings.light = true;
+    light = how.light || settings.light;
     if (! read.problem.empty()) say (read.problem);
     const auto resize = [this] (const char* name, Splitter& edge)
     {
@@ -191,6 +191,8 @@ void MainView::closeSuddenly()
 
 void MainView::timerCallback()
 {
+    // A text field that has the focus takes the key for itself, but forces stop in any case.
+    if (juce::KeyPress::isKeyCurrentlyDown (juce::KeyPress::escapeKey) && performance->isRunning()) performance->stop();
     performance->attend();
     strip.show (*performance);
     hand.show (*performance);
@@ -282,7 +284,7 @@ void MainView::resized()
     bottom.setBounds (low);
     patching->setBounds (area);
     welcome.setBounds (area.withRight (getWidth()));
-    help.setBounds (area.withRight (getWidth()).reduced (16).withSizeKeepingCentre (std::min (HelpPanel::width, area.getWidth() + inspector->getWidth() - 32), std::max (0, bottom.getBottom() - area.getY() - 32)).withY (area.getY() + 16));
+    help.setArea (area.withRight (getWidth()).withBottom (hand.getBottom()).reduced (16));
     question.setBounds (getLocalBounds());
 }
 

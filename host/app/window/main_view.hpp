@@ -88,6 +88,7 @@ private:
     const Catalogue& catalogue;
     Settings settings;
     std::filesystem::path home;   // empty until begin
+    bool light = false;           // now; the settings say how it begins
     PictureStore pictures;
     Question question;
     std::unique_ptr<Document> edited;

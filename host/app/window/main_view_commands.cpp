@@ -23,6 +23,25 @@ juce::PopupMenu::Item item (const juce::String& text, const juce::String& keys, 
     return i;
 }
 
+/// Those of JUCE's own windows for files.
+void colourDialogs (Look& look)
+{
+    const auto& theme = look.theme();
+    const auto set = [&look] (std::initializer_list<int> ids, juce::Colour colour)
+    {
+        for (const int id : ids)
+            look.setColour (id, colour);
+    };
+    using Browser = juce::FileBrowserComponent;
+    using Listed = juce::DirectoryContentsDisplayComponent;
+    set ({ juce::AlertWindow::backgroundColourId }, theme.panel);
+    set ({ juce::ListBox::backgroundColourId, juce::TextButton::buttonColourId, juce::TextButton::buttonOnColourId, juce::ComboBox::backgroundColourId, Browser::currentPathBoxBackgroundColourId, Browser::filenameBoxBackgroundColourId }, theme.raised);
+    set ({ juce::ListBox::outlineColourId, juce::AlertWindow::outlineColourId, juce::ComboBox::outlineColourId }, theme.hairline);
+    set ({ juce::ListBox::textColourId, juce::AlertWindow::textColourId, juce::FileChooserDialogBox::titleTextColourId, juce::TextButton::textColourOffId, juce::TextButton::textColourOnId, Listed::textColourId, Listed::highlightedTextColourId, Browser::currentPathBoxTextColourId, Browser::filenameBoxTextColourId, juce::DrawableButton::textColourId }, theme.text);
+    set ({ Browser::currentPathBoxArrowColourId }, theme.dim);
+    set ({ Listed::highlightColourId }, theme.accent.withAlpha (0.25f));
+}
+
 void recolour (juce::Component& c, const Theme& theme)
 {
     if (auto* editor = dynamic_cast<juce::TextEditor*> (&c))
@@ -120,20 +139,20 @@ void MainView::openMenu (juce::Component& at)
     menu.addItem (item ("Save as ...", "Ctrl+Shift+S", [this]
                         { files->saveAs(); }));
     menu.addSeparator();
-    auto light = item ("Light", {}, [this]
+    auto theme = item ("Light", {}, [this]
                        {
-        settings.light = ! settings.light;
+        settings.light = light = ! light;
         applyTheme();
         remember(); });
-    light.isTicked = settings.light;
-    menu.addItem (std::move (light));
+    theme.isTicked = light;
+    menu.addItem (std::move (theme));
     menu.addSubMenu ("Size of everything", size);
     menu.addSeparator();
     menu.addItem (item ("Help on the selected node", "F1", [this]
                         { helpOnSelection(); }));
     menu.addItem (item ("All keys", {}, [this]
                         { help.showKeys(); }));
-    menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (at).withMinimumWidth (240).withStandardItemHeight (28));
+    menu.showMenuAsync (juce::PopupMenu::Options().withParentComponent (this).withTargetComponent (at).withMinimumWidth (240).withStandardItemHeight (28));
 }
 
 void MainView::askForFile (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)> chosen)
@@ -159,10 +178,12 @@ void MainView::remember()
 
 void MainView::applyTheme()
 {
-    lookOf (*this).setTheme (settings.light ? Theme::light() : Theme::dark());
+    auto& look = lookOf (*this);
+    look.setTheme (light ? Theme::light() : Theme::dark());
+    colourDialogs (look);
     auto* window = getTopLevelComponent();
     window->sendLookAndFeelChange();
-    recolour (*window, themeOf (*this));
+    recolour (*window, look.theme());
     window->repaint();
 }
 

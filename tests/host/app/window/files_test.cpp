@@ -105,6 +105,29 @@ TEST_CASE ("a preset is opened as a copy: saving it asks where to, and leaves th
     CHECK (readTextFile (wood) == before);
 }
 
+TEST_CASE ("a preset that comes with Tactus is not written over by a copy of it")
+{
+    TemporaryFolder presets;
+    fs::copy_file (wood, presets / "dry_wood.json");
+    setenv ("TACTUS_PRESETS", presets.path().c_str(), 1);
+    Desk d;
+    const auto before = presets.textOf ("dry_wood.json");
+    d.files->openCopy (presets / "dry_wood.json", false);
+    d.edit (0.9);
+    d.chosen = presets / "dry_wood.json";
+    d.files->save();
+    CHECK (d.said.startsWith ("Not saved"));
+    CHECK (d.document.isChanged());
+    CHECK (presets.textOf ("dry_wood.json") == before);
+
+    d.files->open (presets / "dry_wood.json");   // but who opens it as a file means it
+    d.question.answer (1);
+    d.edit (0.8);
+    d.files->save();
+    CHECK (presets.textOf ("dry_wood.json") != before);
+    unsetenv ("TACTUS_PRESETS");
+}
+
 TEST_CASE ("changes are asked about before another graph comes, and Cancel leaves all as it is")
 {
     Desk d;

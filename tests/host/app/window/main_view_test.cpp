@@ -202,6 +202,15 @@ TEST_CASE ("the browser finds by words and keeps favourites above the rest")
     CHECK_FALSE (is_own);
 }
 
+TEST_CASE ("--light is for this start only")
+{
+    Opened o;
+    o.view->begin ({ o.home.path(), true, true });
+    CHECK_FALSE (o.look.theme().is_dark);
+    o.view.reset();
+    CHECK (o.home.textOf ("settings.json").find ("\"theme\": \"dark\"") != std::string::npos);
+}
+
 TEST_CASE ("settings are remembered from one start to the next, and damaged ones are said")
 {
     Opened o;
