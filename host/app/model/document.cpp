@@ -10,14 +10,15 @@ Document::Document (graph::Graph g, std::filesystem::path file) : edits (std::mo
 
 bool Document::perform (graph::Command command, graph::Step step)
 {
-    const auto from = origins[edits.position()];
+    const auto before = edits.position();
     if (const auto refusal = edits.perform (std::move (command), step))
     {
         tell ([&] (Listener& l)
               { l.documentRefused (*refusal); });
         return false;
     }
-    origins.resize (edits.position() + 1, from);
+    origins.resize (before + 1);   // what was undone is gone
+    if (edits.position() > before) origins.push_back (origins.back());
     tellOfChange();
     return true;
 }

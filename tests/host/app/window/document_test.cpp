@@ -122,19 +122,23 @@ TEST_CASE ("whatever is edited, opened, saved, undone and redone, each position 
             if (what < 5)
             {
                 const auto step = upTo (2) == 0 && position > 0 ? graph::Step::joined : graph::Step::own;
+                auto after = now();   // an edit changes neither the file nor what it is a copy of
                 if (! d.perform (test::randomEdit (chance, d.graph(), "a_", "stylus"), step)) continue;
+                after.graph = writeGraph (d.graph());
                 expected.resize (position + 1);
                 if (step == graph::Step::joined)
-                    expected.back() = now();
+                    expected.back() = after;
                 else
-                    expected.push_back (now());
+                    expected.push_back (after);
             }
             else if (what == 5)
             {
                 const auto file = "f" + std::to_string (i) + ".json";
-                upTo (1) == 0 ? d.open (test::prefixed (graphOf ("soft_pad.json"), "a_", "stylus"), { .file = file }, "open") : d.open (graphOf ("liver.json"), { .preset = file }, "open");
+                const bool is_copy = upTo (1) == 0;
+                const auto other = is_copy ? graphOf ("liver.json") : test::prefixed (graphOf ("soft_pad.json"), "a_", "stylus");
+                d.open (other, is_copy ? Document::Source { .preset = file } : Document::Source { .file = file }, "open");
                 expected.resize (position + 1);
-                expected.push_back (now());
+                expected.push_back ({ writeGraph (other), is_copy ? fs::path() : fs::path (file), is_copy ? fs::path (file) : fs::path(), d.identity() });
             }
             else if (what == 6)
             {
