@@ -103,11 +103,18 @@ RestoredGraph restore (const Kept& kept)
     return restored;
 }
 
-Session::Session (const fs::path& home) : own (sessionsIn (home) / newName())
+Session::Session (const fs::path& home)
 {
-    std::error_code failed;
-    fs::create_directories (own, failed);
-    lock = FileLock::take (lockIn (own));
+    // Whoever looks for leftovers just now may take a folder that is not locked yet for one, and clear it away.
+    constexpr int most_tries = 4;
+    for (int i = 0; i < most_tries && ! lock; ++i)
+    {
+        own = sessionsIn (home) / newName();
+        std::error_code failed;
+        fs::create_directories (own, failed);
+        lock = FileLock::take (lockIn (own));
+        if (lock && ! fs::exists (lockIn (own), failed)) lock.reset();
+    }
     if (! lock) wrong = "Nothing can be kept for the case of a crash: " + own.string() + " cannot be written. Save often, or set TACTUS_HOME to a folder that can be.";
 }
 

@@ -6,6 +6,9 @@
 
 #include <framework/file/graph_file.hpp>
 
+#include <atomic>
+#include <thread>
+
 using namespace tactus;
 using namespace tactus::host;
 namespace fs = std::filesystem;
@@ -188,4 +191,28 @@ TEST_CASE ("where nothing can be kept, that is said once and for all")
     session.noteTrial();
     CHECK_FALSE (session.isTrial());
     CHECK (leftoversIn (home.path()).empty());
+}
+
+TEST_CASE ("sessions that begin while others look for leftovers stay whole")
+{
+    TemporaryFolder home;
+    std::atomic<bool> stops { false };
+    std::thread looking ([&]
+                         {
+        while (! stops)
+            leftoversIn (home.path()); });
+    for (int i = 0; i < 300; ++i)
+    {
+        Session session (home.path());
+        const bool is_kept = session.problem().empty() && ! session.keep (changedWood()) && fs::exists (session.folder() / "kept.json");
+        session.end();
+        if (! is_kept)
+        {
+            stops = true;
+            looking.join();
+        }
+        REQUIRE (is_kept);
+    }
+    stops = true;
+    looking.join();
 }
