@@ -6,38 +6,55 @@
 namespace tactus::host
 {
 
-Document::Document (graph::Graph g, std::filesystem::path f) : edits (std::move (g)), path (std::move (f)), saved (writeGraph (edits.graph())) {}
+Document::Document (graph::Graph g, std::filesystem::path file) : edits (std::move (g)), origins { std::make_shared<Origin> (Origin { { std::move (file) }, writeGraph (edits.graph()) }) } {}
 
 bool Document::perform (graph::Command command, graph::Step step)
 {
+    const auto before = edits.position();
     if (const auto refusal = edits.perform (std::move (command), step))
     {
         tell ([&] (Listener& l)
               { l.documentRefused (*refusal); });
         return false;
     }
+    origins.resize (before + 1);   // what was undone is gone
+    if (edits.position() > before) origins.push_back (origins.back());
     tellOfChange();
     return true;
 }
 
-void Document::undo()
+void Document::open (graph::Graph g, Source source, const std::string& step)
 {
-    if (edits.undo()) tellOfChange();
+    auto saved = source.is_changed ? std::string() : writeGraph (g);
+    const auto to = std::make_shared<const graph::Graph> (std::move (g));
+    edits.perform (graph::Batch { step, { graph::ReplaceGraph { to } } });   // which nothing refuses
+    origins.resize (edits.position());
+    origins.push_back (std::make_shared<Origin> (Origin { std::move (source), std::move (saved) }));
+    tellOfChange();
 }
 
-void Document::redo()
+void Document::goTo (std::size_t position)
 {
-    if (edits.redo()) tellOfChange();
+    const auto before = edits.position();
+    while (edits.position() > position && edits.undo())
+    {
+    }
+    while (edits.position() < position && edits.redo())
+    {
+    }
+    if (edits.position() != before) tellOfChange();
 }
 
-bool Document::isChanged() const { return writeGraph (edits.graph()) != saved; }
+bool Document::isChanged() const { return writeGraph (edits.graph()) != origin().saved; }
 
 Messages Document::save (const std::filesystem::path& file)
 {
     auto messages = saveGraph (edits.graph(), file);
     if (! messages.empty()) return messages;
-    path = file;
-    saved = writeGraph (edits.graph());
+    const auto text = writeGraph (edits.graph());
+    for (const auto& o : origins)   // the same file may have been opened more than once
+        if (o->source.file == file) o->saved = text;
+    origin() = { { file }, text };
     tellOfChange();
     return {};
 }

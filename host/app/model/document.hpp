@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 namespace tactus::host
 {
 
-/// The graph that is edited, its file, and whoever shows it. [main thread]
+/// The graph that is edited, its file, and whoever shows it. To open another graph is an edit too: what was open before
+/// comes back by undo, and its file with it. [main thread]
 class Document
 {
 public:
@@ -22,16 +24,32 @@ public:
         virtual void documentRefused (const Message&) {}   ///< an edit was, and changed nothing
     };
 
+    /// Where a graph comes from.
+    struct Source
+    {
+        std::filesystem::path file {};     ///< where it is saved; empty: it has to be asked
+        std::filesystem::path preset {};   ///< what it is a copy of
+        bool is_changed = false;           ///< it has more than its file has, as after a crash
+    };
+
     explicit Document (graph::Graph, std::filesystem::path file = {});
 
     const graph::Graph& graph() const noexcept { return edits.graph(); }
     const graph::History& history() const noexcept { return edits; }
-    const std::filesystem::path& file() const noexcept { return path; }
+    const std::filesystem::path& file() const noexcept { return origin().source.file; }
+    const std::filesystem::path& preset() const noexcept { return origin().source.preset; }
+
+    /// Another one each time another graph is opened, the same again when that is undone.
+    const void* identity() const noexcept { return &origin(); }
 
     /// False if it was refused, which the listeners are told.
     bool perform (graph::Command, graph::Step = graph::Step::own);
-    void undo();
-    void redo();
+    void undo() { goTo (edits.position() - std::min<std::size_t> (1, edits.position())); }
+    void redo() { goTo (edits.position() + 1); }
+    void goTo (std::size_t position);   ///< of the history, by as many undos or redos as it takes
+
+    /// Puts another graph in the place of this one, as a step of that name.
+    void open (graph::Graph, Source, const std::string& step);
 
     /// True if what the file holds is not what is here.
     bool isChanged() const;
@@ -43,6 +61,12 @@ public:
     void remove (Listener& l) { std::erase (listeners, &l); }
 
 private:
+    struct Origin
+    {
+        Source source;
+        std::string saved;   // what the file holds, as text
+    };
+
     /// Some may leave while they are told.
     template <typename F>
     void tell (F&& f)
@@ -57,9 +81,10 @@ private:
               { l.documentChanged(); });
     }
 
+    Origin& origin() const noexcept { return *origins[edits.position()]; }
+
     graph::History edits;
-    std::filesystem::path path;
-    std::string saved;   // what the file holds, as text
+    std::vector<std::shared_ptr<Origin>> origins;   // of each position of the history
     std::vector<Listener*> listeners;
 };
 

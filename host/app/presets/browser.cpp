@@ -1,10 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "browser.hpp"
+#include "fitted_words.hpp"
+
+#include <algorithm>
+#include <utility>
 
 namespace tactus::host
 {
 
-PresetBrowser::PresetBrowser (std::filesystem::path f) : folder (std::move (f)), all (presetsIn (folder)), found (all)
+namespace
+{
+constexpr int row_height = 40, star_width = 32, most_recent_shown = 4;
+constexpr int low = 420;   // pixels; a panel that is lower has less of everything
+
+juce::String joined (const std::vector<std::string>& words)
+{
+    juce::StringArray all;
+    for (const auto& w : words)
+        all.add (w);
+    return all.joinIntoString (", ");
+}
+}   // namespace
+
+PresetBrowser::PresetBrowser (const Catalogue& c, Settings& s, PictureStore& p) : catalogue (c), settings (s), pictures (p), folder (presetFolder()), own_folder (ownFolder())
 {
     setTitle ("Presets");
     const auto& look = lookOf (*this);
@@ -14,41 +32,164 @@ PresetBrowser::PresetBrowser (std::filesystem::path f) : folder (std::move (f)),
     query.onTextChange = [this]
     { update(); };
     query.onEscapeKey = [this]
+    { search ({}); };
+    query.onReturnKey = [this]
     {
-        query.clear();
-        update();
+        for (int i = 0; i < getNumRows(); ++i)
+            if (rowAt (i)->preset != nullptr) return openRow (i);
     };
-    list.setRowHeight (44);
+    chips.onChange = [this]
+    { update(); };
+    chips.onResize = [this]
+    { resized(); };
+    list.setTitle ("Presets");
+    list.setRowHeight (row_height);
     list.setColour (juce::ListBox::backgroundColourId, juce::Colours::transparentBlack);
     list.getViewport()->setScrollBarThickness (8);
+    list.addMouseListener (this, true);
     addAndMakeVisible (query);
+    addAndMakeVisible (chips);
     addAndMakeVisible (list);
+    reload();
+}
+
+void PresetBrowser::reload()
+{
+    presets = presetsIn (folder, catalogue);
+    own = presetsIn (own_folder, catalogue);
+    recent.clear();
+    std::error_code failed;
+    for (const auto& file : settings.recent)
+        if (recent.size() < most_recent_shown && std::filesystem::is_regular_file (file, failed)) recent.push_back (presetOf (file, catalogue));
+    update();
+}
+
+void PresetBrowser::search (const juce::String& words)
+{
+    query.setText (words, false);
+    update();
 }
 
 void PresetBrowser::showOpen (const std::filesystem::path& file)
 {
     open = file;
     list.repaint();
+    repaint (footer);
+}
+
+void PresetBrowser::refresh()
+{
+    if (pictures_done == pictures.done()) return;
+    pictures_done = pictures.done();
+    repaint (footer);
 }
 
 void PresetBrowser::update()
 {
-    found = matching (all, query.getText().toStdString());
+    const auto words = query.getText().toStdString();
+    found = matching (presets, words, chips.chosen());
+    found_own = matching (own, words, chips.chosen());
+    shown.clear();
+    const auto section = [this] (const char* heading, const std::vector<Preset>& all, bool is_own, auto&& isWanted)
+    {
+        bool has_heading = false;
+        for (const auto& p : all)
+        {
+            if (! isWanted (p)) continue;
+            if (! std::exchange (has_heading, true)) shown.push_back ({ heading, nullptr, false });
+            shown.push_back ({ {}, &p, is_own });
+        }
+    };
+    const auto isFavourite = [this] (const Preset& p)
+    { return settings.isFavourite (p.file); };
+    const auto isAny = [] (const Preset&)
+    { return true; };
+    if (words.empty() && chips.chosen().empty()) section ("Recent", recent, true, isAny);
+    section ("Favourites", found, false, isFavourite);
+    section ("My graphs", found_own, true, isAny);
+    section ("Presets", found, false, [&] (const Preset& p)
+             { return ! isFavourite (p); });
+    if (std::ranges::count (shown, nullptr, &Row::preset) == 1) shown.erase (shown.begin());   // one section needs no heading
+
+    auto all = found;
+    all.insert (all.end(), found_own.begin(), found_own.end());
+    std::vector<std::string> tags;
+    for (const auto& [tag, count] : tagsOf (all))
+        tags.push_back (tag);
+    for (const auto& tag : chips.chosen())
+        if (std::ranges::count (tags, tag) == 0) tags.push_back (tag);
+    chips.show (std::move (tags));
+    hovered = -1;
+    list.deselectAllRows();
     list.updateContent();
     list.repaint();
+    resized();
     repaint();
 }
 
-void PresetBrowser::listBoxItemClicked (int row, const juce::MouseEvent&)
+const PresetBrowser::Row* PresetBrowser::rowAt (int row) const { return row < 0 || row >= static_cast<int> (shown.size()) ? nullptr : &shown[static_cast<std::size_t> (row)]; }
+
+void PresetBrowser::openRow (int row)
 {
-    if (row >= 0 && row < getNumRows() && onOpen) onOpen (found[static_cast<std::size_t> (row)]);
+    const auto* r = rowAt (row);
+    if (r == nullptr || r->preset == nullptr || ! onOpen) return;
+    const auto preset = *r->preset;   // opening may reload the list
+    onOpen (preset, r->is_own);
 }
 
-juce::String PresetBrowser::getTooltipForRow (int row)
+void PresetBrowser::listBoxItemClicked (int row, const juce::MouseEvent& e)
 {
-    if (row < 0 || row >= getNumRows()) return {};
-    const auto& p = found[static_cast<std::size_t> (row)];
-    return p.problem.empty() ? p.about : p.problem;
+    const auto* r = rowAt (row);
+    if (r == nullptr || r->preset == nullptr) return;
+    if (r->is_own || e.getEventRelativeTo (&list).x < list.getVisibleRowWidth() - star_width) return openRow (row);
+    settings.toggleFavourite (r->preset->file);
+    if (onSettings) onSettings();
+    const auto at = list.getVerticalPosition();
+    update();
+    list.setVerticalPosition (at);
+}
+
+const Preset* PresetBrowser::described() const
+{
+    for (const int row : { hovered, list.getSelectedRow() })
+        if (const auto* r = rowAt (row); r != nullptr && r->preset != nullptr) return r->preset;
+    for (const auto* all : { &presets, &own, &recent })
+        for (const auto& p : *all)
+            if (p.file == open) return &p;
+    return nullptr;
+}
+
+void PresetBrowser::mouseMove (const juce::MouseEvent& e)
+{
+    const auto at = e.getEventRelativeTo (&list).getPosition();
+    const int row = list.getLocalBounds().contains (at) ? list.getRowContainingPosition (at.x, at.y) : -1;
+    if (row == hovered) return;
+    list.repaintRow (hovered);
+    hovered = row;
+    list.repaintRow (hovered);
+    repaint (footer);
+}
+
+void PresetBrowser::mouseExit (const juce::MouseEvent& e)
+{
+    if (list.isMouseOver (true)) return mouseMove (e);
+    list.repaintRow (hovered);
+    hovered = -1;
+    repaint (footer);
+}
+
+void PresetBrowser::resized()
+{
+    auto area = getLocalBounds().withTrimmedRight (1).reduced (8);
+    const bool is_low = area.getHeight() < low;
+    query.setBounds (area.removeFromTop (28));
+    area.removeFromTop (8);
+    const int wanted = chips.heightFor (area.getWidth(), is_low ? 1 : 3);
+    chips.setBounds (area.removeFromTop (std::min (wanted, area.getHeight() / 2)));
+    area.removeFromTop (4);
+    footer = area.removeFromBottom (is_low ? 88 : 176);
+    area.removeFromBottom (4);
+    list.setBounds (area);
 }
 
 void PresetBrowser::paint (juce::Graphics& g)
@@ -57,44 +198,77 @@ void PresetBrowser::paint (juce::Graphics& g)
     g.fillAll (look.theme().panel);
     g.setColour (look.theme().hairline);
     g.drawVerticalLine (getWidth() - 1, 0.0f, static_cast<float> (getHeight()));
-    if (! found.empty()) return;
-    g.setColour (look.theme().dim);
-    g.setFont (look.font (13.0f));
-    const auto text = ! all.empty() ? juce::String ("No preset has these words.") : folder.empty() ? juce::String ("No presets were found beside the program. Set TACTUS_PRESETS to their folder.")
-                                                                                                   : "There are no presets in " + juce::String (folder.string()) + ".";
-    g.drawFittedText (text, getLocalBounds().reduced (16).withTrimmedTop (40), juce::Justification::topLeft, 6);
+    if (shown.empty())
+    {
+        g.setColour (look.theme().dim);
+        g.setFont (look.font (13.0f));
+        const auto text = ! presets.empty() ? juce::String ("No preset has all of this. Take a word or a tag away.") : folder.empty() ? juce::String ("No presets were found beside the program. Set TACTUS_PRESETS to their folder.")
+                                                                                                                                      : "There are no presets in " + juce::String (folder.string()) + ".";
+        g.drawFittedText (text, list.getBounds().reduced (8), juce::Justification::topLeft, 6);
+    }
+    g.setColour (look.theme().hairline);
+    g.drawHorizontalLine (footer.getY(), static_cast<float> (footer.getX()), static_cast<float> (footer.getRight()));
+    if (const auto* p = described()) return paintFooter (g, *p);
+    drawFittedWords (g, "Point at a preset to read what it feels like. A click opens it and runs it.", look.font (12.0f), look.theme().dim, footer.withTrimmedTop (8));
 }
 
-void PresetBrowser::resized()
+void PresetBrowser::paintFooter (juce::Graphics& g, const Preset& p)
 {
-    auto area = getLocalBounds().withTrimmedRight (1).reduced (8);
-    query.setBounds (area.removeFromTop (28));
-    area.removeFromTop (8);
-    list.setBounds (area);
+    const auto& look = lookOf (*this);
+    auto area = footer.withTrimmedTop (8);
+    const bool has_room = area.getHeight() > 120;
+    if (p.problem.empty()) drawPicture (g, look, area.removeFromBottom (has_room ? 56 : 32).toFloat(), pictures.get (p.file).get());
+    area.removeFromBottom (4);
+    if (has_room)
+    {
+        g.setColour (look.theme().text);
+        g.setFont (look.font (13.0f, true));
+        g.drawText (p.name, area.removeFromTop (18), juce::Justification::centredLeft, true);
+    }
+    const auto placeholders = placeholderText (p);
+    const bool is_fine = p.problem.empty() && placeholders.empty();
+    const auto words = ! p.problem.empty() ? p.problem : (is_fine ? "" : placeholders + ". They give 0. ") + p.about;
+    drawFittedWords (g, words, look.font (12.0f), is_fine ? look.theme().dim : look.theme().warning, area);
 }
 
-void PresetBrowser::paintListBoxItem (int row, juce::Graphics& g, int w, int h, bool)
+void PresetBrowser::paintListBoxItem (int row, juce::Graphics& g, int w, int h, bool selected)
 {
-    if (row < 0 || row >= getNumRows()) return;
-    const auto& p = found[static_cast<std::size_t> (row)];
+    const auto* r = rowAt (row);
+    if (r == nullptr) return;
     const auto& look = lookOf (*this);
     const auto& theme = look.theme();
     auto area = juce::Rectangle<int> (w, h);
-    if (p.file == open)
+    if (r->preset == nullptr)
     {
-        g.setColour (theme.accent.withAlpha (0.18f));
+        g.setColour (theme.dim);
+        g.setFont (look.font (11.0f, true));
+        g.drawText (r->heading, area.reduced (8, 4), juce::Justification::bottomLeft, false);
+        return;
+    }
+    const auto& p = *r->preset;
+    if (p.file == open || selected || row == hovered)
+    {
+        g.setColour (p.file == open ? theme.accent.withAlpha (0.18f) : theme.raised);
         g.fillRoundedRectangle (area.toFloat().reduced (1.0f), 4.0f);
     }
-    area.reduce (8, 4);
+    if (! r->is_own && (row == hovered || settings.isFavourite (p.file)))
+    {
+        juce::Path star;
+        star.addStar (area.removeFromRight (star_width).toFloat().getCentre(), 5, 3.2f, 7.0f);
+        g.setColour (settings.isFavourite (p.file) ? theme.warning : theme.dim);
+        settings.isFavourite (p.file) ? g.fillPath (star) : g.strokePath (star, juce::PathStrokeType (1.2f));
+    }
+    area.reduce (8, 3);
     g.setColour (theme.text);
     g.setFont (look.font (13.0f, true));
     g.drawText (p.name, area.removeFromTop (18), juce::Justification::centredLeft, true);
-    g.setFont (look.font (11.5f));
-    g.setColour (p.problem.empty() ? theme.dim : theme.warning);
-    juce::StringArray tags;
-    for (const auto& t : p.tags)
-        tags.add (t);
-    g.drawText (p.problem.empty() ? tags.joinIntoString (" · ") : juce::String ("cannot be read"), area, juce::Justification::centredLeft, true);
+    g.setFont (look.font (11.0f));
+    const auto placeholders = placeholderText (p);
+    const bool is_fine = p.problem.empty() && placeholders.empty();
+    g.setColour (is_fine ? theme.dim : theme.warning);
+    g.drawText (is_fine ? joined (p.tags) : p.problem.empty() ? juce::String (placeholders)
+                                                              : juce::String ("cannot be read"),
+                area, juce::Justification::centredLeft, true);
 }
 
 }   // namespace tactus::host

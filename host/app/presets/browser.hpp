@@ -1,37 +1,72 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "picture_store.hpp"
 #include "preset_list.hpp"
+#include "tag_chips.hpp"
 
-#include <host/app/look/look.hpp>
+#include <host/app/keep/settings.hpp>
 
 #include <functional>
 
 namespace tactus::host
 {
 
-/// The presets there are, with what they feel like. A click opens one.
+/// The presets there are and one's own graphs, with what they feel like and how strong they are. A click opens one.
 class PresetBrowser final : public juce::Component, private juce::ListBoxModel
 {
 public:
-    explicit PresetBrowser (std::filesystem::path folder);
+    PresetBrowser (const Catalogue&, Settings&, PictureStore&);
 
-    std::function<void (const Preset&)> onOpen;
+    std::function<void (const Preset&, bool is_own)> onOpen;
+    std::function<void()> onSettings;   ///< a favourite came or went
+
     void showOpen (const std::filesystem::path&);   ///< marks the one that is open
+    void reload();                                  ///< files may have come or gone
+    void refresh();                                 ///< many times a second
+
+    const std::vector<Preset>& shipped() const noexcept { return presets; }
+    void search (const juce::String&);   ///< as if it was typed
+
+    /// What the list shows: a heading, or a preset.
+    struct Row
+    {
+        juce::String heading;
+        const Preset* preset = nullptr;
+        bool is_own = false;
+    };
+    const std::vector<Row>& rows() const noexcept { return shown; }
 
     void paint (juce::Graphics&) override;
     void resized() override;
+    void mouseMove (const juce::MouseEvent&) override;
+    void mouseExit (const juce::MouseEvent&) override;
 
 private:
-    int getNumRows() override { return static_cast<int> (found.size()); }
+    int getNumRows() override { return static_cast<int> (shown.size()); }
     void paintListBoxItem (int row, juce::Graphics&, int w, int h, bool selected) override;
     void listBoxItemClicked (int row, const juce::MouseEvent&) override;
-    juce::String getTooltipForRow (int row) override;
-    void update();
+    void returnKeyPressed (int row) override { openRow (row); }
+    void selectedRowsChanged (int) override { repaint(); }
 
-    std::filesystem::path folder, open;
-    std::vector<Preset> all, found;
+    void update();
+    void openRow (int row);
+    const Row* rowAt (int) const;
+    const Preset* described() const;
+    void paintFooter (juce::Graphics&, const Preset&);
+
+    const Catalogue& catalogue;
+    Settings& settings;
+    PictureStore& pictures;
+    const std::filesystem::path folder, own_folder;
+    std::filesystem::path open;
+    std::vector<Preset> presets, own, recent;   // all there are
+    std::vector<Preset> found, found_own;       // of these, what was searched for
+    std::vector<Row> shown;
+    int hovered = -1, pictures_done = 0;
+    juce::Rectangle<int> footer;
     juce::TextEditor query;
+    TagChips chips;
     juce::ListBox list { {}, this };
 };
 

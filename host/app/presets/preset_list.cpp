@@ -4,6 +4,9 @@
 #include <framework/file/graph_file.hpp>
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
+#include <map>
 #include <sstream>
 
 #include <juce_core/juce_core.h>
@@ -13,23 +16,48 @@ namespace tactus::host
 
 namespace fs = std::filesystem;
 
-std::vector<Preset> presetsIn (const fs::path& folder)
+namespace
+{
+/// Of a file that cannot be read as a graph: it may be one that is damaged, or something else altogether.
+bool saysItIsAGraph (const fs::path& file)
+{
+    const auto messages = loadGraph (file).messages;
+    return std::ranges::count (messages, "file/not_a_graph", &Message::id) == 0;
+}
+
+std::string lowered (const std::string& text) { return juce::String (text).toLowerCase().toStdString(); }
+}   // namespace
+
+Preset presetOf (const fs::path& file, const Catalogue& catalogue)
+{
+    const auto loaded = loadGraph (file);
+    const auto& graph = loaded.graph;
+    Preset p { file, graph.name, graph.about, graph.tags, {}, {}, {} };
+    const auto error = std::ranges::find (loaded.messages, Message::Severity::error, &Message::severity);
+    if (error != loaded.messages.end()) p.problem = error->text;
+    if (p.name.empty()) p.name = file.stem().string();
+    const auto note = [&] (const graph::Patch& patch)
+    {
+        for (const auto& node : patch.nodes)
+            if (! node.type.starts_with ("graph:") && ! node.type.starts_with ("file:")) p.types.insert (node.type);
+    };
+    note (graph.root);
+    for (const auto& [name, patch] : graph.graphs)
+        note (patch);
+    std::ranges::copy_if (p.types, std::back_inserter (p.placeholders), [&] (const std::string& type)
+                          { return catalogue.find (type) == nullptr; });
+    return p;
+}
+
+std::vector<Preset> presetsIn (const fs::path& folder, const Catalogue& catalogue)
 {
     std::vector<Preset> presets;
     std::error_code failed;
     for (const auto& entry : fs::directory_iterator (folder, failed))
     {
         if (entry.path().extension() != ".json") continue;
-        auto loaded = loadGraph (entry.path());
-        Preset p { entry.path(), loaded.graph.name, loaded.graph.about, loaded.graph.tags, {} };
-        const auto error = std::ranges::find (loaded.messages, Message::Severity::error, &Message::severity);
-        if (error != loaded.messages.end())
-        {
-            if (error->id == "file/not_a_graph") continue;
-            p.problem = error->text;
-        }
-        if (p.name.empty()) p.name = entry.path().stem().string();
-        presets.push_back (std::move (p));
+        auto p = presetOf (entry.path(), catalogue);
+        if (p.problem.empty() || saysItIsAGraph (entry.path())) presets.push_back (std::move (p));
     }
     std::ranges::sort (presets, {}, &Preset::name);
     return presets;
@@ -45,18 +73,48 @@ fs::path presetFolder()
     return {};
 }
 
-std::vector<Preset> matching (const std::vector<Preset>& presets, const std::string& query)
+fs::path ownFolder()
 {
-    std::istringstream words { juce::String (query).toLowerCase().toStdString() };
+    const auto told = juce::SystemStats::getEnvironmentVariable ("TACTUS_GRAPHS", {});
+    if (told.isNotEmpty()) return told.toStdString();
+    return juce::File::getSpecialLocation (juce::File::userDocumentsDirectory).getChildFile ("Tactus").getFullPathName().toStdString();
+}
+
+std::vector<Preset> matching (const std::vector<Preset>& presets, const std::string& query, const std::set<std::string>& tags)
+{
     auto found = presets;
+    std::erase_if (found, [&] (const Preset& p)
+                   { return std::ranges::any_of (tags, [&] (const std::string& t)
+                                                 { return std::ranges::count (p.tags, t) == 0; }); });
+    std::istringstream words { lowered (query) };
     for (std::string word; words >> word;)
         std::erase_if (found, [&] (const Preset& p)
                        {
             std::string all = p.name + ' ' + p.about;
             for (const auto& t : p.tags)
                 all += ' ' + t;
-            return ! juce::String (all).toLowerCase().contains (word); });
+            return lowered (all).find (word) == std::string::npos; });
     return found;
+}
+
+std::vector<std::pair<std::string, int>> tagsOf (const std::vector<Preset>& presets)
+{
+    std::map<std::string, int> counts;
+    for (const auto& p : presets)
+        for (const auto& t : std::set (p.tags.begin(), p.tags.end()))
+            ++counts[t];
+    std::vector<std::pair<std::string, int>> all (counts.begin(), counts.end());
+    std::ranges::stable_sort (all, std::greater {}, &std::pair<std::string, int>::second);
+    return all;
+}
+
+std::string placeholderText (const Preset& p)
+{
+    if (p.placeholders.empty()) return {};
+    auto text = std::to_string (p.placeholders.size()) + (p.placeholders.size() == 1 ? " placeholder: " : " placeholders: ");
+    for (const auto& type : p.placeholders)
+        text += (&type == &p.placeholders.front() ? "" : ", ") + type;
+    return text;
 }
 
 }   // namespace tactus::host

@@ -39,9 +39,9 @@ Performance::~Performance()
     end();
 }
 
-Compiled Performance::compileNow (const Plan* before, const Plan* withdrawn)
+Compiled Performance::compileAt (double rate, const Plan* before, const Plan* withdrawn)
 {
-    CompileOptions options { .rate_hz = rate_hz, .records = probes.ports(), .assets = &assets, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() }, .before = before, .withdrawn = withdrawn };
+    CompileOptions options { .rate_hz = rate, .records = probes.ports(), .assets = &assets, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() }, .before = before, .withdrawn = withdrawn };
     auto compiled = compile (document.graph(), catalogue, options);
     // What somebody wants to see may be gone. That is no reason not to run.
     const auto gone = [&] (const std::string& port)
@@ -119,9 +119,10 @@ void Performance::begin()
 {
     end();
     begins = false;
+    run_devices = document.graph().devices;
     rate_hz = document.graph().rate_hz;
     answers = std::make_unique<AnsweringThread>();
-    auto compiled = compileNow (nullptr, nullptr);
+    auto compiled = compileAt (rate_hz, nullptr, nullptr);
     said = std::move (compiled.messages);
     if (! compiled.plan) return;
 
@@ -152,16 +153,17 @@ void Performance::end()
 
 void Performance::documentChanged()
 {
-    if (engine != nullptr) return takeOver();
-    if (wanted) return begin();   // perhaps it compiles now
-    rate_hz = document.graph().rate_hz;
-    said = compileNow (nullptr, nullptr).messages;
+    const auto& graph = document.graph();
+    const bool is_same_run = engine != nullptr && graph.rate_hz == rate_hz && graph.devices == run_devices;
+    if (is_same_run) return takeOver();
+    if (wanted) return start (moved_by);   // perhaps it compiles now
+    said = compileAt (graph.rate_hz, nullptr, nullptr).messages;
 }
 
 void Performance::takeOver()
 {
     auto waiting = engine->withdraw();
-    auto compiled = compileNow (&engine->newest(), waiting.get());
+    auto compiled = compileAt (rate_hz, &engine->newest(), waiting.get());
     said = std::move (compiled.messages);
     if (! compiled.plan)
     {

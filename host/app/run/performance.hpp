@@ -104,7 +104,7 @@ private:
     void begin();
     void end();
     void takeOver();
-    Compiled compileNow (const Plan* before, const Plan* withdrawn);
+    Compiled compileAt (double rate, const Plan* before, const Plan* withdrawn);
     std::optional<Bound> open (const std::string& role);
     std::unique_ptr<Device> chosenHand (const SimulatedDevice* described, double& damping);
     void noteDelay (const Plan&);
@@ -118,6 +118,7 @@ private:
     Hand moved_by;
     bool begins = false;   // once the run before is over
     bool wanted = false;   // started and not stopped: it begins as soon as the graph compiles
+    std::vector<std::pair<std::string, Json>> run_devices;   // the devices, when the run began
     double rate_hz = 0.0;
     std::optional<std::int64_t> delay_ticks;
     std::shared_ptr<PointerPath> pointer;

@@ -14,55 +14,100 @@ constexpr int line_height = 26, hand_width = 420, refreshes_per_second = 30;
 constexpr int least_canvas = 240;   // pixels, each way
 }   // namespace
 
-MainView::MainView (const Catalogue& c) : catalogue (c)
+MainView::MainView (const Catalogue& c) : catalogue (c), pictures (c), help (c)
 {
     setWantsKeyboardFocus (true);
-    auto browser = std::make_unique<PresetBrowser> (presetFolder());
+    chooseFile = [this] (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)> chosen)
+    { askForFile (saves, begin, std::move (chosen)); };
+    auto browser = std::make_unique<PresetBrowser> (catalogue, settings, pictures);
     presets = browser.get();
     left.add ("Presets", std::move (browser));
-    presets->onOpen = [this] (const Preset& p)
-    { open (p.file); };
+    presets->onOpen = [this] (const Preset& p, bool is_own)
+    { is_own ? files->open (p.file) : files->openCopy (p.file, false); };
+    presets->onSettings = [this]
+    { remember(); };
     strip.onStop = [this]
     { performance->stop(); };
     strip.onStart = [this]
-    { performance->start (performance->hand()); };
+    { start (performance->hand()); };
     hand.view().onPoint = [this] (const Vec3& p)
     { performance->point (p); };
     hand.view().onTakesOver = [this]
-    { performance->start (Performance::Hand::pointer()); };
+    { start (Performance::Hand::pointer()); };
     hand.onHint = [this] (const juce::String& text)
     { say (text); };
     hand.onHand = [this] (Performance::Hand h)
-    { performance->start (std::move (h)); };
+    { start (std::move (h)); };
+    help.onExample = [this] (const std::string& type)
+    { openExample (type); };
+    welcome.onFeel = [this] (const std::filesystem::path& file)
+    {
+        files->openCopy (file, true);
+        tip = files->isSafe() ? "Safe mode: press START, then press and drag on the surface below." : "Press and drag on the surface below: the mouse is your hand.";
+        repaint();
+    };
+    welcome.onOpenFile = [this] (const std::filesystem::path& file)
+    { files->open (file); };
+    welcome.onNew = [this]
+    { files->create(); };
+    welcome.onOpen = [this]
+    { files->open(); };
     addAndMakeVisible (strip);
     addAndMakeVisible (hand);
     addAndMakeVisible (left);
     addAndMakeVisible (bottom);
-    show ({}, {});
+    show();
     addChildComponent (palette);
+    addChildComponent (welcome);
+    addChildComponent (help);
+    addChildComponent (question);
     startTimerHz (refreshes_per_second);
 }
 
-MainView::~MainView() { edited->remove (*this); }
-
-void MainView::show (graph::Graph g, const std::filesystem::path& file)
+MainView::~MainView()
 {
-    if (edited) edited->remove (*this);
-    inspector.reset();
-    live.reset();
-    bottom.clear();
-    patching.reset();
-    top.reset();
-    performance.reset();
-    edited = std::make_unique<Document> (std::move (g), file);
-    edited->add (*this);
+    if (ticks_to_remember > 0) saveSettings (settings, home);
+    edited->remove (*this);
+}
+
+void MainView::show()
+{
+    edited = std::make_unique<Document> (graph::Graph {});
+    files = std::make_unique<Files> (*edited, question, settings,
+                                     Files::Ways { [this] (const juce::String& text)
+                                                   { say (text); },
+                                                   [this]
+                                                   { performance->stop(); },
+                                                   [this] (bool by_pointer)
+                                                   { start (by_pointer ? Performance::Hand::pointer() : Performance::Hand {}); },
+                                                   [this]
+                                                   { return performance->isRunning(); },
+                                                   [this]
+                                                   {
+                                                       remember();
+                                                       presets->reload(); },
+                                                   [this] (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)> chosen)
+                                                   { chooseFile (saves, begin, std::move (chosen)); } });
     performance = std::make_unique<Performance> (*edited, catalogue, &sound);
+    left.add ("History", std::make_unique<HistoryPanel> (*edited));
 
     top = std::make_unique<TopBar>();
     patching = std::make_unique<Canvas> (*edited, catalogue);
     inspector = std::make_unique<Inspector> (*edited, catalogue);
     top->onLeave = [this] (std::size_t depth)
     { patching->leaveTo (depth); };
+    top->onRecall = [this] (int number)
+    { recall (number); };
+    top->onStore = [this] (int number)
+    { store (number); };
+    top->onUndo = [this]
+    { edited->undo(); };
+    top->onRedo = [this]
+    { edited->redo(); };
+    top->onHelp = [this]
+    { helpOnSelection(); };
+    top->onMenu = [this] (juce::Component& at)
+    { openMenu (at); };
     patching->onWay = [this]
     { documentChanged(); };
     patching->onSelection = [this]
@@ -85,37 +130,92 @@ void MainView::show (graph::Graph g, const std::filesystem::path& file)
     for (auto* edge : { &left_edge, &right_edge, &bottom_edge })
     {
         edge->onMove = [this]
-        { resized(); };
+        {
+            rememberPanels();
+            resized();
+        };
         addAndMakeVisible (*edge);
     }
     palette.toFront (false);
-    presets->showOpen (file);
+    edited->add (*this);   // after the canvas, so that it shows what is told of
     resized();
     documentChanged();
 }
 
-void MainView::open (const std::filesystem::path& file)
+void MainView::begin (const Start& how)
 {
-    auto loaded = loadGraph (file);
-    const auto error = std::ranges::find (loaded.messages, Message::Severity::error, &Message::severity);
-    if (error != loaded.messages.end())
+    home = how.home;
+    auto read = loadSettings (home);
+    settings = std::move (read.settings);
+    light = how.light || settings.light;
+    if (! read.problem.empty()) say (read.problem);
+    const auto resize = [this] (const char* name, Splitter& edge)
     {
-        say (juce::String (file.filename().string()) + ": " + error->text + "; " + error->remedy);
-        return;
+        if (const auto size = settings.panels.find (name); size != settings.panels.end()) edge.setSize (size->second);
+    };
+    resize ("left", left_edge);
+    resize ("right", right_edge);
+    resize ("bottom", bottom_edge);
+    applyTheme();
+    applyScale();
+    resized();
+    presets->reload();
+    files->setSafe (how.safe);
+    files->beginSession (home);
+    for (const auto& file : how.files)
+        files->open (file);
+    const bool is_asked = files->recover();
+    if (how.files.empty())
+    {
+        welcome.show (presets->shipped(), settings.recent);
+        welcome.setVisible (true);
+        if (how.safe && ! is_asked) say ("Safe mode: nothing runs until you press START.");
     }
-    show (std::move (loaded.graph), file);
-    performance->start ({});
-    say ({});
+    if (! settings.welcomed)
+    {
+        settings.welcomed = true;
+        remember();
+    }
+}
+
+void MainView::open (const std::filesystem::path& file) { files->open (file); }
+
+void MainView::start (Performance::Hand who)
+{
+    files->beforeRun();
+    performance->start (who);
+}
+
+void MainView::closeWhenSaved (std::function<void()> close)
+{
+    files->whenSaved ("before Tactus closes", [this, close = std::move (close)]
+                      {
+        performance->stop();
+        files->end();
+        close(); });
+}
+
+void MainView::closeSuddenly()
+{
+    performance->stop();
+    files->endSuddenly();
 }
 
 void MainView::timerCallback()
 {
+    // A text field that has the focus takes the key for itself, but forces stop in any case.
+    if (juce::KeyPress::isKeyCurrentlyDown (juce::KeyPress::escapeKey) && performance->isRunning()) performance->stop();
     performance->attend();
     strip.show (*performance);
     hand.show (*performance);
     live->refresh();
     problems->show (performance->messages());
     bottom.name (*problems, problems->count() == 0 ? juce::String ("Problems") : "Problems " + juce::String (problems->count()));
+    files->attend();
+    presets->refresh();
+    if (welcome.isVisible()) welcome.refresh();
+    if (ticks_to_remember > 0 && --ticks_to_remember == 0)
+        if (const auto why = saveSettings (settings, home)) say ("The settings could not be kept: " + juce::String (*why));
 }
 
 void MainView::openPalette (const NodeWish& wish)
@@ -169,25 +269,30 @@ void MainView::say (const juce::String& text)
     repaint (getLocalBounds().removeFromBottom (line_height));
 }
 
-void MainView::save()
-{
-    if (edited->file().empty())
-    {
-        say ("This graph has no file yet. Start with: tactus-host FILE");
-        return;
-    }
-    const auto messages = edited->save (edited->file());
-    say (messages.empty() ? "Saved " + juce::String (edited->file().string()) : juce::String (messages.front().text + "; " + messages.front().remedy));
-}
-
 void MainView::documentChanged()
 {
-    std::vector<juce::String> way { edited->graph().name.empty() ? juce::String ("A new graph") : juce::String (edited->graph().name) };
+    const bool is_other = edited->identity() != shown_identity;
+    if (is_other)
+    {
+        shown_identity = edited->identity();
+        tip = "Space: add a node   F: frame   G: group   B: bypass   Ctrl+Z: undo   F1: help";
+        patching->leaveTo (0);
+        patching->select ({});
+        patching->frameAll();
+        presets->showOpen (edited->file().empty() ? edited->preset() : edited->file());
+    }
+    if (edited->history().position() > 0) welcome.setVisible (false);
+    TopBar::State state { { edited->graph().name.empty() ? juce::String ("A new graph") : juce::String (edited->graph().name) }, edited->isChanged(), {}, {}, {} };
     for (const auto& [node, subgraph] : patching->way())
-        way.emplace_back (node);
-    const bool changed = edited->isChanged();
-    if (onTitle) onTitle (way.front() + (changed ? " (edited)" : ""));
-    top->show (std::move (way), changed);
+        state.way.emplace_back (node);
+    const auto steps = edited->history().names();
+    const auto done = edited->history().position();
+    if (done > 0) state.undo = steps[done - 1];
+    if (done < steps.size()) state.redo = steps[done];
+    for (int n = 1; n <= snapshot_count; ++n)
+        state.snapshots[static_cast<std::size_t> (n - 1)] = hasSnapshot (edited->graph(), n);
+    if (onTitle) onTitle (state.way.front() + (state.changed ? " (edited)" : ""));
+    top->show (std::move (state));
 }
 
 void MainView::documentRefused (const Message& m) { say (juce::String (m.text + (m.remedy.empty() ? "" : "; " + m.remedy))); }
@@ -201,7 +306,7 @@ void MainView::paint (juce::Graphics& g)
     g.drawHorizontalLine (line.getY(), 0.0f, static_cast<float> (getWidth()));
     g.setFont (look.font (12.0f));
     g.setColour (look.theme().dim);
-    g.drawText (said.isEmpty() ? juce::String ("Space: add a node   F: frame   G: group   B: bypass   Ctrl+Z: undo") : said, line.reduced (16, 0), juce::Justification::centredLeft, true);
+    g.drawText (said.isEmpty() ? tip : said, line.reduced (16, 0), juce::Justification::centredLeft, true);
 }
 
 void MainView::resized()
@@ -217,18 +322,33 @@ void MainView::resized()
     hand.setBounds (low.removeFromLeft (std::min (hand_width, low.getWidth() / 2)));
     bottom.setBounds (low);
     patching->setBounds (area);
+    welcome.setBounds (area.withRight (getWidth()));
+    help.setArea (area.withRight (getWidth()).withBottom (hand.getBottom()).reduced (16));
+    question.setBounds (getLocalBounds());
 }
 
 bool MainView::keyPressed (const juce::KeyPress& key)
 {
     if (key == juce::KeyPress::escapeKey)
     {
-        performance->stop();
+        escape();
         return true;
     }
-    if (key == juce::KeyPress::createFromDescription ("ctrl + s"))
+    if (question.isOpen())
     {
-        save();
+        question.keyPressed (key);   // whoever has the focus
+        return true;
+    }
+    if (fileKey (key)) return true;
+    if (key == juce::KeyPress::F1Key || key.getTextCharacter() == '?')
+    {
+        help.isOpen() ? help.close() : helpOnSelection();
+        return true;
+    }
+    const int digit = key.getKeyCode() - '0';
+    if (digit >= 1 && digit <= snapshot_count && ! key.getModifiers().isAltDown())
+    {
+        key.getModifiers().isAnyModifierKeyDown() ? store (digit) : recall (digit);
         return true;
     }
     if (key == juce::KeyPress::createFromDescription ("h"))

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <host/app/canvas/canvas.hpp>
+#include <host/app/history/history_panel.hpp>
 #include <host/app/inspector/inspector.hpp>
 #include <host/app/palette/palette.hpp>
 #include <host/app/presets/browser.hpp>
@@ -9,6 +10,10 @@
 #include <host/app/run/hand_panel.hpp>
 #include <host/app/run/live_feed.hpp>
 #include <host/app/run/safety_strip.hpp>
+#include <host/app/welcome/help_panel.hpp>
+#include <host/app/welcome/welcome_page.hpp>
+#include <host/app/window/files.hpp>
+#include <host/app/window/question.hpp>
 #include <host/app/window/splitter.hpp>
 #include <host/app/window/tabs.hpp>
 #include <host/app/window/top_bar.hpp>
@@ -23,11 +28,38 @@ public:
     explicit MainView (const Catalogue&);
     ~MainView() override;
 
+    /// How the program was started.
+    struct Start
+    {
+        std::filesystem::path home;   ///< where settings are, and what is kept for a crash
+        bool safe = false;            ///< nothing runs by itself
+        bool light = false;           ///< whatever the settings say
+        std::vector<std::filesystem::path> files {};
+    };
+
+    /// What only a window does that people see: reads the settings, asks about what a crash left, opens files or welcomes.
+    void begin (const Start&);
+
     /// Opens a graph file; what is wrong with it is said in the line below.
     void open (const std::filesystem::path&);
 
+    void closeWhenSaved (std::function<void()> close);   ///< once what is not saved is decided
+    void closeSuddenly();                                ///< what is not saved is kept for the next start
+
+    void showHelp (const std::string& type) { help.showNode (type); }
+
     Document& document() noexcept { return *edited; }
     Canvas& canvas() noexcept { return *patching; }
+    Performance& run() noexcept { return *performance; }
+    Question& asked() noexcept { return question; }
+    HelpPanel& helpPanel() noexcept { return help; }
+    WelcomePage& welcomePage() noexcept { return welcome; }
+    PresetBrowser& browser() noexcept { return *presets; }
+    const Settings& remembered() const noexcept { return settings; }
+    const juce::String& saying() const noexcept { return said; }
+
+    /// Asks a person for a file; tests answer at once. See Files::Ways.
+    std::function<void (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>)> chooseFile;
     std::function<void (const juce::String&)> onTitle;
 
     void paint (juce::Graphics&) override;
@@ -38,16 +70,34 @@ private:
     void documentChanged() override;
     void documentRefused (const Message&) override;
     void timerCallback() override;
-    void show (graph::Graph, const std::filesystem::path&);
+    void show();
     void openPalette (const NodeWish&);
     void choose (const juce::String& purpose, std::vector<PaletteEntry>, std::function<void (const std::string&)> chosen);
     void placePalette (juce::Point<int>);
     void say (const juce::String&);
-    void save();
+    void start (Performance::Hand);
+    void escape();
+    bool fileKey (const juce::KeyPress&);
+    void helpOnSelection();
+    void openExample (const std::string& type);
+    void recall (int snapshot);
+    void store (int snapshot);
+    void openMenu (juce::Component& at);
+    void askForFile (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>);
+    void rememberPanels();
+    void remember();   ///< the settings, soon
+    void applyTheme();
+    void applyScale();
 
     const Catalogue& catalogue;
+    Settings settings;
+    std::filesystem::path home;   // empty until begin
+    bool light = false;           // now; the settings say how it begins
+    PictureStore pictures;
+    Question question;
     std::unique_ptr<Document> edited;
     Sound sound;
+    std::unique_ptr<Files> files;               // before the performance, so that a change is kept before it runs
     std::unique_ptr<Performance> performance;   // after the document, before what shows it
     SafetyStrip strip;
     HandPanel hand { sound };
@@ -60,7 +110,12 @@ private:
     std::unique_ptr<Inspector> inspector;
     ProblemList* problems = nullptr;   // in the bottom tabs
     Palette palette;
-    juce::String said;
+    WelcomePage welcome { pictures };
+    HelpPanel help;
+    std::unique_ptr<juce::FileChooser> chooser;
+    const void* shown_identity = nullptr;   // of the document
+    int ticks_to_remember = 0;              // of the timer; 0: nothing to
+    juce::String said, tip;                 // tip: what the line says while there is nothing else to say
     juce::TooltipWindow tooltips { this, 600 };
 };
 

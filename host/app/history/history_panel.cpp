@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "history_panel.hpp"
+
+namespace tactus::host
+{
+
+HistoryPanel::HistoryPanel (Document& d) : document (d)
+{
+    setTitle ("History");
+    list.setTitle ("History");
+    list.setRowHeight (28);
+    list.setColour (juce::ListBox::backgroundColourId, juce::Colours::transparentBlack);
+    list.getViewport()->setScrollBarThickness (8);
+    addAndMakeVisible (list);
+    document.add (*this);
+    documentChanged();
+}
+
+HistoryPanel::~HistoryPanel() { document.remove (*this); }
+
+void HistoryPanel::documentChanged()
+{
+    names = document.history().names();
+    list.updateContent();
+    list.scrollToEnsureRowIsOnscreen (static_cast<int> (document.history().position()));
+    list.repaint();
+    repaint();
+}
+
+void HistoryPanel::goToRow (int row)
+{
+    if (row >= 0 && row < getNumRows()) document.goTo (static_cast<std::size_t> (row));
+}
+
+juce::String HistoryPanel::nameOfRow (int row) const { return row <= 0 || row >= static_cast<int> (names.size()) + 1 ? juce::String ("begin") : juce::String (names[static_cast<std::size_t> (row) - 1]); }
+
+juce::String HistoryPanel::getTooltipForRow (int row) { return nameOfRow (row); }
+
+void HistoryPanel::paint (juce::Graphics& g)
+{
+    const auto& look = lookOf (*this);
+    g.fillAll (look.theme().panel);
+    g.setColour (look.theme().hairline);
+    g.drawVerticalLine (getWidth() - 1, 0.0f, static_cast<float> (getHeight()));
+    if (! names.empty()) return;
+    g.setColour (look.theme().dim);
+    g.setFont (look.font (13.0f));
+    g.drawFittedText ("Each step you do will stand here by its name. A click goes back or forth to it, as Ctrl+Z and Ctrl+Y do one by one.", getLocalBounds().reduced (16).withTrimmedTop (32), juce::Justification::topLeft, 8);
+}
+
+void HistoryPanel::resized() { list.setBounds (getLocalBounds().withTrimmedRight (1).reduced (8)); }
+
+void HistoryPanel::paintListBoxItem (int row, juce::Graphics& g, int w, int h, bool)
+{
+    const auto& look = lookOf (*this);
+    const auto& theme = look.theme();
+    const auto now = static_cast<int> (document.history().position());
+    auto area = juce::Rectangle<int> (w, h);
+    if (row == now)
+    {
+        g.setColour (theme.accent.withAlpha (0.18f));
+        g.fillRoundedRectangle (area.toFloat().reduced (1.0f), 4.0f);
+        g.setColour (theme.accent);
+        g.fillEllipse (juce::Rectangle<float> (6.0f, 6.0f).withCentre ({ 12.0f, static_cast<float> (h) / 2 }));
+    }
+    g.setColour (row > now ? theme.dim.withAlpha (0.6f) : row == now ? theme.text
+                                                                     : theme.dim);
+    g.setFont (look.font (13.0f, row == now));
+    g.drawText (nameOfRow (row), area.withTrimmedLeft (24).withTrimmedRight (4), juce::Justification::centredLeft, true);
+}
+
+}   // namespace tactus::host

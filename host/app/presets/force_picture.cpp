@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "force_picture.hpp"
+
+#include <framework/engine.hpp>
+#include <framework/file/graph_file.hpp>
+#include <framework/plan/compile.hpp>
+#include <host/assets/file_assets.hpp>
+#include <host/assets/nearest_by_embree.hpp>
+#include <host/devices/make_device.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::host
+{
+
+namespace
+{
+std::string firstError (const Messages& messages)
+{
+    const auto error = std::ranges::find (messages, Message::Severity::error, &Message::severity);
+    return error == messages.end() ? "it cannot run" : error->text;
+}
+}   // namespace
+
+ForcePicture pictureOf (const std::filesystem::path& file, const Catalogue& catalogue, const std::atomic<bool>& cancelled)
+{
+    ForcePicture picture;
+    const auto refuse = [&] (std::string why)
+    {
+        picture.problem = std::move (why);
+        return picture;
+    };
+    auto loaded = loadGraph (file);
+    if (hasErrors (loaded.messages)) return refuse (firstError (loaded.messages));
+    FileAssets assets;
+    auto compiled = compile (loaded.graph, catalogue, { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } });
+    if (! compiled.plan) return refuse (firstError (compiled.messages));
+
+    const auto rate_hz = loaded.graph.rate_hz;
+    std::vector<std::string> roles;
+    for (const auto& role : compiled.plan->roles)
+        roles.push_back (role.name);
+    if (roles.empty()) return refuse ("it has no device to push");
+    std::vector<MadeDevice> devices;   // which outlive the engine
+    for (const auto& role : roles)
+    {
+        const auto described = std::ranges::find (loaded.graph.devices, role, &std::pair<std::string, Json>::first);
+        devices.push_back (makeDevice (described != loaded.graph.devices.end() ? described->second : Json { { "driver", "sim" } }, loaded.graph.folder));
+        if (! devices.back().device) return refuse (firstError (devices.back().messages));
+        picture.seconds = std::max (picture.seconds, devices.back().device->duration());
+    }
+    if (picture.seconds <= 0.0) return refuse ("its hand does not move by itself");
+    picture.seconds = std::min (picture.seconds, ForcePicture::longest_s);
+
+    Engine engine (std::move (compiled.plan));
+    for (std::size_t i = 0; i < roles.size(); ++i)
+        engine.attach (roles[i], *devices[i].device, devices[i].limits);
+    std::vector<float> forces (ForcePicture::columns), torques (ForcePicture::columns);
+    const auto ticks = static_cast<std::size_t> (picture.seconds * rate_hz);
+    for (std::size_t k = 0; k < ticks; ++k)
+    {
+        if (cancelled.load (std::memory_order_relaxed)) return refuse ("it was called off");
+        engine.tick();
+        const auto column = k * ForcePicture::columns / ticks;
+        for (std::size_t i = 0; i < engine.roleCount(); ++i)
+        {
+            const auto& applied = engine.role (i).applied;
+            forces[column] = std::max (forces[column], static_cast<float> (applied.force.norm()));
+            torques[column] = std::max (torques[column], static_cast<float> (applied.torque.norm()));
+        }
+    }
+    const bool turns = *std::ranges::max_element (forces) == 0.0f && *std::ranges::max_element (torques) > 0.0f;
+    picture.unit = turns ? "N m" : "N";
+    picture.peaks = std::move (turns ? torques : forces);
+    picture.peak = static_cast<double> (*std::ranges::max_element (picture.peaks));
+    return picture;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "picture_store.hpp"
+
+#include <algorithm>
+
+namespace tactus::host
+{
+
+PictureStore::PictureStore (const Catalogue& c) : Thread ("force pictures"), catalogue (c) {}
+
+PictureStore::~PictureStore()
+{
+    cancelled = true;
+    stopThread (-1);
+}
+
+std::shared_ptr<const ForcePicture> PictureStore::get (const std::filesystem::path& file)
+{
+    {
+        const std::scoped_lock held (lock);
+        if (const auto found = pictures.find (file); found != pictures.end()) return found->second;
+        if (! wanted.empty() && wanted.front() == file) return nullptr;
+        std::erase (wanted, file);
+        wanted.push_front (file);
+    }
+    if (! isThreadRunning()) startThread (Priority::low);
+    notify();
+    return nullptr;
+}
+
+void PictureStore::run()
+{
+    while (! threadShouldExit())
+    {
+        std::filesystem::path file;
+        {
+            const std::scoped_lock held (lock);
+            if (! wanted.empty()) file = wanted.front();
+        }
+        if (file.empty())
+        {
+            wait (-1);
+            continue;
+        }
+        auto picture = std::make_shared<const ForcePicture> (pictureOf (file, catalogue, cancelled));
+        const std::scoped_lock held (lock);
+        pictures[file] = std::move (picture);
+        std::erase (wanted, file);
+        ++finished;
+    }
+}
+
+void drawPicture (juce::Graphics& g, const Look& look, juce::Rectangle<float> area, const ForcePicture* picture)
+{
+    const auto& theme = look.theme();
+    g.setColour (theme.canvas);
+    g.fillRoundedRectangle (area, 4.0f);
+    g.setFont (look.font (11.0f));
+    g.setColour (theme.dim);
+    const auto words = area.reduced (8.0f, 2.0f);
+    if (picture == nullptr || ! picture->problem.empty() || picture->peak <= 0.0)
+    {
+        const auto text = picture == nullptr ? juce::String ("Feeling it out ...") : ! picture->problem.empty() ? juce::String (picture->problem)
+                                                                                                                : juce::String ("It gives no force by itself.");
+        g.drawFittedText (text, words.toNearestInt(), juce::Justification::centredLeft, 2);
+        return;
+    }
+    // Words above the plot, or beside it where there is no room above.
+    auto peak = juce::String (picture->peak, picture->peak < 0.1 ? 3 : 2) + " " + picture->unit;
+    auto plot = area.reduced (6.0f, 4.0f);
+    const bool is_low = area.getHeight() < 44.0f;
+    if (! is_low) peak += " at most, " + juce::String (picture->seconds, 1) + " s";
+    const auto place = is_low ? plot.removeFromRight (56.0f).withTrimmedLeft (8.0f) : plot.removeFromTop (16.0f);
+    g.drawText (peak, place, is_low ? juce::Justification::centredRight : juce::Justification::centredLeft, true);
+    juce::Path shape;
+    shape.startNewSubPath (plot.getBottomLeft());
+    for (std::size_t i = 0; i < picture->peaks.size(); ++i)
+        shape.lineTo (plot.getX() + plot.getWidth() * static_cast<float> (i) / static_cast<float> (picture->peaks.size() - 1), plot.getBottom() - plot.getHeight() * picture->peaks[i] / static_cast<float> (picture->peak));
+    auto outline = shape;
+    shape.lineTo (plot.getBottomRight());
+    shape.closeSubPath();
+    const auto colour = theme.of (Quantity::force);
+    g.setColour (colour.withAlpha (0.25f));
+    g.fillPath (shape);
+    g.setColour (colour);
+    g.strokePath (outline, juce::PathStrokeType (1.2f));
+}
+
+}   // namespace tactus::host

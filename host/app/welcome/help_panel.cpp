@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "help_panel.hpp"
+
+#include <framework/number_text.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr int bar_height = 56;
+
+juce::String text (std::string_view s) { return juce::String (std::string (s)); }
+
+juce::String unitText (const UnitRule& u)
+{
+    switch (u.kind)
+    {
+    case UnitRule::Kind::fixed:
+        return u.unit.symbol == "1" ? juce::String ("no unit") : text (u.unit.symbol);
+    case UnitRule::Kind::open:
+        return "unit of what is wired";
+    case UnitRule::Kind::each:
+        return "unit of what is wired to each";
+    case UnitRule::Kind::same:
+        return "unit of " + text (u.a);
+    case UnitRule::Kind::product:
+        return u.b.empty() ? "product of the units of " + text (u.a) : "unit of " + text (u.a) + " times " + text (u.b);
+    }
+    return {};
+}
+
+juce::String rangeText (const Interval& i)
+{
+    if (std::isinf (i.min) && std::isinf (i.max)) return {};
+    if (std::isinf (i.max)) return "at least " + text (numberText (i.min));
+    if (std::isinf (i.min)) return "at most " + text (numberText (i.max));
+    return text (numberText (i.min)) + " to " + text (numberText (i.max));
+}
+
+juce::String about (const PortSheet& p)
+{
+    juce::StringArray parts;
+    if (! p.choices.empty())
+    {
+        juce::StringArray names;
+        for (const auto c : p.choices)
+            names.add (text (c));
+        parts.add ("one of " + names.joinIntoString (", "));
+    }
+    else
+    {
+        parts.add (p.width == 3 ? "vector" + (unitText (p.unit).isEmpty() ? juce::String() : ", " + unitText (p.unit)) : unitText (p.unit));
+        if (p.role == Role::param)
+        {
+            parts.add ("at first " + text (numberText (p.initial[0])) + (p.width == 3 ? " " + text (numberText (p.initial[1])) + " " + text (numberText (p.initial[2])) : juce::String()));
+            if (const auto usual = rangeText (p.limits.usual); usual.isNotEmpty()) parts.add ("usually " + usual);
+            if (const auto hard = rangeText (p.limits.hard); hard.isNotEmpty() && p.limits.hard != p.limits.usual) parts.add ("must be " + hard);
+        }
+    }
+    if (p.limits.latch) parts.add ("read when contact begins");
+    parts.removeEmptyStrings();
+    return parts.joinIntoString ("; ");
+}
+
+/// A port: its name and unit, and what it is.
+class PortLine final : public Block
+{
+public:
+    PortLine (juce::String n, juce::String d, juce::String s) : name (std::move (n)), details (std::move (d)), sentence (std::move (s)) { setInterceptsMouseClicks (false, false); }
+
+    int heightFor (int w) override { return static_cast<int> (std::ceil (layout (w).getHeight())) + 8; }
+    void paint (juce::Graphics& g) override { layout (getWidth()).draw (g, getLocalBounds().toFloat()); }
+
+private:
+    juce::TextLayout layout (int w) const
+    {
+        const auto& look = lookOf (*this);
+        juce::AttributedString s;
+        s.append (name, look.font (13.0f, true), look.theme().text);
+        if (details.isNotEmpty()) s.append ("   " + details, look.font (12.0f), look.theme().dim);
+        if (sentence.isNotEmpty()) s.append ("\n" + sentence, look.font (13.0f), look.theme().text);
+        juce::TextLayout l;
+        l.createLayout (s, static_cast<float> (w));
+        return l;
+    }
+
+    juce::String name, details, sentence;
+};
+
+void addPorts (Column& column, const char* heading, const std::vector<PortSheet>& ports)
+{
+    if (ports.empty()) return;
+    column.add (heading, Words::Kind::heading);
+    for (const auto& p : ports)
+        column.add (std::make_unique<PortLine> (text (p.id) + (p.list ? "[0], [1] ..." : ""), about (p), text (p.about)));
+}
+
+using Keys = std::pair<const char*, const char*>;
+constexpr std::array key_list {
+    Keys { "Esc", "brings all forces to zero; once nothing runs, closes what is open" },
+    Keys { "Space or Tab", "opens the palette: add a node by name, unit or what it does" },
+    Keys { "F", "frames the selection, or all" },
+    Keys { "Delete or Backspace", "takes what is selected away and heals the wire through" },
+    Keys { "B", "bypasses the selection, or ends that" },
+    Keys { "G", "makes a subgraph of the selection" },
+    Keys { "P", "probes the selected port" },
+    Keys { "1 ... 9", "brings the values of a snapshot back; Ctrl with the digit stores them" },
+    Keys { "Ctrl+Z, Ctrl+Y", "undo, redo: every edit, every turn of a knob, every graph that was opened" },
+    Keys { "Ctrl+C, Ctrl+X, Ctrl+V, Ctrl+D", "copy, cut, paste, duplicate" },
+    Keys { "Ctrl+A", "selects all" },
+    Keys { "Ctrl+N, Ctrl+O, Ctrl+S, Ctrl+Shift+S", "new, open, save, save as" },
+    Keys { "F1 or ?", "help on the selected node; with none selected, this list" },
+};
+constexpr std::array mouse_list {
+    Keys { "drag on a number", "changes it; with Shift finely; a double click types it, with its unit" },
+    Keys { "drag from a port", "draws a wire: what fits lights up; let go on nothing, the palette offers what fits" },
+    Keys { "double click on the canvas", "adds a node there" },
+    Keys { "middle or right button, wheel", "pans; zooms to the pointer" },
+    Keys { "press on the surface below", "you are the hand: what the graph does there is pushed against you" },
+};
+}   // namespace
+
+HelpPanel::HelpPanel (const Catalogue& c) : catalogue (c)
+{
+    setTitle ("Help");
+    setVisible (false);
+    scroll.setScrollBarsShown (true, false);
+    scroll.setScrollBarThickness (8);
+    addAndMakeVisible (scroll);
+    example.setFirst (true);
+    example.onClick = [this]
+    {
+        const auto of = shown_type;
+        close();
+        if (onExample) onExample (of);
+    };
+    keys.onClick = [this]
+    { showKeys(); };
+    done.onClick = [this]
+    { close(); };
+    for (auto* b : { &example, &keys, &done })
+        addAndMakeVisible (b);
+}
+
+void HelpPanel::showNode (const std::string& type)
+{
+    const auto* node = catalogue.find (type);
+    auto made = std::make_unique<Column>();
+    if (node == nullptr)
+    {
+        const bool is_subgraph = type.starts_with ("graph:") || type.starts_with ("file:");
+        made->add (juce::String (type), Words::Kind::title);
+        made->add (is_subgraph ? "A subgraph: nodes and wires in a box. Double click it to go inside; the bar above leads back out." : "There is no such type here, so a placeholder stands in for it: it keeps its params and wires, and gives 0. It comes alive where its type is installed.", Words::Kind::text);
+    }
+    else
+    {
+        made->add (text (node->info.name), Words::Kind::title);
+        made->add (text (node->info.id), Words::Kind::small);
+        made->add (text (node->info.summary), Words::Kind::text);
+        addPorts (*made, "Inputs", node->inputs);
+        addPorts (*made, "Parameters", node->params);
+        if (! node->settings.empty())
+        {
+            made->add ("Settings, fixed while it runs", Words::Kind::heading);
+            for (const auto& s : node->settings)
+                made->add (std::make_unique<PortLine> (text (s.id), text (tactus::name (s.kind)), text (s.about)));
+        }
+        addPorts (*made, "Outputs", node->outputs);
+        made->add ("Source", Words::Kind::heading);
+        made->add (text (node->info.source), Words::Kind::text);
+    }
+    shown_type = type;
+    example.setVisible (node != nullptr);
+    keys.setVisible (true);
+    show (std::move (made));
+}
+
+void HelpPanel::showKeys()
+{
+    auto made = std::make_unique<Column>();
+    made->add ("Keys", Words::Kind::title);
+    for (const auto& [key, does] : key_list)
+        made->add (std::make_unique<PortLine> (key, does, juce::String()));
+    made->add ("The mouse", Words::Kind::heading);
+    for (const auto& [way, does] : mouse_list)
+        made->add (std::make_unique<PortLine> (way, does, juce::String()));
+    made->add ("Select a node and press F1 to read what it does.", Words::Kind::small);
+    shown_type.clear();
+    example.setVisible (false);
+    keys.setVisible (false);
+    show (std::move (made));
+}
+
+void HelpPanel::show (std::unique_ptr<Column> made)
+{
+    column = std::move (made);
+    scroll.setViewedComponent (column.get(), false);
+    scroll.setViewPosition (0, 0);
+    setVisible (true);
+    toFront (false);
+    place();
+    repaint();
+}
+
+void HelpPanel::setArea (juce::Rectangle<int> a)
+{
+    area = a;
+    place();
+}
+
+void HelpPanel::place()
+{
+    const int w = std::min (width, area.getWidth());
+    if (column) column->layOut (w - 2 - scroll.getScrollBarThickness());
+    const int h = std::min (area.getHeight(), (column ? column->getHeight() : 0) + bar_height + 2);
+    setBounds (area.withSizeKeepingCentre (w, h).withY (area.getY()));
+    resized();
+}
+
+void HelpPanel::close()
+{
+    if (! isOpen()) return;
+    setVisible (false);
+    if (auto* parent = getParentComponent(); parent != nullptr && parent->isShowing()) parent->grabKeyboardFocus();
+}
+
+void HelpPanel::resized()
+{
+    auto inside = getLocalBounds().reduced (1);
+    auto bar = inside.removeFromBottom (bar_height).reduced (16, 12);
+    done.setBounds (bar.removeFromRight (done.widthFor()));
+    bar.removeFromRight (8);
+    keys.setBounds (bar.removeFromRight (keys.widthFor()));
+    example.setBounds (bar.removeFromLeft (example.widthFor()));
+    scroll.setBounds (inside);
+    if (column) column->layOut (scroll.getMaximumVisibleWidth());
+}
+
+void HelpPanel::paint (juce::Graphics& g)
+{
+    const auto& theme = themeOf (*this);
+    g.setColour (theme.panel);
+    g.fillRoundedRectangle (getLocalBounds().toFloat(), 8.0f);
+    g.setColour (theme.hairline);
+    g.drawRoundedRectangle (getLocalBounds().toFloat().reduced (0.5f), 8.0f, 1.0f);
+    g.drawHorizontalLine (getHeight() - bar_height - 1, 1.0f, static_cast<float> (getWidth()) - 1.0f);
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "welcome_page.hpp"
+
+#include <host/app/presets/fitted_words.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr std::size_t most_cards = 6, most_files = 4;
+constexpr int margin = 32, gap = 12, line_height = 15, low = 420;
+
+/// The first sentence, or what stands before its colon.
+juce::String feel (const std::string& about)
+{
+    const auto text = juce::String (about);
+    const int dot = text.indexOf (". ");
+    return dot > 0 ? text.substring (0, dot + 1) : text;
+}
+}   // namespace
+
+std::vector<Preset> firstOnes (const std::vector<Preset>& presets, std::size_t most)
+{
+    constexpr std::array names { "Dry wood", "Soft pad", "Aluminium bar", "Layered cloth", "Notched rail", "Rubber ball" };
+    std::vector<Preset> found;
+    const auto take = [&] (const Preset& p)
+    {
+        if (found.size() < most && p.problem.empty() && p.placeholders.empty() && std::ranges::count (found, p.file, &Preset::file) == 0) found.push_back (p);
+    };
+    for (const auto* name : names)
+        if (const auto p = std::ranges::find (presets, name, &Preset::name); p != presets.end()) take (*p);
+    for (const auto& p : presets)
+        take (p);
+    return found;
+}
+
+/// One preset: its name, what it feels like, how strong it is.
+class WelcomePage::Card final : public juce::Button
+{
+public:
+    Card (const Preset& p, PictureStore& s) : Button (p.name), preset (p), pictures (s)
+    {
+        setDescription (p.about);
+        setWantsKeyboardFocus (true);
+        setMouseCursor (juce::MouseCursor::PointingHandCursor);
+    }
+
+    const Preset preset;
+
+    void paintButton (juce::Graphics& g, bool over, bool) override
+    {
+        const auto& look = lookOf (*this);
+        const auto& theme = look.theme();
+        const auto area = getLocalBounds().toFloat().reduced (0.5f);
+        g.setColour (theme.raised);
+        g.fillRoundedRectangle (area, 8.0f);
+        g.setColour (over || hasKeyboardFocus (false) ? theme.accent : theme.hairline);
+        g.drawRoundedRectangle (area, 8.0f, over ? 1.5f : 1.0f);
+        auto inside = getLocalBounds().reduced (12, 8);
+        auto top = inside.removeFromTop (20);
+        g.setColour (theme.text);
+        g.setFont (look.font (14.0f, true));
+        g.drawText (preset.name, top, juce::Justification::centredLeft, true);
+        if (over)
+        {
+            g.setColour (theme.accent);
+            g.setFont (look.font (12.0f, true));
+            g.drawText ("Feel it", top, juce::Justification::centredRight, false);
+        }
+        const int lines = inside.getHeight() > 100 ? 3 : 2;
+        drawFittedWords (g, feel (preset.about), look.font (12.0f), theme.dim, inside.removeFromTop (lines * line_height));
+        drawPicture (g, look, inside.withTrimmedTop (6).toFloat(), pictures.get (preset.file).get());
+    }
+
+private:
+    PictureStore& pictures;
+};
+
+class WelcomePage::RecentFile final : public juce::Button
+{
+public:
+    explicit RecentFile (std::filesystem::path f) : Button (f.stem().string()), file (std::move (f)) { setTooltip (file.string()); }
+
+    const std::filesystem::path file;
+
+    int widthFor() const { return juce::roundToInt (lookOf (*this).font (13.0f).getStringWidthFloat (getButtonText())) + 16; }
+
+    void paintButton (juce::Graphics& g, bool over, bool) override
+    {
+        const auto& look = lookOf (*this);
+        g.setColour (over ? look.theme().text : look.theme().accent);
+        g.setFont (look.font (13.0f));
+        g.drawText (getButtonText(), getLocalBounds(), juce::Justification::centred, true);
+    }
+};
+
+WelcomePage::WelcomePage (PictureStore& p) : pictures (p)
+{
+    setTitle ("Welcome");
+    create.onClick = [this]
+    {
+        if (onNew) onNew();
+    };
+    open.onClick = [this]
+    {
+        if (onOpen) onOpen();
+    };
+    addAndMakeVisible (create);
+    addAndMakeVisible (open);
+}
+
+WelcomePage::~WelcomePage() = default;
+
+void WelcomePage::show (const std::vector<Preset>& presets, const std::vector<std::filesystem::path>& recent)
+{
+    chosen = firstOnes (presets, most_cards);
+    all.clear();
+    for (const auto& p : chosen)
+    {
+        auto& card = *all.emplace_back (std::make_unique<Card> (p, pictures));
+        card.onClick = [this, file = p.file]
+        {
+            if (onFeel) onFeel (file);
+        };
+        addAndMakeVisible (card);
+    }
+    files.clear();
+    std::error_code failed;
+    for (const auto& file : recent)
+    {
+        if (files.size() == most_files || ! std::filesystem::is_regular_file (file, failed)) continue;
+        auto& f = *files.emplace_back (std::make_unique<RecentFile> (file));
+        f.onClick = [this, file]
+        {
+            if (onOpenFile) onOpenFile (file);
+        };
+        addAndMakeVisible (f);
+    }
+    resized();
+    repaint();
+}
+
+void WelcomePage::refresh()
+{
+    if (pictures_done == pictures.done()) return;
+    pictures_done = pictures.done();
+    repaint();
+}
+
+void WelcomePage::resized()
+{
+    const bool is_low = getHeight() < low;
+    auto area = getLocalBounds().reduced (margin, is_low ? 12 : margin);
+    area = area.withSizeKeepingCentre (std::min (area.getWidth(), 1040), std::min (area.getHeight(), 560));
+    title = area.removeFromTop (is_low ? 56 : 64);
+    auto low_row = area.removeFromBottom (32);
+    create.setBounds (low_row.removeFromLeft (create.widthFor()));
+    low_row.removeFromLeft (8);
+    open.setBounds (low_row.removeFromLeft (open.widthFor()));
+    low_row.removeFromLeft (24);
+    recent_title = files.empty() ? juce::Rectangle<int>() : low_row.removeFromLeft (52);
+    for (auto& f : files)
+    {
+        const int w = std::min (200, f->widthFor());
+        f->setVisible (w <= low_row.getWidth());
+        f->setBounds (low_row.removeFromLeft (w));
+    }
+    area.removeFromBottom (is_low ? gap : 24);
+    const int columns = 3, rows = std::max (1, (static_cast<int> (all.size()) + columns - 1) / columns);
+    const int w = (area.getWidth() - (columns - 1) * gap) / columns, h = (area.getHeight() - (rows - 1) * gap) / rows;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        all[i]->setBounds (area.getX() + static_cast<int> (i % columns) * (w + gap), area.getY() + static_cast<int> (i / columns) * (h + gap), w, h);
+}
+
+void WelcomePage::paint (juce::Graphics& g)
+{
+    const auto& look = lookOf (*this);
+    const auto& theme = look.theme();
+    g.fillAll (theme.canvas);
+    auto words = title;
+    g.setColour (theme.text);
+    g.setFont (look.font (20.0f, true));
+    g.drawText ("Feel something", words.removeFromTop (28), juce::Justification::centredLeft, false);
+    g.setColour (theme.dim);
+    g.setFont (look.font (13.0f));
+    g.drawText (all.empty() ? "No presets were found beside the program. Set TACTUS_PRESETS to their folder, or begin with an empty graph."
+                            : "One click opens it and runs it with the mouse as your hand: press on the surface below and drag.",
+                words.removeFromTop (20), juce::Justification::centredLeft, true);
+    if (recent_title.isEmpty()) return;
+    g.drawText ("Recent", recent_title, juce::Justification::centredLeft, false);
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "question.hpp"
+
+#include <cmath>
+
+namespace tactus::host
+{
+
+Question::Question()
+{
+    setVisible (false);
+    setWantsKeyboardFocus (true);
+}
+
+void Question::ask (const juce::String& title, const juce::String& text, std::vector<Choice> all)
+{
+    heading = title;
+    words = text;
+    choices = std::move (all);
+    setTitle (title);
+    setDescription (text);
+    buttons.clear();
+    for (std::size_t i = 0; i < choices.size(); ++i)
+    {
+        auto& b = *buttons.emplace_back (std::make_unique<PlainButton> (choices[i].words));
+        b.onClick = [this, i]
+        { answer (i); };
+        addAndMakeVisible (b);
+    }
+    mark (0);
+    setVisible (true);
+    toFront (false);
+    resized();
+    repaint();
+    if (isShowing()) grabKeyboardFocus();
+}
+
+void Question::answer (std::size_t choice)
+{
+    if (! isOpen() || choice >= choices.size()) return;
+    const auto act = choices[choice].act;   // which may ask the next question
+    setVisible (false);
+    if (auto* parent = getParentComponent(); parent != nullptr && parent->isShowing()) parent->grabKeyboardFocus();
+    if (act) act();
+}
+
+void Question::cancel()
+{
+    if (! choices.empty()) answer (choices.size() - 1);
+}
+
+void Question::mark (std::size_t choice)
+{
+    marked = choice;
+    for (std::size_t i = 0; i < buttons.size(); ++i)
+        buttons[i]->setFirst (i == marked);
+}
+
+juce::TextLayout Question::layout (int w) const
+{
+    const auto& look = lookOf (*this);
+    juce::AttributedString s;
+    s.append (words, look.font (13.0f), look.theme().text);
+    juce::TextLayout l;
+    l.createLayout (s, static_cast<float> (w));
+    return l;
+}
+
+void Question::resized()
+{
+    const int w = std::min (width, getWidth() - 32);
+    const int text_height = static_cast<int> (std::ceil (layout (w - 2 * margin).getHeight()));
+    box = getLocalBounds().withSizeKeepingCentre (w, margin + 24 + 8 + text_height + 24 + 32 + margin);
+    auto row = box.reduced (margin).removeFromBottom (32);
+    for (auto b = buttons.rbegin(); b != buttons.rend(); ++b)
+    {
+        (*b)->setBounds (row.removeFromRight ((*b)->widthFor()));
+        row.removeFromRight (8);
+    }
+}
+
+void Question::paint (juce::Graphics& g)
+{
+    const auto& look = lookOf (*this);
+    const auto& theme = look.theme();
+    g.fillAll (juce::Colours::black.withAlpha (theme.is_dark ? 0.55f : 0.35f));
+    g.setColour (theme.panel);
+    g.fillRoundedRectangle (box.toFloat(), 8.0f);
+    g.setColour (theme.hairline);
+    g.drawRoundedRectangle (box.toFloat().reduced (0.5f), 8.0f, 1.0f);
+    auto area = box.reduced (margin);
+    g.setColour (theme.text);
+    g.setFont (look.font (16.0f, true));
+    g.drawText (heading, area.removeFromTop (24), juce::Justification::centredLeft, true);
+    area.removeFromTop (8);
+    layout (area.getWidth()).draw (g, area.toFloat());
+}
+
+bool Question::keyPressed (const juce::KeyPress& key)
+{
+    if (key == juce::KeyPress::returnKey || key == juce::KeyPress::spaceKey)
+        answer (marked);
+    else if (key == juce::KeyPress::rightKey || key == juce::KeyPress::tabKey)
+        mark ((marked + 1) % choices.size());
+    else if (key == juce::KeyPress::leftKey)
+        mark ((marked + choices.size() - 1) % choices.size());
+    else
+        return false;
+    return true;
+}
+
+}   // namespace tactus::host

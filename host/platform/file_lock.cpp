@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "file_lock.hpp"
+
+#include <utility>
+
+#if defined(_WIN32)
+#include <windows.h>
+#else
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+#endif
+
+namespace tactus::host
+{
+
+std::optional<FileLock> FileLock::take (const std::filesystem::path& path)
+{
+#if defined(_WIN32)
+    const auto opened = CreateFileW (path.c_str(), GENERIC_READ | GENERIC_WRITE, FILE_SHARE_DELETE, nullptr, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, nullptr);
+    if (opened == INVALID_HANDLE_VALUE) return std::nullopt;
+    return FileLock (reinterpret_cast<std::intptr_t> (opened));
+#else
+    const int opened = ::open (path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (opened < 0) return std::nullopt;
+    FileLock lock (opened);
+    if (::flock (opened, LOCK_EX | LOCK_NB) != 0) return std::nullopt;
+    return lock;
+#endif
+}
+
+FileLock::FileLock (FileLock&& other) noexcept : handle (std::exchange (other.handle, none)) {}
+
+FileLock& FileLock::operator= (FileLock&& other) noexcept
+{
+    if (this == &other) return *this;
+    release();
+    handle = std::exchange (other.handle, none);
+    return *this;
+}
+
+FileLock::~FileLock() { release(); }
+
+void FileLock::release() noexcept
+{
+    if (handle == none) return;
+#if defined(_WIN32)
+    CloseHandle (reinterpret_cast<HANDLE> (handle));
+#else
+    ::close (static_cast<int> (handle));
+#endif
+    handle = none;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include <host/app/history/history_panel.hpp>
+
+#include <framework/file/graph_file.hpp>
+
+using namespace tactus;
+using namespace tactus::host;
+
+TEST_CASE ("a click on a step of the history goes there, back and forth")
+{
+    const juce::ScopedJuceInitialiser_GUI gui;
+    Look look;
+    juce::LookAndFeel::setDefaultLookAndFeel (&look);
+    {
+        Document document (loadGraph (TACTUS_SOURCE_DIR "/graphs/dry_wood.json").graph);
+        HistoryPanel panel (document);
+        panel.setSize (232, 400);
+        for (int i = 1; i <= 4; ++i)
+            REQUIRE (document.perform (graph::SetParam { "", "drag", "mu", Json (0.1 * i) }));
+        auto* list = dynamic_cast<juce::ListBox*> (panel.getChildComponent (0));
+        REQUIRE (list != nullptr);
+        CHECK (list->getModel()->getNumRows() == 5);
+        panel.goToRow (1);
+        CHECK (document.history().position() == 1);
+        CHECK (document.graph().root.find ("drag")->params["mu"] == 0.1);
+        panel.goToRow (4);
+        CHECK (document.graph().root.find ("drag")->params["mu"] == 0.4);
+        panel.goToRow (0);
+        CHECK (document.history().position() == 0);
+        panel.goToRow (99);
+        CHECK (document.history().position() == 0);
+        CHECK (list->getModel()->getNumRows() == 5);   // what is undone stays
+
+        panel.goToRow (2);
+        REQUIRE (document.perform (graph::SetParam { "", "drag", "mu", Json (0.9) }));
+        CHECK (list->getModel()->getNumRows() == 4);
+        panel.createComponentSnapshot (panel.getLocalBounds());   // paints without a display
+    }
+    juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include <host/app/presets/force_picture.hpp>
+#include <host/app/presets/preset_list.hpp>
+
+#include "host/io/temporary_folder.hpp"
+
+using namespace tactus;
+using namespace tactus::host;
+
+namespace
+{
+const std::filesystem::path graphs = TACTUS_SOURCE_DIR "/graphs";
+const std::atomic<bool> goes_on { false };
+
+std::vector<Preset> some()
+{
+    return { { "a.json", "Dry wood", "It catches and lets go.", { "wood", "stroke" }, {}, {}, {} },
+             { "b.json", "Oak", "A nail across the grain.", { "wood", "rough" }, {}, {}, {} },
+             { "c.json", "Gel", "Soft WOOD glue.", { "press" }, {}, {}, {} } };
+}
+}   // namespace
+
+TEST_CASE ("presets are found by words of their name, tags and sentence, in any case")
+{
+    CHECK (matching (some(), "wood").size() == 3);
+    CHECK (matching (some(), "Wood grain").size() == 1);
+    CHECK (matching (some(), "  ").size() == 3);
+    CHECK (matching (some(), "steel").empty());
+}
+
+TEST_CASE ("each tag narrows the presets down")
+{
+    CHECK (matching (some(), "", { "wood" }).size() == 2);
+    CHECK (matching (some(), "", { "wood", "rough" }).size() == 1);
+    CHECK (matching (some(), "catches", { "rough" }).empty());
+}
+
+TEST_CASE ("the tags of most presets come first, and each preset counts once")
+{
+    auto presets = some();
+    presets[2].tags = { "press", "press" };
+    const auto tags = tagsOf (presets);
+    CHECK (tags.front() == std::pair<std::string, int> { "wood", 2 });
+    CHECK (std::ranges::find (tags, "press", &std::pair<std::string, int>::first)->second == 1);
+}
+
+TEST_CASE ("all presets that come with Tactus can be read and have no placeholders")
+{
+    const auto presets = presetsIn (graphs, catalogue());
+    CHECK (presets.size() >= 30);
+    for (const auto& p : presets)
+    {
+        INFO (p.name);
+        CHECK (p.problem.empty());
+        CHECK (p.placeholders.empty());
+        CHECK_FALSE (p.about.empty());
+        CHECK_FALSE (p.tags.empty());
+    }
+}
+
+TEST_CASE ("a folder's damaged graphs are listed with what is wrong, other files are not")
+{
+    TemporaryFolder folder;
+    folder.write ("torn.json", R"({"format": "tactus-graph", "version": 1, "nodes": {)");
+    folder.write ("other.json", R"({"colour": "blue"})");
+    folder.write ("strange.json", R"({"format": "tactus-graph", "version": 1, "name": "Strange", "nodes": {"a": {"type": "foo.bar"}, "b": {"type": "foo.baz"}, "c": {"type": "signal.gain"}}, "wires": []})");
+    const auto presets = presetsIn (folder.path(), catalogue());
+    REQUIRE (presets.size() == 2);
+    CHECK (placeholderText (presets[0]) == "2 placeholders: foo.bar, foo.baz");
+    CHECK (presets[1].name == "torn");
+    CHECK_FALSE (presets[1].problem.empty());
+    CHECK (presetsIn (folder / "nowhere", catalogue()).empty());
+}
+
+TEST_CASE ("a preset is as strong as it is drawn")
+{
+    const auto wood = pictureOf (graphs / "dry_wood.json", catalogue(), goes_on);
+    CHECK (wood.problem.empty());
+    REQUIRE (wood.peaks.size() == ForcePicture::columns);
+    CHECK (wood.peak > 0.5);
+    CHECK (wood.peak < 6.0);              // its guard's
+    CHECK (wood.peaks.front() == 0.0f);   // the gesture begins above the board
+    CHECK (wood.unit == std::string ("N"));
+    CHECK (pictureOf (graphs / "dry_wood.json", catalogue(), goes_on).peaks == wood.peaks);   // each time the same
+}
+
+TEST_CASE ("a picture that cannot be drawn says why")
+{
+    TemporaryFolder folder;
+    folder.write ("still.json", R"({"format": "tactus-graph", "version": 1, "nodes": {"m": {"type": "device.force", "role": "pen"}}, "wires": []})");
+    CHECK (pictureOf (folder / "still.json", catalogue(), goes_on).problem == "its hand does not move by itself");
+    CHECK_FALSE (pictureOf (folder / "nowhere.json", catalogue(), goes_on).problem.empty());
+    const std::atomic<bool> called_off { true };
+    CHECK (pictureOf (graphs / "dry_wood.json", catalogue(), called_off).problem == "it was called off");
+}

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include <host/app/window/main_view.hpp>
+
+#include "host/io/temporary_folder.hpp"
+
+#include <framework/file/graph_file.hpp>
+
+using namespace tactus;
+using namespace tactus::host;
+namespace fs = std::filesystem;
+
+namespace
+{
+struct Opened
+{
+    juce::ScopedJuceInitialiser_GUI gui;
+    Look look;
+    struct Default
+    {
+        explicit Default (Look& l)
+        {
+            juce::LookAndFeel::setDefaultLookAndFeel (&l);
+            setenv ("TACTUS_PRESETS", TACTUS_SOURCE_DIR "/graphs", 1);
+            setenv ("TACTUS_GRAPHS", "/nowhere", 1);
+        }
+        ~Default() { juce::LookAndFeel::setDefaultLookAndFeel (nullptr); }
+    } as_default { look };
+    TemporaryFolder home, mine;
+    const fs::path wood = mine / "wood.json";   // a copy, since tests save
+    std::unique_ptr<MainView> view = make();
+
+    std::unique_ptr<MainView> make()
+    {
+        fs::copy_file (TACTUS_SOURCE_DIR "/graphs/dry_wood.json", wood, fs::copy_options::overwrite_existing);
+        auto made = std::make_unique<MainView> (catalogue());
+        made->setSize (1280, 720);
+        return made;
+    }
+
+    void press (const char* key) { view->keyPressed (juce::KeyPress::createFromDescription (key)); }
+};
+}   // namespace
+
+TEST_CASE ("the first start welcomes, and one click runs a preset with the mouse as the hand")
+{
+    Opened o;
+    o.view->begin ({ o.home.path() });
+    REQUIRE (o.view->welcomePage().isVisible());
+    REQUIRE (o.view->welcomePage().cards().size() == 6);
+    const auto first = o.view->welcomePage().cards().front();
+    CHECK (first.name == "Dry wood");
+    o.view->welcomePage().onFeel (first.file);
+    CHECK_FALSE (o.view->welcomePage().isVisible());
+    CHECK (o.view->run().isRunning());
+    CHECK (o.view->run().hand() == Performance::Hand::pointer());
+    CHECK (o.view->document().file().empty());
+    o.view->document().undo();
+    CHECK_FALSE (o.view->welcomePage().isVisible());   // an empty graph is a graph too, once something was open
+}
+
+TEST_CASE ("Esc stops the forces first, and then closes what is open")
+{
+    Opened o;
+    o.view->begin ({ o.home.path(), false, false, { o.wood } });
+    CHECK_FALSE (o.view->welcomePage().isVisible());
+    REQUIRE (o.view->run().isRunning());
+    o.press ("F1");
+    REQUIRE (o.view->helpPanel().isOpen());
+    o.press ("escape");
+    CHECK_FALSE (o.view->run().isRunning());
+    CHECK (o.view->helpPanel().isOpen());
+    o.press ("escape");
+    CHECK_FALSE (o.view->helpPanel().isOpen());
+}
+
+TEST_CASE ("a run that was stopped stays stopped while one edits")
+{
+    Opened o;
+    o.view->begin ({ o.home.path(), false, false, { o.wood } });
+    o.press ("escape");
+    REQUIRE (o.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.5) }));
+    CHECK_FALSE (o.view->run().isRunning());
+}
+
+TEST_CASE ("safe mode shows a file and does not run it, not even when it is edited")
+{
+    Opened o;
+    o.view->begin ({ o.home.path(), true, false, { o.wood } });
+    CHECK (o.view->document().graph().name == "Dry wood");
+    REQUIRE (o.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.5) }));
+    CHECK_FALSE (o.view->run().isRunning());
+    CHECK (o.view->saying().contains ("START"));
+}
+
+TEST_CASE ("digits recall snapshots, and with Ctrl they store them")
+{
+    Opened o;
+    o.view->begin ({ o.home.path(), true, false, { o.wood } });
+    const auto mu = [&]
+    { return o.view->document().graph().root.find ("drag")->params["mu"]; };
+    o.press ("2");
+    CHECK (o.view->saying().contains ("empty"));
+    o.press ("ctrl + 2");
+    REQUIRE (hasSnapshot (o.view->document().graph(), 2));
+    REQUIRE (o.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.9) }));
+    o.press ("2");
+    CHECK (mu() == 0.4);
+    o.press ("ctrl + z");
+    CHECK (mu() == 0.9);
+}
+
+TEST_CASE ("the window closes only when what is not saved was decided")
+{
+    Opened o;
+    o.view->begin ({ o.home.path(), true, false, { o.wood } });
+    int closed = 0;
+    const auto close = [&]
+    { o.view->closeWhenSaved ([&]
+                              { ++closed; }); };
+    REQUIRE (o.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.5) }));
+    close();
+    REQUIRE (o.view->asked().isOpen());
+    o.press ("spacebar");   // Return and space take what is marked; the arrows mark
+    CHECK (o.view->asked().isOpen() == false);
+    CHECK (closed == 1);
+    CHECK (loadGraph (o.wood).graph.root.find ("drag")->params["mu"] == 0.5);
+}
+
+TEST_CASE ("keys reach only the question while one is open")
+{
+    Opened o;
+    o.view->begin ({ o.home.path(), true, false, { o.wood } });
+    REQUIRE (o.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.5) }));
+    o.press ("ctrl + n");
+    REQUIRE (o.view->asked().isOpen());
+    o.press ("ctrl + z");
+    o.press ("1");
+    CHECK (o.view->document().graph().root.find ("drag")->params["mu"] == 0.5);
+    o.press ("escape");
+    CHECK_FALSE (o.view->asked().isOpen());
+    CHECK (o.view->document().graph().name == "Dry wood");
+    o.press ("ctrl + n");
+    o.press ("cursor right");
+    o.press ("return");   // Don't save
+    CHECK (o.view->document().graph().root.nodes.empty());
+}
+
+TEST_CASE ("help on a node is its datasheet, and its example opens a graph that has one")
+{
+    Opened o;
+    o.view->begin ({ o.home.path(), true });
+    for (const auto& type : catalogue())
+    {
+        o.view->showHelp (std::string (type.info.id));
+        REQUIRE (o.view->helpPanel().type() == type.info.id);
+        o.view->helpPanel().onExample (o.view->helpPanel().type());
+        INFO (type.info.id);
+        const auto& g = o.view->document().graph();
+        bool has = false;
+        const auto look = [&] (const graph::Patch& p)
+        {
+            for (const auto& n : p.nodes)
+                has = has || n.type == type.info.id;
+        };
+        look (g.root);
+        for (const auto& [name, patch] : g.graphs)
+            look (patch);
+        REQUIRE (has);
+    }
+    o.view->showHelp ("foo.bar");
+    CHECK (o.view->helpPanel().isOpen());
+    o.view->showHelp ("graph:grain");
+    CHECK (o.view->helpPanel().isOpen());
+}
+
+TEST_CASE ("the browser finds by words and keeps favourites above the rest")
+{
+    Opened o;
+    o.view->begin ({ o.home.path(), true });
+    auto& browser = o.view->browser();
+    browser.setSize (232, 600);
+    const auto all = browser.rows().size();
+    CHECK (all >= 30);
+    browser.search ("metal ring");
+    CHECK (browser.rows().size() < all);
+    REQUIRE_FALSE (browser.rows().empty());
+    browser.search ({});
+    CHECK (browser.rows().size() == all);
+    CHECK (browser.rows().front().heading.isEmpty());   // one section alone needs no heading
+
+    Preset opened;
+    bool is_own = true;
+    browser.onOpen = [&] (const Preset& p, bool own)
+    {
+        opened = p;
+        is_own = own;
+    };
+    auto* list = dynamic_cast<juce::ListBox*> (browser.getChildComponent (2));
+    REQUIRE (list != nullptr);
+    list->getModel()->returnKeyPressed (0);
+    CHECK (opened.name == browser.rows().front().preset->name);
+    CHECK_FALSE (is_own);
+}
+
+TEST_CASE ("--light is for this start only")
+{
+    Opened o;
+    o.view->begin ({ o.home.path(), true, true });
+    CHECK_FALSE (o.look.theme().is_dark);
+    o.view.reset();
+    CHECK (o.home.textOf ("settings.json").find ("\"theme\": \"dark\"") != std::string::npos);
+}
+
+TEST_CASE ("settings are remembered from one start to the next, and damaged ones are said")
+{
+    Opened o;
+    o.home.write ("settings.json", R"({"theme": "light", "panels": {"left": 300}, "favourites": [")" TACTUS_SOURCE_DIR R"(/graphs/dry_wood.json"]})");
+    o.view->begin ({ o.home.path(), true });
+    CHECK (o.look.theme().is_dark == false);
+    CHECK (o.view->browser().getWidth() == 300);
+    REQUIRE (o.view->browser().rows().size() > 2);
+    CHECK (o.view->browser().rows()[0].heading == "Favourites");
+    CHECK (o.view->browser().rows()[1].preset->name == "Dry wood");
+    o.view.reset();
+    CHECK (o.home.textOf ("settings.json").find ("\"welcomed\": true") != std::string::npos);
+
+    o.home.write ("settings.json", "{ torn");
+    o.view = o.make();
+    o.view->begin ({ o.home.path(), true });
+    CHECK (fs::exists (o.home / "settings.json.broken"));
+}
