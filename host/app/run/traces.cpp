@@ -58,12 +58,18 @@ void Traces::select (const Plan& plan, double rate_hz, bool anew)
     const auto wanted = ports();
     std::vector<std::size_t> taps;
     in_frame.clear();
+    too_many.clear();
     std::map<std::string, std::shared_ptr<Trace>> kept;
-    for (std::size_t i = 0; i < plan.taps.size() && taps.size() < ProbeRing::most; ++i)
+    for (std::size_t i = 0; i < plan.taps.size(); ++i)
     {
         const auto& tap = plan.taps[i];
         if (std::ranges::none_of (wanted, [&] (const std::string& port)
                                   { return isPartOf (tap.name, port); })) continue;
+        if (taps.size() == ProbeRing::most)
+        {
+            too_many.push_back (tap.name);
+            continue;
+        }
         auto& trace = kept[tap.name];
         if (const auto old = by_name.find (tap.name); old != by_name.end() && old->second->unit() == tap.unit) trace = old->second;
         if (! trace) trace = std::make_shared<Trace> (tap, rate_hz);

@@ -12,7 +12,7 @@ namespace
 {
 constexpr int line_height = 26, hand_width = 420, refreshes_per_second = 30;
 constexpr int least_canvas = 240;   // pixels, each way
-}
+}   // namespace
 
 MainView::MainView (const Catalogue& c) : catalogue (c)
 {
@@ -47,6 +47,8 @@ void MainView::show (graph::Graph g, const std::filesystem::path& file)
     inspector.reset();
     patching.reset();
     top.reset();
+    scopes = nullptr;
+    bottom.clear();
     performance.reset();
     edited = std::make_unique<Document> (std::move (g), file);
     edited->add (*this);
@@ -74,6 +76,11 @@ void MainView::show (graph::Graph g, const std::filesystem::path& file)
         { resized(); };
         addAndMakeVisible (*edge);
     }
+    auto panel = std::make_unique<ScopePanel> (*edited, *performance, catalogue);
+    scopes = panel.get();
+    scopes->onHint = [this] (const juce::String& text)
+    { say (text); };
+    bottom.add ("Scopes", std::move (panel));
     palette.toFront (false);
     presets->showOpen (file);
     resized();
@@ -99,6 +106,7 @@ void MainView::timerCallback()
     performance->attend();
     strip.show (*performance);
     hand.show (*performance);
+    if (scopes->isVisible()) scopes->refresh();
 }
 
 void MainView::openPalette (juce::Point<float> at, std::optional<WireStart> start)
@@ -190,7 +198,7 @@ bool MainView::keyPressed (const juce::KeyPress& key)
         save();
         return true;
     }
-    return patching->keyPressed (key);
+    return scopes->keyPressed (key) || patching->keyPressed (key);
 }
 
 }   // namespace tactus::host

@@ -7,6 +7,7 @@
 #include <host/app/presets/browser.hpp>
 #include <host/app/run/hand_view.hpp>
 #include <host/app/run/safety_strip.hpp>
+#include <host/app/scopes/scope_panel.hpp>
 #include <host/app/window/splitter.hpp>
 #include <host/app/window/tabs.hpp>
 #include <host/app/window/top_bar.hpp>
@@ -50,6 +51,7 @@ private:
     Splitter left_edge { Splitter::Edge::right, 232, 160 }, right_edge { Splitter::Edge::left, 304, 220 }, bottom_edge { Splitter::Edge::top, 264, 140 };
     std::unique_ptr<TopBar> top;
     PresetBrowser* presets = nullptr;   // in the left tabs
+    ScopePanel* scopes = nullptr;       // in the bottom tabs
     std::unique_ptr<Canvas> patching;
     std::unique_ptr<Inspector> inspector;
     Palette palette;
