@@ -54,6 +54,7 @@ std::vector<std::shared_ptr<const Trace>> Traces::of (const std::string& port) c
 
 void Traces::select (const Plan& plan, double rate_hz, bool anew)
 {
+    collect();   // what came before is of the plan before
     if (anew) by_name.clear();
     const auto wanted = ports();
     std::vector<std::size_t> taps;

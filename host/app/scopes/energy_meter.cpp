@@ -38,7 +38,7 @@ void EnergyMeter::begin (const Sources& s)
     stored = traceOf ("stored", rate);
     dissipated = traceOf ("dissipated", rate);
     shown = { work, stored, dissipated };
-    has_last = false;
+    has_last = was_gap = false;
     next = s.position.front()->begin();
     for (const auto* list : { &s.position, &s.applied, &s.stored, &s.dissipated })
         for (const auto& t : *list)
@@ -74,13 +74,14 @@ void EnergyMeter::follow (const Sources& s)
         if (! is_whole || ! std::isfinite (in) || ! std::isfinite (lost))
         {
             now.gaps += has_last;
+            was_gap = true;
             continue;
         }
         if (has_last)
         {
             double step = 0.0;
             for (std::size_t i = 0; i < 3; ++i)
-                step -= f[i] * (p[i] - last[i]);
+                step -= (was_gap ? 0.5 * (f[i] + last_force[i]) : f[i]) * (p[i] - last[i]);
             now.work += step;
             now.moved += std::abs (step);
             now.worst = std::min (now.worst, now.work);
@@ -93,7 +94,9 @@ void EnergyMeter::follow (const Sources& s)
         now.stored = in;
         now.dissipated = lost - lost_first;
         has_last = true;
+        was_gap = false;
         last = p;
+        last_force = f;
         work->add (next, now.work);
         stored->add (next, in - now.stored_first);
         dissipated->add (next, now.dissipated);
@@ -127,7 +130,10 @@ std::string withPrefix (double value, const std::string& unit, int digits)
 std::string inWords (const EnergyBalance& b)
 {
     const auto joule = [] (double v)
-    { return withPrefix (v, "J", 2); };
+    {
+        auto text = withPrefix (v, "J", 2);
+        return text.replace (text.find (' '), 1, "\u00a0");   // a number stays with its unit
+    };
     std::string text = b.isPassive() ? "passive: the hand has put in " + joule (b.work) : "active: " + joule (-b.worst - b.stored_first) + " more came out than went in; work of the hand " + joule (b.work);
     text += ", " + joule (b.stored) + " are stored, " + joule (b.dissipated) + " dissipated";
     if (std::abs (b.elsewhere()) > 0.02 * b.moved && std::abs (b.elsewhere()) > 1e-7) text += ", " + joule (b.elsewhere()) + " elsewhere";

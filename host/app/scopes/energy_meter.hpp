@@ -56,8 +56,8 @@ private:
     std::shared_ptr<Trace> work, stored, dissipated;
     TraceList shown;
     std::uint64_t next = 0;
-    bool has_last = false;
-    std::array<double, 3> last {};
+    bool has_last = false, was_gap = false;
+    std::array<double, 3> last {}, last_force {};
     double lost_first = 0.0;
 };
 

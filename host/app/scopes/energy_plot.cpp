@@ -85,12 +85,12 @@ void EnergyPlot::paintOver (juce::Graphics& g)
     auto words = lane.area.withY (4.0f).withHeight (words_height).withLeft (8.0f).withRight (static_cast<float> (getWidth()) - 8.0f).toNearestInt();
     g.setFont (look.font (12.0f));
     g.setColour (now.isPassive() ? theme().text : theme().warning);
-    g.drawFittedText (juce::String::fromUTF8 (inWords (now).c_str()), words, juce::Justification::topLeft, 2, 1.0f);
+    g.drawMultiLineText (juce::String::fromUTF8 (inWords (now).c_str()), words.getX(), words.getY() + 12, words.getWidth());
     paintLegend (g, lane.area.withHeight (16.0f), { { theme().text, "hand" }, { theme().of (Quantity::length).withAlpha (0.55f), "stored" }, { theme().of (Quantity::energy).withAlpha (0.45f), "dissipated" } });
     if (now.gaps == 0) return;
     g.setFont (look.font (11.0f));
     g.setColour (theme().warning);
-    g.drawText (juce::String (now.gaps) + " ticks are missing: the work is an estimate", lane.area.reduced (8.0f, 4.0f).removeFromBottom (14.0f), juce::Justification::bottomLeft, true);
+    g.drawText (juce::String (now.gaps) + " ticks were missed", lane.area.reduced (8.0f, 4.0f).removeFromBottom (14.0f), juce::Justification::bottomLeft, true);
 }
 
 std::vector<ScopePlot::Action> EnergyPlot::actions()

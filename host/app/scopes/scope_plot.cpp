@@ -108,7 +108,7 @@ void ScopePlot::paintScales (juce::Graphics& g, const Lane& lane) const
     }
     const auto along = axisScale (lane.x, "", lane.x_unit);
     auto unit = juce::String::fromUTF8 (along.label.c_str()).fromFirstOccurrenceOf ("(", false, false).upToLastOccurrenceOf (")", false, false);
-    const auto ticks = ticksWithin (along.shown (lane.x), std::max (2, static_cast<int> (lane.area.getWidth() / 64.0f)));
+    const auto ticks = ticksWithin (along.shown (lane.x), std::max (2, static_cast<int> (lane.area.getWidth() / 52.0f)));
     for (std::size_t i = 0; i < ticks.size(); ++i)
         vertical (along.origin + ticks[i].at * along.unit, juce::String::fromUTF8 (ticks[i].text.c_str()) + (i + 1 == ticks.size() ? " " + unit : juce::String()), false);
 }

@@ -10,7 +10,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr double silence = 1e-12;
+constexpr double silence = 1e-12, quietest_top = 1e-6;
 }
 
 double SpectrumPlot::height (double amplitude) const { return spec.in_decibels ? 20.0 * std::log10 (std::max (amplitude, silence)) : amplitude; }
@@ -47,7 +47,7 @@ void SpectrumPlot::show (const Signals& signals)
     layOut (units);
     for (std::size_t i = 0; i < lanes.size(); ++i)
     {
-        double top = 0.0;
+        double top = spec.in_decibels ? quietest_top : 0.0;
         for (const auto& l : lines)
             if (l.lane == i)
                 for (const double a : l.spectrum.amplitude)
@@ -92,18 +92,20 @@ void SpectrumPlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t i
     {
         if (l.lane != index || l.spectrum.amplitude.empty()) continue;
         juce::Path path;
-        float column = -1e9f, top = 0.0f;
+        float column = 0.0f, top = 0.0f;
+        bool is_begun = false;
         const auto first = static_cast<std::size_t> (std::ceil (0.5 * lowest_hz / l.spectrum.step_hz));
         for (std::size_t i = std::max<std::size_t> (1, first); i < l.spectrum.amplitude.size(); ++i)
         {
             // Of the lines that share a pixel the highest.
             const auto p = lane.toPixels (l.spectrum.hz (i), height (l.spectrum.amplitude[i]));
-            if (p.x - column < 1.0f && ! path.isEmpty())
+            if (is_begun && p.x - column < 1.0f)
             {
                 top = std::min (top, p.y);
                 continue;
             }
-            path.isEmpty() ? path.startNewSubPath (p) : path.lineTo (column + 0.5f, std::min (top, p.y));
+            is_begun ? path.lineTo (column, top) : path.startNewSubPath (p);
+            is_begun = true;
             column = p.x;
             top = p.y;
         }

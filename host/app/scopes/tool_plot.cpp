@@ -141,7 +141,7 @@ void ToolPlot::paintOver (juce::Graphics& g)
     paintLegend (g, area.removeFromBottom (16.0f), { { theme().of (Quantity::length), "z " + text (p.deflection.norm(), "m") }, { theme().of (Quantity::force), "f " + text (p.force.norm(), "N") } });
     g.setFont (look.font (11.0f));
     g.setColour (theme().dim);
-    g.drawText ("d_max " + text (p.d_max, "m"), getLocalBounds().toFloat().reduced (8.0f, 6.0f).removeFromBottom (16.0f), juce::Justification::centredLeft, false);
+    g.drawText ("d_max " + text (p.d_max, "m"), area.removeFromBottom (16.0f), juce::Justification::centredRight, false);
 }
 
 juce::String ToolPlot::emptyWords() const { return spec.node.empty() ? "No friction node is in this graph. Add friction.elasto_plastic, and its anchor and stretch are drawn here" : "Nothing has run yet"; }
