@@ -89,8 +89,8 @@ void EnergyPlot::paintOver (juce::Graphics& g)
     paintLegend (g, lane.area.withHeight (16.0f), { { theme().text, "hand" }, { theme().of (Quantity::length).withAlpha (0.55f), "stored" }, { theme().of (Quantity::energy).withAlpha (0.45f), "dissipated" } });
     if (now.gaps == 0) return;
     g.setFont (look.font (11.0f));
-    g.setColour (theme().warning);
-    g.drawText (juce::String (now.gaps) + " ticks were missed", lane.area.reduced (8.0f, 4.0f).removeFromBottom (14.0f), juce::Justification::bottomLeft, true);
+    g.setColour (theme().dim);
+    g.drawText (juce::String (now.gaps) + (now.gaps == 1 ? " tick was missed" : " ticks were missed"), lane.area.reduced (8.0f, 4.0f).removeFromBottom (14.0f), juce::Justification::bottomLeft, true);
 }
 
 std::vector<ScopePlot::Action> EnergyPlot::actions()

@@ -123,13 +123,15 @@ juce::Colour OverPlot::colourOf (Part part) const
 
 void OverPlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t)
 {
+    // Sticking over sliding: where it sticks and slips too fast for the eye, it is seen that it sticks at all.
     for (std::size_t age = 0; age < ages; ++age)
-        for (std::size_t part = 0; part < parts; ++part)
+        for (const auto part : { Part::plain, Part::open, Part::sliding, Part::stuck, Part::fault })
         {
-            if (tail[age][part].isEmpty()) continue;
+            const auto& path = tail[age][static_cast<std::size_t> (part)];
+            if (path.isEmpty()) continue;
             const float fade = static_cast<float> (age + 1) / static_cast<float> (ages);
-            g.setColour (colourOf (static_cast<Part> (part)).withAlpha (0.12f + 0.88f * fade * fade));
-            g.strokePath (tail[age][part], juce::PathStrokeType (1.5f));
+            g.setColour (colourOf (part).withAlpha (0.12f + 0.88f * fade * fade));
+            g.strokePath (path, juce::PathStrokeType (1.5f));
         }
     if (head)
     {

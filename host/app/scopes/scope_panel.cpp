@@ -65,10 +65,15 @@ void ScopePanel::wantPorts()
         for (const auto& p : portsOf (*s, desk.energies))
             if (isThere (p, desk.ports) && std::ranges::count (wanted, p) == 0) wanted.push_back (p);
     client.want (std::move (wanted));
-    std::vector<std::string> probes;
+    if (onProbes) onProbes();
+}
+
+std::vector<std::string> ScopePanel::probes() const
+{
+    std::vector<std::string> all;
     for (const auto& p : desk.ports)
-        if (model.shows (p.name)) probes.push_back (p.name);
-    if (onProbes) onProbes (probes);
+        if (model.shows (p.name)) all.push_back (p.name);
+    return all;
 }
 
 void ScopePanel::showView (ScopeSpec& s)

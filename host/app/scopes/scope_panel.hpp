@@ -22,6 +22,7 @@ public:
     /// Shows a port as a trace, or does not any more. True if it is shown now.
     bool probe (const std::string& port);
     bool isProbed (const std::string& port) const { return model.shows (port); }
+    std::vector<std::string> probes() const;   ///< the ports of the graph that are traces now
 
     ScopeView& add (ScopeKind);
     void freezeAll (bool);
@@ -30,8 +31,8 @@ public:
     /// What is amiss with what is shown: too many ports, a scope that waits; "" if nothing is.
     juce::String warning() const;
 
-    std::function<void (const juce::String&)> onHint;                 ///< a word for the line below: where a file is
-    std::function<void (const std::vector<std::string>&)> onProbes;   ///< the ports that are traces now
+    std::function<void (const juce::String&)> onHint;   ///< a word for the line below: where a file is
+    std::function<void()> onProbes;                     ///< other ports are traces now: ask probes()
 
     const ScopeModel& scopes() const noexcept { return model; }
     const std::vector<std::unique_ptr<ScopeView>>& shown() const noexcept { return views; }

@@ -74,7 +74,7 @@ void ScopePlot::paintScales (juce::Graphics& g, const Lane& lane) const
     const auto font = look.font (11.0f);
     g.setFont (font);
     const auto down = axisScale (lane.y, "", lane.unit);
-    const int rows = std::max (2, static_cast<int> (lane.area.getHeight() / 26.0f));
+    const int rows = std::max (2, static_cast<int> (lane.area.getHeight() / 22.0f));
     for (const auto& tick : ticksWithin (down.shown (lane.y), rows))
     {
         const float y = lane.toPixels (lane.x.low, down.origin + tick.at * down.unit).y;
@@ -163,14 +163,14 @@ void ScopePlot::paintReadout (juce::Graphics& g, const juce::StringArray& lines,
         drawNumber (g, l, box.removeFromTop (16.0f));
 }
 
-void ScopePlot::paintLegend (juce::Graphics& g, juce::Rectangle<float> line, const std::vector<Entry>& entries) const
+void ScopePlot::paintLegend (juce::Graphics& g, juce::Rectangle<float> line, const std::vector<Entry>& entries, bool at_right) const
 {
     const auto font = lookOf (*this).font (11.0f);
     g.setFont (font);
     float width = 0.0f;
     for (const auto& e : entries)
         width += font.getStringWidthFloat (e.text) + 22.0f;
-    auto box = line.removeFromRight (width + 2.0f);
+    auto box = at_right ? line.removeFromRight (width + 2.0f) : line.removeFromLeft (width + 2.0f);
     g.setColour (theme().canvas.withAlpha (0.8f));
     g.fillRoundedRectangle (box, 3.0f);
     box.removeFromLeft (6.0f);

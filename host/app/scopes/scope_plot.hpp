@@ -73,13 +73,13 @@ protected:
     void layOut (const std::vector<std::string>& units);
     Extent rangeOf (const std::string& unit, const Extent& seen);
 
-    /// "● stuck": small squares of colour and words, from the right.
+    /// "■ stuck": small squares of colour and words, at an end of a line.
     struct Entry
     {
         juce::Colour colour;
         juce::String text;
     };
-    void paintLegend (juce::Graphics&, juce::Rectangle<float>, const std::vector<Entry>&) const;
+    void paintLegend (juce::Graphics&, juce::Rectangle<float>, const std::vector<Entry>&, bool at_right = true) const;
 
     /// One below the other at the top right of a lane.
     void paintReadout (juce::Graphics&, const juce::StringArray&, juce::Rectangle<float>) const;

@@ -36,9 +36,9 @@ void SpectrumPlot::show (const Signals& signals)
             const auto& t = *traces[i];
             auto lane = std::ranges::find (units, t.unit());
             if (lane == units.end()) lane = units.insert (units.end(), t.unit());
-            const auto latest = latestSamples (t, spec.seconds);
+            const auto latest = latestSamples (t, std::min (spec.seconds, most_s));
             missing = std::max (missing, latest.missing);
-            lines.push_back ({ static_cast<std::size_t> (lane - units.begin()), traceColour (theme(), t.quantity(), nth, i), spectrumOf (latest.values, t.rate()) });
+            lines.push_back ({ static_cast<std::size_t> (lane - units.begin()), traceColour (theme(), t.quantity(), nth, i), spectrumOf (latest.values, t.rate()), {} });
             rate = t.rate();
             if (lane != units.begin()) continue;
             if (const auto p = peakOf (lines.back().spectrum, lowest_hz); p && (! highest || p->amplitude > highest->amplitude)) highest = p;
@@ -61,6 +61,8 @@ void SpectrumPlot::show (const Signals& signals)
         lanes[i].x_unit = "Hz";
         lanes[i].is_logarithmic = true;
     }
+    for (auto& l : lines)
+        l.path = pathOf (l.spectrum, lanes[l.lane]);
 }
 
 std::vector<ScopePlot::Action> SpectrumPlot::actions()
@@ -68,7 +70,7 @@ std::vector<ScopePlot::Action> SpectrumPlot::actions()
     const auto lengths = [this] (juce::Component& below)
     {
         juce::PopupMenu menu;
-        for (const double s : { 0.1, 0.2, 0.5, 1.0, 2.0, 5.0 })
+        for (const double s : { 0.1, 0.2, 0.5, 1.0, 2.0, 4.0 })
             menu.addItem (juce::String (withPrefix (s, "s", 1)), true, std::abs (spec.seconds - s) < 1e-6 * s, [safe = juce::Component::SafePointer (this), s]
                           {
                 if (safe == nullptr) return;
@@ -86,32 +88,37 @@ std::vector<ScopePlot::Action> SpectrumPlot::actions()
              { spec.in_decibels ? "dB" : "linear", "Decibels of one unit, or amplitudes", toggle } };
 }
 
-void SpectrumPlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t index)
+juce::Path SpectrumPlot::pathOf (const Spectrum& spectrum, const Lane& lane) const
+{
+    juce::Path path;
+    float column = 0.0f, top = 0.0f;
+    bool is_begun = false;
+    const auto first = static_cast<std::size_t> (std::ceil (0.5 * lowest_hz / spectrum.step_hz));
+    for (std::size_t i = std::max<std::size_t> (1, first); i < spectrum.amplitude.size(); ++i)
+    {
+        // Of the lines that share a pixel the highest.
+        const auto p = lane.toPixels (spectrum.hz (i), height (spectrum.amplitude[i]));
+        if (is_begun && p.x - column < 1.0f)
+        {
+            top = std::min (top, p.y);
+            continue;
+        }
+        is_begun ? path.lineTo (column, top) : path.startNewSubPath (p);
+        is_begun = true;
+        column = p.x;
+        top = p.y;
+    }
+    if (is_begun) path.lineTo (column, top);
+    return path;
+}
+
+void SpectrumPlot::paintLane (juce::Graphics& g, const Lane&, std::size_t index)
 {
     for (const auto& l : lines)
     {
-        if (l.lane != index || l.spectrum.amplitude.empty()) continue;
-        juce::Path path;
-        float column = 0.0f, top = 0.0f;
-        bool is_begun = false;
-        const auto first = static_cast<std::size_t> (std::ceil (0.5 * lowest_hz / l.spectrum.step_hz));
-        for (std::size_t i = std::max<std::size_t> (1, first); i < l.spectrum.amplitude.size(); ++i)
-        {
-            // Of the lines that share a pixel the highest.
-            const auto p = lane.toPixels (l.spectrum.hz (i), height (l.spectrum.amplitude[i]));
-            if (is_begun && p.x - column < 1.0f)
-            {
-                top = std::min (top, p.y);
-                continue;
-            }
-            is_begun ? path.lineTo (column, top) : path.startNewSubPath (p);
-            is_begun = true;
-            column = p.x;
-            top = p.y;
-        }
-        path.lineTo (column, top);
+        if (l.lane != index) continue;
         g.setColour (l.colour);
-        g.strokePath (path, juce::PathStrokeType (1.5f));
+        g.strokePath (l.path, juce::PathStrokeType (1.5f));
     }
 }
 

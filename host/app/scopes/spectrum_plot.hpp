@@ -24,14 +24,17 @@ private:
         std::size_t lane = 0;
         juce::Colour colour;
         Spectrum spectrum;
+        juce::Path path;
     };
     static constexpr int every = 3;   // refreshes: nobody reads a spectrum faster
-    static constexpr double lowest_hz = 1.0, decades_down = 5.0;
+    static constexpr double lowest_hz = 1.0, decades_down = 5.0, most_s = 4.0;
 
     void paintLane (juce::Graphics&, const Lane&, std::size_t) override;
     void paintOver (juce::Graphics&) override;
     juce::String emptyWords() const override;
     double height (double amplitude) const;
+    juce::Path pathOf (const Spectrum&, const Lane&) const;
+    void zoomX (double factor, const Lane&, float) override { spec.seconds = std::clamp (spec.seconds * factor, 0.1, most_s); }
 
     std::vector<Line> lines;
     std::vector<std::string> units;

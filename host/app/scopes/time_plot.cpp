@@ -36,7 +36,7 @@ void TimePlot::show (const Signals& signals)
             const auto& t = traces[i];
             auto lane = std::ranges::find (units, t->unit());
             if (lane == units.end()) lane = units.insert (units.end(), t->unit());
-            lines.push_back ({ static_cast<std::size_t> (lane - units.begin()), traceColour (theme(), t->quantity(), nth, i), {} });
+            lines.push_back ({ static_cast<std::size_t> (lane - units.begin()), traceColour (theme(), t->quantity(), nth, i), traces.size() == 3 ? juce::String (t->name()).fromLastOccurrenceOf (".", false, false) : juce::String(), {} });
             all.push_back (t);
         }
     }
@@ -116,6 +116,12 @@ void TimePlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t index
 {
     for (const auto& l : lines)
         if (l.lane == index) drawTrace (g, lane, l.columns, zero, rate_hz, l.colour);
+
+    // Components are told apart by their light, which is the same for all vectors of a lane.
+    std::vector<Entry> components;
+    for (const auto& l : lines)
+        if (l.lane == index && l.component.isNotEmpty() && components.size() < 3) components.push_back ({ l.colour, l.component });
+    if (! components.empty()) paintLegend (g, lane.area.withHeight (16.0f).withTrimmedLeft (2.0f), components, false);
 }
 
 void TimePlot::paintOver (juce::Graphics& g)
@@ -136,7 +142,7 @@ void TimePlot::paintOver (juce::Graphics& g)
     if (seen.trigger) return;
     g.setFont (lookOf (*this).font (11.0f));
     g.setColour (theme().warning);
-    g.drawText ("waits for the trigger", lane.area.reduced (8.0f, 4.0f).removeFromTop (14.0f), juce::Justification::topLeft, false);
+    g.drawText ("waits for the trigger", lane.area.reduced (8.0f, 4.0f).removeFromBottom (14.0f), juce::Justification::bottomLeft, false);
 }
 
 juce::String TimePlot::emptyWords() const { return spec.ports.empty() ? "Select a wire and press P, or click + above: what stands there is drawn over time" : "Nothing has run yet"; }

@@ -24,6 +24,7 @@ private:
     {
         std::size_t lane = 0;
         juce::Colour colour;
+        juce::String component;   // "x", of a vector
         TraceColumns columns;
     };
 

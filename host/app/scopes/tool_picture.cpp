@@ -30,6 +30,7 @@ std::optional<ToolPicture> toolPicture (const std::string& node, const Signals& 
     ToolPicture p { vector (position), vector (deflection), vector (force) };
     const double s = state[0]->at (tick);
     if (! isFinite (p.tool) || ! isFinite (p.deflection) || ! isFinite (p.force) || ! std::isfinite (s)) return std::nullopt;
+    p.tick = tick;
     p.state = static_cast<int> (std::lround (s));
     if (d_max.size() == 1) p.d_max = finiteOrZero (d_max[0]->at (tick));
     p.d_stick = p.d_max * (ratio.size() == 1 ? std::max (1.0, finiteOrZero (ratio[0]->at (tick))) : 1.0);

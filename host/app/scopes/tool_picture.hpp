@@ -19,7 +19,8 @@ struct ToolPicture
     Vec3 tool = Vec3::Zero(), deflection = Vec3::Zero(), force = Vec3::Zero(), normal = Vec3::UnitZ();
     double d_max = 0.0;     ///< 0 if nobody says
     double d_stick = 0.0;   ///< where it lets go; d_max unless it sticks more than it slides
-    int state = 0;          ///< -1 fault, 0 apart, 1 stuck, 2 sliding
+    std::uint64_t tick = 0;
+    int state = 0;   ///< -1 fault, 0 apart, 1 stuck, 2 sliding
 
     Vec3 anchor() const { return tool - deflection; }
     bool touches() const noexcept { return state > 0; }

@@ -11,7 +11,7 @@ namespace tactus::host
 namespace
 {
 constexpr double ease = 0.2, forget = 0.995;
-constexpr double circles_in_view = 2.6;   // half the height of the view, in radii
+constexpr double circles_in_view = 2.0;   // half the height of the view, in radii
 constexpr float longest_arrow = 0.75f;    // of half the height
 
 void arrow (juce::Graphics& g, juce::Point<float> from, juce::Point<float> to, float thickness)
@@ -28,12 +28,14 @@ void ToolPlot::show (const Signals& signals)
 {
     repaint();
     if (spec.node.empty() || spec.is_frozen) return;
+    const auto before = now ? std::optional (now->tick) : std::nullopt;
     now = toolPicture (spec.node, signals);
     if (! now)
     {
         lanes.clear();
         return;
     }
+    if (before == now->tick && lanes.size() == 1 && lanes.front().area == getLocalBounds().toFloat()) return;   // nothing runs
     tool_trail.push_back (now->tool);
     anchor_trail.push_back (now->touches() ? now->anchor() : Vec3::Constant (std::nan ("")));
     if (tool_trail.size() > longest_trail)
@@ -47,7 +49,9 @@ void ToolPlot::show (const Signals& signals)
     const double radius = std::max ({ now->d_stick, now->deflection.norm(), 1e-7 });
     const bool is_first = half_width == 0.0;
     half_width = is_first ? circles_in_view * radius : half_width + ease * (circles_in_view * radius - half_width);
-    centre = is_first || (wanted - centre).norm() > 4.0 * half_width ? wanted : Vec3 (centre + 2.0 * ease * (wanted - centre));
+    const double off = (wanted - centre).norm(), farthest = 0.4 * half_width;
+    if (is_first) centre = wanted;
+    centre += std::max (2.0 * ease, off > farthest ? 1.0 - farthest / off : 0.0) * (wanted - centre);
     most_force = std::max (forget * most_force, now->force.norm());
 
     lanes.resize (1);
@@ -103,7 +107,7 @@ void ToolPlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t)
             g.fillPath (dashed);
         }
         g.setColour (theme().of (Quantity::length));
-        g.drawLine ({ anchor, tool }, 2.0f);
+        g.drawLine ({ anchor, tool }, 5.0f);
         g.setColour (theme().text);
         g.drawLine (anchor.x - 5.0f, anchor.y - 5.0f, anchor.x + 5.0f, anchor.y + 5.0f, 2.0f);
         g.drawLine (anchor.x - 5.0f, anchor.y + 5.0f, anchor.x + 5.0f, anchor.y - 5.0f, 2.0f);
@@ -111,7 +115,7 @@ void ToolPlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t)
         {
             const double reach = static_cast<double> (longest_arrow) * 0.5 * lane.y.size() / most_force;
             g.setColour (theme().of (Quantity::force));
-            arrow (g, tool, pixel (p.tool + p.force * reach), 3.0f);
+            arrow (g, tool, pixel (p.tool + p.force * reach), 2.0f);
         }
     }
     const auto disc = juce::Rectangle<float> (11.0f, 11.0f).withCentre (tool);
