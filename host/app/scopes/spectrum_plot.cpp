@@ -41,7 +41,7 @@ void SpectrumPlot::show (const Signals& signals)
             lines.push_back ({ static_cast<std::size_t> (lane - units.begin()), traceColour (theme(), t.quantity(), nth, i), spectrumOf (latest.values, t.rate()), {} });
             rate = t.rate();
             if (lane != units.begin()) continue;
-            if (const auto p = peakOf (lines.back().spectrum, lowest_hz); p && (! highest || p->amplitude > highest->amplitude)) highest = p;
+            if (const auto p = peakOf (lines.back().spectrum, std::max (lowest_hz, 2.0 * lines.back().spectrum.resolution_hz)); p && (! highest || p->amplitude > highest->amplitude)) highest = p;
         }
     }
     layOut (units);
@@ -125,7 +125,7 @@ void SpectrumPlot::paintLane (juce::Graphics& g, const Lane&, std::size_t index)
 void SpectrumPlot::paintOver (juce::Graphics& g)
 {
     if (spec.cursors.empty() && highest)
-        paintReadout (g, { "peak " + juce::String::fromUTF8 (withPrefix (highest->hz, "Hz").c_str()), juce::String::fromUTF8 (withPrefix (highest->amplitude, units.front()).c_str()) }, lanes.front().area);
+        paintReadout (g, { "peak " + juce::String::fromUTF8 (withPrefix (highest->hz, "Hz").c_str()), juce::String::fromUTF8 (withPrefix (highest->amplitude, units.front()).c_str()) }, lanes.front().area.withTop (lanes.front().area.getBottom() - 48.0f).withWidth (std::min (132.0f, lanes.front().area.getWidth())));
     if (missing == 0) return;
     g.setFont (lookOf (*this).font (11.0f));
     g.setColour (theme().warning);

@@ -142,7 +142,7 @@ void ToolPlot::paintOver (juce::Graphics& g)
 
     const auto text = [] (double v, const char* unit)
     { return juce::String::fromUTF8 (withPrefix (v, unit).c_str()); };
-    paintLegend (g, area.removeFromBottom (16.0f), { { theme().of (Quantity::length), "z " + text (p.deflection.norm(), "m") }, { theme().of (Quantity::force), "f " + text (p.force.norm(), "N") } });
+    if (p.touches()) paintLegend (g, area.removeFromBottom (16.0f), { { theme().of (Quantity::length), "z " + text (p.deflection.norm(), "m") }, { theme().of (Quantity::force), "f " + text (p.force.norm(), "N") } });
     g.setFont (look.font (11.0f));
     g.setColour (theme().dim);
     g.drawText ("d_max " + text (p.d_max, "m"), area.removeFromBottom (16.0f), juce::Justification::centredRight, false);

@@ -128,7 +128,22 @@ TEST_CASE ("scopes: what runs is drawn, in the colour of its quantity", "[app][s
     REQUIRE (plot.shownLanes().size() == 1);
     CHECK (plot.shownLanes().front().unit == "N");
     CHECK (countOf (picture(), force) > 200);
-    CHECK (countOf (b.view (ScopeKind::over).plot().createComponentSnapshot (b.view (ScopeKind::over).plot().getLocalBounds()), force) > 100);
+}
+
+TEST_CASE ("scopes: over displacement, sticking and sliding have colours of their own", "[app][scopes]")
+{
+    constexpr int in_legend = 64;
+    Bench b;
+    auto& plot = b.view (ScopeKind::over).plot();
+    const auto count = [&] (Quantity q)
+    { return countOf (plot.createComponentSnapshot (plot.getLocalBounds()), b.look.theme().of (q)); };
+    b.run (6000);
+    CHECK (count (Quantity::length) > 3 * in_legend);   // it sticks and slips
+
+    REQUIRE (b.document.perform (graph::SetParam { "", "drag", "static_ratio", 1.0 }));
+    b.performance.stop();
+    b.run (20000);
+    CHECK (count (Quantity::force) > 2 * in_legend);   // it slides
 }
 
 TEST_CASE ("scopes: units have lanes of their own, and all components of a vector share one", "[app][scopes]")
