@@ -39,6 +39,7 @@ void EnergyMeter::begin (const Sources& s)
     dissipated = traceOf ("dissipated", rate);
     shown = { work, stored, dissipated };
     has_last = was_gap = false;
+    last_step = {};
     next = s.position.front()->begin();
     for (const auto* list : { &s.position, &s.applied, &s.stored, &s.dissipated })
         for (const auto& t : *list)
@@ -75,13 +76,19 @@ void EnergyMeter::follow (const Sources& s)
         {
             now.gaps += has_last;
             was_gap = true;
+            last_step = {};
             continue;
         }
         if (has_last)
         {
             double step = 0.0;
             for (std::size_t i = 0; i < 3; ++i)
-                step -= (was_gap ? 0.5 * (f[i] + last_force[i]) : f[i]) * (p[i] - last[i]);
+            {
+                // The force at the end of the step before is known only now: by it the trapezoid differs from what was held.
+                if (! was_gap) now.held -= 0.5 * (f[i] - last_force[i]) * last_step[i];
+                last_step[i] = p[i] - last[i];
+                step -= (was_gap ? 0.5 * (f[i] + last_force[i]) : f[i]) * last_step[i];
+            }
             now.work += step;
             now.moved += std::abs (step);
             now.worst = std::min (now.worst, now.work);
@@ -136,6 +143,7 @@ std::string inWords (const EnergyBalance& b)
     };
     std::string text = b.isPassive() ? "passive: the hand has put in " + joule (b.work) : "active: " + joule (-b.worst - b.stored_first) + " more came out than went in; work of the hand " + joule (b.work);
     text += ", " + joule (b.stored) + " are stored, " + joule (b.dissipated) + " dissipated";
+    if (b.held > 0.01 * b.moved && b.held > 1e-7) text += "; holding the force from tick to tick made " + joule (b.held);
     if (std::abs (b.elsewhere()) > 0.02 * b.moved && std::abs (b.elsewhere()) > 1e-7) text += ", " + joule (b.elsewhere()) + " elsewhere";
     return text;
 }

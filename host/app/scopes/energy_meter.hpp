@@ -15,12 +15,13 @@ struct EnergyBalance
     double stored = 0.0;   ///< J, in springs and bristles now
     double stored_first = 0.0;
     double dissipated = 0.0;   ///< J, turned into heat
+    double held = 0.0;         ///< J, made by holding the force from tick to tick; a force that followed the hand would have cost it that much more
     double worst = 0.0;        ///< J, the least that the hand had put in at any time
     double moved = 0.0;        ///< J, that has gone to and fro
     std::uint64_t gaps = 0;    ///< ticks that were missed, across which the work is an estimate
 
-    /// What no node accounts for: other nodes' energy, and what holding the force over a tick makes.
-    double elsewhere() const noexcept { return work - (stored - stored_first) - dissipated; }
+    /// What no node accounts for.
+    double elsewhere() const noexcept { return work + held - (stored - stored_first) - dissipated; }
 
     /// More can never have come out than was in there to begin with.
     bool isPassive() const noexcept { return worst + stored_first >= -tolerance(); }
@@ -57,7 +58,7 @@ private:
     TraceList shown;
     std::uint64_t next = 0;
     bool has_last = false, was_gap = false;
-    std::array<double, 3> last {}, last_force {};
+    std::array<double, 3> last {}, last_force {}, last_step {};
     double lost_first = 0.0;
 };
 

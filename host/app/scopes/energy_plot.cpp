@@ -6,8 +6,9 @@ namespace tactus::host
 
 namespace
 {
-constexpr float words_height = 32.0f;
-}
+constexpr float line_height = 15.0f;
+constexpr int most_lines = 3;
+}   // namespace
 
 void EnergyPlot::show (const Signals& signals)
 {
@@ -28,7 +29,9 @@ void EnergyPlot::show (const Signals& signals)
     }
     layOut ({ "J" });
     auto& lane = lanes.front();
-    lane.area.removeFromTop (words_height);
+    const float words_width = lookOf (*this).font (12.0f).getStringWidthFloat (juce::String::fromUTF8 (inWords (meter.balance()).c_str()));
+    const int lines = std::clamp (static_cast<int> (std::ceil (1.1f * words_width / std::max (1.0f, static_cast<float> (getWidth()) - 16.0f))), 1, most_lines);
+    lane.area.removeFromTop (line_height * static_cast<float> (lines) + 4.0f);
     rate_hz = traces.front()->rate();
     const auto seen = windowOf (traces, spec.seconds, {}, 0.0);
     zero = seen.to;
@@ -82,10 +85,9 @@ void EnergyPlot::paintOver (juce::Graphics& g)
     const auto& look = lookOf (*this);
     const auto& lane = lanes.front();
     const auto& now = meter.balance();
-    auto words = lane.area.withY (4.0f).withHeight (words_height).withLeft (8.0f).withRight (static_cast<float> (getWidth()) - 8.0f).toNearestInt();
     g.setFont (look.font (12.0f));
     g.setColour (now.isPassive() ? theme().text : theme().warning);
-    g.drawMultiLineText (juce::String::fromUTF8 (inWords (now).c_str()), words.getX(), words.getY() + 12, words.getWidth());
+    g.drawMultiLineText (juce::String::fromUTF8 (inWords (now).c_str()), 8, 16, getWidth() - 16);
     paintLegend (g, lane.area.withHeight (16.0f), { { theme().text, "hand" }, { theme().of (Quantity::length).withAlpha (0.55f), "stored" }, { theme().of (Quantity::energy).withAlpha (0.45f), "dissipated" } });
     if (now.gaps == 0) return;
     g.setFont (look.font (11.0f));

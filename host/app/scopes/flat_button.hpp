@@ -17,12 +17,20 @@ public:
 
     juce::Colour dot = juce::Colours::transparentBlack;   ///< before the word
     bool is_amiss = false;
+    std::function<void()> onCross;   ///< if there is one, a cross stands behind the word
 
     int wantedWidth() const
     {
         if (! picture.isEmpty()) return height;
         const float dot_width = dot.isTransparent() ? 0.0f : 12.0f;
-        return static_cast<int> (std::ceil (lookOf (*this).font (12.0f).getStringWidthFloat (getButtonText()) + dot_width)) + 12;
+        const int width = static_cast<int> (std::ceil (lookOf (*this).font (12.0f).getStringWidthFloat (getButtonText()) + dot_width)) + 12;
+        return std::max (height, width + (onCross ? cross_width - 6 : 0));
+    }
+
+    void mouseUp (const juce::MouseEvent& e) override
+    {
+        if (onCross && e.position.x >= static_cast<float> (getWidth() - cross_width) && getLocalBounds().contains (e.getPosition())) onCross();
+        Button::mouseUp (e);
     }
 
     void paintButton (juce::Graphics& g, bool over, bool down) override
@@ -44,6 +52,12 @@ public:
             g.strokePath (picture, juce::PathStrokeType (1.4f), juce::AffineTransform::translation (area.getCentreX() - 7.0f, area.getCentreY() - 7.0f));
             return;
         }
+        if (onCross)
+        {
+            const auto x = area.removeFromRight (static_cast<float> (cross_width)).withSizeKeepingCentre (6.0f, 6.0f);
+            g.drawLine ({ x.getTopLeft(), x.getBottomRight() }, 1.4f);
+            g.drawLine ({ x.getBottomLeft(), x.getTopRight() }, 1.4f);
+        }
         area.reduce (6.0f, 0.0f);
         if (! dot.isTransparent())
         {
@@ -56,6 +70,8 @@ public:
     }
 
 private:
+    static constexpr int cross_width = 24;
+
     juce::Path picture;
 };
 

@@ -43,6 +43,9 @@ std::string firstOf (const std::vector<ScopePort>& ports, std::string_view type,
     return {};
 }
 
+/// Of those nodes whose state 1 is stuck and 2 slipping.
+bool tellsSliding (std::string_view type) { return type.starts_with ("friction.") || type == "deform.surface"; }
+
 bool isWired (const graph::Patch& patch, const std::string& node, const std::string& port)
 {
     return std::ranges::any_of (patch.wires, [&] (const graph::Wire& w)
@@ -69,7 +72,7 @@ std::string stateFor (const std::string& port, const std::vector<ScopePort>& por
 {
     const auto path = port.substr (0, port.find ('.'));
     for (const auto& p : ports)
-        if (p.path == path && isOutput (p, "state")) return p.name;
+        if (p.path == path && isOutput (p, "state") && tellsSliding (p.type)) return p.name;
     return firstOf (ports, "friction.", Role::output, "state");
 }
 

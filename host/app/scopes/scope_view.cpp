@@ -136,20 +136,18 @@ std::string ScopeView::headerKey()
     return key + '|' + std::to_string (getWidth());
 }
 
-void ScopeView::addChip (const juce::String& text, const std::string& port, juce::Colour dot, std::function<void()> onClick, const juce::String& about)
+void ScopeView::addChip (const juce::String& text, const std::string& port, juce::Colour dot, std::function<void()> onClick, const juce::String& about, bool is_removable)
 {
     const bool is_gone = ! port.empty() && ! isThere (port, desk.ports);
     auto& chip = *chips.emplace_back (std::make_unique<FlatButton> (is_gone ? juce::String (port) + " is gone" : text));
     chip.dot = dot;
     chip.is_amiss = is_gone;
     chip.setTooltip (about);
-    chip.onClick = [safe = juce::Component::SafePointer (this), onClick = std::move (onClick)]
-    {
-        // The chip may go by what it does; it does it once it has been let go.
-        juce::MessageManager::callAsync ([safe, onClick]
-                                         {
-            if (safe != nullptr) onClick(); });
-    };
+    // The chip may go by what it does; it does it once it has been let go.
+    (is_removable ? chip.onCross : chip.onClick) = [safe = juce::Component::SafePointer (this), onClick = std::move (onClick)]
+    { juce::MessageManager::callAsync ([safe, onClick]
+                                       {
+        if (safe != nullptr) onClick(); }); };
     addAndMakeVisible (chip);
 }
 
@@ -190,11 +188,11 @@ void ScopeView::rebuildHeader()
             const auto nth = traces.empty() ? 0 : ports_of_unit[traces.front()->unit()]++;
             const auto dot = traces.empty() ? theme.dim : traceColour (theme, traces.front()->quantity(), nth, 0);
             addChip (
-                juce::String (port) + juce::String::fromUTF8 ("  ×"), port, dot, [this, port, changed]
+                juce::String (port), port, dot, [this, port, changed]
                 {
                 std::erase (spec.ports, port);
                 changed(); },
-                "Takes it out of this scope");
+                "The cross takes it out of this scope", true);
         }
         addChip (
             "+", {}, {}, [this, changed]

@@ -43,7 +43,7 @@ public:
 private:
     TraceList of (const std::string& port) const;
     void rebuildHeader();
-    void addChip (const juce::String& text, const std::string& port, juce::Colour, std::function<void()> onClick, const juce::String& about);
+    void addChip (const juce::String& text, const std::string& port, juce::Colour, std::function<void()> onClick, const juce::String& about, bool is_removable = false);
     std::string headerKey();
 
     ScopeSpec& spec;

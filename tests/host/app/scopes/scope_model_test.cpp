@@ -78,4 +78,10 @@ TEST_CASE ("scopes: a range stays while the signal breathes, and narrows when it
         range.update ({ -0.1, 0.1 });
     CHECK (range.shown().high < 0.2);
     CHECK (range.shown().high > 0.1);
+
+    // A little less is no reason.
+    const auto narrow = range.shown();
+    for (int i = 0; i < 100; ++i)
+        range.update ({ -0.08, 0.08 });
+    CHECK (range.shown().high == narrow.high);
 }

@@ -176,6 +176,29 @@ TEST_CASE ("scopes: a port that is gone says so, and comes back with undo", "[ap
     CHECK (std::ranges::count (Bench::words (view), "grain.value is gone") == 0);
 }
 
+TEST_CASE ("scopes: the cross of a port takes it out, its name does not", "[app][scopes]")
+{
+    Bench b;
+    b.run (100);
+    auto& view = b.view (ScopeKind::time);
+    const auto chip = [&]() -> FlatButton&
+    {
+        for (auto* child : view.getChildren())
+            if (auto* button = dynamic_cast<FlatButton*> (child); button != nullptr && button->getButtonText() == "motor.force") return *button;
+        throw std::runtime_error ("no chip");
+    };
+    const auto at = [&] (float x)
+    {
+        clickAt (chip(), { x, 12.0f });
+        juce::MessageManager::getInstance()->runDispatchLoopUntil (20);
+    };
+    at (20.0f);
+    CHECK (b.panel->isProbed ("motor.force"));
+    at (static_cast<float> (chip().getWidth()) - 8.0f);
+    CHECK_FALSE (b.panel->isProbed ("motor.force"));
+    CHECK (std::ranges::count (b.performance.traces().ports(), "motor.force") == 0);
+}
+
 TEST_CASE ("scopes: frozen, a scope keeps what stood there while the run goes on", "[app][scopes]")
 {
     Bench b;
