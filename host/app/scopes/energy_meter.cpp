@@ -144,7 +144,7 @@ std::string inWords (const EnergyBalance& b)
     std::string text = b.isPassive() ? "passive: the hand has put in " + joule (b.work) : "active: " + joule (-b.worst - b.stored_first) + " more came out than went in; work of the hand " + joule (b.work);
     text += ", " + joule (b.stored) + " are stored, " + joule (b.dissipated) + " dissipated";
     if (b.held > 0.01 * b.moved && b.held > 1e-7) text += "; holding the force from tick to tick made " + joule (b.held);
-    if (std::abs (b.elsewhere()) > 0.02 * b.moved && std::abs (b.elsewhere()) > 1e-7) text += ", " + joule (b.elsewhere()) + " elsewhere";
+    if (std::abs (b.elsewhere()) > 0.02 * b.moved && std::abs (b.elsewhere()) > 1e-7) text += b.elsewhere() > 0.0 ? ", " + joule (b.elsewhere()) + " elsewhere" : ": " + joule (-b.elsewhere()) + " too much, since the steps of the ticks are coarse";
     return text;
 }
 

@@ -20,7 +20,7 @@ struct EnergyBalance
     double moved = 0.0;        ///< J, that has gone to and fro
     std::uint64_t gaps = 0;    ///< ticks that were missed, across which the work is an estimate
 
-    /// What no node accounts for.
+    /// What no node accounts for. Less than 0 where nodes count more than there was, which some do on a slip in one coarse step.
     double elsewhere() const noexcept { return work + held - (stored - stored_first) - dissipated; }
 
     /// More can never have come out than was in there to begin with.

@@ -24,7 +24,7 @@ public:
         if (! picture.isEmpty()) return height;
         const float dot_width = dot.isTransparent() ? 0.0f : 12.0f;
         const int width = static_cast<int> (std::ceil (lookOf (*this).font (12.0f).getStringWidthFloat (getButtonText()) + dot_width)) + 12;
-        return std::max (height, width + (onCross ? cross_width - 6 : 0));
+        return std::max (height, width + (onCross ? cross_width : 0));
     }
 
     void mouseUp (const juce::MouseEvent& e) override

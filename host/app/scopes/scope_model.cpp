@@ -80,7 +80,12 @@ const Extent& AutoRange::update (const Extent& seen)
         return range;
     }
     const auto wanted = widened (seen, air);
-    if (range.isEmpty()) return range = wanted;
+    const bool moves = seen.size() > 0.0;
+    if (range.isEmpty() || (is_guess && moves))
+    {
+        is_guess = ! moves;
+        return range = wanted;
+    }
 
     since_calm.include (wanted);
     if (since_calm.size() > much_less * range.size() || wanted.low < range.low || wanted.high > range.high)

@@ -98,6 +98,7 @@ private:
     static constexpr double air = 0.08, much_less = 0.6;
 
     int updates_to_wait, calm = 0;
+    bool is_guess = true;   // nothing has moved yet
     Extent range, since_calm;
 };
 

@@ -231,7 +231,7 @@ void ScopePanel::resized()
 
 bool ScopePanel::keyPressed (const juce::KeyPress& key)
 {
-    if (key.getKeyCode() != 'H' || key.getModifiers().isAnyModifierKeyDown()) return false;
+    if (key != juce::KeyPress ('h')) return false;
     freezeAll (! isFrozen());
     return true;
 }

@@ -63,6 +63,13 @@ TEST_CASE ("scopes: a range that follows always holds what is seen", "[app][scop
         } });
 }
 
+TEST_CASE ("scopes: a range waits for no one once what was at rest moves", "[app][scopes]")
+{
+    AutoRange range;
+    CHECK (range.update ({ 0.0, 0.0 }).high == 1.0);
+    CHECK (range.update ({ 0.0, 0.01 }).high < 0.02);
+}
+
 TEST_CASE ("scopes: a range stays while the signal breathes, and narrows when it has been small for long", "[app][scopes]")
 {
     AutoRange range (10);
