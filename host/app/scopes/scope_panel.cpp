@@ -13,7 +13,12 @@ ScopePanel::ScopePanel (Document& d, Performance& p, const Catalogue& c) : docum
         auto& b = *adders.emplace_back (std::make_unique<FlatButton> ("+ " + titleOf (kind)));
         b.setTooltip ("Adds a scope");
         b.onClick = [this, kind]
-        { add (kind); };
+        {
+            if (model.scopes.size() < most_scopes)
+                add (kind);
+            else if (onHint)
+                onHint (juce::String (most_scopes) + " scopes at a time; close one first");
+        };
         addAndMakeVisible (b);
     }
     freeze_button.setTooltip ("All scopes show what stood there now, until they go on. The run itself goes on. Key: H");
@@ -24,12 +29,11 @@ ScopePanel::ScopePanel (Document& d, Performance& p, const Catalogue& c) : docum
     { probe (offer.getName().toStdString()); };
     addChildComponent (offer);
 
-    // Not while a button or the wheel of a scope calls: it may be the scope that goes.
     desk.onChange = [this]
     {
         wantPorts();
         for (auto& v : views)
-            v->refresh();
+            v->redraw();
     };
     document.add (*this);
     listPorts();
@@ -94,7 +98,6 @@ void ScopePanel::showView (ScopeSpec& s)
 
 ScopeView& ScopePanel::add (ScopeKind kind)
 {
-    if (model.scopes.size() >= most_scopes) close (*model.scopes.back());
     model.scopes.push_back (std::make_unique<ScopeSpec> (suggestedScope (kind, document.graph(), catalogue)));
     showView (*model.scopes.back());
     model.active = model.scopes.back().get();

@@ -114,10 +114,15 @@ void ScopeView::freeze (bool on)
     refresh();
 }
 
-void ScopeView::refresh()
+void ScopeView::redraw()
 {
     drawing->show ([this] (const std::string& port)
                    { return of (port); });
+}
+
+void ScopeView::refresh()
+{
+    redraw();
     if (const auto key = headerKey(); key != header_of)
     {
         rebuildHeader();

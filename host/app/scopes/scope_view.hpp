@@ -24,7 +24,8 @@ public:
     std::function<void()> onClose, onFreeze;
     std::function<void (juce::Component& below)> onSave;   ///< asked for a file
 
-    void refresh();
+    void refresh();   ///< [not from what the header calls: it may make the header anew]
+    void redraw();
     void freeze (bool);
     bool isFrozen() const noexcept { return spec.is_frozen; }
 

@@ -15,8 +15,8 @@ constexpr float grip = 8.0f;
 
 juce::String wordsFor (Trigger::Edge e)
 {
-    return e == Trigger::Edge::off ? juce::String ("trigger off") : e == Trigger::Edge::rising ? juce::String ("rising")
-                                                                                               : juce::String ("falling");
+    return e == Trigger::Edge::off ? juce::String ("trigger off") : e == Trigger::Edge::rising ? juce::String ("trigger rising")
+                                                                                               : juce::String ("trigger falling");
 }
 }   // namespace
 
