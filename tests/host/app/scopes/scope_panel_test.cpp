@@ -358,32 +358,65 @@ TEST_CASE ("scopes: every kind can be added to every preset, run, and drawn in b
     }
 }
 
+TEST_CASE ("scopes: a run in real time is seen, and goes on being seen when a port is added while it runs", "[app][scopes]")
+{
+    Bench b;
+    b.performance.start (Performance::Hand::described);
+    REQUIRE (b.performance.isRunning());
+    Traces::Client client (b.performance.traces());
+    const auto ticksOf = [&] (const std::string& port)
+    {
+        const auto traces = client.of (port);
+        return traces.empty() ? std::uint64_t { 0 } : traces.front()->end() - traces.front()->begin();
+    };
+    // However slow the machine is: it comes, or the test fails after some seconds.
+    const auto waitFor = [&] (const std::string& port, std::uint64_t ticks)
+    {
+        for (int i = 0; i < 1000 && ticksOf (port) < ticks; ++i)
+        {
+            juce::Thread::sleep (10);
+            b.performance.attend();
+            b.panel->refresh();
+        }
+        return ticksOf (port) >= ticks;
+    };
+    REQUIRE (waitFor ("motor.force", 400));
+    const auto first = client.of ("motor.force").front()->begin();
+    b.panel->probe ("board.depth");
+    REQUIRE (waitFor ("board.depth", 400));
+    CHECK (client.of ("motor.force").front()->begin() == first);   // the same trace, with a gap at most
+    CHECK (b.view (ScopeKind::time).plot().shownLanes().size() == 2);
+    b.performance.stop();
+}
+
 TEST_CASE ("scopes: what four scopes over ten seconds cost", "[.][bench]")
 {
     Bench b;
     b.panel->add (ScopeKind::spectrum);
     b.panel->add (ScopeKind::tool);
     b.run (44000);
-    for (const auto& s : b.panel->scopes().scopes)
-        s->seconds = 10.0;
-    for (const auto& v : b.panel->shown())
-    {
-        using Clock = std::chrono::steady_clock;
-        juce::Image image (juce::Image::ARGB, v->getWidth(), v->getHeight(), true);
-        double reading = 0.0, painting = 0.0;
-        constexpr int times = 30;
-        for (int i = 0; i < times; ++i)
+    for (const bool is_long : { false, true })
+        for (const auto& v : b.panel->shown())
         {
-            const auto start = Clock::now();
-            v->refresh();
-            const auto read = Clock::now();
-            juce::Graphics g (image);
-            v->paintEntireComponent (g, false);
-            reading += std::chrono::duration<double, std::milli> (read - start).count() / times;
-            painting += std::chrono::duration<double, std::milli> (Clock::now() - read).count() / times;
+            if (is_long)
+                for (const auto& s : b.panel->scopes().scopes)
+                    s->seconds = 10.0;
+            using Clock = std::chrono::steady_clock;
+            juce::Image image (juce::Image::ARGB, v->getWidth(), v->getHeight(), true);
+            double reading = 0.0, painting = 0.0;
+            constexpr int times = 30;
+            for (int i = 0; i < times; ++i)
+            {
+                const auto start = Clock::now();
+                v->refresh();
+                const auto read = Clock::now();
+                juce::Graphics g (image);
+                v->paintEntireComponent (g, false);
+                reading += std::chrono::duration<double, std::milli> (read - start).count() / times;
+                painting += std::chrono::duration<double, std::milli> (Clock::now() - read).count() / times;
+            }
+            std::cout << titleOf (v->shown().kind) << " over " << v->shown().seconds << " s: refresh " << reading << " ms, paint " << painting << " ms\n";
         }
-        std::cout << titleOf (v->shown().kind) << ": refresh " << reading << " ms, paint " << painting << " ms\n";
-    }
 }
 
 TEST_CASE ("scopes: of a slow stroke over a preset all the work of the hand is found again", "[app][scopes]")
