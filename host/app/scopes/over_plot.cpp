@@ -11,7 +11,7 @@ namespace tactus::host
 namespace
 {
 constexpr double clearly_more = 1.5;
-constexpr float least_step = 0.75f;   // pixels, between two points of the tail
+constexpr float thickness = 1.5f, column_width = 0.5f;
 
 const std::shared_ptr<const Trace>& pick (const TraceList& l, int component) { return l[std::min (l.size() - 1, static_cast<std::size_t> (component))]; }
 
@@ -23,8 +23,8 @@ void OverPlot::show (const Signals& signals)
 {
     repaint();
     for (auto& age : tail)
-        for (auto& path : age)
-            path.clear();
+        for (auto& piece : age)
+            piece = {};
     head.reset();
     lanes.clear();
     const auto xs = spec.x.empty() ? TraceList {} : signals (spec.x), ys = spec.y.empty() ? TraceList {} : signals (spec.y), states = spec.state.empty() ? TraceList {} : signals (spec.state);
@@ -58,48 +58,63 @@ void OverPlot::show (const Signals& signals)
     draw (x, y, tells_state ? states.front().get() : nullptr, from, end);
 }
 
+OverPlot::Part OverPlot::partAt (const Trace* state, std::uint64_t tick)
+{
+    if (state == nullptr) return Part::plain;
+    const double s = tick >= state->begin() && tick < state->end() ? state->at (tick) : 0.0;
+    return s < 0.0 ? Part::fault : s < 0.5 ? Part::open
+                               : s < 1.5   ? Part::stuck
+                                           : Part::sliding;
+}
+
 void OverPlot::draw (const Trace& x, const Trace& y, const Trace* state, std::uint64_t from, std::uint64_t to)
 {
     const auto& lane = lanes.front();
     const auto first = std::max ({ from, x.begin(), y.begin() });
-    std::optional<juce::Point<float>> last;
-    std::size_t last_age = 0;
-    auto last_part = Part::plain;
     std::vector<double> heights;
     heights.reserve (static_cast<std::size_t> (to > first ? to - first : 0));
     y.each (first, to, [&] (std::uint64_t, double v)
             { heights.push_back (v); });
+
+    std::optional<juce::Point<float>> last;
+    std::size_t last_age = 0;
+    float column = 0.0f;
+    std::array<juce::Range<float>, parts> spans;
+    std::array<bool, parts> is_spanned {};
+    const auto flush = [&]
+    {
+        for (std::size_t part = 0; part < parts; ++part)
+            if (is_spanned[part]) tail[last_age][part].spans.addWithoutMerging ({ column + 0.5f * (column_width - thickness), spans[part].getStart() - 0.5f * thickness, thickness, spans[part].getLength() + thickness });
+        is_spanned = {};
+    };
     x.each (first, to, [&] (std::uint64_t tick, double v)
             {
         const double height = heights[static_cast<std::size_t> (tick - first)];
         if (! isPlottable (v) || ! isPlottable (height))
         {
+            flush();
             last.reset();
             return;
         }
         const auto p = lane.toPixels (v, height);
-        auto part = Part::plain;
-        if (state != nullptr)
-        {
-            const double s = tick >= state->begin() && tick < state->end() ? state->at (tick) : 0.0;
-            part = s < 0.0 ? Part::fault : s < 0.5 ? Part::open : s < 1.5 ? Part::stuck : Part::sliding;
-        }
+        const auto part = static_cast<std::size_t> (partAt (state, tick));
         const auto age = std::min (ages - 1, static_cast<std::size_t> (static_cast<double> (tick - from) / static_cast<double> (std::max<std::uint64_t> (1, to - from)) * static_cast<double> (ages)));
-        auto& path = tail[age][static_cast<std::size_t> (part)];
-        if (! last)
-            path.startNewSubPath (p);
-        else if (age != last_age || part != last_part)
-        {
-            path.startNewSubPath (*last);
-            path.lineTo (p);
-        }
-        else if (p.getDistanceFrom (*last) < least_step)
-            return;
-        else
-            path.lineTo (p);
-        last = p;
+        const auto before = last.value_or (p);
+        const float column_now = column_width * std::floor (p.x / column_width);
+        if (age != last_age || column_now != column) flush();
+        column = column_now;
         last_age = age;
-        last_part = part; });
+        last = p;
+        if (std::abs (p.x - before.x) > 1.0f)
+        {
+            tail[age][part].lines.startNewSubPath (before);
+            tail[age][part].lines.lineTo (p);
+            return;
+        }
+        const auto moved = juce::Range<float>::between (before.y, p.y);
+        spans[part] = is_spanned[part] ? spans[part].getUnionWith (moved) : moved;
+        is_spanned[part] = true; });
+    flush();
     head = last;
 }
 
@@ -127,11 +142,11 @@ void OverPlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t)
     for (std::size_t age = 0; age < ages; ++age)
         for (const auto part : { Part::plain, Part::open, Part::sliding, Part::stuck, Part::fault })
         {
-            const auto& path = tail[age][static_cast<std::size_t> (part)];
-            if (path.isEmpty()) continue;
+            const auto& piece = tail[age][static_cast<std::size_t> (part)];
             const float fade = static_cast<float> (age + 1) / static_cast<float> (ages);
             g.setColour (colourOf (part).withAlpha (0.12f + 0.88f * fade * fade));
-            g.strokePath (path, juce::PathStrokeType (1.5f));
+            g.fillRectList (piece.spans);
+            g.strokePath (piece.lines, juce::PathStrokeType (thickness));
         }
     if (head)
     {

@@ -32,13 +32,20 @@ private:
     void paintLane (juce::Graphics&, const Lane&, std::size_t) override;
     juce::String emptyWords() const override;
     juce::Colour colourOf (Part) const;
+    static Part partAt (const Trace* state, std::uint64_t tick);
     void zoomX (double factor, const Lane&, float at) override;
     void draw (const Trace& x, const Trace& y, const Trace* state, std::uint64_t from, std::uint64_t to);
 
     int component = 0;
     Quantity quantity = Quantity::force;
     bool tells_state = false;
-    std::array<std::array<juce::Path, parts>, ages> tail;
+    /// Of one age and state: lines where a tick moves far; where many ticks share a column of pixels, what they span there.
+    struct Piece
+    {
+        juce::Path lines;
+        juce::RectangleList<float> spans;
+    };
+    std::array<std::array<Piece, parts>, ages> tail;
     std::optional<juce::Point<float>> head;
 };
 
