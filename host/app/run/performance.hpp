@@ -50,6 +50,7 @@ public:
     void stop() noexcept;   ///< the forces go to zero first; does not wait for that
 
     bool isRunning() const noexcept { return runner != nullptr && ! runner->isOver(); }
+    bool isWanted() const noexcept { return wanted; }   ///< started, and not stopped since; perhaps it does not compile
     const Hand& hand() const noexcept { return moved_by; }
 
     /// The gesture or recording that the first role follows; null if it follows none that can be stopped.

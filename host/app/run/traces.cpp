@@ -54,16 +54,23 @@ std::vector<std::shared_ptr<const Trace>> Traces::of (const std::string& port) c
 
 void Traces::select (const Plan& plan, double rate_hz, bool anew)
 {
+    collect();   // what came before is of the plan before
     if (anew) by_name.clear();
     const auto wanted = ports();
     std::vector<std::size_t> chosen;
     std::vector<std::shared_ptr<Trace>> columns;
+    too_many.clear();
     std::map<std::string, std::shared_ptr<Trace>> kept;
-    for (std::size_t i = 0; i < plan.taps.size() && chosen.size() < ProbeRing::most; ++i)
+    for (std::size_t i = 0; i < plan.taps.size(); ++i)
     {
         const auto& tap = plan.taps[i];
         if (std::ranges::none_of (wanted, [&] (const std::string& port)
                                   { return isPartOf (tap.name, port); })) continue;
+        if (chosen.size() == ProbeRing::most)
+        {
+            too_many.push_back (tap.name);
+            continue;
+        }
         auto& trace = kept[tap.name];
         if (const auto old = by_name.find (tap.name); old != by_name.end() && old->second->unit() == tap.unit) trace = old->second;
         if (! trace) trace = std::make_shared<Trace> (tap, rate_hz);

@@ -4,7 +4,9 @@
 #include <framework/plan/plan.hpp>
 #include <host/runtime/probe_ring.hpp>
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -30,6 +32,20 @@ public:
     std::uint64_t begin() const noexcept { return end_tick - std::min<std::uint64_t> (end_tick - first_tick, values.size()); }
     std::uint64_t end() const noexcept { return end_tick; }   ///< one after the latest tick
     double at (std::uint64_t tick) const noexcept { return values[tick % values.size()]; }
+
+    /// f (tick, value) of each tick from one to before another; of those before or after what is held there is none.
+    template <typename F>
+    void each (std::uint64_t from, std::uint64_t to, F&& f) const
+    {
+        from = std::max (from, begin());
+        to = std::min (to, end());
+        auto place = static_cast<std::size_t> (from % values.size());
+        for (; from < to; ++from)
+        {
+            f (from, values[place]);
+            if (++place == values.size()) place = 0;
+        }
+    }
 
     void add (std::uint64_t tick, double) noexcept;
 
@@ -76,6 +92,9 @@ public:
 
     std::function<void()> onWanted;   ///< something else is wanted now
 
+    /// The components that are wanted and there, but too many to be looked at.
+    const std::vector<std::string>& leftOut() const noexcept { return too_many; }
+
     /// From the tick that takes it, this plan is looked at; what it has not any more stays as it was.
     void select (const Plan&, double rate_hz, bool anew);
 
@@ -90,6 +109,7 @@ private:
     std::vector<std::size_t> taps;
     std::vector<std::shared_ptr<Trace>> in_frame;   ///< by their place in a frame
     std::map<std::string, std::shared_ptr<Trace>> by_name;
+    std::vector<std::string> too_many;
     std::vector<Client*> clients;
 };
 

@@ -118,6 +118,17 @@ void MainView::show()
     { openPalette (wish); };
     patching->onChoose = [this] (const juce::String& purpose, std::vector<PaletteEntry> entries, std::function<void (const std::string&)> chosen)
     { choose (purpose, std::move (entries), std::move (chosen)); };
+    auto panel = std::make_unique<ScopePanel> (*edited, *performance, catalogue);
+    scopes = panel.get();
+    scopes->onHint = [this] (const juce::String& text)
+    { say (text); };
+    bottom.add ("Scopes", std::move (panel));
+    patching->onProbe = [this] (const std::vector<std::string>& ports)
+    {
+        for (const auto& port : ports)
+            scopes->probe (port);
+        bottom.show (*scopes);
+    };
     live = std::make_unique<LiveFeed> (*patching, *performance);
     auto list = std::make_unique<ProblemList> (*edited);
     problems = list.get();
@@ -216,6 +227,7 @@ void MainView::timerCallback()
     if (welcome.isVisible()) welcome.refresh();
     if (ticks_to_remember > 0 && --ticks_to_remember == 0)
         if (const auto why = saveSettings (settings, home)) say ("The settings could not be kept: " + juce::String (*why));
+    if (scopes->isVisible()) scopes->refresh();
 }
 
 void MainView::openPalette (const NodeWish& wish)
@@ -361,7 +373,7 @@ bool MainView::keyPressed (const juce::KeyPress& key)
         live->shows_costs = ! live->shows_costs;
         return true;
     }
-    return patching->keyPressed (key);
+    return scopes->keyPressed (key) || patching->keyPressed (key);
 }
 
 }   // namespace tactus::host

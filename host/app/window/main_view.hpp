@@ -10,6 +10,7 @@
 #include <host/app/run/hand_panel.hpp>
 #include <host/app/run/live_feed.hpp>
 #include <host/app/run/safety_strip.hpp>
+#include <host/app/scopes/scope_panel.hpp>
 #include <host/app/welcome/help_panel.hpp>
 #include <host/app/welcome/welcome_page.hpp>
 #include <host/app/window/files.hpp>
@@ -105,6 +106,7 @@ private:
     Splitter left_edge { Splitter::Edge::right, 232, 160 }, right_edge { Splitter::Edge::left, 304, 220 }, bottom_edge { Splitter::Edge::top, 264, 140 };
     std::unique_ptr<TopBar> top;
     PresetBrowser* presets = nullptr;   // in the left tabs
+    ScopePanel* scopes = nullptr;       // in the bottom tabs
     std::unique_ptr<Canvas> patching;
     std::unique_ptr<LiveFeed> live;
     std::unique_ptr<Inspector> inspector;

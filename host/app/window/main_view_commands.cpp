@@ -56,7 +56,7 @@ void recolour (juce::Component& c, const Theme& theme)
 
 void MainView::escape()
 {
-    if (performance->isRunning()) return performance->stop();
+    if (performance->isWanted()) return performance->stop();
     if (question.isOpen()) return question.cancel();
     if (help.isOpen()) return help.close();
     palette.close();

@@ -33,6 +33,12 @@ void Tabs::show (int index)
     repaint();
 }
 
+void Tabs::show (const juce::Component& panel)
+{
+    for (std::size_t i = 0; i < tabs.size(); ++i)
+        if (tabs[i].panel.get() == &panel) show (static_cast<int> (i));
+}
+
 std::vector<juce::Rectangle<float>> Tabs::places() const
 {
     std::vector<juce::Rectangle<float>> all;

@@ -20,6 +20,7 @@ public:
     void name (const juce::Component& panel, const juce::String&);
 
     void show (int index);
+    void show (const juce::Component& panel);
     int shown() const noexcept { return current; }
 
     void paint (juce::Graphics&) override;

@@ -67,7 +67,7 @@ TEST_CASE ("Esc stops the forces first, and then closes what is open")
     o.press ("F1");
     REQUIRE (o.view->helpPanel().isOpen());
     o.press ("escape");
-    CHECK_FALSE (o.view->run().isRunning());
+    CHECK_FALSE (o.view->run().isWanted());
     CHECK (o.view->helpPanel().isOpen());
     o.press ("escape");
     CHECK_FALSE (o.view->helpPanel().isOpen());
@@ -79,7 +79,7 @@ TEST_CASE ("a run that was stopped stays stopped while one edits")
     o.view->begin ({ o.home.path(), false, false, { o.wood } });
     o.press ("escape");
     REQUIRE (o.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.5) }));
-    CHECK_FALSE (o.view->run().isRunning());
+    CHECK_FALSE (o.view->run().isWanted());
 }
 
 TEST_CASE ("safe mode shows a file and does not run it, not even when it is edited")
@@ -88,7 +88,7 @@ TEST_CASE ("safe mode shows a file and does not run it, not even when it is edit
     o.view->begin ({ o.home.path(), true, false, { o.wood } });
     CHECK (o.view->document().graph().name == "Dry wood");
     REQUIRE (o.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.5) }));
-    CHECK_FALSE (o.view->run().isRunning());
+    CHECK_FALSE (o.view->run().isWanted());
     CHECK (o.view->saying().contains ("START"));
 }
 

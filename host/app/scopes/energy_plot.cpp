@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "energy_plot.hpp"
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr float line_height = 15.0f;
+constexpr int most_lines = 3;
+}   // namespace
+
+void EnergyPlot::show (const Signals& signals)
+{
+    repaint();
+    if (! spec.is_frozen)
+    {
+        EnergyMeter::Sources sources { signals (spec.x), signals (spec.y), {}, {} };
+        for (const auto& port : desk.energies)
+            for (const auto& t : signals (port))
+                (port.ends_with ("stored_energy") ? sources.stored : sources.dissipated).push_back (t);
+        meter.follow (sources);
+    }
+    const auto& traces = meter.traces();
+    if (traces.empty() || endOf (traces) == 0)
+    {
+        lanes.clear();
+        return;
+    }
+    layOut ({ "J" });
+    auto& lane = lanes.front();
+    const float words_width = lookOf (*this).font (12.0f).getStringWidthFloat (juce::String::fromUTF8 (inWords (meter.balance()).c_str()));
+    const int lines = std::clamp (static_cast<int> (std::ceil (1.1f * words_width / std::max (1.0f, static_cast<float> (getWidth()) - 16.0f))), 1, most_lines);
+    lane.area.removeFromTop (line_height * static_cast<float> (lines) + 4.0f);
+    rate_hz = traces.front()->rate();
+    const auto seen = windowOf (traces, spec.seconds, {}, 0.0);
+    zero = seen.to;
+    const auto columns = static_cast<std::size_t> (std::max (1.0f, lane.area.getWidth()));
+    work = columnsOf (*traces[0], seen.from, seen.to, columns);
+    stored = columnsOf (*traces[1], seen.from, seen.to, columns);
+    dissipated = columnsOf (*traces[2], seen.from, seen.to, columns);
+    Extent extent { 0.0, 0.0 };
+    for (std::size_t i = 0; i < work.all.size(); ++i)
+    {
+        if (work.all[i].extent.isEmpty()) continue;
+        extent.include (work.all[i].extent);
+        extent.include (dissipated.all[i].extent.low);
+        extent.include (dissipated.all[i].extent.high + stored.all[i].extent.high);
+    }
+    lane.x = { -spec.seconds, 0.0 };
+    lane.x_unit = "s";
+    lane.y = rangeOf ("J", extent);
+}
+
+void EnergyPlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t)
+{
+    std::vector<juce::Point<double>> floor, heat, top;
+    const auto flush = [&]
+    {
+        drawBetween (g, lane, floor, heat, theme().of (Quantity::energy).withAlpha (0.35f));
+        drawBetween (g, lane, heat, top, theme().of (Quantity::length).withAlpha (0.55f));
+        floor.clear();
+        heat.clear();
+        top.clear();
+    };
+    for (std::size_t i = 0; i < work.all.size(); ++i)
+    {
+        const auto &d = dissipated.all[i].extent, &s = stored.all[i].extent;
+        if (d.isEmpty() || s.isEmpty())
+        {
+            flush();
+            continue;
+        }
+        const double x = (work.first + static_cast<double> (i) * work.ticks_each - zero) / rate_hz;
+        floor.push_back ({ x, 0.0 });
+        heat.push_back ({ x, d.high });
+        top.push_back ({ x, d.high + s.high });
+    }
+    flush();
+    drawTrace (g, lane, work, zero, rate_hz, theme().text);
+}
+
+void EnergyPlot::paintOver (juce::Graphics& g)
+{
+    const auto& look = lookOf (*this);
+    const auto& lane = lanes.front();
+    const auto& now = meter.balance();
+    g.setFont (look.font (12.0f));
+    g.setColour (now.isPassive() ? theme().text : theme().warning);
+    g.drawMultiLineText (juce::String::fromUTF8 (inWords (now).c_str()), 8, 16, getWidth() - 16);
+    paintLegend (g, lane.area.withHeight (16.0f), { { theme().text, "hand" }, { theme().of (Quantity::length).withAlpha (0.55f), "stored" }, { theme().of (Quantity::energy).withAlpha (0.45f), "dissipated" } });
+    if (now.gaps == 0) return;
+    g.setFont (look.font (11.0f));
+    g.setColour (theme().dim);
+    g.drawText (juce::String (now.gaps) + (now.gaps == 1 ? " tick was missed" : " ticks were missed"), lane.area.reduced (8.0f, 4.0f).removeFromBottom (14.0f), juce::Justification::bottomLeft, true);
+}
+
+std::vector<ScopePlot::Action> EnergyPlot::actions()
+{
+    return { { "from zero", "Counts anew from now on", [this] (juce::Component&)
+               { meter.restart(); } } };
+}
+
+juce::String EnergyPlot::emptyWords() const
+{
+    if (spec.x.empty() || spec.y.empty()) return "Energy needs a device: a Position node for where the hand is, a Force node for what it feels";
+    return "Nothing has run yet";
+}
+
+}   // namespace tactus::host

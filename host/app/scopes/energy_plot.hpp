@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "energy_meter.hpp"
+#include "trace_drawing.hpp"
+
+namespace tactus::host
+{
+
+/// What is dissipated, what is stored on top of it, and the work of the hand as a line: where that lies on the edge, all of it
+/// is accounted for.
+class EnergyPlot final : public ScopePlot
+{
+public:
+    using ScopePlot::ScopePlot;
+
+    void show (const Signals&) override;
+    std::vector<Action> actions() override;
+    TraceList made() const override { return meter.traces(); }
+
+    const EnergyBalance& balance() const noexcept { return meter.balance(); }
+
+private:
+    void paintLane (juce::Graphics&, const Lane&, std::size_t) override;
+    void paintOver (juce::Graphics&) override;
+    juce::String emptyWords() const override;
+
+    EnergyMeter meter;
+    TraceColumns work, stored, dissipated;
+    double rate_hz = 1.0, zero = 0.0;
+};
+
+}   // namespace tactus::host

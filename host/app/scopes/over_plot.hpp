@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "scope_plot.hpp"
+
+namespace tactus::host
+{
+
+/// One thing over another, as force over displacement, with a tail that fades. Where a state is known, sticking and sliding
+/// have colours of their own.
+class OverPlot final : public ScopePlot
+{
+public:
+    using ScopePlot::ScopePlot;
+
+    void show (const Signals&) override;
+    std::vector<Action> actions() override;
+
+    int shownComponent() const noexcept { return component; }
+
+private:
+    enum class Part
+    {
+        plain,
+        open,
+        stuck,
+        sliding,
+        fault
+    };
+    static constexpr std::size_t ages = 8, parts = 5;
+
+    void paintLane (juce::Graphics&, const Lane&, std::size_t) override;
+    juce::String emptyWords() const override;
+    juce::Colour colourOf (Part) const;
+    static Part partAt (const Trace* state, std::uint64_t tick);
+    void zoomX (double factor, const Lane&, float at) override;
+    void draw (const Trace& x, const Trace& y, const Trace* state, std::uint64_t from, std::uint64_t to);
+
+    int component = 0;
+    Quantity quantity = Quantity::force;
+    bool tells_state = false;
+    /// Of one age and state: lines where a tick moves far; where many ticks share a column of pixels, what they span there.
+    struct Piece
+    {
+        juce::Path lines;
+        juce::RectangleList<float> spans;
+    };
+    std::array<std::array<Piece, parts>, ages> tail;
+    std::optional<juce::Point<float>> head;
+};
+
+}   // namespace tactus::host

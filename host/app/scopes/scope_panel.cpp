@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scope_panel.hpp"
+
+namespace tactus::host
+{
+
+ScopePanel::ScopePanel (Document& d, Performance& p, const Catalogue& c) : document (d), catalogue (c), traces (p.traces()), client (p.traces())
+{
+    setTitle ("Scopes");
+    setWantsKeyboardFocus (true);
+    for (const auto kind : { ScopeKind::time, ScopeKind::over, ScopeKind::spectrum, ScopeKind::energy, ScopeKind::tool })
+    {
+        auto& b = *adders.emplace_back (std::make_unique<FlatButton> ("+ " + titleOf (kind)));
+        b.setTooltip ("Adds a scope");
+        b.onClick = [this, kind]
+        {
+            if (model.scopes.size() < most_scopes)
+                add (kind);
+            else if (onHint)
+                onHint (juce::String (most_scopes) + " scopes at a time; close one first");
+        };
+        addAndMakeVisible (b);
+    }
+    freeze_button.setTooltip ("All scopes show what stood there now, until they go on. The run itself goes on. Key: H");
+    freeze_button.onClick = [this]
+    { freezeAll (! isFrozen()); };
+    addAndMakeVisible (freeze_button);
+    offer.onClick = [this]
+    { probe (offer.getName().toStdString()); };
+    addChildComponent (offer);
+
+    desk.onChange = [this]
+    {
+        wantPorts();
+        for (auto& v : views)
+            v->redraw();
+    };
+    document.add (*this);
+    listPorts();
+    for (auto& s : suggestedScopes (document.graph(), catalogue))
+        model.scopes.push_back (std::make_unique<ScopeSpec> (std::move (s)));
+    for (auto& s : model.scopes)
+        showView (*s);
+    wantPorts();
+    resized();
+}
+
+ScopePanel::~ScopePanel() { document.remove (*this); }
+
+void ScopePanel::listPorts()
+{
+    desk.ports = scopePorts (document.graph(), catalogue);
+    desk.energies = energyPorts (desk.ports);
+}
+
+void ScopePanel::documentChanged()
+{
+    const auto before = desk.ports;
+    listPorts();
+    follow (model, before, desk.ports);
+    wantPorts();
+    resized();
+}
+
+void ScopePanel::wantPorts()
+{
+    std::vector<std::string> wanted;
+    for (const auto& s : model.scopes)
+        for (const auto& p : portsOf (*s, desk.energies))
+            if (isThere (p, desk.ports) && std::ranges::count (wanted, p) == 0) wanted.push_back (p);
+    client.want (std::move (wanted));
+    if (onProbes) onProbes();
+}
+
+std::vector<std::string> ScopePanel::probes() const
+{
+    std::vector<std::string> all;
+    for (const auto& p : desk.ports)
+        if (model.shows (p.name)) all.push_back (p.name);
+    return all;
+}
+
+void ScopePanel::showView (ScopeSpec& s)
+{
+    auto& v = *views.emplace_back (std::make_unique<ScopeView> (s, desk, [this] (const std::string& port)
+                                                                { return client.of (port); }));
+    v.onClose = [this, &s]
+    { juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), which = &s]
+                                       {
+        if (safe != nullptr) safe->close (*which); }); };
+    v.onFreeze = [this]
+    { freeze_button.setToggleState (isFrozen(), juce::dontSendNotification); };
+    v.onSave = [this, &v] (juce::Component& below)
+    { save (v, below); };
+    v.addMouseListener (this, true);
+    addAndMakeVisible (v);
+}
+
+ScopeView& ScopePanel::add (ScopeKind kind)
+{
+    model.scopes.push_back (std::make_unique<ScopeSpec> (suggestedScope (kind, document.graph(), catalogue)));
+    showView (*model.scopes.back());
+    model.active = model.scopes.back().get();
+    wantPorts();
+    resized();
+    views.back()->refresh();
+    return *views.back();
+}
+
+void ScopePanel::close (const ScopeSpec& s)
+{
+    const auto at = std::ranges::find (model.scopes, &s, &std::unique_ptr<ScopeSpec>::get);
+    if (at == model.scopes.end()) return;
+    if (model.active == &s) model.active = nullptr;
+    views.erase (views.begin() + (at - model.scopes.begin()));
+    model.scopes.erase (at);
+    wantPorts();
+    resized();
+}
+
+bool ScopePanel::probe (const std::string& port)
+{
+    const auto scopes_before = model.scopes.size();
+    const bool is_shown = model.probe (port);
+    if (model.scopes.size() > scopes_before) showView (*model.scopes.back());
+    wantPorts();
+    resized();
+    return is_shown;
+}
+
+bool ScopePanel::isFrozen() const
+{
+    return ! views.empty() && std::ranges::all_of (views, [] (const auto& v)
+                                                   { return v->isFrozen(); });
+}
+
+void ScopePanel::freezeAll (bool on)
+{
+    for (auto& v : views)
+        v->freeze (on);
+    freeze_button.setToggleState (isFrozen(), juce::dontSendNotification);
+}
+
+juce::String ScopePanel::warning() const
+{
+    const auto& too_many = traces.leftOut();
+    if (too_many.empty()) return {};
+    auto text = juce::String (ProbeRing::most) + " components at a time; not shown: " + juce::String (too_many.front());
+    if (too_many.size() > 1) text += " and " + juce::String (too_many.size() - 1) + " more";
+    return text + ". Close a scope or take out a port";
+}
+
+void ScopePanel::refresh()
+{
+    for (auto& v : views)
+        v->refresh();
+    if (const auto now = warning(); now != warned)
+    {
+        warned = now;
+        repaint();
+    }
+}
+
+void ScopePanel::save (ScopeView& view, juce::Component& below)
+{
+    const auto folder = juce::File::getSpecialLocation (juce::File::userDocumentsDirectory).getChildFile ("Tactus");
+    const auto name = (document.graph().name.empty() ? juce::String ("scope") : juce::String (document.graph().name)) + " " + titleOf (view.shown().kind).toLowerCase() + juce::Time::getCurrentTime().formatted (" %Y-%m-%d %H-%M-%S");
+    juce::PopupMenu menu;
+    const auto offers = [&] (const juce::String& words, const char* ending, auto write)
+    {
+        menu.addItem (words, [safe = juce::Component::SafePointer (this), which = juce::Component::SafePointer (&view), file = folder.getChildFile (juce::File::createLegalFileName (name + ending)), write]
+                      {
+            if (safe == nullptr || which == nullptr) return;
+            file.getParentDirectory().createDirectory();
+            safe->say (write (*which, file.getFullPathName().toStdString()), file); });
+    };
+    offers ("Picture (PNG)", ".png", [] (ScopeView& v, const std::filesystem::path& p)
+            { return v.savePicture (p); });
+    offers ("Numbers (CSV)", ".csv", [] (ScopeView& v, const std::filesystem::path& p)
+            { return v.saveNumbers (p); });
+    menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (below));
+}
+
+void ScopePanel::say (const tl::expected<void, Error>& written, const juce::File& file)
+{
+    if (onHint) onHint (written ? "Saved " + file.getFullPathName() : juce::String (describe (written.error())));
+}
+
+juce::Rectangle<int> ScopePanel::emptyArea() const { return getLocalBounds().withTrimmedTop (row_height); }
+
+void ScopePanel::paint (juce::Graphics& g)
+{
+    const auto& look = lookOf (*this);
+    const auto& theme = look.theme();
+    g.fillAll (theme.panel);
+    g.setColour (theme.hairline);
+    for (std::size_t i = 1; i < views.size(); ++i)
+        g.drawVerticalLine (views[i]->getX() - 1, static_cast<float> (row_height), static_cast<float> (getHeight()));
+    if (warned.isNotEmpty())
+    {
+        const int left = adders.back()->getRight() + 12;
+        g.setFont (look.font (12.0f));
+        g.setColour (theme.warning);
+        g.drawText (warned, getLocalBounds().removeFromTop (row_height).withLeft (left).withRight (freeze_button.getX() - 8), juce::Justification::centredRight, true);
+    }
+    if (! views.empty()) return;
+    g.setFont (look.font (13.0f));
+    g.setColour (theme.dim);
+    g.drawFittedText (offer.isVisible() ? "Nothing is shown. Select a wire and press P, add a scope above, or click here:" : "Nothing is shown. Add nodes to the graph, select a wire, and press P", emptyArea().reduced (24, 16).withTrimmedBottom (32), juce::Justification::centred, 2);
+}
+
+void ScopePanel::resized()
+{
+    auto area = getLocalBounds();
+    auto row = area.removeFromTop (row_height).reduced (4, 3);
+    freeze_button.setBounds (row.removeFromRight (freeze_button.wantedWidth()));
+    for (auto& a : adders)
+        a->setBounds (row.removeFromLeft (std::min (row.getWidth(), a->wantedWidth())));
+
+    const auto& first = std::ranges::find_if (desk.ports, [] (const ScopePort& p)
+                                              { return p.port.role == Role::output && p.port.quantity() == Quantity::force; });
+    offer.setVisible (views.empty() && first != desk.ports.end());
+    if (offer.isVisible())
+    {
+        offer.setName (juce::String (first->name));
+        offer.setButtonText (juce::String (first->name));
+        offer.dot = themeOf (*this).of (Quantity::force);
+        offer.setBounds (emptyArea().withSizeKeepingCentre (offer.wantedWidth(), FlatButton::height).translated (0, 16));
+    }
+    for (std::size_t i = 0; i < views.size(); ++i)
+        views[i]->setBounds (area.removeFromLeft (area.getWidth() / static_cast<int> (views.size() - i)).withTrimmedLeft (i == 0 ? 0 : 1));
+    repaint();
+}
+
+bool ScopePanel::keyPressed (const juce::KeyPress& key)
+{
+    if (key != juce::KeyPress ('h')) return false;
+    freezeAll (! isFrozen());
+    return true;
+}
+
+void ScopePanel::mouseDown (const juce::MouseEvent& e)
+{
+    for (const auto& v : views)
+        if (v.get() == e.eventComponent || v->isParentOf (e.eventComponent)) model.active = &v->shown();
+}
+
+}   // namespace tactus::host

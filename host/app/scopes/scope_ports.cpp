@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scope_ports.hpp"
+
+#include <host/runtime/probe_ring.hpp>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr int deepest = 16;
+
+struct Walk
+{
+    const Catalogue& catalogue;
+    std::vector<ScopePort> all;
+
+    void patch (const graph::Graph& g, const graph::Patch& p, const std::string& prefix, int depth)
+    {
+        if (depth > deepest) return;
+        for (const auto& node : p.nodes)
+        {
+            const auto path = prefix + node.name;
+            const auto face = faceOf (g, p, node, catalogue);
+            for (const auto* ports : { &face.outputs, &face.inputs, &face.params })
+                for (const auto& port : *ports)
+                    if (! port.isChoice()) all.push_back ({ path + "." + port.id, path, node.id, node.type, port });
+            if (node.type.starts_with ("graph:"))
+                if (const auto* inside = g.find (std::string_view (node.type).substr (6))) patch (g, *inside, path + "/", depth + 1);
+            if (node.type.starts_with ("file:"))
+                if (const auto file = g.files.find (node.type.substr (5)); file != g.files.end()) patch (*file->second, file->second->root, path + "/", depth + 1);
+        }
+    }
+};
+
+bool isOutput (const ScopePort& p, std::string_view id) { return p.port.role == Role::output && p.port.id == id; }
+
+/// The first port of a node whose type begins so.
+std::string firstOf (const std::vector<ScopePort>& ports, std::string_view type, Role role, std::string_view id)
+{
+    for (const auto& p : ports)
+        if (p.type.starts_with (type) && p.port.role == role && p.port.id == id) return p.name;
+    return {};
+}
+
+/// Of those nodes whose state 1 is stuck and 2 slipping.
+bool tellsSliding (std::string_view type) { return type.starts_with ("friction.") || type == "deform.surface"; }
+
+bool isWired (const graph::Patch& patch, const std::string& node, const std::string& port)
+{
+    return std::ranges::any_of (patch.wires, [&] (const graph::Wire& w)
+                                { return w.to.node == node && w.to.port == port; });
+}
+}   // namespace
+
+std::vector<ScopePort> scopePorts (const graph::Graph& g, const Catalogue& c)
+{
+    Walk walk { c, {} };
+    walk.patch (g, g.root, {}, 0);
+    return std::move (walk.all);
+}
+
+std::vector<std::string> energyPorts (const std::vector<ScopePort>& ports)
+{
+    std::vector<std::string> all;
+    for (const auto& p : ports)
+        if (! p.type.empty() && ! p.type.starts_with ("graph:") && ! p.type.starts_with ("file:") && (isOutput (p, "stored_energy") || isOutput (p, "dissipated_energy"))) all.push_back (p.name);
+    return all;
+}
+
+std::string stateFor (const std::string& port, const std::vector<ScopePort>& ports)
+{
+    const auto path = port.substr (0, port.find ('.'));
+    for (const auto& p : ports)
+        if (p.path == path && isOutput (p, "state") && tellsSliding (p.type)) return p.name;
+    return firstOf (ports, "friction.", Role::output, "state");
+}
+
+bool isThere (const std::string& port, const std::vector<ScopePort>& ports)
+{
+    return std::ranges::any_of (ports, [&] (const ScopePort& p)
+                                { return isPartOf (port, p.name) || isPartOf (p.name, port); });
+}
+
+ScopeSpec suggestedScope (ScopeKind kind, const graph::Graph& g, const Catalogue& c)
+{
+    const auto ports = scopePorts (g, c);
+    const auto motor = firstOf (ports, "device.force", Role::input, "force");
+    ScopeSpec s;
+    s.kind = kind;
+    switch (kind)
+    {
+    case ScopeKind::time:
+    case ScopeKind::spectrum:
+        if (! motor.empty()) s.ports.push_back (motor);
+        break;
+    case ScopeKind::over:
+        s.seconds = 2.0;
+        s.x = firstOf (ports, "device.position", Role::output, "position");
+        for (const char* family : { "friction.", "cut.", "deform." })
+            if (s.y.empty()) s.y = firstOf (ports, family, Role::output, "force");
+        if (s.y.empty()) s.y = motor;
+        s.state = stateFor (s.y, ports);
+        break;
+    case ScopeKind::energy:
+        s.seconds = 5.0;
+        s.x = firstOf (ports, "device.position", Role::output, "position");
+        s.y = firstOf (ports, "device.force", Role::output, "applied");
+        break;
+    case ScopeKind::tool:
+        const auto deflection = firstOf (ports, "friction.", Role::output, "deflection");
+        s.node = deflection.substr (0, deflection.find ('.'));
+        s.has_normal = s.node.find ('/') == std::string::npos && isWired (g.root, s.node, "normal");
+        break;
+    }
+    return s;
+}
+
+std::vector<ScopeSpec> suggestedScopes (const graph::Graph& g, const Catalogue& c)
+{
+    std::vector<ScopeSpec> all;
+    if (auto time = suggestedScope (ScopeKind::time, g, c); ! time.ports.empty()) all.push_back (std::move (time));
+    if (auto over = suggestedScope (ScopeKind::over, g, c); ! over.x.empty() && ! over.y.empty()) all.push_back (std::move (over));
+    if (auto energy = suggestedScope (ScopeKind::energy, g, c); ! energy.x.empty() && ! energy.y.empty() && ! energyPorts (scopePorts (g, c)).empty()) all.push_back (std::move (energy));
+    return all;
+}
+
+void follow (ScopeModel& model, const std::vector<ScopePort>& before, const std::vector<ScopePort>& after)
+{
+    const auto idOf = [&] (const std::string& path) -> graph::Id
+    {
+        const auto at = std::ranges::find (before, path, &ScopePort::path);
+        return at == before.end() ? 0 : at->node;
+    };
+    const auto moved = [&] (std::string& path)
+    {
+        if (path.empty() || std::ranges::find (after, path, &ScopePort::path) != after.end()) return;
+        if (const auto id = idOf (path))
+            if (const auto at = std::ranges::find (after, id, &ScopePort::node); at != after.end()) path = at->path;
+    };
+    const auto port = [&] (std::string& name)
+    {
+        const auto dot = name.find ('.');
+        if (dot == std::string::npos) return;
+        auto path = name.substr (0, dot);
+        moved (path);
+        name = path + name.substr (dot);
+    };
+    for (const auto& s : model.scopes)
+    {
+        for (auto& p : s->ports)
+            port (p);
+        for (auto* p : { &s->x, &s->y, &s->state })
+            port (*p);
+        moved (s->node);
+    }
+}
+
+}   // namespace tactus::host

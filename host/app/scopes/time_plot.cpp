@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "time_plot.hpp"
+
+#include "energy_meter.hpp"
+
+#include <cmath>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr double hysteresis = 0.02;   // of the range
+constexpr float grip = 8.0f;
+
+juce::String wordsFor (Trigger::Edge e)
+{
+    return e == Trigger::Edge::off ? juce::String ("trigger off") : e == Trigger::Edge::rising ? juce::String ("trigger rising")
+                                                                                               : juce::String ("trigger falling");
+}
+}   // namespace
+
+void TimePlot::show (const Signals& signals)
+{
+    TraceList all;
+    std::vector<std::string> units;
+    std::map<std::string, std::size_t> ports_of_unit;
+    lines.clear();
+    for (const auto& port : spec.ports)
+    {
+        const auto traces = signals (port);
+        if (traces.empty()) continue;
+        const auto nth = ports_of_unit[traces.front()->unit()]++;
+        for (std::size_t i = 0; i < traces.size(); ++i)
+        {
+            const auto& t = traces[i];
+            auto lane = std::ranges::find (units, t->unit());
+            if (lane == units.end()) lane = units.insert (units.end(), t->unit());
+            lines.push_back ({ static_cast<std::size_t> (lane - units.begin()), traceColour (theme(), t->quantity(), nth, i), traces.size() == 3 ? juce::String (t->name()).fromLastOccurrenceOf (".", false, false) : juce::String(), {} });
+            all.push_back (t);
+        }
+    }
+    layOut (units);
+    repaint();
+    if (all.empty()) return;
+
+    rate_hz = all.front()->rate();
+    const double noise = lanes.front().y.isEmpty() ? 0.0 : hysteresis * lanes.front().y.size();
+    seen = windowOf (all, spec.seconds, spec.trigger, noise);
+    if (! spec.is_frozen) spec.back_s = 0.0;
+    seen.from -= spec.back_s * rate_hz;
+    seen.to -= spec.back_s * rate_hz;
+    zero = seen.trigger ? static_cast<double> (*seen.trigger) : static_cast<double> (endOf (all));
+
+    std::vector<Extent> extents (units.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+        auto& line = lines[i];
+        line.columns = columnsOf (*all[i], seen.from, seen.to, static_cast<std::size_t> (std::max (1.0f, lanes[line.lane].area.getWidth())));
+        for (const auto& c : line.columns.all)
+            if (! c.extent.isEmpty()) extents[line.lane].include (c.extent);
+    }
+    for (std::size_t i = 0; i < lanes.size(); ++i)
+    {
+        lanes[i].x = { (seen.from - zero) / rate_hz, (seen.to - zero) / rate_hz };
+        lanes[i].x_unit = "s";
+        lanes[i].y = rangeOf (units[i], extents[i]);
+    }
+}
+
+std::vector<ScopePlot::Action> TimePlot::actions()
+{
+    const auto lengths = [this] (juce::Component& below)
+    {
+        juce::PopupMenu menu;
+        for (const double s : { 5e-3, 10e-3, 20e-3, 50e-3, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0 })
+            menu.addItem (juce::String (withPrefix (s, "s", 1)), true, std::abs (spec.seconds - s) < 1e-6 * s, [safe = juce::Component::SafePointer (this), s]
+                          {
+                if (safe == nullptr) return;
+                safe->spec.seconds = s;
+                if (safe->desk.onChange) safe->desk.onChange(); });
+        menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (below));
+    };
+    const auto next = [this] (juce::Component&)
+    {
+        auto& edge = spec.trigger.edge;
+        if (edge == Trigger::Edge::off && ! lanes.empty()) spec.trigger.level = 0.5 * (lanes.front().y.low + lanes.front().y.high);
+        edge = edge == Trigger::Edge::off ? Trigger::Edge::rising : edge == Trigger::Edge::rising ? Trigger::Edge::falling
+                                                                                                  : Trigger::Edge::off;
+        if (desk.onChange) desk.onChange();
+    };
+    return { { juce::String::fromUTF8 (withPrefix (spec.seconds, "s", 2).c_str()), "How long the window is; the wheel changes it, too", lengths },
+             { wordsFor (spec.trigger.edge), "Stands still where the first trace passes a level; drag the level", next } };
+}
+
+void TimePlot::mouseDown (const juce::MouseEvent& e)
+{
+    ScopePlot::mouseDown (e);
+    back_before = spec.back_s;
+    drags_level = hasTrigger() && ! lanes.empty() && std::abs (e.position.y - levelPixel()) < grip && e.position.x > lanes.front().area.getRight() - 4.0f * grip;
+}
+
+void TimePlot::mouseDrag (const juce::MouseEvent& e)
+{
+    ScopePlot::mouseDrag (e);
+    if (lanes.empty()) return;
+    const auto& lane = lanes.front();
+    if (drags_level)
+        spec.trigger.level = lane.yAt (std::clamp (e.position.y, lane.area.getY(), lane.area.getBottom()));
+    else if (spec.is_frozen)
+        spec.back_s = std::clamp (back_before + static_cast<double> (e.getOffsetFromDragStart().x) / static_cast<double> (lane.area.getWidth()) * spec.seconds, 0.0, std::max (0.0, Trace::seconds - spec.seconds));
+    repaint();
+}
+
+void TimePlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t index)
+{
+    for (const auto& l : lines)
+        if (l.lane == index) drawTrace (g, lane, l.columns, zero, rate_hz, l.colour);
+
+    // Components are told apart by their light, which is the same for all vectors of a lane.
+    std::vector<Entry> components;
+    for (const auto& l : lines)
+        if (l.lane == index && l.component.isNotEmpty() && components.size() < 3) components.push_back ({ l.colour, l.component });
+    if (! components.empty()) paintLegend (g, lane.area.withHeight (16.0f).withTrimmedLeft (2.0f), components, false);
+}
+
+void TimePlot::paintOver (juce::Graphics& g)
+{
+    if (! hasTrigger()) return;
+    const auto& lane = lanes.front();
+    const float y = levelPixel();
+    if (y >= lane.area.getY() && y <= lane.area.getBottom())
+    {
+        g.setColour (theme().accent.withAlpha (0.7f));
+        const float dashes[] = { 4.0f, 4.0f };
+        g.drawDashedLine ({ lane.area.getX(), y, lane.area.getRight(), y }, dashes, 2, 1.0f);
+        juce::Path marker;
+        marker.addTriangle (lane.area.getRight() + 6.0f, y - 6.0f, lane.area.getRight() + 6.0f, y + 6.0f, lane.area.getRight() - 4.0f, y);
+        g.setColour (theme().accent);
+        g.fillPath (marker);
+    }
+    if (seen.trigger) return;
+    g.setFont (lookOf (*this).font (11.0f));
+    g.setColour (theme().warning);
+    g.drawText ("waits for the trigger", lane.area.reduced (8.0f, 4.0f).removeFromBottom (14.0f), juce::Justification::bottomLeft, false);
+}
+
+juce::String TimePlot::emptyWords() const { return spec.ports.empty() ? "Select a wire and press P, or click + above: what stands there is drawn over time" : "Nothing has run yet"; }
+
+}   // namespace tactus::host

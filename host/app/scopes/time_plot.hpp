@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "trace_drawing.hpp"
+
+namespace tactus::host
+{
+
+/// An oscilloscope: a lane for each unit, all over one time.
+class TimePlot final : public ScopePlot
+{
+public:
+    using ScopePlot::ScopePlot;
+
+    void show (const Signals&) override;
+    std::vector<Action> actions() override;
+    void mouseDown (const juce::MouseEvent&) override;
+    void mouseDrag (const juce::MouseEvent&) override;
+
+    const TickWindow& window() const noexcept { return seen; }
+
+private:
+    struct Line
+    {
+        std::size_t lane = 0;
+        juce::Colour colour;
+        juce::String component;   // "x", of a vector
+        TraceColumns columns;
+    };
+
+    void paintLane (juce::Graphics&, const Lane&, std::size_t) override;
+    void paintOver (juce::Graphics&) override;
+    juce::String emptyWords() const override;
+    bool hasTrigger() const noexcept { return spec.trigger.edge != Trigger::Edge::off; }
+    float levelPixel() const { return lanes.front().toPixels (0.0, spec.trigger.level).y; }
+
+    TickWindow seen;
+    std::vector<Line> lines;
+    double rate_hz = 1.0, zero = 0.0, back_before = 0.0;
+    bool drags_level = false;
+};
+
+}   // namespace tactus::host

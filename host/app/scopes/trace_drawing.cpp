@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trace_drawing.hpp"
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr float thickness = 1.5f;
+}
+
+void drawTrace (juce::Graphics& g, const Lane& lane, const TraceColumns& columns, double tick_of_zero, double rate_hz, juce::Colour colour)
+{
+    g.setColour (colour);
+    const auto x = [&] (std::size_t i)
+    { return lane.toPixels ((columns.first + (static_cast<double> (i)) * columns.ticks_each - tick_of_zero) / rate_hz, lane.y.low).x; };
+    if (columns.ticks_each <= 1.0)
+    {
+        juce::Path path;
+        bool goes_on = false;
+        for (std::size_t i = 0; i < columns.all.size(); ++i)
+        {
+            const auto& e = columns.all[i].extent;
+            if (! e.isEmpty())
+            {
+                const juce::Point<float> p { x (i), lane.toPixels (lane.x.low, e.low).y };
+                goes_on ? path.lineTo (p) : path.startNewSubPath (p);
+            }
+            goes_on = ! e.isEmpty();
+        }
+        g.strokePath (path, juce::PathStrokeType (thickness));
+        return;
+    }
+
+    juce::RectangleList<float> spans;
+    spans.ensureStorageAllocated (static_cast<int> (columns.all.size()));
+    Extent before;
+    const float width = x (1) - x (0);
+    for (std::size_t i = 0; i < columns.all.size(); ++i)
+    {
+        const auto own = columns.all[i].extent;
+        if (own.isEmpty())
+        {
+            before = {};
+            continue;
+        }
+        auto e = own;
+        if (! before.isEmpty()) e = { std::min (e.low, before.high), std::max (e.high, before.low) };   // up to where the last one ended
+        before = own;
+        const float top = lane.toPixels (lane.x.low, e.high).y, bottom = lane.toPixels (lane.x.low, e.low).y;
+        spans.addWithoutMerging ({ x (i), top - 0.5f * thickness, width, bottom - top + thickness });
+    }
+    g.fillRectList (spans);
+}
+
+void drawBetween (juce::Graphics& g, const Lane& lane, const std::vector<juce::Point<double>>& low, const std::vector<juce::Point<double>>& high, juce::Colour colour)
+{
+    if (low.size() < 2 || low.size() != high.size()) return;
+    juce::Path path;
+    path.startNewSubPath (lane.toPixels (low.front().x, low.front().y));
+    for (std::size_t i = 1; i < low.size(); ++i)
+        path.lineTo (lane.toPixels (low[i].x, low[i].y));
+    for (std::size_t i = high.size(); i-- > 0;)
+        path.lineTo (lane.toPixels (high[i].x, high[i].y));
+    path.closeSubPath();
+    g.setColour (colour);
+    g.fillPath (path);
+}
+
+}   // namespace tactus::host

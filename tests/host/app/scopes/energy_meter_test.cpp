@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include <host/app/scopes/energy_meter.hpp>
+
+#include "made_trace.hpp"
+
+#include <nodes/friction/elasto_plastic.hpp>
+
+#include <rapidcheck/catch.h>
+
+#include <cmath>
+
+using namespace tactus;
+using namespace tactus::host;
+
+namespace
+{
+/// A tool that is led along a path, and what a node puts on it.
+struct Recorded
+{
+    std::vector<std::shared_ptr<Trace>> position, applied;
+    std::shared_ptr<Trace> stored = emptyTrace ("n.stored_energy", 4000.0), dissipated = emptyTrace ("n.dissipated_energy", 4000.0);
+    std::uint64_t tick = 0;
+    Vec3 held = Vec3::Zero();   // what was put on since the last tick
+
+    Recorded()
+    {
+        for (const char* c : { "x", "y", "z" })
+        {
+            position.push_back (emptyTrace (std::string ("p.") + c, 4000.0));
+            applied.push_back (emptyTrace (std::string ("f.") + c, 4000.0));
+        }
+    }
+
+    void add (const Vec3& p, const Vec3& force_from_now, double in, double lost)
+    {
+        for (int i = 0; i < 3; ++i)
+        {
+            position[static_cast<std::size_t> (i)]->add (tick, p[i]);
+            applied[static_cast<std::size_t> (i)]->add (tick, held[i]);
+        }
+        stored->add (tick, in);
+        dissipated->add (tick, lost);
+        held = force_from_now;
+        ++tick;
+    }
+
+    EnergyMeter::Sources sources() const { return { { position.begin(), position.end() }, { applied.begin(), applied.end() }, { stored }, { dissipated } }; }
+};
+
+void rub (Recorded& r, nodes::ElastoPlastic& node, int ticks)
+{
+    for (int k = 0; k < ticks; ++k)
+    {
+        const double t = static_cast<double> (r.tick) / 4000.0;
+        const Vec3 p (0.02 * std::sin (6.0 * t), 0.007 * std::sin (9.0 * t), 0.0);
+        const auto out = node.tick ({ .position = p, .normal_force = 1.0 });
+        r.add (p, out.force, out.stored_energy, out.dissipated_energy);
+    }
+}
+
+nodes::ElastoPlastic bristle()
+{
+    nodes::ElastoPlastic node;
+    node.params.d_max = 2e-3;
+    return node;
+}
+}   // namespace
+
+TEST_CASE ("scopes: what the hand puts into friction is stored or dissipated, but for what the held force leaks", "[app][scopes]")
+{
+    Recorded r;
+    auto node = bristle();
+    rub (r, node, 8000);
+    EnergyMeter meter;
+    meter.follow (r.sources());
+    const auto& b = meter.balance();
+    CHECK (b.dissipated > 0.02);
+    CHECK (b.dissipated == r.dissipated->at (7999));
+    CHECK (std::abs (b.elsewhere()) < 1e-4 * b.work);
+    CHECK (b.isPassive());
+    CHECK (inWords (b).starts_with ("passive"));
+}
+
+TEST_CASE ("scopes: what holding the force of a spring makes is half the stiffness times the steps squared", "[app][scopes]")
+{
+    constexpr double stiffness = 500.0;
+    Recorded r;
+    double expected = 0.0, before = 0.0;
+    for (int k = 0; k < 4000; ++k)
+    {
+        const double x = 0.01 * std::sin (0.07 * k);
+        if (k > 0 && k < 3999) expected += 0.5 * stiffness * (x - before) * (x - before);   // of the last step it is not known yet
+        before = x;
+        r.add (Vec3 (x, 0, 0), Vec3 (-stiffness * x, 0, 0), 0.5 * stiffness * x * x, 0.0);
+    }
+    EnergyMeter meter;
+    meter.follow (r.sources());
+    CHECK (meter.balance().held == Approx (expected));
+    CHECK (std::abs (meter.balance().elsewhere()) < 1e-3 * expected);
+    CHECK_FALSE (meter.balance().isPassive());   // a bare sampled spring gives energy to the hand
+}
+
+TEST_CASE ("scopes: energy is added up the same however the ticks come in", "[app][scopes]")
+{
+    Recorded at_once, in_parts;
+    auto a = bristle(), b = bristle();
+    rub (at_once, a, 6000);
+    EnergyMeter whole, parts;
+    whole.follow (at_once.sources());
+    while (in_parts.tick < 6000)
+    {
+        rub (in_parts, b, static_cast<int> (std::min<std::uint64_t> (137, 6000 - in_parts.tick)));
+        parts.follow (in_parts.sources());
+    }
+    CHECK (parts.balance().work == whole.balance().work);
+    CHECK (parts.traces()[0]->at (5999) == whole.balance().work);
+    CHECK (parts.balance().gaps == 0);
+}
+
+TEST_CASE ("scopes: a force that pushes the way the tool goes is called active, with how much it gave", "[app][scopes]")
+{
+    Recorded r;
+    for (int k = 0; k <= 100; ++k)
+        r.add (Vec3 (1e-3 * k, 0, 0), Vec3 (0.5, 0, 0), 0.0, 0.0);   // 0.5 N over 0.1 m
+    EnergyMeter meter;
+    meter.follow (r.sources());
+    CHECK (meter.balance().work == Approx (-0.05));
+    CHECK_FALSE (meter.balance().isPassive());
+    CHECK (inWords (meter.balance()).find ("active: 50\u00a0mJ more came out") == 0);
+}
+
+TEST_CASE ("scopes: a spring that was wound up before may give back what it holds, and no more", "[app][scopes]")
+{
+    const auto let_out = [] (double held)
+    {
+        Recorded r;
+        for (int k = 0; k <= 1000; ++k)
+            r.add (Vec3 (1e-4 * k, 0, 0), Vec3 (1.0, 0, 0), held * (1.0 - k / 1000.0), 0.0);   // gives 0.1 J
+        EnergyMeter meter;
+        meter.follow (r.sources());
+        return meter.balance().isPassive();
+    };
+    CHECK (let_out (0.1001));
+    CHECK_FALSE (let_out (0.09));
+}
+
+TEST_CASE ("scopes: across ticks that were missed the work is estimated, and they are counted", "[app][scopes]")
+{
+    Recorded r;
+    for (int k = 0; k <= 100; ++k)
+    {
+        const bool is_lost = k > 40 && k <= 50;
+        if (is_lost)
+            ++r.tick;
+        else
+            r.add (Vec3 (1e-3 * k, 0, 0), Vec3 (-2.0, 0, 0), 0.0, 0.0);
+    }
+    EnergyMeter meter;
+    meter.follow (r.sources());
+    CHECK (meter.balance().work == Approx (0.2));
+    CHECK (meter.balance().gaps == 10);
+}
+
+TEST_CASE ("scopes: a run that starts anew is counted anew", "[app][scopes]")
+{
+    EnergyMeter meter;
+    for (int run = 0; run < 2; ++run)
+    {
+        Recorded r;
+        for (int k = 0; k <= 100; ++k)
+            r.add (Vec3 (1e-3 * k, 0, 0), Vec3 (-1.0, 0, 0), 0.0, 7.0);   // dissipated before
+        meter.follow (r.sources());
+        CHECK (meter.balance().work == Approx (0.1));
+        CHECK (meter.balance().dissipated == 0.0);
+    }
+}
+
+TEST_CASE ("scopes: numbers are short, with a prefix where the unit takes one", "[app][scopes]")
+{
+    CHECK (withPrefix (0.0031, "J") == "3.10 mJ");
+    CHECK (withPrefix (0.0031, "J", 2) == "3.1 mJ");
+    CHECK (withPrefix (-0.42, "N") == "-420 mN");
+    CHECK (withPrefix (12.3456, "N") == "12.3 N");
+    CHECK (withPrefix (1234.0, "Hz") == "1.23 kHz");
+    CHECK (withPrefix (0.5, "1") == "0.50");
+    CHECK (withPrefix (4e-4, "m") == "400 \u00b5m");
+    CHECK (withPrefix (0.0, "N", 2) == "0.0 N");
+    CHECK (withPrefix (2500.0, "N/m") == "2500 N/m");
+}

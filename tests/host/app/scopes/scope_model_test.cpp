@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include <host/app/scopes/scope_model.hpp>
+
+#include <rapidcheck/catch.h>
+
+using namespace tactus::host;
+
+TEST_CASE ("scopes: a probe adds a trace to the first scope over time, and takes it out the second time", "[app][scopes]")
+{
+    ScopeModel model;
+    CHECK (model.probe ("drag.force"));   // which makes a scope
+    REQUIRE (model.scopes.size() == 1);
+    CHECK (model.probe ("board.depth"));
+    CHECK (model.shows ("drag.force"));
+    CHECK_FALSE (model.probe ("drag.force"));
+    CHECK_FALSE (model.shows ("drag.force"));
+    CHECK (model.scopes.front()->ports == std::vector<std::string> { "board.depth" });
+}
+
+TEST_CASE ("scopes: a probe goes to the active scope if that holds traces", "[app][scopes]")
+{
+    ScopeModel model;
+    for (const auto kind : { ScopeKind::time, ScopeKind::over, ScopeKind::spectrum })
+    {
+        model.scopes.push_back (std::make_unique<ScopeSpec>());
+        model.scopes.back()->kind = kind;
+    }
+    model.active = model.scopes[2].get();
+    model.probe ("a.x");
+    CHECK (model.scopes[2]->ports == std::vector<std::string> { "a.x" });
+    model.active = model.scopes[1].get();
+    model.probe ("b.x");
+    CHECK (model.scopes[0]->ports == std::vector<std::string> { "b.x" });
+}
+
+TEST_CASE ("scopes: three clicks are a cursor, two, and none; two are of one lane", "[app][scopes]")
+{
+    std::vector<Cursor> cursors;
+    click (cursors, { 0, 1.0, 2.0 });
+    click (cursors, { 0, 3.0, 5.0 });
+    REQUIRE (cursors.size() == 2);
+    CHECK (cursors[1].x - cursors[0].x == 2.0);
+    click (cursors, { 0, 1.0, 1.0 });
+    CHECK (cursors.empty());
+    click (cursors, { 0, 1.0, 1.0 });
+    click (cursors, { 1, 2.0, 1.0 });
+    REQUIRE (cursors.size() == 1);
+    CHECK (cursors.front().lane == 1);
+}
+
+TEST_CASE ("scopes: a range that follows always holds what is seen", "[app][scopes]")
+{
+    rc::prop ("any values", [] (const std::vector<std::pair<short, unsigned char>>& all)
+              {
+        AutoRange range (3);
+        for (const auto& [low, size] : all)
+        {
+            const Extent seen { low / 10.0, low / 10.0 + size / 10.0 };
+            const auto shown = range.update (seen);
+            RC_ASSERT (shown.low <= seen.low);
+            RC_ASSERT (shown.high >= seen.high);
+            RC_ASSERT (shown.size() > 0.0);
+        } });
+}
+
+TEST_CASE ("scopes: a range waits for no one once what was at rest moves", "[app][scopes]")
+{
+    AutoRange range;
+    CHECK (range.update ({ 0.0, 0.0 }).high == 1.0);
+    CHECK (range.update ({ 0.0, 0.01 }).high < 0.02);
+}
+
+TEST_CASE ("scopes: a range stays while the signal breathes, and narrows when it has been small for long", "[app][scopes]")
+{
+    AutoRange range (10);
+    const auto wide = range.update ({ -1.0, 1.0 });
+    for (int i = 0; i < 100; ++i)
+    {
+        const double a = i % 8 == 0 ? 1.0 : 0.1;
+        const auto now = range.update ({ -a, a });
+        CHECK (now.low == wide.low);
+        CHECK (now.high == wide.high);
+    }
+    for (int i = 0; i < 12; ++i)
+        range.update ({ -0.1, 0.1 });
+    CHECK (range.shown().high < 0.2);
+    CHECK (range.shown().high > 0.1);
+
+    // A little less is no reason.
+    const auto narrow = range.shown();
+    for (int i = 0; i < 100; ++i)
+        range.update ({ -0.08, 0.08 });
+    CHECK (range.shown().high == narrow.high);
+}

@@ -1,0 +1,437 @@
+// SPDX-License-Identifier: MIT
+#include <host/app/scopes/scope_panel.hpp>
+
+#include <framework/file/graph_file.hpp>
+#include <host/app/scopes/energy_plot.hpp>
+#include <host/app/scopes/time_plot.hpp>
+#include <host/io/csv.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <iostream>
+
+using namespace tactus;
+using namespace tactus::host;
+
+namespace
+{
+const auto graphs = std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs";
+
+/// A window without a display, whose graph is ticked by hand.
+struct Bench
+{
+    juce::ScopedJuceInitialiser_GUI juce;
+    Look look;
+    Document document;
+    Performance performance;
+    FileAssets assets;
+    std::unique_ptr<ScopePanel> panel;
+    std::shared_ptr<Plan> plan;
+    std::uint64_t tick = 0;
+    double speed = 4.0;
+
+    explicit Bench (const std::string& name = "dry_wood") : document (std::move (loadGraph (graphs / (name + ".json")).graph)), performance (document, catalogue())
+    {
+        juce::LookAndFeel::setDefaultLookAndFeel (&look);
+        panel = std::make_unique<ScopePanel> (document, performance, catalogue());
+        panel->setSize (1100, 260);
+    }
+
+    ~Bench()
+    {
+        panel.reset();
+        juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
+    }
+
+    /// Makes a plan that records what is wanted now, and strokes the board with it.
+    void run (int ticks)
+    {
+        auto& traces = performance.traces();
+        auto compiled = compile (document.graph(), catalogue(), { .records = traces.ports(), .assets = &assets });
+        REQUIRE (compiled.plan);
+        plan = std::move (compiled.plan);
+        traces.select (*plan, document.graph().rate_hz, false);
+        for (int i = 0; i < ticks; ++i, ++tick)
+        {
+            const double t = static_cast<double> (tick) / document.graph().rate_hz;
+            for (auto& r : plan->roles)
+                r.state->reading.position = Vec3 (0.03 * std::sin (speed * t), 0.0, -5e-4);
+            plan->tick();
+            for (auto& r : plan->roles)   // as a guard that lets everything through
+            {
+                r.state->applied = {};
+                for (const auto& sink : r.sinks)
+                    r.state->applied.force += sink.effort (sink.node).force;
+            }
+            traces.note (*plan, tick);
+            if (i % 500 == 0) traces.collect();
+        }
+        traces.collect();
+        panel->refresh();
+    }
+
+    ScopeView& view (ScopeKind kind)
+    {
+        const auto at = std::ranges::find_if (panel->shown(), [&] (const auto& v)
+                                              { return v->shown().kind == kind; });
+        REQUIRE (at != panel->shown().end());
+        return **at;
+    }
+
+    static std::vector<std::string> words (juce::Component& c)
+    {
+        std::vector<std::string> all;
+        for (auto* child : c.getChildren())
+            if (auto* b = dynamic_cast<FlatButton*> (child)) all.push_back (b->getButtonText().toStdString());
+        return all;
+    }
+};
+
+juce::MouseEvent mouse (juce::Component& c, juce::Point<float> at, juce::Point<float> from, bool dragged, int mods = 0)
+{
+    const auto now = juce::Time::getCurrentTime();
+    return { juce::Desktop::getInstance().getMainMouseSource(), at, juce::ModifierKeys (mods), 1.0f, 0, 0, 0, 0, &c, &c, now, from, now, 1, dragged };
+}
+
+void clickAt (juce::Component& c, juce::Point<float> at)
+{
+    c.mouseDown (mouse (c, at, at, false));
+    c.mouseUp (mouse (c, at, at, false));
+}
+
+/// How many pixels have about this colour.
+int countOf (const juce::Image& image, juce::Colour colour)
+{
+    int count = 0;
+    for (int y = 0; y < image.getHeight(); ++y)
+        for (int x = 0; x < image.getWidth(); ++x)
+        {
+            const auto c = image.getPixelAt (x, y);
+            count += std::abs (c.getRed() - colour.getRed()) + std::abs (c.getGreen() - colour.getGreen()) + std::abs (c.getBlue() - colour.getBlue()) < 24;
+        }
+    return count;
+}
+}   // namespace
+
+TEST_CASE ("scopes: a graph that opens shows scopes at once, and wants only what they need", "[app][scopes]")
+{
+    Bench b;
+    REQUIRE (b.panel->shown().size() == 3);
+    auto wanted = b.performance.traces().ports();
+    std::ranges::sort (wanted);
+    CHECK (wanted == std::vector<std::string> { "board.stored_energy", "drag.dissipated_energy", "drag.force", "drag.state", "drag.stored_energy", "hand.position", "motor.applied", "motor.force" });
+}
+
+TEST_CASE ("scopes: what runs is drawn, in the colour of its quantity", "[app][scopes]")
+{
+    Bench b;
+    auto& plot = b.view (ScopeKind::time).plot();
+    const auto force = b.look.theme().of (Quantity::force);
+    const auto picture = [&]
+    { return plot.createComponentSnapshot (plot.getLocalBounds()); };
+    b.panel->refresh();
+    CHECK (plot.shownLanes().empty());
+    CHECK (countOf (picture(), force) == 0);
+    b.run (6000);
+    REQUIRE (plot.shownLanes().size() == 1);
+    CHECK (plot.shownLanes().front().unit == "N");
+    CHECK (countOf (picture(), force) > 200);
+}
+
+TEST_CASE ("scopes: over displacement, sticking and sliding have colours of their own", "[app][scopes]")
+{
+    constexpr int in_legend = 64;
+    Bench b;
+    auto& plot = b.view (ScopeKind::over).plot();
+    const auto count = [&] (Quantity q)
+    { return countOf (plot.createComponentSnapshot (plot.getLocalBounds()), b.look.theme().of (q)); };
+    b.run (6000);
+    CHECK (count (Quantity::length) > 3 * in_legend);   // it sticks and slips
+
+    REQUIRE (b.document.perform (graph::SetParam { "", "drag", "static_ratio", 1.0 }));
+    b.performance.stop();
+    b.run (20000);
+    CHECK (count (Quantity::force) > 2 * in_legend);   // it slides
+}
+
+TEST_CASE ("scopes: units have lanes of their own, and all components of a vector share one", "[app][scopes]")
+{
+    Bench b;
+    b.panel->probe ("board.depth");
+    b.panel->probe ("drag.force");
+    b.run (500);
+    const auto& lanes = b.view (ScopeKind::time).plot().shownLanes();
+    REQUIRE (lanes.size() == 2);
+    CHECK (lanes[0].unit == "N");
+    CHECK (lanes[1].unit == "m");
+    CHECK (lanes[0].x.low == lanes[1].x.low);
+    CHECK (lanes[0].area.getBottom() <= lanes[1].area.getY());
+}
+
+TEST_CASE ("scopes: a port that is gone says so, and comes back with undo", "[app][scopes]")
+{
+    Bench b;
+    b.panel->probe ("grain.value");
+    b.run (100);
+    auto& view = b.view (ScopeKind::time);
+    REQUIRE (b.document.perform (graph::RemoveNode { "", "grain" }));
+    b.performance.stop();
+    b.run (100);
+    CHECK (std::ranges::count (Bench::words (view), "grain.value is gone") == 1);
+    b.document.undo();
+    b.performance.stop();
+    b.run (100);
+    CHECK (std::ranges::count (Bench::words (view), "grain.value is gone") == 0);
+}
+
+TEST_CASE ("scopes: the cross of a port takes it out, its name does not", "[app][scopes]")
+{
+    Bench b;
+    b.run (100);
+    auto& view = b.view (ScopeKind::time);
+    const auto chip = [&]() -> FlatButton&
+    {
+        for (auto* child : view.getChildren())
+            if (auto* button = dynamic_cast<FlatButton*> (child); button != nullptr && button->getButtonText() == "motor.force") return *button;
+        throw std::runtime_error ("no chip");
+    };
+    const auto at = [&] (float x)
+    {
+        clickAt (chip(), { x, 12.0f });
+        juce::MessageManager::getInstance()->runDispatchLoopUntil (20);
+    };
+    at (20.0f);
+    CHECK (b.panel->isProbed ("motor.force"));
+    at (static_cast<float> (chip().getWidth()) - 8.0f);
+    CHECK_FALSE (b.panel->isProbed ("motor.force"));
+    CHECK (std::ranges::count (b.performance.traces().ports(), "motor.force") == 0);
+}
+
+TEST_CASE ("scopes: frozen, a scope keeps what stood there while the run goes on", "[app][scopes]")
+{
+    Bench b;
+    b.run (3000);
+    auto& view = b.view (ScopeKind::time);
+    auto& plot = dynamic_cast<TimePlot&> (view.plot());
+    CHECK (b.panel->keyPressed (juce::KeyPress ('h', juce::ModifierKeys(), 'h')));
+    CHECK (b.panel->isFrozen());
+    const auto end = plot.window().to;
+    b.run (1000);
+    CHECK (plot.window().to == end);
+
+    // A drag to the right shows what was before.
+    const juce::Point<float> from { 100.0f, 60.0f };
+    plot.mouseDown (mouse (plot, from, from, false));
+    plot.mouseDrag (mouse (plot, from.translated (50.0f, 0.0f), from, true));
+    plot.mouseUp (mouse (plot, from.translated (50.0f, 0.0f), from, true));
+    b.panel->refresh();
+    CHECK (plot.window().to < end);
+    CHECK (view.shown().cursors.empty());   // no click
+
+    b.panel->freezeAll (false);
+    b.panel->refresh();
+    CHECK (plot.window().to == 4000.0);
+}
+
+TEST_CASE ("scopes: two clicks measure, the wheel zooms time, with shift values about the pointer", "[app][scopes]")
+{
+    Bench b;
+    b.run (6000);
+    auto& view = b.view (ScopeKind::time);
+    auto& plot = view.plot();
+    const auto lane = plot.shownLanes().front();
+    const auto a = lane.toPixels (-0.5, 0.0), c = lane.toPixels (-0.25, 0.1);
+    clickAt (plot, a);
+    clickAt (plot, c);
+    REQUIRE (view.shown().cursors.size() == 2);
+    CHECK (view.shown().cursors[1].x - view.shown().cursors[0].x == Approx (0.25).margin (1e-4));
+    CHECK (view.shown().cursors[1].y - view.shown().cursors[0].y == Approx (0.1).margin (1e-3));
+
+    const double before = view.shown().seconds;
+    plot.mouseWheelMove (mouse (plot, a, a, false), { 0.0f, 0.5f, false, false, false });
+    CHECK (view.shown().seconds < before);
+    const double pointed = plot.shownLanes().front().yAt (a.y), size = plot.shownLanes().front().y.size();
+    plot.mouseWheelMove (mouse (plot, a, a, false, juce::ModifierKeys::shiftModifier), { 0.0f, 0.5f, false, false, false });
+    CHECK (plot.shownLanes().front().y.size() < size);
+    CHECK (plot.shownLanes().front().yAt (a.y) == Approx (pointed).margin (1e-9));
+    plot.mouseDoubleClick (mouse (plot, a, a, false));
+    CHECK (view.shown().by_hand.empty());
+}
+
+TEST_CASE ("scopes: a trigger level is dragged by its marker", "[app][scopes]")
+{
+    Bench b;
+    b.run (6000);
+    auto& view = b.view (ScopeKind::time);
+    auto& plot = view.plot();
+    auto actions = plot.actions();
+    actions[1].onClick (plot);   // rising
+    CHECK (view.shown().trigger.edge == Trigger::Edge::rising);
+    b.panel->refresh();
+    const auto lane = plot.shownLanes().front();
+    const juce::Point<float> marker { lane.area.getRight(), lane.toPixels (0.0, view.shown().trigger.level).y }, to { marker.x, lane.toPixels (0.0, 0.25).y };
+    plot.mouseDown (mouse (plot, marker, marker, false));
+    plot.mouseDrag (mouse (plot, to, marker, true));
+    plot.mouseUp (mouse (plot, to, marker, true));
+    CHECK (view.shown().trigger.level == Approx (0.25).margin (1e-6));
+    b.panel->refresh();
+    CHECK (dynamic_cast<TimePlot&> (plot).window().trigger);
+}
+
+TEST_CASE ("scopes: a scope is saved as a picture of twice the size, and as numbers of what it shows", "[app][scopes]")
+{
+    Bench b;
+    b.run (4000);
+    auto& view = b.view (ScopeKind::over);
+    const auto folder = std::filesystem::temp_directory_path();
+    REQUIRE (view.savePicture (folder / "tactus_scope.png"));
+    const auto image = juce::ImageFileFormat::loadFrom (juce::File ((folder / "tactus_scope.png").string()));
+    CHECK (image.getWidth() == 2 * view.getWidth());
+    CHECK (image.getHeight() == 2 * view.getHeight());
+    CHECK (countOf (image, b.look.theme().of (Quantity::force)) > 400);
+
+    REQUIRE (view.saveNumbers (folder / "tactus_scope.csv"));
+    const auto table = readTable (folder / "tactus_scope.csv");
+    REQUIRE (table);
+    CHECK (table->columns == std::vector<std::string> { "t", "hand.position.x", "hand.position.y", "hand.position.z", "drag.force.x", "drag.force.y", "drag.force.z", "drag.state" });
+    CHECK (table->rows() == 4000);
+    CHECK (table->at (4, 0) == 0.001);
+    CHECK_FALSE (view.saveNumbers (folder / "no such folder" / "a.csv"));
+    std::filesystem::remove (folder / "tactus_scope.png");
+    std::filesystem::remove (folder / "tactus_scope.csv");
+}
+
+TEST_CASE ("scopes: more components than can be looked at are named in words", "[app][scopes]")
+{
+    Bench b;
+    b.run (10);
+    CHECK (b.panel->warning().isEmpty());
+    for (const char* port : { "drag.deflection", "board.force", "grain.force", "grain_felt.out", "hand.rotation", "grain.value", "board.depth" })
+        b.panel->probe (port);
+    b.run (10);
+    CHECK (b.panel->warning().startsWith ("32 components at a time; not shown: "));
+    CHECK (b.performance.traces().leftOut().size() == 1);
+    b.panel->probe ("hand.rotation");
+    b.run (10);
+    CHECK (b.panel->warning().isEmpty());
+}
+
+TEST_CASE ("scopes: all scopes can be closed, and an empty panel offers a port to begin with", "[app][scopes]")
+{
+    Bench b;
+    while (! b.panel->shown().empty())
+    {
+        const auto left = b.panel->shown().size();
+        for (auto* child : b.panel->shown().front()->getChildren())
+            if (child->getName() == "Close this scope") dynamic_cast<juce::Button&> (*child).onClick();
+        juce::MessageManager::getInstance()->runDispatchLoopUntil (20);
+        REQUIRE (b.panel->shown().size() == left - 1);
+    }
+    CHECK (b.performance.traces().ports().empty());
+    const auto all = Bench::words (*b.panel);
+    REQUIRE (std::ranges::count (all, "board.force") == 1);
+    for (auto* child : b.panel->getChildren())
+        if (child->getName() == "board.force")
+        {
+            CHECK (child->isVisible());
+            dynamic_cast<juce::Button&> (*child).onClick();
+        }
+    CHECK (b.panel->isProbed ("board.force"));
+    CHECK (b.panel->shown().size() == 1);
+}
+
+TEST_CASE ("scopes: every kind can be added to every preset, run, and drawn in both themes", "[app][scopes]")
+{
+    for (const char* name : { "dry_wood", "scissors_cloth", "two_fingers", "squealing_rubber", "granite_wall" })
+    {
+        INFO (name);
+        Bench b (name);
+        for (const auto kind : { ScopeKind::spectrum, ScopeKind::tool })
+            b.panel->add (kind);
+        b.run (300);
+        for (const auto* theme : { &Theme::light(), &Theme::dark() })
+        {
+            b.look.setTheme (*theme);
+            b.panel->refresh();
+            CHECK (countOf (b.panel->createComponentSnapshot (b.panel->getLocalBounds()), theme->canvas) > 10000);
+        }
+    }
+}
+
+TEST_CASE ("scopes: a run in real time is seen, and goes on being seen when a port is added while it runs", "[app][scopes]")
+{
+    Bench b;
+    b.performance.start (Performance::Hand::described);
+    REQUIRE (b.performance.isRunning());
+    Traces::Client client (b.performance.traces());
+    const auto ticksOf = [&] (const std::string& port)
+    {
+        const auto traces = client.of (port);
+        return traces.empty() ? std::uint64_t { 0 } : traces.front()->end() - traces.front()->begin();
+    };
+    // However slow the machine is: it comes, or the test fails after some seconds.
+    const auto waitFor = [&] (const std::string& port, std::uint64_t ticks)
+    {
+        for (int i = 0; i < 1000 && ticksOf (port) < ticks; ++i)
+        {
+            juce::Thread::sleep (10);
+            b.performance.attend();
+            b.panel->refresh();
+        }
+        return ticksOf (port) >= ticks;
+    };
+    REQUIRE (waitFor ("motor.force", 400));
+    const auto first = client.of ("motor.force").front()->begin();
+    b.panel->probe ("board.depth");
+    REQUIRE (waitFor ("board.depth", 400));
+    CHECK (client.of ("motor.force").front()->begin() == first);   // the same trace, with a gap at most
+    CHECK (b.view (ScopeKind::time).plot().shownLanes().size() == 2);
+    b.performance.stop();
+}
+
+TEST_CASE ("scopes: what four scopes over ten seconds cost", "[.][bench]")
+{
+    Bench b;
+    b.panel->add (ScopeKind::spectrum);
+    b.panel->add (ScopeKind::tool);
+    b.run (44000);
+    for (const bool is_long : { false, true })
+        for (const auto& v : b.panel->shown())
+        {
+            if (is_long)
+                for (const auto& s : b.panel->scopes().scopes)
+                    s->seconds = 10.0;
+            using Clock = std::chrono::steady_clock;
+            juce::Image image (juce::Image::ARGB, v->getWidth(), v->getHeight(), true);
+            double reading = 0.0, painting = 0.0;
+            constexpr int times = 30;
+            for (int i = 0; i < times; ++i)
+            {
+                const auto start = Clock::now();
+                v->refresh();
+                const auto read = Clock::now();
+                juce::Graphics g (image);
+                v->paintEntireComponent (g, false);
+                reading += std::chrono::duration<double, std::milli> (read - start).count() / times;
+                painting += std::chrono::duration<double, std::milli> (Clock::now() - read).count() / times;
+            }
+            std::cout << titleOf (v->shown().kind) << " over " << v->shown().seconds << " s: refresh " << reading << " ms, paint " << painting << " ms\n";
+        }
+}
+
+TEST_CASE ("scopes: of a slow stroke over a preset all the work of the hand is found again", "[app][scopes]")
+{
+    for (const char* name : { "dry_wood", "squealing_rubber", "soft_pad", "bare_skin" })
+    {
+        INFO (name);
+        Bench b (name);
+        b.speed = 0.25;
+        b.run (36000);
+        const auto& balance = dynamic_cast<EnergyPlot&> (b.view (ScopeKind::energy).plot()).balance();
+        INFO (inWords (balance));
+        CHECK (balance.isPassive());
+        CHECK (balance.work > 1e-5);
+        CHECK (balance.gaps == 0);
+        CHECK (std::abs (balance.elsewhere()) < 0.05 * balance.work);
+    }
+}

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include <host/app/scopes/scope_ports.hpp>
+
+#include <framework/file/graph_file.hpp>
+#include <framework/graph/edit.hpp>
+#include <framework/graph/history.hpp>
+#include <framework/plan/compile.hpp>
+#include <host/app/run/traces.hpp>
+#include <host/assets/file_assets.hpp>
+
+#include <filesystem>
+
+using namespace tactus;
+using namespace tactus::host;
+
+namespace
+{
+const std::filesystem::path folder = std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs";
+
+graph::Graph load (const std::string& name) { return std::move (loadGraph (folder / (name + ".json")).graph); }
+
+const ScopeSpec& of (const std::vector<ScopeSpec>& all, ScopeKind kind)
+{
+    const auto at = std::ranges::find (all, kind, &ScopeSpec::kind);
+    REQUIRE (at != all.end());
+    return *at;
+}
+}   // namespace
+
+TEST_CASE ("scopes: every port that is offered can be recorded under its name, in every preset", "[app][scopes]")
+{
+    for (const auto& entry : std::filesystem::directory_iterator (folder))
+    {
+        if (entry.path().extension() != ".json") continue;
+        INFO (entry.path().filename().string());
+        const auto loaded = loadGraph (entry.path());
+        FileAssets assets;
+        CompileOptions options { .assets = &assets };
+        for (const auto& p : scopePorts (loaded.graph, catalogue()))
+            options.records.push_back (p.name);
+        REQUIRE_FALSE (options.records.empty());
+        const auto compiled = compile (loaded.graph, catalogue(), options);
+        REQUIRE (compiled.plan);
+        for (const auto& m : compiled.messages)
+            CHECK_FALSE (m.where.starts_with ("record "));
+        for (const auto& port : options.records)
+        {
+            INFO (port);
+            CHECK (std::ranges::any_of (compiled.plan->taps, [&] (const Tap& t)
+                                        { return isPartOf (t.name, port); }));
+        }
+    }
+}
+
+TEST_CASE ("scopes: every preset that moves a device shows something at once, and not too much", "[app][scopes]")
+{
+    for (const auto& entry : std::filesystem::directory_iterator (folder))
+    {
+        if (entry.path().extension() != ".json") continue;
+        INFO (entry.path().filename().string());
+        const auto loaded = loadGraph (entry.path());
+        const auto ports = scopePorts (loaded.graph, catalogue());
+        const auto all = suggestedScopes (loaded.graph, catalogue());
+        CHECK (all.size() >= 2);
+        for (const auto& s : all)
+            for (const auto& p : portsOf (s, energyPorts (ports)))
+            {
+                INFO (p);
+                CHECK (isThere (p, ports));
+            }
+    }
+}
+
+TEST_CASE ("scopes: of dry wood the motor, friction over the way, and energy are shown", "[app][scopes]")
+{
+    const auto all = suggestedScopes (load ("dry_wood"), catalogue());
+    CHECK (of (all, ScopeKind::time).ports == std::vector<std::string> { "motor.force" });
+    const auto& over = of (all, ScopeKind::over);
+    CHECK (over.x == "hand.position");
+    CHECK (over.y == "drag.force");
+    CHECK (over.state == "drag.state");
+    const auto& energy = of (all, ScopeKind::energy);
+    CHECK (portsOf (energy, energyPorts (scopePorts (load ("dry_wood"), catalogue()))) == std::vector<std::string> { "board.stored_energy", "drag.stored_energy", "drag.dissipated_energy", "hand.position", "motor.applied" });
+    CHECK (suggestedScope (ScopeKind::tool, load ("dry_wood"), catalogue()).node == "drag");
+}
+
+TEST_CASE ("scopes: an empty graph offers nothing", "[app][scopes]")
+{
+    CHECK (suggestedScopes ({}, catalogue()).empty());
+    CHECK (portsOf (suggestedScope (ScopeKind::tool, {}, catalogue()), {}).empty());
+}
+
+TEST_CASE ("scopes: a scope follows a node that is renamed or put into a group, and keeps the name of one that goes", "[app][scopes]")
+{
+    graph::History edits (load ("dry_wood"));
+    ScopeModel model;
+    for (auto& s : suggestedScopes (edits.graph(), catalogue()))
+        model.scopes.push_back (std::make_unique<ScopeSpec> (std::move (s)));
+    model.scopes.push_back (std::make_unique<ScopeSpec> (suggestedScope (ScopeKind::tool, edits.graph(), catalogue())));
+    const auto& over = *model.scopes[1];
+    const auto edit = [&] (graph::Command command)
+    {
+        const auto before = scopePorts (edits.graph(), catalogue());
+        REQUIRE_FALSE (edits.perform (std::move (command), graph::Step::own).has_value());
+        follow (model, before, scopePorts (edits.graph(), catalogue()));
+    };
+    edit (graph::RenameNode { "", "drag", "rub" });
+    CHECK (over.y == "rub.force");
+    CHECK (over.state == "rub.state");
+    CHECK (model.scopes.back()->node == "rub");
+    edit (graph::RemoveNode { "", "rub" });
+    CHECK (over.y == "rub.force");
+    CHECK_FALSE (isThere (over.y, scopePorts (edits.graph(), catalogue())));
+    CHECK (isThere (over.x, scopePorts (edits.graph(), catalogue())));
+}
