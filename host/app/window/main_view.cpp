@@ -26,8 +26,12 @@ MainView::MainView (const Catalogue& c) : catalogue (c), pictures (c), help (c)
     { is_own ? files->open (p.file) : files->openCopy (p.file, false); };
     presets->onSettings = [this]
     { remember(); };
+    presets->onPreview = [this] (const std::filesystem::path& file)
+    { preview (file); };
+    presets->onPreviewEnd = [this]
+    { endPreview(); };
     strip.onStop = [this]
-    { performance->stop(); };
+    { current().stop(); };
     strip.onStart = [this]
     { start (performance->hand()); };
     hand.onPoint = [this] (const Vec3& p)
@@ -77,7 +81,7 @@ void MainView::show()
                                                    [this] (bool by_pointer)
                                                    { start (by_pointer ? Performance::Hand::pointer : Performance::Hand::described); },
                                                    [this]
-                                                   { return performance->isRunning(); },
+                                                   { return current().isRunning(); },
                                                    [this]
                                                    {
                                                        remember();
@@ -192,10 +196,11 @@ void MainView::closeSuddenly()
 void MainView::timerCallback()
 {
     // A text field that has the focus takes the key for itself, but forces stop in any case.
-    if (juce::KeyPress::isKeyCurrentlyDown (juce::KeyPress::escapeKey) && performance->isRunning()) performance->stop();
+    if (juce::KeyPress::isKeyCurrentlyDown (juce::KeyPress::escapeKey) && current().isRunning()) current().stop();
     performance->attend();
-    strip.show (*performance);
-    hand.show (*performance);
+    if (heard) heard->attend();
+    strip.show (current());
+    hand.show (current());
     files->attend();
     presets->refresh();
     if (welcome.isVisible()) welcome.refresh();

@@ -49,6 +49,12 @@ public:
     Document& document() noexcept { return *edited; }
     Canvas& canvas() noexcept { return *patching; }
     Performance& run() noexcept { return *performance; }
+
+    /// Feels another graph with its own gesture, in the place of the document, until it ends.
+    void preview (const std::filesystem::path&);
+    void endPreview();
+    bool previews() const noexcept { return heard != nullptr; }
+
     Question& asked() noexcept { return question; }
     HelpPanel& helpPanel() noexcept { return help; }
     WelcomePage& welcomePage() noexcept { return welcome; }
@@ -72,6 +78,7 @@ private:
     void openPalette (juce::Point<float> at, std::optional<WireStart>);
     void say (const juce::String&);
     void start (Performance::Hand);
+    Performance& current() noexcept { return heard ? *heard : *performance; }
     void escape();
     bool fileKey (const juce::KeyPress&);
     void helpOnSelection();
@@ -94,6 +101,9 @@ private:
     std::unique_ptr<Document> edited;
     std::unique_ptr<Files> files;               // before the performance, so that a change is kept before it runs
     std::unique_ptr<Performance> performance;   // after the document, before what shows it
+    std::unique_ptr<Document> heard_document;
+    std::unique_ptr<Performance> heard;   // while a preset is previewed
+    bool resumes = false;                 // the document ran before, and goes on after
     SafetyStrip strip;
     HandView hand;
     Tabs left, bottom;

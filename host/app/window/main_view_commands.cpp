@@ -4,6 +4,8 @@
 
 #include <host/app/welcome/example.hpp>
 
+#include <framework/file/graph_file.hpp>
+
 #include <algorithm>
 #include <array>
 
@@ -56,10 +58,35 @@ void recolour (juce::Component& c, const Theme& theme)
 
 void MainView::escape()
 {
-    if (performance->isRunning()) return performance->stop();
+    if (current().isRunning()) return current().stop();
     if (question.isOpen()) return question.cancel();
     if (help.isOpen()) return help.close();
     palette.close();
+}
+
+void MainView::preview (const std::filesystem::path& file)
+{
+    if (files->isSafe()) return say ("Safe mode: open the preset and press START to feel it.");
+    auto loaded = loadGraph (file);
+    if (hasErrors (loaded.messages)) return;   // the list says so
+    endPreview();
+    resumes = performance->isRunning();
+    performance->stop();   // its devices are let go first
+    const auto name = juce::String (loaded.graph.name);
+    heard_document = std::make_unique<Document> (std::move (loaded.graph));
+    heard = std::make_unique<Performance> (*heard_document, catalogue);
+    files->beforeRun();
+    heard->start (Performance::Hand::described);
+    say (name + " with its own gesture, for as long as you hold.");
+}
+
+void MainView::endPreview()
+{
+    if (! heard) return;
+    heard.reset();
+    heard_document.reset();
+    if (resumes) start (performance->hand());
+    say ({});
 }
 
 bool MainView::fileKey (const juce::KeyPress& key)

@@ -202,6 +202,28 @@ TEST_CASE ("the browser finds by words and keeps favourites above the rest")
     CHECK_FALSE (is_own);
 }
 
+TEST_CASE ("a preset is felt while it is held, and the document is as it was before and after")
+{
+    Opened o;
+    o.view->begin ({ o.home.path(), false, false, { o.wood } });
+    REQUIRE (o.view->run().isRunning());
+    const auto before = writeGraph (o.view->document().graph());
+    o.view->preview (TACTUS_SOURCE_DIR "/graphs/soft_pad.json");
+    CHECK (o.view->previews());
+    CHECK_FALSE (o.view->run().isRunning());
+    CHECK (o.view->saying().startsWith ("Soft pad"));
+    o.view->endPreview();
+    CHECK_FALSE (o.view->previews());
+    CHECK (o.view->run().isRunning());
+    CHECK (writeGraph (o.view->document().graph()) == before);
+    CHECK (o.view->document().history().names().size() == 1);
+
+    o.press ("escape");
+    o.view->preview (TACTUS_SOURCE_DIR "/graphs/soft_pad.json");
+    o.view->endPreview();
+    CHECK_FALSE (o.view->run().isRunning());   // what was stopped stays stopped
+}
+
 TEST_CASE ("--light is for this start only")
 {
     Opened o;
