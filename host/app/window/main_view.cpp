@@ -12,6 +12,7 @@ namespace
 {
 constexpr int line_height = 26, hand_width = 420, refreshes_per_second = 30;
 constexpr int least_canvas = 240;   // pixels, each way
+const char* const keys_to_begin_with = "Space: add a node   F: frame   G: group   B: bypass   Ctrl+Z: undo   F1: help";
 }   // namespace
 
 MainView::MainView (const Catalogue& c) : catalogue (c), pictures (c), help (c)
@@ -43,8 +44,7 @@ MainView::MainView (const Catalogue& c) : catalogue (c), pictures (c), help (c)
     welcome.onFeel = [this] (const std::filesystem::path& file)
     {
         files->openCopy (file, true);
-        tip = files->isSafe() ? "Safe mode: press START, then press and drag on the surface below." : "Press and drag on the surface below: the mouse is your hand.";
-        repaint();
+        notify (files->isSafe() ? "Safe mode: press START, then press and drag on the surface below." : "Press and drag on the surface below: the mouse is your hand.");
     };
     welcome.onOpenFile = [this] (const std::filesystem::path& file)
     { files->open (file); };
@@ -75,7 +75,7 @@ void MainView::show()
     edited = std::make_unique<Document> (graph::Graph {});
     files = std::make_unique<Files> (*edited, question, settings,
                                      Files::Ways { [this] (const juce::String& text)
-                                                   { say (text); },
+                                                   { notify (text); },
                                                    [this]
                                                    { performance->stop(); },
                                                    [this] (bool by_pointer)
@@ -140,7 +140,6 @@ void MainView::begin (const Start& how)
     auto read = loadSettings (home);
     settings = std::move (read.settings);
     light = how.light || settings.light;
-    if (! read.problem.empty()) say (read.problem);
     const auto resize = [this] (const char* name, Splitter& edge)
     {
         if (const auto size = settings.panels.find (name); size != settings.panels.end()) edge.setSize (size->second);
@@ -161,8 +160,9 @@ void MainView::begin (const Start& how)
     {
         welcome.show (presets->shipped(), settings.recent);
         welcome.setVisible (true);
-        if (how.safe && ! is_asked) say ("Safe mode: nothing runs until you press START.");
+        if (how.safe && ! is_asked) notify ("Safe mode: nothing runs until you press START.");
     }
+    if (! read.problem.empty()) notify (read.problem);
     if (! settings.welcomed)
     {
         settings.welcomed = true;
@@ -208,6 +208,13 @@ void MainView::timerCallback()
         if (const auto why = saveSettings (settings, home)) say ("The settings could not be kept: " + juce::String (*why));
 }
 
+void MainView::notify (const juce::String& text)
+{
+    tip = text.isEmpty() ? juce::String (keys_to_begin_with) : text;
+    said.clear();
+    repaint (getLocalBounds().removeFromBottom (line_height));
+}
+
 void MainView::openPalette (juce::Point<float> at, std::optional<WireStart> start)
 {
     // The end a wire waits at is looked up anew at each letter: the node may go meanwhile.
@@ -237,11 +244,12 @@ void MainView::say (const juce::String& text)
 
 void MainView::documentChanged()
 {
+    tip = keys_to_begin_with;
+    repaint (getLocalBounds().removeFromBottom (line_height));
     const bool is_other = edited->identity() != shown_identity;
     if (is_other)
     {
         shown_identity = edited->identity();
-        tip = "Space: add a node   F: frame   G: group   B: bypass   Ctrl+Z: undo   F1: help";
         patching->leaveTo (0);
         patching->select ({});
         patching->frameAll();
@@ -261,7 +269,7 @@ void MainView::documentChanged()
     top->show (std::move (state));
 }
 
-void MainView::documentRefused (const Message& m) { say (juce::String (m.text + (m.remedy.empty() ? "" : "; " + m.remedy))); }
+void MainView::documentRefused (const Message& m) { notify (juce::String (m.text + (m.remedy.empty() ? "" : "; " + m.remedy))); }
 
 void MainView::paint (juce::Graphics& g)
 {
@@ -272,7 +280,7 @@ void MainView::paint (juce::Graphics& g)
     g.drawHorizontalLine (line.getY(), 0.0f, static_cast<float> (getWidth()));
     g.setFont (look.font (12.0f));
     g.setColour (look.theme().dim);
-    g.drawText (said.isEmpty() ? tip : said, line.reduced (16, 0), juce::Justification::centredLeft, true);
+    g.drawText (saying(), line.reduced (16, 0), juce::Justification::centredLeft, true);
 }
 
 void MainView::resized()

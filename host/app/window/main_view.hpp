@@ -60,7 +60,7 @@ public:
     WelcomePage& welcomePage() noexcept { return welcome; }
     PresetBrowser& browser() noexcept { return *presets; }
     const Settings& remembered() const noexcept { return settings; }
-    const juce::String& saying() const noexcept { return said; }
+    const juce::String& saying() const noexcept { return said.isEmpty() ? tip : said; }
 
     /// Asks a person for a file; tests answer at once. See Files::Ways.
     std::function<void (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>)> chooseFile;
@@ -76,7 +76,8 @@ private:
     void timerCallback() override;
     void show();
     void openPalette (juce::Point<float> at, std::optional<WireStart>);
-    void say (const juce::String&);
+    void say (const juce::String&);      ///< of what is under the pointer
+    void notify (const juce::String&);   ///< of what happened: while nothing is said, until the next edit
     void start (Performance::Hand);
     Performance& current() noexcept { return heard ? *heard : *performance; }
     void escape();
@@ -118,7 +119,7 @@ private:
     std::unique_ptr<juce::FileChooser> chooser;
     const void* shown_identity = nullptr;   // of the document
     int ticks_to_remember = 0;              // of the timer; 0: nothing to
-    juce::String said, tip;                 // tip: what the line says while there is nothing else to say
+    juce::String said, tip;
     juce::TooltipWindow tooltips { this, 600 };
 };
 

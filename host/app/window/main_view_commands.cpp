@@ -66,7 +66,7 @@ void MainView::escape()
 
 void MainView::preview (const std::filesystem::path& file)
 {
-    if (files->isSafe()) return say ("Safe mode: open the preset and press START to feel it.");
+    if (files->isSafe()) return notify ("Safe mode: open the preset and press START to feel it.");
     auto loaded = loadGraph (file);
     if (hasErrors (loaded.messages)) return;   // the list says so
     endPreview();
@@ -77,7 +77,7 @@ void MainView::preview (const std::filesystem::path& file)
     heard = std::make_unique<Performance> (*heard_document, catalogue);
     files->beforeRun();
     heard->start (Performance::Hand::described);
-    say (name + " with its own gesture, for as long as you hold.");
+    notify (name + " with its own gesture, for as long as you hold.");
 }
 
 void MainView::endPreview()
@@ -86,7 +86,7 @@ void MainView::endPreview()
     heard.reset();
     heard_document.reset();
     if (resumes) start (performance->hand());
-    say ({});
+    notify ({});
 }
 
 bool MainView::fileKey (const juce::KeyPress& key)
@@ -126,14 +126,14 @@ void MainView::openExample (const std::string& type)
 
 void MainView::recall (int number)
 {
-    if (! hasSnapshot (edited->graph(), number)) return say ("Snapshot " + juce::String (number) + " is empty. Ctrl+" + juce::String (number) + " stores all values in it.");
+    if (! hasSnapshot (edited->graph(), number)) return notify ("Snapshot " + juce::String (number) + " is empty. Ctrl+" + juce::String (number) + " stores all values in it.");
     if (auto command = recallSnapshot (edited->graph(), number)) edited->perform (std::move (*command));
-    say ("Snapshot " + juce::String (number));
+    notify ("Snapshot " + juce::String (number));
 }
 
 void MainView::store (int number)
 {
-    if (edited->perform (storeSnapshot (edited->graph(), number))) say ("Stored as snapshot " + juce::String (number) + ". Press " + juce::String (number) + " to bring these values back.");
+    if (edited->perform (storeSnapshot (edited->graph(), number))) notify ("Stored as snapshot " + juce::String (number) + ". Press " + juce::String (number) + " to bring these values back.");
 }
 
 void MainView::openMenu (juce::Component& at)

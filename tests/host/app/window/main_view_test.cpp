@@ -21,11 +21,11 @@ struct Opened
         {
             juce::LookAndFeel::setDefaultLookAndFeel (&l);
             setenv ("TACTUS_PRESETS", TACTUS_SOURCE_DIR "/graphs", 1);
-            setenv ("TACTUS_GRAPHS", "/nowhere", 1);
         }
         ~Default() { juce::LookAndFeel::setDefaultLookAndFeel (nullptr); }
     } as_default { look };
     TemporaryFolder home, mine;
+    const int mine_is_set = setenv ("TACTUS_GRAPHS", (mine / "own").c_str(), 1);
     const fs::path wood = mine / "wood.json";   // a copy, since tests save
     std::unique_ptr<MainView> view = make();
 
@@ -87,9 +87,13 @@ TEST_CASE ("safe mode shows a file and does not run it, not even when it is edit
     Opened o;
     o.view->begin ({ o.home.path(), true, false, { o.wood } });
     CHECK (o.view->document().graph().name == "Dry wood");
+    o.view->canvas().hint ("N");   // what is under the pointer is said meanwhile
+    CHECK (o.view->saying() == "N");
+    o.view->canvas().hint ({});
+    CHECK (o.view->saying().contains ("START"));
     REQUIRE (o.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.5) }));
     CHECK_FALSE (o.view->run().isRunning());
-    CHECK (o.view->saying().contains ("START"));
+    CHECK_FALSE (o.view->saying().contains ("START"));
 }
 
 TEST_CASE ("digits recall snapshots, and with Ctrl they store them")
