@@ -63,8 +63,7 @@ void HistoryPanel::paintListBoxItem (int row, juce::Graphics& g, int w, int h, b
         g.setColour (theme.accent);
         g.fillEllipse (juce::Rectangle<float> (6.0f, 6.0f).withCentre ({ 12.0f, static_cast<float> (h) / 2 }));
     }
-    g.setColour (row > now ? theme.dim.withAlpha (0.6f) : row == now ? theme.text
-                                                                     : theme.dim);
+    g.setColour (row > now ? theme.dim : theme.text);
     g.setFont (look.font (13.0f, row == now));
     g.drawText (nameOfRow (row), area.withTrimmedLeft (24).withTrimmedRight (4), juce::Justification::centredLeft, true);
 }

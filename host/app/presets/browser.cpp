@@ -10,7 +10,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr int row_height = 40, star_width = 32, most_recent_shown = 4;
+constexpr int row_height = 36, star_width = 28, play_width = 28, most_recent_shown = 4;
 constexpr int low = 420;   // pixels; a panel that is lower has less of everything
 
 juce::String joined (const std::vector<std::string>& words)
@@ -141,7 +141,9 @@ void PresetBrowser::listBoxItemClicked (int row, const juce::MouseEvent& e)
 {
     const auto* r = rowAt (row);
     if (r == nullptr || r->preset == nullptr) return;
-    if (r->is_own || e.getEventRelativeTo (&list).x < list.getVisibleRowWidth() - star_width) return openRow (row);
+    const auto part = partAt (*r, e.getEventRelativeTo (&list).x);
+    if (part == Part::opens) return openRow (row);
+    if (part == Part::previews) return;   // which goes by the button
     settings.toggleFavourite (r->preset->file);
     if (onSettings) onSettings();
     const auto at = list.getVerticalPosition();
@@ -157,6 +159,27 @@ const Preset* PresetBrowser::described() const
         for (const auto& p : *all)
             if (p.file == open) return &p;
     return nullptr;
+}
+
+PresetBrowser::Part PresetBrowser::partAt (const Row& row, int x) const
+{
+    const int from_right = list.getVisibleRowWidth() - x;
+    if (from_right < star_width) return row.is_own ? Part::opens : Part::stars;
+    return from_right < star_width + play_width && row.preset != nullptr && row.preset->problem.empty() ? Part::previews : Part::opens;
+}
+
+void PresetBrowser::mouseDown (const juce::MouseEvent& e)
+{
+    const auto at = e.getEventRelativeTo (&list).getPosition();
+    const auto* r = list.getLocalBounds().contains (at) ? rowAt (list.getRowContainingPosition (at.x, at.y)) : nullptr;
+    if (r == nullptr || r->preset == nullptr || partAt (*r, at.x) != Part::previews || ! onPreview) return;
+    previews = true;
+    onPreview (r->preset->file);
+}
+
+void PresetBrowser::mouseUp (const juce::MouseEvent&)
+{
+    if (std::exchange (previews, false) && onPreviewEnd) onPreviewEnd();
 }
 
 void PresetBrowser::mouseMove (const juce::MouseEvent& e)
@@ -209,7 +232,7 @@ void PresetBrowser::paint (juce::Graphics& g)
     g.setColour (look.theme().hairline);
     g.drawHorizontalLine (footer.getY(), static_cast<float> (footer.getX()), static_cast<float> (footer.getRight()));
     if (const auto* p = described()) return paintFooter (g, *p);
-    drawFittedWords (g, "Point at a preset to read what it feels like. A click opens it and runs it.", look.font (12.0f), look.theme().dim, footer.withTrimmedTop (8));
+    drawFittedWords (g, "Point at a preset to read what it feels like. A click opens and runs it; hold its arrow to feel its gesture and come back.", look.font (12.0f), look.theme().dim, footer.withTrimmedTop (8));
 }
 
 void PresetBrowser::paintFooter (juce::Graphics& g, const Preset& p)
@@ -258,7 +281,16 @@ void PresetBrowser::paintListBoxItem (int row, juce::Graphics& g, int w, int h, 
         g.setColour (settings.isFavourite (p.file) ? theme.warning : theme.dim);
         settings.isFavourite (p.file) ? g.fillPath (star) : g.strokePath (star, juce::PathStrokeType (1.2f));
     }
-    area.reduce (8, 3);
+    if (row == hovered && p.problem.empty())
+    {
+        const auto at = juce::Rectangle<int> (w - star_width - play_width, 0, play_width, h).toFloat().getCentre();
+        juce::Path play;
+        play.addTriangle (at.translated (-4.0f, -6.0f), at.translated (-4.0f, 6.0f), at.translated (6.0f, 0.0f));
+        g.setColour (theme.accent);
+        g.fillPath (play);
+        area.setRight (w - star_width - play_width);
+    }
+    area.reduce (8, 2);
     g.setColour (theme.text);
     g.setFont (look.font (13.0f, true));
     g.drawText (p.name, area.removeFromTop (18), juce::Justification::centredLeft, true);

@@ -21,6 +21,10 @@ public:
     std::function<void (const Preset&, bool is_own)> onOpen;
     std::function<void()> onSettings;   ///< a favourite came or went
 
+    /// One is to be felt with its own gesture, for as long as the mouse holds its button.
+    std::function<void (const std::filesystem::path&)> onPreview;
+    std::function<void()> onPreviewEnd;
+
     void showOpen (const std::filesystem::path&);   ///< marks the one that is open
     void reload();                                  ///< files may have come or gone
     void refresh();                                 ///< many times a second
@@ -41,6 +45,8 @@ public:
     void resized() override;
     void mouseMove (const juce::MouseEvent&) override;
     void mouseExit (const juce::MouseEvent&) override;
+    void mouseDown (const juce::MouseEvent&) override;
+    void mouseUp (const juce::MouseEvent&) override;
 
 private:
     int getNumRows() override { return static_cast<int> (shown.size()); }
@@ -52,6 +58,15 @@ private:
     void update();
     void openRow (int row);
     const Row* rowAt (int) const;
+
+    /// What a place of a row does.
+    enum class Part
+    {
+        opens,
+        previews,
+        stars
+    };
+    Part partAt (const Row&, int x) const;
     const Preset* described() const;
     void paintFooter (juce::Graphics&, const Preset&);
 
@@ -64,6 +79,7 @@ private:
     std::vector<Preset> found, found_own;       // of these, what was searched for
     std::vector<Row> shown;
     int hovered = -1, pictures_done = 0;
+    bool previews = false;
     juce::Rectangle<int> footer;
     juce::TextEditor query;
     TagChips chips;

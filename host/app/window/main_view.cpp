@@ -12,6 +12,7 @@ namespace
 {
 constexpr int line_height = 26, hand_width = 420, refreshes_per_second = 30;
 constexpr int least_canvas = 240;   // pixels, each way
+const char* const keys_to_begin_with = "Space: add a node   F: frame   G: group   B: bypass   Ctrl+Z: undo   F1: help";
 }   // namespace
 
 MainView::MainView (const Catalogue& c) : catalogue (c), pictures (c), help (c)
@@ -26,8 +27,12 @@ MainView::MainView (const Catalogue& c) : catalogue (c), pictures (c), help (c)
     { is_own ? files->open (p.file) : files->openCopy (p.file, false); };
     presets->onSettings = [this]
     { remember(); };
+    presets->onPreview = [this] (const std::filesystem::path& file)
+    { preview (file); };
+    presets->onPreviewEnd = [this]
+    { endPreview(); };
     strip.onStop = [this]
-    { performance->stop(); };
+    { current().stop(); };
     strip.onStart = [this]
     { start (performance->hand()); };
     hand.view().onPoint = [this] (const Vec3& p)
@@ -43,8 +48,7 @@ MainView::MainView (const Catalogue& c) : catalogue (c), pictures (c), help (c)
     welcome.onFeel = [this] (const std::filesystem::path& file)
     {
         files->openCopy (file, true);
-        tip = files->isSafe() ? "Safe mode: press START, then press and drag on the surface below." : "Press and drag on the surface below: the mouse is your hand.";
-        repaint();
+        notify (files->isSafe() ? "Safe mode: press START, then press and drag on the surface below." : "Press and drag on the surface below: the mouse is your hand.");
     };
     welcome.onOpenFile = [this] (const std::filesystem::path& file)
     { files->open (file); };
@@ -75,13 +79,13 @@ void MainView::show()
     edited = std::make_unique<Document> (graph::Graph {});
     files = std::make_unique<Files> (*edited, question, settings,
                                      Files::Ways { [this] (const juce::String& text)
-                                                   { say (text); },
+                                                   { notify (text); },
                                                    [this]
                                                    { performance->stop(); },
                                                    [this] (bool by_pointer)
                                                    { start (by_pointer ? Performance::Hand::pointer() : Performance::Hand {}); },
                                                    [this]
-                                                   { return performance->isRunning(); },
+                                                   { return current().isRunning(); },
                                                    [this]
                                                    {
                                                        remember();
@@ -159,7 +163,6 @@ void MainView::begin (const Start& how)
     auto read = loadSettings (home);
     settings = std::move (read.settings);
     light = how.light || settings.light;
-    if (! read.problem.empty()) say (read.problem);
     const auto resize = [this] (const char* name, Splitter& edge)
     {
         if (const auto size = settings.panels.find (name); size != settings.panels.end()) edge.setSize (size->second);
@@ -180,8 +183,9 @@ void MainView::begin (const Start& how)
     {
         welcome.show (presets->shipped(), settings.recent);
         welcome.setVisible (true);
-        if (how.safe && ! is_asked) say ("Safe mode: nothing runs until you press START.");
+        if (how.safe && ! is_asked) notify ("Safe mode: nothing runs until you press START.");
     }
+    if (! read.problem.empty()) notify (read.problem);
     if (! settings.welcomed)
     {
         settings.welcomed = true;
@@ -215,10 +219,11 @@ void MainView::closeSuddenly()
 void MainView::timerCallback()
 {
     // A text field that has the focus takes the key for itself, but forces stop in any case.
-    if (juce::KeyPress::isKeyCurrentlyDown (juce::KeyPress::escapeKey) && performance->isRunning()) performance->stop();
+    if (juce::KeyPress::isKeyCurrentlyDown (juce::KeyPress::escapeKey) && current().isRunning()) current().stop();
     performance->attend();
-    strip.show (*performance);
-    hand.show (*performance);
+    if (heard) heard->attend();
+    strip.show (current());
+    hand.show (current());
     live->refresh();
     problems->show (performance->messages());
     bottom.name (*problems, problems->count() == 0 ? juce::String ("Problems") : "Problems " + juce::String (problems->count()));
@@ -228,6 +233,13 @@ void MainView::timerCallback()
     if (ticks_to_remember > 0 && --ticks_to_remember == 0)
         if (const auto why = saveSettings (settings, home)) say ("The settings could not be kept: " + juce::String (*why));
     if (scopes->isVisible()) scopes->refresh();
+}
+
+void MainView::notify (const juce::String& text)
+{
+    tip = text.isEmpty() ? juce::String (keys_to_begin_with) : text;
+    said.clear();
+    repaint (getLocalBounds().removeFromBottom (line_height));
 }
 
 void MainView::openPalette (const NodeWish& wish)
@@ -283,11 +295,12 @@ void MainView::say (const juce::String& text)
 
 void MainView::documentChanged()
 {
+    tip = keys_to_begin_with;
+    repaint (getLocalBounds().removeFromBottom (line_height));
     const bool is_other = edited->identity() != shown_identity;
     if (is_other)
     {
         shown_identity = edited->identity();
-        tip = "Space: add a node   F: frame   G: group   B: bypass   Ctrl+Z: undo   F1: help";
         patching->leaveTo (0);
         patching->select ({});
         patching->frameAll();
@@ -307,7 +320,7 @@ void MainView::documentChanged()
     top->show (std::move (state));
 }
 
-void MainView::documentRefused (const Message& m) { say (juce::String (m.text + (m.remedy.empty() ? "" : "; " + m.remedy))); }
+void MainView::documentRefused (const Message& m) { notify (juce::String (m.text + (m.remedy.empty() ? "" : "; " + m.remedy))); }
 
 void MainView::paint (juce::Graphics& g)
 {
@@ -318,7 +331,7 @@ void MainView::paint (juce::Graphics& g)
     g.drawHorizontalLine (line.getY(), 0.0f, static_cast<float> (getWidth()));
     g.setFont (look.font (12.0f));
     g.setColour (look.theme().dim);
-    g.drawText (said.isEmpty() ? tip : said, line.reduced (16, 0), juce::Justification::centredLeft, true);
+    g.drawText (saying(), line.reduced (16, 0), juce::Justification::centredLeft, true);
 }
 
 void MainView::resized()

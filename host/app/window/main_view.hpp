@@ -52,12 +52,18 @@ public:
     Document& document() noexcept { return *edited; }
     Canvas& canvas() noexcept { return *patching; }
     Performance& run() noexcept { return *performance; }
+
+    /// Feels another graph with its own gesture, in the place of the document, until it ends.
+    void preview (const std::filesystem::path&);
+    void endPreview();
+    bool previews() const noexcept { return heard != nullptr; }
+
     Question& asked() noexcept { return question; }
     HelpPanel& helpPanel() noexcept { return help; }
     WelcomePage& welcomePage() noexcept { return welcome; }
     PresetBrowser& browser() noexcept { return *presets; }
     const Settings& remembered() const noexcept { return settings; }
-    const juce::String& saying() const noexcept { return said; }
+    const juce::String& saying() const noexcept { return said.isEmpty() ? tip : said; }
 
     /// Asks a person for a file; tests answer at once. See Files::Ways.
     std::function<void (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>)> chooseFile;
@@ -75,8 +81,10 @@ private:
     void openPalette (const NodeWish&);
     void choose (const juce::String& purpose, std::vector<PaletteEntry>, std::function<void (const std::string&)> chosen);
     void placePalette (juce::Point<int>);
-    void say (const juce::String&);
+    void say (const juce::String&);      ///< of what is under the pointer
+    void notify (const juce::String&);   ///< of what happened: while nothing is said, until the next edit
     void start (Performance::Hand);
+    Performance& current() noexcept { return heard ? *heard : *performance; }
     void escape();
     bool fileKey (const juce::KeyPress&);
     void helpOnSelection();
@@ -100,6 +108,9 @@ private:
     Sound sound;
     std::unique_ptr<Files> files;               // before the performance, so that a change is kept before it runs
     std::unique_ptr<Performance> performance;   // after the document, before what shows it
+    std::unique_ptr<Document> heard_document;
+    std::unique_ptr<Performance> heard;   // while a preset is previewed
+    bool resumes = false;                 // the document ran before, and goes on after
     SafetyStrip strip;
     HandPanel hand { sound };
     Tabs left, bottom;
@@ -117,7 +128,7 @@ private:
     std::unique_ptr<juce::FileChooser> chooser;
     const void* shown_identity = nullptr;   // of the document
     int ticks_to_remember = 0;              // of the timer; 0: nothing to
-    juce::String said, tip;                 // tip: what the line says while there is nothing else to say
+    juce::String said, tip;
     juce::TooltipWindow tooltips { this, 600 };
 };
 

@@ -4,6 +4,8 @@
 
 #include <host/app/welcome/example.hpp>
 
+#include <framework/file/graph_file.hpp>
+
 #include <algorithm>
 #include <array>
 
@@ -56,10 +58,35 @@ void recolour (juce::Component& c, const Theme& theme)
 
 void MainView::escape()
 {
-    if (performance->isWanted()) return performance->stop();
+    if (current().isWanted()) return current().stop();
     if (question.isOpen()) return question.cancel();
     if (help.isOpen()) return help.close();
     palette.close();
+}
+
+void MainView::preview (const std::filesystem::path& file)
+{
+    if (files->isSafe()) return notify ("Safe mode: open the preset and press START to feel it.");
+    auto loaded = loadGraph (file);
+    if (hasErrors (loaded.messages)) return;   // the list says so
+    endPreview();
+    resumes = performance->isRunning();
+    performance->stop();   // its devices are let go first
+    const auto name = juce::String (loaded.graph.name);
+    heard_document = std::make_unique<Document> (std::move (loaded.graph));
+    heard = std::make_unique<Performance> (*heard_document, catalogue);
+    files->beforeRun();
+    heard->start (Performance::Hand {});
+    notify (name + " with its own gesture, for as long as you hold.");
+}
+
+void MainView::endPreview()
+{
+    if (! heard) return;
+    heard.reset();
+    heard_document.reset();
+    if (resumes) start (performance->hand());
+    notify ({});
 }
 
 bool MainView::fileKey (const juce::KeyPress& key)
@@ -99,14 +126,14 @@ void MainView::openExample (const std::string& type)
 
 void MainView::recall (int number)
 {
-    if (! hasSnapshot (edited->graph(), number)) return say ("Snapshot " + juce::String (number) + " is empty. Ctrl+" + juce::String (number) + " stores all values in it.");
+    if (! hasSnapshot (edited->graph(), number)) return notify ("Snapshot " + juce::String (number) + " is empty. Ctrl+" + juce::String (number) + " stores all values in it.");
     if (auto command = recallSnapshot (edited->graph(), number)) edited->perform (std::move (*command));
-    say ("Snapshot " + juce::String (number));
+    notify ("Snapshot " + juce::String (number));
 }
 
 void MainView::store (int number)
 {
-    if (edited->perform (storeSnapshot (edited->graph(), number))) say ("Stored as snapshot " + juce::String (number) + ". Press " + juce::String (number) + " to bring these values back.");
+    if (edited->perform (storeSnapshot (edited->graph(), number))) notify ("Stored as snapshot " + juce::String (number) + ". Press " + juce::String (number) + " to bring these values back.");
 }
 
 void MainView::openMenu (juce::Component& at)

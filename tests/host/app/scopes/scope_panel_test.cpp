@@ -361,7 +361,7 @@ TEST_CASE ("scopes: every kind can be added to every preset, run, and drawn in b
 TEST_CASE ("scopes: a run in real time is seen, and goes on being seen when a port is added while it runs", "[app][scopes]")
 {
     Bench b;
-    b.performance.start (Performance::Hand::described);
+    b.performance.start (Performance::Hand {});
     REQUIRE (b.performance.isRunning());
     Traces::Client client (b.performance.traces());
     const auto ticksOf = [&] (const std::string& port)

@@ -25,7 +25,8 @@ struct Desk
         ~Default() { juce::LookAndFeel::setDefaultLookAndFeel (nullptr); }
     } as_default { look };
 
-    TemporaryFolder folder;
+    TemporaryFolder folder, own;
+    const int own_is_set = setenv ("TACTUS_GRAPHS", own.path().c_str(), 1);
     Document document { graph::Graph {} };
     Question question;
     Settings settings;

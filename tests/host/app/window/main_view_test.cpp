@@ -21,11 +21,11 @@ struct Opened
         {
             juce::LookAndFeel::setDefaultLookAndFeel (&l);
             setenv ("TACTUS_PRESETS", TACTUS_SOURCE_DIR "/graphs", 1);
-            setenv ("TACTUS_GRAPHS", "/nowhere", 1);
         }
         ~Default() { juce::LookAndFeel::setDefaultLookAndFeel (nullptr); }
     } as_default { look };
     TemporaryFolder home, mine;
+    const int mine_is_set = setenv ("TACTUS_GRAPHS", (mine / "own").c_str(), 1);
     const fs::path wood = mine / "wood.json";   // a copy, since tests save
     std::unique_ptr<MainView> view = make();
 
@@ -87,9 +87,13 @@ TEST_CASE ("safe mode shows a file and does not run it, not even when it is edit
     Opened o;
     o.view->begin ({ o.home.path(), true, false, { o.wood } });
     CHECK (o.view->document().graph().name == "Dry wood");
+    o.view->canvas().hint ("N");   // what is under the pointer is said meanwhile
+    CHECK (o.view->saying() == "N");
+    o.view->canvas().hint ({});
+    CHECK (o.view->saying().contains ("START"));
     REQUIRE (o.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.5) }));
     CHECK_FALSE (o.view->run().isWanted());
-    CHECK (o.view->saying().contains ("START"));
+    CHECK_FALSE (o.view->saying().contains ("START"));
 }
 
 TEST_CASE ("digits recall snapshots, and with Ctrl they store them")
@@ -200,6 +204,28 @@ TEST_CASE ("the browser finds by words and keeps favourites above the rest")
     list->getModel()->returnKeyPressed (0);
     CHECK (opened.name == browser.rows().front().preset->name);
     CHECK_FALSE (is_own);
+}
+
+TEST_CASE ("a preset is felt while it is held, and the document is as it was before and after")
+{
+    Opened o;
+    o.view->begin ({ o.home.path(), false, false, { o.wood } });
+    REQUIRE (o.view->run().isRunning());
+    const auto before = writeGraph (o.view->document().graph());
+    o.view->preview (TACTUS_SOURCE_DIR "/graphs/soft_pad.json");
+    CHECK (o.view->previews());
+    CHECK_FALSE (o.view->run().isRunning());
+    CHECK (o.view->saying().startsWith ("Soft pad"));
+    o.view->endPreview();
+    CHECK_FALSE (o.view->previews());
+    CHECK (o.view->run().isRunning());
+    CHECK (writeGraph (o.view->document().graph()) == before);
+    CHECK (o.view->document().history().names().size() == 1);
+
+    o.press ("escape");
+    o.view->preview (TACTUS_SOURCE_DIR "/graphs/soft_pad.json");
+    o.view->endPreview();
+    CHECK_FALSE (o.view->run().isRunning());   // what was stopped stays stopped
 }
 
 TEST_CASE ("--light is for this start only")
