@@ -31,7 +31,7 @@ void EnergyPlot::show (const Signals& signals)
     auto& lane = lanes.front();
     const float words_width = lookOf (*this).font (12.0f).getStringWidthFloat (juce::String::fromUTF8 (inWords (meter.balance()).c_str()));
     const int lines = std::clamp (static_cast<int> (std::ceil (1.1f * words_width / std::max (1.0f, static_cast<float> (getWidth()) - 16.0f))), 1, most_lines);
-    lane.area.removeFromTop (line_height * static_cast<float> (lines) + 4.0f);
+    lane.area.removeFromTop (line_height * static_cast<float> (lines) + legend_height);
     rate_hz = traces.front()->rate();
     const auto seen = windowOf (traces, spec.seconds, {}, 0.0);
     zero = seen.to;
@@ -88,7 +88,7 @@ void EnergyPlot::paintOver (juce::Graphics& g)
     g.setFont (look.font (12.0f));
     g.setColour (now.isPassive() ? theme().text : theme().warning);
     g.drawMultiLineText (juce::String::fromUTF8 (inWords (now).c_str()), 8, 16, getWidth() - 16);
-    paintLegend (g, lane.area.withHeight (16.0f), { { theme().text, "hand" }, { theme().of (Quantity::length).withAlpha (0.55f), "stored" }, { theme().of (Quantity::energy).withAlpha (0.45f), "dissipated" } });
+    paintLegend (g, lane.area.withY (lane.area.getY() - legend_height).withHeight (legend_height), { { theme().text, "hand" }, { theme().of (Quantity::length).withAlpha (0.55f), "stored" }, { theme().of (Quantity::energy).withAlpha (0.45f), "dissipated" } });
     if (now.gaps == 0) return;
     g.setFont (look.font (11.0f));
     g.setColour (theme().dim);

@@ -52,6 +52,7 @@ void OverPlot::show (const Signals& signals)
 
     layOut ({ y.unit() });
     auto& lane = lanes.front();
+    if (tells_state) lane.area.removeFromTop (legend_height);
     lane.x_unit = x.unit();
     lane.x = rangeOf (xKey (x.unit()), extentOf (x, static_cast<double> (from), static_cast<double> (end)));
     lane.y = rangeOf (y.unit(), extentOf (y, static_cast<double> (from), static_cast<double> (end)));
@@ -136,7 +137,7 @@ juce::Colour OverPlot::colourOf (Part part) const
     return theme().stop;
 }
 
-void OverPlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t)
+void OverPlot::paintLane (juce::Graphics& g, const Lane&, std::size_t)
 {
     // Sticking over sliding: where it sticks and slips too fast for the eye, it is seen that it sticks at all.
     for (std::size_t age = 0; age < ages; ++age)
@@ -153,7 +154,12 @@ void OverPlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t)
         g.setColour (theme().text);
         g.fillEllipse (juce::Rectangle<float> (6.0f, 6.0f).withCentre (*head));
     }
-    if (tells_state) paintLegend (g, lane.area.withHeight (16.0f), { { colourOf (Part::stuck), "stuck" }, { colourOf (Part::sliding), "sliding" }, { colourOf (Part::open), "apart" } });
+}
+
+void OverPlot::paintOver (juce::Graphics& g)
+{
+    const auto& area = lanes.front().area;
+    if (tells_state) paintLegend (g, area.withY (area.getY() - legend_height).withHeight (legend_height), { { colourOf (Part::stuck), "stuck" }, { colourOf (Part::sliding), "sliding" }, { colourOf (Part::open), "apart" } });
 }
 
 void OverPlot::zoomX (double factor, const Lane& lane, float at)

@@ -30,6 +30,7 @@ private:
     static constexpr std::size_t ages = 8, parts = 5;
 
     void paintLane (juce::Graphics&, const Lane&, std::size_t) override;
+    void paintOver (juce::Graphics&) override;
     juce::String emptyWords() const override;
     juce::Colour colourOf (Part) const;
     static Part partAt (const Trace* state, std::uint64_t tick);

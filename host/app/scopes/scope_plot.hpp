@@ -62,7 +62,7 @@ public:
     void mouseWheelMove (const juce::MouseEvent&, const juce::MouseWheelDetails&) override;
 
 protected:
-    static constexpr float gutter = 44.0f, foot = 18.0f;
+    static constexpr float gutter = 44.0f, foot = 18.0f, legend_height = 16.0f;
 
     virtual void paintLane (juce::Graphics&, const Lane&, std::size_t index) = 0;
     virtual void paintOver (juce::Graphics&) {}
