@@ -44,6 +44,7 @@ MainView::~MainView() { edited->remove (*this); }
 void MainView::show (graph::Graph g, const std::filesystem::path& file)
 {
     if (edited) edited->remove (*this);
+    bottom.clear();
     inspector.reset();
     patching.reset();
     top.reset();
@@ -55,13 +56,23 @@ void MainView::show (graph::Graph g, const std::filesystem::path& file)
     top = std::make_unique<TopBar>();
     patching = std::make_unique<Canvas> (*edited, catalogue);
     inspector = std::make_unique<Inspector> (*edited, catalogue);
+    inspector->messagesNow = [this]
+    { return performance->messages(); };
     top->onLeave = [this] (std::size_t depth)
     { patching->leaveTo (depth); };
     patching->onWay = [this]
     { documentChanged(); };
     patching->onSelection = [this]
     { inspector->inspect (patching->patch(), patching->selection()); };
-    patching->onHint = inspector->onHint = [this] (const juce::String& text)
+    auto desk = std::make_unique<LayersPanel> (*edited, *performance, catalogue);
+    layers = desk.get();
+    layers->onSelect = [this] (const std::string& patch, graph::Id node)
+    {
+        patching->leaveTo (patch == patching->patch() ? patching->way().size() : 0);
+        if (patch == patching->patch()) patching->select ({ node });
+    };
+    bottom.add ("Layers", std::move (desk));
+    patching->onHint = inspector->onHint = layers->onHint = [this] (const juce::String& text)
     { say (text); };
     patching->onWantsNode = [this] (juce::Point<float> at, std::optional<WireStart> start)
     { openPalette (at, std::move (start)); };
@@ -99,6 +110,7 @@ void MainView::timerCallback()
     performance->attend();
     strip.show (*performance);
     hand.show (*performance);
+    layers->refresh();
 }
 
 void MainView::openPalette (juce::Point<float> at, std::optional<WireStart> start)

@@ -3,6 +3,7 @@
 
 #include <host/app/canvas/canvas.hpp>
 #include <host/app/inspector/inspector.hpp>
+#include <host/app/layers/layers_panel.hpp>
 #include <host/app/palette/palette.hpp>
 #include <host/app/presets/browser.hpp>
 #include <host/app/run/hand_view.hpp>
@@ -50,6 +51,7 @@ private:
     Splitter left_edge { Splitter::Edge::right, 232, 160 }, right_edge { Splitter::Edge::left, 304, 220 }, bottom_edge { Splitter::Edge::top, 264, 140 };
     std::unique_ptr<TopBar> top;
     PresetBrowser* presets = nullptr;   // in the left tabs
+    LayersPanel* layers = nullptr;      // in the bottom tabs
     std::unique_ptr<Canvas> patching;
     std::unique_ptr<Inspector> inspector;
     Palette palette;

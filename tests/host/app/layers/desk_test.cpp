@@ -105,7 +105,7 @@ TEST_CASE ("the last layer stays, and so does one that a subgraph shows", "[laye
 
 TEST_CASE ("a layer that is moved keeps all that is its own, and moved back the file is as it was", "[layers]")
 {
-    rc::check ([]
+    CHECK (rc::check ([]
                {
         graph::History history (bell());
         const auto before = writeGraph (history.graph());
@@ -118,7 +118,7 @@ TEST_CASE ("a layer that is moved keeps all that is its own, and moved back the 
         all.insert (all.begin() + to, moved);
         RC_ASSERT (channels (history.graph(), desk) == all);
         RC_ASSERT (! history.perform (moveLayer (history.graph(), desk, catalogue(), to, from)));
-        RC_ASSERT (writeGraph (history.graph()) == before); });
+        RC_ASSERT (writeGraph (history.graph()) == before); }));
 }
 
 TEST_CASE ("every texture and vibration that can be a layer is added, wired, and runs", "[layers]")
