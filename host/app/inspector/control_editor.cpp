@@ -50,9 +50,10 @@ public:
         { goes_on = false; };
         fader.onValueChange = [this]
         {
-            change (document, id, [v = fader.getValue()] (auto& c)
-                    { c.value = v; },
-                    goes_on ? graph::Step::joined : graph::Step::own);
+            change (
+                document, id, [v = fader.getValue()] (auto& c)
+                { c.value = v; },
+                goes_on ? graph::Step::joined : graph::Step::own);
             goes_on = fader.isMouseButtonDown();
         };
         cross.onClick = [this]
@@ -123,10 +124,11 @@ protected:
                               },
                               [this, i, which] (std::optional<Json> v, bool goes_on)
                               {
-                                  change (document, id, [&] (auto& to)
-                                          {
+                                  change (
+                                      document, id, [&] (auto& to)
+                                      {
                                       if (v && i < to.to.size()) to.to[i].*which = *v; },
-                                          goes_on ? graph::Step::joined : graph::Step::own);
+                                      goes_on ? graph::Step::joined : graph::Step::own);
                               } };
             };
             const auto remove = [this, path]

@@ -57,14 +57,15 @@ void describeDevice (const Inspected& at, const graph::Node& node, Column& colum
     for (const auto& [name, description] : document.graph().devices)
         roles.push_back (name);
     if (! role.empty() && std::ranges::count (roles, role) == 0) roles.push_back (role);
-    column.add (choiceRow ("role", roles, [at, name = node.name]
-                           {
+    column.add (choiceRow (
+        "role", roles, [at, name = node.name]
+        {
         const auto* in = at.in();
         const auto* n = in == nullptr ? nullptr : in->find (name);
         return n == nullptr ? std::string() : n->role; },
-                           [at, name = node.name] (const std::string& to)
-                           { at.document.perform (graph::SetNodeKey { at.patch, name, "role", Json (to) }); },
-                           "Which device it is"));
+        [at, name = node.name] (const std::string& to)
+        { at.document.perform (graph::SetNodeKey { at.patch, name, "role", Json (to) }); },
+        "Which device it is"));
     if (role.empty()) return;
     column.add (remark ([&document, role]
                         { return about (document, role); }));
@@ -79,9 +80,10 @@ void describeDevice (const Inspected& at, const graph::Node& node, Column& colum
     };
     if (now.is_null())
     {
-        column.add (buttonRow ("Describe it", [&document, role]
-                               { document.perform (graph::SetDevice { role, defaultDevice() }); },
-                               "A simulated tool in a hand that strokes"));
+        column.add (buttonRow (
+            "Describe it", [&document, role]
+            { document.perform (graph::SetDevice { role, defaultDevice() }); },
+            "A simulated tool in a hand that strokes"));
         return;
     }
     std::vector<std::string> paths;
@@ -96,28 +98,31 @@ void describeDevice (const Inspected& at, const graph::Node& node, Column& colum
         };
         const auto label = juce::String (path.substr (1)).replaceCharacter ('/', ' ');
         if (path == "/driver")
-            column.add (choiceRow (label, { "sim", "trace", "gesture" }, [get]
-                                   { return get().toStdString(); },
-                                   [set, path] (const std::string& t)
-                                   { set (path, Json (t)); },
-                                   "sim: a simulated tool in a hand; trace: a recording; gesture: one that is drawn by a formula"));
+            column.add (choiceRow (
+                label, { "sim", "trace", "gesture" }, [get]
+                { return get().toStdString(); },
+                [set, path] (const std::string& t)
+                { set (path, Json (t)); },
+                "sim: a simulated tool in a hand; trace: a recording; gesture: one that is drawn by a formula"));
         else
-            column.add (textRow (label, get, [set, path] (const juce::String& t)
-                                 { set (path, readText (t)); },
-                                 "As in the file: a number, or one with a unit"));
+            column.add (textRow (
+                label, get, [set, path] (const juce::String& t)
+                { set (path, readText (t)); },
+                "As in the file: a number, or one with a unit"));
     }
-    column.add (textRow ("all of it", [&document, role]
-                         {
+    column.add (textRow (
+        "all of it", [&document, role]
+        {
         const auto all = descriptionOf (document, role);
         return all.is_null() ? juce::String() : written (all); },
-                         [&document, role, refused = at.refused] (const juce::String& t)
-                         {
+        [&document, role, refused = at.refused] (const juce::String& t)
+        {
         auto value = Json::parse (t.trim().toStdString(), nullptr, false);
         if (value.is_object())
             document.perform (graph::SetDevice { role, std::move (value) });
         else
             refused ("A description is an object: {\"driver\": \"sim\", \"mass\": \"50 g\"}"); },
-                         "The description as the file has it; other keys can be written here", 5));
+        "The description as the file has it; other keys can be written here", 5));
 }
 
 }   // namespace tactus::host

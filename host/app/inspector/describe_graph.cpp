@@ -80,18 +80,20 @@ void describeGraph (const Inspected& at, Column& column)
         set (h);
         document.perform (std::move (h));
     };
-    column.add (textRow ("name", [&document]
-                         { return text (document.graph().name); },
-                         [header] (const juce::String& t)
-                         { header ([&] (auto& h)
-                                   { h.name = t.trim().toStdString(); }); },
-                         "What the graph is called"));
-    column.add (textRow ("about", [&document]
-                         { return text (document.graph().about); },
-                         [header] (const juce::String& t)
-                         { header ([&] (auto& h)
-                                   { h.about = t.trim().toStdString(); }); },
-                         "What it feels like", 7));
+    column.add (textRow (
+        "name", [&document]
+        { return text (document.graph().name); },
+        [header] (const juce::String& t)
+        { header ([&] (auto& h)
+                  { h.name = t.trim().toStdString(); }); },
+        "What the graph is called"));
+    column.add (textRow (
+        "about", [&document]
+        { return text (document.graph().about); },
+        [header] (const juce::String& t)
+        { header ([&] (auto& h)
+                  { h.about = t.trim().toStdString(); }); },
+        "What it feels like", 6));
     const auto tags = [&document]
     {
         juce::StringArray all;
@@ -99,33 +101,35 @@ void describeGraph (const Inspected& at, Column& column)
             all.add (text (t));
         return all.joinIntoString (", ");
     };
-    column.add (textRow ("tags", tags, [header] (const juce::String& t)
-                         {
+    column.add (textRow (
+        "tags", tags, [header] (const juce::String& t)
+        {
         std::vector<std::string> all;
         for (const auto& tag : juce::StringArray::fromTokens (t, ",", ""))
             if (tag.trim().isNotEmpty()) all.push_back (tag.trim().toStdString());
         header ([&] (auto& h)
                 { h.tags = all; }); },
-                         "Words to find it by, separated by commas", 2));
+        "Words to find it by, separated by commas", 2));
     column.add (numberRow ("rate", sheetOfNumber ("rate_hz", unit::hertz, "how often it ticks; takes effect when it starts anew", { .hard = { 1, 1e6 }, .usual = { 1000, 16000 } }, 4000.0), { [&document]
-                                                                                                                                                                                             { return Json (document.graph().rate_hz); },
-                                                                                                                                                                                             [&document] (std::optional<Json> v, bool goes_on)
-                                                                                                                                                                                             {
-                                                                                                                                                                                                 const auto sheet = sheetOfNumber ("rate_hz", unit::hertz, "", {}, 4000.0);
-                                                                                                                                                                                                 const auto read = readQuantity (v.value_or (Json (4000.0)), sheet);
-                                                                                                                                                                                                 graph::SetHeader h;
-                                                                                                                                                                                                 if (const auto* q = std::get_if<QuantityText> (&read)) h.rate_hz = std::round (q->si());
-                                                                                                                                                                                                 document.perform (std::move (h), goes_on ? graph::Step::joined : graph::Step::own);
-                                                                                                                                                                                             } },
+                                                                                                                                                                                               { return Json (document.graph().rate_hz); },
+                                                                                                                                                                                               [&document] (std::optional<Json> v, bool goes_on)
+                                                                                                                                                                                               {
+                                                                                                                                                                                                   const auto sheet = sheetOfNumber ("rate_hz", unit::hertz, "", {}, 4000.0);
+                                                                                                                                                                                                   const auto read = readQuantity (v.value_or (Json (4000.0)), sheet);
+                                                                                                                                                                                                   graph::SetHeader h;
+                                                                                                                                                                                                   if (const auto* q = std::get_if<QuantityText> (&read)) h.rate_hz = std::round (q->si());
+                                                                                                                                                                                                   document.perform (std::move (h), goes_on ? graph::Step::joined : graph::Step::own);
+                                                                                                                                                                                               } },
                            at.refused));
 
     column.add ("Controls", Words::Kind::heading);
     if (graph.controls.empty()) column.add ("One knob for several parameters. Add one here, or press the right button on a parameter.", Words::Kind::small);
     for (const auto& c : graph.controls)
         column.add (controlEditor (document, at.catalogue, c.id, at.refused));
-    column.add (buttonRow ("+ control", [&document]
-                           { document.perform (newControl (document.graph())); },
-                           "Add a control, which moves parameters between two ends"));
+    column.add (buttonRow (
+        "+ control", [&document]
+        { document.perform (newControl (document.graph())); },
+        "Add a control, which moves parameters between two ends"));
 }
 
 }   // namespace tactus::host

@@ -49,19 +49,20 @@ void describeWire (const Inspected& at, graph::Id id, Column& column)
     column.add ("Wire", Words::Kind::title);
     const auto end = [&] (const char* label, graph::Endpoint graph::Wire::*which, bool start)
     {
-        column.add (textRow (label, [at, id, which]
-                             {
+        column.add (textRow (
+            label, [at, id, which]
+            {
             const auto* w = find (at, id);
             return w == nullptr ? juce::String() : juce::String (graph::toText (w->*which)); },
-                             [at, id, which] (const juce::String& t)
-                             {
+            [at, id, which] (const juce::String& t)
+            {
             auto e = graph::parseEndpoint (t.trim().toStdString());
             if (const auto* wrong = std::get_if<std::string> (&e))
                 at.refused (juce::String (*wrong));
             else
                 change (at, id, [&] (auto& w)
                         { w.*which = std::get<graph::Endpoint> (e); }); },
-                             start ? "Where it starts: node.output" : "Where it ends: node.input, or node.param"));
+            start ? "Where it starts: node.output" : "Where it ends: node.input, or node.param"));
     };
     end ("from", &graph::Wire::from, true);
     end ("to", &graph::Wire::to, false);
@@ -79,40 +80,44 @@ void describeWire (const Inspected& at, graph::Id id, Column& column)
                        [at, id] (std::optional<Json> v, bool goes_on)
                        {
                            const int ticks = v && v->is_number() ? static_cast<int> (std::lround (v->get<double>())) : 0;
-                           change (at, id, [&] (auto& w)
-                                   { w.delay = ticks; },
-                                   goes_on);
+                           change (
+                               at, id, [&] (auto& w)
+                               { w.delay = ticks; },
+                               goes_on);
                        } };
     column.add (numberRow ("delay", sheetOfNumber ("delay", unit::count, "how many ticks it holds back; 1 opens a loop", { .hard = { 0, static_cast<double> (graph::longest_delay) }, .usual = { 0, 16 } }, 0.0), delay, at.refused));
-    column.add (textRow ("gain", [at, id]
-                         {
+    column.add (textRow (
+        "gain", [at, id]
+        {
         const auto* w = find (at, id);
         if (w == nullptr || w->gain.is_null()) return juce::String();
         return juce::String (w->gain.is_string() ? w->gain.template get<std::string>() : w->gain.dump()); },
-                         [at, id] (const juce::String& t)
-                         {
+        [at, id] (const juce::String& t)
+        {
         const auto written = t.trim().toStdString();
         auto value = written.empty() ? Json() : Json::parse (written, nullptr, false);
         if (value.is_discarded()) value = Json (written);
         change (at, id, [&] (auto& w)
                 { w.gain = value; }); },
-                         "Times this: a number, or one with a unit as \"1e-4 m/N\"; empty: 1"));
-    column.add (switchRow ("enabled", [at, id]
-                           {
+        "Times this: a number, or one with a unit as \"1e-4 m/N\"; empty: 1"));
+    column.add (switchRow (
+        "enabled", [at, id]
+        {
         const auto* w = find (at, id);
         return w != nullptr && w->enabled.value_or (true); },
-                           [at, id] (bool on)
-                           { change (at, id, [&] (auto& w)
-                                     { w.enabled = on ? std::nullopt : std::optional (false); }); },
-                           "A wire that is off carries nothing"));
-    column.add (switchRow ("adds", [at, id]
-                           {
+        [at, id] (bool on)
+        { change (at, id, [&] (auto& w)
+                  { w.enabled = on ? std::nullopt : std::optional (false); }); },
+        "A wire that is off carries nothing"));
+    column.add (switchRow (
+        "adds", [at, id]
+        {
         const auto* w = find (at, id);
         return w != nullptr && w->add; },
-                           [at, id] (bool on)
-                           { change (at, id, [&] (auto& w)
-                                     { w.add = on; }); },
-                           "Onto a parameter: it adds to the stored value instead of taking its place"));
+        [at, id] (bool on)
+        { change (at, id, [&] (auto& w)
+                  { w.add = on; }); },
+        "Onto a parameter: it adds to the stored value instead of taking its place"));
 }
 
 }   // namespace tactus::host

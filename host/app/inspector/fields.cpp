@@ -79,6 +79,7 @@ public:
     {
         setTooltip (about);
         field.setTooltip (about);
+        stacked = lines > 2;
         if (lines > 1)
         {
             field.setMultiLine (true);
@@ -90,7 +91,8 @@ public:
         TextRow::refresh (nullptr);
     }
 
-    int heightFor (int) override { return lines > 1 ? 8 + 18 * lines : row_height; }
+    int heightFor (int) override { return lines > 2 ? 32 + 17 * lines : lines > 1 ? 46
+                                                                                  : row_height; }
     void refresh (const graph::Node*) override { field.show (get()); }
     void place (juce::Rectangle<int> area) override { field.setBounds (area); }
 

@@ -23,10 +23,14 @@ const char* endingsOf (SettingSheet::Kind kind)
 {
     switch (kind)
     {
-    case SettingSheet::Kind::signal: return "*.wav";
-    case SettingSheet::Kind::image: return "*.png;*.jpg;*.jpeg";
-    case SettingSheet::Kind::table: return "*.csv";
-    default: return "*.obj;*.off;*.ply;*.stl";
+    case SettingSheet::Kind::signal:
+        return "*.wav";
+    case SettingSheet::Kind::image:
+        return "*.png;*.jpg;*.jpeg";
+    case SettingSheet::Kind::table:
+        return "*.csv";
+    default:
+        return "*.obj;*.off;*.ply;*.stl";
     }
 }
 

@@ -12,7 +12,7 @@ namespace tactus::host
 /// A parameter that a control of the graph sets: which one, and from where to where.
 struct Held
 {
-    std::string control, name;   ///< its id, and what people call it
+    std::string control, name;      ///< its id, and what people call it
     double low = 0.0, high = 0.0;   ///< SI
     double value = 0.0;             ///< SI; what the control makes of it now
     Json low_text;                  ///< as written, for its unit

@@ -74,9 +74,10 @@ void Inspector::rebuild()
         made_for = key;
         auto made = std::make_unique<Column>();
         if (nodes.size() == 1)
-            describeNode (at, *nodes[0], help, [this]
-                          { setHelp (! help); },
-                          *made);
+            describeNode (
+                at, *nodes[0], help, [this]
+                { setHelp (! help); },
+                *made);
         else if (one_wire)
             describeWire (at, wires[0], *made);
         else if (nodes.empty() && wires.empty())
@@ -88,9 +89,15 @@ void Inspector::rebuild()
         }
         made->onHeight = [this]
         { resized(); };
+        const auto of = std::make_pair (patch, selection);
+        const auto place = column && of == shown_of ? scroll.getViewPosition() : juce::Point<int>();
+        shown_of = of;
         retired = std::move (column);
         column = std::move (made);
         scroll.setViewedComponent (column.get(), false);
+        column->refresh (nodes.size() == 1 ? nodes[0] : nullptr);
+        resized();
+        scroll.setViewPosition (place);
     }
     column->refresh (nodes.size() == 1 ? nodes[0] : nullptr);
     resized();

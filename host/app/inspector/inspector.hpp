@@ -42,8 +42,9 @@ private:
     std::string patch;
     std::set<graph::Id> selection;
     bool help = false;
-    std::string made_for;   // what the column shows: another column only for something else, so that a drag goes on
-    std::unique_ptr<Column> column, retired;   // retired: a field of it may be what asked for another
+    std::string made_for;                                   // what the column shows: another column only for something else, so that a drag goes on
+    std::unique_ptr<Column> column, retired;                // retired: a field of it may be what asked for another
+    std::pair<std::string, std::set<graph::Id>> shown_of;   // while it is the same, it stays scrolled to where it was
     juce::Viewport scroll;
 };
 

@@ -31,7 +31,7 @@ void putPoints (Slot lists, const SettingSheet& sheet, const EditorContext& cont
                 list.erase (i);
             lists.set (std::move (all), false);
         };
-        put (std::make_unique<TableRow> (std::vector<TableRow::Cell> { { cellSheet (sheet.x_unit, "where"), lists.entry (0).entry (i) }, { cellSheet (sheet.unit, "how much there") , lists.entry (1).entry (i) } }, remove, context.refused));
+        put (std::make_unique<TableRow> (std::vector<TableRow::Cell> { { cellSheet (sheet.x_unit, "where"), lists.entry (0).entry (i) }, { cellSheet (sheet.unit, "how much there"), lists.entry (1).entry (i) } }, remove, context.refused));
     }
     const auto add = [lists]
     {

@@ -14,12 +14,22 @@ namespace tactus::host
 namespace
 {
 constexpr double pixels_over_range = 200.0, fine = 0.1;
+
+/// 500000 rather than 5e+05, as long as that is short.
+std::string plainText (double v)
+{
+    if (v == 0.0 || ! (std::abs (v) >= 1e-4 && std::abs (v) < 1e7)) return numberText (v);
+    char text[40];
+    std::snprintf (text, sizeof text, "%.10g", v);
+    return text;
 }
+}   // namespace
 
 NumberField::NumberField (const PortSheet& s) : sheet (s)
 {
     setMouseCursor (juce::MouseCursor::UpDownResizeCursor);
     setWantsKeyboardFocus (true);
+    setMouseClickGrabsKeyboardFocus (false);   // a drag leaves the keys to the canvas
     setTooltip (tooltipOf (sheet));
 }
 
@@ -70,7 +80,7 @@ void NumberField::mouseDown (const juce::MouseEvent& e)
 
 void NumberField::mouseDrag (const juce::MouseEvent& e)
 {
-    if (e.mods.isAltDown() || isEditing()) return;
+    if (e.mods.isAltDown() || e.mods.isPopupMenu() || isEditing()) return;
     const double pixels = -static_cast<double> (e.getDistanceFromDragStartY()) * (e.mods.isShiftDown() ? fine : 1.0);
     moveTo (moved (pixels));
 }
@@ -96,7 +106,7 @@ bool NumberField::keyPressed (const juce::KeyPress& key)
 {
     constexpr double step = 4.0;   // pixels of a drag
     const double way = key.isKeyCode (juce::KeyPress::upKey) ? step : key.isKeyCode (juce::KeyPress::downKey) ? -step
-                                                                                                            : 0.0;
+                                                                                                              : 0.0;
     if (way != 0.0)
     {
         grabbed = value;
@@ -185,7 +195,7 @@ void NumberField::paint (juce::Graphics& g)
     g.setColour (theme.raised);
     g.fillRoundedRectangle (area, 4.0f);
     g.setColour (hasKeyboardFocus (false) ? theme.accent : isMouseOverOrDragging() ? theme.dim
-                                                                                  : theme.hairline);
+                                                                                   : theme.hairline);
     g.drawRoundedRectangle (area.reduced (0.5f), 4.0f, 1.0f);
 
     const auto& usual = sheet.limits.usual;
@@ -212,7 +222,7 @@ void NumberField::paint (juce::Graphics& g)
     g.setFont (look.font (12.0f, strong));
     g.setColour (unusual ? theme.warning : theme.text);
     // Too long for its field, it is shown with fewer digits; its tooltip and its editor have them all.
-    auto number = numberText (value.number);
+    auto number = plainText (value.number);
     for (int digits = 6; digits > 1 && g.getCurrentFont().getStringWidthFloat (number) > text.getWidth(); --digits)
     {
         char shorter[40];

@@ -27,7 +27,7 @@ public:
     std::function<void (std::optional<Json>, bool goes_on)> onChange;
     std::function<void (const juce::String&)> onRefused;
 
-    void setStrong (bool);           ///< what is set, rather than left as it was
+    void setStrong (bool);             ///< what is set, rather than left as it was
     void type (const juce::String&);   ///< as if it had been typed
     void openEditor();
     bool isEditing() const noexcept { return editor != nullptr && editor->isVisible(); }

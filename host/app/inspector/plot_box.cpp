@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tactus::host
 {
@@ -84,6 +85,7 @@ void paintFigure (juce::Graphics& g, juce::Rectangle<float> area, const Figure& 
     const auto colour = figure.quantity == Quantity::any ? theme.accent : theme.of (figure.quantity);
     g.setColour (colour);
     juce::Path line;
+    bool begun = false;   // a path that only starts counts as empty
     for (std::size_t i = 0; i < figure.x.size(); ++i)
     {
         const juce::Point<float> p { toX (along.shown (figure.x[i])), toY (up.shown (figure.y[i])) };
@@ -94,7 +96,7 @@ void paintFigure (juce::Graphics& g, juce::Rectangle<float> area, const Figure& 
             g.fillEllipse (juce::Rectangle<float> (6.0f, 6.0f).withCentre (p));
             continue;
         }
-        line.isEmpty() ? line.startNewSubPath (p) : line.lineTo (p);
+        std::exchange (begun, true) ? line.lineTo (p) : line.startNewSubPath (p);
         if (i < figure.knots.size() && figure.knots[i]) g.fillEllipse (juce::Rectangle<float> (6.0f, 6.0f).withCentre (p));
     }
     g.strokePath (line, juce::PathStrokeType (1.8f));

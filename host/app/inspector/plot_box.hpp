@@ -3,8 +3,8 @@
 
 #include <host/app/look/look.hpp>
 
-#include <framework/quantity.hpp>
 #include <framework/datasheet.hpp>
+#include <framework/quantity.hpp>
 
 #include <string>
 #include <vector>

@@ -39,7 +39,7 @@ protected:
     void fill() override
     {
         if (fieldOf (sheet, "frequency") != nullptr && fieldOf (sheet, "amplitude") != nullptr) put (std::make_unique<FigureBlock> ([this]
-                                                                                                                                 { return tones(); }));
+                                                                                                                                    { return tones(); }));
         std::vector<std::pair<juce::String, juce::String>> names;
         for (const auto& f : sheet.fields)
             names.emplace_back (std::string (f.id), f.unit.kind == UnitRule::Kind::fixed && f.unit.unit.symbol != "1" ? std::string (f.unit.unit.symbol) : std::string());

@@ -29,17 +29,33 @@ public:
     }
 };
 
-SetRow::SetRow (juce::String l) : words (std::move (l)), arrow (std::make_unique<Arrow>())
+/// The pointer over the row or anything in it.
+class SetRow::Watch final : public juce::MouseListener
+{
+public:
+    explicit Watch (SetRow& r) : row (r) {}
+    void mouseEnter (const juce::MouseEvent&) override { row.hover(); }
+    void mouseExit (const juce::MouseEvent&) override { row.hover(); }
+    void mouseDown (const juce::MouseEvent& e) override
+    {
+        if (e.mods.isPopupMenu()) row.openMenu();
+    }
+
+private:
+    SetRow& row;
+};
+
+SetRow::SetRow (juce::String l) : words (std::move (l)), arrow (std::make_unique<Arrow>()), watch (std::make_unique<Watch> (*this))
 {
     arrow->onClick = [this]
     {
         if (onReset) onReset();
     };
     addChildComponent (*arrow);
-    addMouseListener (this, true);
+    addMouseListener (watch.get(), true);
 }
 
-SetRow::~SetRow() { removeMouseListener (this); }
+SetRow::~SetRow() { removeMouseListener (watch.get()); }
 
 void SetRow::setLabel (const juce::String& l)
 {
@@ -63,9 +79,9 @@ void SetRow::setNote (const juce::String& text, juce::Colour colour)
 
 void SetRow::hover() { arrow->setVisible (is_set && onReset != nullptr && isMouseOver (true)); }
 
-void SetRow::mouseDown (const juce::MouseEvent& e)
+void SetRow::openMenu()
 {
-    if (! e.mods.isPopupMenu() || ! onWantsMenu) return;
+    if (! onWantsMenu) return;
     juce::PopupMenu menu;
     onWantsMenu (menu);
     if (menu.getNumItems() > 0) menu.showMenuAsync (juce::PopupMenu::Options().withMousePosition());
@@ -91,7 +107,7 @@ void SetRow::paint (juce::Graphics& g)
 void SetRow::resized()
 {
     auto area = getLocalBounds();
-    const auto left = area.removeFromLeft (labelWidth());
+    const auto left = stacked ? area.removeFromTop (20) : area.removeFromLeft (labelWidth());
     arrow->setBounds (juce::Rectangle<int> (24, 24).withCentre ({ left.getRight() - 14, row_height / 2 }));
     place (area.withTrimmedTop (2).withTrimmedBottom (2));
 }

@@ -26,24 +26,26 @@ public:
 
     void paint (juce::Graphics&) override;
     void resized() final;
-    void mouseEnter (const juce::MouseEvent&) override { hover(); }
-    void mouseExit (const juce::MouseEvent&) override { hover(); }
-    void mouseDown (const juce::MouseEvent&) override;
 
 protected:
     void setIsSet (bool);
     void setNote (const juce::String&, juce::Colour);   ///< a few small words over the label's end
     virtual void place (juce::Rectangle<int>) = 0;      ///< the fields go there
 
+    bool stacked = false;   ///< the label stands over the fields, not beside them
+
 private:
     class Arrow;
+    class Watch;
 
     void hover();
-    int labelWidth() const { return getWidth() * 2 / 5; }
+    void openMenu();
+    int labelWidth() const { return stacked ? getWidth() : getWidth() * 2 / 5; }
 
     juce::String words, note;
     juce::Colour note_colour;
     std::unique_ptr<Arrow> arrow;
+    std::unique_ptr<Watch> watch;
     bool is_set = false;
 
 public:

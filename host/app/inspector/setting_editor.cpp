@@ -37,7 +37,7 @@ public:
     }
 
     int heightFor (int) override { return length > 160 ? 152 : length > 40 ? 80
-                                                                          : 32; }
+                                                                           : 32; }
 
     void refresh (const graph::Node*) override
     {
@@ -277,13 +277,20 @@ std::unique_ptr<Block> bodyOf (const SettingSheet& sheet, const Slot& slot, cons
 {
     switch (sheet.kind)
     {
-    case Kind::vector: return std::make_unique<VectorBlock> (sheet, slot, context);
-    case Kind::curve: return curveEditor (sheet, slot, context);
-    case Kind::law: return lawEditor (sheet, slot, context);
-    case Kind::record: return std::make_unique<RecordEditor> (sheet, slot, context);
-    case Kind::records: return recordsEditor (sheet, slot, context);
-    case Kind::surface: return std::make_unique<SurfaceEditor> (sheet, slot, context);
-    default: return nullptr;
+    case Kind::vector:
+        return std::make_unique<VectorBlock> (sheet, slot, context);
+    case Kind::curve:
+        return curveEditor (sheet, slot, context);
+    case Kind::law:
+        return lawEditor (sheet, slot, context);
+    case Kind::record:
+        return std::make_unique<RecordEditor> (sheet, slot, context);
+    case Kind::records:
+        return recordsEditor (sheet, slot, context);
+    case Kind::surface:
+        return std::make_unique<SurfaceEditor> (sheet, slot, context);
+    default:
+        return nullptr;
     }
 }
 }   // namespace
@@ -310,9 +317,10 @@ std::unique_ptr<Block> settingEditor (const SettingSheet& sheet, Slot slot, cons
             const auto now = slot.get();
             return now.is_string() ? juce::String::fromUTF8 (now.get<std::string>().c_str()) : juce::String();
         };
-        return textRow (label, get, [slot] (const juce::String& t)
-                        { slot.set (t.trim().isEmpty() ? std::nullopt : std::optional<Json> (t.trim().toStdString()), false); },
-                        about, 2);
+        return textRow (
+            label, get, [slot] (const juce::String& t)
+            { slot.set (t.trim().isEmpty() ? std::nullopt : std::optional<Json> (t.trim().toStdString()), false); },
+            about, 2);
     }
     auto body = bodyOf (sheet, slot, context);
     if (! body) body = std::make_unique<JsonText> (sheet, slot);

@@ -55,7 +55,8 @@ void TableRow::refresh (const graph::Node*)
         if (auto* number = dynamic_cast<NumberField*> (fields[i].get()))
             number->show (now.is_null() ? Json (cells[i].sheet.initial[0]) : now);
         else if (auto* text = dynamic_cast<TextField*> (fields[i].get()))
-            text->show (now.is_null() ? "" : now.is_string() ? now.get<std::string>() : now.dump());
+            text->show (now.is_null() ? "" : now.is_string() ? now.get<std::string>()
+                                                             : now.dump());
     }
 }
 

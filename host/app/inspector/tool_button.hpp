@@ -55,12 +55,13 @@ public:
         if (framed || hasKeyboardFocus (false))
         {
             g.setColour (hasKeyboardFocus (false) ? theme.accent : over ? theme.dim
-                                                                        : lit ? on : theme.hairline);
+                                                               : lit    ? on
+                                                                        : theme.hairline);
             g.drawRoundedRectangle (area, 4.0f, 1.0f);
         }
         g.setFont (look.font (12.0f, lit));
         const auto ink = lit ? (on.getPerceivedBrightness() > 0.5f ? juce::Colour (0xff14171b) : juce::Colours::white) : over ? theme.text
-                                                                                                                             : theme.dim;
+                                                                                                                              : theme.dim;
         const bool bright = kind == Kind::framed || (kind == Kind::tab && getToggleState());
         g.setColour (isEnabled() ? (bright ? theme.text : ink) : theme.dim.withAlpha (0.5f));
         g.drawText (getButtonText(), justified == juce::Justification::centred ? getLocalBounds() : getLocalBounds().reduced (4, 0), justified, true);

@@ -153,7 +153,7 @@ std::optional<graph::Endpoint> sourceFor (const PortSheet& input, const graph::G
         {
             if (out.quantity() != input.unit.unit.quantity || out.quantity() == Quantity::any || out.width != input.width || out.id.find ('[') != std::string::npos) continue;
             // The tool itself, then what has the same name, then what a surface pushes back with.
-            const int rank = n.type == "device.position" ? 4 : out.id == input.id ? 3
+            const int rank = n.type == "device.position" ? 4 : out.id == input.id   ? 3
                                                            : out.id == "resistance" ? 2
                                                                                     : 1;
             if (rank > best)
@@ -347,7 +347,7 @@ std::variant<graph::Command, std::string> removeLayer (const graph::Graph& g, co
     std::vector<int> to (static_cast<std::size_t> (layers));
     for (int i = 0; i < layers; ++i)
         to[static_cast<std::size_t> (i)] = i == layer ? -1 : i < layer ? i
-                                                                     : i - 1;
+                                                                       : i - 1;
     return permuted (g, at, catalogue, to, layers - 1, "remove a layer");
 }
 

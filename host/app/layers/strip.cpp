@@ -60,7 +60,7 @@ juce::String levelText (double level, const std::string& unit)
     const bool small = level < 0.1;
     const double shown = small ? level * 1e3 : level;
     const auto number = juce::String (shown, shown < 9.995 ? 2 : shown < 99.95 ? 1
-                                                                              : 0);
+                                                                               : 0);
     return number + ' ' + (small ? "m" : "") + juce::String (unit.empty() ? "1" : unit);
 }
 
@@ -139,9 +139,8 @@ LayerStrip::LayerStrip (std::shared_ptr<const DeskContext> c, int i)
     { setValue ("priority", std::move (to), goes_on); };
     gain_field.onRefused = priority.onRefused = context->hint;
     priority.setTooltip ("Priority. " + tooltipOf (sheetOf (context->catalogue, "priority")));
-    for (auto* child : std::initializer_list<juce::Component*> { &name, &source, &mute, &solo, &fader, &gain_field, &priority })
+    for (auto* child : std::initializer_list<juce::Component*> { &name, &source, &mute, &solo, &fader, &gain_field, &priority, &close })
         addAndMakeVisible (child);
-    addChildComponent (close);
     show();
 }
 
@@ -327,10 +326,6 @@ void LayerStrip::resized()
     fader.setBounds (area.reduced (4, 0));
 }
 
-void LayerStrip::mouseEnter (const juce::MouseEvent&) { close.setVisible (true); }
-
-void LayerStrip::mouseExit (const juce::MouseEvent&) { close.setVisible (isMouseOver (true)); }
-
 void LayerStrip::mouseDrag (const juce::MouseEvent& e)
 {
     if (e.eventComponent != &name || e.getDistanceFromDragStart() < 6 || ! context->drag) return;
@@ -414,7 +409,7 @@ void MixStrip::paint (juce::Graphics& g)
     g.drawText ("peak " + peak, lines.removeFromTop (18), juce::Justification::centredLeft, false);
     g.setColour (over ? theme.warning : theme.dim);
     g.drawText (! limits ? juce::String ("no ceiling") : over ? "over by " + juce::String (over_db, 1) + " dB"
-                                                               : juce::String ("below its ceiling"),
+                                                              : juce::String ("below its ceiling"),
                 lines.removeFromTop (18), juce::Justification::centredLeft, false);
 }
 

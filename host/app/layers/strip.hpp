@@ -80,8 +80,6 @@ public:
 
     void paint (juce::Graphics&) override;
     void resized() override;
-    void mouseEnter (const juce::MouseEvent&) override;
-    void mouseExit (const juce::MouseEvent&) override;
     void mouseDrag (const juce::MouseEvent&) override;
     void mouseUp (const juce::MouseEvent&) override;
 

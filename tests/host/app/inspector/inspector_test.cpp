@@ -340,3 +340,27 @@ TEST_CASE ("what a setting holds can be written as text instead", "[inspector]")
     REQUIRE (press (rig, "reset"));
     CHECK_FALSE (rig.node ("warble").settings.contains ("modes"));
 }
+
+TEST_CASE ("a law is drawn as one line from side to side", "[inspector]")
+{
+    const juce::ScopedJuceInitialiser_GUI juce_runs;
+    Look look;
+    Law law;
+    law.kind = Law::Kind::power;
+    law.a = 1000.0;
+    juce::Image image (juce::Image::ARGB, 260, 130, true);
+    {
+        juce::Graphics g (image);
+        paintFigure (g, { 0.0f, 0.0f, 260.0f, 130.0f }, figureOf (law, unit::metre, unit::newton), look);
+    }
+    const auto ink = look.theme().of (Quantity::force);
+    int columns = 0;
+    for (int x = 0; x < image.getWidth(); ++x)
+        for (int y = 0; y < image.getHeight(); ++y)
+            if (image.getPixelAt (x, y) == ink)
+            {
+                ++columns;
+                break;
+            }
+    CHECK (columns > 150);
+}

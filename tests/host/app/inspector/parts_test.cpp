@@ -39,7 +39,7 @@ TEST_CASE ("a chosen file is written relative to the graph, and found again from
 TEST_CASE ("a control that is moved for a parameter brings it there, within its ends only", "[inspector]")
 {
     CHECK (rc::check ([]
-               {
+                      {
         const double low = *rc::gen::inRange (-100, 100) * 0.1, high = *rc::gen::suchThat (rc::gen::inRange (-100, 100), [&] (int v)
                                                                                            { return v * 0.1 != low; }) * 0.1;
         graph::Graph g;

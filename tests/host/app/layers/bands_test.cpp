@@ -28,7 +28,7 @@ std::vector<double> tone (double amplitude, double hz, double rate, std::size_t 
 TEST_CASE ("a tone is in the band of its frequency, with its mean square", "[layers]")
 {
     CHECK (rc::check ([]
-               {
+                      {
         const double hz = 20.0 * std::pow (40.0, *rc::gen::inRange (0, 1001) * 1e-3), amplitude = *rc::gen::inRange (1, 1000) * 1e-2;
         const auto bands = bandsOf (tone (amplitude, hz, 4000.0, 4096), 4000.0);
         const double all = std::accumulate (bands.power.begin(), bands.power.end(), 0.0);
@@ -69,7 +69,7 @@ TEST_CASE ("a fader's way and its gain are each other's inverse, rise together, 
     CHECK (Taper::gain (Taper::unity) == Approx (1.0));
     CHECK (Taper::gain (1.0) == Taper::most);
     CHECK (rc::check ([]
-               {
+                      {
         const double p = *rc::gen::inRange (0, 1001) * 1e-3, q = *rc::gen::inRange (0, 1001) * 1e-3;
         RC_ASSERT (std::abs (Taper::position (Taper::gain (p)) - p) < 1e-12);
         RC_ASSERT ((p < q) == (Taper::gain (p) < Taper::gain (q))); }));

@@ -106,7 +106,7 @@ TEST_CASE ("the last layer stays, and so does one that a subgraph shows", "[laye
 TEST_CASE ("a layer that is moved keeps all that is its own, and moved back the file is as it was", "[layers]")
 {
     CHECK (rc::check ([]
-               {
+                      {
         graph::History history (bell());
         const auto before = writeGraph (history.graph());
         const auto desk = desksOf (history.graph()).front();
