@@ -108,7 +108,7 @@ void describeDevice (const Inspected& at, const graph::Node& node, Column& colum
             column.add (textRow (
                 label, get, [set, path] (const juce::String& t)
                 { set (path, readText (t)); },
-                "As in the file: a number, or one with a unit"));
+                "As in the file: a number, or one with a unit. The device takes it when it starts anew."));
     }
     column.add (textRow (
         "all of it", [&document, role]

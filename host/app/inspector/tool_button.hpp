@@ -23,6 +23,7 @@ public:
     ToolButton (const juce::String& words, Kind k, const juce::String& tooltip = {}) : juce::Button (words), kind (k)
     {
         setTooltip (tooltip);
+        setMouseClickGrabsKeyboardFocus (false);   // a click leaves the keys to the canvas
         setMouseCursor (juce::MouseCursor::PointingHandCursor);
     }
 

@@ -68,7 +68,13 @@ void MainView::show (graph::Graph g, const std::filesystem::path& file)
     layers = desk.get();
     layers->onSelect = [this] (const std::string& patch, graph::Id node)
     {
-        patching->leaveTo (patch == patching->patch() ? patching->way().size() : 0);
+        if (patch != patching->patch())
+        {
+            patching->leaveTo (0);
+            const auto& nodes = patching->scene().nodes();
+            const auto of = std::ranges::find (nodes, "graph:" + patch, &SceneNode::type);
+            if (of != nodes.end()) patching->enter (*of);
+        }
         if (patch == patching->patch()) patching->select ({ node });
     };
     bottom.add ("Layers", std::move (desk));

@@ -3,9 +3,12 @@
 
 #include <framework/file/graph_file.hpp>
 
+#include "support/sketch.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 using namespace tactus;
@@ -21,10 +24,12 @@ struct Rig
     std::unique_ptr<Performance> performance;
     std::unique_ptr<LayersPanel> panel;
 
-    explicit Rig (const std::string& graph)
+    explicit Rig (const std::string& preset) : Rig (loadGraph (TACTUS_SOURCE_DIR "/graphs/" + preset).graph) {}
+
+    explicit Rig (graph::Graph g)
     {
         juce::LookAndFeel::setDefaultLookAndFeel (&look);
-        document = std::make_unique<Document> (loadGraph (TACTUS_SOURCE_DIR "/graphs/" + graph).graph);
+        document = std::make_unique<Document> (std::move (g));
         performance = std::make_unique<Performance> (*document, catalogue());
         panel = std::make_unique<LayersPanel> (*document, *performance, catalogue());
         panel->setBounds (0, 0, 900, 232);
@@ -180,4 +185,45 @@ TEST_CASE ("while it runs the meters of a desk show what comes in, after gain, a
 
     rig.panel->setVisible (false);   // then nobody wants to know
     CHECK (rig.performance->traces().ports().empty());
+}
+
+TEST_CASE ("of several mixers one is shown, which follows its node through a rename, and another when it goes", "[layers]")
+{
+    test::Sketch sketch;
+    sketch.node ("a", "layer.mix").node ("b", "layer.mix", Json::object(), { { "inputs", 5 } });
+    Rig rig (sketch.graph);
+    REQUIRE (rig.panel->desks().size() == 2);
+    CHECK (rig.panel->layers() == 2);
+    rig.panel->choose (1);
+    rig.settle();
+    CHECK (rig.panel->layers() == 5);
+    rig.document->perform (graph::RenameNode { "", "b", "c" });
+    CHECK (rig.panel->layers() == 5);
+    rig.panel->layer (4).setGain (Json (0.5), false);
+    CHECK (rig.document->graph().root.find ("c")->params["gain"].size() == 5);
+    rig.document->perform (graph::RemoveNode { "", "c" });
+    CHECK (rig.panel->layers() == 2);
+    rig.document->perform (graph::RemoveNode { "", "a" });
+    CHECK (rig.panel->layers() == 0);
+    rig.document->undo();
+    rig.document->undo();
+    CHECK (rig.panel->desks().size() == 2);
+}
+
+TEST_CASE ("the mix says what its ceiling takes away", "[layers]")
+{
+    test::Sketch sketch;
+    sketch.node ("loud", "signal.constant", { { "value", "2 N" } }).node ("desk", "layer.mix", { { "ceiling", "1 N" } }, { { "inputs", 1 } }).node ("motor", "device.force");
+    sketch.wire ("loud.out -> desk.in[0]").wire ("desk.out -> motor.force.z");
+    Rig rig (sketch.graph);
+    rig.performance->start (Performance::Hand::described);
+    REQUIRE (rig.performance->isRunning());
+    for (int i = 0; i < 200 && rig.panel->mix()->reduction() == 0.0; ++i)
+    {
+        std::this_thread::sleep_for (std::chrono::milliseconds (10));
+        rig.performance->attend();
+        rig.panel->refresh();
+    }
+    CHECK (rig.panel->mix()->reduction() == Approx (20.0 * std::log10 (2.0)));
+    CHECK (rig.panel->layer (0).meter().rms() == Approx (2.0));
 }
