@@ -30,6 +30,8 @@ void change (const Inspected& at, graph::Id id, const std::function<void (graph:
     at.document.perform (graph::ChangeWire { at.patch, id, std::move (to) }, goes_on ? graph::Step::joined : graph::Step::own);
 }
 
+constexpr std::string_view open = "as wired";   // of a port that takes its unit from what it is wired to
+
 /// "N, vector" of an end of a wire; "" if nobody knows.
 std::string unitAt (const Inspected& at, const graph::Endpoint& e, bool start)
 {
@@ -39,7 +41,7 @@ std::string unitAt (const Inspected& at, const graph::Endpoint& e, bool start)
     const auto face = faceOf (at.document.graph(), *in, *node, at.catalogue);
     const auto* port = start ? face.startOf (e) : face.endOf (e);
     if (port == nullptr) return {};
-    const auto unit = port->unit.kind == UnitRule::Kind::fixed ? std::string (port->unit.unit.symbol) : std::string ("as wired");
+    const auto unit = port->unit.kind == UnitRule::Kind::fixed ? std::string (port->unit.unit.symbol) : std::string (open);
     return unit + (port->width == 3 && e.component < 0 ? ", vector" : "");
 }
 }   // namespace
@@ -71,7 +73,8 @@ void describeWire (const Inspected& at, graph::Id id, Column& column)
         const auto* w = find (at, id);
         if (w == nullptr) return Remark {};
         const auto from = unitAt (at, w->from, true), to = unitAt (at, w->to, false);
-        return Remark { juce::String (from == to ? "carries " + from : from + "  into  " + to), false }; }));
+        const bool one = from == to || to.starts_with (open) || from.starts_with (open);
+        return Remark { juce::String (one ? "carries " + (from.starts_with (open) ? to : from) : from + "  into  " + to), false }; }));
     const Slot delay { [at, id]
                        {
                            const auto* w = find (at, id);

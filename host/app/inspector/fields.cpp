@@ -3,6 +3,7 @@
 #include "tool_button.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tactus::host
 {
@@ -91,8 +92,19 @@ public:
         TextRow::refresh (nullptr);
     }
 
-    int heightFor (int) override { return lines > 2 ? 32 + 17 * lines : lines > 1 ? 46
-                                                                                  : row_height; }
+    int heightFor (int width) override
+    {
+        if (lines < 2) return row_height;
+        // As high as its text, within reason: beyond that it scrolls.
+        const auto& look = lookOf (*this);
+        juce::AttributedString written;
+        written.append (field.getText(), look.font (12.0f), look.theme().text);
+        juce::TextLayout l;
+        l.createLayout (written, static_cast<float> ((stacked ? width : width * 3 / 5) - 32));
+        const int text = std::clamp (static_cast<int> (std::ceil (l.getHeight())), 16, 200);
+        return (stacked ? 24 : 4) + text + 16;
+    }
+
     void refresh (const graph::Node*) override { field.show (get()); }
     void place (juce::Rectangle<int> area) override { field.setBounds (area); }
 

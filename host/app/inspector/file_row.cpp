@@ -58,6 +58,12 @@ public:
         const auto now = slot.get();
         const auto written = now.is_string() ? now.get<std::string>() : std::string();
         field.show (written);
+        // Only anew if it is another file, or one that has been written since: each edit of the graph comes by here.
+        std::error_code problem;
+        const auto path = resolved (written, context.folder());
+        const auto as_of = std::make_pair (path, std::filesystem::last_write_time (path, problem));
+        if (as_of == read_as_of && ! words.text.empty()) return;
+        read_as_of = as_of;
         words = wordsOn (written, kind, context.folder(), context.assets);
         picture = words.picture ? thumbnail (*words.picture, 56) : juce::Image();
         repaint();
@@ -135,6 +141,7 @@ private:
     ToolButton browse { juce::String::fromUTF8 ("Browse\xe2\x80\xa6"), ToolButton::Kind::framed, "Choose a file; one can be dropped here, too" };
     std::unique_ptr<juce::FileChooser> chooser;
     FileWords words;
+    std::pair<std::string, std::filesystem::file_time_type> read_as_of;
     juce::Image picture;
     bool over = false;
 };

@@ -45,11 +45,16 @@ FileWords read (const Assets::Loaded<T>& loaded, F&& f)
 }
 }   // namespace
 
+std::string resolved (const std::string& path, const std::string& folder)
+{
+    const std::filesystem::path given (path);
+    return given.is_absolute() || folder.empty() ? given.string() : (std::filesystem::path (folder) / given).string();
+}
+
 FileWords wordsOn (const std::string& written, SettingSheet::Kind what, const std::string& folder, Assets& assets)
 {
     if (written.empty()) return { "No file yet: drop one here, or browse." };
-    const std::filesystem::path given (written);
-    const auto path = given.is_absolute() || folder.empty() ? given.string() : (std::filesystem::path (folder) / given).string();
+    const auto path = resolved (written, folder);
     switch (what)
     {
     case SettingSheet::Kind::signal:

@@ -222,10 +222,14 @@ public:
         const auto now = slot.get();
         is_set = ! now.is_null();
         reset.setVisible (is_set);
-        problem = {};
-        std::string where;
-        if (is_set)
-            if (const auto read = plan::readSetting (now, sheet, { assets, folder() }, where); const auto* why = std::get_if<std::string> (&read)) problem = juce::String::fromUTF8 ((where.empty() ? *why : where + ": " + *why).c_str());
+        if (now != checked)   // it may name files, and each edit of the graph comes by here
+        {
+            checked = now;
+            problem = {};
+            std::string where;
+            if (is_set)
+                if (const auto read = plan::readSetting (now, sheet, { assets, folder() }, where); const auto* why = std::get_if<std::string> (&read)) problem = juce::String::fromUTF8 ((where.empty() ? *why : where + ": " + *why).c_str());
+        }
         body->refresh (node);
         text.refresh (node);
         repaint();
@@ -270,6 +274,7 @@ private:
     JsonText text;
     ToolButton as_text { "text", ToolButton::Kind::toggle, "Write it as in the file" }, reset { "reset", ToolButton::Kind::plain, "Back to the default" };
     juce::String problem;
+    Json checked;
     bool is_set = false;
 };
 

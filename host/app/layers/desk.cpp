@@ -378,7 +378,13 @@ std::variant<AddedDesk, std::string> addDesk (const graph::Graph& g, const Catal
                 stream = std::move (s);
             }
         }
-    if (motor == nullptr) return std::string ("This graph moves no motor yet: add a device.force first, which is where the mix goes.");
+    if (motor == nullptr)
+    {
+        for (const auto& [subgraph, patch] : g.graphs)
+            for (const auto& n : patch.nodes)
+                if (n.type == "device.force") return "The motor of this graph is inside its subgraph " + subgraph + ": enter that, and add a layer.mix before " + n.name + " there.";
+        return std::string ("This graph moves no motor yet: add a device.force first, which is where the mix goes.");
+    }
 
     graph::Node desk;
     desk.name = freeName (g.root, {}, "desk");

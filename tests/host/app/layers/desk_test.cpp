@@ -206,3 +206,10 @@ TEST_CASE ("values of layers are set one by one, and a list of defaults is not w
     REQUIRE_FALSE (history.perform (renameLayer (node(), desk, 3, 1, " hum, deep ")));
     CHECK (layerNames (node(), 3) == std::vector<std::string> { "blow", "hum  deep", "warble" });
 }
+
+TEST_CASE ("where the motors are inside a subgraph, one is told where a desk goes", "[layers]")
+{
+    const auto why = addDesk (loadGraph (TACTUS_SOURCE_DIR "/graphs/two_fingers.json").graph, catalogue());
+    REQUIRE (std::holds_alternative<std::string> (why));
+    CHECK (std::get<std::string> (why).find ("subgraph") != std::string::npos);
+}
