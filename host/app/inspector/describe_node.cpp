@@ -80,6 +80,35 @@ void describeSubgraphNode (const Inspected& at, const graph::Node& node, Column&
     whole ("count", "instances, counted from 0", 1e6);
     whole ("every", "it runs on one tick in so many", 1e6);
     whole ("times", "it runs so many times in each tick, where nothing returns to the hand", 1e6);
+
+    column.add ("Inside, set from here", Words::Kind::heading);
+    const auto set = [&document = at.document, patch = at.patch, name = node.name] (const std::string& path, const juce::String& t)
+    {
+        const auto written = t.trim().toStdString();
+        auto value = Json::parse (written, nullptr, false);
+        if (value.is_discarded()) value = Json (written);
+        document.perform (graph::SetOverride { patch, name, path, written.empty() ? std::nullopt : std::optional (std::move (value)) });
+    };
+    for (const auto& [path, value] : node.overrides.items())
+        column.add (textRow (
+            text (path), [at, name = node.name, path = path]
+            {
+            const auto* n = find (at, name);
+            if (n == nullptr || ! n->overrides.contains (path)) return juce::String();
+            const auto& v = n->overrides.at (path);
+            return text (v.is_string() ? v.get<std::string>() : v.dump()); },
+            [set, path = path] (const juce::String& t)
+            { set (path, t); },
+            "Of this node alone; empty: what the subgraph says"));
+    column.add (textRow (
+        "another", []
+        { return juce::String(); },
+        [set, refused = at.refused] (const juce::String& t)
+        {
+        if (t.trim().isEmpty()) return;
+        if (! t.contains ("=")) return refused ("Write which and what: drag.mu = 0.4, or [3]/drag.mu = 0.4 of one instance");
+        set (t.upToFirstOccurrenceOf ("=", false, false).trim().toStdString(), t.fromFirstOccurrenceOf ("=", false, false)); },
+        "A parameter inside, for this node alone: drag.mu = 0.4, or [3]/drag.mu = 0.4 of one instance"));
 }
 }   // namespace
 
@@ -96,6 +125,8 @@ std::string shapeOf (const Inspected& at, const graph::Node& node)
             for (const auto& [path, value] : flat.items())
                 shape += path;
         }
+    for (const auto& [path, value] : node.overrides.items())
+        shape += '|' + path;
     if (const auto* inside = node.type.starts_with ("graph:") ? at.document.graph().find (node.type.substr (6)) : nullptr)
         for (const auto& [name, end] : inside->expose.params)
             shape += name + '=' + graph::toText (end);

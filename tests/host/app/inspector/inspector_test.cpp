@@ -212,6 +212,21 @@ TEST_CASE ("what a subgraph shows is set from outside, and starts from what its 
     CHECK (rig.node ("threads").extra["count"] == 3);
 }
 
+TEST_CASE ("what is inside a subgraph is set for one node of it alone", "[inspector]")
+{
+    InspectorRig rig ("layered_cloth.json");
+    rig.select ("threads");
+    write (rig.in<TextField> ("another"), "warp.spatial_frequency = 650 1/m");
+    CHECK (rig.node ("threads").overrides["warp.spatial_frequency"] == "650 1/m");
+    CHECK (compile (rig.document->graph(), catalogue()).plan != nullptr);
+    write (rig.in<TextField> ("warp.spatial_frequency"), "600");
+    CHECK (rig.node ("threads").overrides["warp.spatial_frequency"] == 600);
+    write (rig.in<TextField> ("warp.spatial_frequency"), "");
+    CHECK (rig.node ("threads").overrides.empty());
+    write (rig.in<TextField> ("another"), "nonsense");
+    CHECK (rig.hints.size() == 1);
+}
+
 TEST_CASE ("a mode is added, changed and removed, and its picture follows", "[inspector]")
 {
     InspectorRig rig ("bronze_bell.json");
