@@ -33,6 +33,10 @@ juce::TextLayout Words::layout (int width) const
 void Column::add (std::unique_ptr<Block> b)
 {
     addAndMakeVisible (*b);
+    b->onHeight = [this]
+    {
+        if (onHeight) onHeight();
+    };
     blocks.push_back (std::move (b));
 }
 

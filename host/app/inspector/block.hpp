@@ -5,6 +5,8 @@
 
 #include <framework/graph/graph.hpp>
 
+#include <functional>
+
 namespace tactus::host
 {
 
@@ -14,6 +16,8 @@ class Block : public juce::Component
 public:
     virtual int heightFor (int width) = 0;
     virtual void refresh (const graph::Node*) {}   ///< the node as it is now, if there is one
+
+    std::function<void()> onHeight;   ///< it needs another height now
 };
 
 /// Text that wraps.
@@ -48,6 +52,11 @@ public:
     void add (const juce::String& words, Words::Kind);   ///< nothing if there are none
     void refresh (const graph::Node*);
     void layOut (int width);
+
+    std::function<void()> onHeight;   ///< of one of them
+
+    std::size_t size() const noexcept { return blocks.size(); }
+    Block& operator[] (std::size_t i) { return *blocks[i]; }
 
 private:
     std::vector<std::unique_ptr<Block>> blocks;

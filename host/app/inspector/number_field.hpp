@@ -12,8 +12,9 @@
 namespace tactus::host
 {
 
-/// A number that is dragged up and down, finely with shift, or typed after a double click, with a unit if one likes. Alt-click
-/// brings the default back. It is amber outside its usual range, and refuses what lies outside the hard one.
+/// A number that is dragged up and down, finely with shift, or typed after a double click or return, with a unit if one
+/// likes. Alt-click brings the default back; the arrows go in small steps. It is amber outside its usual range, which the
+/// bar under it stands for, and refuses what lies outside the hard one.
 class NumberField final : public juce::Component, public juce::SettableTooltipClient
 {
 public:
@@ -26,7 +27,10 @@ public:
     std::function<void (std::optional<Json>, bool goes_on)> onChange;
     std::function<void (const juce::String&)> onRefused;
 
+    void setStrong (bool);             ///< what is set, rather than left as it was
     void type (const juce::String&);   ///< as if it had been typed
+    void openEditor();
+    bool isEditing() const noexcept { return editor != nullptr && editor->isVisible(); }
 
     void paint (juce::Graphics&) override;
     void resized() override;
@@ -34,16 +38,26 @@ public:
     void mouseDrag (const juce::MouseEvent&) override;
     void mouseUp (const juce::MouseEvent&) override;
     void mouseDoubleClick (const juce::MouseEvent&) override;
+    void mouseEnter (const juce::MouseEvent&) override { repaint(); }
+    void mouseExit (const juce::MouseEvent&) override { repaint(); }
+    void focusGained (FocusChangeType) override { repaint(); }
+    void focusLost (FocusChangeType) override { repaint(); }
+    bool keyPressed (const juce::KeyPress&) override;
 
 private:
     bool isLogarithmic() const noexcept;
     double moved (double by_pixels) const;
+    void moveTo (double si);
+    void apply();
     void closeEditor();
 
     const PortSheet& sheet;
     QuantityText value, grabbed;
-    bool dragged = false;
+    bool dragged = false, strong = false;
     std::unique_ptr<juce::TextEditor> editor;
 };
+
+/// What a tooltip says of a number: its sentence, and between which ends it may be and usually is.
+juce::String tooltipOf (const PortSheet&);
 
 }   // namespace tactus::host

@@ -27,6 +27,7 @@ void Look::setTheme (const Theme& t)
     setColour (juce::Slider::trackColourId, juce::Colours::transparentBlack);
     setColour (juce::PopupMenu::backgroundColourId, t.raised);
     setColour (juce::PopupMenu::textColourId, t.text);
+    setColour (juce::PopupMenu::headerTextColourId, t.dim);
     setColour (juce::PopupMenu::highlightedBackgroundColourId, t.accent.withAlpha (0.25f));
     setColour (juce::PopupMenu::highlightedTextColourId, t.text);
 }

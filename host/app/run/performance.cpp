@@ -115,6 +115,12 @@ void Performance::stop() noexcept
     if (runner) runner->stop();
 }
 
+void Performance::letGo()
+{
+    stop();
+    end();
+}
+
 void Performance::begin()
 {
     end();

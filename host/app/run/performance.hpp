@@ -49,6 +49,9 @@ public:
     void start (Hand);      ///< anew, if it runs, as soon as its forces are zero
     void stop() noexcept;   ///< the forces go to zero first; does not wait for that
 
+    /// Stops, waits until the forces are zero, and lets go of the devices.
+    void letGo();
+
     bool isRunning() const noexcept { return runner != nullptr && ! runner->isOver(); }
     bool isWanted() const noexcept { return wanted; }   ///< started, and not stopped since; perhaps it does not compile
     const Hand& hand() const noexcept { return moved_by; }

@@ -98,6 +98,8 @@ void MainView::show()
     top = std::make_unique<TopBar>();
     patching = std::make_unique<Canvas> (*edited, catalogue);
     inspector = std::make_unique<Inspector> (*edited, catalogue);
+    inspector->messagesNow = [this]
+    { return performance->messages(); };
     top->onLeave = [this] (std::size_t depth)
     { patching->leaveTo (depth); };
     top->onRecall = [this] (int number)
@@ -127,6 +129,12 @@ void MainView::show()
     scopes->onHint = [this] (const juce::String& text)
     { say (text); };
     bottom.add ("Scopes", std::move (panel));
+    auto desk = std::make_unique<LayersPanel> (*edited, *performance, catalogue);
+    layers = desk.get();
+    layers->onSelect = [this] (const std::string& patch, graph::Id node)
+    { patching->show (patch, node); };
+    layers->onHint = scopes->onHint;
+    bottom.add ("Layers", std::move (desk));
     patching->onProbe = [this] (const std::vector<std::string>& ports)
     {
         for (const auto& port : ports)
@@ -205,14 +213,14 @@ void MainView::closeWhenSaved (std::function<void()> close)
 {
     files->whenSaved ("before Tactus closes", [this, close = std::move (close)]
                       {
-        performance->stop();
+        performance->letGo();
         files->end();
         close(); });
 }
 
 void MainView::closeSuddenly()
 {
-    performance->stop();
+    performance->letGo();
     files->endSuddenly();
 }
 
@@ -233,6 +241,7 @@ void MainView::timerCallback()
     if (ticks_to_remember > 0 && --ticks_to_remember == 0)
         if (const auto why = saveSettings (settings, home)) say ("The settings could not be kept: " + juce::String (*why));
     if (scopes->isVisible()) scopes->refresh();
+    layers->refresh();
 }
 
 void MainView::notify (const juce::String& text)

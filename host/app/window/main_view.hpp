@@ -4,6 +4,7 @@
 #include <host/app/canvas/canvas.hpp>
 #include <host/app/history/history_panel.hpp>
 #include <host/app/inspector/inspector.hpp>
+#include <host/app/layers/layers_panel.hpp>
 #include <host/app/palette/palette.hpp>
 #include <host/app/presets/browser.hpp>
 #include <host/app/problems/problem_list.hpp>
@@ -118,6 +119,7 @@ private:
     std::unique_ptr<TopBar> top;
     PresetBrowser* presets = nullptr;   // in the left tabs
     ScopePanel* scopes = nullptr;       // in the bottom tabs
+    LayersPanel* layers = nullptr;      // in the bottom tabs
     std::unique_ptr<Canvas> patching;
     std::unique_ptr<LiveFeed> live;
     std::unique_ptr<Inspector> inspector;

@@ -71,7 +71,7 @@ void MainView::preview (const std::filesystem::path& file)
     if (hasErrors (loaded.messages)) return;   // the list says so
     endPreview();
     resumes = performance->isRunning();
-    performance->stop();   // its devices are let go first
+    performance->letGo();
     const auto name = juce::String (loaded.graph.name);
     heard_document = std::make_unique<Document> (std::move (loaded.graph));
     heard = std::make_unique<Performance> (*heard_document, catalogue);

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fields.hpp"
+#include "tool_button.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::host
+{
+
+Slot Slot::member (const std::string& key) const
+{
+    return { [get = get, key]
+             {
+                 const auto all = get();
+                 return all.is_object() && all.contains (key) ? Json (all.at (key)) : Json();
+             },
+             [get = get, set = set, key] (std::optional<Json> value, bool goes_on)
+             {
+                 auto all = get();
+                 if (! all.is_object()) all = Json::object();
+                 if (value)
+                     all[key] = *value;
+                 else
+                     all.erase (key);
+                 set (all.empty() ? std::nullopt : std::optional (std::move (all)), goes_on);
+             } };
+}
+
+Slot Slot::entry (std::size_t i) const
+{
+    return { [get = get, i]
+             {
+                 const auto all = get();
+                 return all.is_array() && i < all.size() ? Json (all[i]) : Json();
+             },
+             [get = get, set = set, i] (std::optional<Json> value, bool goes_on)
+             {
+                 auto all = get();
+                 if (! all.is_array() || i >= all.size()) return;
+                 all[i] = value ? *value : Json();
+                 set (std::move (all), goes_on);
+             } };
+}
+
+TextField::TextField()
+{
+    setFont (lookOf (*this).font (12.0f));
+    setIndents (8, 5);
+    setSelectAllWhenFocused (true);
+    onReturnKey = onFocusLost = [this]
+    { apply(); };
+    onEscapeKey = [this]
+    {
+        setText (shown, false);
+        unfocusAllComponents();
+    };
+}
+
+void TextField::show (const juce::String& text)
+{
+    shown = text;
+    if (! hasKeyboardFocus (true) && getText() != text) setText (text, false);
+}
+
+void TextField::apply()
+{
+    const auto text = getText();
+    if (text == shown) return;
+    shown = text;
+    if (onApply) onApply (text);
+}
+
+namespace
+{
+class TextRow final : public SetRow
+{
+public:
+    TextRow (const juce::String& l, std::function<juce::String()> g, std::function<void (const juce::String&)> set, const juce::String& about, int n) : SetRow (l), get (std::move (g)), lines (n)
+    {
+        setTooltip (about);
+        field.setTooltip (about);
+        stacked = lines > 2;
+        if (lines > 1)
+        {
+            field.setMultiLine (true);
+            field.setReturnKeyStartsNewLine (false);
+        }
+        field.onApply = [set = std::move (set)] (const juce::String& text)
+        { set (text); };
+        addAndMakeVisible (field);
+        TextRow::refresh (nullptr);
+    }
+
+    int heightFor (int width) override
+    {
+        if (lines < 2) return row_height;
+        // As high as its text, within reason: beyond that it scrolls.
+        const auto& look = lookOf (*this);
+        juce::AttributedString written;
+        written.append (field.getText(), look.font (12.0f), look.theme().text);
+        juce::TextLayout l;
+        l.createLayout (written, static_cast<float> ((stacked ? width : width * 3 / 5) - 32));
+        const int text = std::clamp (static_cast<int> (std::ceil (l.getHeight())), 16, 200);
+        return (stacked ? 24 : 4) + text + 16;
+    }
+
+    void refresh (const graph::Node*) override { field.show (get()); }
+    void place (juce::Rectangle<int> area) override { field.setBounds (area); }
+
+private:
+    std::function<juce::String()> get;
+    int lines;
+    TextField field;
+};
+
+class ChoiceRow final : public SetRow
+{
+public:
+    ChoiceRow (const juce::String& l, std::vector<std::string> c, std::function<std::string()> g, std::function<void (const std::string&)> set, const juce::String& about) : SetRow (l), choices (std::move (c)), get (std::move (g))
+    {
+        setTooltip (about);
+        box.setTooltip (about);
+        for (std::size_t i = 0; i < choices.size(); ++i)
+            box.addItem (choices[i], static_cast<int> (i) + 1);
+        box.onChange = [this, set = std::move (set)]
+        {
+            if (const int i = box.getSelectedId(); i > 0) set (choices[static_cast<std::size_t> (i - 1)]);
+        };
+        addAndMakeVisible (box);
+        ChoiceRow::refresh (nullptr);
+    }
+
+    void refresh (const graph::Node*) override
+    {
+        const auto now = get();
+        const auto at = std::ranges::find (choices, now);
+        if (at == choices.end())
+            box.setText (now, juce::dontSendNotification);
+        else
+            box.setSelectedId (static_cast<int> (at - choices.begin()) + 1, juce::dontSendNotification);
+    }
+
+    void place (juce::Rectangle<int> area) override { box.setBounds (area); }
+
+private:
+    std::vector<std::string> choices;
+    std::function<std::string()> get;
+    juce::ComboBox box;
+};
+
+class SwitchRow final : public SetRow
+{
+public:
+    SwitchRow (const juce::String& l, std::function<bool()> g, std::function<void (bool)> set, const juce::String& about) : SetRow (l), get (std::move (g))
+    {
+        setTooltip (about);
+        button.setTooltip (about);
+        button.onClick = [this, set = std::move (set)]
+        { set (! button.getToggleState()); };
+        addAndMakeVisible (button);
+        SwitchRow::refresh (nullptr);
+    }
+
+    void refresh (const graph::Node*) override
+    {
+        button.setToggleState (get(), juce::dontSendNotification);
+        button.setButtonText (button.getToggleState() ? "on" : "off");
+    }
+
+    void place (juce::Rectangle<int> area) override { button.setBounds (area.removeFromLeft (56)); }
+
+private:
+    std::function<bool()> get;
+    ToolButton button { "off", ToolButton::Kind::toggle };
+};
+
+class NumberRow final : public SetRow
+{
+public:
+    NumberRow (const juce::String& l, const PortSheet& s, Slot at, std::function<void (const juce::String&)> refused) : SetRow (l), sheet (s), slot (std::move (at)), field (sheet)
+    {
+        setTooltip (field.getTooltip());
+        onReset = [this]
+        { slot.set (std::nullopt, false); };
+        field.onChange = slot.set;
+        field.onRefused = std::move (refused);
+        addAndMakeVisible (field);
+        NumberRow::refresh (nullptr);
+    }
+
+    void refresh (const graph::Node*) override
+    {
+        const auto now = slot.get();
+        setIsSet (! now.is_null());
+        field.setStrong (isSet());
+        field.show (now.is_null() ? Json (sheet.initial[0]) : now);
+    }
+
+    void place (juce::Rectangle<int> area) override { field.setBounds (area); }
+
+private:
+    PortSheet sheet;
+    Slot slot;
+    NumberField field;
+};
+
+class ButtonRow final : public Block
+{
+public:
+    ButtonRow (const juce::String& words, std::function<void()> press, const juce::String& about) : button (words, ToolButton::Kind::framed, about)
+    {
+        button.onClick = std::move (press);
+        addAndMakeVisible (button);
+    }
+
+    int heightFor (int) override { return 36; }
+    void resized() override { button.setBounds (getLocalBounds().withTrimmedTop (4).withTrimmedBottom (4).withWidth (std::min (getWidth(), button.bestWidth()))); }
+
+private:
+    ToolButton button;
+};
+}   // namespace
+
+std::unique_ptr<Block> textRow (const juce::String& label, std::function<juce::String()> get, std::function<void (const juce::String&)> set, const juce::String& about, int lines) { return std::make_unique<TextRow> (label, std::move (get), std::move (set), about, lines); }
+std::unique_ptr<Block> choiceRow (const juce::String& label, std::vector<std::string> choices, std::function<std::string()> get, std::function<void (const std::string&)> set, const juce::String& about) { return std::make_unique<ChoiceRow> (label, std::move (choices), std::move (get), std::move (set), about); }
+std::unique_ptr<Block> switchRow (const juce::String& label, std::function<bool()> get, std::function<void (bool)> set, const juce::String& about) { return std::make_unique<SwitchRow> (label, std::move (get), std::move (set), about); }
+std::unique_ptr<Block> numberRow (const juce::String& label, const PortSheet& sheet, Slot slot, std::function<void (const juce::String&)> refused) { return std::make_unique<NumberRow> (label, sheet, std::move (slot), std::move (refused)); }
+std::unique_ptr<Block> buttonRow (const juce::String& words, std::function<void()> press, const juce::String& about) { return std::make_unique<ButtonRow> (words, std::move (press), about); }
+
+PortSheet sheetOfNumber (std::string_view id, UnitRule unit, std::string_view about, Limits limits, double initial)
+{
+    return { Role::param, id, unit, about, limits, {}, 1, false, 0, { initial, 0.0, 0.0 } };
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "file_words.hpp"
+#include "setting_editor.hpp"
+#include "tool_button.hpp"
+
+namespace tactus::host
+{
+
+namespace
+{
+juce::Image thumbnail (const Grid& grid, int most)
+{
+    const double scale = static_cast<double> (most) / std::max (1, std::max (grid.columns, grid.rows));
+    const int width = std::max (1, static_cast<int> (grid.columns * scale)), height = std::max (1, static_cast<int> (grid.rows * scale));
+    juce::Image image (juce::Image::RGB, width, height, false);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            image.setPixelAt (x, y, juce::Colour::greyLevel (static_cast<float> (grid (std::min (grid.rows - 1, y * grid.rows / height), std::min (grid.columns - 1, x * grid.columns / width)))));
+    return image;
+}
+
+const char* endingsOf (SettingSheet::Kind kind)
+{
+    switch (kind)
+    {
+    case SettingSheet::Kind::signal:
+        return "*.wav";
+    case SettingSheet::Kind::image:
+        return "*.png;*.jpg;*.jpeg";
+    case SettingSheet::Kind::table:
+        return "*.csv";
+    default:
+        return "*.obj;*.off;*.ply;*.stl";
+    }
+}
+
+class FileRow final : public Block, public juce::FileDragAndDropTarget
+{
+public:
+    FileRow (juce::String l, SettingSheet::Kind k, Slot s, const EditorContext& c, const juce::String& about) : label (std::move (l)), kind (k), slot (std::move (s)), context (c)
+    {
+        field.setTooltip (about);
+        field.onApply = [this] (const juce::String& text)
+        { slot.set (text.trim().isEmpty() ? std::nullopt : std::optional<Json> (text.trim().toStdString()), false); };
+        browse.onClick = [this]
+        { openChooser(); };
+        addAndMakeVisible (field);
+        addAndMakeVisible (browse);
+    }
+
+    int heightFor (int width) override
+    {
+        return 20 + 28 + std::max (static_cast<int> (std::ceil (layout (width).getHeight())) + 6, picture.isValid() ? 64 : 0) + 6;
+    }
+
+    void refresh (const graph::Node*) override
+    {
+        const auto now = slot.get();
+        const auto written = now.is_string() ? now.get<std::string>() : std::string();
+        field.show (written);
+        // Only anew if it is another file, or one that has been written since: each edit of the graph comes by here.
+        std::error_code problem;
+        const auto path = resolved (written, context.folder());
+        const auto as_of = std::make_pair (path, std::filesystem::last_write_time (path, problem));
+        if (as_of == read_as_of && ! words.text.empty()) return;
+        read_as_of = as_of;
+        words = wordsOn (written, kind, context.folder(), context.assets);
+        picture = words.picture ? thumbnail (*words.picture, 56) : juce::Image();
+        repaint();
+    }
+
+    bool isInterestedInFileDrag (const juce::StringArray& files) override { return files.size() == 1; }
+    void fileDragEnter (const juce::StringArray&, int, int) override { hover (true); }
+    void fileDragExit (const juce::StringArray&) override { hover (false); }
+    void filesDropped (const juce::StringArray& files, int, int) override
+    {
+        hover (false);
+        take (files[0]);
+    }
+
+    void paint (juce::Graphics& g) override
+    {
+        const auto& look = lookOf (*this);
+        auto area = getLocalBounds();
+        g.setFont (look.font (12.0f, field.getText().isNotEmpty()));
+        g.setColour (field.getText().isEmpty() ? look.theme().dim : look.theme().text);
+        g.drawText (label, area.removeFromTop (20), juce::Justification::centredLeft, true);
+        area.removeFromTop (30);
+        if (picture.isValid())
+        {
+            g.drawImageAt (picture, 0, area.getY() + 2);
+            g.setColour (look.theme().hairline);
+            g.drawRect (0, area.getY() + 2, picture.getWidth(), picture.getHeight());
+        }
+        layout (getWidth()).draw (g, area.withTrimmedLeft (picture.isValid() ? 64 : 0).toFloat());
+        if (! over) return;
+        g.setColour (look.theme().accent);
+        g.drawRoundedRectangle (getLocalBounds().toFloat().reduced (0.5f), 4.0f, 1.5f);
+    }
+
+    void resized() override
+    {
+        auto line = getLocalBounds().withTrimmedTop (20).removeFromTop (28).reduced (0, 2);
+        browse.setBounds (line.removeFromRight (76));
+        field.setBounds (line.withTrimmedRight (4));
+    }
+
+private:
+    juce::TextLayout layout (int width) const
+    {
+        const auto& look = lookOf (*this);
+        juce::AttributedString s;
+        s.append (juce::String::fromUTF8 (words.text.c_str()), look.font (11.0f), words.is_wrong ? look.theme().warning : look.theme().dim);
+        juce::TextLayout l;
+        l.createLayout (s, static_cast<float> (width - (picture.isValid() ? 64 : 0)));
+        return l;
+    }
+
+    void hover (bool now)
+    {
+        over = now;
+        repaint();
+    }
+
+    void take (const juce::String& file) { slot.set (Json (pathFrom (file.toStdString(), context.folder())), false); }
+
+    void openChooser()
+    {
+        const auto folder = context.folder();
+        chooser = std::make_unique<juce::FileChooser> ("Choose a file", folder.empty() ? juce::File() : juce::File::getCurrentWorkingDirectory().getChildFile (folder), endingsOf (kind));
+        chooser->launchAsync (juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [safe = juce::Component::SafePointer (this)] (const juce::FileChooser& c)
+                              {
+            if (safe != nullptr && c.getResult() != juce::File()) safe->take (c.getResult().getFullPathName()); });
+    }
+
+    juce::String label;
+    SettingSheet::Kind kind;
+    Slot slot;
+    EditorContext context;
+    TextField field;
+    ToolButton browse { juce::String::fromUTF8 ("Browse\xe2\x80\xa6"), ToolButton::Kind::framed, "Choose a file; one can be dropped here, too" };
+    std::unique_ptr<juce::FileChooser> chooser;
+    FileWords words;
+    std::pair<std::string, std::filesystem::file_time_type> read_as_of;
+    juce::Image picture;
+    bool over = false;
+};
+}   // namespace
+
+std::unique_ptr<Block> fileRow (const juce::String& label, SettingSheet::Kind kind, Slot slot, const EditorContext& context, const juce::String& about) { return std::make_unique<FileRow> (label, kind, std::move (slot), context, about); }
+
+}   // namespace tactus::host

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "header.hpp"
+#include "tool_button.hpp"
+
+#include <host/app/look/glyph.hpp>
+
+namespace tactus::host
+{
+
+namespace
+{
+class Header final : public Block
+{
+public:
+    Header (const Inspected& at, const graph::Node& node, bool help_shown, std::function<void()> toggleHelp) : type (node.type)
+    {
+        auto& document = at.document;
+        name.setFont (lookOf (*this).font (15.0f, true));
+        name.setTooltip ("The name of the node: letters, digits, _");
+        name.onApply = [&document, patch = at.patch, before = node.name, this] (const juce::String& to)
+        {
+            if (! document.perform (graph::RenameNode { patch, before, to.trim().toStdString() })) name.show (before);
+        };
+        bypass.onClick = [&document, patch = at.patch, n = node.name, this]
+        { document.perform (graph::SetNodeKey { patch, n, "bypass", bypass.getToggleState() ? std::nullopt : std::optional<Json> (true) }); };
+        help.setToggleState (help_shown, juce::dontSendNotification);
+        help.onClick = std::move (toggleHelp);
+        addAndMakeVisible (name);
+        addAndMakeVisible (bypass);
+        addAndMakeVisible (help);
+        bypass.setColour ([] (const Theme& t)
+                          { return t.warning; });
+        Header::refresh (&node);
+    }
+
+    int heightFor (int) override { return 60; }
+
+    void refresh (const graph::Node* node) override
+    {
+        if (node == nullptr) return;
+        name.show (node->name);
+        bypass.setToggleState (node->bypass, juce::dontSendNotification);
+    }
+
+    void paint (juce::Graphics& g) override
+    {
+        const auto& look = lookOf (*this);
+        const auto cut = type.find_first_of (".:");
+        auto glyph = glyphOf (type.starts_with ("file:") ? "graph" : type.substr (0, cut));
+        glyph.applyTransform (juce::AffineTransform::translation (2.0f, 9.0f));
+        g.setColour (look.theme().dim);
+        g.strokePath (glyph, juce::PathStrokeType (1.5f, juce::PathStrokeType::curved, juce::PathStrokeType::rounded));
+        g.setFont (look.font (12.0f));
+        g.drawText (type, getLocalBounds().removeFromTop (56).removeFromBottom (22), juce::Justification::centredLeft, true);
+    }
+
+    void resized() override
+    {
+        auto top = getLocalBounds().removeFromTop (32).reduced (0, 2);
+        help.setBounds (top.removeFromRight (28));
+        top.removeFromRight (4);
+        bypass.setBounds (top.removeFromRight (60));
+        top.removeFromRight (4);
+        name.setBounds (top.withTrimmedLeft (24));
+    }
+
+private:
+    std::string type;
+    TextField name;
+    ToolButton bypass { "bypass", ToolButton::Kind::toggle, "It lets through what comes in, and does nothing" }, help { "?", ToolButton::Kind::toggle, "All its ports, in words" };
+};
+}   // namespace
+
+std::unique_ptr<Block> nodeHeader (const Inspected& at, const graph::Node& node, bool help, std::function<void()> toggleHelp) { return std::make_unique<Header> (at, node, help, std::move (toggleHelp)); }
+
+}   // namespace tactus::host

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "param_value.hpp"
+#include "quantity_text.hpp"
+
+#include <framework/graph/endpoints.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr int deepest = 32;
+
+Json entryIn (const Json& all, const std::optional<std::size_t>& entry)
+{
+    if (! entry) return all;
+    return all.is_array() && *entry < all.size() ? Json (all[*entry]) : Json();
+}
+
+/// What stands inside a subgraph for a param that it shows; null if nothing was written there.
+Json inside (const graph::Graph& g, const graph::Node& node, const std::string& param, int depth)
+{
+    const graph::Graph* owner = &g;
+    const graph::Patch* patch = nullptr;
+    if (node.type.starts_with ("graph:")) patch = g.find (node.type.substr (6));
+    if (node.type.starts_with ("file:"))
+        if (const auto file = g.files.find (node.type.substr (5)); file != g.files.end())
+        {
+            owner = file->second.get();
+            patch = &owner->root;
+        }
+    if (patch == nullptr || depth > deepest) return {};
+    const auto shown = std::ranges::find (patch->expose.params, param, &std::pair<std::string, graph::Endpoint>::first);
+    if (shown == patch->expose.params.end()) return {};
+    const auto& e = shown->second;
+    const auto* inner = e.node.find ('/') == std::string::npos ? patch->find (graph::firstNameOf (e.node)) : nullptr;
+    if (inner == nullptr) return {};
+    const auto own = inner->params.find (e.port);
+    if (own == inner->params.end()) return inside (*owner, *inner, e.port, depth + 1);
+    const auto part = e.component >= 0 ? e.component : e.index;
+    return entryIn (*own, part >= 0 ? std::optional (static_cast<std::size_t> (part)) : std::nullopt);
+}
+}   // namespace
+
+std::optional<std::size_t> entryOf (const std::string& id)
+{
+    const auto bracket = id.find ('[');
+    return bracket == std::string::npos ? std::nullopt : std::optional (static_cast<std::size_t> (std::atoi (id.c_str() + bracket + 1)));
+}
+
+std::string baseOf (const std::string& id) { return id.substr (0, id.find ('[')); }
+
+Json writtenValue (const graph::Node& node, const FacePort& port)
+{
+    const auto own = node.params.find (baseOf (port.id));
+    return own == node.params.end() ? Json() : entryIn (*own, entryOf (port.id));
+}
+
+Json initialValue (const graph::Graph& g, const graph::Node& node, const FacePort& port)
+{
+    if (auto value = inside (g, node, port.id, 0); ! value.is_null()) return value;
+    if (port.sheet == nullptr) return 0.0;
+    if (port.isChoice()) return std::string (port.sheet->choices[static_cast<std::size_t> (port.sheet->initial[0])]);
+    if (port.width == 3) return Json::array ({ port.sheet->initial[0], port.sheet->initial[1], port.sheet->initial[2] });
+    return port.sheet->initial[0];
+}
+
+std::optional<Json> withValue (const graph::Node& node, const FacePort& port, const std::optional<Json>& value)
+{
+    const auto entry = entryOf (port.id);
+    if (! entry) return value;
+    auto all = Json::array();
+    if (const auto own = node.params.find (baseOf (port.id)); own != node.params.end() && own->is_array()) all = *own;
+    while (all.size() <= *entry)
+        all.push_back (port.sheet->initial[0]);
+    all[*entry] = value ? *value : Json (port.sheet->initial[0]);
+    const bool plain = std::ranges::all_of (all, [&] (const Json& v)
+                                            { return v == Json (port.sheet->initial[0]); });
+    return plain ? std::nullopt : std::optional (std::move (all));
+}
+
+std::pair<Json, Json> sweepOf (const Json& now, const PortSheet& sheet)
+{
+    const auto read = readQuantity (now, sheet);
+    const auto* q = std::get_if<QuantityText> (&read);
+    const auto value = q == nullptr ? QuantityText { sheet.initial[0], {}, 1.0 } : *q;
+    const auto& usual = sheet.limits.usual;
+    const double low = std::isfinite (usual.min) ? usual.min : std::min (0.0, value.si());
+    const double high = std::isfinite (usual.max) ? usual.max : value.si() > low ? low + 2.0 * (value.si() - low)
+                                                                                 : low + 1.0;
+    return { value.moved (low).toJson(), value.moved (high).toJson() };
+}
+
+}   // namespace tactus::host

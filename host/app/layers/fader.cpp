@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fader.hpp"
+#include "taper.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr double fine = 0.1;
+
+/// As many digits as a hand can mean.
+double rounded (double gain) { return gain < 0.1 ? std::round (gain * 1e4) * 1e-4 : std::round (gain * 1e3) * 1e-3; }
+}   // namespace
+
+Fader::Fader() { setMouseCursor (juce::MouseCursor::UpDownResizeCursor); }
+
+void Fader::show (double g)
+{
+    if (g == gain) return;
+    gain = g;
+    repaint();
+}
+
+void Fader::moveTo (double position)
+{
+    const double to = rounded (Taper::gain (position));
+    if (to == gain) return;
+    gain = to;
+    repaint();
+    const bool goes_on = std::exchange (dragged, true);
+    if (onChange) onChange (to, goes_on);
+}
+
+void Fader::mouseDown (const juce::MouseEvent& e)
+{
+    dragged = false;
+    grabbed = Taper::position (gain);
+    if (e.mods.isAltDown() && onChange) onChange (std::nullopt, false);
+}
+
+void Fader::mouseDrag (const juce::MouseEvent& e)
+{
+    if (e.mods.isAltDown()) return;
+    const double way = -static_cast<double> (e.getDistanceFromDragStartY()) / static_cast<double> (std::max (1.0f, slot().getHeight()));
+    moveTo (grabbed + way * (e.mods.isShiftDown() ? fine : 1.0));
+}
+
+void Fader::mouseUp (const juce::MouseEvent&) { dragged = false; }
+
+void Fader::mouseDoubleClick (const juce::MouseEvent& e)
+{
+    if (! e.mods.isAltDown() && onWantsText) onWantsText();
+}
+
+void Fader::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel)
+{
+    dragged = false;
+    moveTo (Taper::position (gain) + static_cast<double> (wheel.deltaY) * (e.mods.isShiftDown() ? 0.02 : 0.1));
+    dragged = false;
+}
+
+void Fader::paint (juce::Graphics& g)
+{
+    const auto& theme = themeOf (*this);
+    const auto area = slot();
+    const auto yOf = [&] (double position)
+    { return area.getBottom() - area.getHeight() * static_cast<float> (position); };
+
+    const auto groove = area.withSizeKeepingCentre (4.0f, area.getHeight());
+    g.setColour (theme.hairline);
+    g.fillRoundedRectangle (groove, 2.0f);
+    const float y = yOf (Taper::position (gain)), unity = yOf (Taper::unity);
+    g.setColour (theme.accent.withAlpha (0.6f));
+    g.fillRoundedRectangle (groove.withTop (y), 2.0f);
+    g.setColour (theme.dim);
+    g.fillRect (area.getX() + 2.0f, unity - 0.5f, 5.0f, 1.0f);
+    g.fillRect (area.getRight() - 7.0f, unity - 0.5f, 5.0f, 1.0f);
+
+    const auto knob = juce::Rectangle<float> (area.getWidth() - 4.0f, 12.0f).withCentre ({ area.getCentreX(), y });
+    const bool beyond = gain > Taper::most || gain < 0.0;
+    g.setColour (theme.raised.interpolatedWith (theme.text, isMouseOverOrDragging() ? 0.35f : 0.2f));
+    g.fillRoundedRectangle (knob, 3.0f);
+    g.setColour (beyond ? theme.warning : theme.text);
+    g.fillRect (knob.withSizeKeepingCentre (knob.getWidth() - 6.0f, 1.5f));
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <host/app/look/look.hpp>
+
+#include <functional>
+#include <optional>
+
+namespace tactus::host
+{
+
+/// A gain as a knob on a slot. Shift moves it finely, alt-click brings it back to 1, the wheel nudges it.
+class Fader final : public juce::Component, public juce::SettableTooltipClient
+{
+public:
+    Fader();
+
+    void show (double gain);
+
+    /// Nothing for the default; whether it goes on with the one before, in one drag.
+    std::function<void (std::optional<double> gain, bool goes_on)> onChange;
+    std::function<void()> onWantsText;   ///< double click
+
+    void paint (juce::Graphics&) override;
+    void mouseDown (const juce::MouseEvent&) override;
+    void mouseDrag (const juce::MouseEvent&) override;
+    void mouseUp (const juce::MouseEvent&) override;
+    void mouseDoubleClick (const juce::MouseEvent&) override;
+    void mouseWheelMove (const juce::MouseEvent&, const juce::MouseWheelDetails&) override;
+    void mouseEnter (const juce::MouseEvent&) override { repaint(); }
+    void mouseExit (const juce::MouseEvent&) override { repaint(); }
+
+private:
+    juce::Rectangle<float> slot() const { return getLocalBounds().toFloat().reduced (0.0f, 8.0f); }
+    void moveTo (double position);
+
+    double gain = 1.0, grabbed = 0.0;   // grabbed: a position
+    bool dragged = false;
+};
+
+}   // namespace tactus::host

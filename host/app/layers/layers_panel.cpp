@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "layers_panel.hpp"
+
+#include <algorithm>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr int spectrum_every = 3;   // refreshes
+constexpr auto what_it_is = "A layer mixer lays textures and vibrations over one another, each with its gain, mute and solo, and lets loud "
+                            "ones duck the others. Its layers will stand here as strips with faders and meters in newton.";
+}   // namespace
+
+LayersPanel::LayersPanel (Document& d, Performance& p, const Catalogue& c) : document (d), catalogue (c), traces (p.traces())
+{
+    setTitle ("Layers");
+    more.onClick = [this]
+    { openMenu(); };
+    first.onClick = [this]
+    { addDeskNow(); };
+    scroll.setViewedComponent (&row, false);
+    scroll.setScrollBarsShown (false, true);
+    scroll.setScrollBarThickness (8);
+    addAndMakeVisible (scroll);
+    addAndMakeVisible (more);
+    addAndMakeVisible (first);
+    document.add (*this);
+    rebuild();
+}
+
+LayersPanel::~LayersPanel() { document.remove (*this); }
+
+void LayersPanel::rebuild()
+{
+    const auto& graph = document.graph();
+    auto found = desksOf (graph);
+    const auto same = std::ranges::find (found, chosen.id, &DeskPlace::id);
+    const auto next = same != found.end() ? *same : found.empty() ? DeskPlace {}
+                                                                  : found.front();
+    const auto* node = found.empty() ? nullptr : findDesk (graph, next);
+    const auto layers = node == nullptr ? std::size_t {} : static_cast<std::size_t> (layersOf (*node, catalogue));
+    const bool other = next != chosen || layers != strips.size();
+    if (found != all || other)
+    {
+        all = std::move (found);
+        chosen = next;
+        names.clear();
+        for (std::size_t i = 0; i < all.size(); ++i)
+        {
+            auto& b = *names.emplace_back (std::make_unique<ToolButton> (juce::String (all[i].path), ToolButton::Kind::tab));
+            b.setToggleState (all[i].id == chosen.id, juce::dontSendNotification);
+            b.onClick = [this, i]
+            { choose (i); };
+            addAndMakeVisible (b);
+        }
+    }
+    if (other)
+    {
+        strips.clear();
+        total.reset();
+        if (node != nullptr)
+        {
+            const auto hint = [this] (const juce::String& text)
+            {
+                if (onHint) onHint (text);
+            };
+            const auto context = std::make_shared<const DeskContext> (DeskContext { document, catalogue, chosen, hint, [this] (const std::string& patch, graph::Id id)
+                                                                                    {
+                    if (onSelect) onSelect (patch, id); },
+                                                                                    [this] (int layer, int x, bool let_go)
+                                                                                    { drag (layer, x, let_go); } });
+            for (std::size_t i = 0; i < layers; ++i)
+                row.addAndMakeVisible (*strips.emplace_back (std::make_unique<LayerStrip> (context, static_cast<int> (i))));
+            addAndMakeVisible (*(total = std::make_unique<MixStrip> (context)));
+        }
+        wish();
+    }
+    for (auto& s : strips)
+        s->show();
+    if (total) total->show();
+
+    first.setVisible (all.empty());
+    more.setVisible (! all.empty());
+    scroll.setVisible (! all.empty());
+    outlook = {};
+    if (all.empty())
+    {
+        const auto added = addDesk (graph, catalogue);
+        const auto* why = std::get_if<std::string> (&added);
+        outlook = why != nullptr ? juce::String (*why) : juce::String();
+        first.setVisible (why == nullptr);
+        if (why == nullptr) outlook = std::get<AddedDesk> (added).says;
+    }
+    resized();
+    repaint();
+}
+
+void LayersPanel::wish()
+{
+    std::vector<std::string> ports;
+    if (isVisible() && ! all.empty())
+    {
+        ports = { chosen.path + ".out", chosen.path + ".reduction" };
+        for (std::size_t i = 0; i < strips.size(); ++i)
+            ports.push_back (chosen.path + ".in[" + std::to_string (i) + ']');
+    }
+    traces.want (std::move (ports));
+}
+
+void LayersPanel::visibilityChanged() { wish(); }
+
+void LayersPanel::refresh()
+{
+    const double now = juce::Time::getMillisecondCounterHiRes();
+    const double dt = std::clamp ((now - refreshed_ms) * 1e-3, 1e-3, 1.0);
+    if (! isVisible()) return;
+    refreshed_ms = now;
+    const bool with_spectrum = ++refreshes % spectrum_every == 0;
+    for (auto& s : strips)
+        s->refresh (traces, dt, with_spectrum);
+    if (total) total->refresh (traces, dt);
+}
+
+void LayersPanel::choose (std::size_t desk)
+{
+    if (desk >= all.size()) return;
+    // Later: the button that asks for it is made anew.
+    juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), id = all[desk].id]
+                                     {
+        if (safe == nullptr) return;
+        const auto at = std::ranges::find (safe->all, id, &DeskPlace::id);
+        if (at == safe->all.end()) return;
+        safe->chosen = { id, {}, {}, {} };
+        safe->rebuild(); });
+}
+
+void LayersPanel::add (const std::string& type)
+{
+    if (all.empty()) return;
+    auto added = addLayer (document.graph(), chosen, catalogue, type);
+    if (const auto* why = std::get_if<std::string> (&added))
+    {
+        if (onHint) onHint (juce::String (*why));
+        return;
+    }
+    auto& [command, misses] = std::get<AddedLayer> (added);
+    if (! document.perform (std::move (command))) return;
+    if (onHint && ! misses.empty()) onHint (juce::String (misses));
+    scroll.setViewPosition (row.getWidth(), 0);
+}
+
+void LayersPanel::addDeskNow()
+{
+    auto added = addDesk (document.graph(), catalogue);
+    if (auto* desk = std::get_if<AddedDesk> (&added))
+        juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), command = std::move (desk->command)]
+                                         {
+            if (safe != nullptr) safe->document.perform (command); });
+}
+
+void LayersPanel::openMenu()
+{
+    juce::PopupMenu menu;
+    std::vector<std::string> types { "" };
+    menu.addItem (1, "Empty layer");
+    std::string family;
+    for (const auto* t : layerTypes (catalogue))
+    {
+        const std::string id (t->info.id), of = id.substr (0, id.find ('.'));
+        if (of != family) menu.addSectionHeader (of == "texture" ? "Textures" : "Vibrations");
+        family = of;
+        types.push_back (id);
+        menu.addItem (static_cast<int> (types.size()), std::string (t->info.name));
+    }
+    menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (more), [safe = juce::Component::SafePointer (this), types] (int chosen_item)
+                        {
+        if (safe != nullptr && chosen_item > 0) safe->add (types[static_cast<std::size_t> (chosen_item - 1)]); });
+}
+
+void LayersPanel::drag (int layer, int x, bool let_go)
+{
+    const int to = std::clamp ((x + LayerStrip::width / 2) / LayerStrip::width, 0, static_cast<int> (strips.size()));
+    drop_at = let_go ? -1 : to;
+    repaint();
+    const int place = to > layer ? to - 1 : to;
+    if (! let_go || place == layer) return;
+    juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), layer, place]
+                                     {
+        if (safe != nullptr && findDesk (safe->document.graph(), safe->chosen) != nullptr) safe->document.perform (moveLayer (safe->document.graph(), safe->chosen, safe->catalogue, layer, place)); });
+}
+
+void LayersPanel::paint (juce::Graphics& g)
+{
+    const auto& look = lookOf (*this);
+    const auto& theme = look.theme();
+    g.fillAll (theme.panel);
+    if (all.empty())
+    {
+        auto area = getLocalBounds().reduced (24, 16);
+        juce::AttributedString words;
+        words.setWordWrap (juce::AttributedString::byWord);
+        words.append ("No layer mixer in this graph\n", look.font (14.0f, true), theme.text);
+        words.append (what_it_is, look.font (13.0f), theme.dim);
+        if (outlook.isNotEmpty()) words.append ("\n\n" + outlook, look.font (13.0f), theme.text);
+        words.draw (g, area.withWidth (std::min (area.getWidth(), 560)).toFloat());
+        return;
+    }
+    g.setColour (theme.hairline);
+    g.drawVerticalLine (head_width - 1, 0.0f, static_cast<float> (getHeight()));
+    g.setFont (look.font (12.0f));
+    g.setColour (theme.dim);
+    g.drawText (all.size() > 1 ? "Mixers" : "Mixer", juce::Rectangle<int> (12, 4, head_width - 24, 24), juce::Justification::centredLeft, false);
+}
+
+void LayersPanel::paintOverChildren (juce::Graphics& g)
+{
+    if (drop_at < 0) return;
+    g.setColour (themeOf (*this).accent);
+    g.fillRect (head_width + drop_at * LayerStrip::width - scroll.getViewPositionX() - 1, 0, 2, getHeight());
+}
+
+void LayersPanel::resized()
+{
+    auto area = getLocalBounds();
+    if (all.empty())
+    {
+        first.setBounds (area.reduced (24, 16).withTop (std::min (148, std::max (0, area.getHeight() - 40))).withSize (first.bestWidth() + 8, 28));
+        return;
+    }
+    auto head = area.removeFromLeft (head_width).reduced (12, 4);
+    head.removeFromTop (24);
+    more.setBounds (head.removeFromBottom (28));
+    for (auto& n : names)
+        n->setBounds (head.removeFromTop (26).withTrimmedBottom (2));
+    if (total) total->setBounds (area.removeFromRight (MixStrip::width));
+    scroll.setBounds (area);
+    row.setSize (static_cast<int> (strips.size()) * LayerStrip::width, scroll.getMaximumVisibleHeight());
+    for (std::size_t i = 0; i < strips.size(); ++i)
+        strips[i]->setBounds (static_cast<int> (i) * LayerStrip::width, 0, LayerStrip::width, row.getHeight());
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace tactus::host
+{
+
+/// A level as it is read off: how strong it was of late, and the highest peak, held for a while.
+class Meter
+{
+public:
+    static constexpr double hold_s = 1.5, fall_per_s = 0.1;   ///< of the peak once it is held no longer: a tenth a second
+
+    /// The latest samples, of which the last `fresh` have not been shown before, and the time since the last call.
+    void take (std::span<const double> latest, std::size_t fresh, double dt_s) noexcept
+    {
+        double sum = 0.0, highest = 0.0;
+        std::size_t n = 0;
+        for (std::size_t i = 0; i < latest.size(); ++i)
+        {
+            const double v = latest[i];
+            if (! std::isfinite (v)) continue;
+            sum += v * v;
+            ++n;
+            if (i + fresh >= latest.size()) highest = std::max (highest, std::abs (v));
+        }
+        level = n > 0 ? std::sqrt (sum / static_cast<double> (n)) : 0.0;
+        held_for += dt_s;
+        if (held_for > hold_s) held = std::max (level, held * std::pow (fall_per_s, dt_s));
+        if (highest >= held)
+        {
+            held = highest;
+            held_for = 0.0;
+        }
+    }
+
+    double rms() const noexcept { return level; }
+    double peak() const noexcept { return held; }
+
+private:
+    double level = 0.0, held = 0.0, held_for = 0.0;
+};
+
+/// Where a level stands on a scale of four decades, from a thousandth to ten: 0 to 1.
+inline double meterPosition (double level) noexcept { return level > 0.0 ? std::clamp ((std::log10 (level) + 3.0) / 4.0, 0.0, 1.0) : 0.0; }
+
+}   // namespace tactus::host

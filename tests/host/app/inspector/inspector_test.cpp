@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: MIT
+#include "rig.hpp"
+
+#include <host/app/inspector/figure_block.hpp>
+#include <host/app/inspector/held.hpp>
+#include <host/app/inspector/table_row.hpp>
+
+#include <framework/graph/text.hpp>
+#include <framework/plan/compile.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace tactus;
+using namespace tactus::host;
+using test::InspectorRig;
+
+namespace
+{
+/// A press of a button in what is shown, by its words.
+bool press (const InspectorRig& rig, const std::string& words)
+{
+    for (auto* b : rig.all<ToolButton>())
+        if (b->getButtonText().toStdString() == words && b->onClick)
+        {
+            b->onClick();
+            return true;
+        }
+    return false;
+}
+
+void write (TextField* field, const std::string& text)
+{
+    REQUIRE (field != nullptr);
+    field->setText (text, false);
+    field->apply();
+}
+}   // namespace
+
+TEST_CASE ("every node of every graph that is delivered can be inspected, and nothing reaches beyond the panel", "[inspector]")
+{
+    for (const auto& entry : std::filesystem::directory_iterator (TACTUS_SOURCE_DIR "/graphs"))
+    {
+        if (entry.path().extension() != ".json") continue;
+        InspectorRig rig (entry.path().filename().string());
+        CHECK (rig.fits());
+        for (const auto& n : rig.document->graph().root.nodes)
+        {
+            INFO (entry.path().filename() << ' ' << n.name);
+            rig.select (n.name);
+            CHECK (rig.inspector->shown().size() > 2);
+            CHECK (rig.fits());
+            rig.inspector->setHelp (true);
+            CHECK (rig.fits());
+            rig.inspector->setHelp (false);
+        }
+        for (const auto& [name, patch] : rig.document->graph().graphs)
+            for (const auto& n : patch.nodes)
+            {
+                rig.inspector->inspect (name, { n.id });
+                CHECK (rig.fits());
+            }
+        CHECK_FALSE (rig.document->isChanged());   // to look at it changes nothing
+    }
+}
+
+TEST_CASE ("every type of the catalogue can be inspected as it comes", "[inspector]")
+{
+    graph::Graph g;
+    int i = 0;
+    for (const auto& t : catalogue())
+    {
+        graph::Node n;
+        n.name = "n" + std::to_string (i++);
+        n.type = std::string (t.info.id);
+        g.root.nodes.push_back (n);
+    }
+    InspectorRig rig (std::move (g));
+    for (const auto& n : rig.document->graph().root.nodes)
+    {
+        INFO (n.type);
+        rig.select (n.name);
+        CHECK (rig.fits());
+        CHECK (rig.inspector->createComponentSnapshot (rig.inspector->getLocalBounds()).isValid());
+    }
+}
+
+TEST_CASE ("a value is typed with its unit, reset, and refused with its reason outside the hard range", "[inspector]")
+{
+    InspectorRig rig ("dry_wood.json");
+    std::string name;
+    for (const auto& n : rig.document->graph().root.nodes)
+        if (n.type == "friction.elasto_plastic") name = n.name;
+    rig.select (name);
+    auto* field = rig.in<NumberField> ("d_max");
+    REQUIRE (field != nullptr);
+    field->type ("0.25 mm");
+    const auto written = rig.node (name).params["d_max"];
+    const auto held = heldBy (rig.document->graph(), name + ".d_max");
+    if (! held) CHECK (written == "0.25 mm");
+    field->type ("-3");
+    CHECK (rig.hints.size() == 1);
+    field->type ("3 s");
+    CHECK (rig.hints.size() == 2);
+    CHECK (rig.node (name).params["d_max"] == written);
+}
+
+TEST_CASE ("a field opens on return or a digit, takes what is typed on return and gives up on Esc", "[inspector]")
+{
+    const juce::ScopedJuceInitialiser_GUI juce_runs;
+    Look look;
+    juce::LookAndFeel::setDefaultLookAndFeel (&look);
+    {
+        const auto sheet = sheetOfNumber ("x", unit::metre, "", { .hard = { 0, 1 }, .usual = { 0, 0.1 } }, 0.01);
+        NumberField field (sheet);
+        field.setBounds (0, 0, 120, 24);
+        field.show (Json ("5 mm"));
+        std::vector<std::string> said;
+        field.onChange = [&] (std::optional<Json> v, bool)
+        { said.push_back (v ? v->dump() : "default"); };
+
+        CHECK (field.keyPressed (juce::KeyPress ('7', {}, '7')));
+        REQUIRE (field.isEditing());
+        auto* editor = dynamic_cast<juce::TextEditor*> (field.getChildComponent (0));
+        REQUIRE (editor != nullptr);
+        CHECK (editor->getText() == "7");
+        editor->onReturnKey();
+        CHECK_FALSE (field.isEditing());
+        CHECK (said == std::vector<std::string> { "\"7 mm\"" });   // in the unit that is shown
+
+        field.keyPressed (juce::KeyPress (juce::KeyPress::returnKey));
+        REQUIRE (field.isEditing());
+        editor = dynamic_cast<juce::TextEditor*> (field.getChildComponent (field.getNumChildComponents() - 1));
+        editor->setText ("9 mm");
+        editor->onEscapeKey();
+        CHECK_FALSE (field.isEditing());
+        CHECK (said.size() == 1);
+
+        CHECK (field.keyPressed (juce::KeyPress (juce::KeyPress::upKey)));
+        CHECK (said.size() == 2);
+        CHECK (field.shown().si() > 7e-3);
+        CHECK_FALSE (field.keyPressed (juce::KeyPress (juce::KeyPress::tabKey)));
+    }
+    juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
+}
+
+TEST_CASE ("a parameter that a control sets moves it; released, it keeps its value", "[inspector]")
+{
+    InspectorRig rig ("layered_cloth.json");
+    rig.select ("drag");
+    const auto held = heldBy (rig.document->graph(), "drag.d_max");
+    REQUIRE (held);
+    auto* field = rig.in<NumberField> ("d_max");
+    REQUIRE (field != nullptr);
+    CHECK (field->shown().si() == Approx (0.8e-3));
+    field->type ("1.15 mm");
+    CHECK (rig.document->graph().controls[1].value == Approx (0.75));
+    CHECK (rig.node ("drag").params["d_max"] == "0.8 mm");
+    field->type ("9 mm");
+    CHECK (rig.hints.size() == 1);
+    CHECK (rig.document->graph().controls[1].value == Approx (0.75));
+    CHECK (field->shown().si() == Approx (1.15e-3));
+
+    const auto face = faceOf (rig.document->graph(), rig.document->graph().root, rig.node ("drag"), catalogue());
+    const auto before = rig.document->history().names().size();
+    release (*rig.document, "drag", *face.find (Role::param, "d_max"));
+    CHECK_FALSE (heldBy (rig.document->graph(), "drag.d_max"));
+    CHECK (rig.node ("drag").params["d_max"] == "1.15 mm");
+    CHECK (rig.document->history().names().size() == before + 1);
+}
+
+TEST_CASE ("a parameter is given to a control with its usual range, or to a new one that stands where it is", "[inspector]")
+{
+    InspectorRig rig ("layered_cloth.json");
+    const auto port = [&] (const char* id)
+    { return *faceOf (rig.document->graph(), rig.document->graph().root, rig.node ("drag"), catalogue()).find (Role::param, id); };
+    controlBy (*rig.document, "drag", port ("mu"), "drape");
+    REQUIRE (rig.document->graph().controls[1].to.size() == 2);
+    CHECK (rig.document->graph().controls[1].to[1].path == "drag.mu");
+    controlBy (*rig.document, "drag", port ("break_away"), "");
+    REQUIRE (rig.document->graph().controls.size() == 3);
+    const auto& made = rig.document->graph().controls[2];
+    CHECK (made.id == "break_away");
+    CHECK (made.name == "Break away");
+    const auto held = heldBy (rig.document->graph(), "drag.break_away");
+    REQUIRE (held);
+    CHECK (held->value == Approx (0.7));
+    CHECK (compile (rig.document->graph(), catalogue()).plan != nullptr);
+}
+
+TEST_CASE ("what a subgraph shows is set from outside, and starts from what its inside says", "[inspector]")
+{
+    auto g = loadGraph (TACTUS_SOURCE_DIR "/graphs/layered_cloth.json").graph;
+    g.controls.clear();
+    for (auto& n : g.graphs.front().second.nodes)
+        if (n.name == "warp") n.params["amplitude"] = "70 mN";
+    InspectorRig rig (std::move (g));
+    rig.select ("threads");
+    auto* warp = rig.in<NumberField> ("warp");
+    REQUIRE (warp != nullptr);
+    CHECK (warp->shown().toText() == "40 mN");
+    warp->type ("55 mN");
+    CHECK (rig.node ("threads").params["warp"] == "55 mN");
+    CHECK (compile (rig.document->graph(), catalogue()).plan != nullptr);
+
+    warp->onChange (std::nullopt, false);
+    CHECK_FALSE (rig.node ("threads").params.contains ("warp"));
+    CHECK (warp->shown().toText() == "70 mN");   // what the inside says
+
+    rig.in<NumberField> ("count")->type ("3");
+    CHECK (rig.node ("threads").extra["count"] == 3);
+}
+
+TEST_CASE ("what is inside a subgraph is set for one node of it alone", "[inspector]")
+{
+    InspectorRig rig ("layered_cloth.json");
+    rig.select ("threads");
+    write (rig.in<TextField> ("another"), "warp.spatial_frequency = 650 1/m");
+    CHECK (rig.node ("threads").overrides["warp.spatial_frequency"] == "650 1/m");
+    CHECK (compile (rig.document->graph(), catalogue()).plan != nullptr);
+    write (rig.in<TextField> ("warp.spatial_frequency"), "600");
+    CHECK (rig.node ("threads").overrides["warp.spatial_frequency"] == 600);
+    write (rig.in<TextField> ("warp.spatial_frequency"), "");
+    CHECK (rig.node ("threads").overrides.empty());
+    write (rig.in<TextField> ("another"), "nonsense");
+    CHECK (rig.hints.size() == 1);
+}
+
+TEST_CASE ("a mode is added, changed and removed, and its picture follows", "[inspector]")
+{
+    InspectorRig rig ("bronze_bell.json");
+    rig.select ("warble");
+    CHECK (rig.all<TableRow>().size() == 2);
+    REQUIRE (press (rig, "+ mode"));
+    CHECK (rig.all<TableRow>().size() == 3);
+    CHECK (rig.node ("warble").settings["modes"][2] == rig.node ("warble").settings["modes"][1]);
+
+    std::vector<NumberField*> cells;
+    InspectorRig::collect (*rig.all<TableRow>()[2], cells);
+    REQUIRE (cells.size() == 3);
+    cells[0]->type ("400");
+    CHECK (rig.node ("warble").settings["modes"][2]["frequency"] == "400 Hz");
+    const auto figure = std::get<Figure> (rig.all<FigureBlock>().front()->figure());
+    CHECK (figure.x == std::vector<double> { 228.0, 275.0, 400.0 });
+
+    REQUIRE (press (rig, "\xc3\x97"));   // of the first
+    CHECK (rig.node ("warble").settings["modes"].size() == 2);
+    CHECK (rig.node ("warble").settings["modes"][1]["frequency"] == "400 Hz");
+    for (int i = 0; i < 3; ++i)
+        rig.document->undo();
+    CHECK_FALSE (rig.document->isChanged());
+    CHECK (rig.all<TableRow>().size() == 2);
+}
+
+TEST_CASE ("a law changes its kind and keeps about its stiffness, and is drawn with its units", "[inspector]")
+{
+    InspectorRig rig ("bronze_bell.json");
+    rig.select ("blow");
+    const auto before = std::get<Figure> (rig.all<FigureBlock>().front()->figure());
+    CHECK (before.x_unit == "m");
+    CHECK (before.y_unit == "N");
+    auto* kind = rig.in<juce::ComboBox> ("kind");
+    REQUIRE (kind != nullptr);
+    for (const int id : { 3, 4, 2 })   // exponential, table, power
+    {
+        kind = rig.in<juce::ComboBox> ("kind");
+        kind->setSelectedId (id, juce::sendNotificationSync);
+        const auto drawn = std::get<Figure> (rig.all<FigureBlock>().front()->figure());
+        REQUIRE_FALSE (drawn.x.empty());
+        // Where the first law gave 1 N, it still gives about that.
+        const double at = std::pow (1.0 / 500000.0, 1.0 / 1.5);
+        std::size_t nearest = 0;
+        for (std::size_t i = 0; i < drawn.x.size(); ++i)
+            if (std::abs (drawn.x[i] - at) < std::abs (drawn.x[nearest] - at)) nearest = i;
+        CHECK (drawn.y[nearest] == Approx (1.0).epsilon (0.15));
+        CHECK (compile (rig.document->graph(), catalogue()).plan != nullptr);
+    }
+    auto* k = rig.in<NumberField> ("k");
+    REQUIRE (k != nullptr);
+    k->type ("2000");
+    CHECK (rig.node ("blow").settings["stiffness"]["power"][0] == 2000.0);
+}
+
+TEST_CASE ("a role, a device, and the graph itself are set by text", "[inspector]")
+{
+    InspectorRig rig ("bronze_bell.json");
+    rig.select ("motor");
+    write (rig.in<TextField> ("mass"), "80 g");
+    CHECK (rig.document->graph().devices[0].second["mass"] == "80 g");
+    write (rig.in<TextField> ("hand stiffness"), "700");
+    CHECK (rig.document->graph().devices[0].second["hand"]["stiffness"] == 700);
+    rig.document->undo();
+    rig.document->undo();
+    CHECK_FALSE (rig.document->isChanged());
+
+    rig.inspector->inspect ({}, {});
+    write (rig.in<TextField> ("name"), "Gong");
+    CHECK (rig.document->graph().name == "Gong");
+    write (rig.in<TextField> ("tags"), "metal, loud ,");
+    CHECK (rig.document->graph().tags == std::vector<std::string> { "metal", "loud" });
+    rig.in<NumberField> ("rate")->type ("4000");
+    CHECK (rig.document->graph().rate_hz == 4000.0);
+    REQUIRE (press (rig, "+ control"));
+    CHECK (rig.document->graph().controls.size() == 5);
+}
+
+TEST_CASE ("a wire is re-plugged, delayed, weighted and switched off", "[inspector]")
+{
+    InspectorRig rig ("bronze_bell.json");
+    const auto wire = [&]() -> const graph::Wire&
+    { return rig.document->graph().root.wires.front(); };
+    rig.inspector->inspect ({}, { wire().id });
+    rig.in<NumberField> ("delay")->type ("2");
+    CHECK (wire().delay == 2);
+    write (rig.in<TextField> ("gain"), "0.5");
+    CHECK (wire().gain == 0.5);
+    write (rig.in<TextField> ("gain"), "");
+    CHECK (wire().gain.is_null());
+    rig.in<ToolButton> ("enabled")->onClick();
+    CHECK (wire().enabled == false);
+    rig.in<ToolButton> ("enabled")->onClick();
+    CHECK_FALSE (wire().enabled);
+    write (rig.in<TextField> ("to"), "touch.depth");
+    CHECK (graph::toText (wire().to) == "touch.depth");
+    write (rig.in<TextField> ("to"), "no port");
+    CHECK (rig.hints.size() == 1);
+    CHECK (graph::toText (wire().to) == "touch.depth");
+}
+
+TEST_CASE ("a node is renamed in place, and a name that is taken is refused", "[inspector]")
+{
+    InspectorRig rig ("bronze_bell.json");
+    rig.select ("ring");
+    write (rig.all<TextField>().front(), "hum");
+    REQUIRE (rig.document->graph().root.find ("hum") != nullptr);
+    CHECK (rig.all<TextField>().front()->getText() == "hum");
+    write (rig.all<TextField>().front(), "blow");
+    CHECK (rig.document->graph().root.find ("hum") != nullptr);
+    CHECK (rig.all<TextField>().front()->getText() == "hum");
+    REQUIRE (press (rig, "bypass"));
+    CHECK (rig.node ("hum").bypass);
+    REQUIRE (press (rig, "?"));
+    CHECK (rig.inspector->showsHelp());
+}
+
+TEST_CASE ("what a setting holds can be written as text instead", "[inspector]")
+{
+    InspectorRig rig ("bronze_bell.json");
+    rig.select ("warble");
+    REQUIRE (press (rig, "text"));
+    TextField* text = nullptr;
+    for (auto* f : rig.all<TextField>())
+        if (f->isMultiLine()) text = f;
+    write (text, R"([{"frequency": 100, "decay": 10, "amplitude": 1}])");
+    CHECK (rig.node ("warble").settings["modes"].size() == 1);
+    REQUIRE (press (rig, "reset"));
+    CHECK_FALSE (rig.node ("warble").settings.contains ("modes"));
+}
+
+TEST_CASE ("a law is drawn as one line from side to side", "[inspector]")
+{
+    const juce::ScopedJuceInitialiser_GUI juce_runs;
+    Look look;
+    Law law;
+    law.kind = Law::Kind::power;
+    law.a = 1000.0;
+    juce::Image image (juce::Image::ARGB, 260, 130, true);
+    {
+        juce::Graphics g (image);
+        paintFigure (g, { 0.0f, 0.0f, 260.0f, 130.0f }, figureOf (law, unit::metre, unit::newton), look);
+    }
+    const auto ink = look.theme().of (Quantity::force);
+    int columns = 0;
+    for (int x = 0; x < image.getWidth(); ++x)
+        for (int y = 0; y < image.getHeight(); ++y)
+            if (image.getPixelAt (x, y) == ink)
+            {
+                ++columns;
+                break;
+            }
+    CHECK (columns > 150);
+}

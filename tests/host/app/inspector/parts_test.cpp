@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include <host/app/inspector/file_words.hpp>
+#include <host/app/inspector/held.hpp>
+#include <host/app/inspector/law_shape.hpp>
+#include <host/app/inspector/param_value.hpp>
+#include <host/assets/file_assets.hpp>
+
+#include <framework/graph/history.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck.h>
+
+using namespace tactus;
+using namespace tactus::host;
+
+TEST_CASE ("a file is said in words, or what is wrong with it", "[inspector]")
+{
+    FileAssets assets;
+    const std::string folder = TACTUS_SOURCE_DIR "/graphs";
+    const auto mesh = wordsOn ("assets/liver.obj", SettingSheet::Kind::surface, folder, assets);
+    CHECK_FALSE (mesh.is_wrong);
+    CHECK (mesh.text.find ("vertices") != std::string::npos);
+    const auto image = wordsOn ("assets/leather.png", SettingSheet::Kind::image, folder, assets);
+    CHECK (image.picture != nullptr);
+    CHECK (image.text.find ("pixels") != std::string::npos);
+    CHECK (wordsOn ("assets/none.png", SettingSheet::Kind::image, folder, assets).is_wrong);
+    CHECK (wordsOn ("assets/leather.py", SettingSheet::Kind::signal, folder, assets).is_wrong);
+    CHECK_FALSE (wordsOn ("", SettingSheet::Kind::image, folder, assets).is_wrong);
+}
+
+TEST_CASE ("a chosen file is written relative to the graph, and found again from there", "[inspector]")
+{
+    const std::string folder = TACTUS_SOURCE_DIR "/graphs";
+    CHECK (pathFrom (folder + "/assets/liver.obj", folder) == "assets/liver.obj");
+    CHECK (pathFrom (TACTUS_SOURCE_DIR "/nodes/x.wav", folder) == "../nodes/x.wav");
+    CHECK (pathFrom ("/somewhere/x.wav", "") == "/somewhere/x.wav");
+}
+
+TEST_CASE ("a control that is moved for a parameter brings it there, within its ends only", "[inspector]")
+{
+    CHECK (rc::check ([]
+                      {
+        const double low = *rc::gen::inRange (-100, 100) * 0.1, high = *rc::gen::suchThat (rc::gen::inRange (-100, 100), [&] (int v)
+                                                                                           { return v * 0.1 != low; }) * 0.1;
+        graph::Graph g;
+        graph::Node a;
+        a.name = "a";
+        g.root.nodes.push_back (a);
+        graph::Control c;
+        c.id = c.name = "c";
+        c.to.push_back ({ "a.x", low, high });
+        g.controls.push_back (c);
+        graph::History history (std::move (g));
+        const auto held = heldBy (history.graph(), "a.x");
+        RC_ASSERT (held.has_value());
+        const double wanted = low + (high - low) * *rc::gen::inRange (0, 1001) * 1e-3;
+        const auto command = moveHeld (history.graph(), *held, wanted);
+        RC_ASSERT (command.has_value());
+        RC_ASSERT (! history.perform (*command));
+        RC_ASSERT (std::abs (heldBy (history.graph(), "a.x")->value - wanted) < 1e-5 * std::abs (high - low));
+        RC_ASSERT (! moveHeld (history.graph(), *held, high + 0.1 * (high - low))); }));
+}
+
+TEST_CASE ("a law of any kind becomes one of any other, which agrees where a hand presses", "[inspector]")
+{
+    Law spring;
+    spring.kind = Law::Kind::power;
+    spring.a = 2000.0;
+    for (const auto& kind : lawKinds())
+    {
+        const auto law = lawOfKind (kind, spring);
+        CHECK (lawKindOf (law) == kind);
+        if (kind == "power") CHECK (law["power"][0].get<double>() == Approx (2000.0).epsilon (0.01));
+        if (kind == "exponential") CHECK (law["exponential"][0].get<double>() * std::expm1 (law["exponential"][1].get<double>() * 0.5e-3) == Approx (1.0).epsilon (0.02));
+        if (kind == "table") CHECK (law["table"][1][2].get<double>() == Approx (1.0).epsilon (0.01));
+    }
+}
+
+TEST_CASE ("a control sweeps a parameter over its usual range, in the unit it is written in", "[inspector]")
+{
+    PortSheet sheet { Role::param, "x", unit::metre, "", { .hard = { 0, inf }, .usual = { 1e-5, 1e-3 } }, {}, 1, false, 0, { 1e-4, 0, 0 } };
+    const auto [low, high] = sweepOf (Json ("0.4 mm"), sheet);
+    CHECK (low == "0.01 mm");
+    CHECK (high == "1 mm");
+    sheet.limits.usual = { 0, inf };
+    CHECK (sweepOf (Json (0.2), sheet).second == 0.4);
+}

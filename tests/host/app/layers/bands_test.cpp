@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include <host/app/layers/bands.hpp>
+#include <host/app/layers/meter.hpp>
+#include <host/app/layers/taper.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+using namespace tactus::host;
+
+namespace
+{
+std::vector<double> tone (double amplitude, double hz, double rate, std::size_t n)
+{
+    std::vector<double> x (n);
+    for (std::size_t i = 0; i < n; ++i)
+        x[i] = amplitude * std::sin (2.0 * std::numbers::pi * hz * static_cast<double> (i) / rate);
+    return x;
+}
+}   // namespace
+
+TEST_CASE ("a tone is in the band of its frequency, with its mean square", "[layers]")
+{
+    CHECK (rc::check ([]
+                      {
+        const double hz = 20.0 * std::pow (40.0, *rc::gen::inRange (0, 1001) * 1e-3), amplitude = *rc::gen::inRange (1, 1000) * 1e-2;
+        const auto bands = bandsOf (tone (amplitude, hz, 4000.0, 4096), 4000.0);
+        const double all = std::accumulate (bands.power.begin(), bands.power.end(), 0.0);
+        RC_ASSERT (std::abs (all - 0.5 * amplitude * amplitude) < 0.02 * all);
+        double near = 0.0;   // up to four lines of the window away
+        for (int b = 0; b < Bands::count; ++b)
+            if (Bands::edge (b + 1) > hz - 4.0 && Bands::edge (b) < hz + 4.0) near += bands.power[static_cast<std::size_t> (b)];
+        RC_ASSERT (near > 0.98 * all); }));
+}
+
+TEST_CASE ("silence, too few samples, and ticks that were missed are no sound", "[layers]")
+{
+    for (const auto& bands : { bandsOf (std::vector<double> (256, 0.0), 4000.0), bandsOf (std::vector<double> (2, 1.0), 4000.0), bandsOf (std::vector<double> (256, std::numeric_limits<double>::quiet_NaN()), 4000.0) })
+        CHECK (bands.power == Bands {}.power);
+}
+
+TEST_CASE ("a meter reads the mean and holds its peak, which then falls", "[layers]")
+{
+    Meter meter;
+    const auto loud = tone (2.0, 100.0, 4000.0, 400);
+    meter.take (loud, loud.size(), 0.1);
+    CHECK (meter.rms() == Approx (std::sqrt (2.0)));
+    CHECK (meter.peak() == Approx (2.0).epsilon (0.01));
+    const std::vector<double> silence (400, 0.0);
+    for (int i = 0; i < 10; ++i)
+        meter.take (silence, silence.size(), 0.1);
+    CHECK (meter.rms() == 0.0);
+    CHECK (meter.peak() == Approx (2.0).epsilon (0.01));
+    for (int i = 0; i < 30; ++i)
+        meter.take (silence, silence.size(), 0.1);
+    CHECK (meter.peak() < 0.1);
+    CHECK (meter.peak() > 0.0);
+}
+
+TEST_CASE ("a fader's way and its gain are each other's inverse, rise together, and stand at 1 where the mark is", "[layers]")
+{
+    CHECK (Taper::gain (0.0) == 0.0);
+    CHECK (Taper::gain (Taper::unity) == Approx (1.0));
+    CHECK (Taper::gain (1.0) == Taper::most);
+    CHECK (rc::check ([]
+                      {
+        const double p = *rc::gen::inRange (0, 1001) * 1e-3, q = *rc::gen::inRange (0, 1001) * 1e-3;
+        RC_ASSERT (std::abs (Taper::position (Taper::gain (p)) - p) < 1e-12);
+        RC_ASSERT ((p < q) == (Taper::gain (p) < Taper::gain (q))); }));
+}

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+#include <host/app/layers/layers_panel.hpp>
+
+#include <framework/file/graph_file.hpp>
+
+#include "support/sketch.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+using namespace tactus;
+using namespace tactus::host;
+
+namespace
+{
+struct Rig
+{
+    juce::ScopedJuceInitialiser_GUI juce_runs;
+    Look look;
+    std::unique_ptr<Document> document;
+    std::unique_ptr<Performance> performance;
+    std::unique_ptr<LayersPanel> panel;
+
+    explicit Rig (const std::string& preset) : Rig (loadGraph (TACTUS_SOURCE_DIR "/graphs/" + preset).graph) {}
+
+    explicit Rig (graph::Graph g)
+    {
+        juce::LookAndFeel::setDefaultLookAndFeel (&look);
+        document = std::make_unique<Document> (std::move (g));
+        performance = std::make_unique<Performance> (*document, catalogue());
+        panel = std::make_unique<LayersPanel> (*document, *performance, catalogue());
+        panel->setBounds (0, 0, 900, 232);
+        panel->setVisible (true);
+    }
+
+    ~Rig()
+    {
+        panel.reset();
+        performance.reset();
+        juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
+    }
+
+    const graph::Node& desk() const { return *findDesk (document->graph(), panel->desks().front()); }
+    void settle() { juce::MessageManager::getInstance()->runDispatchLoopUntil (20); }
+    juce::Image picture() { return panel->createComponentSnapshot (panel->getLocalBounds()); }
+};
+
+juce::MouseEvent event (juce::Component& c, juce::Point<float> at, juce::Point<float> from, juce::ModifierKeys mods, int clicks = 1)
+{
+    const auto now = juce::Time::getCurrentTime();
+    return { juce::Desktop::getInstance().getMainMouseSource(), at, mods, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, &c, &c, now, from, now, clicks, at != from };
+}
+}   // namespace
+
+TEST_CASE ("a desk has a strip for each layer, with its name, source and gain", "[layers]")
+{
+    Rig rig ("bronze_bell.json");
+    REQUIRE (rig.panel->layers() == 3);
+    CHECK (rig.panel->layer (0).sourceText() == "blow.resistance");
+    CHECK (rig.panel->layer (2).shownGain() == Approx (0.5));
+    REQUIRE (rig.panel->mix() != nullptr);
+}
+
+TEST_CASE ("a fader that a control holds moves the control, in one step of undo", "[layers]")
+{
+    Rig rig ("bronze_bell.json");
+    auto& strip = rig.panel->layer (0);
+    CHECK (strip.shownGain() == Approx (0.96));   // 0.6 of the way from 0 to 1.6
+    strip.setGain (Json (0.8), false);
+    strip.setGain (Json (0.4), true);
+    CHECK (rig.document->graph().controls[0].value == Approx (0.25));
+    CHECK (strip.shownGain() == Approx (0.4));
+    strip.setGain (Json (99), false);
+    CHECK (rig.document->graph().controls[0].value == 1.0);
+    CHECK (rig.document->history().names().size() == 2);
+    CHECK (rig.desk().params["gain"].dump() == "[1,1,0.5]");
+}
+
+TEST_CASE ("a dragged fader sets the gain in one step, finely with shift, and alt-click resets it", "[layers]")
+{
+    Rig rig ("bronze_bell.json");
+    Fader fader;
+    fader.setBounds (0, 0, 36, 116);   // a way of 100
+    std::vector<std::pair<std::optional<double>, bool>> said;
+    fader.onChange = [&] (std::optional<double> v, bool goes_on)
+    { said.emplace_back (v, goes_on); };
+    fader.show (1.0);
+    const juce::Point<float> from { 18.0f, 60.0f };
+    const juce::ModifierKeys left (juce::ModifierKeys::leftButtonModifier);
+    fader.mouseDown (event (fader, from, from, left));
+    fader.mouseDrag (event (fader, from.translated (0, 5), from, left));
+    fader.mouseDrag (event (fader, from.translated (0, 10), from, left));
+    fader.mouseUp (event (fader, from.translated (0, 10), from, left));
+    REQUIRE (said.size() == 2);
+    CHECK_FALSE (said[0].second);
+    CHECK (said[1].second);
+    const double coarse = 1.0 - *said[1].first;
+    CHECK (coarse > 0.2);
+
+    said.clear();
+    fader.show (1.0);
+    const auto shift = left.withFlags (juce::ModifierKeys::shiftModifier);
+    fader.mouseDown (event (fader, from, from, shift));
+    fader.mouseDrag (event (fader, from.translated (0, 10), from, shift));
+    REQUIRE (said.size() == 1);
+    CHECK (1.0 - *said[0].first < 0.2 * coarse);
+
+    said.clear();
+    fader.mouseDown (event (fader, from, from, left.withFlags (juce::ModifierKeys::altModifier)));
+    REQUIRE (said.size() == 1);
+    CHECK_FALSE (said[0].first);
+}
+
+TEST_CASE ("mute, solo, priority and name are set at a strip, and what is undone is seen", "[layers]")
+{
+    Rig rig ("bronze_bell.json");
+    auto& strip = rig.panel->layer (1);
+    strip.setValue ("mute", Json (1), false);
+    strip.setValue ("solo", Json (1), false);
+    strip.setValue ("priority", Json (3), false);
+    strip.rename ("hum");
+    CHECK (layerValue (rig.desk(), catalogue(), "mute", 1) == 1);
+    CHECK (layerValue (rig.desk(), catalogue(), "solo", 1) == 1);
+    CHECK (layerValue (rig.desk(), catalogue(), "priority", 1) == 3);
+    CHECK (rig.desk().settings["names"] == "blow, hum, warble");
+    for (int i = 0; i < 4; ++i)
+        rig.document->undo();
+    CHECK_FALSE (rig.desk().params.contains ("mute"));
+    CHECK_FALSE (rig.document->isChanged());
+}
+
+TEST_CASE ("a layer is added with its node and removed again, each in one step", "[layers]")
+{
+    Rig rig ("bronze_bell.json");
+    rig.panel->add ("vibration.modal");
+    REQUIRE (rig.panel->layers() == 4);
+    CHECK (rig.panel->layer (3).sourceText() == "modal.value");
+    CHECK (rig.document->history().names().size() == 1);
+    rig.panel->layer (0).remove();
+    rig.settle();
+    REQUIRE (rig.panel->layers() == 3);
+    CHECK (rig.panel->layer (2).sourceText() == "modal.value");
+    CHECK (rig.document->history().names().size() == 2);
+    rig.document->undo();
+    rig.document->undo();
+    CHECK (rig.panel->layers() == 3);
+    CHECK_FALSE (rig.document->isChanged());
+}
+
+TEST_CASE ("a graph without a mixer says what one is, and its button adds one", "[layers]")
+{
+    Rig rig ("steel_bar.json");
+    CHECK (rig.panel->layers() == 0);
+    CHECK (rig.picture().isValid());
+    rig.panel->addDeskNow();
+    rig.settle();
+    CHECK (rig.panel->layers() >= 1);
+    CHECK (rig.document->history().names() == std::vector<std::string> { "add a layer mixer" });
+    rig.document->undo();
+    CHECK (rig.panel->layers() == 0);
+}
+
+TEST_CASE ("while it runs the meters of a desk show what comes in, after gain, and where it lies", "[layers]")
+{
+    Rig rig ("bronze_bell.json");
+    rig.performance->start (Performance::Hand {});
+    REQUIRE (rig.performance->isRunning());
+    double strongest = 0.0, sounded = 0.0;
+    for (int i = 0; i < 400 && (strongest < 0.05 || sounded == 0.0); ++i)
+    {
+        std::this_thread::sleep_for (std::chrono::milliseconds (10));
+        rig.performance->attend();
+        rig.panel->refresh();
+        strongest = std::max (strongest, rig.panel->layer (1).meter().peak());
+        for (const double p : rig.panel->layer (1).bands().power)
+            sounded += p;
+    }
+    CHECK (strongest > 0.05);   // N
+    CHECK (strongest < 10.0);
+    CHECK (sounded > 0.0);
+    CHECK (rig.picture().isValid());
+
+    rig.panel->setVisible (false);   // then nobody wants to know
+    CHECK (rig.performance->traces().ports().empty());
+}
+
+TEST_CASE ("of several mixers one is shown, which follows its node through a rename, and another when it goes", "[layers]")
+{
+    test::Sketch sketch;
+    sketch.node ("a", "layer.mix").node ("b", "layer.mix", Json::object(), { { "inputs", 5 } });
+    Rig rig (sketch.graph);
+    REQUIRE (rig.panel->desks().size() == 2);
+    CHECK (rig.panel->layers() == 2);
+    rig.panel->choose (1);
+    rig.settle();
+    CHECK (rig.panel->layers() == 5);
+    rig.document->perform (graph::RenameNode { "", "b", "c" });
+    CHECK (rig.panel->layers() == 5);
+    rig.panel->layer (4).setGain (Json (0.5), false);
+    CHECK (rig.document->graph().root.find ("c")->params["gain"].size() == 5);
+    rig.document->perform (graph::RemoveNode { "", "c" });
+    CHECK (rig.panel->layers() == 2);
+    rig.document->perform (graph::RemoveNode { "", "a" });
+    CHECK (rig.panel->layers() == 0);
+    rig.document->undo();
+    rig.document->undo();
+    CHECK (rig.panel->desks().size() == 2);
+}
+
+TEST_CASE ("the mix says what its ceiling takes away", "[layers]")
+{
+    test::Sketch sketch;
+    sketch.node ("loud", "signal.constant", { { "value", "2 N" } }).node ("desk", "layer.mix", { { "ceiling", "1 N" } }, { { "inputs", 1 } }).node ("motor", "device.force");
+    sketch.wire ("loud.out -> desk.in[0]").wire ("desk.out -> motor.force.z");
+    Rig rig (sketch.graph);
+    rig.performance->start (Performance::Hand {});
+    REQUIRE (rig.performance->isRunning());
+    for (int i = 0; i < 200 && rig.panel->mix()->reduction() == 0.0; ++i)
+    {
+        std::this_thread::sleep_for (std::chrono::milliseconds (10));
+        rig.performance->attend();
+        rig.panel->refresh();
+    }
+    CHECK (rig.panel->mix()->reduction() == Approx (20.0 * std::log10 (2.0)));
+    CHECK (rig.panel->layer (0).meter().rms() == Approx (2.0));
+}
