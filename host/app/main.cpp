@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/window/main_view.hpp>
+#include <host/app/window/places.hpp>
 #include <host/platform/signals.hpp>
+
+#include <CLI/CLI.hpp>
 
 namespace tactus::host
 {
@@ -31,11 +34,7 @@ public:
     void closeButtonPressed() override { juce::JUCEApplication::getInstance()->systemRequestedQuit(); }
 
 private:
-    void fitToScreen()
-    {
-        const auto screen = juce::Desktop::getInstance().getDisplays().getPrimaryDisplay()->userArea;
-        setBounds (screen.withSizeKeepingCentre (std::min (1600, screen.getWidth()), std::min (1000, screen.getHeight())));
-    }
+    void fitToScreen() { setBounds (juce::Desktop::getInstance().getDisplays().getPrimaryDisplay()->userArea); }
 
     MainView* content;
 };
@@ -51,10 +50,8 @@ public:
     {
         look = std::make_unique<Look>();
         juce::LookAndFeel::setDefaultLookAndFeel (look.get());
-        const auto arguments = getCommandLineParameterArray();
-        MainView::Start how { homeFolder(), arguments.contains ("--safe"), arguments.contains ("--light") };
-        for (const auto& a : arguments)
-            if (! a.startsWith ("--")) how.files.emplace_back (a.unquoted().toStdString());
+        MainView::Start how { .home = homeFolder() };
+        if (! readArguments (how)) return quit();
         window = std::make_unique<Window> (*look, how);
         watchForStop();
         startTimerHz (10);
@@ -75,14 +72,50 @@ public:
     }
 
 private:
+    /// False if there is nothing to open a window for: it is said what is wrong, or how the program is called.
+    bool readArguments (MainView::Start& how)
+    {
+        CLI::App options { "Patches haptic effects, and shows what a hand feels.", "tactus-host" };
+        options.add_option ("files", how.files, "Graphs to open");
+        options.add_flag ("--safe", how.safe, "Nothing runs until START is pressed");
+        options.add_flag ("--light", how.light, "Light colours, whatever was chosen");
+        options.add_option ("--places", places_file, "Keeps a JSON file with where things are on the screen, for scripts");
+        options.set_version_flag ("--version", TACTUS_VERSION);
+        std::vector<std::string> arguments;
+        for (const auto& a : getCommandLineParameterArray())
+            arguments.insert (arguments.begin(), a.unquoted().toStdString());   // CLI11 takes them from the back
+        try
+        {
+            options.parse (std::move (arguments));
+            return true;
+        }
+        catch (const CLI::ParseError& e)
+        {
+            setApplicationReturnValue (options.exit (e));
+            return false;
+        }
+    }
+
     void timerCallback() override
     {
+        if (! places_file.empty()) writePlaces();
         if (! stopRequested()) return;
         stopTimer();
         window->view().closeSuddenly();   // a signal does not wait for an answer
         quit();
     }
 
+    /// Whole or not at all, and only when something has moved.
+    void writePlaces()
+    {
+        auto now = placesOf (*window, window->view().canvas()).dump();
+        if (now == places) return;
+        places = std::move (now);
+        const juce::File file (juce::File::getCurrentWorkingDirectory().getChildFile (places_file));
+        if (! file.replaceWithText (places)) places.clear();
+    }
+
+    std::string places_file, places;
     std::unique_ptr<Look> look;
     std::unique_ptr<Window> window;
 };

@@ -9,7 +9,7 @@ namespace tactus::host
 
 HandView::HandView()
 {
-    setTitle ("The hand");
+    setTitle ("Surface");
     setMouseCursor (juce::MouseCursor::CrosshairCursor);
     setWantsKeyboardFocus (true);
 }

@@ -120,8 +120,8 @@ private:
     Traces probes;
     Sound* sound;
     Hand moved_by;
-    bool begins = false;   // once the run before is over
-    bool wanted = false;   // started and not stopped: it begins as soon as the graph compiles
+    bool begins = false;                                     // once the run before is over
+    bool wanted = false;                                     // started and not stopped: it begins as soon as the graph compiles
     std::vector<std::pair<std::string, Json>> run_devices;   // the devices, when the run began
     double rate_hz = 0.0;
     std::optional<std::int64_t> delay_ticks;

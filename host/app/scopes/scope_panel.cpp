@@ -21,7 +21,7 @@ ScopePanel::ScopePanel (Document& d, Performance& p, const Catalogue& c) : docum
         };
         addAndMakeVisible (b);
     }
-    freeze_button.setTooltip ("All scopes show what stood there now, until they go on. The run itself goes on. Key: H");
+    freeze_button.setTooltip ("All scopes show what stood there now, until they go on. The run itself goes on. Key: X");
     freeze_button.onClick = [this]
     { freezeAll (! isFrozen()); };
     addAndMakeVisible (freeze_button);
@@ -36,7 +36,14 @@ ScopePanel::ScopePanel (Document& d, Performance& p, const Catalogue& c) : docum
             v->redraw();
     };
     document.add (*this);
+    suggest();
+}
+
+void ScopePanel::suggest()
+{
     listPorts();
+    views.clear();
+    model = {};
     for (auto& s : suggestedScopes (document.graph(), catalogue))
         model.scopes.push_back (std::make_unique<ScopeSpec> (std::move (s)));
     for (auto& s : model.scopes)
@@ -234,7 +241,7 @@ void ScopePanel::resized()
 
 bool ScopePanel::keyPressed (const juce::KeyPress& key)
 {
-    if (key != juce::KeyPress ('h')) return false;
+    if (key != juce::KeyPress ('x')) return false;
     freezeAll (! isFrozen());
     return true;
 }

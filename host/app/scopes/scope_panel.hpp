@@ -19,6 +19,9 @@ public:
     /// Takes in what has run since. To be called 30 times a second while it is seen.
     void refresh();
 
+    /// Shows what suits the graph, in place of what is shown: for one that has just been opened.
+    void suggest();
+
     /// Shows a port as a trace, or does not any more. True if it is shown now.
     bool probe (const std::string& port);
     bool isProbed (const std::string& port) const { return model.shows (port); }
@@ -63,7 +66,7 @@ private:
     ScopeModel model;
     std::vector<std::unique_ptr<ScopeView>> views;   // as the model's
     std::vector<std::unique_ptr<FlatButton>> adders;
-    FlatButton freeze_button { "Freeze all (H)" };
+    FlatButton freeze_button { "Freeze all (X)" };
     FlatButton offer { "" };   // a port to begin with, where nothing is shown
     juce::String warned;
 };

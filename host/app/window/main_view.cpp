@@ -313,6 +313,7 @@ void MainView::documentChanged()
         patching->leaveTo (0);
         patching->select ({});
         patching->frameAll();
+        scopes->suggest();
         presets->showOpen (edited->file().empty() ? edited->preset() : edited->file());
     }
     if (edited->history().position() > 0) welcome.setVisible (false);

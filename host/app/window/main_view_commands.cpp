@@ -70,7 +70,7 @@ void MainView::preview (const std::filesystem::path& file)
     auto loaded = loadGraph (file);
     if (hasErrors (loaded.messages)) return;   // the list says so
     endPreview();
-    resumes = performance->isRunning();
+    resumes = performance->isWanted();
     performance->letGo();
     const auto name = juce::String (loaded.graph.name);
     heard_document = std::make_unique<Document> (std::move (loaded.graph));

@@ -85,7 +85,7 @@ TEST_CASE ("a delayed wire of the same text goes before one with another delay",
 
 TEST_CASE ("a file that is read again and shuffled has all its ids back, subgraphs too, and none twice", "[graph]")
 {
-    rc::check ([] (std::uint64_t seed)
+    rc::prop ("any graph", [] (std::uint64_t seed)
                {
         const auto before = test::wildGraph (seed);
         auto now = readGraph (writeGraph (before)).graph;
@@ -103,7 +103,7 @@ TEST_CASE ("a file that is read again and shuffled has all its ids back, subgrap
 
 TEST_CASE ("whatever two graphs have to do with each other, no id is given twice", "[graph]")
 {
-    rc::check ([] (std::uint64_t a, std::uint64_t b)
+    rc::prop ("any two", [] (std::uint64_t a, std::uint64_t b)
                {
         const auto before = test::wildGraph (a);
         auto now = test::wildGraph (b);

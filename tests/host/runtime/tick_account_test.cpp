@@ -13,7 +13,7 @@ using namespace tactus::host;
 
 TEST_CASE ("a quantile is that of the durations, within a bin, and never more than the longest", "[runtime]")
 {
-    rc::check ([] (std::vector<std::uint32_t> microseconds, std::uint32_t permille)
+    rc::prop ("any durations", [] (std::vector<std::uint32_t> microseconds, std::uint32_t permille)
                {
         RC_PRE (! microseconds.empty());
         Durations durations;

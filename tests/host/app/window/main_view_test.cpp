@@ -225,7 +225,7 @@ TEST_CASE ("a preset is felt while it is held, and the document is as it was bef
     o.press ("escape");
     o.view->preview (TACTUS_SOURCE_DIR "/graphs/soft_pad.json");
     o.view->endPreview();
-    CHECK_FALSE (o.view->run().isRunning());   // what was stopped stays stopped
+    CHECK_FALSE (o.view->run().isWanted());   // what was stopped stays stopped
 }
 
 TEST_CASE ("--light is for this start only")
