@@ -14,20 +14,6 @@ namespace
 constexpr float glyph_width = 22.0f, gap = 20.0f;
 
 float toGrid (float x) { return std::ceil (x / Box::grid) * Box::grid; }
-
-/// The value a param of a node has: its own, or the default.
-Json valueOf (const graph::Node& node, const FacePort& port)
-{
-    const auto bracket = port.id.find ('[');
-    const auto own = node.params.find (port.id.substr (0, bracket));
-    if (own != node.params.end() && bracket == std::string::npos) return *own;
-    if (own != node.params.end() && own->is_array())
-        if (const auto entry = static_cast<std::size_t> (std::atoi (port.id.c_str() + bracket + 1)); entry < own->size()) return (*own)[entry];
-    if (port.sheet == nullptr) return {};
-    if (port.isChoice()) return std::string (port.sheet->choices[static_cast<std::size_t> (port.sheet->initial[0])]);
-    if (port.width == 3) return Json::array ({ port.sheet->initial[0], port.sheet->initial[1], port.sheet->initial[2] });
-    return port.sheet->initial[0];
-}
 }   // namespace
 
 std::string valueText (const Json& value, const FacePort& port)
@@ -54,7 +40,7 @@ const Socket* Box::find (Role role, std::string_view id) const noexcept
     return socket == sockets.end() ? nullptr : &*socket;
 }
 
-Box boxOf (const graph::Node& node, const Face& face, const std::function<bool (const FacePort&)>& wired, const TextWidth& widthOf)
+Box boxOf (const graph::Node& node, const Face& face, const std::function<bool (const FacePort&)>& wired, const std::function<Json (const FacePort&)>& valueNow, const TextWidth& widthOf)
 {
     std::vector<const FacePort*> params;
     for (const auto& p : face.params)
@@ -80,7 +66,7 @@ Box boxOf (const graph::Node& node, const Face& face, const std::function<bool (
     std::vector<std::string> values;
     for (const auto* p : params)
     {
-        values.push_back (valueText (valueOf (node, *p), *p));
+        values.push_back (valueText (valueNow (*p), *p));
         box.width = std::max (box.width, label (p->id) + label (values.back()) + gap + 2 * Box::padding);
     }
     box.width = toGrid (box.width);

@@ -36,8 +36,8 @@ struct Box
 using TextWidth = std::function<float (const std::string&, float size, bool bold)>;
 
 /// Inputs and params on the left, outputs on the right. Of the params those are shown that `wired` tells, and then the first
-/// few that the node sets. The face must outlive the box.
-Box boxOf (const graph::Node&, const Face&, const std::function<bool (const FacePort&)>& wired, const TextWidth&);
+/// few that the node sets, with what `valueNow` says. The face must outlive the box.
+Box boxOf (const graph::Node&, const Face&, const std::function<bool (const FacePort&)>& wired, const std::function<Json (const FacePort&)>& valueNow, const TextWidth&);
 
 /// A value as it stands in a file, for people: "0.4 mm", "0.3", "(0, 0, 1)".
 std::string valueText (const Json&, const FacePort&);

@@ -104,7 +104,7 @@ public:
 
     void editNote (std::size_t);
     void editParam (const SceneNode&, const Socket&);
-    void setParam (const SceneNode&, const FacePort&, std::optional<Json>, graph::Step = graph::Step::own);
+    void setParam (const SceneNode&, const FacePort&, const std::optional<Json>&, graph::Step = graph::Step::own);
 
     /// A change made here: what stands somewhere because nobody said where stays there. False if it is refused.
     bool perform (graph::Command, graph::Step = graph::Step::own);

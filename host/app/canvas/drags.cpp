@@ -3,7 +3,8 @@
 
 #include <framework/graph/endpoints.hpp>
 #include <framework/turn.hpp>
-#include <host/app/inspector/drag_number.hpp>
+#include <host/app/model/drag_number.hpp>
+#include <host/app/model/held.hpp>
 #include <host/app/model/wire_rules.hpp>
 
 #include <cmath>
@@ -174,12 +175,16 @@ private:
 class TurnParam final : public Drag
 {
 public:
-    TurnParam (Canvas& c, graph::Id n, const FacePort& p, QuantityText v) : canvas (c), node (n), port (p.id), sheet (*p.sheet), grabbed (v), now (v) {}
+    TurnParam (Canvas& c, const SceneNode& n, const FacePort& p, QuantityText v)
+        : canvas (c), node (n.id), port (p.id), sheet (*p.sheet), held (c.patch().empty() ? heldBy (c.edited().graph(), n.name + '.' + p.id) : std::nullopt), grabbed (v), now (v)
+    {
+    }
 
     void move (const juce::MouseEvent& e) override
     {
         constexpr double fine = 0.1;
-        const auto to = dragged (grabbed, sheet, -static_cast<double> (e.getDistanceFromDragStartY()) * (e.mods.isShiftDown() ? fine : 1.0));
+        auto to = dragged (grabbed, sheet, -static_cast<double> (e.getDistanceFromDragStartY()) * (e.mods.isShiftDown() ? fine : 1.0));
+        if (held) to = to.moved (std::clamp (to.si(), std::min (held->low, held->high), std::max (held->low, held->high)));
         const auto* shown = canvas.scene().find (node);
         const auto* p = shown == nullptr ? nullptr : shown->face->find (Role::param, port);
         if (to.number == now.number || p == nullptr || ! sheet.limits.hard.contains (to.si())) return;
@@ -193,6 +198,7 @@ private:
     graph::Id node;
     std::string port;
     const PortSheet& sheet;
+    std::optional<Held> held;   // a control moves it, and only so far
     QuantityText grabbed, now;
     bool begun = false;
 };
@@ -323,10 +329,10 @@ std::unique_ptr<Drag> replugWire (Canvas& c, const SceneNode& node, const FacePo
 std::unique_ptr<Drag> turnParam (Canvas& c, const SceneNode& node, const Socket& socket)
 {
     const auto* sheet = socket.port->sheet;
-    if (sheet == nullptr || socket.port->width != 1 || sheet->list || socket.port->isChoice()) return nullptr;
+    if (sheet == nullptr || socket.port->width != 1 || socket.port->isChoice()) return nullptr;
     const auto value = readQuantity (readValue (socket.value), *sheet);
     const auto* text = std::get_if<QuantityText> (&value);
-    return text == nullptr ? nullptr : std::make_unique<TurnParam> (c, node.id, *socket.port, *text);
+    return text == nullptr ? nullptr : std::make_unique<TurnParam> (c, node, *socket.port, *text);
 }
 
 }   // namespace tactus::host

@@ -6,9 +6,10 @@
 #include <framework/graph/endpoints.hpp>
 #include <framework/graph/text.hpp>
 #include <framework/turn.hpp>
-#include <host/app/inspector/quantity_text.hpp>
 #include <host/app/model/clipboard.hpp>
 #include <host/app/model/fragment.hpp>
+#include <host/app/model/param_now.hpp>
+#include <host/app/model/quantity_text.hpp>
 #include <host/app/model/wire_rules.hpp>
 
 #include <array>
@@ -222,12 +223,20 @@ void Canvas::editNote (std::size_t i)
         perform (setNotes (document.graph(), patch(), notes, "write a note")); });
 }
 
-void Canvas::setParam (const SceneNode& node, const FacePort& port, std::optional<Json> value, graph::Step step) { perform (graph::SetParam { patch(), node.name, port.id, std::move (value) }, step); }
+void Canvas::setParam (const SceneNode& shown_node, const FacePort& port, const std::optional<Json>& value, graph::Step step)
+{
+    const auto* node = patchShown().find (shown_node.name);
+    if (node == nullptr) return;
+    if (auto command = changeParam (document.graph(), patch(), *node, port, value))
+        perform (std::move (*command), step);
+    else
+        hint (juce::String (beyondReach (document.graph(), *node, port)));
+}
 
 void Canvas::editParam (const SceneNode& node, const Socket& socket)
 {
     const auto* sheet = socket.port->sheet;
-    if (sheet == nullptr || socket.port->width != 1 || sheet->list || socket.port->isChoice()) return;
+    if (sheet == nullptr || socket.port->width != 1 || socket.port->isChoice()) return;
     type (socket.row.translated (node.at.x, node.at.y), socket.value, false, [this, id = node.id, port = socket.port->id] (const juce::String& text)
           {
         const auto* now = shown->find (id);

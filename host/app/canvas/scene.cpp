@@ -4,6 +4,7 @@
 
 #include <framework/graph/endpoints.hpp>
 #include <framework/graph/text.hpp>
+#include <host/app/model/param_now.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +44,7 @@ Scene::Scene (const graph::Graph& graph, const std::string& name, const Catalogu
 {
     const auto* patch = name.empty() ? &graph.root : graph.find (name);
     if (patch == nullptr) return;
-    addNodes (graph, *patch, catalogue, widthOf);
+    addNodes (graph, name, *patch, catalogue, widthOf);
     place (*patch);
     findQuantities (*patch);
     addWires (*patch);
@@ -51,7 +52,7 @@ Scene::Scene (const graph::Graph& graph, const std::string& name, const Catalogu
     all_notes = notesOf (graph, name);
 }
 
-void Scene::addNodes (const graph::Graph& graph, const graph::Patch& patch, const Catalogue& catalogue, const TextWidth& widthOf)
+void Scene::addNodes (const graph::Graph& graph, const std::string& name, const graph::Patch& patch, const Catalogue& catalogue, const TextWidth& widthOf)
 {
     for (const auto& node : patch.nodes)
     {
@@ -66,7 +67,10 @@ void Scene::addNodes (const graph::Graph& graph, const graph::Patch& patch, cons
             return std::ranges::any_of (patch.wires, [&] (const graph::Wire& w)
                                         { return w.to.node == node.name && made.face->endOf (w.to) == &p; });
         };
-        made.box = boxOf (node, *made.face, wired, widthOf);
+        made.box = boxOf (
+            node, *made.face, wired, [&] (const FacePort& p)
+            { return paramNow (graph, name, node, p).value; },
+            widthOf);
         numbers.emplace (node.name, static_cast<int> (all_nodes.size()) - 1);
     }
 }

@@ -84,7 +84,7 @@ public:
     bool isCorner (std::size_t note, juce::Point<float>) const noexcept;
 
 private:
-    void addNodes (const graph::Graph&, const graph::Patch&, const Catalogue&, const TextWidth&);
+    void addNodes (const graph::Graph&, const std::string& name, const graph::Patch&, const Catalogue&, const TextWidth&);
     void place (const graph::Patch&);
     void findQuantities (const graph::Patch&);
     void addWires (const graph::Patch&);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "held.hpp"
 #include "rows.hpp"
 #include "setting_editor.hpp"
 #include "table_row.hpp"
 #include "tool_button.hpp"
+#include <host/app/model/held.hpp>
 
 #include <framework/graph/text.hpp>
 

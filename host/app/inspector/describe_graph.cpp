@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "describe.hpp"
-#include "held.hpp"
+#include <host/app/model/held.hpp>
 
 #include <framework/graph/text.hpp>
 

@@ -13,7 +13,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr double pixels_over_range = 200.0, fine = 0.1;
+constexpr double fine = 0.1;
 
 /// 500000 rather than 5e+05, as long as that is short.
 std::string plainText (double v)
@@ -47,26 +47,6 @@ void NumberField::show (const Json& written)
     repaint();
 }
 
-bool NumberField::isLogarithmic() const noexcept
-{
-    const auto& usual = sheet.limits.usual;
-    return usual.min > 0.0 && std::isfinite (usual.max) && usual.max / usual.min >= 100.0;
-}
-
-double NumberField::moved (double pixels) const
-{
-    const auto& usual = sheet.limits.usual;
-    const double from = grabbed.si(), part = pixels / pixels_over_range;
-    double to = from;
-    if (isLogarithmic() && from > 0.0)
-        to = from * std::pow (usual.max / usual.min, part);
-    else if (std::isfinite (usual.min) && std::isfinite (usual.max))
-        to = from + (usual.max - usual.min) * part;
-    else
-        to = from + std::max (std::abs (from), grabbed.scale) * 2.0 * part;
-    return sheet.limits.hard.clamp (to);
-}
-
 void NumberField::mouseDown (const juce::MouseEvent& e)
 {
     if (e.mods.isAltDown())
@@ -75,27 +55,26 @@ void NumberField::mouseDown (const juce::MouseEvent& e)
         return;
     }
     grabbed = value;
-    dragged = false;
+    begun = false;
 }
 
 void NumberField::mouseDrag (const juce::MouseEvent& e)
 {
     if (e.mods.isAltDown() || e.mods.isPopupMenu() || isEditing()) return;
     const double pixels = -static_cast<double> (e.getDistanceFromDragStartY()) * (e.mods.isShiftDown() ? fine : 1.0);
-    moveTo (moved (pixels));
+    moveTo (dragged (grabbed, sheet, pixels));
 }
 
-void NumberField::moveTo (double si)
+void NumberField::moveTo (const QuantityText& to)
 {
-    const auto to = grabbed.moved (si);
     if (to.number == value.number || ! sheet.limits.hard.contains (to.si())) return;
     value = to;
     repaint();
-    const bool goes_on = std::exchange (dragged, true);
+    const bool goes_on = std::exchange (begun, true);
     if (onChange) onChange (value.toJson(), goes_on);
 }
 
-void NumberField::mouseUp (const juce::MouseEvent&) { dragged = false; }
+void NumberField::mouseUp (const juce::MouseEvent&) { begun = false; }
 
 void NumberField::mouseDoubleClick (const juce::MouseEvent& e)
 {
@@ -110,9 +89,9 @@ bool NumberField::keyPressed (const juce::KeyPress& key)
     if (way != 0.0)
     {
         grabbed = value;
-        dragged = false;
-        moveTo (moved (key.getModifiers().isShiftDown() ? way * fine : way));
-        dragged = false;
+        begun = false;
+        moveTo (dragged (grabbed, sheet, key.getModifiers().isShiftDown() ? way * fine : way));
+        begun = false;
         return true;
     }
     const auto c = key.getTextCharacter();
@@ -202,7 +181,7 @@ void NumberField::paint (juce::Graphics& g)
     const bool unusual = ! usual.contains (value.si());
     if (std::isfinite (usual.min) && std::isfinite (usual.max) && usual.max > usual.min)
     {
-        const double part = isLogarithmic() ? std::log (std::max (value.si(), usual.min) / usual.min) / std::log (usual.max / usual.min) : (value.si() - usual.min) / (usual.max - usual.min);
+        const double part = isLogarithmic (sheet) ? std::log (std::max (value.si(), usual.min) / usual.min) / std::log (usual.max / usual.min) : (value.si() - usual.min) / (usual.max - usual.min);
         const auto bar = area.reduced (3.0f, 2.0f).removeFromBottom (2.0f);
         g.setColour (theme.hairline);
         g.fillRect (bar);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "quantity_text.hpp"
+#include <host/app/model/drag_number.hpp>
 
 #include <host/app/look/look.hpp>
 
@@ -45,15 +45,13 @@ public:
     bool keyPressed (const juce::KeyPress&) override;
 
 private:
-    bool isLogarithmic() const noexcept;
-    double moved (double by_pixels) const;
-    void moveTo (double si);
+    void moveTo (const QuantityText&);
     void apply();
     void closeEditor();
 
     const PortSheet& sheet;
     QuantityText value, grabbed;
-    bool dragged = false, strong = false;
+    bool begun = false, strong = false;
     std::unique_ptr<juce::TextEditor> editor;
 };
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rows.hpp"
 #include "fields.hpp"
-#include "held.hpp"
-#include "param_value.hpp"
+#include <host/app/model/held.hpp>
+#include <host/app/model/param_now.hpp>
+#include <host/app/model/param_value.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -55,18 +56,10 @@ public:
     {
         const auto* node = find (document, patch, node_name);
         if (node == nullptr) return;
-        const auto own = writtenValue (*node, port);
-        current = own.is_null() ? initialValue (document.graph(), *node, port) : own;
-        const auto held = heldNow();
-        if (held)
-        {
-            // In the unit of the ends that it moves between.
-            const auto read = readQuantity (held->low_text, *port.sheet);
-            const auto* unit = std::get_if<QuantityText> (&read);
-            current = unit == nullptr ? Json (rounded (held->value)) : unit->moved (held->value).toJson();
-        }
-        setIsSet (! own.is_null() || held);
-        setNote (held ? "by " + juce::String (held->name) : juce::String(), themeOf (*this).accent);
+        auto now = paramNow (document.graph(), patch, *node, port);
+        current = std::move (now.value);
+        setIsSet (now.is_set);
+        setNote (now.held ? "by " + juce::String (now.held->name) : juce::String(), themeOf (*this).accent);
         if (port.isChoice())
         {
             const auto at = std::ranges::find (port.sheet->choices, current.is_string() ? current.get<std::string>() : std::string());
@@ -93,23 +86,13 @@ private:
     {
         const auto* node = find (document, patch, node_name);
         if (node == nullptr) return;
-        const auto step = goes_on ? graph::Step::joined : graph::Step::own;
-        if (const auto held = heldNow()) return move (*held, value.value_or (initialValue (document.graph(), *node, port)), step);
-        document.perform (graph::SetParam { patch, node_name, baseOf (port.id), withValue (*node, port, value) }, step);
-    }
-
-    void move (const Held& held, const Json& value, graph::Step step)
-    {
-        const auto read = readQuantity (value, *port.sheet);
-        const auto* q = std::get_if<QuantityText> (&read);
-        auto command = q == nullptr ? std::nullopt : moveHeld (document.graph(), held, q->si());
-        if (command)
+        if (auto command = changeParam (document.graph(), patch, *node, port, value))
         {
-            document.perform (std::move (*command), step);
+            document.perform (std::move (*command), goes_on ? graph::Step::joined : graph::Step::own);
             return;
         }
         refresh (nullptr);
-        if (refused) refused (juce::String (held.name) + " moves " + port.id + " only between the ends it has there; widen them, or release it with the right button");
+        if (refused) refused (beyondReach (document.graph(), *node, port));
     }
 
     void fill (juce::PopupMenu& menu)

@@ -3,8 +3,8 @@
 
 #include <framework/graph/endpoints.hpp>
 #include <framework/graph/text.hpp>
-#include <host/app/inspector/held.hpp>
 #include <host/app/model/face.hpp>
+#include <host/app/model/held.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -172,22 +172,29 @@ TEST_CASE ("what is copied is a graph file, and can be pasted into another graph
 TEST_CASE ("a param is turned on its node: dragged in one step, typed with a unit, put back", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
-    const auto mu = [&]
-    { return rig.graph().root.find ("drag")->params.value ("mu", Json()); };
-    const auto first = mu();
-    rig.hand().drag (rig.value ("drag", "mu"), rig.value ("drag", "mu") - juce::Point<float> (0.0f, 40.0f));
-    CHECK (mu() != first);
+    const auto ratio = [&]
+    { return rig.graph().root.find ("drag")->params.value ("static_ratio", Json()); };
+    const auto first = ratio();
+    const auto at = rig.value ("drag", "static_ratio");
+    rig.hand().drag (at, at - juce::Point<float> (0.0f, 20.0f));
     CHECK (rig.document.history().names().size() == 1);
-    const auto coarse = mu().get<double>() - first.get<double>();
-    rig.hand().key ("ctrl + z");
-    CHECK (mu() == first);
-
-    rig.hand().drag (rig.value ("drag", "mu"), rig.value ("drag", "mu") - juce::Point<float> (0.0f, 40.0f), Hand::left());
-    rig.hand().key ("ctrl + z");
+    const auto coarse = ratio().get<double>() - first.get<double>();
     CHECK (coarse > 0.0);
+    rig.hand().key ("ctrl + z");
+    CHECK (ratio() == first);
 
-    rig.hand().click (rig.value ("drag", "mu"), Hand::left (juce::ModifierKeys::altModifier));
-    CHECK (mu().is_null());
+    rig.hand().drag (at, at - juce::Point<float> (0.0f, 20.0f), Hand::left (juce::ModifierKeys::shiftModifier));
+    CHECK (ratio() == first);   // with shift, a press on a node selects
+
+    rig.hand().click (at, Hand::left (juce::ModifierKeys::altModifier));
+    CHECK (ratio().is_null());
+
+    // One that a control holds moves the control, as far as that goes.
+    const auto roughness = [&]
+    { return rig.graph().controls[0].value; };
+    rig.hand().drag (rig.value ("drag", "mu"), rig.value ("drag", "mu") - juce::Point<float> (0.0f, 400.0f));
+    CHECK (roughness() == 1.0);
+    CHECK (rig.node ("drag").box.find (Role::param, "mu")->value == "0.6");
 
     rig.hand().doubleClick (rig.value ("drag", "d_max"));
     auto* editor = dynamic_cast<juce::TextEditor*> (rig.canvas->getChildComponent (0));

@@ -2,8 +2,8 @@
 #include "rig.hpp"
 
 #include <host/app/inspector/figure_block.hpp>
-#include <host/app/inspector/held.hpp>
 #include <host/app/inspector/table_row.hpp>
+#include <host/app/model/held.hpp>
 
 #include <framework/graph/text.hpp>
 #include <framework/plan/compile.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <host/app/inspector/file_words.hpp>
-#include <host/app/inspector/held.hpp>
 #include <host/app/inspector/law_shape.hpp>
-#include <host/app/inspector/param_value.hpp>
+#include <host/app/model/held.hpp>
+#include <host/app/model/param_value.hpp>
 #include <host/assets/file_assets.hpp>
 
 #include <framework/graph/history.hpp>

@@ -168,7 +168,7 @@ def walk(w):
     # A knob is turned while it presses: H keeps it pressed.
     w.key("h")
     w.release()
-    mu = w.at("drag.mu value")
+    mu = w.at("drag.d_max value")
     w.press(mu)
     w.glide(mu, [mu[0], mu[1] - 60])
     w.shot("knob-turned-while-pressing")
@@ -183,10 +183,10 @@ def walk(w):
     w.glide(w.at("drag.normal_force"), w.empty_place())
     w.release()
     w.wait(lambda: w.has("Palette"), "the palette")
-    w.type("noise")
+    w.type("grating")
     w.shot("palette")
     w.key("Return")
-    w.wait(lambda: "noise" in w.places(), "the node 'noise'")
+    w.wait(lambda: "grating" in w.places(), "the node grating")
     w.shot("node-added")
     w.key("ctrl+z")
 

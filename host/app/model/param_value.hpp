@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/app/model/face.hpp>
+#include "face.hpp"
 
 #include <optional>
 #include <string>
