@@ -253,7 +253,7 @@ std::unique_ptr<Drag> Canvas::dragFor (const juce::MouseEvent& e)
     };
     if (const auto* node = shown->nodeAt (at))
     {
-        if (const auto* socket = node->paramAt (at); socket != nullptr && ! add)
+        if (const auto* socket = node->paramAt (at); socket != nullptr && ! e.mods.isCommandDown())
         {
             if (! highlights.selected.contains (node->id)) select ({ node->id });
             if (e.mods.isAltDown())
