@@ -84,8 +84,39 @@ void Scene::place (const graph::Patch& patch)
     for (const auto& w : patch.wires)
         if (const int from = numberOf (w.from.node), to = numberOf (w.to.node); from >= 0 && to >= 0 && w.delay == 0) wires.emplace_back (from, to);
     const auto places = arrange (sizes, wires);
+    std::vector<std::size_t> unplaced;
     for (std::size_t i = 0; i < all_nodes.size(); ++i)
-        all_nodes[i].at = placeOf (patch.nodes[i]).value_or (places[i]);
+    {
+        const auto place = placeOf (patch.nodes[i]);
+        all_nodes[i].at = place.value_or (places[i]);
+        if (! place) unplaced.push_back (i);
+    }
+    if (unplaced.size() == all_nodes.size()) return;
+    for (const auto i : unplaced)
+    {
+        if (const auto beside = besideOthers (i, unplaced, wires)) all_nodes[i].at = *beside;
+        const auto isFree = [&]
+        {
+            for (std::size_t k = 0; k < all_nodes.size(); ++k)
+                if (k != i && all_nodes[k].bounds().expanded (Box::grid).intersects (all_nodes[i].bounds())) return false;
+            return true;
+        };
+        while (! isFree())
+            all_nodes[i].at.y += Box::grid;
+    }
+}
+
+/// Left of what a node leads to, else right of where it comes from, as far as those stand somewhere.
+std::optional<juce::Point<float>> Scene::besideOthers (std::size_t i, const std::vector<std::size_t>& unplaced, const std::vector<std::pair<int, int>>& wires) const
+{
+    constexpr float gap = 64.0f;
+    const auto stands = [&] (int node)
+    { return at (node) != i && std::ranges::count (unplaced, at (node)) == 0; };
+    for (const auto& [from, to] : wires)
+        if (at (from) == i && stands (to)) return all_nodes[at (to)].at.translated (-gap - all_nodes[i].box.width, 0.0f);
+    for (const auto& [from, to] : wires)
+        if (at (to) == i && stands (from)) return all_nodes[at (from)].at.translated (gap + all_nodes[at (from)].box.width, 0.0f);
+    return std::nullopt;
 }
 
 /// What generic ports carry goes from port to port along wires and through nodes, until nothing new is found.

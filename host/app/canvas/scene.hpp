@@ -86,6 +86,7 @@ public:
 private:
     void addNodes (const graph::Graph&, const std::string& name, const graph::Patch&, const Catalogue&, const TextWidth&);
     void place (const graph::Patch&);
+    std::optional<juce::Point<float>> besideOthers (std::size_t node, const std::vector<std::size_t>& unplaced, const std::vector<std::pair<int, int>>& wires) const;
     void findQuantities (const graph::Patch&);
     void addWires (const graph::Patch&);
     void routeWires();

@@ -173,15 +173,6 @@ const PortSheet* layerOutput (const NodeType& type)
     return at == type.outputs.end() ? nullptr : &*at;
 }
 
-/// Left of a node, if that says where it stands.
-void placeBefore (graph::Node& made, const graph::Node& node)
-{
-    const auto ui = node.extra.find ("ui");
-    if (ui == node.extra.end() || ! ui->is_object() || ! ui->contains ("at")) return;
-    const auto& at = (*ui)["at"];
-    if (at.is_array() && at.size() == 2 && at[0].is_number() && at[1].is_number()) made.extra["ui"] = Json { { "at", Json::array ({ at[0].get<double>() - 240.0, at[1].get<double>() + 48.0 }) } };
-}
-
 /// Scalars that all go to one place.
 struct Stream
 {
@@ -319,7 +310,6 @@ std::variant<AddedLayer, std::string> addLayer (const graph::Graph& g, const Des
     graph::Node node;
     node.name = freeName (*patch, {}, type.substr (type.find ('.') + 1));
     node.type = type;
-    placeBefore (node, *desk);
     const auto name = node.name;
     batch.commands.push_back (graph::AddNode { at.patch, std::move (node) });
     const auto later = behind (*patch, at.node);
@@ -389,7 +379,6 @@ std::variant<AddedDesk, std::string> addDesk (const graph::Graph& g, const Catal
     graph::Node desk;
     desk.name = freeName (g.root, {}, "desk");
     desk.type = mixer;
-    placeBefore (desk, *motor);
     const auto name = desk.name;
     const auto into = stream.wires.empty() ? endOf (motor->name, "force", -1, 2) : stream.to;
     if (stream.wires.empty() && motor->type != "device.force") return "Nothing goes into " + motor->name + " yet: wire it first, then a mixer fits between.";

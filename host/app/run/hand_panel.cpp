@@ -147,7 +147,7 @@ void HandPanel::show (Performance& p)
     transport = now;
     for (auto* c : std::initializer_list<juce::Component*> { play.get(), &position, &speed })
         c->setVisible (transport != nullptr);
-    auto words = ! p.isRunning() ? juce::String ("Nothing runs. START is at the top right.") : hand.kind == Kind::pointer ? "Press and drag on the surface: " + juce::String (1000.0 * surface.depth(), 1) + (surface.isHeld() ? " mm deep, held. H lets go." : " mm deep. The wheel changes it, H holds it.")
+    auto words = ! p.isRunning() ? juce::String ("Nothing runs. START is at the top right.") : hand.kind == Kind::pointer ? (surface.isHeld() ? "Held " : "Press and drag: ") + juce::String (1000.0 * surface.depth(), 1) + (surface.isHeld() ? " mm deep; H lets go" : " mm deep (wheel); H holds")
                                                                                                                           : juce::String ("The tool follows its device.");
     if (words != note)
     {

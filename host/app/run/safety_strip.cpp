@@ -80,6 +80,7 @@ void SafetyStrip::show (Performance& p)
         const bool halting = status->phase == RunStatus::Phase::halting;
         now.state = now.running ? halting ? juce::String ("stopping") : "running at " + juce::String (p.rate()) + " Hz" : reason (*status, p);
         now.alarmed = status->end == RunStatus::End::overrun;
+        if (now.running && ! halting && hasErrors (p.messages())) now.state = "running as before the last edits";
         now.guard = "guard ready";
         for (const auto& role : status->shown())
             if (role.latest != Guard::Stop::none && role.latest != Guard::Stop::halted)

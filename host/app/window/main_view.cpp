@@ -234,7 +234,7 @@ void MainView::timerCallback()
     hand.show (current());
     live->refresh();
     problems->show (performance->messages());
-    bottom.name (*problems, problems->count() == 0 ? juce::String ("Problems") : "Problems " + juce::String (problems->count()));
+    bottom.name (*problems, problems->count() == 0 ? juce::String ("Problems") : "Problems " + juce::String (problems->count()), hasErrors (performance->messages()));
     files->attend();
     presets->refresh();
     if (welcome.isVisible()) welcome.refresh();

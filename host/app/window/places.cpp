@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "places.hpp"
+#include "tabs.hpp"
 
 namespace tactus::host
 {
@@ -23,6 +24,9 @@ void addNamed (const juce::Component& c, Json& into)
 {
     if (! c.isVisible()) return;
     if (const auto name = nameOf (c); ! name.empty()) into[name] = pixel (c.getScreenBounds().toFloat().getCentre());
+    if (const auto* tabs = dynamic_cast<const Tabs*> (&c))
+        for (const auto& [name, place] : tabs->titles())
+            into[name.toStdString()] = pixel (c.localPointToGlobal (place.getCentre()));
     for (const auto* child : c.getChildren())
         addNamed (*child, into);
 }

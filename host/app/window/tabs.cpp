@@ -14,12 +14,13 @@ void Tabs::add (const juce::String& name, std::unique_ptr<juce::Component> panel
 
 void Tabs::clear() { tabs.clear(); }
 
-void Tabs::name (const juce::Component& panel, const juce::String& name)
+void Tabs::name (const juce::Component& panel, const juce::String& name, bool alarms)
 {
     for (auto& t : tabs)
         if (t.panel.get() == &panel && t.name != name)
         {
             t.name = name;
+            t.alarms = alarms;
             repaint();
         }
 }
@@ -39,14 +40,14 @@ void Tabs::show (const juce::Component& panel)
         if (tabs[i].panel.get() == &panel) show (static_cast<int> (i));
 }
 
-std::vector<juce::Rectangle<float>> Tabs::places() const
+std::vector<std::pair<juce::String, juce::Rectangle<float>>> Tabs::titles() const
 {
-    std::vector<juce::Rectangle<float>> all;
+    std::vector<std::pair<juce::String, juce::Rectangle<float>>> all;
     float x = 4.0f;
     for (const auto& t : tabs)
     {
         const float width = lookOf (*this).font (13.0f, true).getStringWidthFloat (t.name) + 24.0f;
-        all.push_back ({ x, 0.0f, width, static_cast<float> (row_height) });
+        all.emplace_back (t.name, juce::Rectangle<float> (x, 0.0f, width, static_cast<float> (row_height)));
         x += width;
     }
     return all;
@@ -59,16 +60,18 @@ void Tabs::paint (juce::Graphics& g)
     g.fillAll (theme.panel);
     g.setColour (theme.hairline);
     g.drawHorizontalLine (row_height - 1, 0.0f, static_cast<float> (getWidth()));
-    const auto all = places();
+    const auto all = titles();
     for (std::size_t i = 0; i < tabs.size(); ++i)
     {
+        const auto& [name, place] = all[i];
         const bool is_current = static_cast<int> (i) == current;
         g.setFont (look.font (13.0f, true));
-        g.setColour (is_current ? theme.text : theme.dim);
-        g.drawText (tabs[i].name, all[i], juce::Justification::centred, false);
+        g.setColour (tabs[i].alarms ? theme.stop : is_current ? theme.text
+                                                              : theme.dim);
+        g.drawText (name, place, juce::Justification::centred, false);
         if (! is_current) continue;
         g.setColour (theme.accent);
-        g.fillRect (all[i].reduced (12.0f, 0.0f).removeFromBottom (2.0f));
+        g.fillRect (place.reduced (12.0f, 0.0f).removeFromBottom (2.0f));
     }
 }
 
@@ -80,9 +83,9 @@ void Tabs::resized()
 
 void Tabs::mouseDown (const juce::MouseEvent& e)
 {
-    const auto all = places();
+    const auto all = titles();
     for (std::size_t i = 0; i < all.size(); ++i)
-        if (all[i].contains (e.position)) show (static_cast<int> (i));
+        if (all[i].second.contains (e.position)) show (static_cast<int> (i));
 }
 
 }   // namespace tactus::host

@@ -17,11 +17,14 @@ public:
 
     void add (const juce::String& name, std::unique_ptr<juce::Component>);
     void clear();
-    void name (const juce::Component& panel, const juce::String&);
+    void name (const juce::Component& panel, const juce::String&, bool alarms = false);   ///< alarms: something there wants to be seen
 
     void show (int index);
     void show (const juce::Component& panel);
     int shown() const noexcept { return current; }
+
+    /// The names, and where they are.
+    std::vector<std::pair<juce::String, juce::Rectangle<float>>> titles() const;
 
     void paint (juce::Graphics&) override;
     void resized() override;
@@ -32,9 +35,8 @@ private:
     {
         juce::String name;
         std::unique_ptr<juce::Component> panel;
+        bool alarms = false;
     };
-
-    std::vector<juce::Rectangle<float>> places() const;
 
     std::vector<Tab> tabs;
     int current = 0;

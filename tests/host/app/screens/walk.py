@@ -137,6 +137,10 @@ class Walk:
         subprocess.run(["/usr/bin/convert", str(picture), "+dither", "-colors", "128", "-define", "png:compression-level=9", str(file)], check=True)
         print(f"  {file.name}", flush=True)
 
+    def problems(self):
+        """The name of their tab while there are some."""
+        return next((name for name in self.places()["window"] if name.startswith("Problems ")), None)
+
     def empty_place(self):
         """Of the canvas, with no node near."""
         nodes = [p for name, p in self.places().items() if isinstance(p, list)]
@@ -170,7 +174,7 @@ def walk(w):
     w.release()
     mu = w.at("drag.d_max value")
     w.press(mu)
-    w.glide(mu, [mu[0], mu[1] - 60])
+    w.glide(mu, [mu[0], mu[1] - 20])
     w.shot("knob-turned-while-pressing")
     w.release()
     w.key("h")
@@ -192,11 +196,11 @@ def walk(w):
 
     # A loop is made, said, and mended.
     w.drag("drag.deflection", "board.position")
-    w.wait(lambda: w.has("Problems 1"), "a problem")
-    w.click("Problems 1")
+    w.wait(lambda: w.problems(), "a problem")
+    w.click(w.problems())
     w.shot("loop")
     w.click("Delay it by a tick")
-    w.wait(lambda: w.has("Problems"), "an end of the problem")
+    w.wait(lambda: not w.problems(), "an end of the problem")
     w.shot("loop-mended")
     w.key("ctrl+z", "ctrl+z")
 
@@ -204,7 +208,11 @@ def walk(w):
     w.click("Layers")
     w.shot("no-layers")
     w.click("Add a mixer before the motor")
-    w.wait(lambda: w.has("mix"), "a mixer")
+    w.wait(lambda: w.has("desk"), "a mixer")
+    w.click("+ layer")
+    w.shot("layer-menu")
+    w.key("Down", "Down", "Return")
+    w.wait(lambda: w.has("desk.in[1]"), "a second layer")
     w.shot("layers")
 
     # A subgraph is made of two nodes, and entered.
@@ -253,6 +261,9 @@ def main():
         w = Walk(str(host), out, size, theme)
         try:
             walk(w)
+        except SystemExit:
+            w.shot("failed")
+            raise
         finally:
             w.end()
 
