@@ -230,19 +230,21 @@ def walk(w):
 
     w.click("History")
     w.shot("history")
+    w.click("drag")
     w.key("F1")
     w.shot("help")
-    w.key("Escape", "Escape")
+    w.click("Close")
 
     # Saved, edited, killed, recovered.
     w.key("ctrl+s")
-    saved = w.home / "my wood.json"
-    w.save_as(saved)
+    w.shot("save-as")
+    w.key("Return")   # where and as what it proposes
+    saved = w.home / "Documents" / "Tactus" / "dry_wood.json"
     w.wait(saved.exists, "the saved file")
     w.shot("saved")
-    w.click("board")
-    w.key("b")
-    time.sleep(8.0)  # it is kept some seconds after the edit
+    damping = w.at("board.damping value")
+    w.drag(damping, [damping[0], damping[1] - 30])
+    time.sleep(4.0)  # it is kept soon after the edit
     w.kill()
     w.start()
     w.wait(lambda: w.has("Recover") or w.has("Recover without running"), "the offer to recover")
