@@ -226,4 +226,24 @@ std::optional<graph::Command> insertInto (const graph::Graph& g, const std::stri
     return std::nullopt;
 }
 
+graph::Command toggleExposed (const graph::Graph& g, const std::string& subgraph, const std::string& node, const FacePort& port)
+{
+    auto to = patchOf (g, subgraph).expose;
+    auto& ports = port.role == Role::input ? to.inputs : port.role == Role::param ? to.params
+                                                                                  : to.outputs;
+    const auto end = endpoint (node, port);
+    const auto shown = std::ranges::find (ports, end, &std::pair<std::string, graph::Endpoint>::second);
+    if (shown != ports.end())
+    {
+        ports.erase (shown);
+        return graph::Batch { "hide a port", { graph::ChangeExpose { subgraph, std::move (to) } } };
+    }
+    std::set<std::string> taken;
+    for (const auto* all : { &to.inputs, &to.params, &to.outputs })
+        for (const auto& [name, where] : *all)
+            taken.insert (name);
+    ports.emplace_back (freeName ({}, taken, end.port), end);
+    return graph::Batch { "show a port", { graph::ChangeExpose { subgraph, std::move (to) } } };
+}
+
 }   // namespace tactus::host

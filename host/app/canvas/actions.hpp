@@ -42,4 +42,7 @@ graph::Command connect (const graph::Graph&, const std::string& patch, const Sce
 /// A node that stands on a wire goes into it, by its first ports that fit; nothing if none do.
 std::optional<graph::Command> insertInto (const graph::Graph&, const std::string& patch, const Scene&, graph::Id wire, graph::Id node);
 
+/// Shows a port of a node of a subgraph to its outside, under a free name, or hides it again.
+graph::Command toggleExposed (const graph::Graph&, const std::string& subgraph, const std::string& node, const FacePort&);
+
 }   // namespace tactus::host

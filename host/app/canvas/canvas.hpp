@@ -95,6 +95,7 @@ public:
     void addNote();
     void probeSelection();
     void wireFromSelection();
+    void exposeFromSelection();
 
     /// Adds it, and joins it to what waits for it.
     void addNodeAt (const std::string& type, const NodeWish&);

@@ -24,6 +24,8 @@ bool twoNodes (const Canvas& c) noexcept { return nodesSelected (c) > 1; }
 bool someNodes (const Canvas& c) noexcept { return ! c.scene().nodes().empty(); }
 bool inside (const Canvas& c) noexcept { return ! c.way().empty(); }
 
+bool insideOnANode (const Canvas& c) noexcept { return inside (c) && oneNode (c); }
+
 bool aWire (const Canvas& c) noexcept
 {
     return std::ranges::any_of (c.scene().wires(), [&] (const SceneWire& w)
@@ -101,7 +103,9 @@ constexpr CanvasCommand all[] {
     { "Enter the subgraph", "return", aSubgraph, [] (Canvas& c)
       { c.enterSelection(); } },
     { "Leave the subgraph", "u", inside, [] (Canvas& c)
-      { c.leaveTo (c.way().size() - 1); },
+      { c.leaveTo (c.way().size() - 1); } },
+    { "Show a port of it outside, or hide it", "o", insideOnANode, [] (Canvas& c)
+      { c.exposeFromSelection(); },
       true },
 
     { "One more tick of delay on the wire", "]", aWire, delay<1> },

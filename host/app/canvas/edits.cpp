@@ -325,6 +325,29 @@ void Canvas::wireFromSelection()
         if (out != nullptr && in != nullptr) join (*a, *out, *b, *in); });
 }
 
+void Canvas::exposeFromSelection()
+{
+    const SceneNode* node = nullptr;
+    for (const auto& n : shown->nodes())
+        if (highlights.selected.contains (n.id)) node = &n;
+    if (node == nullptr || entered.empty() || ! onChoose) return;
+    std::vector<PaletteEntry> entries;
+    for (const auto* ports : { &node->face->inputs, &node->face->params, &node->face->outputs })
+        for (const auto& p : *ports)
+            entries.push_back ({ node->name + '.' + p.id, {}, p.about });
+    onChoose ("Show outside, or hide", std::move (entries), [this, id = node->id] (const std::string& chosen)
+              {
+        const auto* now = shown->find (id);
+        if (now == nullptr || entered.empty()) return;
+        for (const auto* ports : { &now->face->inputs, &now->face->params, &now->face->outputs })
+            for (const auto& p : *ports)
+                if (now->name + '.' + p.id == chosen)
+                {
+                    perform (toggleExposed (document.graph(), patch(), now->name, p));
+                    return;
+                } });
+}
+
 void Canvas::addNodeAt (const std::string& type, const NodeWish& wish)
 {
     graph::Id made = 0;

@@ -175,6 +175,27 @@ void paintDelay (juce::Graphics& g, const SceneWire& w, const Look& look)
     g.setColour (look.theme().text);
     g.drawText (text, box, juce::Justification::centred, false);
 }
+/// A port that the outside sees: its name there, at the side on which wires come or go.
+void paintExposed (juce::Graphics& g, const Scene::Exposed& e, const Look& look)
+{
+    constexpr float height = 18.0f, stem = 14.0f;
+    const auto font = look.font (11.0f, true);
+    const float width = font.getStringWidthFloat (e.name) + 14.0f;
+    const bool goes_out = e.role == Role::output;
+    const auto edge = e.at.translated (goes_out ? stem : -stem, 0.0f);
+    const auto box = juce::Rectangle<float> (width, height).withCentre (edge.translated (goes_out ? width / 2 : -width / 2, 0.0f));
+    const auto colour = look.theme().of (e.quantity);
+    g.setColour (colour);
+    g.drawLine ({ e.at, edge }, 1.5f);
+    g.setColour (look.theme().canvas);
+    g.fillRoundedRectangle (box, height / 2);
+    g.setColour (colour);
+    g.drawRoundedRectangle (box.reduced (0.5f), height / 2, 1.2f);
+    g.setFont (font);
+    g.setColour (look.theme().text);
+    g.drawText (e.name, box, juce::Justification::centred, false);
+}
+
 /// All that a wire may cover, with its bends.
 juce::Rectangle<float> boundsOf (const SceneWire& w)
 {
@@ -253,6 +274,9 @@ void paintScene (juce::Graphics& g, const Scene& scene, const View& view, const 
         if (const auto hit = highlights.live.hits.find (w.id); hit != highlights.live.hits.end()) paintHit (g, w, hit->second, look.theme());
         if (w.delay > 0 && view.zoom > too_small_to_read) paintDelay (g, w, look);
     }
+    if (view.zoom > too_small_to_read)
+        for (const auto& e : scene.exposed())
+            paintExposed (g, e, look);
     const NodePainter paint { g, look, highlights, view.zoom };
     for (const auto& n : scene.nodes())
         if (n.bounds().expanded (8.0f).intersects (seen)) paint (n);

@@ -49,6 +49,7 @@ Scene::Scene (const graph::Graph& graph, const std::string& name, const Catalogu
     findQuantities (*patch);
     addWires (*patch);
     routeWires();
+    addExposed (*patch);
     all_notes = notesOf (graph, name);
 }
 
@@ -181,6 +182,25 @@ void Scene::addWires (const graph::Patch& patch)
         }
         all_wires.push_back (std::move (wire));
     }
+}
+
+void Scene::addExposed (const graph::Patch& patch)
+{
+    const auto add = [&] (const std::vector<std::pair<std::string, graph::Endpoint>>& ports, Role role)
+    {
+        for (const auto& [name, end] : ports)
+        {
+            const int n = numberOf (end.node);
+            if (n < 0) continue;
+            const auto& node = all_nodes[at (n)];
+            const auto* port = role == Role::output ? node.face->startOf (end) : node.face->endOf (end);
+            const auto* socket = port == nullptr ? nullptr : node.box.find (port->role, port->id);
+            if (socket != nullptr) all_exposed.push_back ({ node.placeOf (*socket), role, name, node.quantityOf (*port) });
+        }
+    };
+    add (patch.expose.inputs, Role::input);
+    add (patch.expose.params, Role::param);
+    add (patch.expose.outputs, Role::output);
 }
 
 void Scene::routeWires()

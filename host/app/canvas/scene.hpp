@@ -65,6 +65,16 @@ public:
 
     const std::vector<SceneNode>& nodes() const noexcept { return all_nodes; }
     const std::vector<SceneWire>& wires() const noexcept { return all_wires; }
+    /// A port that the subgraph shows to the outside, and as what.
+    struct Exposed
+    {
+        juce::Point<float> at;
+        Role role = Role::input;
+        std::string name;
+        Quantity quantity = Quantity::any;
+    };
+    const std::vector<Exposed>& exposed() const noexcept { return all_exposed; }
+
     const std::vector<Note>& notes() const noexcept { return all_notes; }
     juce::Rectangle<float> bounds() const noexcept;
 
@@ -90,11 +100,13 @@ private:
     void findQuantities (const graph::Patch&);
     void addWires (const graph::Patch&);
     void routeWires();
+    void addExposed (const graph::Patch&);
     int numberOf (const std::string& name) const noexcept;
 
     std::vector<SceneNode> all_nodes;
     std::vector<SceneWire> all_wires;
     std::vector<Note> all_notes;
+    std::vector<Exposed> all_exposed;
     std::map<std::string, int, std::less<>> numbers;   // by name
 };
 

@@ -226,6 +226,18 @@ TEST_CASE ("a subgraph is made, entered, left and dissolved", "[app][canvas]")
     CHECK (rig.canvas->scene().nodes().size() == 2);
     CHECK (rig.canvas->address ("grain.force") == "group/grain.force");
 
+    // What it shows outside is seen inside, and can be hidden and shown again.
+    REQUIRE (rig.canvas->scene().exposed().size() == 3);
+    rig.hand().click (rig.title ("grain"));
+    rig.choice = 0;
+    rig.hand().key ("o");
+    REQUIRE (rig.choices[0].type == "grain.position");
+    CHECK (rig.canvas->scene().exposed().size() == 2);
+    rig.hand().key ("o");
+    CHECK (rig.canvas->scene().exposed().size() == 3);
+    rig.hand().key ("ctrl + z");
+    rig.hand().key ("ctrl + z");
+
     // What is done inside is done to the subgraph.
     rig.hand().click (rig.title ("grain"));
     rig.hand().key ("b");
