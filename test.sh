@@ -6,24 +6,34 @@
 #   ./test.sh --quick   the tests only
 #   ./test.sh --long    before that: each fuzzer for 60 s, the tests under TSan with those of threads for 30 s each, and
 #                       after it a soak of 1.2e8 ticks
+#   ./test.sh --screens uses the host as a person would, on a display of its own, takes docs/host/, and does nothing else
 #   ./test.sh --figures draws docs/figures/ and counts docs/instructions.md anew, and does nothing else
 . "$(dirname "$0")/.ci/setup.sh"
 
 mode=${1:-}
 case $mode in
-    ''|--quick|--long|--figures) ;;
-    *) echo "usage: ./test.sh [--quick|--long|--figures]" >&2; exit 2 ;;
+    ''|--quick|--long|--screens|--figures) ;;
+    *) echo "usage: ./test.sh [--quick|--long|--screens|--figures]" >&2; exit 2 ;;
 esac
 
 packages+=(python3 python3-jsonschema)
 [ "$mode" = --long ] && packages+=(clang-14 libclang-rt-14-dev)
 [ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
+[ "$mode" = --screens ] && packages+=(xvfb xauth xdotool imagemagick)
 install_packages
 
 # Properties draw the same inputs each time, so that a commit passes or fails for good; --long draws others.
 [ "$mode" = --long ] || export RC_PARAMS=${RC_PARAMS:-seed=1}
 
 run_tests () { ctest --test-dir "build/$1" --output-on-failure --parallel "$(nproc)"; }
+
+if [ "$mode" = --screens ]; then
+    build release tactus-host
+    say "Walking through the host"
+    rm -rf docs/host
+    /usr/bin/python3 tests/host/app/screens/walk.py build/release/bin/tactus-host docs/host
+    exit
+fi
 
 if [ "$mode" = --figures ]; then
     build release

@@ -73,7 +73,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t capacity = 1024;
+    static constexpr std::size_t capacity = 4096;   ///< a second at 4 kHz, for a window that is busy so long
 
     std::array<std::atomic<std::size_t>, most> selected {};
     std::atomic<std::uint32_t> interval = 1;

@@ -93,6 +93,7 @@ public:
     void delaySelection (int ticks);
     void toggleWires();
     void addNote();
+    void recolourNotes();
     void probeSelection();
     void wireFromSelection();
     void exposeFromSelection();

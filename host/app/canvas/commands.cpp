@@ -21,6 +21,7 @@ bool anything (const Canvas& c) noexcept { return ! c.selection().empty(); }
 bool aNode (const Canvas& c) noexcept { return nodesSelected (c) > 0; }
 bool oneNode (const Canvas& c) noexcept { return nodesSelected (c) == 1; }
 bool twoNodes (const Canvas& c) noexcept { return nodesSelected (c) > 1; }
+bool aNote (const Canvas& c) noexcept { return std::ranges::any_of (c.selection(), isNote); }
 bool someNodes (const Canvas& c) noexcept { return ! c.scene().nodes().empty(); }
 bool inside (const Canvas& c) noexcept { return ! c.way().empty(); }
 
@@ -67,6 +68,8 @@ constexpr CanvasCommand all[] {
       { c.wantNode ({ c.pointerOrCentre(), {}, 0 }); } },
     { "Add a note, or a region around what is selected", "n", always, [] (Canvas& c)
       { c.addNote(); } },
+    { "Another colour for the region, or none", "k", aNote, [] (Canvas& c)
+      { c.recolourNotes(); } },
     { "Wire from here", "w", oneNode, [] (Canvas& c)
       { c.wireFromSelection(); } },
     { "Probe what it carries", "p", anything, [] (Canvas& c)

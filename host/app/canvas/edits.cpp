@@ -210,6 +210,18 @@ void Canvas::addNote()
     editNote (notes.size() - 1);
 }
 
+void Canvas::recolourNotes()
+{
+    auto notes = shown->notes();
+    for (std::size_t i = 0; i < notes.size(); ++i)
+        if (highlights.selected.contains (noteId (i)))
+        {
+            const auto* next = notes[i].isRegion() ? std::ranges::find (note_colours, notes[i].colour) + 1 : std::begin (note_colours);
+            notes[i].colour = next == std::end (note_colours) ? std::string() : std::string (*next);
+        }
+    perform (setNotes (document.graph(), patch(), notes, "colour a note"));
+}
+
 void Canvas::editNote (std::size_t i)
 {
     if (i >= shown->notes().size()) return;

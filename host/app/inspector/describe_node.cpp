@@ -3,6 +3,7 @@
 #include "header.hpp"
 
 #include <framework/graph/text.hpp>
+#include <host/app/model/node_doc.hpp>
 
 #include <cmath>
 
@@ -158,6 +159,12 @@ void describeNode (const Inspected& at, const graph::Node& node, bool help, cons
     if (! face.type->settings.empty()) column.add ("Settings", Words::Kind::heading);
     for (const auto& s : face.type->settings)
         column.add (settingEditor (s, settingSlot (at, node.name, std::string (s.id)), at.editors));
+    if (const auto law = lawOf (node.type); ! law.empty())
+    {
+        column.add ("Law", Words::Kind::heading);
+        for (const auto& line : law)
+            column.add (juce::String::fromUTF8 (line.c_str()), Words::Kind::small);
+    }
     column.add ("Source", Words::Kind::heading);
     column.add (text (face.type->info.source), Words::Kind::small);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "help_panel.hpp"
 
+#include <host/app/model/node_doc.hpp>
+
 #include <framework/number_text.hpp>
 
 #include <algorithm>
@@ -124,6 +126,25 @@ constexpr std::array mouse_list {
     Keys { "middle or right button, wheel", "pans; zooms to the pointer" },
     Keys { "press on the surface below", "you are the hand: what the graph does there is pushed against you" },
 };
+
+/// What a header says, as it is laid out there.
+void addDoc (Column& column, std::span<const DocPart> parts)
+{
+    for (const auto& p : parts)
+        switch (p.kind)
+        {
+        case DocPart::Kind::formula:
+        case DocPart::Kind::text:
+            column.add (text (p.text), p.kind == DocPart::Kind::text ? Words::Kind::text : Words::Kind::small);
+            break;
+        case DocPart::Kind::heading:
+            column.add (text (p.text), Words::Kind::heading);
+            break;
+        case DocPart::Kind::item:
+            column.add (juce::String::fromUTF8 ("\xe2\x80\x93 ") + text (p.text), Words::Kind::text);
+            break;
+        }
+}
 }   // namespace
 
 HelpPanel::HelpPanel (const Catalogue& c) : catalogue (c)
@@ -163,6 +184,10 @@ void HelpPanel::showNode (const std::string& type)
         made->add (text (node->info.name), Words::Kind::title);
         made->add (text (node->info.id), Words::Kind::small);
         made->add (text (node->info.summary), Words::Kind::text);
+        const auto doc = docOf (node->info.id);
+        const auto source = std::ranges::find_if (doc, [] (const DocPart& p)
+                                                  { return p.text.starts_with ("Source:"); });
+        addDoc (*made, { doc.begin(), source });
         addPorts (*made, "Inputs", node->inputs);
         addPorts (*made, "Parameters", node->params);
         if (! node->settings.empty())
@@ -172,8 +197,7 @@ void HelpPanel::showNode (const std::string& type)
                 made->add (std::make_unique<PortLine> (text (s.id), text (tactus::name (s.kind)), text (s.about)));
         }
         addPorts (*made, "Outputs", node->outputs);
-        made->add ("Source", Words::Kind::heading);
-        made->add (text (node->info.source), Words::Kind::text);
+        addDoc (*made, { source, doc.end() });
     }
     shown_type = type;
     example.setVisible (node != nullptr);

@@ -279,6 +279,11 @@ TEST_CASE ("a region moves what lies in it", "[app][canvas]")
     CHECK (rig.node ("grain").at == node + way);
     CHECK (rig.node ("board").at == other);
 
+    const auto colour = rig.canvas->scene().notes()[0].colour;
+    rig.hand().key ("k");
+    CHECK (rig.canvas->scene().notes()[0].colour != colour);
+    rig.hand().key ("ctrl + z");
+
     // It is kept in the file.
     CHECK (rig.graph().extra["ui"]["notes"][0]["text"] == "the grain");
     rig.hand().key ("delete");

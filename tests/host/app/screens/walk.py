@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Uses the host as a person would, on a display of its own, and takes a picture of each step: ./test.sh --screens
 
-walk.py HOST OUT [WIDTHxHEIGHT dark|light]
+walk.py HOST OUT [WIDTHxHEIGHT dark|light]   all sizes and themes if none is given; then of most only the main steps are kept
 
 It knows where things are from the file that `tactus-host --places` keeps. A step that does not lead to what it should
 fails; whether it looks good is for people, who look at the pictures.
@@ -17,13 +17,15 @@ import sys
 import tempfile
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parents[4]
 PATIENCE = 30.0  # s, for something that should come
+SIZES, THEMES = ("1280x720", "1920x1080", "3840x2160"), ("dark", "light")
+WHOLE = ("1920x1080", "dark")  # of which every step is kept
+MAIN_STEPS = {"welcome", "stroked", "loop", "layers", "recovery"}
 
 
 class Walk:
-    def __init__(self, host, out, size, theme):
-        self.host, self.out, self.size, self.theme = host, out, size, theme
+    def __init__(self, host, out, size, theme, keeps):
+        self.host, self.out, self.size, self.theme, self.keeps = host, out, size, theme, keeps
         self.home = pathlib.Path(tempfile.mkdtemp(prefix="tactus-walk-"))
         self.places_file = self.home / "places.json"
         self.shots = 0
@@ -129,8 +131,10 @@ class Walk:
         time.sleep(0.4)
 
     def shot(self, name):
-        time.sleep(0.5)
         self.shots += 1
+        if not self.keeps(name):
+            return
+        time.sleep(0.5)
         file = self.out / f"{self.size}-{self.theme}-{self.shots:02}-{name}.png"
         picture = self.home / "shot.png"
         subprocess.run(["/usr/bin/import", "-window", "root", str(picture)], env=self.environment, check=True)
@@ -257,10 +261,10 @@ def walk(w):
 def main():
     host, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
     out.mkdir(parents=True, exist_ok=True)
-    runs = [(sys.argv[3], sys.argv[4])] if len(sys.argv) > 4 else [(s, t) for s in ("1280x720", "1920x1080", "3840x2160") for t in ("dark", "light")]
-    for size, theme in runs:
+    one = tuple(sys.argv[3:5])
+    for size, theme in [one] if one else [(s, t) for s in SIZES for t in THEMES]:
         print(f"{size} {theme}", flush=True)
-        w = Walk(str(host), out, size, theme)
+        w = Walk(str(host), out, size, theme, lambda name: one or (size, theme) == WHOLE or name in MAIN_STEPS or name == "failed")
         try:
             walk(w)
         except SystemExit:
