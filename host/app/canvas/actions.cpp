@@ -4,6 +4,7 @@
 #include <framework/graph/endpoints.hpp>
 #include <host/app/model/fragment.hpp>
 #include <host/app/model/wire_rules.hpp>
+#include <host/devices/make_device.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -140,9 +141,14 @@ graph::Command addNode (const graph::Graph& g, const std::string& patch, const s
     node.name = freeName (patchOf (g, patch), {}, type.substr (cut == std::string::npos ? 0 : cut + 1));
     node.type = type;
     node.extra["ui"] = Json { { "at", Json::array ({ std::round (static_cast<double> (at.x)), std::round (static_cast<double> (at.y)) }) } };
-    if (type.starts_with ("device.") && ! g.devices.empty()) node.role = g.devices.front().first;
     made = node.id;
-    return graph::AddNode { patch, std::move (node) };
+    if (! type.starts_with ("device.")) return graph::AddNode { patch, std::move (node) };
+    // A device node acts on somebody. The first one brings a stylus in a hand that strokes.
+    graph::Batch all { "add a node", {} };
+    if (g.devices.empty()) all.commands.push_back (graph::SetDevice { "stylus", defaultDevice() });
+    node.role = g.devices.empty() ? "stylus" : g.devices.front().first;
+    all.commands.push_back (graph::AddNode { patch, std::move (node) });
+    return all;
 }
 
 graph::Command connect (const graph::Graph& g, const std::string& patch, const SceneNode& from, const FacePort& out, const SceneNode& to, const FacePort& in, int from_component, int to_component)

@@ -46,18 +46,19 @@ Box boxOf (const graph::Node& node, const Face& face, const std::function<bool (
     for (const auto& p : face.params)
         if (wired (p)) params.push_back (&p);
     int room = Box::most_params;
-    for (const auto& p : face.params)
-        if (room > 0 && ! wired (p) && node.params.contains (p.id.substr (0, p.id.find ('['))))
-        {
-            params.push_back (&p);
-            --room;
-        }
+    for (const bool set : { true, false })
+        for (const auto& p : face.params)
+            if (room > 0 && ! wired (p) && node.params.contains (p.id.substr (0, p.id.find ('['))) == set)
+            {
+                params.push_back (&p);
+                --room;
+            }
 
     Box box;
     const auto label = [&] (const std::string& text)
     { return widthOf (text, Box::label_size, false); };
     const auto rows = std::max (face.inputs.size(), face.outputs.size());
-    box.width = glyph_width + widthOf (node.name, Box::title_size, true) + 2 * Box::padding;
+    box.width = glyph_width + std::min (Box::widest_title, widthOf (node.name, Box::title_size, true)) + 2 * Box::padding;
     for (std::size_t i = 0; i < rows; ++i)
     {
         const float left = i < face.inputs.size() ? label (face.inputs[i].id) : 0.0f, right = i < face.outputs.size() ? label (face.outputs[i].id) : 0.0f;

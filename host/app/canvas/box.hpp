@@ -24,7 +24,8 @@ struct Box
 {
     static constexpr float header_height = 28.0f, row_height = 20.0f, grid = 8.0f, padding = 10.0f;
     static constexpr float title_size = 13.0f, label_size = 12.0f;
-    static constexpr int most_params = 3;   ///< that are shown although no wire leads to them
+    static constexpr int most_params = 3;           ///< that are shown although no wire leads to them
+    static constexpr float widest_title = 220.0f;   ///< a longer name is cut
 
     float width = 0.0f, height = 0.0f;
     std::vector<Socket> sockets;
@@ -35,8 +36,8 @@ struct Box
 /// How wide a text is, in a size, bold or not.
 using TextWidth = std::function<float (const std::string&, float size, bool bold)>;
 
-/// Inputs and params on the left, outputs on the right. Of the params those are shown that `wired` tells, and then the first
-/// few that the node sets, with what `valueNow` says. The face must outlive the box.
+/// Inputs and params on the left, outputs on the right. Of the params those are shown that `wired` tells, and then a few,
+/// those first that the node sets, with what `valueNow` says. The face must outlive the box.
 Box boxOf (const graph::Node&, const Face&, const std::function<bool (const FacePort&)>& wired, const std::function<Json (const FacePort&)>& valueNow, const TextWidth&);
 
 /// A value as it stands in a file, for people: "0.4 mm", "0.3", "(0, 0, 1)".

@@ -158,7 +158,12 @@ void Canvas::show (const std::string& patch_name, graph::Id id)
     }
     if (id == 0) return;
     select ({ id });
-    frameSelection();
+    const auto* node = shown->find (id);
+    const auto* wire = shown->findWire (id);
+    const auto at = node != nullptr ? node->bounds().getCentre() : wire != nullptr ? (wire->from + wire->to) / 2.0f
+                                                                                   : window.toCanvas (getLocalBounds().getCentre().toFloat());
+    if (! getLocalBounds().toFloat().contains (window.toPixels (at))) window.centreOn (at, getLocalBounds().toFloat());
+    repaint();
 }
 
 void Canvas::frameAll()
@@ -315,10 +320,10 @@ void Canvas::showMenu()
     juce::PopupMenu menu;
     for (const auto& c : canvasCommands())
     {
+        if (! c.in_menu || ! c.can (*this)) continue;
         juce::PopupMenu::Item item (c.name);
         const auto keys = juce::StringArray::fromTokens (c.keys, "|", {});
         if (! keys.isEmpty()) item.shortcutKeyDescription = juce::KeyPress::createFromDescription (keys[0]).getTextDescription();
-        item.isEnabled = c.can (*this);
         item.action = [safe = SafePointer (this), &c]
         {
             if (safe != nullptr && c.can (*safe)) c.run (*safe);

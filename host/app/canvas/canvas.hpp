@@ -129,7 +129,13 @@ public:
 
     std::function<void (std::vector<std::string> ports)> onProbe;   ///< as the whole graph names them
 
+    std::function<void (const juce::String&)> onNotice;   ///< why something was not done
+
     void hint (const juce::String&);
+    void notice (const juce::String& text)
+    {
+        if (onNotice) onNotice (text);
+    }
     void showMenu();
 
     void paint (juce::Graphics&) override;
@@ -151,6 +157,7 @@ private:
     std::unique_ptr<Drag> dragFor (const juce::MouseEvent&);
     const graph::Patch& patchShown() const;
     std::optional<graph::Command> settle() const;
+    juce::Point<float> freePlace (juce::Point<float>) const;   ///< there, or below what stands there
 
     /// Has a text typed over a part of the canvas.
     void type (juce::Rectangle<float> area, const juce::String& text, bool several_lines, std::function<void (const juce::String&)> typed);

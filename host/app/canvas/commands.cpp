@@ -126,25 +126,28 @@ constexpr CanvasCommand all[] {
     { "Spread from left to right", "alt + shift + cursor right", twoNodes, align<Alignment::rows> },
     { "Spread from top to bottom", "alt + shift + cursor down", twoNodes, align<Alignment::columns>, true },
 
-    { "Move left", "cursor left", anything, nudge<-1, 0> },
-    { "Move right", "cursor right", anything, nudge<1, 0> },
-    { "Move up", "cursor up", anything, nudge<0, -1> },
-    { "Move down", "cursor down", anything, nudge<0, 1> },
-    { "Select the next one at the left", "ctrl + cursor left", someNodes, step<-1, 0> },
-    { "Select the next one at the right", "ctrl + cursor right", someNodes, step<1, 0> },
-    { "Select the next one above", "ctrl + cursor up", someNodes, step<0, -1> },
-    { "Select the next one below", "ctrl + cursor down", someNodes, step<0, 1>, true },
+    { "Move left", "cursor left", anything, nudge<-1, 0>, false, false },
+    { "Move right", "cursor right", anything, nudge<1, 0>, false, false },
+    { "Move up", "cursor up", anything, nudge<0, -1>, false, false },
+    { "Move down", "cursor down", anything, nudge<0, 1>, true, false },
+    { "Select the next one at the left", "ctrl + cursor left", someNodes, step<-1, 0>, false, false },
+    { "Select the next one at the right", "ctrl + cursor right", someNodes, step<1, 0>, false, false },
+    { "Select the next one above", "ctrl + cursor up", someNodes, step<0, -1>, false, false },
+    { "Select the next one below", "ctrl + cursor down", someNodes, step<0, 1>, true, false },
 
     { "Frame what is selected", "f", someNodes, [] (Canvas& c)
       { c.frameSelection(); } },
     { "Frame all", "home", someNodes, [] (Canvas& c)
       { c.frameAll(); } },
     { "Zoom in", "+|=", always, [] (Canvas& c)
-      { c.zoomBy (1.25f); } },
+      { c.zoomBy (1.25f); },
+      false, false },
     { "Zoom out", "-", always, [] (Canvas& c)
-      { c.zoomBy (0.8f); } },
+      { c.zoomBy (0.8f); },
+      false, false },
     { "Actual size", "0", always, [] (Canvas& c)
-      { c.zoomBy (1.0f / c.view().zoom); } },
+      { c.zoomBy (1.0f / c.view().zoom); },
+      false, false },
     { "Show or hide the map", "m", always, [] (Canvas& c)
       { c.toggleMap(); } },
 };

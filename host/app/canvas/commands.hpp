@@ -16,6 +16,7 @@ struct CanvasCommand
     bool (*can) (const Canvas&) noexcept;   ///< whether there is anything to do it with
     void (*run) (Canvas&);
     bool ends_group = false;   ///< a line follows in the menu
+    bool in_menu = true;       ///< else it is for the keys alone
 };
 
 std::span<const CanvasCommand> canvasCommands() noexcept;

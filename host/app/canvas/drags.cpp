@@ -230,11 +230,15 @@ public:
         if (over && over.node->id != start.node)
         {
             const auto problem = problemAt (*over.node, *over.socket->port);
+            why_not = problem ? juce::String (*problem) : juce::String();
             canvas.hint (problem ? juce::String (over.node->name + "." + over.socket->port->id + ": " + *problem) : juce::String (over.node->name + "." + over.socket->port->id));
             if (! problem) end_at = over.node->placeOf (*over.socket);
         }
         else
+        {
+            why_not.clear();
             canvas.hint ("Let go on a port that is lit, or on the canvas for a new node");
+        }
         canvas.repaint();
     }
 
@@ -280,7 +284,9 @@ public:
         wire.width = port->width;
         const juce::Graphics::ScopedSaveState state (g);
         g.addTransform (canvas.view().transform());
+        wire.enabled = why_not.isEmpty();
         paintWire (g, wire, themeOf (canvas), false, false);
+        if (why_not.isNotEmpty()) paintWhyNot (g);
     }
 
 private:
@@ -293,6 +299,21 @@ private:
         return start.role == Role::output ? whyNotByComponent (here, there) : whyNotByComponent (there, here);
     }
 
+    /// Beside the end of the wire, above where the pointer is.
+    void paintWhyNot (juce::Graphics& g) const
+    {
+        const auto& look = lookOf (canvas);
+        const auto font = look.font (13.0f, true);
+        const auto box = juce::Rectangle<float> (font.getStringWidthFloat (why_not) + 20.0f, 24.0f).withPosition (end_at.translated (14.0f, -34.0f));
+        g.setColour (look.theme().panel);
+        g.fillRoundedRectangle (box, 4.0f);
+        g.setColour (look.theme().warning);
+        g.drawRoundedRectangle (box.reduced (0.5f), 4.0f, 1.2f);
+        g.setFont (font);
+        g.setColour (look.theme().text);
+        g.drawText (why_not, box, juce::Justification::centred, false);
+    }
+
     void unplug (const char* step) { canvas.perform (graph::Batch { step, { graph::RemoveWire { canvas.patch(), wire_id } } }); }
 
     static constexpr int least_way_px = 8;
@@ -301,6 +322,7 @@ private:
     WireStart start;
     graph::Id wire_id;
     juce::Point<float> begin, end_at;
+    juce::String why_not;   // it cannot end where it is
 };
 }   // namespace
 

@@ -83,7 +83,7 @@ void Canvas::pasteText()
     Selection made;
     auto command = paste (document.graph(), patch(), textFromClipboard(), 32.0, 32.0, made);
     if (const auto* problem = std::get_if<Message> (&command))
-        hint ("Nothing to paste: " + juce::String (problem->text));
+        notice ("Nothing to paste: " + juce::String (problem->text));
     else if (! made.empty() && perform (std::get<graph::Command> (std::move (command))))
         select (made);
 }
@@ -92,7 +92,12 @@ void Canvas::bypassSelection() { perform (toggleBypass (document.graph(), patch(
 
 void Canvas::groupSelection()
 {
-    if (auto command = group (document.graph(), patch(), highlights.selected)) perform (std::move (*command));
+    auto command = group (document.graph(), patch(), highlights.selected);
+    if (! command) return;
+    const auto name = std::get<graph::CollapseNodes> (command->edit).name;
+    if (! perform (std::move (*command))) return;
+    for (const auto& n : shown->nodes())
+        if (n.name == name) select ({ n.id });
 }
 
 void Canvas::expandSelection()
@@ -202,7 +207,7 @@ void Canvas::addNote()
     constexpr float margin = 3 * Box::grid, width = 200.0f, height = 56.0f;
     auto notes = shown->notes();
     if (around.isEmpty())
-        notes.push_back ({ juce::Rectangle<float> (width, height).withPosition (pointerOrCentre()), {}, {} });
+        notes.push_back ({ juce::Rectangle<float> (width, height).withPosition (freePlace (pointerOrCentre())), {}, {} });
     else
         notes.push_back ({ around.expanded (margin).withTop (around.getY() - margin - Box::header_height), {}, std::string (note_colours[notes.size() % std::size (note_colours)]) });
     perform (setNotes (document.graph(), patch(), notes, "add a note"));
@@ -242,7 +247,7 @@ void Canvas::setParam (const SceneNode& shown_node, const FacePort& port, const 
     if (auto command = changeParam (document.graph(), patch(), *node, port, value))
         perform (std::move (*command), step);
     else
-        hint (juce::String (beyondReach (document.graph(), *node, port)));
+        notice (juce::String (beyondReach (document.graph(), *node, port)));
 }
 
 void Canvas::editParam (const SceneNode& node, const Socket& socket)
@@ -255,7 +260,7 @@ void Canvas::editParam (const SceneNode& node, const Socket& socket)
         const auto* p = now == nullptr ? nullptr : now->face->find (Role::param, port);
         if (p == nullptr || p->sheet == nullptr) return;
         const auto read = readQuantity (readValue (text.trim().toStdString()), *p->sheet);
-        if (const auto* problem = std::get_if<std::string> (&read)) return hint (juce::String (*problem));
+        if (const auto* problem = std::get_if<std::string> (&read)) return notice (juce::String (now->name + '.' + p->id + ": " + *problem));
         setParam (*now, *p, std::get<QuantityText> (read).toJson()); });
 }
 
@@ -360,10 +365,26 @@ void Canvas::exposeFromSelection()
                 } });
 }
 
+juce::Point<float> Canvas::freePlace (juce::Point<float> at) const
+{
+    const juce::Point<float> usual_size { 160.0f, 96.0f };
+    const auto isTaken = [&]
+    {
+        const juce::Rectangle<float> box { at, at + usual_size };
+        return std::ranges::any_of (shown->nodes(), [&] (const SceneNode& n)
+                                    { return n.bounds().intersects (box); })
+               || std::ranges::any_of (shown->notes(), [&] (const Note& n)
+                                       { return ! n.isRegion() && n.area.intersects (box); });
+    };
+    while (isTaken())
+        at.y += 2 * Box::grid;
+    return at;
+}
+
 void Canvas::addNodeAt (const std::string& type, const NodeWish& wish)
 {
     graph::Id made = 0;
-    if (! perform (addNode (document.graph(), patch(), type, wish.at, made))) return;
+    if (! perform (addNode (document.graph(), patch(), type, wish.wire != 0 ? wish.at : freePlace (wish.at), made))) return;
     select ({ made });
     if (wish.wire != 0)
     {

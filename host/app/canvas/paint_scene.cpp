@@ -51,7 +51,7 @@ private:
                       juce::AffineTransform::translation (area.getX() + Box::padding, area.getCentreY() - 7.0f));
         g.setColour (theme.text.withMultipliedAlpha (alpha));
         g.setFont (look.font (Box::title_size, true));
-        g.drawText (node.name, area.withTrimmedLeft (Box::padding + 22.0f), juce::Justification::centredLeft, false);
+        g.drawText (node.name, area.withTrimmedLeft (Box::padding + 22.0f).withTrimmedRight (4.0f), juce::Justification::centredLeft, true);
         if (const auto state = highlights.live.states.find (node.id); state != highlights.live.states.end()) light (area, state->second);
         if (node.bypass) g.drawLine ({ area.getBottomLeft().translated (Box::padding, -14.0f), area.getBottomRight().translated (-Box::padding, -14.0f) }, 1.0f);
         g.setColour (theme.hairline);

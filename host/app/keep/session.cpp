@@ -105,16 +105,14 @@ RestoredGraph restore (const Kept& kept)
 
 Session::Session (const fs::path& home)
 {
-    // Whoever looks for leftovers just now may take a folder that is not locked yet for one, and clear it away.
-    constexpr int most_tries = 4;
-    for (int i = 0; i < most_tries && ! lock; ++i)
-    {
-        own = sessionsIn (home) / newName();
-        std::error_code failed;
-        fs::create_directories (own, failed);
-        lock = FileLock::take (lockIn (own));
-        if (lock && ! fs::exists (lockIn (own), failed)) lock.reset();
-    }
+    // It gets its name only once it is locked: whoever looks for leftovers just now would take a folder that is not for one.
+    own = sessionsIn (home) / newName();
+    const auto hidden = sessionsIn (home) / ('.' + own.filename().string());
+    std::error_code failed;
+    fs::create_directories (hidden, failed);
+    lock = FileLock::take (lockIn (hidden));
+    fs::rename (hidden, own, failed);
+    if (failed) lock.reset();
     if (! lock) wrong = "Nothing can be kept for the case of a crash: " + own.string() + " cannot be written. Save often, or set TACTUS_HOME to a folder that can be.";
 }
 
@@ -159,7 +157,7 @@ std::vector<Leftover> leftoversIn (const fs::path& home)
     std::error_code failed;
     for (const auto& entry : fs::directory_iterator (sessionsIn (home), failed))
     {
-        if (! entry.is_directory (failed)) continue;
+        if (! entry.is_directory (failed) || entry.path().filename().string().starts_with ('.')) continue;   // one that is being made
         Leftover l;
         l.own = entry.path();
         l.lock = FileLock::take (lockIn (l.own));

@@ -68,7 +68,7 @@ fs::path presetFolder()
     const auto told = juce::SystemStats::getEnvironmentVariable ("TACTUS_PRESETS", {});
     if (told.isNotEmpty()) return told.toStdString();
     const fs::path program = juce::File::getSpecialLocation (juce::File::currentExecutableFile).getFullPathName().toStdString();
-    for (const auto* place : { "../share/tactus/graphs", "../../../graphs", "../graphs" })
+    for (const auto* place : { "graphs", "../share/tactus/graphs", "../../../graphs", "../graphs" })
         if (const auto folder = (program.parent_path() / place).lexically_normal(); fs::is_directory (folder)) return folder;
     return {};
 }

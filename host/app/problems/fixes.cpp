@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fixes.hpp"
 
+#include <host/devices/make_device.hpp>
+
 #include <algorithm>
 #include <vector>
 
@@ -76,7 +78,8 @@ std::optional<Fix> fixOf (const graph::Graph& g, const Message& m)
     if (m.severity != Message::Severity::error) return std::nullopt;
     if (wire != nullptr) return Fix { "Remove the wire", graph::Batch { "remove a wire", { graph::RemoveWire { culprit.patch, culprit.id } } } };
     if (! culprit.param.empty()) return Fix { "Reset " + culprit.param, graph::Batch { "reset " + culprit.param, { graph::SetParam { culprit.patch, culprit.node, culprit.param } } } };
-    if (m.id == "node/no_role" && ! g.devices.empty()) return Fix { "Make it " + g.devices.front().first, graph::Batch { "give a role", { graph::SetNodeKey { culprit.patch, culprit.node, "role", Json (g.devices.front().first) } } } };
+    if (m.id == "node/no_role" && g.devices.empty()) return Fix { "Make a stylus", graph::Batch { "make a stylus", { graph::SetDevice { "stylus", defaultDevice() }, graph::SetNodeKey { culprit.patch, culprit.node, "role", Json ("stylus") } } } };
+    if (m.id == "node/no_role") return Fix { "Make it " + g.devices.front().first, graph::Batch { "give a role", { graph::SetNodeKey { culprit.patch, culprit.node, "role", Json (g.devices.front().first) } } } };
     if (! culprit.node.empty() && m.id == "node/unknown_type") return Fix { "Remove the node", graph::Batch { "remove a node", { graph::RemoveNode { culprit.patch, culprit.node } } } };
     return std::nullopt;
 }

@@ -4,6 +4,7 @@
 #include <host/assets/nearest_by_embree.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace tactus::host
 {
@@ -202,6 +203,14 @@ std::optional<double> Performance::stiffnessLeft() const
 {
     if (devices.empty() || devices.front().damping <= 0.0 || ! delay_ticks) return std::nullopt;
     return 2.0 * devices.front().damping * rate_hz / (2.0 * static_cast<double> (*delay_ticks) + 1.0);
+}
+
+std::optional<double> Performance::mostForce() const
+{
+    std::optional<double> most;
+    for (const auto& d : devices)
+        if (std::isfinite (d.limits.max_force)) most = std::max (most.value_or (0.0), d.limits.max_force);
+    return most;
 }
 
 std::vector<NodeCost> Performance::costs() { return runner ? runner->costs() : std::vector<NodeCost> {}; }

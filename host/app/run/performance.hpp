@@ -72,6 +72,9 @@ public:
     /// much the device damps.
     std::optional<double> stiffnessLeft() const;
 
+    /// The largest force that the guards let through, in N; nothing if they do not limit it.
+    std::optional<double> mostForce() const;
+
     /// Where the mouse wants the tool, in m.
     void point (const Vec3&);
 

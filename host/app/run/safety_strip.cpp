@@ -73,15 +73,21 @@ void SafetyStrip::show (Performance& p)
     if (! status)
     {
         now.alarmed = hasErrors (p.messages());
-        now.state = now.alarmed ? "cannot run" : "stopped";
+        now.state = now.alarmed ? "cannot run: see Problems" : "stopped";
     }
     else
     {
         const bool halting = status->phase == RunStatus::Phase::halting;
         now.state = now.running ? halting ? juce::String ("stopping") : "running at " + juce::String (p.rate()) + " Hz" : reason (*status, p);
         now.alarmed = status->end == RunStatus::End::overrun;
-        if (now.running && ! halting && hasErrors (p.messages())) now.state = "running as before the last edits";
-        now.guard = "guard ready";
+        if (hasErrors (p.messages())) now.state = now.running && ! halting ? "running as before the last edits" : "cannot run: see Problems";
+        now.warned = now.warned || hasErrors (p.messages());
+        if (now.running) now.guard = "guard ready";
+        if (const auto most = p.mostForce(); most && status->peak >= *most * (1.0 - 1e-9))
+        {
+            now.guard = "limited to " + inNewton (*most);
+            now.warned = true;
+        }
         for (const auto& role : status->shown())
             if (role.latest != Guard::Stop::none && role.latest != Guard::Stop::halted)
             {
@@ -113,8 +119,9 @@ void SafetyStrip::paint (juce::Graphics& g)
     g.drawHorizontalLine (getHeight() - 1, 0.0f, static_cast<float> (getWidth()));
 
     auto area = getLocalBounds().withTrimmedRight (120).reduced (16, 0).toFloat();
-    g.setColour (shown.alarmed ? theme.stop : shown.running ? theme.of (Quantity::energy)
-                                                            : theme.dim);
+    g.setColour (shown.alarmed ? theme.stop : shown.warned ? theme.warning
+                                          : shown.running  ? theme.of (Quantity::energy)
+                                                           : theme.dim);
     g.fillEllipse (juce::Rectangle<float> (10.0f, 10.0f).withCentre ({ area.getX() + 5.0f, area.getCentreY() }));
     area.removeFromLeft (22.0f);
 
@@ -129,7 +136,8 @@ void SafetyStrip::paint (juce::Graphics& g)
         area.removeFromLeft (std::min (gap, area.getWidth()));
     };
     say (shown.state, 140.0f, theme.text, true);
-    say (shown.guard, 80.0f, shown.alarmed ? theme.stop : theme.dim);
+    say (shown.guard, 80.0f, shown.alarmed ? theme.stop : shown.warned ? theme.warning
+                                                                       : theme.dim);
     constexpr float force_width = 200.0f;
     if (shown.force.isNotEmpty() && area.getWidth() > force_width)
     {

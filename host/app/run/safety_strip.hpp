@@ -31,7 +31,7 @@ private:
     struct Shown
     {
         juce::String state, guard, force, misses, delay;
-        bool running = false, alarmed = false;
+        bool running = false, alarmed = false, warned = false;
 
         bool operator== (const Shown&) const = default;
     };

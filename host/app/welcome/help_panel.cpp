@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "help_panel.hpp"
 
+#include <host/app/canvas/commands.hpp>
 #include <host/app/model/node_doc.hpp>
 
 #include <framework/number_text.hpp>
@@ -106,24 +107,18 @@ void addPorts (Column& column, const char* heading, const std::vector<PortSheet>
 using Keys = std::pair<const char*, const char*>;
 constexpr std::array key_list {
     Keys { "Esc", "brings all forces to zero; once nothing runs, closes what is open" },
-    Keys { "Space or Tab", "opens the palette: add a node by name, unit or what it does" },
-    Keys { "F", "frames the selection, or all" },
-    Keys { "Delete or Backspace", "takes what is selected away and heals the wire through" },
-    Keys { "B", "bypasses the selection, or ends that" },
-    Keys { "G", "makes a subgraph of the selection" },
-    Keys { "P", "probes the selected port" },
     Keys { "1 ... 9", "brings the values of a snapshot back; Ctrl with the digit stores them" },
-    Keys { "Ctrl+Z, Ctrl+Y", "undo, redo: every edit, every turn of a knob, every graph that was opened" },
-    Keys { "Ctrl+C, Ctrl+X, Ctrl+V, Ctrl+D", "copy, cut, paste, duplicate" },
-    Keys { "Ctrl+A", "selects all" },
     Keys { "Ctrl+N, Ctrl+O, Ctrl+S, Ctrl+Shift+S", "new, open, save, save as" },
+    Keys { "H", "holds the tool pressed where it is, or lets it go" },
+    Keys { "X", "freezes all scopes, or lets them go on" },
+    Keys { "C", "shows what each node costs" },
     Keys { "F1 or ?", "help on the selected node; with none selected, this list" },
 };
 constexpr std::array mouse_list {
     Keys { "drag on a number", "changes it; with Shift finely; a double click types it, with its unit" },
     Keys { "drag from a port", "draws a wire: what fits lights up; let go on nothing, the palette offers what fits" },
     Keys { "double click on the canvas", "adds a node there" },
-    Keys { "middle or right button, wheel", "pans; zooms to the pointer" },
+    Keys { "middle or right button, wheel", "pans; zooms to the pointer; a click of the right one opens the menu" },
     Keys { "press on the surface below", "you are the hand: what the graph does there is pushed against you" },
 };
 
@@ -211,6 +206,14 @@ void HelpPanel::showKeys()
     made->add ("Keys", Words::Kind::title);
     for (const auto& [key, does] : key_list)
         made->add (std::make_unique<PortLine> (key, does, juce::String()));
+    made->add ("On the canvas", Words::Kind::heading);
+    for (const auto& c : canvasCommands())
+    {
+        juce::StringArray names;
+        for (const auto& k : juce::StringArray::fromTokens (c.keys, "|", {}))
+            names.add (juce::KeyPress::createFromDescription (k).getTextDescription());
+        made->add (std::make_unique<PortLine> (names.joinIntoString (", "), juce::String (c.name), juce::String()));
+    }
     made->add ("The mouse", Words::Kind::heading);
     for (const auto& [way, does] : mouse_list)
         made->add (std::make_unique<PortLine> (way, does, juce::String()));

@@ -65,11 +65,14 @@ MainView::MainView (const Catalogue& c) : catalogue (c), pictures (c), help (c)
     addChildComponent (welcome);
     addChildComponent (help);
     addChildComponent (question);
+    juce::Desktop::getInstance().addFocusChangeListener (this);
     startTimerHz (refreshes_per_second);
 }
 
 MainView::~MainView()
 {
+    juce::Desktop::getInstance().removeFocusChangeListener (this);
+    if (listened != nullptr) listened->removeKeyListener (this);
     if (ticks_to_remember > 0) saveSettings (settings, home);
     edited->remove (*this);
 }
@@ -135,6 +138,8 @@ void MainView::show()
     { patching->show (patch, node); };
     layers->onHint = scopes->onHint;
     bottom.add ("Layers", std::move (desk));
+    patching->onNotice = [this] (const juce::String& text)
+    { notify (text); };
     patching->onProbe = [this] (const std::vector<std::string>& ports)
     {
         for (const auto& port : ports)
@@ -185,8 +190,9 @@ void MainView::begin (const Start& how)
     files->setSafe (how.safe);
     files->beginSession (home);
     for (const auto& file : how.files)
-        files->open (file);
+        open (file);
     const bool is_asked = files->recover();
+    if (is_asked) current().letGo();   // nothing pushes behind a question
     if (how.files.empty())
     {
         welcome.show (presets->shipped(), settings.recent);
@@ -201,7 +207,13 @@ void MainView::begin (const Start& how)
     }
 }
 
-void MainView::open (const std::filesystem::path& file) { files->open (file); }
+void MainView::open (const std::filesystem::path& file)
+{
+    // What comes with Tactus is opened as a copy, however one names it.
+    std::error_code failed;
+    const bool is_shipped = std::filesystem::equivalent (std::filesystem::absolute (file, failed).parent_path(), presetFolder(), failed) && ! failed;
+    is_shipped ? files->openCopy (std::filesystem::absolute (file), false) : files->open (file);
+}
 
 void MainView::start (Performance::Hand who)
 {
@@ -224,10 +236,23 @@ void MainView::closeSuddenly()
     files->endSuddenly();
 }
 
+/// Whoever has the focus, Esc is heard first here: a text field or a menu would take it for itself.
+void MainView::globalFocusChanged (juce::Component* focused)
+{
+    if (listened != nullptr) listened->removeKeyListener (this);
+    listened = focused != this ? focused : nullptr;
+    if (listened != nullptr) listened->addKeyListener (this);
+}
+
+bool MainView::keyPressed (const juce::KeyPress& key, juce::Component*)
+{
+    if (key != juce::KeyPress::escapeKey || ! current().isWanted()) return false;
+    current().stop();
+    return true;   // what is open is closed by the next one
+}
+
 void MainView::timerCallback()
 {
-    // A text field that has the focus takes the key for itself, but forces stop in any case.
-    if (juce::KeyPress::isKeyCurrentlyDown (juce::KeyPress::escapeKey) && current().isRunning()) current().stop();
     performance->attend();
     if (heard) heard->attend();
     strip.show (current());
@@ -359,7 +384,7 @@ void MainView::resized()
     patching->setBounds (area);
     welcome.setBounds (area.withRight (getWidth()));
     help.setArea (area.withRight (getWidth()).withBottom (hand.getBottom()).reduced (16));
-    question.setBounds (getLocalBounds());
+    question.setBounds (getLocalBounds().withTrimmedTop (SafetyStrip::height));   // the stop stays in reach
 }
 
 bool MainView::keyPressed (const juce::KeyPress& key)

@@ -24,7 +24,7 @@ namespace tactus::host
 {
 
 /// All of the window: the safety strip, presets, canvas, inspector, the hand, and a line that says what is under the pointer.
-class MainView final : public juce::Component, private Document::Listener, private juce::Timer
+class MainView final : public juce::Component, private Document::Listener, private juce::Timer, private juce::FocusChangeListener, private juce::KeyListener
 {
 public:
     explicit MainView (const Catalogue&);
@@ -78,6 +78,8 @@ private:
     void documentChanged() override;
     void documentRefused (const Message&) override;
     void timerCallback() override;
+    void globalFocusChanged (juce::Component*) override;
+    bool keyPressed (const juce::KeyPress&, juce::Component*) override;
     void show();
     void openPalette (const NodeWish&);
     void choose (const juce::String& purpose, std::vector<PaletteEntry>, std::function<void (const std::string&)> chosen);
@@ -128,8 +130,9 @@ private:
     WelcomePage welcome { pictures };
     HelpPanel help;
     std::unique_ptr<juce::FileChooser> chooser;
-    const void* shown_identity = nullptr;   // of the document
-    int ticks_to_remember = 0;              // of the timer; 0: nothing to
+    juce::Component::SafePointer<juce::Component> listened;   // it has the focus
+    const void* shown_identity = nullptr;                     // of the document
+    int ticks_to_remember = 0;                                // of the timer; 0: nothing to
     juce::String said, tip;
     juce::TooltipWindow tooltips { this, 600 };
 };

@@ -187,8 +187,9 @@ void MainView::askForFile (bool saves, const std::filesystem::path& begin, std::
     chooser = std::make_unique<juce::FileChooser> (saves ? "Save the graph" : "Open a graph", juce::File (begin.string()), "*.json");
     using Choice = juce::FileBrowserComponent;
     const int how = saves ? Choice::saveMode | Choice::canSelectFiles | Choice::warnAboutOverwriting : Choice::openMode | Choice::canSelectFiles;
-    chooser->launchAsync (how, [chosen = std::move (chosen)] (const juce::FileChooser& c)
+    chooser->launchAsync (how, [this, chosen = std::move (chosen)] (const juce::FileChooser& c)
                           {
+        patching->grabKeyboardFocus();
         if (const auto file = c.getResult(); file != juce::File()) chosen (file.getFullPathName().toStdString()); });
 }
 

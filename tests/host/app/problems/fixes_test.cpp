@@ -77,3 +77,13 @@ TEST_CASE ("a wire of the wrong unit, a param out of its range, a node of no typ
     CHECK (g.root.find ("wall")->params.empty());
     CHECK (g.root.find ("motor") != nullptr);
 }
+
+TEST_CASE ("device nodes of a graph without devices get one", "[app][problems]")
+{
+    auto g = graphOf (R"("nodes":{"hand":{"type":"device.position"},"motor":{"type":"device.force"}},"wires":[])");
+    CHECK (errorsOf (g).size() == 2);
+    CHECK (mend (g).empty());
+    REQUIRE (g.devices.size() == 1);
+    CHECK (g.root.find ("hand")->role == "stylus");
+    CHECK (g.root.find ("motor")->role == "stylus");
+}

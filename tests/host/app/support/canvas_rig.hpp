@@ -20,7 +20,7 @@ public:
         juce::LookAndFeel::setDefaultLookAndFeel (&look);
         canvas = std::make_unique<Canvas> (document, catalogue());
         canvas->setBounds (0, 0, 1200, 800);
-        canvas->onHint = [this] (const juce::String& text)
+        canvas->onHint = canvas->onNotice = [this] (const juce::String& text)
         { hint = text; };
         canvas->onChoose = [this] (const juce::String&, const std::vector<PaletteEntry>& entries, const std::function<void (const std::string&)>& chosen)
         {
