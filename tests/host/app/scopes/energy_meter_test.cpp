@@ -190,7 +190,7 @@ TEST_CASE ("scopes: numbers are short, with a prefix where the unit takes one", 
 
 TEST_CASE ("whatever a node puts out can be written in few letters", "[app][scopes]")
 {
-    CHECK (withPrefix (0.00012, "m", 2) == "0.12 mm");
+    CHECK (withPrefix (0.00012, "m", 2) == "120 µm");
     CHECK (withPrefix (std::numeric_limits<double>::infinity(), "J") == "inf");
     CHECK (withPrefix (-std::numeric_limits<double>::infinity(), "N/m") == "-inf");
     CHECK (withPrefix (std::numeric_limits<double>::quiet_NaN(), "1") == "nan");
