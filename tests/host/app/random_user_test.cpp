@@ -89,6 +89,9 @@ public:
             { 10, &World::typeSomewhere },
             { 4, &World::wheel },
             { 6, &World::wait },
+            { 3, &World::group },
+            { 2, &World::enter },
+            { 3, &World::rename },
             { 1, &World::resize },
             { 1, &World::openFile },
             { 1, &World::preview },
@@ -332,6 +335,45 @@ private:
         const auto k = keys[upTo (keys.size())];
         stage->key (k);
         return "key " + k.toStdString() + ": " + command.name;
+    }
+
+    std::string group()
+    {
+        const auto& nodes = view->canvas().scene().nodes();
+        if (nodes.empty()) return "nothing to group";
+        Selection some;
+        for (int i = 1 + upTo (3); --i >= 0;)
+            some.insert (oneOf (nodes).id);
+        view->canvas().select (some);
+        view->canvas().grabKeyboardFocus();
+        stage->key (juce::String ("g"));
+        if (upTo (2) == 0) stage->key (juce::String ("return"));
+        return "group " + std::to_string (some.size());
+    }
+
+    std::string enter()
+    {
+        for (const auto& n : view->canvas().scene().nodes())
+            if (n.type.starts_with ("graph:"))
+            {
+                const auto name = n.name;
+                view->canvas().enter (n);
+                return "enter " + name;
+            }
+        return "nothing to enter";
+    }
+
+    /// Of any patch, as the history and the inspector may while another is shown.
+    std::string rename()
+    {
+        const auto& g = view->document().graph();
+        const bool is_root = g.graphs.empty() || upTo (2) == 0;
+        const auto patch = is_root ? std::string() : oneOf (g.graphs).first;
+        const auto& nodes = is_root ? g.root.nodes : g.find (patch)->nodes;
+        if (nodes.empty()) return "nothing to rename";
+        const auto before = oneOf (nodes).name, after = "n" + std::to_string (upTo (100));
+        view->document().perform (graph::RenameNode { patch, before, after });
+        return "rename " + patch + "/" + before + " to " + after;
     }
 
     std::string windowKey()
