@@ -37,6 +37,28 @@ std::optional<Way> wayTo (const graph::Graph& g, const std::string& patch)
     }
     return std::nullopt;
 }
+
+/// What was entered may be gone, or called otherwise by now: as far as it still leads somewhere.
+void followWay (Way& way, const graph::Graph& g)
+{
+    const auto* in = &g.root;
+    for (std::size_t i = 0; i < way.size(); ++i)
+    {
+        auto& [name, subgraph] = way[i];
+        const auto* node = in->find (name);
+        if (node != nullptr && node->type.starts_with ("graph:") && g.find (subgraph) == nullptr) subgraph = node->type.substr (6);
+        const auto leads = [type = "graph:" + subgraph] (const graph::Node& n)
+        { return n.type == type; };
+        if (node == nullptr || ! leads (*node))
+        {
+            const auto other = std::ranges::find_if (in->nodes, leads);
+            if (other == in->nodes.end()) return way.resize (i);
+            name = other->name;
+        }
+        in = g.find (subgraph);
+        if (in == nullptr) return way.resize (i);
+    }
+}
 }   // namespace
 
 Canvas::Canvas (Document& d, const Catalogue& c) : document (d), catalogue (c)
@@ -51,9 +73,7 @@ Canvas::~Canvas() { document.remove (*this); }
 
 void Canvas::documentChanged()
 {
-    // What was entered may be gone.
-    while (! entered.empty() && document.graph().find (entered.back().second) == nullptr)
-        entered.pop_back();
+    followWay (entered, document.graph());
     rebuild();
     std::erase_if (highlights.selected, [this] (graph::Id id)
                    { return isNote (id) ? noteOf (id) >= shown->notes().size() : shown->find (id) == nullptr && shown->findWire (id) == nullptr; });

@@ -97,6 +97,15 @@ void Look::drawLinearSlider (juce::Graphics& g, int x, int y, int width, int hei
     g.drawRoundedRectangle (area.reduced (0.5f), 4.0f, 1.0f);
 }
 
+juce::Component* Look::getParentComponentForMenuOptions (const juce::PopupMenu::Options& options)
+{
+    if (auto* parent = options.getParentComponent()) return parent;
+    const auto mouse = juce::Desktop::getInstance().getMainMouseSource();
+    for (auto* near : { options.getTargetComponent(), juce::Component::getCurrentlyFocusedComponent(), mouse.getComponentUnderMouse() })
+        if (near != nullptr) return near->getTopLevelComponent();
+    return nullptr;
+}
+
 Look& lookOf (const juce::Component& c) { return dynamic_cast<Look&> (c.getLookAndFeel()); }
 
 void drawNumber (juce::Graphics& g, const juce::String& text, juce::Rectangle<float> area)

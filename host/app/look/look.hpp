@@ -26,6 +26,10 @@ public:
     void drawComboBox (juce::Graphics&, int width, int height, bool down, int, int, int, int, juce::ComboBox&) override;
     juce::Font getComboBoxFont (juce::ComboBox&) override { return font (12.0f); }
     juce::Font getPopupMenuFont() override { return font (13.0f); }
+
+    /// Menus open inside the window: they cannot come to lie behind it, and need no window manager.
+    juce::Component* getParentComponentForMenuOptions (const juce::PopupMenu::Options&) override;
+
     juce::Font getLabelFont (juce::Label&) override { return font (12.0f); }
     void positionComboBoxText (juce::ComboBox&, juce::Label&) override;
     void drawLinearSlider (juce::Graphics&, int x, int y, int width, int height, float at, float, float, juce::Slider::SliderStyle, juce::Slider&) override;

@@ -142,7 +142,7 @@ void HandPanel::show (Performance& p)
     }
     if (who.getSelectedId() != id) who.setSelectedId (id, juce::dontSendNotification);
 
-    auto* const now = p.isRunning() ? p.transport() : nullptr;
+    const auto now = p.isRunning() ? p.transport() : nullptr;
     const bool is_new = now != transport;
     transport = now;
     for (auto* c : std::initializer_list<juce::Component*> { play.get(), &position, &speed })

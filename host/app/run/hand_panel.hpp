@@ -35,7 +35,7 @@ private:
     juce::ComboBox who;
     std::unique_ptr<juce::Button> play, listen;
     juce::Slider position, speed;
-    TransportPath* transport = nullptr;   // valid from one show() to the next, on the same thread
+    std::shared_ptr<TransportPath> transport;   // of the last show(); its run may be over since
     juce::String note;
 };
 

@@ -57,7 +57,7 @@ public:
     const Hand& hand() const noexcept { return moved_by; }
 
     /// The gesture or recording that the first role follows; null if it follows none that can be stopped.
-    TransportPath* transport() noexcept { return transported.get(); }
+    const std::shared_ptr<TransportPath>& transport() const noexcept { return transported; }
 
     /// What is wrong with the graph as it is, and what is to be said of it.
     const Messages& messages() const noexcept { return said; }

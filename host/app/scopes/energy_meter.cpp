@@ -112,6 +112,8 @@ void EnergyMeter::follow (const Sources& s)
 
 std::string withPrefix (double value, const std::string& unit, int digits)
 {
+    if (! std::isfinite (value)) return std::isnan (value) ? "nan" : value > 0.0 ? "inf"
+                                                                                 : "-inf";   // of a model that burst
     struct Prefix
     {
         const char* text;
@@ -128,8 +130,9 @@ std::string withPrefix (double value, const std::string& unit, int digits)
         }
     const double scaled = value / chosen->factor;
     const int whole = std::abs (scaled) < 1.0 ? 1 : static_cast<int> (std::floor (std::log10 (std::abs (scaled)))) + 1;
+    constexpr int most_digits = 12;
     char text[48];
-    std::snprintf (text, sizeof text, "%.*f", std::max (0, digits - whole), scaled);
+    whole > most_digits ? std::snprintf (text, sizeof text, "%.*e", digits - 1, scaled) : std::snprintf (text, sizeof text, "%.*f", std::max (0, digits - whole), scaled);
     const auto shown_unit = unit == "1" ? std::string {} : std::string (chosen->text) + unit;
     return shown_unit.empty() ? std::string (text) : std::string (text) + " " + shown_unit;
 }
@@ -139,7 +142,8 @@ std::string inWords (const EnergyBalance& b)
     const auto joule = [] (double v)
     {
         auto text = withPrefix (v, "J", 2);
-        return text.replace (text.find (' '), 1, "\u00a0");   // a number stays with its unit
+        const auto gap = text.find (' ');
+        return gap == std::string::npos ? text : text.replace (gap, 1, "\u00a0");   // a number stays with its unit
     };
     std::string text = b.isPassive() ? "passive: the hand has put in " + joule (b.work) : "active: " + joule (-b.worst - b.stored_first) + " more came out than went in; work of the hand " + joule (b.work);
     text += ", " + joule (b.stored) + " are stored, " + joule (b.dissipated) + " dissipated";

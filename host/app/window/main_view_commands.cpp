@@ -17,14 +17,6 @@ namespace
 constexpr int ticks_before_remembering = 15;   // half a second, so that a drag writes once
 constexpr std::array scales { 1.0, 1.25, 1.5, 2.0 };
 
-juce::PopupMenu::Item item (const juce::String& text, const juce::String& keys, std::function<void()> act)
-{
-    juce::PopupMenu::Item i (text);
-    i.shortcutKeyDescription = keys;
-    i.action = std::move (act);
-    return i;
-}
-
 /// Those of JUCE's own windows for files.
 void colourDialogs (Look& look)
 {
@@ -138,6 +130,16 @@ void MainView::store (int number)
 
 void MainView::openMenu (juce::Component& at)
 {
+    const auto item = [this] (const juce::String& text, const juce::String& keys, std::function<void()> act)
+    {
+        juce::PopupMenu::Item i (text);
+        i.shortcutKeyDescription = keys;
+        i.action = [safe = SafePointer (this), act = std::move (act)]   // which comes later, when the window may be gone
+        {
+            if (safe != nullptr) act();
+        };
+        return i;
+    };
     juce::PopupMenu menu, recent, size;
     for (const auto& file : settings.recent)
         recent.addItem (item (file.filename().string(), file.parent_path().string(), [this, file]

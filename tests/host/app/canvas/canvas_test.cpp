@@ -342,6 +342,27 @@ TEST_CASE ("what is under the pointer stays there while the wheel zooms", "[app]
     CHECK (rig.canvas->getLocalBounds().toFloat().contains (rig.canvas->view().toPixels (rig.canvas->scene().bounds().getTopLeft())));
 }
 
+TEST_CASE ("who is inside a subgraph stays there while it and its node are renamed", "[app][canvas]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    rig.hand().click (rig.title ("grain"));
+    rig.hand().key ("g");
+    REQUIRE (rig.graph().graphs.size() == 1);
+    const auto subgraph = rig.graph().graphs.front().first;
+    const auto node = std::ranges::find (rig.graph().root.nodes, "graph:" + subgraph, &graph::Node::type)->name;
+    rig.canvas->enter (rig.node (node));
+    REQUIRE (rig.document.perform (graph::RenameNode { "", node, "wood" }));
+    CHECK (rig.canvas->address ("a.b") == "wood/a.b");
+    REQUIRE (rig.document.perform (graph::RenameSubgraph { subgraph, "fibres" }));
+    CHECK (rig.canvas->patch() == "fibres");
+    rig.document.undo();
+    rig.document.undo();
+    CHECK (rig.canvas->patch() == subgraph);
+    CHECK (rig.canvas->address ("a.b") == node + "/a.b");
+    rig.document.undo();   // and the subgraph is gone
+    CHECK (rig.canvas->way().empty());
+}
+
 TEST_CASE ("every preset is drawn, and a rectangle around it selects all of it", "[app][canvas]")
 {
     for (const auto& entry : std::filesystem::directory_iterator (std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs"))

@@ -187,3 +187,16 @@ TEST_CASE ("scopes: numbers are short, with a prefix where the unit takes one", 
     CHECK (withPrefix (0.0, "N", 2) == "0.0 N");
     CHECK (withPrefix (2500.0, "N/m") == "2500 N/m");
 }
+
+TEST_CASE ("whatever a node puts out can be written in few letters", "[app][scopes]")
+{
+    CHECK (withPrefix (0.00012, "m", 2) == "120 µm");
+    CHECK (withPrefix (std::numeric_limits<double>::infinity(), "J") == "inf");
+    CHECK (withPrefix (-std::numeric_limits<double>::infinity(), "N/m") == "-inf");
+    CHECK (withPrefix (std::numeric_limits<double>::quiet_NaN(), "1") == "nan");
+    CHECK (withPrefix (-1.25e300, "1") == "-1.25e+300");
+    CHECK (withPrefix (std::numeric_limits<double>::denorm_min(), "1").size() < 12);
+    EnergyBalance burst;
+    burst.work = burst.worst = std::numeric_limits<double>::infinity();
+    CHECK (inWords (burst).find ("inf") != std::string::npos);
+}

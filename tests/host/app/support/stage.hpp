@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+namespace tactus::host::test
+{
+
+/// A window on a screen that is nowhere, with a mouse and a keyboard. What they do goes the way it goes in a real window:
+/// through focus, hovering, menus and whatever else stands before the component that is meant.
+class Stage final : public juce::Component
+{
+public:
+    Stage (int width, int height)
+    {
+        setOpaque (true);
+        setSize (width, height);
+        setVisible (true);
+        plugIn();
+        addToDesktop (0);
+    }
+
+    ~Stage() override { removeFromDesktop(); }
+
+    /// A screen to lay menus out on. JUCE forgets it when everything becomes larger or smaller.
+    static void plugIn()
+    {
+        auto& all = const_cast<juce::Array<juce::Displays::Display>&> (juce::Desktop::getInstance().getDisplays().displays);
+        if (! all.isEmpty()) return;
+        juce::Displays::Display screen {};
+        screen.isMain = true;
+        screen.totalArea = screen.userArea = { 0, 0, 1920, 1080 };
+        screen.scale = 1.0;
+        screen.dpi = 96.0;
+        all.add (screen);
+    }
+
+    void resized() override
+    {
+        for (auto* child : getChildren())
+            if (child->getProperties().contains ("fills")) child->setBounds (getLocalBounds());
+    }
+
+    void fill (juce::Component& c)
+    {
+        c.getProperties().set ("fills", true);
+        addAndMakeVisible (c);
+        c.setBounds (getLocalBounds());
+    }
+
+    /// Places are of this window.
+    void move (juce::Point<float> to)
+    {
+        at = to;
+        send (8);
+    }
+
+    void press (int button = juce::ModifierKeys::leftButtonModifier, int keys = 0)
+    {
+        held = keys;
+        move (at);
+        down = button;
+        send (200);
+    }
+
+    void release()
+    {
+        down = 0;
+        send (30);
+        held = 0;
+        send (1);
+    }
+
+    void click (juce::Point<float> to, int button = juce::ModifierKeys::leftButtonModifier, int keys = 0)
+    {
+        later (1000);   // no double click with the one before
+        move (to);
+        press (button, keys);
+        release();
+    }
+
+    void doubleClick (juce::Point<float> to)
+    {
+        click (to);
+        down = juce::ModifierKeys::leftButtonModifier;
+        send (60);
+        release();
+    }
+
+    void drag (juce::Point<float> from, juce::Point<float> to, int button = juce::ModifierKeys::leftButtonModifier, int keys = 0)
+    {
+        later (1000);
+        move (from);
+        press (button, keys);
+        for (const float part : { 0.1f, 0.4f, 0.8f, 1.0f })
+            move (from + (to - from) * part);
+        release();
+    }
+
+    void wheel (juce::Point<float> to, float up, bool is_smooth, int keys = 0)
+    {
+        move (to);
+        held = keys;
+        juce::MouseWheelDetails turned {};
+        turned.deltaY = up;
+        turned.isSmooth = is_smooth;
+        modifiersNow();
+        if (auto* peer = getPeer()) peer->handleMouseWheel (juce::MouseInputSource::mouse, inPeer(), time, turned);
+        held = 0;
+        send (1);
+    }
+
+    void key (const juce::KeyPress& k)
+    {
+        juce::ModifierKeys::currentModifiers = k.getModifiers();
+        if (auto* peer = getPeer()) peer->handleKeyPress (k);
+        modifiersNow();
+    }
+
+    /// As juce::KeyPress describes it.
+    void key (const juce::String& described)
+    {
+        const auto k = juce::KeyPress::createFromDescription (described);
+        const bool is_written = ! k.getModifiers().isCtrlDown() && ! k.getModifiers().isAltDown() && k.getKeyCode() >= ' ' && k.getKeyCode() < 127;
+        key (juce::KeyPress (k.getKeyCode(), k.getModifiers(), is_written ? juce::CharacterFunctions::toLowerCase (static_cast<juce::juce_wchar> (k.getKeyCode())) : 0));
+    }
+
+    void type (const juce::String& text)
+    {
+        for (auto c = text.getCharPointer(); ! c.isEmpty(); ++c)
+            key (juce::KeyPress (static_cast<int> (*c), {}, *c));
+    }
+
+    void drop (const juce::String& file, juce::Point<float> to)
+    {
+        auto* peer = getPeer();
+        if (peer == nullptr) return;
+        at = to;
+        const juce::ComponentPeer::DragInfo dragged { { file }, {}, inPeer().roundToInt() };
+        peer->handleDragMove (dragged);
+        peer->handleDragDrop (dragged);
+    }
+
+private:
+    class Peer final : public juce::ComponentPeer
+    {
+    public:
+        using ComponentPeer::ComponentPeer;
+
+        void* getNativeHandle() const override { return const_cast<Peer*> (this); }
+        void setVisible (bool) override {}
+        void setTitle (const juce::String&) override {}
+        void setBounds (const juce::Rectangle<int>& b, bool) override
+        {
+            bounds = b;
+            handleMovedOrResized();
+        }
+        juce::Rectangle<int> getBounds() const override { return bounds; }
+        juce::Point<float> localToGlobal (juce::Point<float> p) override { return p + bounds.getPosition().toFloat(); }
+        juce::Point<float> globalToLocal (juce::Point<float> p) override { return p - bounds.getPosition().toFloat(); }
+        using ComponentPeer::globalToLocal;
+        using ComponentPeer::localToGlobal;
+        void setMinimised (bool) override {}
+        bool isMinimised() const override { return false; }
+        void setFullScreen (bool) override {}
+        bool isFullScreen() const override { return false; }
+        void setIcon (const juce::Image&) override {}
+        bool contains (juce::Point<int> p, bool) const override { return bounds.withZeroOrigin().contains (p); }
+        OptionalBorderSize getFrameSizeIfPresent() const override { return {}; }
+        juce::BorderSize<int> getFrameSize() const override { return {}; }
+        bool setAlwaysOnTop (bool) override { return true; }
+        void toFront (bool takes_focus) override
+        {
+            if (takes_focus) grabFocus();
+        }
+        void toBehind (ComponentPeer*) override {}
+        bool isFocused() const override { return has_focus; }
+        void grabFocus() override
+        {
+            if (std::exchange (has_focus, true)) return;
+            handleFocusGain();
+        }
+        void repaint (const juce::Rectangle<int>&) override {}
+        void performAnyPendingRepaintsNow() override {}
+        void setAlpha (float) override {}
+        juce::StringArray getAvailableRenderingEngines() override { return { "None" }; }
+        void textInputRequired (juce::Point<int>, juce::TextInputTarget&) override {}
+
+    private:
+        juce::Rectangle<int> bounds;
+        bool has_focus = false;
+    };
+
+    juce::ComponentPeer* createNewPeer (int style, void*) override { return new Peer (*this, style); }
+
+    juce::Point<float> inPeer() const { return at * getDesktopScaleFactor(); }
+    void modifiersNow() const { juce::ModifierKeys::currentModifiers = juce::ModifierKeys (held | down); }
+    void later (juce::int64 ms) { time += ms; }
+
+    void send (juce::int64 after_ms)
+    {
+        later (after_ms);
+        modifiersNow();
+        if (auto* peer = getPeer()) peer->handleMouseEvent (juce::MouseInputSource::mouse, inPeer(), juce::ModifierKeys (held | down), juce::MouseInputSource::defaultPressure, juce::MouseInputSource::defaultOrientation, time);
+    }
+
+    juce::Point<float> at;
+    int down = 0, held = 0;
+    juce::int64 time = juce::Time::currentTimeMillis();
+};
+
+}   // namespace tactus::host::test
