@@ -163,8 +163,8 @@ void Performance::documentChanged()
     const auto& graph = document.graph();
     const bool is_same_run = engine != nullptr && graph.rate_hz == rate_hz && graph.devices == run_devices;
     if (is_same_run) return takeOver();
-    if (wanted) return start (moved_by);   // perhaps it compiles now
-    said = compileAt (graph.rate_hz, nullptr, nullptr).messages;
+    said = compileAt (graph.rate_hz, nullptr, nullptr).messages;   // a run that ends first may take a moment
+    if (wanted) start (moved_by);                                  // perhaps it compiles now
 }
 
 void Performance::takeOver()
