@@ -86,7 +86,7 @@ TEST_CASE ("a delayed wire of the same text goes before one with another delay",
 TEST_CASE ("a file that is read again and shuffled has all its ids back, subgraphs too, and none twice", "[graph]")
 {
     rc::prop ("any graph", [] (std::uint64_t seed)
-               {
+              {
         const auto before = test::wildGraph (seed);
         auto now = readGraph (writeGraph (before)).graph;
         std::mt19937_64 chance { seed };
@@ -104,7 +104,7 @@ TEST_CASE ("a file that is read again and shuffled has all its ids back, subgrap
 TEST_CASE ("whatever two graphs have to do with each other, no id is given twice", "[graph]")
 {
     rc::prop ("any two", [] (std::uint64_t a, std::uint64_t b)
-               {
+              {
         const auto before = test::wildGraph (a);
         auto now = test::wildGraph (b);
         const auto text = writeGraph (now);

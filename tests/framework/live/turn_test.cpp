@@ -58,7 +58,7 @@ TEST_CASE ("a control turned live takes all its targets where the file would hav
     Engine engine { compile (graph, catalogue()).plan };
     engine.tick();
     rc::prop ("any place of the control", [&]
-               {
+              {
         const double at = *rc::gen::inRange (0, 1001) / 1000.0;
         RC_ASSERT (idOf (turnControl (engine, graph, "roughness", at)) == "");
         for (const auto* target : { "grain.amplitude", "drag.mu" })

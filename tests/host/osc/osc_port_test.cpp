@@ -108,7 +108,7 @@ TEST_CASE ("any bytes are a packet or none, and nothing beyond their end is look
     const auto right = padded ("#bundle") + std::string (8, '\0') + word (36) + padded ("/tactus/param") + padded (",sif") + padded ("ab") + word (7) + word (0x3f000000);
     CHECK (readPacket (right).right);
     rc::prop ("any damage", [&] (std::vector<std::pair<std::uint16_t, char>> changes, std::uint16_t cut, std::string more)
-               {
+              {
         auto bytes = right;
         for (const auto& [place, c] : changes)
             bytes[place % bytes.size()] = c;
@@ -180,7 +180,7 @@ TEST_CASE ("whatever else is sent to a port does no harm, and is counted", "[osc
     {
         const auto right = padded ("/tactus/param") + padded (",sfib") + padded ("drag.mu") + word (0x3f000000) + word (7) + word (4) + "abcd";
         rc::prop ("any damage", [&] (std::vector<std::pair<std::uint16_t, char>> changes, std::uint16_t cut)
-                   {
+                  {
             auto bytes = right;
             for (const auto& [place, c] : changes)
                 bytes[place % bytes.size()] = c;

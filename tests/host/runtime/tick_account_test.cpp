@@ -14,7 +14,7 @@ using namespace tactus::host;
 TEST_CASE ("a quantile is that of the durations, within a bin, and never more than the longest", "[runtime]")
 {
     rc::prop ("any durations", [] (std::vector<std::uint32_t> microseconds, std::uint32_t permille)
-               {
+              {
         RC_PRE (! microseconds.empty());
         Durations durations;
         for (auto& us : microseconds)
