@@ -3,6 +3,7 @@
 #include "commands.hpp"
 #include "drags.hpp"
 
+#include <host/app/look/focus.hpp>
 #include <host/app/model/wire_rules.hpp>
 
 #include <limits>
@@ -310,7 +311,7 @@ std::unique_ptr<Drag> Canvas::dragFor (const juce::MouseEvent& e)
 void Canvas::mouseDown (const juce::MouseEvent& e)
 {
     endTyping (true);
-    grabKeyboardFocus();
+    takeFocus (*this);
     drag = dragFor (e);
 }
 

@@ -6,6 +6,7 @@
 #include <framework/graph/endpoints.hpp>
 #include <framework/graph/text.hpp>
 #include <framework/turn.hpp>
+#include <host/app/look/focus.hpp>
 #include <host/app/model/clipboard.hpp>
 #include <host/app/model/fragment.hpp>
 #include <host/app/model/param_now.hpp>
@@ -280,7 +281,7 @@ void Canvas::type (juce::Rectangle<float> area, const juce::String& text, bool s
     typing->onEscapeKey = [this]
     { endTyping (false); };
     addAndMakeVisible (*typing);
-    typing->grabKeyboardFocus();
+    takeFocus (*typing);
     typing->selectAll();
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "number_field.hpp"
 
+#include <host/app/look/focus.hpp>
+
 #include <framework/number_text.hpp>
 
 #include <cctype>
@@ -111,18 +113,18 @@ void NumberField::openEditor()
     editor->onReturnKey = [this]
     {
         apply();
-        grabKeyboardFocus();
+        takeFocus (*this);
     };
     editor->onEscapeKey = [this]
     {
         closeEditor();
-        grabKeyboardFocus();
+        takeFocus (*this);
     };
     editor->onFocusLost = [this]
     { apply(); };
     addAndMakeVisible (*editor);
     resized();
-    editor->grabKeyboardFocus();
+    takeFocus (*editor);
     editor->selectAll();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "palette.hpp"
 
+#include <host/app/look/focus.hpp>
 #include <host/app/look/glyph.hpp>
 
 namespace tactus::host
@@ -31,14 +32,14 @@ void Palette::open (std::function<std::vector<PaletteEntry> (const std::string&)
     update();
     setVisible (true);
     toFront (false);
-    query.grabKeyboardFocus();
+    takeFocus (query);
 }
 
 void Palette::close()
 {
     if (! isVisible()) return;
     setVisible (false);
-    if (auto* parent = getParentComponent()) parent->grabKeyboardFocus();
+    if (auto* parent = getParentComponent()) takeFocus (*parent);
 }
 
 void Palette::update()

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hand_view.hpp"
 
+#include <host/app/look/focus.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -20,6 +22,7 @@ void HandView::show (const Performance& p)
     held = held && by_pointer;
     running = p.isRunning();
     tool = p.tool();
+    if (tool && ! (isFinite (tool->position) && isFinite (tool->force))) tool.reset();   // a loop that is not stable may throw it anywhere
     if (tool)
     {
         trail.push_back (tool->position);
@@ -36,7 +39,9 @@ juce::Point<float> HandView::toPixels (const Vec3& p) const
 {
     const auto area = surface();
     const float scale = area.getWidth() / static_cast<float> (2.0 * half_width_m);
-    return { area.getCentreX() + static_cast<float> (p.x()) * scale, area.getCentreY() - static_cast<float> (p.y()) * scale };
+    const auto near = [] (double m)
+    { return static_cast<float> (std::clamp (m, -100.0, 100.0)); };
+    return { area.getCentreX() + near (p.x()) * scale, area.getCentreY() - near (p.y()) * scale };
 }
 
 void HandView::point (const juce::MouseEvent& e)
@@ -69,7 +74,7 @@ void HandView::mouseDrag (const juce::MouseEvent& e) { point (e); }
 
 void HandView::mouseDown (const juce::MouseEvent& e)
 {
-    grabKeyboardFocus();
+    takeFocus (*this);
     held = false;
     pressed = true;
     point (e);
@@ -139,7 +144,8 @@ void HandView::paint (juce::Graphics& g)
 
     const auto at = toPixels (tool->position);
     constexpr float pixels_per_newton = 40.0f;
-    const juce::Point<float> push { static_cast<float> (tool->force.x()) * pixels_per_newton, -static_cast<float> (tool->force.y()) * pixels_per_newton };
+    constexpr double longest = 100.0;   // N
+    const juce::Point<float> push { static_cast<float> (std::clamp (tool->force.x(), -longest, longest)) * pixels_per_newton, -static_cast<float> (std::clamp (tool->force.y(), -longest, longest)) * pixels_per_newton };
     g.setColour (theme.of (Quantity::force));
     if (push.getDistanceFromOrigin() > 2.0f) g.drawArrow ({ at, at + push }, 2.5f, 9.0f, 9.0f);
     const bool touches = tool->force.norm() > 1e-6;

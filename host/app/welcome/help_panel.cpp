@@ -2,6 +2,7 @@
 #include "help_panel.hpp"
 
 #include <host/app/canvas/commands.hpp>
+#include <host/app/look/focus.hpp>
 #include <host/app/model/node_doc.hpp>
 
 #include <framework/number_text.hpp>
@@ -254,7 +255,7 @@ void HelpPanel::close()
 {
     if (! isOpen()) return;
     setVisible (false);
-    if (auto* parent = getParentComponent(); parent != nullptr && parent->isShowing()) parent->grabKeyboardFocus();
+    if (auto* parent = getParentComponent()) takeFocus (*parent);
 }
 
 void HelpPanel::resized()

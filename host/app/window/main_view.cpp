@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "main_view.hpp"
 
+#include <host/app/look/focus.hpp>
+
 #include <framework/file/graph_file.hpp>
 
 #include <algorithm>
@@ -304,7 +306,7 @@ void MainView::openPalette (const NodeWish& wish)
                   [this, wish] (const std::string& type)
                   {
         patching->addNodeAt (type, wish);
-        patching->grabKeyboardFocus(); });
+        takeFocus (*patching); });
 }
 
 void MainView::choose (const juce::String& purpose, std::vector<PaletteEntry> entries, std::function<void (const std::string&)> chosen)
@@ -315,7 +317,7 @@ void MainView::choose (const juce::String& purpose, std::vector<PaletteEntry> en
                   purpose, [this, chosen = std::move (chosen)] (const std::string& type)
                   {
         chosen (type);
-        patching->grabKeyboardFocus(); });
+        takeFocus (*patching); });
 }
 
 void MainView::placePalette (juce::Point<int> at) { palette.setBounds (juce::Rectangle<int> (Palette::width, Palette::height).withPosition (at).constrainedWithin (getLocalBounds().reduced (8))); }

@@ -2,6 +2,7 @@
 // What menus and keys of the window do.
 #include "main_view.hpp"
 
+#include <host/app/look/focus.hpp>
 #include <host/app/welcome/example.hpp>
 
 #include <framework/file/graph_file.hpp>
@@ -191,7 +192,7 @@ void MainView::askForFile (bool saves, const std::filesystem::path& begin, std::
     const int how = saves ? Choice::saveMode | Choice::canSelectFiles | Choice::warnAboutOverwriting : Choice::openMode | Choice::canSelectFiles;
     chooser->launchAsync (how, [this, chosen = std::move (chosen)] (const juce::FileChooser& c)
                           {
-        patching->grabKeyboardFocus();
+        takeFocus (*patching);
         if (const auto file = c.getResult(); file != juce::File()) chosen (file.getFullPathName().toStdString()); });
 }
 

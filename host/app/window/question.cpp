@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "question.hpp"
 
+#include <host/app/look/focus.hpp>
+
 #include <cmath>
 
 namespace tactus::host
@@ -32,7 +34,7 @@ void Question::ask (const juce::String& title, const juce::String& text, std::ve
     toFront (false);
     resized();
     repaint();
-    if (isShowing()) grabKeyboardFocus();
+    takeFocus (*this);
 }
 
 void Question::answer (std::size_t choice)
@@ -40,7 +42,7 @@ void Question::answer (std::size_t choice)
     if (! isOpen() || choice >= choices.size()) return;
     const auto act = choices[choice].act;   // which may ask the next question
     setVisible (false);
-    if (auto* parent = getParentComponent(); parent != nullptr && parent->isShowing()) parent->grabKeyboardFocus();
+    if (auto* parent = getParentComponent()) takeFocus (*parent);
     if (act) act();
 }
 

@@ -22,6 +22,8 @@ public:
 
     ~Stage() override { removeFromDesktop(); }
 
+    void paint (juce::Graphics& g) override { g.fillAll (juce::Colours::black); }
+
     /// A screen to lay menus out on. JUCE forgets it when everything becomes larger or smaller.
     static void plugIn()
     {

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <juce_gui_basics/juce_gui_basics.h>
+
+namespace tactus::host
+{
+
+/// Gives a component the keyboard, if it is on a screen.
+inline void takeFocus (juce::Component& c)
+{
+    if (c.isShowing()) c.grabKeyboardFocus();
+}
+
+}   // namespace tactus::host
