@@ -228,7 +228,7 @@ TEST_CASE ("a preset is felt while it is held, and the document is as it was bef
     CHECK_FALSE (o.view->run().isWanted());   // what was stopped stays stopped
 }
 
-TEST_CASE ("--light is for this start only")
+TEST_CASE ("light colours by option are for this start only")
 {
     Opened o;
     o.view->begin ({ o.home.path(), true, true });
