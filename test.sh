@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: MIT
 # Builds and tests everything from a fresh Debian 12. May be run again.
 #
-#   ./test.sh           the tests, also under ASan and UBSan (framework, nodes, window), and a newcomer's node
+#   ./test.sh           the tests, also under ASan and UBSan (framework and nodes), and a newcomer's node
 #   ./test.sh --quick   the tests only
-#   ./test.sh --long    before that: each fuzzer for 60 s, the tests under TSan with those of threads for 30 s each, and
-#                       after it a soak of 1.2e8 ticks
+#   ./test.sh --long    before that: each fuzzer for 60 s, the tests under TSan with those of threads for 30 s each, the
+#                       window under ASan and UBSan, and after it a soak of 1.2e8 ticks
 #   ./test.sh --screens uses the host as a person would, on a display of its own, takes docs/host/, and does nothing else
 #   ./test.sh --figures draws docs/figures/ and counts docs/instructions.md anew, and does nothing else
 . "$(dirname "$0")/.ci/setup.sh"
@@ -25,7 +25,12 @@ install_packages
 # Properties draw the same inputs each time, so that a commit passes or fails for good; --long draws others.
 [ "$mode" = --long ] || export RC_PARAMS=${RC_PARAMS:-seed=1}
 
-run_tests () { ctest --test-dir "build/$1" --output-on-failure --parallel "$(nproc)"; }
+run_tests ()
+{
+    local preset=$1
+    shift
+    ctest --test-dir "build/$preset" --output-on-failure --parallel "$(nproc)" "$@"
+}
 
 if [ "$mode" = --screens ]; then
     build release tactus-host
@@ -56,6 +61,9 @@ if [ "$mode" = --long ]; then
     build tsan
     say "Tests under TSan"
     TACTUS_LIVE_SECONDS=30 run_tests tsan
+    build asan-window tactus_app_tests
+    say "The window under ASan and UBSan"
+    run_tests asan-window -R '^app:'
 fi
 
 if [ "$mode" != --quick ]; then
