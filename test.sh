@@ -23,7 +23,8 @@ packages+=(python3 python3-jsonschema)
 install_packages
 
 # Properties draw the same inputs each time, so that a commit passes or fails for good; --long draws others.
-[ "$mode" = --long ] || export RC_PARAMS=${RC_PARAMS:-seed=1}
+export RC_PARAMS=${RC_PARAMS:-}
+[ "$mode" = --long ] || RC_PARAMS=${RC_PARAMS:-seed=1}
 
 run_tests ()
 {
@@ -69,7 +70,7 @@ fi
 if [ "$mode" != --quick ]; then
     build asan
     say "Tests under ASan and UBSan"
-    run_tests asan
+    RC_PARAMS="$RC_PARAMS max_success=20" run_tests asan   # memory is misused by the kind of input, seldom by its number
 fi
 
 build release

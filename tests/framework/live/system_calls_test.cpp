@@ -73,13 +73,13 @@ TEST_CASE ("in free run, under edits as fast as they come, ticks make no system 
         test::forbidSystemCalls();   // on this thread
         int taken = 0;
         const Plan* last = nullptr;
-        for (std::uint64_t k = 0; taken < 200 || k < 100000; ++k)
+        for (std::uint64_t k = 0; taken < 50 || k < 100000; ++k)
         {
             live.engine().tick();
             taken += last != &live.engine().plan();
             last = &live.engine().plan();
         }
-        _exit (edits >= 200 ? 0 : 2); });
+        _exit (edits >= 50 ? 0 : 2); });
     CHECK (end.signal == 0);
     CHECK (end.status == 0);
 }
