@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "param_edit.hpp"
 
+#include "inside.hpp"
 #include "instances.hpp"
 #include "text.hpp"
 
@@ -11,16 +12,6 @@
 
 namespace tactus::graph
 {
-
-namespace
-{
-const Patch* insideOf (const Graph& graph, const Node& node)
-{
-    if (node.type.starts_with ("graph:")) return graph.find (std::string_view (node.type).substr (6));
-    const auto file = node.type.starts_with ("file:") ? graph.files.find (node.type.substr (5)) : graph.files.end();
-    return file != graph.files.end() ? &file->second->root : nullptr;
-}
-}   // namespace
 
 std::variant<Command, Message> paramEdit (const Graph& graph, std::string_view name, std::optional<Json> value)
 {
@@ -39,7 +30,7 @@ std::variant<Command, Message> paramEdit (const Graph& graph, std::string_view n
         return SetParam { "", node->name, e.port, std::move (value) };
     }
 
-    const auto* inside = insideOf (graph, *node);
+    const auto* inside = insideOf (graph, *node).patch;
     const auto shown = inside != nullptr ? std::ranges::find (inside->expose.params, e.port, &std::pair<std::string, Endpoint>::first) : std::vector<std::pair<std::string, Endpoint>>::const_iterator {};
     if (inside == nullptr || shown == inside->expose.params.end()) return refused ("param/unknown", inQuotes (step.name) + " shows no parameter " + inQuotes (e.port), "name one inside, as in " + e.node + "/drag.mu");
     auto end = shown->second;

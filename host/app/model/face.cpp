@@ -2,6 +2,7 @@
 #include "face.hpp"
 
 #include <framework/graph/endpoints.hpp>
+#include <framework/graph/inside.hpp>
 
 #include <algorithm>
 
@@ -53,10 +54,7 @@ public:
 
     Face make (const graph::Graph& graph, const graph::Patch& patch, const graph::Node& node, int depth) const
     {
-        if (node.type.starts_with ("graph:"))
-            if (const auto* inside = graph.find (std::string_view (node.type).substr (6))) return subgraph (graph, *inside, depth);
-        if (node.type.starts_with ("file:"))
-            if (const auto file = graph.files.find (node.type.substr (5)); file != graph.files.end()) return subgraph (*file->second, file->second->root, depth);
+        if (const auto inside = graph::insideOf (graph, node)) return subgraph (*inside.owner, *inside.patch, depth);
 
         Face face;
         face.type = catalogue.find (node.type);

@@ -3,6 +3,7 @@
 #include "quantity_text.hpp"
 
 #include <framework/graph/endpoints.hpp>
+#include <framework/graph/inside.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,15 +25,7 @@ Json entryIn (const Json& all, const std::optional<std::size_t>& entry)
 /// What stands inside a subgraph for a param that it shows; null if nothing was written there.
 Json inside (const graph::Graph& g, const graph::Node& node, const std::string& param, int depth)
 {
-    const graph::Graph* owner = &g;
-    const graph::Patch* patch = nullptr;
-    if (node.type.starts_with ("graph:")) patch = g.find (node.type.substr (6));
-    if (node.type.starts_with ("file:"))
-        if (const auto file = g.files.find (node.type.substr (5)); file != g.files.end())
-        {
-            owner = file->second.get();
-            patch = &owner->root;
-        }
+    const auto [owner, patch] = graph::insideOf (g, node);
     if (patch == nullptr || depth > deepest) return {};
     const auto shown = std::ranges::find (patch->expose.params, param, &std::pair<std::string, graph::Endpoint>::first);
     if (shown == patch->expose.params.end()) return {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scope_ports.hpp"
 
+#include <framework/graph/inside.hpp>
 #include <host/runtime/probe_ring.hpp>
 
 namespace tactus::host
@@ -25,10 +26,7 @@ struct Walk
             for (const auto* ports : { &face.outputs, &face.inputs, &face.params })
                 for (const auto& port : *ports)
                     if (! port.isChoice()) all.push_back ({ path + "." + port.id, path, node.id, node.type, port });
-            if (node.type.starts_with ("graph:"))
-                if (const auto* inside = g.find (std::string_view (node.type).substr (6))) patch (g, *inside, path + "/", depth + 1);
-            if (node.type.starts_with ("file:"))
-                if (const auto file = g.files.find (node.type.substr (5)); file != g.files.end()) patch (*file->second, file->second->root, path + "/", depth + 1);
+            if (const auto inside = graph::insideOf (g, node)) patch (*inside.owner, *inside.patch, path + "/", depth + 1);
         }
     }
 };
