@@ -5,6 +5,7 @@
 #include <framework/graph/endpoints.hpp>
 #include <framework/graph/text.hpp>
 #include <host/app/model/param_now.hpp>
+#include <host/app/model/quantities.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,14 +17,8 @@ namespace
 {
 std::size_t at (int i) { return static_cast<std::size_t> (i); }
 
-constexpr Dimension none {};
 constexpr std::size_t most_routed = 300;   // nodes; of larger patches each edit would take too long
 
-/// True if the unit of a generic port is that of another one, times nothing.
-bool follows (const UnitRule& rule) { return rule.kind == UnitRule::Kind::same && rule.unit.dimension == none; }
-
-/// "in" of "in[2]".
-std::string_view baseOf (std::string_view id) { return id.substr (0, id.find ('[')); }
 }   // namespace
 
 Quantity SceneNode::quantityOf (const FacePort& port) const
@@ -46,7 +41,7 @@ Scene::Scene (const graph::Graph& graph, const std::string& name, const Catalogu
     if (patch == nullptr) return;
     addNodes (graph, name, *patch, catalogue, widthOf);
     place (*patch);
-    findQuantities (*patch);
+    findQuantities (*patch, Quantities (graph, catalogue));
     addWires (*patch);
     routeWires();
     addExposed (*patch);
@@ -120,41 +115,14 @@ std::optional<juce::Point<float>> Scene::besideOthers (std::size_t i, const std:
     return std::nullopt;
 }
 
-/// What generic ports carry goes from port to port along wires and through nodes, until nothing new is found.
-void Scene::findQuantities (const graph::Patch& patch)
+/// Generic ports take on what is wired to them.
+void Scene::findQuantities (const graph::Patch& patch, const Quantities& quantities)
 {
-    const auto learn = [] (SceneNode& node, const FacePort& port, Quantity q)
-    {
-        if (q == Quantity::any || node.quantityOf (port) != Quantity::any) return false;
-        node.carried[{ port.role, port.id }] = q;
-        return true;
-    };
-    for (bool learned = true; learned;)
-    {
-        learned = false;
-        for (const auto& w : patch.wires)
-        {
-            const int from = numberOf (w.from.node), to = numberOf (w.to.node);
-            if (from < 0 || to < 0 || ! w.gain.is_null()) continue;
-            auto &a = all_nodes[at (from)], &b = all_nodes[at (to)];
-            const auto *start = a.face->startOf (w.from), *end = b.face->endOf (w.to);
-            if (start == nullptr || end == nullptr) continue;
-            learned = learn (b, *end, a.quantityOf (*start)) || learned;
-            learned = learn (a, *start, b.quantityOf (*end)) || learned;
-        }
-        for (auto& node : all_nodes)
-            for (const auto* ports : { &node.face->inputs, &node.face->params, &node.face->outputs })
-                for (const auto& port : *ports)
-                    for (const auto* others : { &node.face->inputs, &node.face->params, &node.face->outputs })
-                        for (const auto& other : *others)
-                        {
-                            const bool alike = (follows (port.unit) && port.unit.a == baseOf (other.id))
-                                               || (port.unit.kind == UnitRule::Kind::open && other.unit.kind == UnitRule::Kind::open && &port != &other && baseOf (port.id) == baseOf (other.id));
-                            if (! alike) continue;
-                            learned = learn (node, port, node.quantityOf (other)) || learned;
-                            learned = learn (node, other, node.quantityOf (port)) || learned;
-                        }
-    }
+    for (std::size_t i = 0; i < all_nodes.size(); ++i)
+        for (const auto* ports : { &all_nodes[i].face->inputs, &all_nodes[i].face->params, &all_nodes[i].face->outputs })
+            for (const auto& port : *ports)
+                if (port.quantity() == Quantity::any)
+                    if (const auto q = quantities.of (patch, i, port.role, port.id); q != Quantity::any) all_nodes[i].carried[{ port.role, port.id }] = q;
 }
 
 void Scene::addWires (const graph::Patch& patch)

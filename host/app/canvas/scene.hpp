@@ -12,6 +12,8 @@
 namespace tactus::host
 {
 
+class Quantities;
+
 struct SceneNode
 {
     graph::Id id = 0;
@@ -97,7 +99,7 @@ private:
     void addNodes (const graph::Graph&, const std::string& name, const graph::Patch&, const Catalogue&, const TextWidth&);
     void place (const graph::Patch&);
     std::optional<juce::Point<float>> besideOthers (std::size_t node, const std::vector<std::size_t>& unplaced, const std::vector<std::pair<int, int>>& wires) const;
-    void findQuantities (const graph::Patch&);
+    void findQuantities (const graph::Patch&, const Quantities&);
     void addWires (const graph::Patch&);
     void routeWires();
     void addExposed (const graph::Patch&);

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "support/sketch.hpp"
+
+#include <framework/file/graph_file.hpp>
+#include <host/app/model/quantities.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <filesystem>
+
+using namespace tactus;
+using namespace tactus::host;
+using test::Sketch;
+
+TEST_CASE ("what is wired to a generic port is known inside the subgraph, and outside of it", "[quantities]")
+{
+    Sketch sketch;
+    auto& louder = sketch.subgraph ("louder");
+    sketch.add (louder, "times", "signal.gain");
+    louder.expose.inputs = { { "in", { "times", "in" } } };
+    louder.expose.outputs = { { "out", { "times", "out" } } };
+    sketch.node ("plane", "deform.plane").node ("more", "graph:louder").node ("half", "signal.gain");
+    sketch.wire ("plane.resistance -> more.in").wire ("more.out -> half.in");
+
+    const Quantities quantities (sketch.graph, catalogue());
+    CHECK (quantities.of (sketch.graph.root, 1, Role::input, "in") == Quantity::force);
+    CHECK (quantities.of (sketch.graph.root, 1, Role::output, "out") == Quantity::force);
+    CHECK (quantities.of (sketch.graph.root, 2, Role::output, "out") == Quantity::force);
+    CHECK (quantities.of (*sketch.graph.find ("louder"), 0, Role::output, "out") == Quantity::force);
+    CHECK (quantities.of (*sketch.graph.find ("louder"), 0, Role::param, "gain") == Quantity::gain);
+    CHECK (quantities.of (sketch.graph.root, 0, Role::output, "no such port") == Quantity::any);
+}
+
+TEST_CASE ("a subgraph that contains itself has an end", "[quantities]")
+{
+    Sketch sketch;
+    auto& inside = sketch.subgraph ("again");
+    sketch.add (inside, "a", "graph:again");
+    inside.expose.outputs = { { "out", { "a", "out" } } };
+    sketch.node ("top", "graph:again");
+    CHECK (Quantities (sketch.graph, catalogue()).of (sketch.graph.root, 0, Role::output, "out") == Quantity::any);
+}
+
+TEST_CASE ("of the subgraphs that are delivered it is known what each port carries that is wired", "[quantities]")
+{
+    int seen = 0;
+    for (const auto& entry : std::filesystem::directory_iterator (TACTUS_SOURCE_DIR "/graphs"))
+    {
+        if (entry.path().extension() != ".json") continue;
+        const auto graph = loadGraph (entry.path()).graph;
+        const Quantities quantities (graph, catalogue());
+        for (const auto& wire : graph.root.wires)
+            for (std::size_t i = 0; i < graph.root.nodes.size(); ++i)
+            {
+                const auto& node = graph.root.nodes[i];
+                if (! node.type.starts_with ("graph:") || node.name != wire.from.node) continue;
+                INFO (entry.path().filename() << ": " << node.name << "." << wire.from.port);
+                CHECK (quantities.of (graph.root, i, Role::output, wire.from.port) != Quantity::any);
+                ++seen;
+            }
+    }
+    CHECK (seen >= 2);
+}
