@@ -81,8 +81,16 @@ void Canvas::copySelection() const
 
 void Canvas::pasteText()
 {
+    const auto text = textFromClipboard();
+    double right = 32.0, down = 32.0;   // beside what it was copied from
+    if (const auto corner = cornerOf (text); corner && isMouseOver())
+    {
+        const auto at = (pointerOrCentre() / Box::grid).roundToInt().toDouble() * static_cast<double> (Box::grid);
+        right = at.x - corner->first;
+        down = at.y - corner->second;
+    }
     Selection made;
-    auto command = paste (document.graph(), patch(), textFromClipboard(), 32.0, 32.0, made);
+    auto command = paste (document.graph(), patch(), text, right, down, made);
     if (const auto* problem = std::get_if<Message> (&command))
         notice ("Nothing to paste: " + juce::String (problem->text));
     else if (! made.empty() && perform (std::get<graph::Command> (std::move (command))))

@@ -36,17 +36,31 @@ std::string stemOf (const std::string& name)
     return numbered ? name.substr (0, digits) : name;
 }
 
+using Place = std::pair<double, double>;
+
+/// Where a node was put, if it was.
+std::optional<Place> placeOf (const graph::Node& node)
+{
+    const auto ui = node.extra.find ("ui");
+    if (ui == node.extra.end() || ! ui->is_object()) return std::nullopt;
+    const auto at = ui->find ("at");
+    if (at == ui->end() || ! at->is_array() || at->size() != 2 || ! (*at)[0].is_number() || ! (*at)[1].is_number()) return std::nullopt;
+    return Place { (*at)[0].get<double>(), (*at)[1].get<double>() };
+}
+
 void move (graph::Node& node, double dx, double dy)
 {
-    auto& ui = node.extra["ui"];
-    if (! ui.is_object() || ! ui.contains ("at") || ! ui["at"].is_array() || ui["at"].size() != 2 || ! ui["at"][0].is_number() || ! ui["at"][1].is_number())
-    {
-        if (ui.is_null()) node.extra.erase ("ui");
-        return;
-    }
-    ui["at"] = Json::array ({ ui["at"][0].get<double>() + dx, ui["at"][1].get<double>() + dy });
+    if (const auto from = placeOf (node)) node.extra["ui"]["at"] = Json::array ({ from->first + dx, from->second + dy });
 }
 }   // namespace
+
+std::optional<std::pair<double, double>> cornerOf (const std::string& text)
+{
+    std::optional<Place> corner;
+    for (const auto& node : readGraph (text).graph.root.nodes)
+        if (const auto at = placeOf (node)) corner = corner ? Place { std::min (corner->first, at->first), std::min (corner->second, at->second) } : *at;
+    return corner;
+}
 
 std::string freeName (const graph::Patch& patch, const std::set<std::string>& also_taken, const std::string& wanted)
 {

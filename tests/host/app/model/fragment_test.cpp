@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "support/sketch.hpp"
+
+#include <framework/graph/edit.hpp>
+#include <host/app/model/fragment.hpp>
+
+#include <catch2/catch.hpp>
+
+using namespace tactus;
+using namespace tactus::host;
+using test::Sketch;
+
+TEST_CASE ("the corner of what was copied is as far left and as far up as any of its nodes", "[fragment]")
+{
+    auto sketch = Sketch {}.node ("a", "signal.constant").node ("b", "signal.gain").node ("c", "signal.abs");
+    auto& g = sketch.graph;
+    std::set<graph::Id> all;
+    for (auto& n : g.root.nodes)
+        all.insert (n.id = static_cast<graph::Id> (all.size() + 1));
+    CHECK_FALSE (cornerOf (copyText (g, "", all)));
+    CHECK_FALSE (cornerOf ("no graph at all"));
+
+    g.root.nodes[0].extra["ui"]["at"] = Json::array ({ 40.0, 300.0 });
+    g.root.nodes[1].extra["ui"]["at"] = Json::array ({ 200.0, -16.0 });
+    CHECK (cornerOf (copyText (g, "", all)) == std::pair (40.0, -16.0));
+
+    std::set<graph::Id> made;
+    const auto pasted = paste (g, "", copyText (g, "", all), 60.0, 116.0, made);
+    const auto& batch = std::get<graph::Batch> (std::get<graph::Command> (pasted).edit);
+    CHECK (std::get<graph::AddNode> (batch.commands[0].edit).node.extra.at ("ui").at ("at") == Json::array ({ 100.0, 416.0 }));
+}
