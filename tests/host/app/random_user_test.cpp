@@ -66,6 +66,8 @@ public:
     {
         view.reset();
         stage.reset();
+        juce::PopupMenu::dismissAllActiveMenus();   // a menu goes with the next messages only, and still has the look
+        juce::MessageManager::getInstance()->runDispatchLoopUntil (20);
         juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
         juce::Desktop::getInstance().setGlobalScaleFactor (1.0f);
         juce::SystemClipboard::copyTextToClipboard ({});
