@@ -2,6 +2,7 @@
 #include "box.hpp"
 
 #include <framework/number_text.hpp>
+#include <host/app/model/with_prefix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,10 @@ std::string valueText (const Json& value, const FacePort& port)
     if (value.is_number())
     {
         const auto symbol = port.unit.kind == UnitRule::Kind::fixed ? port.unit.unit.symbol : std::string_view {};
-        const auto number = numberText (value.get<double>());
+        const double si = value.get<double>();
+        constexpr double small = 0.1;
+        if (std::abs (si) < small && si != 0.0 && (symbol == "m" || symbol == "s" || symbol == "N" || symbol == "J")) return withPrefix (si, std::string (symbol));
+        const auto number = numberText (si);
         return symbol.empty() || symbol == "1" ? number : number + ' ' + std::string (symbol);
     }
     if (! value.is_array()) return {};

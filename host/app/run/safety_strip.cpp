@@ -101,6 +101,8 @@ void SafetyStrip::show (Performance& p)
             now.delay = "delay " + juce::String (*d) + (*d == 1 ? " tick" : " ticks");
             if (const auto k = p.stiffnessLeft()) now.delay += ", stiff up to " + inNewtonPerMillimetre (*k);
         }
+        else
+            now.delay = "nothing leads from a hand to a motor";
     }
     if (now == shown) return;
     button->setButtonText (now.running ? "STOP" : "START");

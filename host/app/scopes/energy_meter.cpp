@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "energy_meter.hpp"
 
+#include <host/app/model/with_prefix.hpp>
+
 #include <cmath>
 #include <cstdio>
 
@@ -108,33 +110,6 @@ void EnergyMeter::follow (const Sources& s)
         stored->add (next, in - now.stored_first);
         dissipated->add (next, now.dissipated);
     }
-}
-
-std::string withPrefix (double value, const std::string& unit, int digits)
-{
-    if (! std::isfinite (value)) return std::isnan (value) ? "nan" : value > 0.0 ? "inf"
-                                                                                 : "-inf";   // of a model that burst
-    struct Prefix
-    {
-        const char* text;
-        double factor;
-    };
-    static constexpr Prefix prefixes[] = { { "k", 1e3 }, { "", 1.0 }, { "m", 1e-3 }, { "µ", 1e-6 }, { "n", 1e-9 } };
-    const bool takes_one = unit == "m" || unit == "s" || unit == "N" || unit == "J" || unit == "Hz" || unit == "m/s";
-    const Prefix* chosen = &prefixes[1];
-    if (takes_one && value != 0.0)
-        for (const auto& p : prefixes)
-        {
-            chosen = &p;
-            if (std::abs (value) >= 0.9995 * p.factor && (p.factor < 1e3 || unit == "Hz" || unit == "N")) break;
-        }
-    const double scaled = value / chosen->factor;
-    const int whole = std::abs (scaled) < 1.0 ? 1 : static_cast<int> (std::floor (std::log10 (std::abs (scaled)))) + 1;
-    constexpr int most_digits = 12;
-    char text[48];
-    whole > most_digits ? std::snprintf (text, sizeof text, "%.*e", digits - 1, scaled) : std::snprintf (text, sizeof text, "%.*f", std::max (0, digits - whole), scaled);
-    const auto shown_unit = unit == "1" ? std::string {} : std::string (chosen->text) + unit;
-    return shown_unit.empty() ? std::string (text) : std::string (text) + " " + shown_unit;
 }
 
 std::string inWords (const EnergyBalance& b)

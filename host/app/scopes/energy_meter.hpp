@@ -65,7 +65,4 @@ private:
 /// "passive: the hand has put in 3.1 mJ, 0.4 mJ are stored, 2.7 mJ dissipated"
 std::string inWords (const EnergyBalance&);
 
-/// "3.1 mJ": so many digits, with an SI prefix.
-std::string withPrefix (double value, const std::string& unit, int digits = 3);
-
 }   // namespace tactus::host

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "time_plot.hpp"
 
-#include "energy_meter.hpp"
+#include <host/app/model/with_prefix.hpp>
 
 #include <cmath>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <host/app/model/with_prefix.hpp>
 #include <host/app/scopes/energy_meter.hpp>
 
 #include "made_trace.hpp"

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Uses the host as a person would, on a display of its own, and takes a picture of each step: ./test.sh --screens
 
-walk.py HOST OUT [WIDTHxHEIGHT dark|light]   all sizes and themes if none is given; then of most only the main steps are kept
+walk.py HOST OUT [WIDTHxHEIGHT dark|light]   all sizes and themes if none is given
 
 It knows where things are from the file that `tactus-host --places` keeps. A step that does not lead to what it should
 fails; whether it looks good is for people, who look at the pictures.
@@ -19,13 +19,11 @@ import time
 
 PATIENCE = 30.0  # s, for something that should come
 SIZES, THEMES = ("1280x720", "1920x1080", "3840x2160"), ("dark", "light")
-WHOLE = ("1920x1080", "dark")  # of which every step is kept
-MAIN_STEPS = {"welcome", "stroked", "loop", "layers", "recovery"}
 
 
 class Walk:
-    def __init__(self, host, out, size, theme, keeps):
-        self.host, self.out, self.size, self.theme, self.keeps = host, out, size, theme, keeps
+    def __init__(self, host, out, size, theme):
+        self.host, self.out, self.size, self.theme = host, out, size, theme
         self.home = pathlib.Path(tempfile.mkdtemp(prefix="tactus-walk-"))
         self.places_file = self.home / "places.json"
         self.shots = 0
@@ -132,8 +130,6 @@ class Walk:
 
     def shot(self, name):
         self.shots += 1
-        if not self.keeps(name):
-            return
         time.sleep(0.5)
         file = self.out / f"{self.size}-{self.theme}-{self.shots:02}-{name}.png"
         picture = self.home / "shot.png"
@@ -264,7 +260,7 @@ def main():
     one = tuple(sys.argv[3:5])
     for size, theme in [one] if one else [(s, t) for s in SIZES for t in THEMES]:
         print(f"{size} {theme}", flush=True)
-        w = Walk(str(host), out, size, theme, lambda name: one or (size, theme) == WHOLE or name in MAIN_STEPS or name == "failed")
+        w = Walk(str(host), out, size, theme)
         try:
             walk(w)
         except SystemExit:
