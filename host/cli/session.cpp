@@ -11,6 +11,7 @@
 #include <framework/turn.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/runlog/graph_snapshot.hpp>
+#include <host/runtime/taps.hpp>
 
 #include <cmath>
 #include <filesystem>
@@ -42,25 +43,6 @@ Message warning (std::string id, std::string where, std::string text, std::strin
 }
 
 const Message& firstError (const Messages& messages) { return *std::ranges::find (messages, Message::Severity::error, &Message::severity); }
-
-/// The numbers of the taps that are parts of one of these ports.
-std::vector<std::size_t> tapsOf (const Plan& plan, const std::vector<std::string>& ports)
-{
-    std::vector<std::size_t> taps;
-    for (std::size_t i = 0; i < plan.taps.size(); ++i)
-        if (std::ranges::any_of (ports, [&] (const std::string& port)
-                                 { return isPartOf (plan.taps[i].name, port); }))
-            taps.push_back (i);
-    return taps;
-}
-
-std::vector<std::string> namesOf (const Plan& plan, const std::vector<std::size_t>& taps)
-{
-    std::vector<std::string> names;
-    for (const auto tap : taps)
-        names.push_back (plan.taps[tap].name);
-    return names;
-}
 
 const Json* descriptionOf (const graph::Graph& graph, const std::string& role)
 {
@@ -347,14 +329,12 @@ std::variant<std::vector<std::string>, Message> Session::capture (const std::str
         return m;
     };
     if (! plan) return refuse (firstError (messages));
-    auto taps = tapsOf (*plan, { port });
-    const auto triggers = tapsOf (*plan, { watched });
-    if (triggers.size() != 1) return refuse (refused ("probe/trigger", inQuotes (watched) + " has " + std::to_string (triggers.size()) + " components, and a trigger watches one", triggers.empty() ? std::string ("name a port with one component") : "name one of them, as in " + plan->taps[triggers.front()].name));
-    if (taps.size() > ProbeRing::most || taps.size() * trigger.ticks() > TriggeredCapture::most) return refuse (refused ("probe/too_many", std::to_string (trigger.ticks()) + " ticks of " + std::to_string (taps.size()) + " components are more than the " + std::to_string (TriggeredCapture::most) + " numbers, of at most " + std::to_string (ProbeRing::most) + " components, that there is room for", "ask for fewer before and after, or for one component"));
+    auto armed = arm (*plan, port, watched, trigger);
+    if (auto* problem = std::get_if<Message> (&armed)) return refuse (std::move (*problem));
 
-    auto names = namesOf (*plan, taps);
     selectProbes (*plan);
-    slot.arm (std::make_unique<TriggeredCapture> (trigger, plan->serial, std::move (taps), triggers.front()));
+    auto& [capture, names] = std::get<Armed> (armed);
+    slot.arm (std::move (capture));
     submit (std::move (plan), loaded.graph);
     return names;
 }
