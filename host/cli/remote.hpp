@@ -3,6 +3,7 @@
 
 #include "session.hpp"
 
+#include <framework/refused.hpp>
 #include <framework/turn.hpp>
 #include <host/osc/remote_control.hpp>
 #include <host/runtime/runner.hpp>
@@ -23,7 +24,10 @@ public:
     const TriggeredCapture* captured() override { return session.captured(); }
     void endCapture() override { session.endCapture(); }
     std::vector<NodeCost> costs() override { return running.costs(); }
+    std::optional<Message> transport (const Transport&) override { return refused ("osc/transport", "what a play from the command line follows is not stopped or sought", "open the graph in tactus-host"); }
+    std::optional<Message> start() override { return refused ("osc/start", "it runs already", "/tactus/stop ends it"); }
     void stop() override { running.stop(); }
+    std::vector<Role> roles() override { return rolesOf (running.status()); }
 
     Status status() override
     {

@@ -38,13 +38,14 @@ struct Bytes
         return n;
     }
 
-    /// Up to a zero, which is followed by as many as make it a multiple of four.
+    /// UTF-8 up to a zero, which is followed by as many as make it a multiple of four.
     std::optional<std::string_view> text()
     {
         const auto length = left.find ('\0');
         if (length == left.npos) return std::nullopt;
         const auto all = take (length / 4 * 4 + 4);
         if (! all || all->find_first_not_of ('\0', length) != all->npos) return std::nullopt;
+        if (! juce::CharPointer_UTF8::isValidString (all->data(), static_cast<int> (length))) return std::nullopt;
         return all->substr (0, length);
     }
 

@@ -17,6 +17,7 @@ namespace
 using juce::OSCArgument;
 using juce::OSCMessage;
 
+constexpr std::string_view transport_addresses = "/tactus/transport/";
 constexpr std::size_t most_probes = 16;
 constexpr double highest_rate = 1000.0, usual_rate = 50.0;   // Hz
 constexpr double longest = 60.0, usual_length = 5.0;         // s
@@ -62,6 +63,14 @@ std::optional<Trigger::Edge> edgeOf (const OSCArgument& a)
 
 Message badArguments (const std::string& remedy) { return refused ("osc/arguments", "the arguments are not what belongs here", remedy); }
 }   // namespace
+
+std::vector<Controlled::Role> rolesOf (const RunStatus& status)
+{
+    std::vector<Controlled::Role> roles;
+    for (const auto& r : status.shown())
+        roles.push_back ({ .name = std::string (r.name), .withholds = r.stop != Guard::Stop::none, .force = r.force, .torque = r.torque, .last_stop = r.latest == Guard::Stop::none ? std::string() : describe (r.latestEvent()) });
+    return roles;
+}
 
 void RemoteControl::attend (Clock::time_point now)
 {
@@ -124,6 +133,12 @@ void RemoteControl::carryOut (const OSCMessage& m, Clock::time_point now)
         else
             answer (m[0].getInt32(), address, "", badArguments ("the port for the answer, and perhaps how many nodes"));
     }
+    else if (address == "/tactus/guard" && m.size() == 1 && isPort (m[0]))
+        sendRoles (m[0].getInt32());
+    else if (address.starts_with (transport_addresses))
+        answer (answerPort (m, 1), address, "", transport (address.substr (transport_addresses.size()), m));
+    else if (address == "/tactus/start")
+        answer (answerPort (m, 0), address, "", controlled.start());
     else if (address == "/tactus/stop")
     {
         controlled.stop();
@@ -138,6 +153,22 @@ void RemoteControl::sendCosts (int to, std::size_t most)
     for (const auto& c : costs)
         port.send (to, OSCMessage ("/tactus/cost", juce::String::fromUTF8 (c.node.c_str()), juce::String::fromUTF8 (c.type.c_str()), static_cast<float> (c.mean_s), static_cast<float> (c.share)));
     answer (to, "/tactus/costs", "", std::nullopt);
+}
+
+void RemoteControl::sendRoles (int to)
+{
+    for (const auto& r : controlled.roles())
+        port.send (to, OSCMessage ("/tactus/guard", juce::String::fromUTF8 (r.name.c_str()), static_cast<juce::int32> (r.withholds), static_cast<float> (r.force), static_cast<float> (r.torque), juce::String::fromUTF8 (r.last_stop.c_str())));
+    answer (to, "/tactus/guard", "", std::nullopt);
+}
+
+std::optional<Message> RemoteControl::transport (const std::string& what, const OSCMessage& m)
+{
+    const auto value = m.size() >= 1 && m.size() <= 2 ? numberOf (m[0]) : std::nullopt;
+    if (what == "play" && value) return controlled.transport ({ .plays = *value != 0.0 });
+    if (what == "seek" && value && *value >= 0.0) return controlled.transport ({ .seek = value });
+    if (what == "speed" && value && *value > 0.0) return controlled.transport ({ .speed = value });
+    return badArguments ("/tactus/transport/play 0 or 1, /tactus/transport/seek s, or /tactus/transport/speed factor; and perhaps the port for the answer");
 }
 
 std::optional<Message> RemoteControl::subscribe (const OSCMessage& m, Clock::time_point now)

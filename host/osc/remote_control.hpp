@@ -6,6 +6,7 @@
 #include <framework/json.hpp>
 #include <framework/message.hpp>
 #include <host/runtime/node_costs.hpp>
+#include <host/runtime/run_status.hpp>
 #include <host/runtime/triggered_capture.hpp>
 
 #include <chrono>
@@ -30,6 +31,23 @@ public:
         std::uint64_t ticks = 0, misses = 0;
     };
 
+    /// What a guard lets through, and why it last did not.
+    struct Role
+    {
+        std::string name;
+        bool withholds = false;
+        double force = 0.0, torque = 0.0;   ///< N, N m
+        std::string last_stop;              ///< in words, with the values that caused it; "" if there was none
+    };
+
+    /// How a gesture or a recording that the hand follows goes on; what is not said stays as it is.
+    struct Transport
+    {
+        std::optional<bool> plays {};
+        std::optional<double> seek {};    ///< s
+        std::optional<double> speed {};   ///< times as fast as recorded
+    };
+
     virtual ~Controlled() = default;
 
     virtual std::optional<Message> setParam (const std::string& name, const Json& value) = 0;
@@ -49,8 +67,14 @@ public:
     /// What the nodes cost, the costliest first; of those that were measured.
     virtual std::vector<NodeCost> costs() = 0;
 
+    virtual std::vector<Role> roles() = 0;
+    virtual std::optional<Message> transport (const Transport&) = 0;
+    virtual std::optional<Message> start() = 0;
     virtual void stop() = 0;
 };
+
+/// As a run tells of its roles.
+std::vector<Controlled::Role> rolesOf (const RunStatus&);
 
 /// Carries out what comes in at an OSC port, as docs/osc.md has it, and answers. [main thread]
 class RemoteControl
@@ -95,6 +119,8 @@ private:
 
     void carryOut (const juce::OSCMessage&, Clock::time_point);
     void sendCosts (int to, std::size_t most);
+    void sendRoles (int to);
+    std::optional<Message> transport (const std::string& what, const juce::OSCMessage&);
     std::optional<Message> subscribe (const juce::OSCMessage&, Clock::time_point);
     std::optional<Message> subscribeCapture (const juce::OSCMessage&, Clock::time_point);
     std::optional<Message> arm (Capture);

@@ -62,6 +62,13 @@ struct Puppet : Controlled
 
     Status status() override { return { "Puppet", 1000.0, 2.5, 0.5, 1.5, 2500, 3 }; }
     std::vector<NodeCost> costs() override { return std::vector<NodeCost> (20, { "wood/drag", "friction.elasto_plastic", 2e-6, 0.05 }); }
+    std::vector<Role> roles() override { return { { "stylus", true, 0.25, 0.0, "the last reading is 31 ms old" }, { "thumb", false, 0.0, 0.0, {} } }; }
+    std::optional<Message> transport (const Transport& t) override
+    {
+        said = "plays " + std::to_string (t.plays.value_or (true)) + ", to " + std::to_string (t.seek.value_or (-1.0)) + ", at " + std::to_string (t.speed.value_or (-1.0));
+        return std::nullopt;
+    }
+    std::optional<Message> start() override { return Message { .id = "osc/start", .where = {}, .text = "it runs already", .remedy = "" }; }
     void stop() override { stopped = true; }
 
     std::string said;
@@ -355,4 +362,37 @@ TEST_CASE ("one trigger is waited for at a time, until its time is over", "[osc]
     stage.control.attend (stage.now);
     CHECK_FALSE (stage.puppet.capturing);
     CHECK (ask ("drag.state") == "/tactus/done");
+}
+
+TEST_CASE ("who asks is told of each guard, and why it last withheld the force", "[osc]")
+{
+    Stage stage;
+    const auto first = stage.ask ("/tactus/guard", stage.other->number());
+    CHECK (first.getAddressPattern().toString() == "/tactus/guard");
+    CHECK (first[0].getString() == "stylus");
+    CHECK (first[1].getInt32() == 1);
+    CHECK (first[2].getFloat32() == 0.25f);
+    CHECK (first[4].getString() == "the last reading is 31 ms old");
+    const auto second = stage.other->next (20s), done = stage.other->next (20s);
+    REQUIRE (second);
+    CHECK ((*second)[0].getString() == "thumb");
+    REQUIRE (done);
+    CHECK (done->getAddressPattern().toString() == "/tactus/done");
+}
+
+TEST_CASE ("what the hand follows is played, stopped, sought and slowed down from outside", "[osc]")
+{
+    Stage stage;
+    CHECK (stage.ask ("/tactus/transport/play", 0, stage.other->number()).getAddressPattern().toString() == "/tactus/done");
+    CHECK (stage.puppet.said.starts_with ("plays 0"));
+    stage.ask ("/tactus/transport/seek", 1.5f, stage.other->number());
+    CHECK (stage.puppet.said == "plays 1, to 1.500000, at -1.000000");
+    stage.ask ("/tactus/transport/speed", 0.5f, stage.other->number());
+    CHECK (stage.puppet.said == "plays 1, to -1.000000, at 0.500000");
+    stage.puppet.said.clear();
+    for (const auto* address : { "/tactus/transport/seek", "/tactus/transport/speed", "/tactus/transport/back" })
+        CHECK (stage.ask (address, -1.0f, stage.other->number()).getAddressPattern().toString() == "/tactus/error");
+    CHECK (stage.puppet.said.empty());
+    const auto refused = stage.ask ("/tactus/start", stage.other->number());
+    CHECK (refused[2].getString() == "osc/start");
 }
