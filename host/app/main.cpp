@@ -79,6 +79,8 @@ private:
         options.add_option ("files", how.files, "Graphs to open");
         options.add_flag ("--safe", how.safe, "Nothing runs until START is pressed");
         options.add_flag ("--light", how.light, "Light colours, whatever was chosen");
+        std::string osc = std::to_string (OscPort::usual);
+        auto* osc_given = options.add_option ("--osc", osc, "The UDP port to be reached by from this machine, see docs/osc.md; 0 for any that is free, or off")->check (CLI::IsMember ({ "off" }) | CLI::Range (0, 65535));
         options.add_option ("--places", places_file, "Keeps a JSON file with where things are on the screen, for scripts");
         options.set_version_flag ("--version", TACTUS_VERSION);
         std::vector<std::string> arguments;
@@ -87,6 +89,8 @@ private:
         try
         {
             options.parse (std::move (arguments));
+            const bool may_be_taken = osc_given->count() == 0;   // by another window
+            if (osc != "off" && ! (may_be_taken && OscPort::isTaken (OscPort::usual))) how.osc = std::stoi (osc);
             return true;
         }
         catch (const CLI::ParseError& e)

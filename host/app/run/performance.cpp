@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "performance.hpp"
 
+#include <framework/refused.hpp>
+#include <framework/turn.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 
 #include <algorithm>
@@ -16,6 +18,8 @@ constexpr double hover = 5e-3;
 
 // Of a hand that the graph says nothing of.
 constexpr double usual_stiffness = 400.0, usual_damping = 4.0;   // N/m, N s/m
+
+Message stopped() { return refused ("run/stopped", "nothing runs in the window", "press START there"); }
 
 const Json* descriptionOf (const graph::Graph& g, const std::string& role)
 {
@@ -42,7 +46,8 @@ Performance::~Performance()
 
 Compiled Performance::compileAt (double rate, const Plan* before, const Plan* withdrawn)
 {
-    CompileOptions options { .rate_hz = rate, .records = probes.ports(), .assets = &assets, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() }, .before = before, .withdrawn = withdrawn };
+    CompileOptions options { .rate_hz = rate, .records = captured_ports, .assets = &assets, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() }, .before = before, .withdrawn = withdrawn };
+    std::ranges::move (probes.ports(), std::back_inserter (options.records));   // after what is captured, whose numbers have to stay
     auto compiled = compile (document.graph(), catalogue, options);
     // What somebody wants to see may be gone. That is no reason not to run.
     const auto gone = [&] (const std::string& port)
@@ -151,6 +156,7 @@ void Performance::end()
     runner.reset();   // which waits until the forces are zero
     clock.reset();
     engine.reset();
+    endCapture();
     answers.reset();
     devices.clear();
     pointer.reset();
@@ -177,6 +183,7 @@ void Performance::takeOver()
         engine->submit (std::move (waiting));
         return;
     }
+    if (! captured_taps.empty() && tapsOf (*compiled.plan, captured_ports) != captured_taps) endCapture();
     noteDelay (*compiled.plan);
     std::vector<Bound> opened;
     for (const auto& role : compiled.plan->roles)
@@ -215,6 +222,35 @@ std::optional<double> Performance::mostForce() const
 
 std::vector<NodeCost> Performance::costs() { return runner ? runner->costs() : std::vector<NodeCost> {}; }
 
+std::optional<Message> Performance::turn (const std::string& param, const Json& value) { return isRunning() ? turnParam (*engine, param, value) : stopped(); }
+
+std::optional<Message> Performance::turnControl (const std::string& id, double value) { return isRunning() ? tactus::turnControl (*engine, document.graph(), id, value) : stopped(); }
+
+std::variant<std::vector<std::string>, Message> Performance::capture (const std::string& port, const std::string& watched, const Trigger& trigger)
+{
+    if (! isRunning()) return stopped();
+    endCapture();
+    captured_ports = { port, watched };
+    takeOver();
+    auto armed = arm (engine->newest(), port, watched, trigger);
+    if (auto* problem = std::get_if<Message> (&armed))
+    {
+        endCapture();
+        return std::move (*problem);
+    }
+    captured_taps = tapsOf (engine->newest(), captured_ports);
+    auto& [made, names] = std::get<Armed> (armed);
+    slot.arm (std::move (made));
+    return std::move (names);
+}
+
+void Performance::endCapture()
+{
+    slot.disarm();
+    captured_ports.clear();
+    captured_taps.clear();
+}
+
 void Performance::point (const Vec3& p)
 {
     if (pointer) pointer->moveTo (p);
@@ -231,6 +267,7 @@ void Performance::after (std::uint64_t tick, bool) noexcept
 {
     const auto& plan = engine->plan();
     probes.note (plan, tick);
+    slot.note (plan, tick);
     if (plan.roles.empty()) return;
     const auto& [reading, applied] = *plan.roles.front().state;
     const auto &p = reading.position, &f = applied.force;

@@ -13,9 +13,11 @@
 #include <host/devices/make_device.hpp>
 #include <host/devices/sim.hpp>
 #include <host/runtime/runner.hpp>
+#include <host/runtime/taps.hpp>
 
 #include <memory>
 #include <optional>
+#include <variant>
 
 namespace tactus::host
 {
@@ -92,6 +94,18 @@ public:
     /// What the nodes cost, the costliest first; of those that were measured.
     std::vector<NodeCost> costs();
 
+    /// Turns a parameter or a control of what runs, until the next edit; or why not. Ids: run/stopped, and those of
+    /// framework/turn.hpp.
+    std::optional<Message> turn (const std::string& param, const Json& value);
+    std::optional<Message> turnControl (const std::string& id, double value);
+
+    /// Takes down what stands on a port around an edge of another one, in place of what was asked for before. Returns the
+    /// names of its components, or why not. The end of the run ends it, and an edit that is about what it looks at.
+    std::variant<std::vector<std::string>, Message> capture (const std::string& port, const std::string& watched, const Trigger&);
+    const TriggeredCapture* captured() const noexcept { return slot.complete(); }   ///< null until it has triggered
+    bool isCapturing() const noexcept { return ! captured_ports.empty(); }
+    void endCapture();
+
     /// Frees what is used no more, and takes in what was seen. To be called many times a second.
     void attend();
 
@@ -121,6 +135,9 @@ private:
     FileAssets assets;
     Messages said;
     Traces probes;
+    CaptureSlot slot;
+    std::vector<std::string> captured_ports;
+    std::vector<std::size_t> captured_taps;
     Sound* sound;
     Hand moved_by;
     bool begins = false;                                     // once the run before is over

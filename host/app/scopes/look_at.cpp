@@ -34,10 +34,10 @@ Extent extentOf (const Trace& trace, double from, double to)
     return extent;
 }
 
-std::optional<std::uint64_t> latestCrossing (const Trace& trace, const Trigger& trigger, double hysteresis, std::uint64_t before)
+std::optional<std::uint64_t> latestCrossing (const Trace& trace, const ScopeTrigger& trigger, double hysteresis, std::uint64_t before)
 {
-    if (trigger.edge == Trigger::Edge::off) return std::nullopt;
-    const double sign = trigger.edge == Trigger::Edge::rising ? 1.0 : -1.0;
+    if (trigger.edge == ScopeTrigger::Edge::off) return std::nullopt;
+    const double sign = trigger.edge == ScopeTrigger::Edge::rising ? 1.0 : -1.0;
     std::optional<std::uint64_t> found;
     bool armed = false;
     trace.each (trace.begin(), before, [&] (std::uint64_t tick, double v)
@@ -63,7 +63,7 @@ std::uint64_t endOf (const TraceList& traces)
     return end;
 }
 
-TickWindow windowOf (const TraceList& traces, double seconds, const Trigger& trigger, double hysteresis)
+TickWindow windowOf (const TraceList& traces, double seconds, const ScopeTrigger& trigger, double hysteresis)
 {
     if (traces.empty()) return {};
     const double end = static_cast<double> (endOf (traces)), ticks = seconds * traces.front()->rate();

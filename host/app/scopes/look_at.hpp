@@ -38,7 +38,7 @@ Extent extentOf (const Trace&, double from, double to);
 
 /// The latest tick before a limit on which a trace has passed a level the wanted way, having been beyond it by the
 /// hysteresis; a gap begins anew.
-std::optional<std::uint64_t> latestCrossing (const Trace&, const Trigger&, double hysteresis, std::uint64_t before);
+std::optional<std::uint64_t> latestCrossing (const Trace&, const ScopeTrigger&, double hysteresis, std::uint64_t before);
 
 struct TickWindow
 {
@@ -49,7 +49,7 @@ struct TickWindow
 };
 
 /// What a scope over time shows: up to the newest tick, or around the latest one that triggers, if one does.
-TickWindow windowOf (const TraceList&, double seconds, const Trigger&, double hysteresis);
+TickWindow windowOf (const TraceList&, double seconds, const ScopeTrigger&, double hysteresis);
 
 /// One after the newest tick of all.
 std::uint64_t endOf (const TraceList&);

@@ -24,7 +24,7 @@ enum class ScopeKind
     tool   ///< a friction node seen from above
 };
 
-struct Trigger
+struct ScopeTrigger
 {
     enum class Edge
     {
@@ -57,7 +57,7 @@ struct ScopeSpec
     int component = -1;               ///< over: of vectors; -1 for the one that moves most
     double seconds = 1.0;             ///< how far back is shown
     double back_s = 0.0;              ///< time: how far before the newest the window ends, while frozen
-    Trigger trigger;
+    ScopeTrigger trigger;
     bool in_decibels = true;                 ///< spectrum
     std::map<std::string, Extent> by_hand;   ///< ranges that were zoomed by hand, by unit
     std::vector<Cursor> cursors;             ///< two at most

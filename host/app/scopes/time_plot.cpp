@@ -13,10 +13,10 @@ namespace
 constexpr double hysteresis = 0.02;   // of the range
 constexpr float grip = 8.0f;
 
-juce::String wordsFor (Trigger::Edge e)
+juce::String wordsFor (ScopeTrigger::Edge e)
 {
-    return e == Trigger::Edge::off ? juce::String ("trigger off") : e == Trigger::Edge::rising ? juce::String ("trigger rising")
-                                                                                               : juce::String ("trigger falling");
+    return e == ScopeTrigger::Edge::off ? juce::String ("trigger off") : e == ScopeTrigger::Edge::rising ? juce::String ("trigger rising")
+                                                                                                         : juce::String ("trigger falling");
 }
 }   // namespace
 
@@ -84,9 +84,9 @@ std::vector<ScopePlot::Action> TimePlot::actions()
     const auto next = [this] (juce::Component&)
     {
         auto& edge = spec.trigger.edge;
-        if (edge == Trigger::Edge::off && ! lanes.empty()) spec.trigger.level = 0.5 * (lanes.front().y.low + lanes.front().y.high);
-        edge = edge == Trigger::Edge::off ? Trigger::Edge::rising : edge == Trigger::Edge::rising ? Trigger::Edge::falling
-                                                                                                  : Trigger::Edge::off;
+        if (edge == ScopeTrigger::Edge::off && ! lanes.empty()) spec.trigger.level = 0.5 * (lanes.front().y.low + lanes.front().y.high);
+        edge = edge == ScopeTrigger::Edge::off ? ScopeTrigger::Edge::rising : edge == ScopeTrigger::Edge::rising ? ScopeTrigger::Edge::falling
+                                                                                                                 : ScopeTrigger::Edge::off;
         if (desk.onChange) desk.onChange();
     };
     return { { juce::String::fromUTF8 (withPrefix (spec.seconds, "s", 2).c_str()), "How long the window is; the wheel changes it, too", lengths },

@@ -31,7 +31,7 @@ private:
     void paintLane (juce::Graphics&, const Lane&, std::size_t) override;
     void paintOver (juce::Graphics&) override;
     juce::String emptyWords() const override;
-    bool hasTrigger() const noexcept { return spec.trigger.edge != Trigger::Edge::off; }
+    bool hasTrigger() const noexcept { return spec.trigger.edge != ScopeTrigger::Edge::off; }
     float levelPixel() const { return lanes.front().toPixels (0.0, spec.trigger.level).y; }
 
     TickWindow seen;

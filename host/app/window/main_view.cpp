@@ -190,6 +190,7 @@ void MainView::begin (const Start& how)
     resized();
     presets->reload();
     files->setSafe (how.safe);
+    if (how.osc) openPort (*how.osc);
     files->beginSession (home);
     for (const auto& file : how.files)
         open (file);
@@ -253,9 +254,21 @@ bool MainView::keyPressed (const juce::KeyPress& key, juce::Component*)
     return true;   // what is open is closed by the next one
 }
 
+void MainView::openPort (int number)
+{
+    auto opened = OscPort::open (number);
+    if (! opened) return say (juce::String::fromUTF8 (describe (opened.error()).c_str()));
+    reach = std::make_unique<OscReach> (std::move (*opened), *performance, *edited,
+                                        OscReach::Switches { [this]
+                                                             { start (performance->hand()); },
+                                                             [this]
+                                                             { current().stop(); } });
+}
+
 void MainView::timerCallback()
 {
     performance->attend();
+    if (reach) reach->attend();
     if (heard) heard->attend();
     strip.show (current());
     hand.show (current());

@@ -10,6 +10,7 @@
 #include <host/app/problems/problem_list.hpp>
 #include <host/app/run/hand_panel.hpp>
 #include <host/app/run/live_feed.hpp>
+#include <host/app/run/osc_reach.hpp>
 #include <host/app/run/safety_strip.hpp>
 #include <host/app/scopes/scope_panel.hpp>
 #include <host/app/welcome/help_panel.hpp>
@@ -37,6 +38,7 @@ public:
         bool safe = false;            ///< nothing runs by itself
         bool light = false;           ///< whatever the settings say
         std::vector<std::filesystem::path> files {};
+        std::optional<int> osc {};   ///< the UDP port to be reached by
     };
 
     /// What only a window does that people see: reads the settings, asks about what a crash left, opens files or welcomes.
@@ -78,6 +80,7 @@ private:
     void documentChanged() override;
     void documentRefused (const Message&) override;
     void timerCallback() override;
+    void openPort (int number);
     void globalFocusChanged (juce::Component*) override;
     bool keyPressed (const juce::KeyPress&, juce::Component*) override;
     void show();
@@ -111,6 +114,7 @@ private:
     Sound sound;
     std::unique_ptr<Files> files;               // before the performance, so that a change is kept before it runs
     std::unique_ptr<Performance> performance;   // after the document, before what shows it
+    std::unique_ptr<OscReach> reach;
     std::unique_ptr<Document> heard_document;
     std::unique_ptr<Performance> heard;   // while a preset is previewed
     bool resumes = false;                 // the document ran before, and goes on after

@@ -70,7 +70,7 @@ TEST_CASE ("scopes: a trigger is a crossing the wanted way, and the latest", "[a
               {
         const auto values = thousandths (signal);
         const auto trace = traceOf (values, 100);
-        const Trigger trigger { rises ? Trigger::Edge::rising : Trigger::Edge::falling, level / 3000.0 };
+        const ScopeTrigger trigger { rises ? ScopeTrigger::Edge::rising : ScopeTrigger::Edge::falling, level / 3000.0 };
         const auto before = *rc::gen::inRange<std::uint64_t> (90, 250);
         const auto passed = [&] (std::size_t i)
         { return rises ? values[i - 1] < trigger.level && values[i] >= trigger.level : values[i - 1] > trigger.level && values[i] <= trigger.level; };
@@ -83,10 +83,10 @@ TEST_CASE ("scopes: a trigger is a crossing the wanted way, and the latest", "[a
 TEST_CASE ("scopes: noise about the level triggers once, and a gap is no crossing", "[app][scopes]")
 {
     const auto noisy = traceOf ({ -1.0, -0.01, 0.01, -0.01, 0.01, -0.01, 0.01 });
-    CHECK (latestCrossing (*noisy, { Trigger::Edge::rising, 0.0 }, 0.1, 100) == 2u);
-    CHECK (latestCrossing (*noisy, { Trigger::Edge::rising, 0.0 }, 0.0, 100) == 6u);
-    CHECK_FALSE (latestCrossing (*traceOf ({ -1.0, std::nan (""), 1.0 }), { Trigger::Edge::rising, 0.0 }, 0.0, 100));
-    CHECK_FALSE (latestCrossing (*noisy, { Trigger::Edge::off, 0.0 }, 0.0, 100));
+    CHECK (latestCrossing (*noisy, { ScopeTrigger::Edge::rising, 0.0 }, 0.1, 100) == 2u);
+    CHECK (latestCrossing (*noisy, { ScopeTrigger::Edge::rising, 0.0 }, 0.0, 100) == 6u);
+    CHECK_FALSE (latestCrossing (*traceOf ({ -1.0, std::nan (""), 1.0 }), { ScopeTrigger::Edge::rising, 0.0 }, 0.0, 100));
+    CHECK_FALSE (latestCrossing (*noisy, { ScopeTrigger::Edge::off, 0.0 }, 0.0, 100));
 }
 
 TEST_CASE ("scopes: the window ends at the newest tick, or stands around the latest trigger that has all of its future", "[app][scopes]")
@@ -99,13 +99,13 @@ TEST_CASE ("scopes: the window ends at the newest tick, or stands around the lat
     CHECK (free.to == 2000.0);
     CHECK (free.from == 1500.0);
 
-    const auto held = windowOf (traces, 0.5, { Trigger::Edge::rising, 0.0 }, 0.0);
+    const auto held = windowOf (traces, 0.5, { ScopeTrigger::Edge::rising, 0.0 }, 0.0);
     REQUIRE (held.trigger);
     CHECK (std::abs (static_cast<double> (*held.trigger) - 1200.0) <= 1.0);   // 1600 has not 400 ticks after it yet
     CHECK (held.to <= 2000.0);
     CHECK (held.to - held.from == 500.0);
 
-    CHECK_FALSE (windowOf (traces, 0.5, { Trigger::Edge::rising, 5.0 }, 0.0).trigger);
+    CHECK_FALSE (windowOf (traces, 0.5, { ScopeTrigger::Edge::rising, 5.0 }, 0.0).trigger);
 }
 
 TEST_CASE ("scopes: a trace hands out its ticks in order, also round its end", "[app][scopes]")

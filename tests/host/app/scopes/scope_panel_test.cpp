@@ -266,7 +266,7 @@ TEST_CASE ("scopes: a trigger level is dragged by its marker", "[app][scopes]")
     auto& plot = view.plot();
     auto actions = plot.actions();
     actions[1].onClick (plot);   // rising
-    CHECK (view.shown().trigger.edge == Trigger::Edge::rising);
+    CHECK (view.shown().trigger.edge == ScopeTrigger::Edge::rising);
     b.panel->refresh();
     const auto lane = plot.shownLanes().front();
     const juce::Point<float> marker { lane.area.getRight(), lane.toPixels (0.0, view.shown().trigger.level).y }, to { marker.x, lane.toPixels (0.0, 0.25).y };
