@@ -165,7 +165,7 @@ struct OutputReport
     Bytes body;                ///< the whole report, with its constants, while the device is driven
     Bytes neutral;             ///< the whole report that makes the device do nothing
     std::vector<OutputField> fields;
-    std::optional<SequenceNibble> sequence;
+    std::vector<SequenceNibble> sequences;   ///< all count the reports
     std::optional<Checksum> checksum;
     std::optional<Stream> stream;
     double max_rate = 1000.0;   ///< Hz
@@ -235,7 +235,7 @@ struct GoldenSample
 {
     std::string about, source;
     bool captured = false;                                ///< of a real device; else computed from the layout
-    std::vector<Bytes> input;                             ///< one after the other
+    std::vector<Bytes> input;                             ///< decoded first, one after the other
     std::vector<std::pair<std::string, double>> values;   ///< afterwards: axes, position.x …, rotation.x …, pressure, buttons
     std::vector<std::string> pressed;                     ///< all buttons that are down
     std::string output;                                   ///< of an output report; `values` are what is asked for: efforts, force.x …, torque.x …

@@ -108,6 +108,11 @@ std::vector<GoldenSample> readSamples (ProfileFields& profile)
         if (in.has ("about")) s.about = in.text ("about");
         if (in.has ("source")) s.source = in.text ("source");
         s.captured = in.flag ("captured");
+        for (const auto& text : in.texts ("input"))
+            if (const auto bytes = bytesOf (text))
+                s.input.push_back (*bytes);
+            else
+                in.error ("input", "profile/hex", inQuotes (text) + " are not bytes", "write two hexadecimal digits a byte");
         if (in.has ("output"))
         {
             s.output = in.text ("output");
@@ -119,14 +124,9 @@ std::vector<GoldenSample> readSamples (ProfileFields& profile)
         }
         else
         {
-            for (const auto& text : in.texts ("input"))
-                if (const auto bytes = bytesOf (text))
-                    s.input.push_back (*bytes);
-                else
-                    in.error ("input", "profile/hex", inQuotes (text) + " are not bytes", "write two hexadecimal digits a byte");
             s.values = readValues (in, "gives");
             s.pressed = in.texts ("pressed");
-            if (s.input.empty()) in.error ("input", "profile/missing", "the sample has no report", "write \"input\": [\"01 00 ff\"] or \"output\": the name of a report");
+            if (s.input.empty()) in.error ("input", "profile/missing", "the sample has no report", "write \"input\": [\"01 00 ff\"], or \"output\": the name of a report");
         }
         samples.push_back (std::move (s)); });
     return samples;

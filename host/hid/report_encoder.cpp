@@ -93,13 +93,13 @@ std::span<std::uint8_t> ReportEncoder::begin (Report& r, const Bytes& from) noex
 
 void ReportEncoder::finish (Report& r, std::span<std::uint8_t> body) noexcept
 {
-    if (const auto& s = r.report->sequence)
+    for (const auto& s : r.report->sequences)
     {
-        auto& byte = body[s->byte];
-        const auto mask = static_cast<unsigned> (s->modulo - 1) << s->shift;
-        byte = static_cast<std::uint8_t> ((byte & ~mask) | (r.count << s->shift & mask));
-        r.count = (r.count + 1) % static_cast<unsigned> (s->modulo);
+        auto& byte = body[s.byte];
+        const auto mask = static_cast<unsigned> (s.modulo - 1) << s.shift;
+        byte = static_cast<std::uint8_t> ((byte & ~mask) | (r.count << s.shift & mask));
     }
+    ++r.count;
     if (const auto& c = r.report->checksum)
     {
         const auto sum = crc32 (body.first (c->at), crc32 (c->prefix));

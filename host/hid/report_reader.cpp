@@ -279,8 +279,8 @@ OutputReport readOutput (ProfileFields& in, const Tables& tables)
         report.fields.push_back (readOutputField (f, tables));
         const auto& field = report.fields.back();
         plan.take (field.bits.at, field.bits.size, field.name.empty() ? "a field" : inQuotes (field.name)); });
-    in.within ("sequence", [&] (ProfileFields& s)
-               {
+    in.each ("sequences", [&] (ProfileFields& s)
+             {
         SequenceNibble n;
         s.require ("byte", "write \"byte\": the byte it stands in");
         n.byte = static_cast<std::size_t> (s.whole ("byte", 0, most_bytes - 1, 0));
@@ -292,7 +292,7 @@ OutputReport readOutput (ProfileFields& in, const Tables& tables)
         if (1 << bits != n.modulo) s.error ("modulo", "profile/out_of_range", "modulo is not a power of two", "write 2, 4, 8, 16 … 256");
         if (static_cast<std::size_t> (n.shift) + bits > 8) s.error ("shift", "profile/beyond", "the counter goes beyond its byte", "take a smaller shift or modulo");
         plan.take (8 * n.byte + static_cast<std::size_t> (n.shift), bits, "the sequence number");
-        report.sequence = n; });
+        report.sequences.push_back (n); });
     in.within ("stream", [&] (ProfileFields& s)
                {
         report.stream = readStream (s);
