@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <functional>
 #include <tuple>
 #include <utility>
@@ -14,6 +15,7 @@ namespace tactus::host::hid
 {
 namespace
 {
+constexpr double largest_scale = 1e15;   // SI; whatever a counter counts stays finite
 constexpr int most_bytes = static_cast<int> (longest_report);
 
 /// "u8", "s16le", "u32be", "f32le", and "u3" … "s31" for as many bits from the lowest on.
@@ -65,6 +67,7 @@ std::string readUnit (ProfileFields& in, const std::string& of_scale)
 double readOffset (ProfileFields& in, const std::string& unit)
 {
     const auto offset = in.scale ("offset", 0.0);
+    if (! (std::abs (offset.value) <= largest_scale)) in.error ("offset", "profile/out_of_range", "the offset is too large", "write what a count of 0 means, in SI");
     if (! offset.unit.empty() && offset.unit != unit)
         in.error ("offset", "profile/unit", "the offset is in " + offset.unit + ", the scale in " + unit, "write both in one unit");
     return offset.value;
@@ -73,7 +76,8 @@ double readOffset (ProfileFields& in, const std::string& unit)
 double readScale (ProfileFields& in, std::string& unit)
 {
     const auto scale = in.scale ("scale", 1.0);
-    if (scale.value == 0.0) in.error ("scale", "profile/out_of_range", "the scale is 0", "write what one count is");
+    if (! (std::abs (scale.value) >= 1.0 / largest_scale && std::abs (scale.value) <= largest_scale))
+        in.error ("scale", "profile/out_of_range", "no count is as much as that", "write what one count is, in SI");
     unit = readUnit (in, scale.unit);
     return scale.value;
 }
