@@ -76,8 +76,7 @@ std::array<double, most_efforts> HidModel::asked (const HidEffort& effort) const
     auto all = effort.efforts;
     const Vec3 turn = description->axes.transpose() * effort.torque;
     const Vec3 push = description->axes.transpose() * effort.force;
-    // A force that is not finite stays so: each of its fields is left neutral.
-    const Vec3 motors = isFinite (push) ? kinematics.motors (Kinematics::torques (pose, push)) : Vec3 { push };
+    const Vec3 motors = kinematics.motors (Kinematics::torques (pose, push));
     for (std::size_t i = 0; i < 3; ++i)
     {
         if (force[i] >= 0) all[static_cast<std::size_t> (force[i])] += motors[static_cast<int> (i)];

@@ -44,7 +44,8 @@ public:
     /// The joints at which the tool is there; nothing if it cannot be. Of a linear map without an inverse, nothing.
     std::optional<Vec3> jointsAt (const Vec3& position) const noexcept;
 
-    /// tau = transpose (J) F, at the joints: N m, or what makes N m of a linear map's own units.
+    /// tau = transpose (J) F, at the joints: N m, or what makes N m of a linear map's own units; 0 for a force that is
+    /// not finite.
     static Vec3 torques (const Pose&, const Vec3& force) noexcept;
 
     /// Currents in A for torques at the joints. Where one motor cannot do it all give less, so that the direction of

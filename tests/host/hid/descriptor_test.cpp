@@ -208,6 +208,15 @@ TEST_CASE ("a force feedback wheel is driven by one constant force that ends by 
     CHECK_FALSE (device->block (test::bytes ("06 05 01")));
     CHECK_FALSE (device->block ({}));
 
+    // Others have a bit for each status.
+    auto bits = hexOf (wheel());
+    const std::string array = "09 8e 25 03 b1 00";
+    bits.replace (bits.find (array), array.size(), "09 8e 15 00 25 01 75 01 95 03 b1 02 75 05 95 01 b1 03");
+    const auto other = PidDevice::from (good (test::bytes (bits)), messages);
+    REQUIRE (other);
+    CHECK (other->block (test::bytes ("07 05 01")) == 5);
+    CHECK_FALSE (other->block (test::bytes ("07 05 06")));
+
     HidModel model (std::make_shared<Profile> (device->profile (5)));
     REQUIRE (model.init().size() == 3);
     CHECK (hexOf (model.init()[0].bytes) == "05 01");                        // actuators on
@@ -245,6 +254,15 @@ TEST_CASE ("a joystick without force feedback says what it lacks")
     CHECK (messages.size() >= 5);
     for (const auto& m : messages)
         CHECK (m.id == "pid/missing");
+
+    // A constant force whose block is told in one report and its magnitude in another.
+    auto spread = hexOf (wheel());
+    const std::string force = "09 70 16 f0 d8";
+    spread.insert (spread.find (force), "85 08 ");
+    messages.clear();
+    CHECK_FALSE (PidDevice::from (good (test::bytes (spread)), messages));
+    REQUIRE (messages.size() == 1);
+    CHECK (messages[0].text == "the device has no Set Constant Force with a magnitude");
 }
 
 TEST_CASE ("the descriptor that docs/devices.md gives a board of one's own is that of its profile")

@@ -126,6 +126,7 @@ TEST_CASE ("every mistake in a profile is named where it is")
         { "/inputs/0/timestamp", "wen", "profile/unknown_name" },
         { "/inputs/0/sequence", "rx", "profile/unknown_name" },
         { "/inputs/1/id", 1, "profile/duplicate" },
+        { "/inputs/1/fields/0", Json ({ { "name", "x" }, { "at", 1 }, { "type", "u8" }, { "scale", "1 s" } }), "profile/unit" },
         { "/inputs/1/id", null, "profile/duplicate" },
         { "/inputs/1/fields/0/buttons/0", "A", "profile/name" },
         { "/inputs/1/fields/0/buttons", Json ({ "a", "b", "c", "d" }), "profile/beyond" },

@@ -255,6 +255,16 @@ TEST_CASE ("an effort becomes the nearest number its field can hold, and one tha
         } });
 }
 
+TEST_CASE ("a sample that is not a number is silence")
+{
+    HidModel pad (test::profileOf ("dualsense_bluetooth"));
+    const float samples[] = { std::nanf (""), HUGE_VALF, 0.5f };
+    const auto sent = pad.encode (1, {}, samples);
+    CHECK (sent[13] == 0);
+    CHECK (sent[14] == 0);
+    CHECK (sent[15] == 64);
+}
+
 TEST_CASE ("a force that is not a number becomes no force")
 {
     HidModel board (test::profileOf ("tactus_board"));
