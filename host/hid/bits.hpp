@@ -11,35 +11,33 @@
 namespace tactus::host::hid
 {
 
-/// Where the i-th bit of a number stands: bytes in either order, the lowest bit of a byte first.
-inline std::size_t placeOf (const Bits& b, std::size_t i) noexcept
+/// All bits of a number set; it is as large as it can be.
+inline std::uint64_t maskOf (const Bits& b) noexcept { return (std::uint64_t { 1 } << b.size) - 1; }
+
+/// The bytes that a number touches, five at most, as one: the lowest first, or the last one first where it is
+/// big-endian. Calls back with each byte and how far it is shifted.
+template <typename Byte>
+void eachByte (const Bits& b, Byte&& byte) noexcept
 {
-    if (! b.big_endian) return b.at + i;
-    const std::size_t byte = (b.size - 1 - i) / 8;
-    return b.at + 8 * byte + i % 8;
+    const std::size_t first = b.at / 8, last = (b.end() - 1) / 8;
+    for (std::size_t i = first; i <= last; ++i)
+        byte (b.big_endian ? first + last - i : i, 8 * (i - first));
 }
 
 /// The raw bits, the lowest first; the field has to lie within the report.
 inline std::uint32_t bitsAt (const Bits& b, std::span<const std::uint8_t> report) noexcept
 {
-    std::uint32_t raw = 0;
-    for (std::size_t i = 0; i < b.size; ++i)
-    {
-        const auto place = placeOf (b, i);
-        raw |= static_cast<std::uint32_t> (report[place / 8] >> (place % 8) & 1u) << i;
-    }
-    return raw;
+    std::uint64_t all = 0;
+    eachByte (b, [&] (std::size_t i, std::size_t shift)
+              { all |= std::uint64_t { report[i] } << shift; });
+    return static_cast<std::uint32_t> (all >> b.at % 8 & maskOf (b));
 }
 
 inline void putBits (const Bits& b, std::uint32_t raw, std::span<std::uint8_t> report) noexcept
 {
-    for (std::size_t i = 0; i < b.size; ++i)
-    {
-        const auto place = placeOf (b, i);
-        const auto mask = static_cast<std::uint8_t> (1u << place % 8);
-        auto& byte = report[place / 8];
-        byte = static_cast<std::uint8_t> ((raw >> i & 1u) != 0 ? byte | mask : byte & ~mask);
-    }
+    const auto mask = maskOf (b) << b.at % 8, value = std::uint64_t { raw } << b.at % 8 & mask;
+    eachByte (b, [&] (std::size_t i, std::size_t shift)
+              { report[i] = static_cast<std::uint8_t> ((report[i] & ~(mask >> shift)) | value >> shift); });
 }
 
 /// The number that the raw bits stand for.

@@ -81,6 +81,8 @@ public:
     std::span<const std::string> channelNames (std::size_t report) const noexcept;
 
     const std::vector<Step>& init() const noexcept { return description->init; }
+
+    /// To be sent after the neutral reports.
     const std::vector<Step>& exit() const noexcept { return description->exit; }
     const GuardLimits& limits() const noexcept { return description->limits.guard; }
 

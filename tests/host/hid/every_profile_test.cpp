@@ -246,16 +246,16 @@ TEST_CASE ("a new device is added by a JSON file alone")
     CHECK (model.limits().max_force == 1.0);
     CHECK (model.limits().watchdog == 0.01);
 
-    const auto& s = model.decode (test::bytes ("01 f4 07 02"));   // 500 counts: 5 mm along the device's x, which is our -y
-    CHECK (s.position.isApprox (Vec3 { 0.0, -0.005, 0.001 }));
-    CHECK (s.buttons == 1);
+    const auto& s = model.decode (test::bytes ("fc 18 07 00"));   // -1000 counts: 15 mm away from the person
+    CHECK (s.position.isApprox (Vec3 { 0.0, 0.015, 0.0 }));
+    CHECK (s.buttons == 0);
     CHECK (model.buttonNames() == std::vector<std::string> { "trigger" });
 
-    // F = (0, -3e4 N, 0) is 3e4 N along the device's x; tau = M^T F = 0.3, so 1.28 + 0.3 A over 0.01 A is 158.
+    // 1 N towards the person on a handle of 75 mm: 75 mN m, and 128 is none.
     HidEffort effort;
     effort.efforts = model.restEfforts();
-    effort.force = { 0.0, -3e4, 0.0 };
-    CHECK (hexOf (model.encode (0, effort)) == "00 9e 00");
+    effort.force = { 0.0, -1.0, 0.0 };
+    CHECK (hexOf (model.encode (0, effort)) == "00 cb 00");
     CHECK (hexOf (model.neutral (0)) == "00 80 00");
     std::filesystem::remove_all (folder);
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks host/profiles/profile.schema.json: every profile fits it, and each bad one does not.
+"""Checks host/profiles/profile.schema.json: every profile and the example of the manual fit it, and each bad one does not.
 
 Usage: schema_test.py SOURCE_FOLDER. Exit status 77 means skipped: python3-jsonschema is not installed."""
 
@@ -68,6 +68,8 @@ def changed(profile, path, value):
 
 
 profiles = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in sorted(folder.glob("*.json")) if path.stem != "profile.schema"}
+manual = (folder.parents[1] / "docs/devices.md").read_text(encoding="utf-8")
+profiles["docs/devices.md"] = json.loads(manual.split("```json")[1].split("```")[0])
 for name, profile in profiles.items():
     for error in validator.iter_errors(profile):
         complain(f"{name}: {error.json_path}: {error.message}")
