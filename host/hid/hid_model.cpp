@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/hid/hid_model.hpp>
+
+#include <utility>
+
+namespace tactus::host::hid
+{
+
+HidModel::HidModel (std::shared_ptr<const Profile> p)
+    : description (std::move (p)), decoder (description), encoder (description, decoder), kinematics (description->kinematics)
+{
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+        position[i] = decoder.axis (description->position[i]);
+        rotation[i] = decoder.axis (description->rotation[i]);
+        force[i] = encoder.effort (description->force[i]);
+        torque[i] = encoder.effort (description->torque[i]);
+    }
+    pressure = decoder.axis (description->pressure);
+    valid = decoder.axis (description->valid);
+    forget();
+}
+
+void HidModel::forget() noexcept
+{
+    last = {};
+    pose = {};
+    pose.strength = hasPosition() ? 0.0 : 1.0;
+}
+
+const HidSample& HidModel::decode (std::span<const std::uint8_t> report) noexcept
+{
+    last.refusal = decoder.decode (report);
+    last.lost = decoder.lostBefore();
+    if (last.refusal != Refusal::none) return last;
+
+    last.axes = decoder.axes();
+    last.buttons = decoder.buttons();
+    last.time = decoder.time();
+    if (pressure >= 0) last.pressure = last.axes[static_cast<std::size_t> (pressure)];
+    place();
+    return last;
+}
+
+void HidModel::place() noexcept
+{
+    const auto values = [&] (const std::array<int, 3>& of)
+    {
+        Vec3 v = Vec3::Zero();
+        for (std::size_t i = 0; i < 3; ++i)
+            if (of[i] >= 0) v[static_cast<int> (i)] = last.axes[static_cast<std::size_t> (of[i])];
+        return v;
+    };
+
+    pose = kinematics.pose (kinematics.joints (values (position)));
+    last.problem = pose.problem;
+    const bool placed = pose.problem == PoseProblem::none || pose.problem == PoseProblem::singular;
+    if (placed) last.position = description->axes * pose.position;
+    last.rotation = description->axes * values (rotation);
+    last.valid = placed && (valid < 0 || last.axes[static_cast<std::size_t> (valid)] != 0.0);
+}
+
+Reading HidModel::reading() const noexcept
+{
+    Reading r;
+    r.position = last.position;
+    r.rotation = last.rotation;
+    r.pressure = last.pressure;
+    r.buttons = last.buttons;
+    r.valid = last.valid;
+    return r;
+}
+
+std::array<double, most_efforts> HidModel::asked (const HidEffort& effort) const noexcept
+{
+    auto all = effort.efforts;
+    const Vec3 turn = description->axes.transpose() * effort.torque;
+    const Vec3 push = description->axes.transpose() * effort.force;
+    const Vec3 motors = kinematics.motors (Kinematics::torques (pose, push));
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+        if (force[i] >= 0) all[static_cast<std::size_t> (force[i])] += motors[static_cast<int> (i)];
+        if (torque[i] >= 0) all[static_cast<std::size_t> (torque[i])] += turn[static_cast<int> (i)];
+    }
+    return all;
+}
+
+std::span<const std::uint8_t> HidModel::encode (std::size_t report, const HidEffort& effort) noexcept { return encode (report, effort, {}); }
+
+std::span<const std::uint8_t> HidModel::encode (std::size_t report, const HidEffort& effort, std::span<const float> samples) noexcept
+{
+    return encoder.encode (report, asked (effort), samples, decoder);
+}
+
+std::span<const std::uint8_t> HidModel::neutral (std::size_t report) noexcept { return encoder.neutral (report); }
+
+std::span<const std::string> HidModel::channelNames (std::size_t report) const noexcept
+{
+    if (report >= outputs() || ! description->outputs[report].stream) return {};
+    return description->outputs[report].stream->channels;
+}
+
+void HidModel::reset()
+{
+    decoder.reset();
+    encoder.reset();
+    forget();
+}
+
+}   // namespace tactus::host::hid

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/hid/kinematics.hpp>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <utility>
+
+namespace tactus::host::hid
+{
+namespace
+{
+using Pose = Kinematics::Pose;
+
+/// How far from singular a pose is, 0…1, becomes how much of a force is rendered: all from `firm` on, nothing below
+/// `weak`, so that a hand that crosses the place feels the force fade and not break off.
+constexpr double weak = 0.02, firm = 0.1;
+
+void fade (Pose& pose, double regularity) noexcept
+{
+    pose.strength = std::clamp ((regularity - weak) / (firm - weak), 0.0, 1.0);
+    if (pose.strength < 1.0) pose.problem = PoseProblem::singular;
+}
+
+Pose problem (PoseProblem what) noexcept
+{
+    Pose pose;
+    pose.jacobian = Mat3::Zero();
+    pose.strength = 0.0;
+    pose.problem = what;
+    return pose;
+}
+
+double jointOf (const Drive& d, double counts) noexcept { return d.offset + 2.0 * std::numbers::pi * counts / d.counts_per_turn * d.ratio; }
+double countsOf (const Drive& d, double joint) noexcept { return (joint - d.offset) / d.ratio * d.counts_per_turn / (2.0 * std::numbers::pi); }
+
+std::span<const Drive> drivesOf (const KinematicsModel& model) noexcept
+{
+    if (const auto* arm = std::get_if<SerialArm> (&model)) return arm->drives;
+    if (const auto* bar = std::get_if<FiveBar> (&model)) return bar->drives;
+    return {};
+}
+
+// What differs from one mechanism to the next: pose, and its inverse.
+
+Pose poseOf (const Direct&, const Vec3& q) noexcept
+{
+    Pose pose;
+    pose.position = q;
+    return pose;
+}
+
+Pose poseOf (const LinearMap& map, const Vec3& q) noexcept
+{
+    Pose pose;
+    pose.position = map.matrix * q + map.origin;
+    pose.jacobian = map.matrix;
+    return pose;
+}
+
+Pose poseOf (const SerialArm& arm, const Vec3& q) noexcept
+{
+    const double sa = std::sin (q[0]), ca = std::cos (q[0]);
+    const double sb = std::sin (q[1]), cb = std::cos (q[1]);
+    const double sc = std::sin (q[2]), cc = std::cos (q[2]);
+    const double la = arm.links[0], lb = arm.links[1], lc = arm.links[2];
+    const double reach = lb * sb + lc * sc;
+
+    Pose pose;
+    pose.position = Vec3 { ca * reach, sa * reach, la + lb * cb - lc * cc } - arm.origin;
+    pose.jacobian << -sa * reach, ca * lb * cb, ca * lc * cc,
+        ca * reach, sa * lb * cb, sa * lc * cc,
+        0.0, -lb * sb, lc * sc;
+
+    // Singular where the links are in line (the tool cannot be pushed along them), and above or below the column.
+    const double in_line = std::abs (sb * cc + cb * sc);
+    const double over_column = std::abs (reach) / (lb + lc);
+    fade (pose, std::min (in_line, over_column));
+    return pose;
+}
+
+Pose poseOf (const FiveBar& bar, const Vec3& q) noexcept
+{
+    using Vec2 = Eigen::Vector2d;
+    const Vec2 right_way { std::cos (q[0]), std::sin (q[0]) }, left_way { std::cos (q[1]), std::sin (q[1]) };
+    const Vec2 right = bar.links[0] * right_way;
+    const Vec2 left = Vec2 { -bar.base, 0.0 } + bar.links[3] * left_way;
+
+    // The tool is where circles about the two elbows meet, on the side away from the pivots.
+    const Vec2 between = left - right;
+    const double far = between.norm(), r = bar.links[1], l = bar.links[2];
+    if (! (far > 0.0) || far > r + l || far < std::abs (r - l)) return problem (PoseProblem::unreachable);
+
+    const double along = (r * r - l * l + far * far) / (2.0 * far);
+    const double height = std::sqrt (std::max (0.0, r * r - along * along));
+    const Vec2 way = between / far;
+    const Vec2 tool = right + along * way + height * Vec2 { way.y(), -way.x() };
+
+    // The passive links keep their lengths: (tool - elbow) · (d tool - d elbow) = 0 for both.
+    const Vec2 to_right = tool - right, to_left = tool - left;
+    const double area = to_right.x() * to_left.y() - to_right.y() * to_left.x();
+    const double by_right = bar.links[0] * (to_right.y() * right_way.x() - to_right.x() * right_way.y());
+    const double by_left = bar.links[3] * (to_left.y() * left_way.x() - to_left.x() * left_way.y());
+
+    Pose pose;
+    pose.position = Vec3 { tool.x(), tool.y(), 0.0 } - bar.origin;
+    pose.jacobian = Mat3::Zero();
+    const double regularity = std::abs (area) / (r * l);
+    fade (pose, regularity);
+    if (pose.strength == 0.0) return pose;
+
+    pose.jacobian.col (0).head<2>() = by_right / area * Vec2 { to_left.y(), -to_left.x() };
+    pose.jacobian.col (1).head<2>() = by_left / area * Vec2 { -to_right.y(), to_right.x() };
+    return pose;
+}
+
+std::optional<Vec3> inverse (const Direct&, const Vec3& p) noexcept { return p; }
+
+std::optional<Vec3> inverse (const LinearMap& map, const Vec3& p) noexcept
+{
+    const Eigen::FullPivLU<Mat3> lu (map.matrix);
+    if (! lu.isInvertible()) return {};
+    return lu.solve (p - map.origin);
+}
+
+/// The angle between a link of length a and the line to a point at a distance, from where a link of length b meets it.
+std::optional<double> cornerOf (double a, double b, double distance) noexcept
+{
+    const double cosine = (a * a + distance * distance - b * b) / (2.0 * a * distance);
+    if (! (std::abs (cosine) <= 1.0)) return {};
+    return std::acos (cosine);
+}
+
+std::optional<Vec3> inverse (const SerialArm& arm, const Vec3& p) noexcept
+{
+    // In the plane of the links, from the shoulder, angles from the vertical; the lower link points at pi - c.
+    const Vec3 at = p + arm.origin;
+    const double across = std::hypot (at.x(), at.y()), up = at.z() - arm.links[0];
+    const auto corner = cornerOf (arm.links[1], arm.links[2], std::hypot (across, up));
+    if (! corner) return {};
+
+    const double b = std::atan2 (across, up) - *corner;
+    const double c = std::numbers::pi - std::atan2 (across - arm.links[1] * std::sin (b), up - arm.links[1] * std::cos (b));
+    return Vec3 { std::atan2 (at.y(), at.x()), b, c };
+}
+
+std::optional<Vec3> inverse (const FiveBar& bar, const Vec3& p) noexcept
+{
+    // Elbows outwards.
+    const Vec3 at = p + bar.origin;
+    const auto right = cornerOf (bar.links[0], bar.links[1], std::hypot (at.x(), at.y()));
+    const auto left = cornerOf (bar.links[3], bar.links[2], std::hypot (at.x() + bar.base, at.y()));
+    if (! right || ! left) return {};
+    return Vec3 { std::atan2 (at.y(), at.x()) - *right, std::atan2 (at.y(), at.x() + bar.base) + *left, 0.0 };
+}
+}   // namespace
+
+std::string_view describe (PoseProblem problem) noexcept
+{
+    switch (problem)
+    {
+    case PoseProblem::not_finite:
+        return "a joint angle is not finite";
+    case PoseProblem::unreachable:
+        return "the links cannot meet";
+    case PoseProblem::singular:
+        return "a singular pose";
+    default:
+        return "none";
+    }
+}
+
+Kinematics::Kinematics (KinematicsModel m) : model (std::move (m)) {}
+
+Vec3 Kinematics::joints (const Vec3& counts) const noexcept
+{
+    Vec3 q = counts;
+    const auto drives = drivesOf (model);
+    for (std::size_t i = 0; i < drives.size(); ++i)
+        q[static_cast<int> (i)] = jointOf (drives[i], counts[static_cast<int> (i)]);
+    return q;
+}
+
+Vec3 Kinematics::counts (const Vec3& q) const noexcept
+{
+    Vec3 c = q;
+    const auto drives = drivesOf (model);
+    for (std::size_t i = 0; i < drives.size(); ++i)
+        c[static_cast<int> (i)] = countsOf (drives[i], q[static_cast<int> (i)]);
+    return c;
+}
+
+Kinematics::Pose Kinematics::pose (const Vec3& q) const noexcept
+{
+    if (! isFinite (q)) return problem (PoseProblem::not_finite);
+    const Pose pose = std::visit ([&] (const auto& m)
+                                  { return poseOf (m, q); },
+                                  model);
+    const bool finite = isFinite (pose.position) && isFinite (pose.jacobian.sum());
+    return finite ? pose : problem (PoseProblem::not_finite);
+}
+
+std::optional<Vec3> Kinematics::jointsAt (const Vec3& position) const noexcept
+{
+    if (! isFinite (position)) return {};
+    return std::visit ([&] (const auto& m)
+                       { return inverse (m, position); },
+                       model);
+}
+
+Vec3 Kinematics::torques (const Pose& pose, const Vec3& force) noexcept
+{
+    const Vec3 torques = pose.strength * (pose.jacobian.transpose() * force);
+    return isFinite (torques) ? torques : Vec3::Zero();
+}
+
+Vec3 Kinematics::motors (const Vec3& torques) const noexcept
+{
+    Vec3 currents = torques;
+    double share = 1.0;
+    const auto drives = drivesOf (model);
+    for (std::size_t i = 0; i < drives.size(); ++i)
+    {
+        const auto& d = drives[i];
+        double& current = currents[static_cast<int> (i)];
+        current *= d.ratio / d.torque_constant;
+        if (std::abs (current) > d.max_current) share = std::min (share, d.max_current / std::abs (current));
+    }
+    return finiteOrZero (Vec3 { share * currents });
+}
+
+}   // namespace tactus::host::hid

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/hid/profile_check.hpp>
+
+#include <framework/in_quotes.hpp>
+
+#include <algorithm>
+#include <map>
+
+namespace tactus::host::hid
+{
+namespace
+{
+/// Names with their units; the first unit that a name has is its unit.
+class Names
+{
+public:
+    void add (const std::string& name, const std::string& unit)
+    {
+        if (name.empty()) return;
+        const auto [it, is_new] = units.try_emplace (name, unit);
+        if (is_new) list.push_back (name);
+        if (it->second != unit) conflict = name;
+    }
+
+    bool has (const std::string& name) const { return units.contains (name); }
+    const std::string& unitOf (const std::string& name) const { return units.at (name); }
+
+    std::vector<std::string> list;
+    std::string conflict;   // a name with two units
+
+private:
+    std::map<std::string, std::string> units;
+};
+
+class Check
+{
+public:
+    Check (const Profile& profile, ProfileFields& fields) : p (profile), in (fields)
+    {
+        for (const auto& report : p.inputs)
+            for (const auto& field : report.fields)
+            {
+                if (field.isAxis()) axes.add (field.name, field.unit);
+                for (const auto& button : field.buttons)
+                    buttons.add (button, "1");
+            }
+        for (const auto& report : p.outputs)
+        {
+            for (const auto& field : report.fields)
+                if (field.source == OutputField::Source::effort) efforts.add (field.name, field.unit);
+            outputs.add (report.name, "1");
+        }
+    }
+
+    void all()
+    {
+        if (p.inputs.empty() && p.outputs.empty()) in.error ("inputs", "profile/missing", "the profile has no report", "add \"inputs\" or \"outputs\"");
+        count ("inputs", "axes", axes, most_axes);
+        count ("inputs", "buttons", buttons, 32);
+        count ("outputs", "efforts", efforts, most_efforts);
+
+        const bool direct = std::holds_alternative<Direct> (p.kinematics);
+        three ("position", p.position, axes, direct ? "m" : "");
+        three ("rotation", p.rotation, axes, "rad");
+        three ("force", p.force, efforts, direct ? "N" : "");
+        three ("torque", p.torque, efforts, "N*m");
+        known ("pressure", p.pressure, axes, "N");
+        known ("valid", p.valid, axes, "");
+        joints();
+        echoes();
+        steps();
+        for (const auto& sample : p.samples)
+            golden (sample);
+    }
+
+private:
+    void count (std::string_view key, const std::string& what, const Names& names, std::size_t most)
+    {
+        if (names.list.size() > most) in.error (key, "profile/too_many", "there are " + std::to_string (names.list.size()) + " " + what, "leave all but " + std::to_string (most) + " out");
+        if (! names.conflict.empty()) in.error (key, "profile/unit", inQuotes (names.conflict) + " has two units", "give it one scale in all reports");
+    }
+
+    void known (std::string_view key, const std::string& name, const Names& names, const std::string& unit)
+    {
+        if (name.empty()) return;
+        if (! names.has (name)) return in.error (key, "profile/unknown_name", "no field is called " + inQuotes (name), suggestion (name, names.list));
+        if (! unit.empty() && names.unitOf (name) != unit)
+            in.error (key, "profile/unit", inQuotes (name) + " is in " + names.unitOf (name) + ", but this is in " + unit, "give the field a scale such as \"1e-6 " + unit + "\"");
+    }
+
+    void three (std::string_view key, const std::array<std::string, 3>& names, const Names& among, const std::string& unit)
+    {
+        for (const auto& name : names)
+            known (key, name, among, unit);
+    }
+
+    /// Each drive has a counter, and a motor where the device pushes at all.
+    void joints()
+    {
+        const std::size_t drives = std::holds_alternative<SerialArm> (p.kinematics) ? 3 : std::holds_alternative<FiveBar> (p.kinematics) ? 2
+                                                                                                                                         : 0;
+        const bool pushes = std::ranges::any_of (p.force, [] (const auto& name)
+                                                 { return ! name.empty(); });
+        for (std::size_t i = 0; i < drives; ++i)
+        {
+            if (p.position[i].empty()) in.error ("position", "profile/kinematics", "a drive has no counter", "name " + std::to_string (drives) + " fields that count");
+            if (pushes && p.force[i].empty()) in.error ("force", "profile/kinematics", "a drive has no motor", "name " + std::to_string (drives) + " efforts, or none");
+        }
+    }
+
+    void echoes()
+    {
+        for (const auto& report : p.outputs)
+            for (const auto& field : report.fields)
+                if (field.source == OutputField::Source::echo) known ("outputs", field.name, axes, "");
+    }
+
+    void steps()
+    {
+        for (const auto* list : { &p.init, &p.exit })
+            for (const auto& step : *list)
+                if (step.bytes.empty()) in.error (list == &p.init ? "init" : "exit", "profile/missing", "a step without bytes", "write \"bytes\": the whole report, beginning with its id, or with 00 where there is none");
+    }
+
+    void golden (const GoldenSample& sample)
+    {
+        const auto vector = [] (const std::string& name, std::string_view of)
+        { return name.size() == of.size() + 2 && name.starts_with (of) && name[of.size()] == '.' && std::string_view ("xyz").find (name.back()) != std::string_view::npos; };
+
+        known ("samples", sample.output, outputs, "");
+        for (const auto& [name, value] : sample.values)
+            if (sample.output.empty())
+            {
+                if (name != "pressure" && name != "time" && name != "lost" && ! vector (name, "position") && ! vector (name, "rotation")) known ("samples", name, axes, "");
+            }
+            else if (! vector (name, "force") && ! vector (name, "torque"))
+                known ("samples", name, efforts, "");
+        for (const auto& button : sample.pressed)
+            known ("samples", button, buttons, "");
+    }
+
+    const Profile& p;
+    ProfileFields& in;
+    Names axes, buttons, efforts, outputs;
+};
+}   // namespace
+
+void checkProfile (const Profile& profile, ProfileFields& fields) { Check (profile, fields).all(); }
+
+}   // namespace tactus::host::hid

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/devices/problem.hpp>
+#include <host/hid/hex.hpp>
+#include <host/hid/kinematics_reader.hpp>
+#include <host/hid/profile_check.hpp>
+#include <host/hid/profile_reader.hpp>
+#include <host/hid/report_reader.hpp>
+
+#include <framework/file/json_text.hpp>
+#include <framework/in_quotes.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+namespace tactus::host::hid
+{
+namespace
+{
+constexpr Unit force_rate { Quantity::any, { 1, 1, -3 }, "N/s" };
+constexpr Unit torque_rate { Quantity::any, { 2, 1, -3 }, "N*m/s" };
+
+std::vector<MatchRule> readMatch (ProfileFields& profile)
+{
+    std::vector<MatchRule> rules;
+    profile.require ("match", "write \"match\": [{\"vid\": \"0x16c0\", \"pid\": \"0x0486\"}]");
+    profile.each ("match", [&] (ProfileFields& in)
+                  {
+        MatchRule rule;
+        rule.vid = in.ids ("vid");
+        rule.pid = in.ids ("pid");
+        if (const auto page = in.id ("usage_page", 0xffff)) rule.usage_page = static_cast<std::uint16_t> (*page);
+        if (const auto usage = in.id ("usage", 0xffff)) rule.usage = static_cast<std::uint16_t> (*usage);
+        rule.interface_number = in.id ("interface", 255);
+        if (in.has ("product")) rule.product = in.text ("product");
+
+        const auto bus = in.has ("bus") ? in.text ("bus") : std::string();
+        if (bus == "usb") rule.bus = Bus::usb;
+        if (bus == "bluetooth") rule.bus = Bus::bluetooth;
+        if (! bus.empty() && ! rule.bus) in.error ("bus", "profile/kind", inQuotes (bus) + " is not a bus", "write usb or bluetooth");
+        if (rule.vid.empty() && rule.product.empty() && ! rule.usage_page)
+            in.error ("vid", "profile/missing", "this rule would fit almost any device", "say a vid, a product or a usage page");
+        rules.push_back (std::move (rule)); });
+    return rules;
+}
+
+std::vector<Step> readSteps (ProfileFields& profile, std::string_view key)
+{
+    std::vector<Step> steps;
+    profile.each (key, [&] (ProfileFields& in)
+                  {
+        Step step;
+        in.ignore ("about");
+        const auto kind = in.has ("kind") ? in.text ("kind") : std::string ("output");
+        if (kind == "feature") step.kind = Step::Kind::feature;
+        else if (kind == "get_feature") step.kind = Step::Kind::get_feature;
+        else if (kind != "output") in.error ("kind", "profile/kind", inQuotes (kind) + " is not a kind of report", "write output, feature or get_feature");
+        step.bytes = in.has ("bytes") ? in.hex ("bytes") : Bytes {};
+        step.delay = in.number ("delay", unit::second, { .min = 0.0, .max = 10.0 }, 0.0);
+        steps.push_back (std::move (step)); });
+    return steps;
+}
+
+Limits readLimits (ProfileFields& profile)
+{
+    constexpr auto any = Bounds::notNegative();
+    constexpr auto some = Bounds::positive();
+    Limits l;
+    profile.within ("limits", [&] (ProfileFields& in)
+                    {
+        l.guard.max_force = in.number ("max_force", unit::newton, any, l.guard.max_force);
+        l.guard.max_torque = in.number ("max_torque", unit::torque, any, l.guard.max_torque);
+        l.guard.max_slew = in.number ("max_slew", force_rate, some, l.guard.max_slew);
+        l.guard.max_torque_slew = in.number ("max_torque_slew", torque_rate, some, l.guard.max_torque_slew);
+        l.guard.ramp = in.number ("ramp", unit::second, any, l.guard.ramp);
+        l.guard.watchdog = in.number ("stale_input", unit::second, some, l.guard.watchdog);
+        l.max_stiffness = in.number ("max_stiffness", unit::stiffness, any, l.max_stiffness);
+        l.max_damping = in.number ("max_damping", unit::damping, any, l.max_damping);
+        l.device_damping = in.number ("device_damping", unit::damping, any, 0.0);
+        l.first_mode = in.number ("first_mode", unit::hertz, any, 0.0);
+        l.position_quantum = in.number ("position_quantum", unit::metre, any, 0.0);
+        l.force_quantum = in.number ("force_quantum", unit::newton, any, 0.0);
+        l.device_watchdog = in.number ("device_watchdog", unit::second, any, 0.0); });
+    return l;
+}
+
+/// {"x": 1.5, …}, units allowed as everywhere.
+std::vector<std::pair<std::string, double>> readValues (ProfileFields& in, std::string_view key)
+{
+    std::vector<std::pair<std::string, double>> values;
+    in.within (key, [&] (ProfileFields& all)
+               {
+        if (! all.json().is_object()) return;
+        for (const auto& [name, value] : all.json().items())
+            values.emplace_back (name, all.scale (name, 0.0).value); });
+    return values;
+}
+
+std::vector<GoldenSample> readSamples (ProfileFields& profile)
+{
+    std::vector<GoldenSample> samples;
+    profile.each ("samples", [&] (ProfileFields& in)
+                  {
+        GoldenSample s;
+        if (in.has ("about")) s.about = in.text ("about");
+        if (in.has ("source")) s.source = in.text ("source");
+        s.captured = in.flag ("captured");
+        for (const auto& text : in.texts ("input"))
+            if (const auto bytes = bytesOf (text))
+                s.input.push_back (*bytes);
+            else
+                in.error ("input", "profile/hex", inQuotes (text) + " are not bytes", "write two hexadecimal digits a byte");
+        if (in.has ("output"))
+        {
+            s.output = in.text ("output");
+            s.values = readValues (in, "asked");
+            for (const double sample : in.numbers ("stream"))
+                s.samples.push_back (static_cast<float> (sample));
+            s.expected = in.has ("report") ? in.hex ("report") : Bytes {};
+            if (s.expected.empty()) in.error ("report", "profile/missing", "the sample does not say what is sent", "write \"report\": the bytes");
+        }
+        else
+        {
+            s.values = readValues (in, "gives");
+            s.pressed = in.texts ("pressed");
+            if (s.input.empty()) in.error ("input", "profile/missing", "the sample has no report", "write \"input\": [\"01 00 ff\"], or \"output\": the name of a report");
+        }
+        samples.push_back (std::move (s)); });
+    return samples;
+}
+
+Profile read (ProfileFields& in)
+{
+    Profile p;
+    in.ignore ("$schema");
+    in.ignore ("ui");
+    if (in.text ("format") != "tactus-profile") in.error ("format", "profile/format", "this is not a device profile", "write \"format\": \"tactus-profile\"");
+    if (in.whole ("version", 1, 1000, 1) != 1) in.error ("version", "profile/format", "the profile is of a newer version", "update Tactus, or write \"version\": 1");
+    p.id = in.name ("id");
+    in.require ("name", "write \"name\": what people call the device");
+    if (in.has ("name")) p.name = in.text ("name");
+    if (in.has ("about")) p.about = in.text ("about");
+
+    p.match = readMatch (in);
+    p.init = readSteps (in, "init");
+    p.exit = readSteps (in, "exit");
+    p.inputs = readInputs (in);
+    p.outputs = readOutputs (in, readTables (in));
+
+    p.position = in.threeNames ("position");
+    p.rotation = in.threeNames ("rotation");
+    p.force = in.threeNames ("force");
+    p.torque = in.threeNames ("torque");
+    if (in.has ("pressure")) p.pressure = in.name ("pressure");
+    if (in.has ("valid")) p.valid = in.name ("valid");
+    p.axes = readAxes (in);
+    p.kinematics = readKinematics (in);
+    p.limits = readLimits (in);
+    p.rate = in.number ("rate", unit::hertz, Bounds::positive(), 0.0);
+    p.quirks = in.texts ("quirks");
+    p.sources = in.texts ("sources");
+    if (p.sources.empty()) in.error ("sources", "profile/missing", "the profile does not say where it comes from", "write \"sources\": [\"…\"]: a document, a repository, or your own firmware");
+    p.samples = readSamples (in);
+    checkProfile (p, in);
+    in.finish();
+    return p;
+}
+
+/// Fields speak of devices; these are profiles.
+void rename (Messages& messages)
+{
+    for (auto& m : messages)
+        if (m.id.starts_with ("device/")) m.id = "profile/" + m.id.substr (7);
+}
+}   // namespace
+
+LoadedProfile readProfile (const Json& json)
+{
+    LoadedProfile loaded;
+    ProfileFields in (json, "", loaded.messages);
+    auto profile = read (in);
+    rename (loaded.messages);
+    if (! hasErrors (loaded.messages)) loaded.profile = std::make_shared<const Profile> (std::move (profile));
+    return loaded;
+}
+
+LoadedProfile readProfileText (std::string_view text)
+{
+    const auto json = readJson (text);
+    if (hasErrors (json.messages)) return { .profile = {}, .messages = json.messages };
+    auto loaded = readProfile (json.root);
+    for (auto& m : loaded.messages)
+    {
+        const auto at = positionOf (json.positions, m.where);
+        m.line = at.line;
+        m.column = at.column;
+    }
+    return loaded;
+}
+
+LoadedProfiles loadProfiles (const std::filesystem::path& folder)
+{
+    LoadedProfiles loaded;
+    const auto complain = [&] (const std::filesystem::path& file, std::string text, std::string remedy)
+    {
+        auto message = problem ("profile/unreadable", "", std::move (text), std::move (remedy));
+        message.file = file.string();
+        loaded.messages.push_back (std::move (message));
+    };
+
+    std::vector<std::filesystem::path> files;
+    std::error_code failed;
+    for (std::filesystem::directory_iterator it (folder, failed), end; ! failed && it != end; it.increment (failed))
+        if (it->path().extension() == ".json" && ! it->path().stem().string().ends_with (".schema")) files.push_back (it->path());
+    if (failed) complain (folder, "the folder of device profiles cannot be read: " + failed.message(), "make it, or name another");
+    std::ranges::sort (files);
+
+    for (const auto& file : files)
+    {
+        std::ifstream stream (file, std::ios::binary);
+        std::ostringstream text;
+        if (! stream || ! (text << stream.rdbuf()))
+        {
+            complain (file, "the profile cannot be read", "check that the file is there, not empty, and may be read");
+            continue;
+        }
+
+        auto one = readProfileText (text.str());
+        for (auto& m : one.messages)
+            m.file = file.string();
+        loaded.messages.insert (loaded.messages.end(), std::make_move_iterator (one.messages.begin()), std::make_move_iterator (one.messages.end()));
+        if (! one.profile) continue;
+
+        const auto same = [&] (const auto& other)
+        { return other->id == one.profile->id; };
+        if (const auto other = std::ranges::find_if (loaded.profiles, same); other != loaded.profiles.end())
+        {
+            auto message = problem ("profile/duplicate", "/id", inQuotes (one.profile->id) + " is the id of " + (*other)->file + ", too", "give the profile another id");
+            message.file = file.string();
+            loaded.messages.push_back (std::move (message));
+            continue;
+        }
+        auto profile = *one.profile;
+        profile.file = file.string();
+        loaded.profiles.push_back (std::make_shared<const Profile> (std::move (profile)));
+    }
+    return loaded;
+}
+
+}   // namespace tactus::host::hid

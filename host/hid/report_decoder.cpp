@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/hid/bits.hpp>
+#include <host/hid/report_decoder.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace tactus::host::hid
+{
+namespace
+{
+std::uint32_t rangeOf (std::size_t bits) noexcept { return bits >= 32 ? ~0u : (1u << bits) - 1u; }
+
+/// The place of a name in a list, which it joins if it is new.
+int indexIn (std::vector<std::string>& list, const std::string& name)
+{
+    const auto it = std::ranges::find (list, name);
+    const auto index = it - list.begin();
+    if (it == list.end()) list.push_back (name);
+    return static_cast<int> (index);
+}
+}   // namespace
+
+std::string_view describe (Refusal refusal) noexcept
+{
+    constexpr std::array<std::string_view, refusals> words { "none", "too short", "too long", "unknown report id", "wrong mark", "not finite" };
+    return words[static_cast<std::size_t> (refusal)];
+}
+
+ReportDecoder::ReportDecoder (std::shared_ptr<const Profile> p) : profile (std::move (p))
+{
+    for (const auto& report : profile->inputs)
+    {
+        Report r { .report = &report, .fields = {} };
+        for (std::size_t i = 0; i < report.fields.size(); ++i)
+        {
+            const auto& field = report.fields[i];
+            Field f { .field = &field, .masks = {}, .counter = {} };
+            if (field.isAxis())
+            {
+                f.axis = indexIn (names, field.name);
+                units.resize (names.size(), field.unit);
+            }
+            for (const auto& button : field.buttons)
+            {
+                const auto mask = button.empty() ? 0u : 1u << static_cast<unsigned> (indexIn (button_names, button));
+                f.masks.push_back (mask);
+                f.all |= mask;
+            }
+            if (f.axis >= 0 && field.name == report.timestamp) r.timestamp = static_cast<int> (i);
+            if (f.axis >= 0 && field.name == report.sequence) r.sequence = static_cast<int> (i);
+            r.fields.push_back (std::move (f));
+        }
+        has_time = has_time || r.timestamp >= 0;
+        reports.push_back (std::move (r));
+    }
+}
+
+int ReportDecoder::axis (std::string_view name) const noexcept
+{
+    const auto it = std::ranges::find (names, name);
+    return it == names.end() ? -1 : static_cast<int> (it - names.begin());
+}
+
+ReportDecoder::Report* ReportDecoder::find (std::span<const std::uint8_t> bytes) noexcept
+{
+    for (auto& r : reports)
+        if (! r.report->id || (! bytes.empty() && bytes.front() == *r.report->id)) return &r;
+    return nullptr;
+}
+
+Refusal ReportDecoder::check (const Report& r, std::span<const std::uint8_t> bytes) const noexcept
+{
+    if (bytes.size() < r.report->length) return Refusal::too_short;
+    if (bytes.size() > r.report->longest) return Refusal::too_long;
+
+    for (const auto& f : r.fields)
+    {
+        const double number = numberOf (f.field->bits, bitsAt (f.field->bits, bytes));
+        if (! isFinite (number * f.field->scale + f.field->offset)) return Refusal::not_finite;
+        if (f.field->expect && number != *f.field->expect) return Refusal::wrong_mark;
+    }
+    return Refusal::none;
+}
+
+Refusal ReportDecoder::decode (std::span<const std::uint8_t> bytes) noexcept
+{
+    Report* const r = find (bytes);
+    const Refusal refusal = r != nullptr ? check (*r, bytes) : bytes.empty() ? Refusal::too_short
+                                                                             : Refusal::unknown_id;
+    gap = 0;
+    if (refusal != Refusal::none)
+    {
+        ++tally.refused[static_cast<std::size_t> (refusal)];
+        return refusal;
+    }
+
+    ++tally.taken;
+    for (std::size_t i = 0; i < r->fields.size(); ++i)
+    {
+        auto& f = r->fields[i];
+        const auto raw = bitsAt (f.field->bits, bytes);
+        if (f.axis >= 0) takeAxis (f, raw);
+        if (! f.masks.empty()) takeButtons (f, raw);
+        if (static_cast<int> (i) == r->sequence) follow (*r, raw, f.field->bits.size);
+    }
+
+    if (r->timestamp >= 0)
+    {
+        const double now = values[static_cast<std::size_t> (r->fields[static_cast<std::size_t> (r->timestamp)].axis)];
+        if (! r->timed) r->first_time = now;
+        r->timed = true;
+        clock = now - r->first_time;
+    }
+    return Refusal::none;
+}
+
+void ReportDecoder::takeAxis (Field& f, std::uint32_t raw) noexcept
+{
+    const auto& field = *f.field;
+    double number = numberOf (field.bits, raw);
+    if (field.unwrap)
+    {
+        // It moved by the way that is the shorter one around the range of the counter.
+        auto& c = f.counter;
+        const auto range = rangeOf (field.bits.size);
+        const auto on = (raw - c.raw) & range;
+        const bool back = on > range / 2;
+        if (! c.started)
+            c.total = number;
+        else
+            c.total += static_cast<double> (on) - (back ? static_cast<double> (range) + 1.0 : 0.0);
+        c.started = true;
+        c.raw = raw;
+        number = c.total;
+    }
+    raws[static_cast<std::size_t> (f.axis)] = raw;
+    values[static_cast<std::size_t> (f.axis)] = number * field.scale + field.offset;
+}
+
+void ReportDecoder::takeButtons (const Field& f, std::uint32_t raw) noexcept
+{
+    pressed &= ~f.all;
+    if (! f.field->is_hat)
+    {
+        for (std::size_t i = 0; i < f.masks.size(); ++i)
+            if ((raw >> i & 1u) != 0) pressed |= f.masks[i];
+        return;
+    }
+
+    // 0 is up, 1 up and right, 2 right …, 8 and more are nowhere.
+    if (raw > 7) return;
+    pressed |= f.masks[(raw / 2) % 4];
+    if (raw % 2 == 1) pressed |= f.masks[(raw / 2 + 1) % 4];
+}
+
+void ReportDecoder::follow (Report& r, std::uint32_t raw, std::size_t bits) noexcept
+{
+    const auto range = rangeOf (bits);
+    const auto on = (raw - r.count) & range;
+    if (r.counted && on != 0)   // the same number again is the same report again
+    {
+        if (on > range / 2)
+            ++tally.restarts;
+        else
+            gap = on - 1;
+        tally.lost += gap;
+    }
+    r.counted = true;
+    r.count = raw;
+}
+
+void ReportDecoder::reset()
+{
+    for (auto& r : reports)
+    {
+        r.counted = r.timed = false;
+        for (auto& f : r.fields)
+            f.counter = {};
+    }
+    values.fill (0.0);
+    raws.fill (0);
+    pressed = gap = 0;
+    clock = 0.0;
+    tally = {};
+}
+
+}   // namespace tactus::host::hid

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <host/hid/profile.hpp>
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tactus::host::hid
+{
+
+/// Why a report was not taken.
+enum class Refusal
+{
+    none,
+    too_short,
+    too_long,
+    unknown_id,
+    wrong_mark,   ///< a field that has to have one value has another
+    not_finite
+};
+
+inline constexpr std::size_t refusals = 6;
+
+/// "too short"
+std::string_view describe (Refusal) noexcept;
+
+/// Bytes into values. Counters are unwrapped, lost reports counted, and device clocks turned into seconds since the
+/// first report. A refused report changes no value. Nothing allocates or throws after construction.
+class ReportDecoder
+{
+public:
+    struct Counts
+    {
+        std::uint64_t taken = 0;
+        std::uint64_t lost = 0;                           ///< by sequence numbers
+        std::uint64_t restarts = 0;                       ///< sequence numbers that went back, or on by half their range
+        std::array<std::uint64_t, refusals> refused {};   ///< by Refusal
+    };
+
+    explicit ReportDecoder (std::shared_ptr<const Profile>);
+
+    Refusal decode (std::span<const std::uint8_t> report) noexcept;
+
+    const std::array<double, most_axes>& axes() const noexcept { return values; }
+    std::uint32_t buttons() const noexcept { return pressed; }
+    double time() const noexcept { return clock; }
+    std::uint32_t lostBefore() const noexcept { return gap; }
+    const Counts& counts() const noexcept { return tally; }
+    bool hasTime() const noexcept { return has_time; }
+
+    /// The raw value an axis had in the last report that has it.
+    std::uint32_t raw (std::size_t axis) const noexcept { return raws[axis]; }
+
+    const std::vector<std::string>& axisNames() const noexcept { return names; }
+    const std::vector<std::string>& axisUnits() const noexcept { return units; }
+    const std::vector<std::string>& buttonNames() const noexcept { return button_names; }
+
+    /// -1 if there is no such axis.
+    int axis (std::string_view name) const noexcept;
+
+    void reset();
+
+private:
+    struct Counter
+    {
+        bool started = false;
+        std::uint32_t raw = 0;
+        double total = 0.0;   // in raw units, beyond what the field holds
+    };
+
+    struct Field
+    {
+        const InputField* field = nullptr;
+        int axis = -1;
+        std::vector<std::uint32_t> masks;   // of the buttons, by bit; for a hat by direction
+        std::uint32_t all = 0;              // of them
+        Counter counter;
+    };
+
+    struct Report
+    {
+        const InputReport* report = nullptr;
+        std::vector<Field> fields;
+        int timestamp = -1, sequence = -1;     // of fields
+        bool counted = false, timed = false;   // once there was a first one
+        std::uint32_t count = 0;
+        double first_time = 0.0;
+    };
+
+    Report* find (std::span<const std::uint8_t>) noexcept;
+    Refusal check (const Report&, std::span<const std::uint8_t>) const noexcept;
+    void takeAxis (Field&, std::uint32_t raw) noexcept;
+    void takeButtons (const Field&, std::uint32_t raw) noexcept;
+    void follow (Report&, std::uint32_t raw, std::size_t bits) noexcept;
+
+    std::shared_ptr<const Profile> profile;
+    std::vector<Report> reports;
+    std::vector<std::string> names, units, button_names;
+    std::array<double, most_axes> values {};
+    std::array<std::uint32_t, most_axes> raws {};
+    std::uint32_t pressed = 0;
+    double clock = 0.0;
+    std::uint32_t gap = 0;
+    bool has_time = false;
+    Counts tally;
+};
+
+}   // namespace tactus::host::hid

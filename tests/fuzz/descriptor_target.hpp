@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "report_target.hpp"
+
+#include <host/hid/pid_device.hpp>
+
+namespace tactus::fuzz
+{
+
+/// Any bytes are a report descriptor whose fields lie one after the other, or errors with a place; and where they are a
+/// force feedback device, its profile takes any report. Aborts if not.
+inline void tryDescriptor (std::string_view data)
+{
+    using namespace host::hid;
+    const auto read = readDescriptor ({ reinterpret_cast<const std::uint8_t*> (data.data()), data.size() });
+    for (const auto& m : read.messages)
+        if (m.id.empty() || m.where.empty() || m.text.empty() || m.remedy.empty()) std::abort();
+
+    const auto& d = read.descriptor;
+    for (const auto& f : d.fields)
+    {
+        if (f.size == 0 || f.count == 0 || f.collection >= static_cast<int> (d.collections.size())) std::abort();
+        if (8 * d.length (f.kind, f.report) < f.bit + f.size * f.count) std::abort();
+    }
+    for (std::size_t i = 0; i < d.collections.size(); ++i)
+        if (d.collections[i].parent >= static_cast<int> (i)) std::abort();
+    if (hasErrors (read.messages)) return;
+
+    Messages messages;
+    const auto device = PidDevice::from (d, messages);
+    if (device.has_value() == hasErrors (messages)) std::abort();
+    if (! device) return;
+    const auto answer = device->blockLoad();
+    if (device->createEffect().empty() || answer.empty()) std::abort();
+    const std::span bytes (reinterpret_cast<const std::uint8_t*> (data.data()), std::min (data.size(), answer.size()));
+    tryReport (std::make_shared<const Profile> (device->profile (device->block (bytes).value_or (1))), data);
+}
+
+}   // namespace tactus::fuzz

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "report_target.hpp"
+
+#include <host/hid/profile_reader.hpp>
+
+namespace tactus::fuzz
+{
+
+/// A text is a device profile that takes any report, or a list of problems that all have a place. Aborts if not.
+inline void tryProfile (std::string_view text)
+{
+    const auto loaded = host::hid::readProfileText (text);
+    if (loaded.profile == nullptr && ! hasErrors (loaded.messages)) std::abort();
+    for (const auto& m : loaded.messages)
+        if (m.id.empty() || m.text.empty() || m.line < 1 || m.column < 1) std::abort();
+    if (loaded.profile) tryReport (loaded.profile, text);
+}
+
+}   // namespace tactus::fuzz

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <host/hid/hid_model.hpp>
+
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
+namespace tactus::fuzz
+{
+
+/// Any bytes are a report that gives finite values, or one that is refused and changes none. Any efforts become a report
+/// of the right length. Aborts if not.
+inline void tryReport (std::shared_ptr<const host::hid::Profile> profile, std::string_view data)
+{
+    using namespace host::hid;
+    HidModel model (std::move (profile));
+    const std::span bytes (reinterpret_cast<const std::uint8_t*> (data.data()), data.size());
+
+    // The data as one report, and cut into reports of every length that the profile knows, with their ids put in front.
+    const auto decode = [&] (std::span<const std::uint8_t> report)
+    {
+        const auto before = model.sample();
+        const auto& after = model.decode (report);
+        if (! isFinite (after.position, after.rotation) || ! isFinite (after.pressure, after.time)) std::abort();
+        for (const double value : after.axes)
+            if (! isFinite (value)) std::abort();
+        if (after.refusal != Refusal::none && (after.position != before.position || after.axes != before.axes || after.buttons != before.buttons || after.time != before.time)) std::abort();
+    };
+    decode (bytes);
+    for (const auto& input : model.profile().inputs)
+        for (std::size_t at = 0; at + input.length <= bytes.size() && at < 64 * input.length; at += input.length)
+        {
+            Bytes report (bytes.begin() + static_cast<std::ptrdiff_t> (at), bytes.begin() + static_cast<std::ptrdiff_t> (at + input.length));
+            if (input.id) report[0] = *input.id;
+            for (const auto& field : input.fields)
+                if (field.expect && field.bits.at % 8 == 0) report[field.bits.at / 8] = static_cast<std::uint8_t> (*field.expect);
+            decode (report);
+        }
+
+    HidEffort effort;
+    std::vector<float> samples (data.size() / sizeof (float));
+    if (! samples.empty()) std::memcpy (samples.data(), data.data(), samples.size() * sizeof (float));
+    const auto take = [&] (double& value)
+    {
+        if (data.size() < sizeof value) return;
+        std::memcpy (&value, data.data(), sizeof value);
+        data.remove_prefix (sizeof value);
+    };
+    for (int i = 0; i < 3; ++i)
+    {
+        take (effort.force[i]);
+        take (effort.torque[i]);
+    }
+    for (auto& value : effort.efforts)
+        take (value);
+    for (std::size_t i = 0; i <= model.outputs(); ++i)
+    {
+        const std::size_t length = i == model.outputs() ? 0 : model.profile().outputs[i].body.size() + (model.profile().outputs[i].id ? 0 : 1);
+        if (model.encode (i, effort, samples).size() != length || model.neutral (i).size() != length) std::abort();
+    }
+}
+
+}   // namespace tactus::fuzz

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hid.hpp"
+
+#include <host/hid/match.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+using namespace tactus;
+using namespace tactus::host::hid;
+using test::profiles;
+
+namespace
+{
+/// "x", "y" or "z" of a vector, where a name means one.
+std::optional<double> componentOf (const std::string& name, std::string_view of, const Vec3& v)
+{
+    if (name.size() != of.size() + 2 || ! name.starts_with (of) || name[of.size()] != '.') return {};
+    return v[name.back() - 'x'];
+}
+
+double told (const HidModel& model, std::uint64_t lost, const std::string& name)
+{
+    const auto& s = model.sample();
+    if (const auto v = componentOf (name, "position", s.position)) return *v;
+    if (const auto v = componentOf (name, "rotation", s.rotation)) return *v;
+    const auto& axes = model.axisNames();
+    if (const auto it = std::ranges::find (axes, name); name != "time" && it != axes.end()) return name == "pressure" ? s.pressure : s.axes[static_cast<std::size_t> (it - axes.begin())];
+    if (name == "time") return s.time;
+    if (name == "lost") return static_cast<double> (lost);
+    FAIL ("nothing is called " << name);
+    return 0.0;
+}
+
+HidEffort asked (const HidModel& model, const GoldenSample& sample)
+{
+    HidEffort effort;
+    effort.efforts = model.restEfforts();
+    for (const auto& [name, value] : sample.values)
+    {
+        if (name.starts_with ("force."))
+            effort.force[name.back() - 'x'] = value;
+        else if (name.starts_with ("torque."))
+            effort.torque[name.back() - 'x'] = value;
+        else
+        {
+            const auto& names = model.effortNames();
+            effort.efforts[static_cast<std::size_t> (std::ranges::find (names, name) - names.begin())] = value;
+        }
+    }
+    return effort;
+}
+
+/// The profile that docs/devices.md shows.
+std::string exampleOfTheManual()
+{
+    std::ostringstream manual;
+    manual << std::ifstream (std::filesystem::path (TACTUS_SOURCE_DIR) / "docs" / "devices.md").rdbuf();
+    const auto text = manual.str();
+    const std::string_view begin = "```json\n";
+    const auto at = text.find (begin);
+    REQUIRE (at != text.npos);
+    return text.substr (at + begin.size(), text.find ("```", at + begin.size()) - at - begin.size());
+}
+
+/// The report without the 0 that hidapi wants before one that has no id.
+std::string reportIn (std::span<const std::uint8_t> wire, const OutputReport& report) { return hexOf (report.id ? wire : wire.subspan (1)); }
+
+int decodeSamples (const std::shared_ptr<const Profile>& profile)
+{
+    int decoded = 0;
+    for (const auto& sample : profile->samples)
+    {
+        if (! sample.output.empty()) continue;
+        INFO (profile->id << ": " << sample.about);
+        HidModel model (profile);
+        std::uint64_t lost = 0;
+        for (const auto& report : sample.input)
+        {
+            REQUIRE (describe (model.decode (report).refusal) == "none");
+            lost += model.sample().lost;
+        }
+
+        for (const auto& [name, value] : sample.values)
+        {
+            INFO (name);
+            CHECK (told (model, lost, name) == Approx (value).epsilon (1e-12).margin (1e-15));
+        }
+        std::vector<std::string> pressed;
+        for (std::size_t i = 0; i < model.buttonNames().size(); ++i)
+            if ((model.sample().buttons >> i & 1u) != 0) pressed.push_back (model.buttonNames()[i]);
+        auto expected = sample.pressed;
+        std::ranges::sort (expected);
+        std::ranges::sort (pressed);
+        CHECK (pressed == expected);
+        ++decoded;
+    }
+    return decoded;
+}
+
+int encodeSamples (const std::shared_ptr<const Profile>& profile)
+{
+    int encoded = 0;
+    for (const auto& sample : profile->samples)
+    {
+        if (sample.output.empty()) continue;
+        INFO (profile->id << ": " << sample.about);
+        HidModel model (profile);
+        for (const auto& report : sample.input)
+            model.decode (report);
+        const auto at = static_cast<std::size_t> (std::ranges::find (profile->outputs, sample.output, &OutputReport::name) - profile->outputs.begin());
+        CHECK (reportIn (model.encode (at, asked (model, sample), sample.samples), profile->outputs[at]) == hexOf (sample.expected));
+        ++encoded;
+    }
+    return encoded;
+}
+}   // namespace
+
+TEST_CASE ("every profile decodes its reports to the values computed by hand")
+{
+    int decoded = 0;
+    for (const auto& profile : profiles())
+        decoded += decodeSamples (profile);
+    CHECK (decoded >= 12);
+}
+
+TEST_CASE ("every profile encodes what is asked to the bytes computed by hand")
+{
+    int encoded = 0;
+    for (const auto& profile : profiles())
+        encoded += encodeSamples (profile);
+    CHECK (encoded >= 10);
+}
+
+TEST_CASE ("every profile has a sample of each of its reports, names its sources, and says why what is not verified is believed")
+{
+    for (const auto& profile : profiles())
+    {
+        INFO (profile->id);
+        CHECK (std::filesystem::path (profile->file).stem() == profile->id);
+        CHECK_FALSE (profile->sources.empty());
+        for (const auto& report : profile->outputs)
+            CHECK (std::ranges::any_of (profile->samples, [&] (const auto& s)
+                                        { return s.output == report.name; }));
+
+        for (const auto& report : profile->inputs)
+        {
+            const auto of_this = [&] (const Bytes& b)
+            { return ! report.id || b.front() == *report.id; };
+            const auto decodes = [&] (const GoldenSample& s)
+            { return s.output.empty() && std::ranges::any_of (s.input, of_this); };
+            // A second report of the same layout needs no sample of its own.
+            const auto same_layout = [&] (const InputReport& other)
+            { return &other != &report && other.fields.size() >= report.fields.size() && other.length == report.length; };
+            INFO ("report " << int (report.id.value_or (0)));
+            CHECK ((std::ranges::any_of (profile->samples, decodes) || std::ranges::any_of (profile->inputs, same_layout)));
+            if (report.verified)
+                CHECK (std::ranges::any_of (profile->samples, [&] (const auto& s)
+                                            { return s.captured && decodes (s); }));
+        }
+    }
+}
+
+TEST_CASE ("every profile that can push has a report that makes it do nothing, and rests there")
+{
+    for (const auto& profile : profiles())
+    {
+        HidModel model (profile), other (profile);
+        HidEffort rest;
+        rest.efforts = model.restEfforts();
+        for (std::size_t i = 0; i < model.outputs(); ++i)
+        {
+            INFO (profile->id << " " << profile->outputs[i].name);
+            const auto& neutral = profile->outputs[i].neutral;
+            const auto sent = model.neutral (i);
+            CHECK (sent.size() == neutral.size() + (profile->outputs[i].id ? 0 : 1));
+
+            // At rest, all fields of efforts are as in the neutral report.
+            const auto at_rest = other.encode (i, rest);
+            for (const auto& field : profile->outputs[i].fields)
+                if (field.source == OutputField::Source::effort)
+                    for (auto bit = field.bits.at; bit < field.bits.end(); ++bit)
+                    {
+                        const auto byte = bit / 8 + (profile->outputs[i].id ? 0 : 1);
+                        CHECK ((at_rest[byte] >> bit % 8 & 1) == (neutral[bit / 8] >> bit % 8 & 1));
+                    }
+        }
+    }
+}
+
+TEST_CASE ("of the profiles that fit, the one that says most about a device comes first")
+{
+    const auto idsOf = [] (const DeviceInfo& device)
+    {
+        std::vector<std::string> ids;
+        for (const auto& profile : matching (profiles(), device))
+            ids.push_back (profile->id);
+        return ids;
+    };
+    using Ids = std::vector<std::string>;
+    CHECK (idsOf ({ .vid = 0x054c, .pid = 0x0ce6, .bus = Bus::usb, .product = {} }) == Ids { "dualsense_usb" });
+    CHECK (idsOf ({ .vid = 0x054c, .pid = 0x0ce6, .bus = Bus::bluetooth, .product = {} }) == Ids { "dualsense_bluetooth" });
+    CHECK (idsOf ({ .vid = 0x256f, .pid = 0xc62e, .product = {} }) == Ids { "spacemouse_wireless" });
+    CHECK (idsOf ({ .vid = 0x16c0, .pid = 0x0486, .usage_page = 0xffab, .usage = 0x0200, .product = {} }) == Ids { "tactus_board" });
+    CHECK (idsOf ({ .vid = 0x16c0, .pid = 0x0486, .usage_page = 0xffc9, .usage = 0x0004, .product = {} }).empty());   // its serial emulation
+    CHECK (idsOf ({ .vid = 0x16c0, .pid = 0x0486, .product = {} }) == Ids { "tactus_board" });                        // where nobody tells usages
+    CHECK (idsOf ({ .vid = 0x046d, .pid = 0xffff, .product = {} }).empty());
+
+    // Two for one board: the one that names its product wins.
+    Profile any, mine;
+    any.id = "a_board";
+    any.match = { { .vid = { 0x16c0 }, .pid = { 0x0486 }, .usage_page = {}, .usage = {}, .interface_number = {}, .bus = {}, .product = {} } };
+    mine = any;
+    mine.id = "my_board";
+    mine.match[0].product = "paddle";
+    const std::vector<std::shared_ptr<const Profile>> both { std::make_shared<Profile> (any), std::make_shared<Profile> (mine) };
+    CHECK (matching (both, { .vid = 0x16c0, .pid = 0x0486, .product = "Haptic Paddle 2" }).front()->id == "my_board");
+    CHECK (matching (both, { .vid = 0x16c0, .pid = 0x0486, .product = "Wheel" }).size() == 1);
+}
+
+TEST_CASE ("a new device is added by a JSON file alone")
+{
+    const auto folder = std::filesystem::temp_directory_path() / "tactus_new_device";
+    std::filesystem::remove_all (folder);
+    std::filesystem::create_directories (folder);
+    for (const auto& entry : std::filesystem::directory_iterator (test::profile_folder))
+        std::filesystem::copy (entry.path(), folder / entry.path().filename());
+    std::ofstream (folder / "paddle.json") << exampleOfTheManual();
+    std::ofstream (folder / "broken.json") << R"({ "format": "tactus-profile", "id": "broken" )";
+    std::ofstream (folder / "twice.json") << std::ifstream (folder / "paddle.json").rdbuf();
+
+    const auto loaded = loadProfiles (folder);
+    CHECK (loaded.profiles.size() == profiles().size() + 1);   // the bad ones do not keep the others away
+    REQUIRE (loaded.messages.size() == 2);
+    CHECK (loaded.messages[0].file == (folder / "broken.json").string());
+    CHECK (loaded.messages[0].line == 1);
+    CHECK (loaded.messages[1].id == "profile/duplicate");
+
+    const auto found = matching (loaded.profiles, { .vid = 0x2341, .pid = 0x8036, .product = "My Paddle" });
+    REQUIRE (found.size() == 1);
+    CHECK (decodeSamples (found.front()) == 1);
+    CHECK (encodeSamples (found.front()) == 1);
+    HidModel model (found.front());
+    CHECK (model.limits().max_force == 1.0);
+    CHECK (model.limits().watchdog == 0.01);
+
+    const auto& s = model.decode (test::bytes ("fc 18 07 00"));   // -1000 counts: 15 mm away from the person
+    CHECK (s.position.isApprox (Vec3 { 0.0, 0.015, 0.0 }));
+    CHECK (s.buttons == 0);
+    CHECK (model.buttonNames() == std::vector<std::string> { "trigger" });
+
+    // 1 N towards the person on a handle of 75 mm: 75 mN m, and 128 is none.
+    HidEffort effort;
+    effort.efforts = model.restEfforts();
+    effort.force = { 0.0, -1.0, 0.0 };
+    CHECK (hexOf (model.encode (0, effort)) == "00 cb 00");
+    CHECK (hexOf (model.neutral (0)) == "00 80 00");
+    std::filesystem::remove_all (folder);
+
+    CHECK (loadProfiles (folder).messages.front().id == "profile/unreadable");
+}

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hid.hpp"
+
+#include <framework/file/json_text.hpp>
+#include <tests/fuzz/profile_target.hpp>
+
+#include <rapidcheck/catch.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+using namespace tactus;
+using namespace tactus::host::hid;
+
+namespace
+{
+/// A whole profile with a bit of everything, which is good.
+const Json& good()
+{
+    static const Json json = Json::parse (R"({
+      "format": "tactus-profile", "version": 1, "id": "thing", "name": "Thing", "sources": ["a test"],
+      "match": [{ "vid": "0x1209", "pid": ["0x0001", 2], "bus": "usb", "interface": 1 }],
+      "init": [{ "kind": "feature", "bytes": "01 02", "delay": "5 ms" }],
+      "inputs": [
+        { "id": 1, "length": 12, "verified": true, "timestamp": "when", "sequence": "count",
+          "fields": [ { "name": "x", "at": 1, "type": "s16be", "scale": "1 um" }, { "name": "count", "at": 3, "type": "u4" }, { "name": "when", "at": 4, "type": "u32le", "scale": "1 us" },
+                      { "name": "rx", "at": 8, "type": "f32le", "scale": "1 deg" } ] },
+        { "id": 2, "length": 2, "longest": 8, "verified": true, "fields": [{ "buttons": ["a", "", "b"], "at": 1, "type": "u3" }] } ],
+      "tables": { "curve": { "x": [0, 1], "y": [0, 200] } },
+      "outputs": [
+        { "name": "push", "id": 3, "body": "03 01 00*8", "neutral": "03 00*9", "verified": true, "sequences": [{ "byte": 1, "shift": 4 }], "crc32": { "prefix": "a2", "at": 6 },
+          "fields": [ { "name": "fx", "at": 2, "type": "s16le", "scale": "1 mN", "min": -2, "max": 2 }, { "name": "hum", "at": 4, "type": "u8", "table": "curve" },
+                      { "name": "pitch", "at": 5, "type": "u8", "log2": { "steps": 12, "reference": 20 } } ] } ],
+      "position": ["x", null, null], "rotation": ["rx", null, null], "force": ["fx", null, null],
+      "limits": { "max_force": "2 N" },
+      "samples": [{ "input": ["01 00 05 00*9"], "gives": { "position.x": "5 um" } }] })");
+    return json;
+}
+
+/// The good one with another value somewhere; null takes the entry away.
+Json with (const std::string& pointer, const Json& value)
+{
+    Json json = good();
+    const Json::json_pointer at (pointer);
+    if (! value.is_null())
+        json[at] = value;
+    else if (auto& parent = json[at.parent_pointer()]; parent.is_array())
+        parent.erase (std::stoul (at.back()));
+    else
+        parent.erase (at.back());
+    return json;
+}
+
+struct Mistake
+{
+    std::string pointer;
+    Json value;
+    std::string id;
+};
+}   // namespace
+
+TEST_CASE ("a good profile is read without a word")
+{
+    const auto loaded = readProfile (good());
+    for (const auto& m : loaded.messages)
+        FAIL_CHECK (m.where + ": " + m.text);
+    REQUIRE (loaded.profile);
+    const auto& p = *loaded.profile;
+    CHECK (p.match[0].pid == std::vector<std::uint16_t> { 1, 2 });
+    CHECK (p.inputs[0].fields[2].unwrap);   // a clock goes on
+    CHECK (p.inputs[0].fields[3].unit == "rad");
+    CHECK (p.outputs[0].fields[0].unit == "N");
+    CHECK (p.init[0].delay == 0.005);
+    CHECK (p.limits.guard.max_force == 2.0);
+}
+
+TEST_CASE ("every mistake in a profile is named where it is")
+{
+    const Json null;
+    const Mistake mistakes[] = {
+        { "/format", "tactus-graph", "profile/format" },
+        { "/version", 2, "profile/format" },
+        { "/id", "Thing", "profile/name" },
+        { "/name", null, "profile/missing" },
+        { "/sources", null, "profile/missing" },
+        { "/colour", "red", "profile/unknown_key" },
+        { "/match", null, "profile/missing" },
+        { "/match/0/vid", null, "profile/missing" },
+        { "/match/0/vid", "1209", "profile/kind" },
+        { "/match/0/vid", 70000, "profile/kind" },
+        { "/match/0/bus", "serial", "profile/kind" },
+        { "/init/0/bytes", "0", "profile/hex" },
+        { "/init/0/bytes", "00*9999999999999999999999", "profile/hex" },
+        { "/init/0/bytes", "00*1025", "profile/hex" },
+        { "/init/0/bytes", null, "profile/missing" },
+        { "/init/0/delay", "1 min", "profile/unit" },
+        { "/init/0/delay", "1 m", "profile/unit" },
+        { "/init/0/kind", "input", "profile/kind" },
+        { "/inputs", Json::array(), "profile/unknown_name" },
+        { "/inputs/0/length", null, "profile/missing" },
+        { "/inputs/0/length", 11, "profile/beyond" },
+        { "/inputs/0/longest", 5, "profile/out_of_range" },
+        { "/inputs/0/verified", null, "profile/missing" },
+        { "/inputs/0/verified", false, "profile/missing" },
+        { "/inputs/0/verified", 1, "profile/kind" },
+        { "/inputs/0/fields/0/at", null, "profile/missing" },
+        { "/inputs/0/fields/0/at", 11, "profile/beyond" },
+        { "/inputs/0/fields/0/at", -1, "profile/out_of_range" },
+        { "/inputs/0/fields/0/type", "s33", "profile/type" },
+        { "/inputs/0/fields/0/type", "u0", "profile/type" },
+        { "/inputs/0/fields/0/type", "f64le", "profile/type" },
+        { "/inputs/0/fields/0/type", "u12be", "profile/type" },
+        { "/inputs/0/fields/0/bit", 3, "profile/type" },
+        { "/inputs/0/fields/0/scale", 0, "profile/out_of_range" },
+        { "/inputs/0/fields/0/scale", "1e20 m", "profile/out_of_range" },
+        { "/inputs/0/fields/0/offset", "1e20 m", "profile/out_of_range" },
+        { "/inputs/0/fields/0/scale", "1 furlong", "profile/unit" },
+        { "/inputs/0/fields/0/scale", 1e-6, "profile/unit" },
+        { "/inputs/0/fields/0/unit", "m", "profile/unit" },
+        { "/inputs/0/fields/0/offset", "1 s", "profile/unit" },
+        { "/inputs/0/fields/0/name", null, "profile/missing" },
+        { "/inputs/0/fields/0/name", "count", "profile/duplicate" },
+        { "/inputs/0/fields/3/unwrap", true, "profile/type" },
+        { "/inputs/0/fields/2/scale", "1 m", "profile/unit" },
+        { "/inputs/0/timestamp", "wen", "profile/unknown_name" },
+        { "/inputs/0/sequence", "rx", "profile/unknown_name" },
+        { "/inputs/1/id", 1, "profile/duplicate" },
+        { "/inputs/1/fields/0", Json ({ { "name", "x" }, { "at", 1 }, { "type", "u8" }, { "scale", "1 s" } }), "profile/unit" },
+        { "/inputs/1/id", null, "profile/duplicate" },
+        { "/inputs/1/fields/0/buttons/0", "A", "profile/name" },
+        { "/inputs/1/fields/0/buttons", Json ({ "a", "b", "c", "d" }), "profile/beyond" },
+        { "/inputs/1/fields/0/hat", Json ({ "a", "b" }), "profile/kind" },
+        { "/outputs/0/neutral", null, "profile/no_neutral" },
+        { "/outputs/0/neutral", "03", "profile/beyond" },
+        { "/outputs/0/neutral", "04 00*9", "profile/format" },
+        { "/outputs/0/body", "04 01 00*8", "profile/format" },
+        { "/outputs/0/name", null, "profile/missing" },
+        { "/outputs/0/kind", "input", "profile/kind" },
+        { "/outputs/0/fields/0/at", 0, "profile/overlap" },
+        { "/outputs/0/fields/0/at", 3, "profile/overlap" },
+        { "/outputs/0/fields/0/at", 9, "profile/beyond" },
+        { "/outputs/0/fields/0/min", 3, "profile/out_of_range" },
+        { "/outputs/0/fields/0/source", "input", "profile/kind" },
+        { "/outputs/0/fields/0/source", "echo", "profile/unknown_name" },
+        { "/outputs/0/fields/1/table", "kurve", "profile/unknown_name" },
+        { "/outputs/0/fields/2/table", "curve", "profile/kind" },
+        { "/outputs/0/fields/2/log2/steps", 0, "profile/out_of_range" },
+        { "/outputs/0/fields/2/log2/reference", 0, "profile/out_of_range" },
+        { "/outputs/0/crc32/at", 7, "profile/beyond" },
+        { "/outputs/0/crc32/at", 5, "profile/overlap" },
+        { "/outputs/0/crc32/at", null, "profile/missing" },
+        { "/outputs/0/sequences/0/modulo", 10, "profile/out_of_range" },
+        { "/outputs/0/sequences/0/shift", 5, "profile/beyond" },
+        { "/outputs/0/sequences/0/byte", 10, "profile/beyond" },
+        { "/outputs/0/stream", Json ({ { "at", 2 }, { "frames", 9 }, { "channels", { "l" } }, { "rate", 3000 } }), "profile/beyond" },
+        { "/outputs/0/stream", Json ({ { "at", 2 }, { "frames", 1 }, { "channels", Json::array() }, { "rate", 3000 } }), "profile/too_many" },
+        { "/tables/curve/x", Json ({ 1, 0 }), "profile/kind" },
+        { "/position", Json ({ "y", nullptr, nullptr }), "profile/unknown_name" },
+        { "/position", Json ({ "rx", nullptr, nullptr }), "profile/unit" },
+        { "/position", Json ({ "x" }), "profile/kind" },
+        { "/rotation/0", "x", "profile/unit" },
+        { "/force/0", "hum", "profile/unit" },
+        { "/pressure", "x", "profile/unit" },
+        { "/valid", "homed", "profile/unknown_name" },
+        { "/axes", Json ({ "x", "y" }), "profile/axes" },
+        { "/axes", Json ({ "x", "y", "-z" }), "profile/axes" },
+        { "/axes", Json ({ { 1, 0, 0 }, { 0, 2, 0 }, { 0, 0, 1 } }), "profile/axes" },
+        { "/kinematics", Json::object(), "profile/kinematics" },
+        { "/kinematics", Json ({ { "linear", { { "matrix", { 1, 2, 3 } } } } }), "profile/kinematics" },
+        { "/kinematics", Json ({ { "five_bar", { { "drives", Json::array() }, { "links", { 1, 1, 1, 1 } } } } }), "profile/kinematics" },
+        { "/kinematics", Json ({ { "five_bar", { { "drives", { { { "counts_per_turn", 0 } }, { { "counts_per_turn", 1 } } } }, { "links", { 1, 1, 1, 1 } } } } }), "profile/out_of_range" },
+        { "/kinematics", Json ({ { "five_bar", { { "drives", { { { "counts_per_turn", 1 } }, { { "counts_per_turn", 1 } } } }, { "links", { 1, 1, 0, 1 } } } } }), "profile/kinematics" },
+        { "/limits/max_force", "-1 N", "profile/out_of_range" },
+        { "/limits/max_forse", "1 N", "profile/unknown_key" },
+        { "/samples/0/gives", Json ({ { "position.w", 1 } }), "profile/unknown_name" },
+        { "/samples/0/input", Json::array(), "profile/missing" },
+        { "/samples/0/output", "pull", "profile/unknown_name" },
+    };
+    for (const auto& mistake : mistakes)
+    {
+        INFO (mistake.pointer << " = " << mistake.value.dump());
+        const auto loaded = readProfile (with (mistake.pointer, mistake.value));
+        CHECK_FALSE (loaded.profile);
+        const bool named = std::ranges::any_of (loaded.messages, [&] (const Message& m)
+                                                { return m.id == mistake.id; });
+        if (! named)
+            for (const auto& m : loaded.messages)
+                UNSCOPED_INFO (m.id << " " << m.where << ": " << m.text);
+        CHECK (named);
+        for (const auto& m : loaded.messages)
+            CHECK ((m.id.starts_with ("profile/") && ! m.text.empty() && ! m.remedy.empty()));
+    }
+}
+
+TEST_CASE ("too much of anything is refused")
+{
+    Json many = Json::array();
+    for (int i = 0; i < 33; ++i)
+        many.push_back ({ { "name", "value" + std::to_string (i) }, { "at", 1 }, { "type", "u8" } });
+    auto json = with ("/inputs/1/fields", many);
+    CHECK (readProfile (json).messages.front().id == "profile/too_many");
+
+    for (int i = 0; i < 1000; ++i)
+        many.push_back (many[0]);
+    json = with ("/inputs/1/fields", many);
+    const auto loaded = readProfile (json);
+    CHECK (loaded.messages.front().id == "profile/too_many");
+    CHECK (loaded.messages.size() < 300);
+}
+
+TEST_CASE ("all mistakes of a text are told at once, with line and column")
+{
+    const auto loaded = readProfileText ("{\n  \"format\": \"tactus-profile\", \"version\": 1, \"id\": \"a\", \"name\": \"A\",\n  \"match\": [{ \"vid\": -1 }],\n  \"sources\": [\"a test\"], \"rate\": \"1 m\",\n"
+                                         "  \"inputs\": [{ \"length\": 0, \"verified\": true }] }");
+    CHECK_FALSE (loaded.profile);
+    const auto lineOf = [&] (const std::string& where)
+    {
+        const auto it = std::ranges::find (loaded.messages, where, &Message::where);
+        return it == loaded.messages.end() ? 0 : it->line;
+    };
+    CHECK (lineOf ("/match/0/vid") == 3);
+    CHECK (lineOf ("/rate") == 4);
+    CHECK (lineOf ("/inputs/0/length") == 5);
+}
+
+TEST_CASE ("hexadecimal bytes read back as written")
+{
+    rc::prop ("any bytes", [] (const Bytes& bytes)
+              {
+        RC_PRE (bytes.size() <= longest_report);
+        RC_ASSERT (bytesOf (hexOf (bytes)) == bytes); });
+    CHECK (bytesOf ("00*3 FF")->size() == 4);
+    for (const auto bad : { "0", "0x00", "00*", "00*0", "00*-1", "gg", "00,00", "+1" })
+        CHECK_FALSE (bytesOf (bad));
+}
+
+TEST_CASE ("profiles with any value anywhere are read or refused, and what is read takes any report")
+{
+    std::vector<std::string> texts;
+    for (const auto& entry : std::filesystem::directory_iterator (test::profile_folder))
+    {
+        std::ostringstream text;
+        text << std::ifstream (entry.path()).rdbuf();
+        texts.push_back (text.str());
+    }
+    const auto flat = good().flatten();
+    std::vector<std::string> pointers;
+    for (const auto& [pointer, value] : flat.items())
+        pointers.push_back (pointer);
+    const std::vector<Json> values { nullptr, true, -1, 0, 1, 1e300, 4294967296.0, "", "x", "fx", "0xff", "00", "u32le", "1 m", Json::array(), Json::object(), { 1, 2, 3 }, { "x", "x", "x" } };
+
+    rc::prop ("one value is another", [&]
+              {
+        const auto json = with (*rc::gen::elementOf (pointers), *rc::gen::elementOf (values));
+        fuzz::tryProfile (json.dump()); });
+    rc::prop ("a piece of a text is gone", [&]
+              {
+        auto text = *rc::gen::elementOf (texts);
+        const auto at = *rc::gen::inRange<std::size_t> (0, text.size());
+        text.erase (at, *rc::gen::inRange<std::size_t> (1, 40));
+        fuzz::tryProfile (text); });
+}
