@@ -48,15 +48,14 @@ TEST_CASE ("presets are switched as fast as they come while a hand trembles on t
     std::atomic<int> switched = 0;
     int steps = 0, moved = 0;   // of the tick thread, until it is joined
     {
-        std::jthread ticking ([&]
+        std::jthread ticking ([&, plan = static_cast<const Plan*> (&live.engine().plan())]() mutable
                               {
-            const Plan* plan = nullptr;
             while (! over)
             {
                 const auto before = hand.last;
                 live.engine().tick();
                 moved += before.force != hand.last.force;
-                if (plan != nullptr && plan != &live.engine().plan())
+                if (plan != &live.engine().plan())
                 {
                     ++switched;
                     steps += ! ((hand.last.force - before.force).norm() <= 1e-9 * (1.0 + before.force.norm()));
