@@ -201,7 +201,7 @@ TEST_CASE ("of the profiles that fit, the one that says most about a device come
     };
     using Ids = std::vector<std::string>;
     CHECK (idsOf ({ .vid = 0x054c, .pid = 0x0ce6, .bus = Bus::usb, .product = {} }) == Ids { "dualsense_usb" });
-    CHECK (idsOf ({ .vid = 0x054c, .pid = 0x0ce6, .bus = Bus::bluetooth, .product = {} }) == Ids { "dualsense_bluetooth" });
+    CHECK (idsOf ({ .vid = 0x054c, .pid = 0x0ce6, .bus = Bus::bluetooth, .product = {} }) == Ids { "dualsense_bluetooth", "dualsense_bluetooth_samples" });
     CHECK (idsOf ({ .vid = 0x256f, .pid = 0xc62e, .product = {} }) == Ids { "spacemouse_wireless" });
     CHECK (idsOf ({ .vid = 0x16c0, .pid = 0x0486, .usage_page = 0xffab, .usage = 0x0200, .product = {} }) == Ids { "tactus_board" });
     CHECK (idsOf ({ .vid = 0x16c0, .pid = 0x0486, .usage_page = 0xffc9, .usage = 0x0004, .product = {} }).empty());   // its serial emulation

@@ -257,7 +257,7 @@ TEST_CASE ("an effort becomes the nearest number its field can hold, and one tha
 
 TEST_CASE ("a sample that is not a number is silence")
 {
-    HidModel pad (test::profileOf ("dualsense_bluetooth"));
+    HidModel pad (test::profileOf ("dualsense_bluetooth_samples"));
     const float samples[] = { std::nanf (""), HUGE_VALF, 0.5f };
     const auto sent = pad.encode (1, {}, samples);
     CHECK (sent[13] == 0);
@@ -279,7 +279,7 @@ TEST_CASE ("a force that is not a number becomes no force")
 
 TEST_CASE ("counters in output reports go round and never stop")
 {
-    HidModel pad (test::profileOf ("dualsense_bluetooth"));
+    HidModel pad (test::profileOf ("dualsense_bluetooth_samples"));
     for (unsigned i = 0; i < 600; ++i)
     {
         CHECK (pad.encode (0, {})[1] == (i % 16) << 4);

@@ -41,7 +41,7 @@ bad = {
         (["outputs", 0, "sequences", 0, "modulo"], 10), (["outputs", 0, "fields", 0, "table"], "amplitude"), (["tables", "amplitude", "x"], None), (["init", 0, "bytes"], None),
         (["init", 0, "kind"], "input"),
     ],
-    "dualsense_bluetooth": [
+    "dualsense_bluetooth_samples": [
         (["outputs", 1, "stream", "channels"], []), (["outputs", 1, "stream", "type"], "s12"), (["inputs", 0, "fields", 7, "hat"], ["up"]),
     ],
 }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/hid/number_reader.hpp>
 #include <host/hid/report_reader.hpp>
 
 #include <framework/graph/text.hpp>
 #include <framework/in_quotes.hpp>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <functional>
 #include <tuple>
 #include <utility>
@@ -15,151 +14,6 @@ namespace tactus::host::hid
 {
 namespace
 {
-constexpr double largest_scale = 1e15;   // SI; whatever a counter counts stays finite
-constexpr int most_bytes = static_cast<int> (longest_report);
-
-/// "u8", "s16le", "u32be", "f32le", and "u3" … "s31" for as many bits from the lowest on.
-bool readType (std::string_view type, Bits& bits)
-{
-    if (type.empty()) return false;
-    bits.is_float = type.front() == 'f';
-    bits.is_signed = type.front() == 's';
-    if (! bits.is_float && ! bits.is_signed && type.front() != 'u') return false;
-
-    const char* const end = type.data() + type.size();
-    const auto [stop, failed] = std::from_chars (type.data() + 1, end, bits.size);
-    const std::string_view order (stop, static_cast<std::size_t> (end - stop));
-    bits.big_endian = order == "be";
-    const bool whole = bits.size == 8 || bits.size == 16 || bits.size == 24 || bits.size == 32;
-    return failed == std::errc() && bits.size >= 1 && bits.size <= 32
-           && (order.empty() || ((order == "le" || bits.big_endian) && whole))
-           && (! bits.is_float || (bits.size == 32 && ! order.empty()));
-}
-
-Bits readBits (ProfileFields& in)
-{
-    Bits bits;
-    in.require ("at", "write \"at\": the byte it begins in");
-    in.require ("type", "write \"type\": \"s16le\"");
-    const auto byte = in.whole ("at", 0, most_bytes - 1, 0);
-    const auto bit = in.whole ("bit", 0, 7, 0);
-    const auto type = in.text ("type");
-    if (! type.empty() && ! readType (type, bits))
-    {
-        in.error ("type", "profile/type", inQuotes (type) + " is not a type", "write u8, s8, u16le, s16be, u32le, f32le …, or u1 … u32 and s1 … s32 for bits");
-        bits = {};
-    }
-    bits.at = static_cast<std::size_t> (8 * byte + bit);
-    if (bits.big_endian && bit != 0) in.error ("bit", "profile/type", "a big-endian number begins with a byte", "leave \"bit\" out");
-    return bits;
-}
-
-/// The unit of a scale, or the one that is written where the scale is a bare number.
-std::string readUnit (ProfileFields& in, const std::string& of_scale)
-{
-    const auto written = in.has ("unit") ? in.text ("unit") : std::string();
-    if (! of_scale.empty() && ! written.empty())
-        in.error ("unit", "profile/unit", "the unit is said twice", "leave \"unit\" out: it is " + of_scale);
-    if (! of_scale.empty()) return of_scale;
-    return written.empty() ? "1" : written;
-}
-
-double readOffset (ProfileFields& in, const std::string& unit)
-{
-    const auto offset = in.scale ("offset", 0.0);
-    if (! (std::abs (offset.value) <= largest_scale)) in.error ("offset", "profile/out_of_range", "the offset is too large", "write what a count of 0 means, in SI");
-    if (! offset.unit.empty() && offset.unit != unit)
-        in.error ("offset", "profile/unit", "the offset is in " + offset.unit + ", the scale in " + unit, "write both in one unit");
-    return offset.value;
-}
-
-double readScale (ProfileFields& in, std::string& unit)
-{
-    const auto scale = in.scale ("scale", 1.0);
-    if (! (std::abs (scale.value) >= 1.0 / largest_scale && std::abs (scale.value) <= largest_scale))
-        in.error ("scale", "profile/out_of_range", "no count is as much as that", "write what one count is, in SI");
-    unit = readUnit (in, scale.unit);
-    return scale.value;
-}
-
-InputField readInputField (ProfileFields& in)
-{
-    InputField field;
-    in.ignore ("about");
-    field.bits = readBits (in);
-    field.buttons = in.texts ("buttons");
-    field.is_hat = in.has ("hat");
-    if (field.is_hat) field.buttons = in.texts ("hat");
-    if (! field.buttons.empty() && ! in.has ("name"))
-        field.name.clear();
-    else
-        field.name = in.name ("name");
-    if (in.has ("expect")) field.expect = in.id ("expect", 0x7fffffff);
-
-    field.unwrap = in.flag ("unwrap");
-    field.scale = readScale (in, field.unit);
-    field.offset = readOffset (in, field.unit);
-
-    if (field.unwrap && field.bits.is_float) in.error ("unwrap", "profile/type", "a floating-point number does not begin again", "leave \"unwrap\" out");
-    if (field.is_hat && field.buttons.size() != 4) in.error ("hat", "profile/kind", "a hat has four buttons", "name up, right, down and left");
-    if (field.buttons.size() > field.bits.size) in.error (field.is_hat ? "hat" : "buttons", "profile/beyond", "there are more buttons than bits", "take a larger type");
-    for (const auto& button : field.buttons)
-        if (! button.empty() && ! graph::isId (button))
-            in.error (field.is_hat ? "hat" : "buttons", "profile/name", inQuotes (button) + " is not a name", "write lower case letters, digits and _, a letter first, or \"\" for a bit without a button");
-    return field;
-}
-
-/// A report says whether it was seen, and if not, why it is believed.
-void readVerified (ProfileFields& in, bool& verified, std::string& why_not)
-{
-    in.require ("verified", "write \"verified\": true if a report of a real device was decoded with it, else false");
-    verified = in.flag ("verified");
-    why_not = in.has ("why_not") ? in.text ("why_not") : std::string();
-    if (! verified && why_not.empty()) in.error ("why_not", "profile/missing", "a report that is not verified has to say why", "write \"why_not\": \"…\"");
-}
-
-InputReport readInput (ProfileFields& in)
-{
-    InputReport report;
-    in.ignore ("about");
-    if (const auto id = in.id ("id", 255)) report.id = static_cast<std::uint8_t> (*id);
-    in.require ("length", "write \"length\": the bytes of the report, its id included");
-    report.length = static_cast<std::size_t> (in.whole ("length", 1, most_bytes, 1));
-    report.longest = static_cast<std::size_t> (in.whole ("longest", static_cast<int> (report.length), most_bytes, static_cast<int> (report.length)));
-    in.each ("fields", [&] (ProfileFields& f)
-             {
-        report.fields.push_back (readInputField (f));
-        if (report.fields.back().bits.end() > 8 * report.length)
-            f.error ("at", "profile/beyond", "the field ends at byte " + std::to_string ((report.fields.back().bits.end() + 7) / 8) + " of a report of " + std::to_string (report.length), "make the report longer, or begin earlier"); });
-    if (in.has ("timestamp")) report.timestamp = in.name ("timestamp");
-    if (in.has ("sequence")) report.sequence = in.name ("sequence");
-    readVerified (in, report.verified, report.why_not);
-
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < report.fields.size(); ++i)
-    {
-        const auto& name = report.fields[i].name;
-        if (name.empty()) continue;
-        if (std::ranges::find (names, name) != names.end()) in.error ("fields", "profile/duplicate", "there are two fields " + inQuotes (name), "name one otherwise");
-        names.push_back (name);
-    }
-
-    const auto named = [&] (std::string_view key, const std::string& name) -> InputField*
-    {
-        const auto it = std::ranges::find (report.fields, name, &InputField::name);
-        if (it != report.fields.end() && it->isAxis() && ! it->bits.is_float) return &*it;
-        if (! name.empty()) in.error (key, "profile/unknown_name", "there is no whole number called " + inQuotes (name) + " in this report", suggestion (name, names));
-        return nullptr;
-    };
-    if (! report.sequence.empty()) named ("sequence", report.sequence);
-    if (auto* time = report.timestamp.empty() ? nullptr : named ("timestamp", report.timestamp))
-    {
-        time->unwrap = true;
-        if (time->unit != "s") in.error ("timestamp", "profile/unit", "a time stamp is in s, this is in " + time->unit, "give the field a scale such as \"1 us\"");
-    }
-    return report;
-}
-
 Encoding readEncoding (ProfileFields& in, const Tables& tables, std::string& unit)
 {
     Encoding e;
@@ -331,19 +185,6 @@ Tables readTables (ProfileFields& profile)
                 else
                     tables[n] = { x, y }; }); });
     return tables;
-}
-
-std::vector<InputReport> readInputs (ProfileFields& profile)
-{
-    std::vector<InputReport> reports;
-    profile.each ("inputs", [&] (ProfileFields& in)
-                  {
-        reports.push_back (readInput (in));
-        const auto& id = reports.back().id;
-        for (std::size_t i = 0; i + 1 < reports.size(); ++i)
-            if (! id || ! reports[i].id || *id == *reports[i].id)
-                return in.error ("id", "profile/duplicate", "this report cannot be told from another", "a device with several input reports gives each an id of its own"); });
-    return reports;
 }
 
 std::vector<OutputReport> readOutputs (ProfileFields& profile, const Tables& tables)
