@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "performance.hpp"
 
+#include <framework/plan/missing_parts.hpp>
 #include <framework/refused.hpp>
 #include <framework/turn.hpp>
 #include <host/assets/nearest_by_embree.hpp>
@@ -145,6 +146,7 @@ void Performance::begin()
     engine = std::make_unique<Engine> (std::move (compiled.plan));
     for (auto& d : devices)
         engine->attach (d.role, *d.device, d.limits);
+    std::ranges::move (missingParts (engine->plan()), std::back_inserter (said));
     if (sound != nullptr) sound->setTickRate (rate_hz);
     clock = std::make_unique<AbsoluteTimer> (1.0 / rate_hz);
     runner = std::make_unique<Runner> (*engine, *clock, rate_hz, Runner::Options { .hooks = this });
@@ -194,6 +196,7 @@ void Performance::takeOver()
         joining.push_back ({ d.role, *d.device, d.limits });
     probes.select (*compiled.plan, rate_hz, false);
     engine->submit (std::move (compiled.plan), joining);
+    std::ranges::move (missingParts (engine->newest()), std::back_inserter (said));
     std::ranges::move (opened, std::back_inserter (devices));
 }
 
@@ -269,8 +272,8 @@ void Performance::after (std::uint64_t tick, bool) noexcept
     probes.note (plan, tick);
     slot.note (plan, tick);
     if (plan.roles.empty()) return;
-    const auto& [reading, applied] = *plan.roles.front().state;
-    const auto &p = reading.position, &f = applied.force;
+    const auto& device = *plan.roles.front().state;
+    const auto &p = device.reading.position, &f = device.applied.force;
     if (sound != nullptr) sound->push (f.sum());
     seen.store ({ p.x(), p.y(), p.z(), f.x(), f.y(), f.z() });
 }
