@@ -45,13 +45,13 @@ struct DeviceForce
 
     void bind (const DeviceState& state) noexcept { device = &state; }
     Outputs peek() const noexcept { return { .applied = device->applied.force }; }
-    void tick (const Inputs& in) noexcept { wanted = { in.force, in.torque }; }
-    Effort effort() const noexcept { return wanted; }
+    void tick (const Inputs& in) noexcept { wanted = in; }
+    Effort effort() const noexcept { return { wanted.force, wanted.torque }; }
 
 private:
     inline static const DeviceState absent {};
     const DeviceState* device = &absent;
-    Effort wanted;
+    Inputs wanted;
 };
 
 }   // namespace tactus::nodes
