@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/hid_link/hid_device.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace tactus::host::hid
+{
+
+HidDevice::HidDevice (std::unique_ptr<HidPort> port)
+    : link (std::move (port)), values (link->profile()), only_changes (std::ranges::count (link->profile()->quirks, "only_changes") > 0)
+{
+}
+
+void HidDevice::prepare (double dt_s)
+{
+    dt = dt_s;
+    ticks_without = 0;
+    has_to_rest = true;
+}
+
+void HidDevice::take (const ArrivedReport& report) noexcept
+{
+    if (report.connection != connection)
+    {
+        values.reset();   // its clocks and counters begin anew
+        connection = report.connection;
+        has_one = false;
+    }
+
+    const auto before = values.counts();
+    const auto refusal = values.decode (report.bytes).refusal;
+    const auto& after = values.counts();
+    tally.lost += after.lost - before.lost;
+    tally.restarts += after.restarts - before.restarts;
+
+    if (refusal != Refusal::none)
+    {
+        ++tally.refused[static_cast<std::size_t> (refusal)];
+        refused = refused || refusal != Refusal::unknown_id;
+        return;
+    }
+    ++tally.taken;
+    const std::size_t id = link->hasIds() ? report.bytes.front() : 0;
+    if (came_now.test (id)) ++tally.skipped;
+    came_now.set (id);
+    refused = false;
+    has_one = true;
+    latest = report.at;
+}
+
+Reading HidDevice::read() noexcept
+{
+    came_now.reset();
+    link->drain ([this] (const ArrivedReport& report)
+                 { take (report); });
+
+    // Where reports found no room, what there was to take is old, whatever it says.
+    const auto lost = link->overflown();
+    const bool fresh = came_now.any() && lost == overflown;
+    overflown = lost;
+    ticks_without = fresh ? 0 : ticks_without + 1;
+
+    if (const auto now = link->episode(); now != episode)
+    {
+        episode = now;
+        has_to_rest = true;
+    }
+
+    const bool connected = link->isConnected();
+    auto reading = values.reading();
+    reading.age = only_changes && connected && has_one ? 0.0 : static_cast<double> (ticks_without) * dt;
+    reading.valid = reading.valid && connected && has_one && ! refused && ! has_to_rest;
+
+    tally.age = reading.age;
+    if (has_one) tally.oldest = std::max (tally.oldest, reading.age);
+    publish();
+    return reading;
+}
+
+void HidDevice::write (const Effort& guarded) noexcept
+{
+    has_to_rest = has_to_rest && ! (guarded.force.isZero (0.0) && guarded.torque.isZero (0.0));
+    const HidEffort effort { guarded.force, guarded.torque, values.restEfforts() };
+    for (std::size_t i = 0; i < values.outputs(); ++i)
+        link->offer (i, has_to_rest ? values.neutral (i) : values.encode (i, effort), episode, latest);
+}
+
+void HidDevice::publish() noexcept { published.store (tally); }
+
+}   // namespace tactus::host::hid
