@@ -13,7 +13,7 @@ bool containsInAnyCase (std::string_view text, std::string_view part) noexcept
 {
     const auto same = [] (char a, char b)
     { return std::tolower (static_cast<unsigned char> (a)) == std::tolower (static_cast<unsigned char> (b)); };
-    return ! std::ranges::search (text, part, same).empty() || part.empty();
+    return std::search (text.begin(), text.end(), part.begin(), part.end(), same) != text.end() || part.empty();
 }
 
 /// What an entry of a rule counts: nothing if it says nothing or the platform does not tell, its weight if it fits, and

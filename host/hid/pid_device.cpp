@@ -36,11 +36,21 @@ struct Place
     Bits bits (bool has_ids) const noexcept { return { .at = (has_ids ? 8 : 0) + field->bit + n * field->size, .size = field->size, .is_signed = field->logical_min < 0 }; }
 };
 
+/// The id under which the first numbers of such a report are sent. A broken descriptor may spread it over several.
+std::optional<std::uint8_t> idOf (const ReportDescriptor& d, Kind kind, Usage report)
+{
+    const auto first = std::ranges::find_if (d.fields, [&] (const DescribedField& f)
+                                             { return f.kind == kind && d.lies (f.collection, report); });
+    if (first == d.fields.end()) return {};
+    return first->report;
+}
+
 /// Where a usage stands within a report of this kind. Of an array, where the number of the usage would.
 std::optional<Place> find (const ReportDescriptor& d, Kind kind, Usage report, Usage what)
 {
+    const auto id = idOf (d, kind, report);
     for (const auto& f : d.fields)
-        if (f.kind == kind && ! f.constant && f.size <= 32 && d.lies (f.collection, report))
+        if (f.kind == kind && f.report == id && ! f.constant && f.size <= 32 && d.lies (f.collection, report))
             if (const auto n = f.placeOf (what))
             {
                 if (! f.variable) return Place { &f, 0 };
@@ -55,11 +65,10 @@ class Writer
 public:
     Writer (const ReportDescriptor& d, Kind k, Usage r) : descriptor (d), kind (k), report (r)
     {
-        const auto any = std::ranges::find_if (d.fields, [&] (const DescribedField& f)
-                                               { return f.kind == kind && d.lies (f.collection, report); });
-        if (any == d.fields.end()) return;
-        bytes.assign (d.length (kind, any->report) + (d.has_ids ? 1 : 0), 0);
-        if (d.has_ids) bytes[0] = any->report;
+        const auto id = idOf (d, kind, report);
+        if (! id) return;
+        bytes.assign (d.length (kind, *id) + (d.has_ids ? 1 : 0), 0);
+        if (d.has_ids) bytes[0] = *id;
     }
 
     /// A value, held within the logical range.

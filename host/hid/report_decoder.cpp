@@ -47,8 +47,8 @@ ReportDecoder::ReportDecoder (std::shared_ptr<const Profile> p) : profile (std::
                 f.masks.push_back (mask);
                 f.all |= mask;
             }
-            if (field.name == report.timestamp) r.timestamp = static_cast<int> (i);
-            if (field.name == report.sequence) r.sequence = static_cast<int> (i);
+            if (f.axis >= 0 && field.name == report.timestamp) r.timestamp = static_cast<int> (i);
+            if (f.axis >= 0 && field.name == report.sequence) r.sequence = static_cast<int> (i);
             r.fields.push_back (std::move (f));
         }
         has_time = has_time || r.timestamp >= 0;

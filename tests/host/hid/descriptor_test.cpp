@@ -247,6 +247,16 @@ TEST_CASE ("a joystick without force feedback says what it lacks")
         CHECK (m.id == "pid/missing");
 }
 
+TEST_CASE ("the descriptor that docs/devices.md gives a board of one's own is that of its profile")
+{
+    const auto d = good (test::bytes ("06 ab ff 0a 00 02 a1 01 75 08 15 00 26 ff 00 95 40 09 01 81 02 95 40 09 02 91 02 c0"));
+    const auto profile = test::profileOf ("tactus_board");
+    CHECK_FALSE (d.has_ids);
+    CHECK (d.length (Kind::input, 0) == profile->inputs[0].length);
+    CHECK (d.length (Kind::output, 0) == profile->outputs[0].neutral.size());
+    CHECK (d.collections[0].usage == usageOf (*profile->match[0].usage_page, *profile->match[0].usage));
+}
+
 TEST_CASE ("OpenFFBoard's descriptor gives its reports, and the force that the standard's drivers send")
 {
     const auto bytes = fileOf (data / "hid_ffb" / "openffboard_1axis.bin");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <sstream>
 
 using namespace tactus;
 using namespace tactus::host::hid;
@@ -52,40 +53,76 @@ HidEffort asked (const HidModel& model, const GoldenSample& sample)
     return effort;
 }
 
+/// The profile that docs/devices.md shows.
+std::string exampleOfTheManual()
+{
+    std::ostringstream manual;
+    manual << std::ifstream (std::filesystem::path (TACTUS_SOURCE_DIR) / "docs" / "devices.md").rdbuf();
+    const auto text = manual.str();
+    const std::string_view begin = "```json\n";
+    const auto at = text.find (begin);
+    REQUIRE (at != text.npos);
+    return text.substr (at + begin.size(), text.find ("```", at + begin.size()) - at - begin.size());
+}
+
 /// The report without the 0 that hidapi wants before one that has no id.
 std::string reportIn (std::span<const std::uint8_t> wire, const OutputReport& report) { return hexOf (report.id ? wire : wire.subspan (1)); }
+
+int decodeSamples (const std::shared_ptr<const Profile>& profile)
+{
+    int decoded = 0;
+    for (const auto& sample : profile->samples)
+    {
+        if (! sample.output.empty()) continue;
+        INFO (profile->id << ": " << sample.about);
+        HidModel model (profile);
+        std::uint64_t lost = 0;
+        for (const auto& report : sample.input)
+        {
+            REQUIRE (describe (model.decode (report).refusal) == "none");
+            lost += model.sample().lost;
+        }
+
+        for (const auto& [name, value] : sample.values)
+        {
+            INFO (name);
+            CHECK (told (model, lost, name) == Approx (value).epsilon (1e-12).margin (1e-15));
+        }
+        std::vector<std::string> pressed;
+        for (std::size_t i = 0; i < model.buttonNames().size(); ++i)
+            if ((model.sample().buttons >> i & 1u) != 0) pressed.push_back (model.buttonNames()[i]);
+        auto expected = sample.pressed;
+        std::ranges::sort (expected);
+        std::ranges::sort (pressed);
+        CHECK (pressed == expected);
+        ++decoded;
+    }
+    return decoded;
+}
+
+int encodeSamples (const std::shared_ptr<const Profile>& profile)
+{
+    int encoded = 0;
+    for (const auto& sample : profile->samples)
+    {
+        if (sample.output.empty()) continue;
+        INFO (profile->id << ": " << sample.about);
+        HidModel model (profile);
+        for (const auto& report : sample.input)
+            model.decode (report);
+        const auto at = static_cast<std::size_t> (std::ranges::find (profile->outputs, sample.output, &OutputReport::name) - profile->outputs.begin());
+        CHECK (reportIn (model.encode (at, asked (model, sample), sample.samples), profile->outputs[at]) == hexOf (sample.expected));
+        ++encoded;
+    }
+    return encoded;
+}
 }   // namespace
 
 TEST_CASE ("every profile decodes its reports to the values computed by hand")
 {
     int decoded = 0;
     for (const auto& profile : profiles())
-        for (const auto& sample : profile->samples)
-        {
-            if (! sample.output.empty()) continue;
-            INFO (profile->id << ": " << sample.about);
-            HidModel model (profile);
-            std::uint64_t lost = 0;
-            for (const auto& report : sample.input)
-            {
-                REQUIRE (describe (model.decode (report).refusal) == "none");
-                lost += model.sample().lost;
-            }
-
-            for (const auto& [name, value] : sample.values)
-            {
-                INFO (name);
-                CHECK (told (model, lost, name) == Approx (value).epsilon (1e-12).margin (1e-15));
-            }
-            std::vector<std::string> pressed;
-            for (std::size_t i = 0; i < model.buttonNames().size(); ++i)
-                if ((model.sample().buttons >> i & 1u) != 0) pressed.push_back (model.buttonNames()[i]);
-            auto expected = sample.pressed;
-            std::ranges::sort (expected);
-            std::ranges::sort (pressed);
-            CHECK (pressed == expected);
-            ++decoded;
-        }
+        decoded += decodeSamples (profile);
     CHECK (decoded >= 12);
 }
 
@@ -93,17 +130,7 @@ TEST_CASE ("every profile encodes what is asked to the bytes computed by hand")
 {
     int encoded = 0;
     for (const auto& profile : profiles())
-        for (const auto& sample : profile->samples)
-        {
-            if (sample.output.empty()) continue;
-            INFO (profile->id << ": " << sample.about);
-            HidModel model (profile);
-            for (const auto& report : sample.input)
-                model.decode (report);
-            const auto at = static_cast<std::size_t> (std::ranges::find (profile->outputs, sample.output, &OutputReport::name) - profile->outputs.begin());
-            CHECK (reportIn (model.encode (at, asked (model, sample), sample.samples), profile->outputs[at]) == hexOf (sample.expected));
-            ++encoded;
-        }
+        encoded += encodeSamples (profile);
     CHECK (encoded >= 10);
 }
 
@@ -200,17 +227,7 @@ TEST_CASE ("a new device is added by a JSON file alone")
     std::filesystem::create_directories (folder);
     for (const auto& entry : std::filesystem::directory_iterator (test::profile_folder))
         std::filesystem::copy (entry.path(), folder / entry.path().filename());
-    std::ofstream (folder / "paddle.json") << R"({
-      "format": "tactus-profile", "version": 1, "id": "paddle", "name": "Paddle",
-      "match": [{ "vid": "0x2341", "pid": "0x8036", "product": "paddle" }],
-      "inputs": [{ "length": 4, "verified": false, "why_not": "a test",
-                   "fields": [{ "name": "angle", "at": 0, "type": "s16be", "unwrap": true }, { "name": "count", "at": 2, "type": "u8" }, { "buttons": ["", "trigger"], "at": 3, "type": "u8" }],
-                   "sequence": "count" }],
-      "outputs": [{ "name": "motor", "neutral": "80 00", "verified": false, "why_not": "a test",
-                    "fields": [{ "name": "current", "at": 0, "type": "u8", "scale": 0.01, "offset": -1.28, "unit": "A", "min": -1, "max": 1 }] }],
-      "position": ["angle", null, null], "force": ["current", null, null], "axes": ["y", "-x", "z"],
-      "kinematics": { "linear": { "matrix": [[1e-5, 0, 0], [0, 0, 0], [0, 0, 0]], "origin": [0, 0, "1 mm"] } },
-      "limits": { "max_force": "1 N", "stale_input": "10 ms" }, "sources": ["a test"] })";
+    std::ofstream (folder / "paddle.json") << exampleOfTheManual();
     std::ofstream (folder / "broken.json") << R"({ "format": "tactus-profile", "id": "broken" )";
     std::ofstream (folder / "twice.json") << std::ifstream (folder / "paddle.json").rdbuf();
 
@@ -223,6 +240,8 @@ TEST_CASE ("a new device is added by a JSON file alone")
 
     const auto found = matching (loaded.profiles, { .vid = 0x2341, .pid = 0x8036, .product = "My Paddle" });
     REQUIRE (found.size() == 1);
+    CHECK (decodeSamples (found.front()) == 1);
+    CHECK (encodeSamples (found.front()) == 1);
     HidModel model (found.front());
     CHECK (model.limits().max_force == 1.0);
     CHECK (model.limits().watchdog == 0.01);

@@ -206,6 +206,16 @@ TEST_CASE ("a board that has not found its place, or says so, is not valid")
     CHECK_FALSE (board.reading().valid);
 }
 
+TEST_CASE ("a report of buttons alone tells no time")
+{
+    HidModel mouse (test::profileOf ("spacemouse"));
+    CHECK_FALSE (mouse.hasTime());
+    mouse.decode (test::bytes ("01 05 00*5"));
+    mouse.decode (test::bytes ("03 01 00"));
+    CHECK (mouse.sample().time == 0.0);
+    CHECK (mouse.sample().lost == 0);
+}
+
 TEST_CASE ("a hat presses one button or two")
 {
     InputField hat;
