@@ -10,7 +10,7 @@ std::string describe (const ReadingCounts& read, const PortCounts& port)
 {
     const auto number = [] (auto n)
     { return std::to_string (n); };
-    auto text = number (read.lost) + " lost, " + number (std::accumulate (read.refused.begin(), read.refused.end(), std::uint64_t { 0 })) + " refused";
+    auto text = number (read.taken) + " taken, " + number (read.lost) + " lost, " + number (std::accumulate (read.refused.begin(), read.refused.end(), std::uint64_t { 0 })) + " refused";
     std::string reasons;
     for (std::size_t i = 0; i < read.refused.size(); ++i)
         if (read.refused[i] > 0) reasons += (reasons.empty() ? "" : ", ") + number (read.refused[i]) + " " + std::string (describe (static_cast<Refusal> (i)));

@@ -8,7 +8,7 @@
 namespace tactus::host::hid
 {
 
-/// "12 lost, 3 refused (2 too short, 1 wrong mark), 5 skipped"
+/// "5000 taken, 12 lost, 3 refused (2 too short, 1 wrong mark), 5 skipped"
 std::string describe (const ReadingCounts&, const PortCounts&);
 
 }   // namespace tactus::host::hid

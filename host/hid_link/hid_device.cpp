@@ -24,6 +24,7 @@ void HidDevice::take (const ArrivedReport& report) noexcept
     if (report.connection != connection)
     {
         values.reset();   // its clocks and counters begin anew
+        if (connection != 0) owed = 0;
         connection = report.connection;
         has_one = false;
     }
@@ -31,7 +32,9 @@ void HidDevice::take (const ArrivedReport& report) noexcept
     const auto before = values.counts();
     const auto refusal = values.decode (report.bytes).refusal;
     const auto& after = values.counts();
-    tally.lost += after.lost - before.lost;
+    const auto gap = after.lost - before.lost, without_room = std::min (gap, owed);
+    owed -= without_room;
+    tally.lost += gap - without_room;
     tally.restarts += after.restarts - before.restarts;
 
     if (refusal != Refusal::none)
@@ -51,14 +54,16 @@ void HidDevice::take (const ArrivedReport& report) noexcept
 
 Reading HidDevice::read() noexcept
 {
+    const auto no_room = link->overflown();
+    owed += no_room - overflown;
+    latest = 0;
     came_now.reset();
     link->drain ([this] (const ArrivedReport& report)
                  { take (report); });
 
     // Where reports found no room, what there was to take is old, whatever it says.
-    const auto lost = link->overflown();
-    const bool fresh = came_now.any() && lost == overflown;
-    overflown = lost;
+    const bool fresh = came_now.any() && no_room == overflown;
+    overflown = no_room;
     ticks_without = fresh ? 0 : ticks_without + 1;
 
     if (const auto now = link->episode(); now != episode)

@@ -18,7 +18,7 @@ namespace tactus::host::hid
 struct ReadingCounts
 {
     std::uint64_t taken = 0;                          ///< reports that were understood
-    std::uint64_t lost = 0;                           ///< by the sequence numbers that did not come
+    std::uint64_t lost = 0;                           ///< by the sequence numbers that did not come, without those that the port had no room for
     std::uint64_t restarts = 0;                       ///< sequence numbers that went back
     std::uint64_t skipped = 0;                        ///< understood, but another one was there before a tick looked
     std::array<std::uint64_t, refusals> refused {};   ///< by Refusal
@@ -64,7 +64,8 @@ private:
     ReadingCounts tally;
     std::uint64_t episode = 0, connection = 0, overflown = 0, ticks_without = 0;
     std::bitset<256> came_now;   // ids of the reports that were taken at this tick
-    Nanoseconds latest = 0;      // when the one came that is answered
+    std::uint64_t owed = 0;      // reports without room that no sequence number has told of yet
+    Nanoseconds latest = 0;      // when the one came that this tick answers; 0: none did
     bool has_one = false;        // of this connection
     bool refused = false;        // the newest one
     bool has_to_rest = true;     // until the guard has been at zero

@@ -16,9 +16,9 @@ namespace
 using namespace std::chrono_literals;
 using Clock = HidPort::Clock;
 
-constexpr std::size_t reports_waiting = 64;
-constexpr auto usual_watchdog = 100ms;   // where a profile has none
-constexpr auto longest_read = 20ms;      // so that a request to stop is heard
+constexpr std::size_t reports_waiting = 1024;   // a second of a fast device: a run begins a while after its devices are open
+constexpr auto usual_watchdog = 100ms;          // where a profile has none
+constexpr auto longest_read = 20ms;             // so that a request to stop is heard
 
 // A device that says 1000 Hz may send 1001 reports a second, each of which is answered; several may come at once.
 constexpr double more_than_the_rate = 1.05;
@@ -264,9 +264,13 @@ void HidPort::writeOn()
     {
         something.wait (nextLook (Clock::now()));
         const auto t = transport();
-        if (! t) continue;
-
         const std::lock_guard lock (writing);
+        if (! t)
+        {
+            for (const auto& o : outputs)
+                o->seen = o->offered.load().number;   // nobody is there to miss it
+            continue;
+        }
         const auto now = Clock::now();
         for (std::size_t i = 0; i < outputs.size(); ++i)
             attend (*t, *outputs[i], i, now);

@@ -82,6 +82,27 @@ bool isHid (const Json& description)
     return driver != description.end() && *driver == "hid";
 }
 
+std::vector<ConnectedDevice> eachOnce (const std::vector<ConnectedDevice>& listed, const LoadedProfiles& all)
+{
+    const auto bestFit = [&] (const ConnectedDevice& device)
+    {
+        int best = 0;
+        for (const auto& profile : all.profiles)
+            best = std::max (best, fit (*profile, device));
+        return best;
+    };
+    std::vector<ConnectedDevice> once;
+    for (const auto& device : listed)
+    {
+        const auto same = std::ranges::find (once, device.path, &ConnectedDevice::path);
+        if (same == once.end())
+            once.push_back (device);
+        else if (bestFit (device) > bestFit (*same))
+            *same = device;
+    }
+    return once;
+}
+
 FoundDevice findDevice (const Json& description, HidSystem& system, const LoadedProfiles& all)
 {
     FoundDevice found;
@@ -95,7 +116,7 @@ FoundDevice findDevice (const Json& description, HidSystem& system, const Loaded
         return found;
     };
 
-    const auto connected = system.connected();
+    const auto connected = eachOnce (system.connected(), all);
     std::vector<Match> matches;
     for (const auto& device : connected)
     {

@@ -11,6 +11,9 @@ namespace tactus::host::hid
 /// True of a description that means a real device.
 bool isHid (const Json& description);
 
+/// Systems list a device once for each of its collections; this leaves the entry of each that a profile fits best.
+std::vector<ConnectedDevice> eachOnce (const std::vector<ConnectedDevice>&, const LoadedProfiles&);
+
 /// A HID device that a description asks for, found but not opened.
 struct FoundDevice
 {
