@@ -3,6 +3,7 @@
 
 #include "device.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tactus
@@ -28,8 +29,8 @@ public:
         if (now == length) return last = wanted;
         if (now == 0)
         {
-            difference = { last.force - wanted.force, last.torque - wanted.torque };
-            if (! isFinite (difference.force, difference.torque))
+            difference = { last.force - wanted.force, last.torque - wanted.torque, sum (last.axes, -1.0, wanted.axes), sum (last.signals, -1.0, wanted.signals) };
+            if (! isFinite (difference.force, difference.torque, difference.axes, difference.signals))
             {
                 now = length;
                 return last = wanted;
@@ -37,7 +38,7 @@ public:
         }
         const double w = 0.5 + 0.5 * std::cos (pi * now / length);
         ++now;
-        last = { wanted.force + w * difference.force, wanted.torque + w * difference.torque };
+        last = { wanted.force + w * difference.force, wanted.torque + w * difference.torque, sum (wanted.axes, w, difference.axes), sum (wanted.signals, w, difference.signals) };
         return last;
     }
 
@@ -50,6 +51,15 @@ public:
 
 private:
     static constexpr double pi = 3.14159265358979323846;
+
+    /// a + w b
+    static Channels sum (const Channels& a, double w, const Channels& b) noexcept
+    {
+        Channels all;
+        for (int i = 0; i < std::max (a.size(), b.size()); ++i)
+            all.set (i, a[i] + w * b[i]);
+        return all;
+    }
 
     int length = 1, now = length;   // ticks
     Effort difference;              // at the beginning

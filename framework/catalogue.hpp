@@ -50,6 +50,7 @@ struct NodeType
     void (*adopt) (void* node, const void* old) noexcept;
     Claims (*claims) (const void* node);
     void (*bind) (void* node, const DeviceState&);
+    std::string (*missing) (const void* node, const DeviceLayout&);
     Effort (*effort) (const void* node) noexcept;
 };
 
@@ -262,6 +263,8 @@ NodeType describe()
     { return static_cast<const N*> (n)->claims(); };
     if constexpr (DeviceBound<N>) t.bind = [] (void* n, const DeviceState& s)
     { static_cast<N*> (n)->bind (s); };
+    if constexpr (Particular<N>) t.missing = [] (const void* n, const DeviceLayout& l)
+    { return static_cast<const N*> (n)->missing (l); };
     if constexpr (Sink<N>) t.effort = [] (const void* n) noexcept
     { return static_cast<const N*> (n)->effort(); };
     return t;

@@ -75,13 +75,15 @@ struct UnitRule
     Kind kind = Kind::fixed;
     Unit unit;
     std::string_view a, b;
+    bool adds_up = false;   ///< several wires may end at this input, whatever they carry
 
     constexpr UnitRule() = default;
     constexpr UnitRule (Unit fixed) : unit (fixed) {}
-    constexpr UnitRule (Kind k, Unit u = unit::count, std::string_view a_ = {}, std::string_view b_ = {}) : kind (k), unit (u), a (a_), b (b_) {}
+    constexpr UnitRule (Kind k, Unit u = unit::count, std::string_view a_ = {}, std::string_view b_ = {}, bool adds = false) : kind (k), unit (u), a (a_), b (b_), adds_up (adds) {}
 };
 
 inline constexpr UnitRule any_unit { UnitRule::Kind::open };
+inline constexpr UnitRule any_unit_adding { UnitRule::Kind::open, unit::count, {}, {}, true };   ///< and several wires add up
 inline constexpr UnitRule each_its_unit { UnitRule::Kind::each };
 constexpr UnitRule sameAs (std::string_view port) { return { UnitRule::Kind::same, unit::count, port }; }
 constexpr UnitRule sameAs (std::string_view port, Unit times) { return { UnitRule::Kind::same, times, port }; }

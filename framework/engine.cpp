@@ -9,27 +9,42 @@
 namespace tactus
 {
 
-namespace
-{
 /// What all sinks of a role ask for together, whatever their order.
-Effort total (const Plan::RoleUse& role, double* scratch) noexcept
+Effort Engine::total (const Plan::RoleUse& role, Scratch& scratch) noexcept
 {
     if (role.sinks.size() == 1) return role.sinks[0].effort (role.sinks[0].node);
 
-    Effort sum;
-    for (int c = 0; c < 6; ++c)
+    std::size_t n = 0;
+    int axes = 0, signals = 0;
+    for (const auto& sink : role.sinks)
     {
-        int n = 0;
-        for (const auto& sink : role.sinks)
-        {
-            const auto e = sink.effort (sink.node);
-            scratch[n++] = c < 3 ? e.force[c] : e.torque[c - 3];
-        }
-        (c < 3 ? sum.force[c] : sum.torque[c - 3]) = plan::sum (scratch, n);
+        const auto& e = scratch.efforts[n++] = sink.effort (sink.node);
+        axes = std::max (axes, e.axes.size());
+        signals = std::max (signals, e.signals.size());
     }
-    return sum;
+
+    const auto sum = [&] (auto part)
+    {
+        for (std::size_t i = 0; i < n; ++i)
+            scratch.numbers[i] = part (scratch.efforts[i]);
+        return plan::sum (scratch.numbers.data(), static_cast<int> (n));
+    };
+    Effort all;
+    for (int c = 0; c < 3; ++c)
+    {
+        all.force[c] = sum ([c] (const Effort& e)
+                            { return e.force[c]; });
+        all.torque[c] = sum ([c] (const Effort& e)
+                             { return e.torque[c]; });
+    }
+    for (int i = 0; i < axes; ++i)
+        all.axes.set (i, sum ([i] (const Effort& e)
+                              { return e.axes[i]; }));
+    for (int i = 0; i < signals; ++i)
+        all.signals.set (i, sum ([i] (const Effort& e)
+                                 { return e.signals[i]; }));
+    return all;
 }
-}   // namespace
 
 Engine::Engine (std::shared_ptr<Plan> p) : rate_hz (p->rate_hz), handover (makeRunning (std::move (p))), running (&handover.newest()) {}
 
@@ -56,25 +71,52 @@ Engine::Channel& Engine::makeChannel (const std::string& role)
 
 std::unique_ptr<Engine::Running> Engine::makeRunning (std::shared_ptr<Plan> p)
 {
-    auto made = std::make_unique<Running> (Running { std::move (p), {}, {} });
+    auto made = std::make_unique<Running> (Running { std::move (p), {}, {}, {} });
     std::size_t most = 0;
     for (const auto& role : made->plan->roles)
     {
         made->channels.push_back (&channelOf (role.name));
         most = std::max (most, role.sinks.size());
     }
-    made->scratch.resize (most);
+    made->scratch.efforts.resize (most);
+    made->scratch.numbers.resize (most);
+
+    const auto& [plan, used, bound, scratch] = *made;
+    for (std::size_t i = 0; i < plan->instances.size(); ++i)
+    {
+        const auto& node = plan->flat.nodes[i];
+        if (! node.type->bind || ! node.runs()) continue;
+        const auto role = std::ranges::find (plan->roles, node.role, &Plan::RoleUse::name);
+        made->bound.push_back ({ node.type->bind, plan->instances[i].node.get(), role->state.get(), used[static_cast<std::size_t> (role - plan->roles.begin())] });
+    }
     return made;
+}
+
+/// Gives a role its device, which nodes are still to learn of.
+void Engine::equip (Channel& channel, Device& device, const GuardLimits& limits, const Plan& plan, double dt_s)
+{
+    channel.device = &device;
+    channel.guard.prepare (limits, dt_s);
+    channel.is_news = true;
+    device.prepare (dt_s);
+    std::ranges::find (plan.roles, channel.role, &Plan::RoleUse::name)->state->layout = device.layout();
+}
+
+/// Nodes look for what they are set to in what the devices have that are new.
+void Engine::introduce (Running& plan) noexcept
+{
+    for (const auto& node : plan.bound)
+        if (node.channel->is_news) node.bind (node.node, *node.state);
+    for (auto* channel : plan.channels)
+        channel->is_news = false;
 }
 
 void Engine::attach (std::string_view role, Device& device, const GuardLimits& limits)
 {
     const auto& roles = newest().roles;
     if (std::ranges::find (roles, role, &Plan::RoleUse::name) == roles.end()) throw std::out_of_range ("the plan has no role '" + std::string (role) + "'");
-    auto& channel = channelOf (std::string (role));
-    channel.device = &device;
-    channel.guard.prepare (limits, 1.0 / rate_hz);
-    device.prepare (1.0 / rate_hz);
+    equip (channelOf (std::string (role)), device, limits, newest(), 1.0 / rate_hz);
+    introduce (handover.newest());
 }
 
 void Engine::report (Journal& to) noexcept
@@ -96,10 +138,8 @@ void Engine::join (const Joining& joining, const Plan& plan)
     if (std::ranges::find (plan.roles, joining.role, &Plan::RoleUse::name) == plan.roles.end()) throw std::out_of_range ("the plan has no role '" + joining.role + "'");
     if (const auto* channel = find (joining.role); channel && channel->device) throw std::invalid_argument ("the role '" + joining.role + "' has a device already");
     auto& channel = makeChannel (joining.role);
-    channel.device = &joining.device;
-    channel.guard.prepare (joining.limits, 1.0 / rate_hz);
+    equip (channel, joining.device, joining.limits, plan, 1.0 / rate_hz);
     channel.bumpless.begin();
-    joining.device.prepare (1.0 / rate_hz);
 }
 
 void Engine::submit (std::shared_ptr<Plan> next, std::span<const Joining> joining)
@@ -146,6 +186,10 @@ void Engine::takeOver (Running& next) noexcept
             next.channels[i]->bumpless.begin();
             next.channels[i]->touched_at = ticks;
         }
+    introduce (next);
+    if (is_stopped)
+        for (auto* channel : next.channels)
+            channel->guard.emergencyStop();
     running = &next;
     handover.done (running);
     fresh = true;
@@ -165,10 +209,40 @@ void Engine::takeSubmitted() noexcept
     if (auto* next = handover.take()) takeOver (*next);
 }
 
+void Engine::emergencyStop() noexcept
+{
+    emergency.store (true, std::memory_order_relaxed);
+    touched.store (true, std::memory_order_release);
+}
+
+void Engine::rearm() noexcept
+{
+    emergency.store (false, std::memory_order_relaxed);
+    rearming.store (true, std::memory_order_relaxed);
+    touched.store (true, std::memory_order_release);
+}
+
+void Engine::heedStops() noexcept
+{
+    if (rearming.exchange (false, std::memory_order_relaxed))
+    {
+        if (journal) journal->rearmed();
+        for (auto* channel : running->channels)
+            channel->guard.rearm();
+        is_stopped = false;
+    }
+    if (is_stopped || ! emergency.load (std::memory_order_relaxed)) return;
+    if (journal) journal->emergency();
+    for (auto* channel : running->channels)
+        channel->guard.emergencyStop();
+    is_stopped = true;
+}
+
 /// What was set for a plan that had not come yet waits in its knobs, so a fresh one is looked through as well.
 void Engine::turnKnobs() noexcept
 {
     touched.exchange (false, std::memory_order_acquire);
+    heedStops();
     auto& ramps = running->plan->ramps;
     ramps.look (journal);
     if (fresh) ramps.startAll();
@@ -181,7 +255,7 @@ void Engine::beforePlan() noexcept
     if (ticks < settled_at) fadeAgain();
     if (fresh || touched.load (std::memory_order_relaxed)) turnKnobs();
 
-    auto& [plan, used, scratch] = *running;
+    auto& [plan, used, bound, scratch] = *running;
     for (std::size_t i = 0; i < used.size(); ++i)
         if (used[i]->device) plan->roles[i].state->reading = used[i]->device->read();
 
@@ -191,14 +265,16 @@ void Engine::beforePlan() noexcept
 
 void Engine::afterPlan() noexcept
 {
-    auto& [plan, used, scratch] = *running;
+    auto& [plan, used, bound, scratch] = *running;
     for (std::size_t i = 0; i < used.size(); ++i)
     {
         const auto& role = plan->roles[i];
         auto& channel = *used[i];
-        const auto wanted = channel.bumpless (total (role, scratch.data()));
+        const auto wanted = channel.bumpless (total (role, scratch));
+        const auto events = channel.guard.events();
         role.state->applied = channel.guard (wanted, role.state->reading);
         if (channel.guard.stop() != Guard::Stop::none) channel.bumpless.stop (role.state->applied);
+        if (channel.guard.events() != events) stops.note ({ ticks, channel.role, channel.guard.latest() });
         if (channel.device) channel.device->write (role.state->applied);
     }
     if (journal) journal->ticked (*plan);

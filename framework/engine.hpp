@@ -3,6 +3,7 @@
 
 #include "bumpless.hpp"
 #include "guard.hpp"
+#include "guard_log.hpp"
 #include "handover.hpp"
 #include "journal.hpp"
 #include "message.hpp"
@@ -98,6 +99,19 @@ public:
     /// After a halt: the efforts rise again, as the guards' ramps allow. [tick thread]
     void resume() noexcept;
 
+    /// As halt, from anywhere: also from a signal handler, and also for roles that come up later. The next tick heeds it, and
+    /// no resume ends it. [any thread]
+    void emergencyStop() noexcept;
+
+    /// Ends an emergency stop, and whatever else has stopped a guard for good (Guard::latches): the efforts rise again, as the
+    /// guards' ramps allow. [any thread]
+    void rearm() noexcept;
+
+    bool isEmergency() const noexcept { return emergency.load (std::memory_order_relaxed); }   ///< [any thread]
+
+    /// The latest stops of all guards. [any thread]
+    const GuardLog& guardLog() const noexcept { return stops; }
+
     /// True once nothing is on any device, so that it can be let go without a step. [tick thread]
     bool isAtRest() const noexcept;
 
@@ -126,6 +140,23 @@ private:
         Guard guard {};
         Bumpless bumpless {};
         std::uint64_t touched_at = 0;   // the tick that took the last plan to change what leads here
+        bool is_news = false;           // nodes do not know yet what its device has
+    };
+
+    /// A node of a role.
+    struct BoundNode
+    {
+        void (*bind) (void* node, const DeviceState&);
+        void* node;
+        const DeviceState* state;
+        Channel* channel;
+    };
+
+    /// To sum the sinks of a role in.
+    struct Scratch
+    {
+        std::vector<Effort> efforts;
+        std::vector<double> numbers;
     };
 
     /// A plan with what the engine keeps beside it.
@@ -133,8 +164,11 @@ private:
     {
         std::shared_ptr<Plan> plan;
         std::vector<Channel*> channels;   // as plan->roles
-        std::vector<double> scratch;      // to sum the sinks of a role in
+        std::vector<BoundNode> bound;
+        Scratch scratch;
     };
+
+    static Effort total (const Plan::RoleUse&, Scratch&) noexcept;
 
     void beforePlan() noexcept;
     void afterPlan() noexcept;
@@ -143,6 +177,9 @@ private:
     Channel& channelOf (const std::string& role);
     Channel& makeChannel (const std::string& role);
     void join (const Joining&, const Plan&);
+    static void equip (Channel&, Device&, const GuardLimits&, const Plan&, double dt_s);
+    static void introduce (Running&) noexcept;
+    void heedStops() noexcept;
     std::unique_ptr<Running> makeRunning (std::shared_ptr<Plan>);
     void takeOver (Running&) noexcept;
     void fadeAgain() noexcept;
@@ -151,12 +188,15 @@ private:
     double rate_hz;
     std::vector<std::unique_ptr<Channel>> channels;   // of all roles there ever were; the last of a role is the one in force   [main thread]
     Handover<Running> handover;
-    std::atomic<bool> touched = true;   // some knob is, or a plan is new
+    std::atomic<bool> touched = true;   // some knob is, or a plan is new, or one of these
+    std::atomic<bool> emergency = false, rearming = false;
+    GuardLog stops;
 
     // Of the tick thread.
     Running* running;
     Journal* journal = nullptr;
-    bool fresh = true;   // the plan has not ticked yet
+    bool fresh = true;         // the plan has not ticked yet
+    bool is_stopped = false;   // the guards know of the emergency
     std::uint64_t ticks = 0;
     std::uint64_t settled_at = 0;   // the tick by which all has run that was changed
 };

@@ -32,6 +32,10 @@ public:
     virtual void halted() noexcept = 0;
     virtual void resumed() noexcept = 0;
 
+    /// The emergency stop; and its end, and that of all stops that stay until somebody ends them.
+    virtual void emergency() noexcept = 0;
+    virtual void rearmed() noexcept = 0;
+
     /// A tick is over. What it read stands in the plan: the readings of the roles, and the feeds.
     virtual void ticked (const Plan&) noexcept = 0;
 };

@@ -25,7 +25,10 @@
 ///   delay() -> int            how many ticks lie between a peeking node's inputs and outputs; 1 if not given
 ///   adopt (old)               take over the state of the instance this one replaces                    [tick thread]
 ///   claims() -> Claims        what tests and the validator can hold the node to
-///   bind (state)              gives a device node its role's DeviceState, before prepare               [main thread]
+///   bind (state)              gives a device node its role's DeviceState, before prepare, with the settings in place; and
+///                             again once the role has got its device, then without allocating          [main or tick thread]
+///   missing (layout) -> string  what a device node is set to and the device of its role does not have, after "has"; empty
+///                             if nothing. The node reads 0 then, or acts on nothing                     [main thread]
 ///   effort() -> Effort        makes the node a sink: what it asks of its role, after tick              [tick thread]
 ///
 /// A tick is noexcept and total. On a non-finite input it gives 0 on all outputs (-1 on `state`), re-opens the
@@ -117,6 +120,9 @@ concept Claiming = requires (const N node) { { node.claims() } -> std::same_as<C
 
 template <typename N>
 concept DeviceBound = requires (N node, const DeviceState& state) { node.bind (state); };
+
+template <typename N>
+concept Particular = DeviceBound<N> && requires (const N node, const DeviceLayout& layout) { { node.missing (layout) } -> std::same_as<std::string>; };
 
 template <typename N>
 concept Sink = DeviceBound<N> && requires (const N node) { { node.effort() } noexcept -> std::same_as<Effort>; };

@@ -49,7 +49,7 @@ void checkFanIn (Flat& flat, const PortUnits& units)
     Identity wrong {};   // the wire last spoken of
     for (const auto& w : flat.wires)
     {
-        if (w.identity == wrong || w.add || (w.to.role == Role::input && addsUp (units (w.to).quantity))) continue;
+        if (w.identity == wrong || w.add || (w.to.role == Role::input && (addsUp (units (w.to).quantity) || flat.sheet (w.to).unit.adds_up))) continue;
         const int first = w.to.component >= 0 ? w.to.component : 0;
         for (int c = first; c < first + flat.widthOf (w.to); ++c)
         {

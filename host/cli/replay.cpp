@@ -67,6 +67,7 @@ void Replay::bindHands()
         const auto guard = log.head().guards.find (role.name);
         if (guard == log.head().guards.end())
             std::cerr << log.name() << ": warning: there was no role '" << role.name << "' in the run; a hand at rest stands in for it [log/no_role]\n";
+        if (const auto device = log.head().devices.find (role.name); device != log.head().devices.end()) hands[role.name].has = device->second;
         running->attach (role.name, hands[role.name], guard != log.head().guards.end() ? guard->second : GuardLimits {});
     }
 }
@@ -96,7 +97,12 @@ void Replay::takeOver()
                    { return std::ranges::count (next->kept, plan::nameOf (*plan, change.instance, change.knob)) > 0; });
     std::vector<Engine::Joining> joining;
     for (const auto& [role, limits] : next->guards)
-        if (! hands.contains (role) && std::ranges::count (plan->roles, role, &Plan::RoleUse::name) > 0) joining.push_back ({ role, hands[role], limits });
+        if (! hands.contains (role) && std::ranges::count (plan->roles, role, &Plan::RoleUse::name) > 0)
+        {
+            auto& hand = hands[role];
+            if (const auto device = next->devices.find (role); device != next->devices.end()) hand.has = device->second;
+            joining.push_back ({ role, hand, limits });
+        }
     running->submit (std::move (plan), joining);
     running->takeSubmitted();
 }
@@ -108,6 +114,8 @@ void Replay::carryOut()
         turn (param, target);
     for (const auto& [role, reading] : next->readings)
         if (const auto hand = hands.find (role); hand != hands.end()) hand->second.reading = reading;
+    if (next->rearm) running->rearm();
+    if (next->emergency) running->emergencyStop();
     if (next->feed) feed = *next->feed;
     answers.repeat (next->late);
 }

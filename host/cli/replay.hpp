@@ -40,8 +40,10 @@ private:
         void prepare (double) override {}
         Reading read() noexcept override { return reading; }
         void write (const Effort&) noexcept override {}
+        DeviceLayout layout() const override { return has; }
 
         Reading reading;
+        DeviceLayout has;
     };
 
     std::shared_ptr<Plan> compileNow (const graph::Graph&, const Plan* before);

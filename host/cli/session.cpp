@@ -7,6 +7,7 @@
 #include <framework/in_quotes.hpp>
 #include <framework/near_miss.hpp>
 #include <framework/number_text.hpp>
+#include <framework/plan/missing_parts.hpp>
 #include <framework/refused.hpp>
 #include <framework/turn.hpp>
 #include <host/assets/nearest_by_embree.hpp>
@@ -200,6 +201,7 @@ void Session::bindDevices()
     if (report (messages, loaded, told.graph) > 0) throw Stop {};
     for (auto& d : devices)
         running->attach (d.role, *d.device, d.limits);
+    report (missingParts (running->plan()), loaded, told.graph);
 }
 
 /// The device that an option names, else the one that the graph describes, else a simulated tool that nobody moves.
@@ -261,7 +263,10 @@ void Session::startLog (std::shared_ptr<const Plan> first)
 {
     RunHead head { .program = TACTUS_VERSION, .rate_hz = rate_hz, .sets = told.sets, .feeds = feed ? feed->ports() : std::vector<std::string> {} };
     for (const auto& d : devices)
+    {
         head.guards.emplace (d.role, d.limits);
+        head.devices.emplace (d.role, d.device->layout());
+    }
     log = orFail (RunLog::create (told.log, head));
     log->expect (std::move (first), snapshotOf (loaded.graph, noted.paths, log->folder()));
     running->report (log->journal());
@@ -273,9 +278,13 @@ void Session::submit (std::shared_ptr<Plan> plan, const graph::Graph& graph, std
     if (log)
     {
         std::map<std::string, GuardLimits> guards;
+        std::map<std::string, DeviceLayout> layouts;
         for (const auto& j : joining)
+        {
             guards.emplace (j.role, j.limits);
-        log->expect (plan, snapshotOf (graph, noted.paths, log->folder()), guards);
+            layouts.emplace (j.role, j.device.layout());
+        }
+        log->expect (plan, snapshotOf (graph, noted.paths, log->folder()), guards, layouts);
     }
     running->submit (std::move (plan), joining);
 }
@@ -324,7 +333,8 @@ bool Session::reload()
     std::vector<Engine::Joining> joining;
     for (const auto& d : opened)
         joining.push_back ({ d.role, *d.device, d.limits });
-    submit (std::move (plan), next.graph, joining);
+    submit (plan, next.graph, joining);
+    report (missingParts (*plan), next, told.graph);
     report (notTakenOver (next.graph), next, told.graph);
     std::ranges::move (opened, std::back_inserter (devices));
 
@@ -465,7 +475,7 @@ std::vector<std::filesystem::path> Session::inputs() const
 void Session::reportRun() const
 {
     for (const auto& d : devices)
-        if (const auto& event = running->guardOf (d.role).latest(); event.why != Guard::Stop::none && event.why != Guard::Stop::halted)
+        if (const auto& event = running->guardOf (d.role).latest(); event.why != Guard::Stop::none && event.why != Guard::Stop::halted && event.why != Guard::Stop::released)
             std::cerr << d.role << ": warning: the guard withheld the force: " << describe (event) << '\n';
     if (const auto late = answers ? answers->lateTicks() : 0; late > 0)
         std::cerr << "warning: " << late << (late == 1 ? " time" : " times") << " a slow answer (the search of a large surface) was not there when it was due\n    give it more ticks in the settings of the node, as in search_ticks [run/late_answers]\n";

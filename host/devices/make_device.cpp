@@ -95,6 +95,29 @@ Simulation::Hand readHand (const Json& json, const std::string& where, const Fol
     return hand;
 }
 
+/// {"trigger": {"mass": "20 g", "damping": 0.5, "stiffness": "0.2 N/mm", "position": 0, "hand_force": "1 N"}}
+std::vector<Simulation::Axis> readAxes (const Json& json, const std::string& where, Messages& messages)
+{
+    Fields all (json, where, messages);
+    std::vector<Simulation::Axis> axes;
+    if (! json.is_object()) return axes;
+    for (const auto& [name, description] : json.items())
+    {
+        if (! graph::isId (name)) all.error (name, "device/name", inQuotes (name) + " is not the name of an axis", "take lower case letters, digits and _, a letter first");
+        if (axes.size() == static_cast<std::size_t> (Channels::most)) all.error (name, "device/out_of_range", "there are more than " + std::to_string (Channels::most) + " axes", "leave some out");
+        Fields in (description, where + "/" + name, messages);
+        Simulation::Axis axis { .name = name };
+        axis.mass = in.number ("mass", unit::kilogram, Bounds::positive(), axis.mass);
+        axis.damping = in.number ("damping", unit::damping, Bounds::notNegative(), axis.damping);
+        axis.stiffness = in.number ("stiffness", unit::stiffness, Bounds::notNegative(), axis.stiffness);
+        axis.position = in.number ("position", unit::metre, {}, axis.position);
+        axis.hand_force = in.number ("hand_force", unit::newton, {}, axis.hand_force);
+        in.finish();
+        axes.push_back (std::move (axis));
+    }
+    return axes;
+}
+
 std::unique_ptr<Device> makeSimulated (Fields& in, const Folder& folder, Messages& messages, std::string& about)
 {
     // Seconds of delay are a mistake, and no device.
@@ -112,6 +135,8 @@ std::unique_ptr<Device> makeSimulated (Fields& in, const Folder& folder, Message
     sim.velocity = in.vector ("velocity", unit::speed, sim.velocity);
     sim.rotation = in.vector ("rotation", unit::radian, sim.rotation);
     sim.hand_force = in.vector ("hand_force", unit::newton, sim.hand_force);
+    if (in.has ("axes")) sim.axes = readAxes (in.object ("axes"), "/axes", messages);
+    sim.signal_outputs = in.whole ("signal_outputs", 0, Channels::most, sim.signal_outputs);
 
     about = "A simulated tool of " + numberText (sim.mass) + " kg with a damping of " + numberText (sim.damping) + " N*s/m, ";
     about += sim.hand.path ? "in a hand that follows " + in.object ("hand").value ("path", std::string()) + "." : std::string ("held by no hand.");
@@ -172,7 +197,7 @@ std::vector<std::string> driverNames()
 
 // What a simulated device can take over from the description of a real one.
 constexpr std::string_view known_to_sim[] { "mass", "damping", "quantum", "force_quantum", "delay", "first_mode", "position",
-                                            "velocity", "rotation", "hand_force", "hand", "guard", "about", "ui" };
+                                            "velocity", "rotation", "hand_force", "hand", "axes", "signal_outputs", "guard", "about", "ui" };
 }   // namespace
 
 MadeDevice makeDevice (const Json& description, const Folder& folder)
@@ -199,7 +224,7 @@ MadeDevice makeDevice (const Json& description, const Folder& folder)
     }
 
     made.device = driver->make (in, folder, made.messages, made.about);
-    if (in.has ("guard")) made.limits = readGuardLimits (in.object ("guard"), "/guard", made.messages);
+    if (in.has ("guard")) made.limits = readGuardLimits (in.object ("guard"), "/guard", made.messages, made.device ? made.device->layout() : DeviceLayout {});
     in.ignore ("guard");
     in.finish();
 

@@ -29,7 +29,8 @@ struct MadeDevice
 ///     {"driver": "sim", "mass": "50 g", "damping": 2.0, "quantum": "10 um", "force_quantum": "1 mN", "delay": 0,
 ///      "first_mode": "30 Hz", "position": [0, 0, "5 mm"], "velocity": [0, 0, 0], "rotation": [0, 0, 0],
 ///      "hand_force": [0, 0, "-0.5 N"],
-///      "hand": {"stiffness": 100.0, "damping": 2.0, "path": "stroke"}}
+///      "hand": {"stiffness": 100.0, "damping": 2.0, "path": "stroke"},
+///      "axes": {"trigger": {"mass": "50 g", "damping": 1.0, "stiffness": 0, "position": 0, "hand_force": 0}}, "signal_outputs": 0}
 ///     {"driver": "trace", "path": "pen.csv"}
 ///     {"driver": "gesture", "path": "stroke"}
 ///
@@ -42,7 +43,7 @@ struct MadeDevice
 /// The driver "hid" means a real device, for which there is hid::openDevice; here it is refused.
 ///
 /// Ids: device/unknown_driver, device/real, device/missing, device/unknown_key, device/kind, device/unit,
-/// device/out_of_range, device/unknown_gesture, and those of trace/ and csv/.
+/// device/out_of_range, device/unknown_gesture, device/unknown_button, device/name, and those of trace/ and csv/.
 MadeDevice makeDevice (const Json& description, const std::filesystem::path& folder);
 
 /// What `--device ROLE=sim` means for a role that the graph does not describe: a hand that strokes.

@@ -30,18 +30,25 @@ double secondOrder (double h) noexcept
 }
 }   // namespace
 
+SimulatedDevice::Step::Step (double mass, double damping, double dt_s) noexcept
+{
+    const double h = damping * dt_s / mass;
+    x_per_v = dt_s * firstOrder (h);
+    x_per_f = dt_s * dt_s / mass * secondOrder (h);
+    v_loss = std::expm1 (-h);
+    v_per_f = dt_s / mass * firstOrder (h);
+}
+
 SimulatedDevice::SimulatedDevice (Simulation simulation) : what (std::move (simulation)) { prepare (dt); }
 
 void SimulatedDevice::prepare (double dt_s)
 {
     dt = dt_s;
 
-    const double h = what.damping * dt / what.mass;
-    x_per_v = dt * firstOrder (h);
-    x_per_f = dt * dt / what.mass * secondOrder (h);
-    v_loss = std::expm1 (-h);
-    v_per_f = dt / what.mass * firstOrder (h);
-
+    step = Step (what.mass, what.damping, dt);
+    axes.clear();
+    for (const auto& axis : what.axes)
+        axes.push_back ({ Step (axis.mass, axis.damping, dt), axis.position });
     on_the_way.assign (static_cast<std::size_t> (what.delay), Vec3::Zero());
     oldest = 0;
     x = what.position;
@@ -57,6 +64,8 @@ Reading SimulatedDevice::read() noexcept
     reading.valid = isFinite (x, v);
     reading.true_position = x;
     reading.true_velocity = v;
+    for (std::size_t i = 0; i < axes.size(); ++i)
+        reading.axes.set (static_cast<int> (i), axes[i].x);
     return reading;
 }
 
@@ -66,9 +75,23 @@ void SimulatedDevice::write (const Effort& guarded) noexcept
     if (! isFinite (sent)) sent.setZero();
     const Vec3 force = delayed (sent) + handForce();
 
-    x += x_per_v * v + x_per_f * force;
-    v += v_loss * v + v_per_f * force;
+    step (x, v, force);
+    for (std::size_t i = 0; i < axes.size(); ++i)
+    {
+        const auto& axis = what.axes[i];
+        auto& [moves, at, speed] = axes[i];
+        moves (at, speed, finiteOrZero (guarded.axes[static_cast<int> (i)]) + axis.hand_force - axis.stiffness * (at - axis.position));
+    }
     ++tick;
+}
+
+DeviceLayout SimulatedDevice::layout() const
+{
+    DeviceLayout has { .signal_outputs = what.signal_outputs };
+    for (const auto& axis : what.axes)
+        has.axes.push_back (axis.name);
+    has.efforts = has.axes;
+    return has;
 }
 
 Vec3 SimulatedDevice::delayed (const Vec3& force) noexcept

@@ -3,7 +3,9 @@
 #include <host/devices/problem.hpp>
 #include <host/devices/trace.hpp>
 
+#include <framework/graph/text.hpp>
 #include <framework/in_quotes.hpp>
+#include <framework/near_miss.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -22,18 +24,27 @@ constexpr int most_buttons = 32;
 // belongs to the tick.
 constexpr double slack = 1e-3;
 
-/// The button a column is about: 3 for "button3".
-std::optional<int> buttonOf (std::string_view column)
+/// What a numbered column is about: 3 for "button3". Not 03, and only numbers within these.
+std::optional<int> numberOf (std::string_view column, std::string_view prefix, int min, int max)
 {
-    constexpr std::string_view prefix = "button";
     if (! column.starts_with (prefix)) return {};
 
     const auto digits = column.substr (prefix.size());
     int number = -1;
     const auto [end, failure] = std::from_chars (digits.data(), digits.data() + digits.size(), number);
     const bool whole = failure == std::errc() && end == digits.data() + digits.size();
-    if (! whole || number < 0 || number >= most_buttons) return {};
+    if (! whole || number < min || number > max) return {};
     return number;
+}
+
+std::optional<int> buttonOf (std::string_view column) { return numberOf (column, "button", 0, most_buttons - 1); }
+std::optional<int> signalOf (std::string_view column) { return numberOf (column, "signal", 1, Channels::most); }
+
+constexpr std::string_view part_names[] { "t", "x", "y", "z", "rx", "ry", "rz", "pressure" };
+
+bool isAxis (std::string_view column)
+{
+    return graph::isId (column) && std::ranges::find (part_names, column) == std::end (part_names) && ! column.starts_with ("button") && ! column.starts_with ("signal");
 }
 
 double* partOf (TraceData::Row& row, std::string_view column)
@@ -59,19 +70,26 @@ std::string seconds (double t) { return numberText (t) + " s"; }
 Messages checkColumns (std::span<const std::string> columns, std::size_t values)
 {
     Messages messages;
-    const auto add = [&] (const char* id, const char* where, std::string text, const char* remedy) -> Message&
-    { return messages.emplace_back (problem (id, where, std::move (text), remedy)); };
+    const auto add = [&] (const char* id, const char* where, std::string text, std::string remedy) -> Message&
+    { return messages.emplace_back (problem (id, where, std::move (text), std::move (remedy))); };
     const auto first = [&] (const auto& name)
     { return std::find (columns.begin(), columns.end(), name); };
 
     TraceData::Row row;
+    int axes = 0;
     for (auto it = columns.begin(); it != columns.end(); ++it)
     {
         if (first (*it) != it)
             add ("trace/duplicate_column", "header", "the column " + inQuotes (*it) + " is there twice", "leave one of them out");
-        else if (partOf (row, *it) == nullptr && ! buttonOf (*it))
+        else if (isAxis (*it) && ++axes <= Channels::most)
+        {
+            if (const auto meant = nearMiss (*it, part_names); it->size() > 2 && ! meant.empty())
+                add ("trace/like_column", "header", "the column " + inQuotes (*it) + " is read as an axis of this name; is " + inQuotes (meant) + " meant?", "write " + inQuotes (meant) + ", or give the axis a name that is less alike")
+                    .severity = Message::Severity::warning;
+        }
+        else if (partOf (row, *it) == nullptr && ! buttonOf (*it) && ! signalOf (*it))
             add ("trace/unknown_column", "header", "the column " + inQuotes (*it) + " is no part of a trace and is left out",
-                 "a trace has t,x,y,z and may have rx,ry,rz,pressure,button0 to button31")
+                 "a trace has t,x,y,z and may have rx,ry,rz,pressure,button0 to button31, signal1 to signal32 and up to 32 axes by their names (lower case letters, digits and _)")
                 .severity = Message::Severity::warning;
     }
 
@@ -118,6 +136,31 @@ double TraceData::step() const
 
 double TraceData::duration() const { return rows.empty() ? 0.0 : rows.back().t + step(); }
 
+namespace
+{
+/// The columns of the axes, then of the signals by their numbers; channels between them that nobody recorded have none.
+std::vector<std::optional<std::size_t>> findFurther (std::span<const std::string> columns, TraceData& trace)
+{
+    std::vector<std::optional<std::size_t>> axes, signals;
+    for (std::size_t c = 0; c < columns.size(); ++c)
+        if (const auto button = buttonOf (columns[c]))
+            trace.buttons = std::max (trace.buttons, *button + 1);
+        else if (const auto channel = signalOf (columns[c]))
+        {
+            trace.signals = std::max (trace.signals, *channel);
+            signals.resize (static_cast<std::size_t> (trace.signals));
+            signals[static_cast<std::size_t> (*channel - 1)] = c;
+        }
+        else if (isAxis (columns[c]) && axes.size() < static_cast<std::size_t> (Channels::most))
+        {
+            trace.axes.push_back (columns[c]);
+            axes.emplace_back (c);
+        }
+    axes.insert (axes.end(), signals.begin(), signals.end());
+    return axes;
+}
+}   // namespace
+
 TraceResult readTrace (std::span<const std::string> columns, std::span<const double> values)
 {
     TraceResult result { .trace = {}, .messages = checkColumns (columns, values.size()) };
@@ -125,10 +168,13 @@ TraceResult readTrace (std::span<const std::string> columns, std::span<const dou
 
     const auto width = columns.size();
     result.trace.rows.resize (values.size() / width);
+    const auto further = findFurther (columns, result.trace);
 
     for (std::size_t i = 0; i < result.trace.rows.size(); ++i)
     {
         auto& row = result.trace.rows[i];
+        for (const auto c : further)
+            result.trace.more.push_back (c ? values[i * width + *c] : 0.0);
         for (std::size_t c = 0; c < width; ++c)
         {
             const double value = values[i * width + c];
@@ -173,11 +219,22 @@ Reading TraceDevice::read() noexcept
     reading.rotation = held.rotation;
     reading.pressure = held.pressure;
     reading.buttons = held.buttons;
+    const auto axes = trace->axes.size(), signals = static_cast<std::size_t> (trace->signals);
+    const double* more = trace->more.data() + row * (axes + signals);
+    for (std::size_t i = 0; i < axes; ++i)
+        reading.axes.set (static_cast<int> (i), more[i]);
+    for (std::size_t i = 0; i < signals; ++i)
+        reading.signals.set (static_cast<int> (i), more[axes + i]);
     reading.age = std::max (0.0, now - held.t);
     reading.valid = isFinite (held.position, held.rotation);
     return reading;
 }
 
 void TraceDevice::write (const Effort&) noexcept { ++tick; }
+
+DeviceLayout TraceDevice::layout() const
+{
+    return { .axes = trace->axes, .buttons = std::vector<std::string> (static_cast<std::size_t> (trace->buttons)), .signal_inputs = trace->signals };
+}
 
 }   // namespace tactus::host

@@ -28,6 +28,11 @@ struct TraceData
 
     std::vector<Row> rows;
 
+    std::vector<std::string> axes {};   ///< names of what else was recorded
+    int signals = 0;                    ///< channels
+    int buttons = 0;
+    std::vector<double> more {};   ///< of each row the axes, then the signals
+
     /// The median time from row to row; 0 for a single row.
     double step() const;
 
@@ -42,10 +47,11 @@ struct TraceResult
     Messages messages;
 };
 
-/// Reads columns `t,x,y,z[,rx,ry,rz,pressure,button0…]` in any order, values row after row. The first t becomes 0.
-/// nan and inf are values, except in t. A column of another name is ignored with a warning.
+/// Reads columns `t,x,y,z[,rx,ry,rz,pressure,button0…,signal1…]` in any order, values row after row; any other column whose
+/// name could be that of a node is an axis of this name. The first t becomes 0. nan and inf are values, except in t. A column
+/// of another name is ignored with a warning, and one that looks like a misspelt one of those gets one too.
 ///
-/// Ids: trace/missing_column, trace/duplicate_column, trace/unknown_column (warning), trace/ragged, trace/empty,
+/// Ids: trace/missing_column, trace/duplicate_column, trace/unknown_column (warning), trace/like_column (warning), trace/ragged, trace/empty,
 /// trace/bad_time, trace/time_order. `where` is the row, counted from 1 under the header.
 TraceResult readTrace (std::span<const std::string> columns, std::span<const double> values);
 
@@ -63,6 +69,7 @@ public:
     void prepare (double dt_s) override;
     Reading read() noexcept override;
     void write (const Effort& guarded) noexcept override;
+    DeviceLayout layout() const override;
     double duration() const noexcept override { return lasts; }
 
 private:

@@ -7,6 +7,11 @@
 namespace tactus::host::hid
 {
 
+DeviceLayout layoutOf (const HidModel& model)
+{
+    return { .axes = model.axisNames(), .efforts = model.effortNames(), .buttons = model.buttonNames() };
+}
+
 HidDevice::HidDevice (std::unique_ptr<HidPort> port)
     : link (std::move (port)), values (link->profile()), only_changes (std::ranges::count (link->profile()->quirks, "only_changes") > 0)
 {
@@ -74,6 +79,8 @@ Reading HidDevice::read() noexcept
 
     const bool connected = link->isConnected();
     auto reading = values.reading();
+    for (std::size_t i = 0; i < values.axisNames().size(); ++i)
+        reading.axes.set (static_cast<int> (i), values.sample().axes[i]);
     reading.age = only_changes && connected && has_one ? 0.0 : static_cast<double> (ticks_without) * dt;
     reading.valid = reading.valid && connected && has_one && ! refused && ! has_to_rest;
 
@@ -85,8 +92,14 @@ Reading HidDevice::read() noexcept
 
 void HidDevice::write (const Effort& guarded) noexcept
 {
-    has_to_rest = has_to_rest && ! (guarded.force.isZero (0.0) && guarded.torque.isZero (0.0));
-    const HidEffort effort { guarded.force, guarded.torque, values.restEfforts() };
+    const auto isZero = [] (double v)
+    { return v == 0.0; };
+    const bool rests = guarded.force.isZero (0.0) && guarded.torque.isZero (0.0) && std::ranges::all_of (guarded.axes, isZero);
+    has_to_rest = has_to_rest && ! rests;
+
+    HidEffort effort { guarded.force, guarded.torque, values.restEfforts() };
+    for (std::size_t i = 0; i < values.effortNames().size(); ++i)
+        if (const double asked = guarded.axes[static_cast<int> (i)]; asked != 0.0) effort.efforts[i] = asked;
     for (std::size_t i = 0; i < values.outputs(); ++i)
         link->offer (i, has_to_rest ? values.neutral (i) : values.encode (i, effort), episode, latest);
 }

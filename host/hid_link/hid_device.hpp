@@ -25,12 +25,17 @@ struct ReadingCounts
     double age = 0.0, oldest = 0.0;                   ///< s, of the reading: now, and the most it was once there had been one
 };
 
+/// What nodes find of it by name: all of its axes, efforts and buttons.
+DeviceLayout layoutOf (const HidModel&);
+
 /// A HID device in a run. What came is decoded, and what is to be sent is encoded, at the tick: so an answer has the pose
 /// and the sequence number of the very report it answers. Neither calls the system, locks or allocates.
 ///
 /// A reading is the newest report; its age is the ticks since then. It is not valid before the first one, while the device
 /// is away, and after a report that was refused, until a good one comes. (Reports of ids that the profile does not know
 /// are counted and left out: many devices send some.)
+///
+/// An effort of an axis that is 0 leaves it as it is in the neutral report: a frequency of 0 would be none.
 ///
 /// After the device was away, or the ticks stood still so long that the port let it go, nothing is sent to it until the
 /// guard has gone to zero once: then efforts rise as the guard's ramp has it.
@@ -42,6 +47,8 @@ public:
     void prepare (double dt_s) override;                    // [main thread]
     Reading read() noexcept override;                       // [tick thread]
     void write (const Effort& guarded) noexcept override;   // [tick thread]
+
+    DeviceLayout layout() const override { return layoutOf (values); }
 
     HidPort& port() noexcept { return *link; }
     const HidPort& port() const noexcept { return *link; }

@@ -22,7 +22,6 @@ constexpr double usual_watchdog = 0.1;   // s
 struct Wanted
 {
     std::string profile, serial;
-    GuardLimits guard;
 };
 
 Wanted readWanted (const Json& description, Messages& messages)
@@ -33,11 +32,16 @@ Wanted readWanted (const Json& description, Messages& messages)
     Wanted wanted;
     wanted.profile = in.text ("profile");
     wanted.serial = in.text ("serial");
-    if (in.has ("guard")) wanted.guard = readGuardLimits (in.object ("guard"), "/guard", messages);
-    in.ignore ("guard");
+    in.ignore ("guard");   // whose buttons only the device knows
     in.finish();
     if (wanted.profile == "auto") wanted.profile.clear();
     return wanted;
+}
+
+GuardLimits readGuard (const Json& description, const DeviceLayout& layout, Messages& messages)
+{
+    const auto guard = description.find ("guard");
+    return guard == description.end() ? GuardLimits {} : readGuardLimits (*guard, "/guard", messages, layout);
 }
 
 std::shared_ptr<const Profile> profileNamed (const std::string& id, const LoadedProfiles& all, Messages& messages)
@@ -168,8 +172,8 @@ MadeDevice openDevice (const Json& description, const std::filesystem::path& fol
     made.messages = std::move (found.messages);
     if (! found.profile) return made;
 
-    Messages read_before;
-    made.limits = limitsOf (*found.profile, readWanted (description, read_before).guard);
+    made.limits = limitsOf (*found.profile, readGuard (description, layoutOf (HidModel (found.profile)), made.messages));
+    if (hasErrors (made.messages)) return made;
     auto opened = HidPort::open (system, found.device, found.profile);
     if (auto* message = std::get_if<Message> (&opened))
     {
@@ -187,7 +191,11 @@ Messages checkDevice (const Json& description, const std::filesystem::path& fold
     if (! isHid (description)) return makeDevice (description, folder).messages;
     Messages messages;
     const auto wanted = readWanted (description, messages);
-    if (! wanted.profile.empty()) profileNamed (wanted.profile, all, messages);
+    const auto profile = wanted.profile.empty() ? nullptr : profileNamed (wanted.profile, all, messages);
+    readGuard (description, profile ? layoutOf (HidModel (profile)) : DeviceLayout {}, messages);
+    if (! profile)   // any device may come, with any buttons
+        std::erase_if (messages, [] (const Message& m)
+                       { return m.id == "device/unknown_button"; });
     return messages;
 }
 

@@ -12,6 +12,17 @@ void RunJournal::put (Kind kind, std::uint64_t number) noexcept { ring.put (numb
 
 void RunJournal::put (double value) noexcept { ring.put (std::bit_cast<std::uint64_t> (value)); }
 
+void RunJournal::put (const Reading& reading) noexcept
+{
+    for (const double number : toNumbers (reading))
+        put (number);
+    ring.put (static_cast<std::uint64_t> (reading.axes.size()) | static_cast<std::uint64_t> (reading.signals.size()) << 8u);
+    for (const double value : reading.axes)
+        put (value);
+    for (const double value : reading.signals)
+        put (value);
+}
+
 void RunJournal::tookOver (const Plan& plan) noexcept
 {
     put (Kind::took);
@@ -47,13 +58,16 @@ void RunJournal::resumed() noexcept
     if (std::exchange (halting, false)) put (Kind::resumed);
 }
 
+void RunJournal::emergency() noexcept { put (Kind::emergency); }
+
+void RunJournal::rearmed() noexcept { put (Kind::rearmed); }
+
 void RunJournal::ticked (const Plan& plan) noexcept
 {
     put (Kind::ticked, plan.roles.size());
     ring.put (plan.feeds.size());
     for (const auto& role : plan.roles)
-        for (const double number : toNumbers (role.state->reading))
-            put (number);
+        put (role.state->reading);
     for (const double value : plan.feeds)
         put (value);
 

@@ -20,13 +20,15 @@ public:
     /// How a word begins; its lower byte says what, the others a number.
     enum class Kind : std::uint8_t
     {
-        took,      ///< 0, serial of the plan
-        turned,    ///< number of the instance; number of the knob, target
-        outdone,   ///< number of the instance; number of the knob
-        late,      ///< 0; number of the question
-        halted,    ///< 0
-        resumed,   ///< 0
-        ticked     ///< number of roles; number of feeds, the numbers of the readings, the feeds
+        took,        ///< 0, serial of the plan
+        turned,      ///< number of the instance; number of the knob, target
+        outdone,     ///< number of the instance; number of the knob
+        late,        ///< 0; number of the question
+        halted,      ///< 0
+        resumed,     ///< 0
+        emergency,   ///< 0
+        rearmed,     ///< 0
+        ticked       ///< number of roles; number of feeds, the readings, the feeds. A reading is its numbers, how many axes and (from bit 8) signals, and those
     };
 
     explicit RunJournal (std::size_t words) : ring (words) {}
@@ -37,6 +39,8 @@ public:
     void late (std::uint64_t question) noexcept override;
     void halted() noexcept override;
     void resumed() noexcept override;
+    void emergency() noexcept override;
+    void rearmed() noexcept override;
     void ticked (const Plan&) noexcept override;
 
     WordRing& words() noexcept { return ring; }
@@ -49,6 +53,7 @@ private:
 
     void put (Kind, std::uint64_t number = 0) noexcept;
     void put (double) noexcept;
+    void put (const Reading&) noexcept;
 
     WordRing ring;
     std::uint64_t now = 0;   // tick

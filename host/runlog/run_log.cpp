@@ -21,7 +21,9 @@ namespace
 std::size_t roomFor (const RunHead& head)
 {
     constexpr double spare = 65536.0, most = 8388608.0;
-    const auto words = 2.0 + static_cast<double> (head.guards.size() * reading_size + head.feeds.size());
+    auto words = 2.0 + static_cast<double> (head.guards.size() * (reading_size + 1) + head.feeds.size());
+    for (const auto& [role, device] : head.devices)
+        words += static_cast<double> (device.axes.size()) + device.signal_inputs;
     return static_cast<std::size_t> (std::min (most, words * std::ceil (head.rate_hz) + spare));
 }
 
@@ -29,12 +31,16 @@ std::string textOf (const Json& value) { return value.dump (-1, ' ', false, Json
 
 std::string listOf (std::span<const double> numbers)
 {
-    if (numbers.size() == 1) return logNumber (numbers.front());
     std::string text;
     for (const double v : numbers)
         text += (text.empty() ? "[" : ",") + logNumber (v);
     return text.empty() ? "[]" : text + "]";
 }
+
+/// A list of one is a number.
+std::string textOf (std::span<const double> numbers) { return numbers.size() == 1 ? logNumber (numbers.front()) : listOf (numbers); }
+
+std::span<const double> all (const Channels& channels) { return { channels.begin(), channels.end() }; }
 
 Json toJson (const std::map<std::string, GuardLimits>& guards)
 {
@@ -42,12 +48,23 @@ Json toJson (const std::map<std::string, GuardLimits>& guards)
     for (const auto& [role, limits] : guards)
         for (const auto& [key, value] : guard_fields)
             json[role][std::string (key)] = toLog (limits.*value);
+    for (const auto& [role, limits] : guards)
+        json[role][std::string (dead_man_buttons)] = limits.dead_man_buttons;
+    return json;
+}
+
+/// Of those that have more than a tool.
+Json toJson (const std::map<std::string, DeviceLayout>& devices)
+{
+    auto json = Json::object();
+    for (const auto& [role, has] : devices)
+        if (has != DeviceLayout {}) json[role] = { { "axes", has.axes }, { "efforts", has.efforts }, { "buttons", has.buttons }, { "signal_inputs", has.signal_inputs }, { "signal_outputs", has.signal_outputs } };
     return json;
 }
 
 std::string headLine (const RunHead& head)
 {
-    return textOf ({ { "format", run_format }, { "version", run_version }, { "program", head.program }, { "rate_hz", head.rate_hz }, { "sets", head.sets }, { "feeds", head.feeds }, { "guards", toJson (head.guards) } }) + "\n";
+    return textOf ({ { "format", run_format }, { "version", run_version }, { "program", head.program }, { "rate_hz", head.rate_hz }, { "sets", head.sets }, { "feeds", head.feeds }, { "guards", toJson (head.guards) }, { "devices", toJson (head.devices) } }) + "\n";
 }
 
 bool same (std::span<const double> a, std::span<const double> b) noexcept { return a.size() == b.size() && (a.empty() || std::memcmp (a.data(), b.data(), a.size_bytes()) == 0); }
@@ -74,10 +91,11 @@ tl::expected<void, Error> RunLog::written()
     return tl::unexpected (Error { "output/unwritable", path.string(), "cannot be written: " + reason, "choose another file, or make its folder and room for it" });
 }
 
-void RunLog::expect (std::shared_ptr<const Plan> plan, const Json& snapshot, const std::map<std::string, GuardLimits>& joining)
+void RunLog::expect (std::shared_ptr<const Plan> plan, const Json& snapshot, const std::map<std::string, GuardLimits>& joining, const std::map<std::string, DeviceLayout>& devices)
 {
     expected.push_back ({ std::move (plan), textOf (snapshot) });
     joined.insert (joining.begin(), joining.end());
+    joined_devices.insert (devices.begin(), devices.end());
 }
 
 tl::expected<void, Error> RunLog::drain()
@@ -128,6 +146,12 @@ void RunLog::take()
     case RunJournal::Kind::resumed:
         add ("halt", "false");
         break;
+    case RunJournal::Kind::emergency:
+        add ("emergency", "true");
+        break;
+    case RunJournal::Kind::rearmed:
+        add ("rearm", "true");
+        break;
     case RunJournal::Kind::ticked:
         takeTick (of, static_cast<std::size_t> (words.take()));
     }
@@ -147,6 +171,26 @@ void RunLog::takeOver (std::uint64_t serial)
     for (const auto& role : expected.front().plan->roles)
         if (auto joining = joined.extract (role.name)) guards.insert (std::move (joining));
     if (! guards.empty()) add ("guards", textOf (toJson (guards)));
+
+    std::map<std::string, DeviceLayout> devices;
+    for (const auto& role : expected.front().plan->roles)
+        if (auto joining = joined_devices.extract (role.name)) devices.insert (std::move (joining));
+    if (const auto has = toJson (devices); ! has.empty()) add ("devices", textOf (has));
+}
+
+LoggedReading RunLog::takeReading()
+{
+    auto& words = taken.words();
+    const auto number = [&]
+    { return std::bit_cast<double> (words.take()); };
+    LoggedReading reading;
+    std::ranges::generate (reading.numbers, number);
+    const auto sizes = words.take();
+    for (int i = 0; i < static_cast<int> (sizes & 0xffu); ++i)
+        reading.axes.set (i, number());
+    for (int i = 0; i < static_cast<int> (sizes >> 8u & 0xffu); ++i)
+        reading.signals.set (i, number());
+    return reading;
 }
 
 void RunLog::takeTick (std::size_t roles, std::size_t feeds)
@@ -165,28 +209,25 @@ void RunLog::takeTick (std::size_t roles, std::size_t feeds)
     std::string read;
     for (std::size_t r = 0; r < roles; ++r)
     {
-        ReadingNumbers numbers;
-        std::ranges::generate (numbers, number);
+        const auto reading = takeReading();
         const auto& role = expected.front().plan->roles[r].name;
-        auto& before = readings.try_emplace (role, toNumbers ({})).first->second;
+        auto& before = readings.try_emplace (role, toLogged ({})).first->second;
         std::string changed;
+        const auto change = [&] (std::string_view key, const std::string& value)
+        { changed += (changed.empty() ? "\"" : ",\"") + std::string (key) + "\":" + value; };
         for (const auto& [key, first, size] : reading_fields)
-            if (const auto field = std::span (numbers).subspan (first, size); ! same (field, std::span (before).subspan (first, size)))
-                changed += (changed.empty() ? "\"" : ",\"") + std::string (key) + "\":" + listOf (field);
+            if (const auto field = std::span (reading.numbers).subspan (first, size); ! same (field, std::span (before.numbers).subspan (first, size))) change (key, textOf (field));
+        for (const auto& [key, value] : channel_fields)
+            if (! same (all (reading.*value), all (before.*value))) change (key, listOf (all (reading.*value)));
         if (! changed.empty()) read += (read.empty() ? "" : ",") + textOf (role) + ":{" + changed + "}";
-        before = numbers;
+        before = reading;
     }
     if (! read.empty()) add ("read", "{" + read + "}");
 
     std::vector<double> values (feeds);
     std::ranges::generate (values, number);
     if (! same (values, feed))
-    {
-        std::string list;
-        for (const double v : values)
-            list += (list.empty() ? "" : ",") + logNumber (v);
-        add ("feed", "[" + list + "]");
-    }
+        add ("feed", listOf (values));
     feed = std::move (values);
 
     if (! line.empty()) endLine();

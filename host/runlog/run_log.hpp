@@ -38,9 +38,9 @@ public:
     /// Where relative paths in the log start.
     const std::filesystem::path& folder() const noexcept { return place; }
 
-    /// This plan, made of the graph of this snapshot, may tick from now on, with the guards of roles that are new: to be said
-    /// before it is submitted.
-    void expect (std::shared_ptr<const Plan>, const Json& snapshot, const std::map<std::string, GuardLimits>& joining = {});
+    /// This plan, made of the graph of this snapshot, may tick from now on, with the guards and devices of roles that are new:
+    /// to be said before it is submitted.
+    void expect (std::shared_ptr<const Plan>, const Json& snapshot, const std::map<std::string, GuardLimits>& joining = {}, const std::map<std::string, DeviceLayout>& devices = {});
 
     /// Writes what has come in. To be called many times a second, and to the last after the ticks. Where that fails the log
     /// ends, after the last line that was whole, and nothing more is written.
@@ -64,6 +64,7 @@ private:
     void take();
     void takeOver (std::uint64_t serial);
     void takeTick (std::size_t roles, std::size_t feeds);
+    LoggedReading takeReading();
     void add (std::string_view key, std::string_view value);
     void endLine();
     tl::expected<void, Error> written();
@@ -76,7 +77,8 @@ private:
     std::deque<Expected> expected;               // the plan that ticks, and those that may come
     std::string graph;                           // as it was last written
     std::map<std::string, GuardLimits> joined;   // since, or to come
-    std::map<std::string, ReadingNumbers> readings;
+    std::map<std::string, DeviceLayout> joined_devices;
+    std::map<std::string, LoggedReading> readings;
     std::vector<double> feed;
     std::uint64_t now = 0;   // tick
 

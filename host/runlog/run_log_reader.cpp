@@ -67,6 +67,47 @@ public:
             number (value[i], where + "/" + std::to_string (i), to[i]);
     }
 
+    void numbers (const Json& list, const std::string& where, Channels& to)
+    {
+        to.clear();
+        if (list.size() > static_cast<std::size_t> (Channels::most)) return wrong (where, "there are " + std::to_string (list.size()) + " values, and a device has at most " + std::to_string (Channels::most));
+        for (std::size_t i = 0; i < list.size(); ++i)
+        {
+            double value = 0.0;
+            number (list[i], where + "/" + std::to_string (i), value);
+            to.set (static_cast<int> (i), value);
+        }
+    }
+
+    void devices (Json& object, const std::string& where, std::map<std::string, DeviceLayout>& to)
+    {
+        for (auto& [role, has] : object.get_ref<Json::object_t&>())
+        {
+            auto& device = to[role];
+            const auto names = [this] (std::vector<std::string>& all)
+            {
+                return [this, &all] (Json& v, const std::string& place)
+                { texts (v, place, all); };
+            };
+            const auto count = [this] (int& n)
+            {
+                return [this, &n] (Json& v, const std::string& place)
+                {
+                    whole (v, place, n);
+                    if (n < 0 || n > Channels::most) wrong (place, "a device has at most " + std::to_string (Channels::most) + " signals each way");
+                };
+            };
+            const std::vector<KnownKey> keys {
+                { "axes", JsonKind::list, names (device.axes) },
+                { "efforts", JsonKind::list, names (device.efforts) },
+                { "buttons", JsonKind::list, names (device.buttons) },
+                { "signal_inputs", JsonKind::any, count (device.signal_inputs) },
+                { "signal_outputs", JsonKind::any, count (device.signal_outputs) },
+            };
+            if (const auto place = where + "/" + pointerPart (role); fields.isKind (has, JsonKind::object, place)) read (has, place, keys);
+        }
+    }
+
     void guards (Json& object, const std::string& where, std::map<std::string, GuardLimits>& to)
     {
         for (auto& [role, limits] : object.get_ref<Json::object_t&>())
@@ -76,6 +117,8 @@ public:
             for (const auto& field : guard_fields)
                 keys.push_back ({ field.key, JsonKind::any, [this, &guard, value = field.value] (Json& v, const std::string& place)
                                   { number (v, place, guard.*value); } });
+            keys.push_back ({ dead_man_buttons, JsonKind::any, [this, &guard] (Json& v, const std::string& place)
+                              { whole (v, place, guard.dead_man_buttons); } });
             if (const auto place = where + "/" + pointerPart (role); fields.isKind (limits, JsonKind::object, place)) read (limits, place, keys);
         }
     }
@@ -168,6 +211,8 @@ tl::expected<void, Error> RunLogReader::readHead()
                                          { head.texts (v, where, begin.feeds); } },
                                        { "guards", JsonKind::object, [&] (Json& v, const std::string& where)
                                          { head.guards (v, where, begin.guards); } },
+                                       { "devices", JsonKind::object, [&] (Json& v, const std::string& where)
+                                         { head.devices (v, where, begin.devices); } },
                                    });
     if (head.problem()) return tl::unexpected (toError (head, placeOf (number)));
     if (begin.rate_hz == 0.0) return tl::unexpected (at ("log/missing", "the first line does not say at which rate_hz the ticks came", as_written));
@@ -197,13 +242,16 @@ tl::expected<RunTick, Error> RunLogReader::readTick (const std::string& text)
     std::optional<std::uint64_t> k;
     const auto role = [&] (Json& fields, const std::string& where, const std::string& name_of_role)
     {
-        auto& numbers = readings.try_emplace (name_of_role, toNumbers ({})).first->second;
+        auto& reading = readings.try_emplace (name_of_role, toLogged ({})).first->second;
         std::vector<KnownKey> keys;
         for (const auto& field : reading_fields)
             keys.push_back ({ field.key, JsonKind::any, [&] (Json& value, const std::string& place)
-                              { line.numbers (value, place, std::span (numbers).subspan (field.first, field.size)); } });
+                              { line.numbers (value, place, std::span (reading.numbers).subspan (field.first, field.size)); } });
+        for (const auto& field : channel_fields)
+            keys.push_back ({ field.key, JsonKind::list, [&, value = field.value] (Json& v, const std::string& place)
+                              { line.numbers (v, place, reading.*value); } });
         if (line.fields.isKind (fields, JsonKind::object, where)) line.read (fields, where, keys);
-        tick.readings.emplace_back (name_of_role, toReading (numbers));
+        tick.readings.emplace_back (name_of_role, toReading (reading));
     };
     const std::vector<KnownKey> keys {
         { "tick", JsonKind::any, [&] (Json& v, const std::string& where)
@@ -212,6 +260,8 @@ tl::expected<RunTick, Error> RunLogReader::readTick (const std::string& text)
           { tick.graph = std::move (v); } },
         { "guards", JsonKind::object, [&] (Json& v, const std::string& where)
           { line.guards (v, where, tick.guards); } },
+        { "devices", JsonKind::object, [&] (Json& v, const std::string& where)
+          { line.devices (v, where, tick.devices); } },
         { "kept", JsonKind::list, [&] (Json& v, const std::string& where)
           { line.texts (v, where, tick.kept); } },
         { "turn", JsonKind::object, [&] (Json& v, const std::string& where)
@@ -227,6 +277,10 @@ tl::expected<RunTick, Error> RunLogReader::readTick (const std::string& text)
           } },
         { "halt", JsonKind::truth, [&] (Json& v, const std::string&)
           { tick.halt = v.get<bool>(); } },
+        { "rearm", JsonKind::truth, [&] (Json& v, const std::string&)
+          { tick.rearm = v.get<bool>(); } },
+        { "emergency", JsonKind::truth, [&] (Json& v, const std::string&)
+          { tick.emergency = v.get<bool>(); } },
         { "read", JsonKind::object, [&] (Json& v, const std::string& where)
           {
               for (auto& [name_of_role, fields] : v.get_ref<Json::object_t&>())

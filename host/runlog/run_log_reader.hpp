@@ -34,13 +34,16 @@ struct RunTick
     };
 
     std::uint64_t tick = 0;
-    int line = 0;                                               ///< of the log, from 1
-    std::optional<Json> graph {};                               ///< snapshot of the one that took over
-    std::map<std::string, GuardLimits> guards {};               ///< of roles that it has first
-    std::vector<std::string> kept {};                           ///< parameters that stay where they were turned, whatever it has
-    std::vector<std::pair<std::string, double>> turns {};       ///< targets by parameter
-    std::vector<std::uint64_t> late {};                         ///< as RepeatedAnswers takes them
-    std::optional<bool> halt {};                                ///< from this tick on all efforts are brought to zero, or rise again
+    int line = 0;                                           ///< of the log, from 1
+    std::optional<Json> graph {};                           ///< snapshot of the one that took over
+    std::map<std::string, GuardLimits> guards {};           ///< of roles that it has first
+    std::map<std::string, DeviceLayout> devices {};         ///< the same, of those that have more than a tool
+    std::vector<std::string> kept {};                       ///< parameters that stay where they were turned, whatever it has
+    std::vector<std::pair<std::string, double>> turns {};   ///< targets by parameter
+    std::vector<std::uint64_t> late {};                     ///< as RepeatedAnswers takes them
+    std::optional<bool> halt {};                            ///< from this tick on all efforts are brought to zero, or rise again
+    bool rearm = false;                                     ///< what has stopped a guard for good ends; before an emergency stop
+    bool emergency = false;
     std::vector<std::pair<std::string, Reading>> readings {};   ///< by role; of the others as before
     std::optional<std::vector<double>> feed {};                 ///< as before, if there is none
     Last last = Last::no;
@@ -83,7 +86,7 @@ private:
     std::unique_ptr<std::istream> in;
     std::string called;
     RunHead begin;
-    std::map<std::string, ReadingNumbers, std::less<>> readings;
+    std::map<std::string, LoggedReading, std::less<>> readings;
     std::optional<std::uint64_t> before;   // tick of the line before
     int number = 0;                        // of the line
     bool over = false, cut_off = false;

@@ -38,14 +38,10 @@ struct RunStatus
         double force = 0.0, torque = 0.0;       ///< N, N m; lengths
         Guard::Stop stop = Guard::Stop::none;   ///< why the guard withholds the effort now
 
-        // Of the latest stop, what its Guard::Event says.
+        // Of the latest stop, also when it is over.
         Guard::Stop latest = Guard::Stop::none;
-        std::array<double, 6> wanted {};
-        double age = 0.0, watchdog = 0.0;
-        bool valid = true;
-
-        /// For describe().
-        Guard::Event latestEvent() const { return { .why = latest, .wanted = { Vec3 (wanted.data()), Vec3 (wanted.data() + 3) }, .age = age, .watchdog = watchdog, .valid = valid }; }
+        Guard::Event event {};
+        const Guard::Event& latestEvent() const noexcept { return event; }   ///< for describe()
     };
 
     static constexpr std::size_t most_roles = 16;

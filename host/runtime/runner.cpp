@@ -98,13 +98,8 @@ void Runner::publish() noexcept
         role.force = force;
         role.torque = applied.torque.norm();
         role.stop = guard.stop();
-        const auto& event = guard.latest();
-        role.latest = event.why;
-        std::ranges::copy (event.wanted.force, role.wanted.begin());
-        std::ranges::copy (event.wanted.torque, role.wanted.begin() + 3);
-        role.age = event.age;
-        role.watchdog = event.watchdog;
-        role.valid = event.valid;
+        role.event = guard.latest();
+        role.latest = role.event.why;
     }
     now.peak = std::max (now.peak, now.force);
     published.store (now, sizeof now - sizeof now.roles + now.shown().size_bytes());

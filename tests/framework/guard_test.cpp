@@ -35,6 +35,13 @@ bool sameBits (const Vec3& a, const Vec3& b)
     return true;
 }
 
+bool sameBits (const Channels& a, const Channels& b)
+{
+    for (int i = 0; i < std::max (a.size(), b.size()); ++i)
+        if (a.has (i) && b.has (i) ? std::bit_cast<std::uint64_t> (a[i]) != std::bit_cast<std::uint64_t> (b[i]) : a[i] != b[i]) return false;
+    return true;
+}
+
 double length (const Vec3& v) { return v.stableNorm(); }
 
 // Numbers as they come, up to the ends of what a double can hold; whole numbers among them, so that rows repeat.
@@ -59,11 +66,21 @@ rc::Gen<Vec3> vectorOf (const rc::Gen<double>& part)
                          { return Vec3 (std::get<0> (t), std::get<1> (t), std::get<2> (t)); });
 }
 
+rc::Gen<Channels> channelsOf (const rc::Gen<double>& part)
+{
+    return rc::gen::map (rc::gen::container<std::vector<double>> (part), [] (const auto& values)
+                         {
+                             Channels all;
+                             for (std::size_t i = 0; i < std::min (values.size(), std::size_t { 4 }); ++i)
+                                 all.set (static_cast<int> (i), values[i]);
+                             return all; });
+}
+
 struct Tick
 {
     Effort wanted;
     Reading reading;
-    bool halt = false;
+    bool halt = false, stop = false, rearm = false;
 };
 
 rc::Gen<Tick> anyTick()
@@ -72,14 +89,27 @@ rc::Gen<Tick> anyTick()
                                       { return i == 0; });
     const auto age = rc::gen::weightedOneOf<double> ({ { 20, rc::gen::just (0.0) }, { 1, rc::gen::element (0.004, 0.1, endless, not_a_number, -1.0) } });
 
-    return rc::gen::map (rc::gen::tuple (vectorOf (anyNumber()), vectorOf (anyNumber()), age, rarely, rarely),
+    const auto wanted = rc::gen::map (rc::gen::tuple (vectorOf (anyNumber()), vectorOf (anyNumber()), channelsOf (anyNumber()), channelsOf (anyNumber())),
+                                      [] (const auto& t)
+                                      { return Effort { std::get<0> (t), std::get<1> (t), std::get<2> (t), std::get<3> (t) }; });
+    const auto places = vectorOf (rc::gen::weightedOneOf<double> ({ { 20, rc::gen::map (rc::gen::inRange (-100, 101), [] (int i)
+                                                                                        { return 1e-5 * i; }) },
+                                                                    { 1, anyNumber() } }));
+    const auto buttons = rc::gen::map (rc::gen::inRange (0, 20), [] (int i)
+                                       { return i < 18 ? 1u : 0u; });
+
+    return rc::gen::map (rc::gen::tuple (wanted, places, age, rarely, rarely, rarely, buttons),
                          [] (const auto& t)
                          {
                              Tick tick;
-                             tick.wanted = { std::get<0> (t), std::get<1> (t) };
-                             tick.halt = std::get<4> (t);
+                             tick.wanted = std::get<0> (t);
+                             tick.reading.position = std::get<1> (t);
                              tick.reading.age = std::get<2> (t);
                              tick.reading.valid = ! std::get<3> (t);
+                             tick.reading.buttons = std::get<6> (t);
+                             tick.halt = std::get<4> (t);
+                             tick.rearm = std::get<5> (t);
+                             tick.stop = tick.rearm && tick.halt;
                              return tick;
                          });
 }
@@ -91,7 +121,11 @@ rc::Gen<GuardLimits> anyLimits()
     const auto ramp = rc::gen::element (0.0, 0.0, 0.002, 0.5, endless);
     const auto watchdog = rc::gen::element (endless, 0.02, 0.0);
 
-    return rc::gen::map (rc::gen::tuple (limit, limit, slew, slew, ramp, watchdog),
+    const auto rarely = rc::gen::element (endless, endless, endless, 0.01, 0.5);
+    const auto window = rc::gen::element (0.0, 0.01, 1.0, endless);
+    const auto buttons = rc::gen::element (0u, 0u, 1u);
+
+    return rc::gen::map (rc::gen::tuple (limit, limit, slew, slew, ramp, watchdog, limit, slew, limit, rarely, rarely, window, rarely, window, buttons),
                          [] (const auto& t)
                          {
                              return GuardLimits {
@@ -101,6 +135,15 @@ rc::Gen<GuardLimits> anyLimits()
                                  .max_torque_slew = std::get<3> (t),
                                  .ramp = std::get<4> (t),
                                  .watchdog = std::get<5> (t),
+                                 .max_axis_effort = std::get<6> (t),
+                                 .max_axis_slew = std::get<7> (t),
+                                 .max_signal = std::get<8> (t),
+                                 .max_speed = std::get<9> (t),
+                                 .max_impulse = std::get<10> (t),
+                                 .impulse_window = std::get<11> (t),
+                                 .max_energy = std::get<12> (t),
+                                 .energy_window = std::get<13> (t),
+                                 .dead_man_buttons = std::get<14> (t),
                              };
                          });
 }
@@ -118,6 +161,8 @@ void play (Guard& guard, const std::vector<Tick>& run, Check check)
     for (const auto& tick : run)
     {
         tick.halt ? guard.halt() : guard.resume();
+        if (tick.rearm) guard.rearm();
+        if (tick.stop) guard.emergencyStop();
         const Effort now = guard (tick.wanted, tick.reading);
         check (tick, before, now);
         before = now;
@@ -135,7 +180,9 @@ TEST_CASE ("guard: without limits a finite effort passes to the bit, whatever ca
                         {
                             if (guard.stop() != Guard::Stop::none) return;
                             RC_ASSERT (sameBits (now.force, tick.wanted.force));
-                            RC_ASSERT (sameBits (now.torque, tick.wanted.torque)); });
+                            RC_ASSERT (sameBits (now.torque, tick.wanted.torque));
+                            RC_ASSERT (sameBits (now.axes, tick.wanted.axes));
+                            RC_ASSERT (sameBits (now.signals, tick.wanted.signals)); });
               });
 }
 
@@ -146,7 +193,7 @@ TEST_CASE ("guard: what is not a number never reaches a device", "[framework][gu
               {
                   auto guard = guardWith (*anyLimits());
                   play (guard, anyRun(), [] (const Tick&, const Effort&, const Effort& now)
-                        { RC_ASSERT (isFinite (now.force, now.torque)); });
+                        { RC_ASSERT (isFinite (now.force, now.torque, now.axes, now.signals)); });
               });
 
     rc::prop ("limits, periods and ages that are no numbers themselves",
@@ -154,9 +201,11 @@ TEST_CASE ("guard: what is not a number never reaches a device", "[framework][gu
               {
                   const auto wild = rc::gen::element (not_a_number, -1.0, endless, -endless, 0.0, 1.0, 1.7e308);
                   Guard guard;
-                  guard.prepare ({ *wild, *wild, *wild, *wild, *wild, *wild }, *wild);
-                  play (guard, anyRun(), [] (const Tick&, const Effort&, const Effort& now)
-                        { RC_ASSERT (isFinite (now.force, now.torque)); });
+                  guard.prepare ({ *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild, *wild }, *wild);
+                  play (guard, anyRun(), [&] (const Tick&, const Effort&, const Effort& now)
+                        {
+                            RC_ASSERT (isFinite (now.force, now.torque, now.axes, now.signals));
+                            RC_ASSERT_FALSE (describe (guard.latest()).empty()); });
               });
 }
 
@@ -170,7 +219,7 @@ TEST_CASE ("guard: from one end of the doubles to the other is a long way, but a
     CHECK (guard (pushing (-1.7e308), fresh).force.x() == Approx (-1.7e308));
 }
 
-TEST_CASE ("guard: force and torque are never longer than their limits", "[framework][guard]")
+TEST_CASE ("guard: nothing is ever more than its limit", "[framework][guard]")
 {
     rc::prop ("any run, any limits",
               []
@@ -180,7 +229,11 @@ TEST_CASE ("guard: force and torque are never longer than their limits", "[frame
                   play (guard, anyRun(), [&] (const Tick&, const Effort&, const Effort& now)
                         {
                             RC_ASSERT (length (now.force) <= limits.max_force * (1 + 1e-15));
-                            RC_ASSERT (length (now.torque) <= limits.max_torque * (1 + 1e-15)); });
+                            RC_ASSERT (length (now.torque) <= limits.max_torque * (1 + 1e-15));
+                            for (const double axis : now.axes)
+                                RC_ASSERT (std::abs (axis) <= limits.max_axis_effort);
+                            for (const double signal : now.signals)
+                                RC_ASSERT (std::abs (signal) <= limits.max_signal); });
               });
 }
 
@@ -196,7 +249,38 @@ TEST_CASE ("guard: from tick to tick the effort changes no faster than the slew 
                             // What is left is the rounding of a sum, an ulp of the force itself.
                             const auto slack = [] (const Vec3& a, const Vec3& b) { return 1e-15 * (length (a) + length (b)); };
                             RC_ASSERT (length (0.5 * now.force - 0.5 * before.force) <= 0.5 * limits.max_slew * dt + slack (now.force, before.force));
-                            RC_ASSERT (length (0.5 * now.torque - 0.5 * before.torque) <= 0.5 * limits.max_torque_slew * dt + slack (now.torque, before.torque)); });
+                            RC_ASSERT (length (0.5 * now.torque - 0.5 * before.torque) <= 0.5 * limits.max_torque_slew * dt + slack (now.torque, before.torque));
+                            for (int i = 0; i < std::max (now.axes.size(), before.axes.size()); ++i)
+                                RC_ASSERT (std::abs (0.5 * now.axes[i] - 0.5 * before.axes[i]) <= 0.5 * limits.max_axis_slew * dt + 1e-15 * (std::abs (now.axes[i]) + std::abs (before.axes[i]))); });
+              });
+}
+
+TEST_CASE ("guard: whatever stops it, and whatever else happens meanwhile, a stop takes the fade and is no step", "[framework][guard]")
+{
+    rc::prop ("any run, any limits but those of slew, which make it longer",
+              []
+              {
+                  auto limits = *anyLimits();
+                  limits.max_slew = limits.max_torque_slew = limits.max_axis_slew = endless;
+                  auto guard = guardWith (limits);
+                  Effort at_stop;
+                  int ticks = 0;
+                  play (guard, anyRun(), [&] (const Tick&, const Effort& before, const Effort& now)
+                        {
+                            if (guard.stop() == Guard::Stop::none)
+                            {
+                                ticks = 0;
+                                return;
+                            }
+                            if (ticks++ == 0) at_stop = before;
+                            const double part = dt / Guard::fade_s * (1 + 1e-12);
+                            RC_ASSERT (length (0.5 * now.force - 0.5 * before.force) <= 0.5 * part * length (at_stop.force) + 1e-320);
+                            RC_ASSERT (length (0.5 * now.torque - 0.5 * before.torque) <= 0.5 * part * length (at_stop.torque) + 1e-320);
+                            for (int i = 0; i < at_stop.axes.size(); ++i)
+                                RC_ASSERT (std::abs (0.5 * now.axes[i] - 0.5 * before.axes[i]) <= 0.5 * part * std::abs (at_stop.axes[i]) + 1e-320);
+                            for (int i = 0; i < at_stop.signals.size(); ++i)
+                                RC_ASSERT (std::abs (0.5 * now.signals[i] - 0.5 * before.signals[i]) <= 0.5 * part * std::abs (at_stop.signals[i]) + 1e-320);
+                            if (ticks > Guard::fade_s / dt + 1) RC_ASSERT (guard.isAtRest()); });
               });
 }
 
@@ -371,6 +455,14 @@ TEST_CASE ("guard: a session can tighten a profile's limits, never loosen them",
 
     CHECK (tightest (profile, session) == GuardLimits { .max_force = 3.3, .max_torque = 0.1, .max_slew = 200.0, .ramp = 0.2, .watchdog = 0.02 });
     CHECK (tightest (profile, {}) == profile);
+
+    const GuardLimits short_window { .max_impulse = 1.0, .impulse_window = 0.1, .max_energy = 0.5, .energy_window = 2.0, .dead_man_buttons = 1 };
+    const GuardLimits long_window { .max_axis_effort = 2.0, .max_signal = 1.0, .max_speed = 1.0, .max_impulse = 3.0, .impulse_window = 1.0, .max_energy = 0.1, .dead_man_pressure = 0.5, .dead_man_buttons = 4 };
+    const auto both = tightest (short_window, long_window);
+    CHECK (both == tightest (long_window, short_window));
+    CHECK (both == GuardLimits { .max_axis_effort = 2.0, .max_signal = 1.0, .max_speed = 1.0, .max_impulse = 1.0, .impulse_window = 1.0, .max_energy = 0.1, .energy_window = 0.0, .dead_man_pressure = 0.5, .dead_man_buttons = 5 });
+    CHECK (tightest (both, {}) == both);
+    CHECK (tightest ({ .impulse_window = 5.0 }, short_window).impulse_window == 0.1);   // of no limit
     CHECK (tightest (profile, { .max_force = not_a_number, .ramp = not_a_number }).max_force == 0.0);
 }
 

@@ -69,6 +69,8 @@ struct Lateness final : Journal
     void late (std::uint64_t question) noexcept override { questions.push_back (question); }
     void halted() noexcept override {}
     void resumed() noexcept override {}
+    void emergency() noexcept override {}
+    void rearmed() noexcept override {}
     void ticked (const Plan&) noexcept override {}
 
     std::vector<std::uint64_t> questions;

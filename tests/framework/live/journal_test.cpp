@@ -25,6 +25,8 @@ struct Notes final : Journal
     void late (std::uint64_t question) noexcept override { add ("late " + std::to_string (question)); }
     void halted() noexcept override { add ("halt"); }
     void resumed() noexcept override { add ("resume"); }
+    void emergency() noexcept override { add ("emergency"); }
+    void rearmed() noexcept override { add ("rearm"); }
     void ticked (const Plan&) noexcept override { add ("tick"); }
 
     void add (std::string what) { all.push_back (std::move (what)); }
@@ -64,6 +66,19 @@ TEST_CASE ("a journal is told what takes effect, on the tick on which it does", 
     CHECK (notes.taken() == std::vector<std::string> { "halt", "tick" });
     engine.resume();
     CHECK (notes.taken() == std::vector<std::string> { "resume" });
+
+    engine.emergencyStop();
+    CHECK (notes.taken().empty());
+    engine.tick();
+    engine.emergencyStop();   // as good as pressed
+    engine.tick();
+    CHECK (notes.taken() == std::vector<std::string> { "emergency", "tick", "tick" });
+    engine.rearm();
+    engine.emergencyStop();
+    engine.tick();
+    engine.rearm();
+    engine.tick();
+    CHECK (notes.taken() == std::vector<std::string> { "rearm", "emergency", "tick", "rearm", "tick" });
 }
 
 TEST_CASE ("a journal is told when a turn outdoes an edit that came before it", "[live]")

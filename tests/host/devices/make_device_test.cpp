@@ -117,7 +117,7 @@ TEST_CASE ("device description: every problem is told at once, with its place", 
 {
     const auto m = made (R"({"driver": "sim", "mass": 0, "damping": "-1 N*s/m", "quantum": "1 N", "delay": 1.5, "first_mode": [1], "dampign": 1,
         "position": [0, 0], "velocity": [0, "1 m", "fast"], "hand_force": "1 N", "hand": {"stifness": 5, "path": "strok"},
-        "guard": {"max_force": -1, "watchdog": 0, "ramp": "1 m", "max_speed": 3}})");
+        "guard": {"max_force": -1, "watchdog": 0, "ramp": "1 m", "max_sped": 3}})");
 
     CHECK (m.device == nullptr);
     CHECK (found (m) == std::vector<std::string> {
@@ -135,7 +135,7 @@ TEST_CASE ("device description: every problem is told at once, with its place", 
                "device/out_of_range /guard/max_force",
                "device/unit /guard/ramp",
                "device/out_of_range /guard/watchdog",
-               "device/unknown_key /guard/max_speed",
+               "device/unknown_key /guard/max_sped",
                "device/unknown_key /dampign",
            });
 
@@ -146,7 +146,51 @@ TEST_CASE ("device description: every problem is told at once, with its place", 
     CHECK (remedy ("/dampign") == "did you mean 'damping'?");
     CHECK (remedy ("/hand/stifness") == "did you mean 'stiffness'?");
     CHECK (remedy ("/hand/path") == "did you mean 'stroke'?");
-    CHECK (remedy ("/guard/max_speed").find ("max_slew") != std::string::npos);
+    CHECK (remedy ("/guard/max_sped").find ("max_speed") != std::string::npos);
+}
+
+TEST_CASE ("device description: everything that a guard can limit is read, with its unit", "[host][devices]")
+{
+    const auto m = made (R"({"driver": "sim", "guard": {"max_axis_effort": "200 N*mm", "max_axis_slew": "3 N*m/s", "max_signal": 0.5, "max_speed": "150 cm/s",
+        "max_impulse": "4 N*s", "impulse_window": "2 s", "max_energy": "50 mJ", "energy_window": "500 ms", "dead_man_button": 3, "dead_man_pressure": "0.2 N"}})");
+    REQUIRE (m.messages.empty());
+    CHECK (m.limits == GuardLimits { .max_axis_effort = 0.2, .max_axis_slew = 3.0, .max_signal = 0.5, .max_speed = 1.5, .max_impulse = 4.0, .impulse_window = 2.0, .max_energy = 0.05, .energy_window = 0.5, .dead_man_pressure = 0.2, .dead_man_buttons = 8 });
+    CHECK (made (R"({"driver": "sim", "guard": {"max_axis_effort": "2 N"}})").limits.max_axis_effort == 2.0);
+}
+
+TEST_CASE ("device description: a limit that nobody could hold to is an error, and lets nothing through", "[host][devices]")
+{
+    const auto m = made (R"({"driver": "sim", "guard": {"max_axis_effort": "2 m", "max_speed": 0, "max_impulse": 1, "max_energy": "1 N", "energy_window": "0 s", "dead_man_button": "grip"}})");
+    CHECK (found (m) == std::vector<std::string> {
+               "device/unit /guard/max_axis_effort",
+               "device/out_of_range /guard/max_speed",
+               "device/missing /guard",
+               "device/unit /guard/max_energy",
+               "device/out_of_range /guard/energy_window",
+               "device/unknown_button /guard/dead_man_button",
+           });
+    CHECK (m.messages.back().text == "the device has no button 'grip'; it has no buttons at all");
+    CHECK (m.limits.dead_man_buttons == ~std::uint64_t { 0 });
+    CHECK (found (made (R"({"driver": "sim", "guard": {"dead_man_button": 32}})")) == std::vector<std::string> { "device/out_of_range /guard/dead_man_button" });
+    CHECK (found (made (R"({"driver": "sim", "guard": {"dead_man_button": true}})")) == std::vector<std::string> { "device/kind /guard/dead_man_button" });
+}
+
+TEST_CASE ("device description: a simulated device may have axes beside the tool, and signals", "[host][devices]")
+{
+    const auto m = made (R"({"driver": "sim", "axes": {"trigger": {"mass": "20 g", "damping": 0.5, "stiffness": "0.2 N/mm", "position": "1 mm", "hand_force": "1 N"}, "wheel": {}}, "signal_outputs": 2})");
+    REQUIRE (m.messages.empty());
+    CHECK (m.device->layout() == DeviceLayout { .axes = { "trigger", "wheel" }, .efforts = { "trigger", "wheel" }, .signal_outputs = 2 });
+    const auto& trigger = simulationOf (m).axes.at (0);
+    CHECK (trigger.mass == Approx (0.02));
+    CHECK (trigger.stiffness == Approx (200.0));
+    CHECK (found (made (R"({"driver": "sim", "axes": {"Left": {}, "a": {"mass": 0, "spring": 1}, "b": 3}, "signal_outputs": -1})")) == std::vector<std::string> {
+               "device/name /axes/Left",
+               "device/out_of_range /axes/a/mass",
+               "device/unknown_key /axes/a/spring",
+               "device/kind /axes/b",
+               "device/out_of_range /signal_outputs",
+           });
+    CHECK (found (made (R"({"driver": "sim", "axes": []})")) == std::vector<std::string> { "device/kind /axes" });
 }
 
 TEST_CASE ("device description: a gesture that does not exist names those that do", "[host][devices]")

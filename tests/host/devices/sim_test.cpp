@@ -41,6 +41,29 @@ Vec3 anyVector (double reach)
 }
 }   // namespace
 
+TEST_CASE ("sim: an axis beside the tool goes where a mass on a spring goes", "[host][devices]")
+{
+    // Damped as little as it may be without swinging: m x'' + b x' + k x = f, from rest, with b = 2 sqrt (k m).
+    constexpr double mass = 0.05, stiffness = 80.0, force = 2.0, dt = 1e-4;
+    SimulatedDevice device ({ .axes = { { .name = "rest" }, { .name = "trigger", .mass = mass, .damping = 4.0, .stiffness = stiffness, .position = 0.01 } } });
+    device.prepare (dt);
+    Effort push;
+    push.axes.set (1, force);
+    for (int k = 0; k < 2000; ++k)
+    {
+        const double t = k * dt, w = std::sqrt (stiffness / mass);
+        const auto axes = device.read().axes;
+        REQUIRE (axes[1] - 0.01 == Approx (force / stiffness * (1.0 - (1.0 + w * t) * std::exp (-w * t))).margin (1e-4));
+        REQUIRE (axes[0] == 0.0);
+        device.write (push);
+    }
+    push.axes.set (1, std::numeric_limits<double>::quiet_NaN());
+    device.write (push);
+    CHECK (std::isfinite (device.read().axes[1]));
+    device.prepare (dt);
+    CHECK (device.read().axes[1] == 0.01);
+}
+
 TEST_CASE ("sim: against a wall it moves as the exact solution of the sampled loop says", "[host][devices]")
 {
     const test::Golden golden ("wallsim");

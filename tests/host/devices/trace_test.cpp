@@ -138,16 +138,59 @@ TEST_CASE ("trace: rotation, pressure and buttons come along, in any order of co
 
 TEST_CASE ("trace: everything that is wrong with the columns is told at once", "[host][devices]")
 {
-    const auto result = readTrace (std::vector<std::string> { "x", "x", "zz", "button99" }, {});
+    const auto result = readTrace (std::vector<std::string> { "x", "x", "Force [N]", "button99" }, {});
     CHECK (idsOf (result.messages) == std::vector<std::string> { "trace/duplicate_column", "trace/unknown_column", "trace/unknown_column", "trace/missing_column", "trace/missing_column", "trace/missing_column", "trace/empty" });
 }
 
 TEST_CASE ("trace: a column that means nothing is a warning, and the rest is read", "[host][devices]")
 {
-    const auto result = readTrace (std::vector<std::string> { "t", "x", "y", "z", "mood" }, std::vector<double> { 0, 1, 2, 3, 99 });
+    const auto result = readTrace (std::vector<std::string> { "t", "x", "y", "z", "Mood" }, std::vector<double> { 0, 1, 2, 3, 99 });
     CHECK (idsOf (result.messages) == std::vector<std::string> { "trace/unknown_column" });
     CHECK (! hasErrors (result.messages));
     CHECK (result.trace.rows.at (0).position == Vec3 (1, 2, 3));
+}
+
+TEST_CASE ("trace: other columns are axes by their names, and signals by their channels", "[host][devices]")
+{
+    const std::vector<std::string> columns { "t", "signal3", "x", "trigger", "y", "z", "signal1", "stick", "button4" };
+    auto device = playing ({ 0, 0.3, 1, 0.5, 2, 3, 0.1, -1, 0,
+                             1, 0.6, 1, not_a_number, 2, 3, 0.2, 0, 1 },
+                           1.0, columns);
+    CHECK (device.layout() == DeviceLayout { .axes = { "trigger", "stick" }, .buttons = std::vector<std::string> (5), .signal_inputs = 3 });
+    const auto first = next (device), second = next (device);
+    CHECK (first.axes.size() == 2);
+    CHECK (first.axes[0] == 0.5);
+    CHECK (first.axes[1] == -1.0);
+    CHECK (first.signals.size() == 3);
+    CHECK (first.signals[0] == 0.1);
+    CHECK (first.signals[1] == 0.0);
+    CHECK (first.signals[2] == 0.3);
+    CHECK (second.signals[2] == 0.6);
+    CHECK (std::isnan (second.axes[0]));
+    CHECK (second.valid);
+}
+
+TEST_CASE ("trace: a column that looks like a misspelt one is read as an axis, with a warning", "[host][devices]")
+{
+    const auto result = readTrace (std::vector<std::string> { "t", "x", "y", "z", "presure", "signal33" }, std::vector<double> { 0, 1, 2, 3, 4, 5 });
+    CHECK (idsOf (result.messages) == std::vector<std::string> { "trace/like_column", "trace/unknown_column" });
+    CHECK (result.trace.axes == std::vector<std::string> { "presure" });
+    CHECK (result.trace.rows.at (0).pressure == 0.0);
+}
+
+TEST_CASE ("trace: there is room for so many axes, and the others are left out with a warning", "[host][devices]")
+{
+    std::vector<std::string> columns { "t", "x", "y", "z" };
+    std::vector<double> values { 0, 1, 2, 3 };
+    for (int i = 0; i < Channels::most + 2; ++i)
+    {
+        columns.push_back ("joint" + std::to_string (i));
+        values.push_back (i);
+    }
+    const auto result = readTrace (columns, values);
+    CHECK (idsOf (result.messages) == std::vector<std::string> { "trace/unknown_column", "trace/unknown_column" });
+    CHECK (result.trace.axes.size() == static_cast<std::size_t> (Channels::most));
+    CHECK (result.trace.more.back() == Channels::most - 1.0);
 }
 
 TEST_CASE ("trace: times have to be numbers that rise", "[host][devices]")

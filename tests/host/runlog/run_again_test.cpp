@@ -28,7 +28,9 @@ using namespace tactus::host;
 namespace
 {
 constexpr double rate_hz = 1000.0;
-const GuardLimits limits { .max_force = 2.0, .max_slew = 500.0, .ramp = 0.01 };
+const GuardLimits limits { .max_force = 2.0, .max_slew = 500.0, .ramp = 0.01, .max_axis_effort = 0.7, .max_axis_slew = 100.0, .max_signal = 0.15, .max_impulse = 0.05, .impulse_window = 0.1, .dead_man_buttons = 0 };
+
+const DeviceLayout odd_layout { .axes = { "a", "b", "c" }, .efforts = { "b" }, .buttons = { "", "grip" }, .signal_inputs = 2, .signal_outputs = 1 };
 
 /// A hand that shows all that a reading can hold, and what has no number.
 class OddHand final : public Device
@@ -38,6 +40,7 @@ public:
 
     void prepare (double) override {}
     void write (const Effort&) noexcept override {}
+    DeviceLayout layout() const override { return odd_layout; }
 
     Reading read() noexcept override
     {
@@ -49,6 +52,9 @@ public:
         constexpr double odd[] { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), -0.0, 5e-324, 1.7976931348623157e308 };
         if (random() % 20 == 0) r.position[static_cast<int> (random() % 3)] = odd[random() % 6];
         if (random() % 20 == 0) r.true_velocity[static_cast<int> (random() % 3)] = odd[random() % 6];
+        for (unsigned i = 0; i < random() % 4; ++i)
+            r.axes.set (static_cast<int> (i), random() % 20 == 0 ? odd[random() % 6] : 1e-3 * static_cast<double> (random() % 1000));
+        if (random() % 2 == 0) r.signals = { 0.1 * static_cast<double> (random() % 3), -0.0 };
         return r;
     }
 
@@ -62,8 +68,10 @@ struct Held final : Device
     void prepare (double) override {}
     Reading read() noexcept override { return reading; }
     void write (const Effort&) noexcept override {}
+    DeviceLayout layout() const override { return has; }
 
     Reading reading;
+    DeviceLayout has;
 };
 
 graph::Graph anyGraph (unsigned seed)
@@ -71,6 +79,8 @@ graph::Graph anyGraph (unsigned seed)
     test::Sketch felt;
     felt.node ("hand", "device.position").node ("wall", "deform.plane").node ("drag", "friction.elasto_plastic").node ("motor", "device.force");
     felt.wire ("hand.position -> wall.position").wire ("hand.position -> drag.position").wire ("wall.resistance -> drag.normal_force").wire ("wall.force -> motor.force").wire ("drag.force -> motor.force");
+    felt.node ("lever", "device.axis", {}, { { "axis", "b" } }).node ("brake", "device.effort", {}, { { "axis", "b" } }).node ("ear", "device.signal_in", {}, { { "channel", 2 } }).node ("mouth", "device.signal_out").node ("grip", "device.button", {}, { { "button", "grip" } });
+    felt.wire ("lever.axis -> brake.effort").wire ("ear.out -> mouth.in").wire ("grip.pressed -> mouth.in");
     return test::besides (felt.graph, test::prefixed (test::randomGraph (seed, 10), "e_", "stylus"));
 }
 
@@ -83,8 +93,13 @@ std::uint64_t digestOf (const Plan& plan)
     for (const auto& tap : plan.taps)
         add (*tap.value);
     for (const auto& role : plan.roles)
+    {
         for (const double v : role.state->applied.force)
             add (v);
+        for (const auto* channels : { &role.state->applied.axes, &role.state->applied.signals })
+            for (const double v : *channels)
+                add (v);
+    }
     return digest;
 }
 
@@ -100,7 +115,7 @@ std::vector<std::uint64_t> run (const std::filesystem::path& file, unsigned seed
     Engine engine (first);
     OddHand hand (seed);
     engine.attach ("stylus", hand, limits);
-    auto log = *RunLog::create (file, { .program = "test", .rate_hz = rate_hz, .guards = { { "stylus", limits } } });
+    auto log = *RunLog::create (file, { .program = "test", .rate_hz = rate_hz, .guards = { { "stylus", limits } }, .devices = { { "stylus", odd_layout } } });
     log->expect (first, snapshotOf (edits.graph(), {}, file.parent_path()));
     engine.report (log->journal());
     first.reset();
@@ -132,6 +147,8 @@ std::vector<std::uint64_t> run (const std::filesystem::path& file, unsigned seed
             turn();
         if (k >= ticks * 8 / 10 && k < ticks * 9 / 10) engine.halt();
         if (k == ticks * 9 / 10) engine.resume();
+        if (dice (60)) engine.emergencyStop();
+        if (dice (30)) engine.rearm();
         engine.tick();
         digests.push_back (digestOf (engine.plan()));
         if (dice (30)) REQUIRE (log->drain());
@@ -179,6 +196,7 @@ std::vector<std::uint64_t> runAgain (const std::filesystem::path& file)
             else
             {
                 engine = std::make_unique<Engine> (plan);
+                hand.has = log.head().devices.at ("stylus");
                 engine->attach ("stylus", hand, log.head().guards.at ("stylus"));
             }
         }
@@ -191,6 +209,8 @@ std::vector<std::uint64_t> runAgain (const std::filesystem::path& file)
         if (line.halt) halting = *line.halt;
         if (line.halt == false) engine->resume();
         if (halting) engine->halt();
+        if (line.rearm) engine->rearm();
+        if (line.emergency) engine->emergencyStop();
         for (const auto& [role, reading] : line.readings)
             hand.reading = reading;
     }
@@ -230,12 +250,15 @@ TEST_CASE ("every reading comes back to the bit", "[runlog]")
     CHECK (reader.head().rate_hz == 4000.0);
     CHECK (reader.head().guards.at ("stylus") == GuardLimits {});
     int ticks = 0, different = 0;
+    const auto sameBits = [] (double a, double b)
+    { return std::isnan (a) ? std::isnan (b) : std::bit_cast<std::uint64_t> (a) == std::bit_cast<std::uint64_t> (b); };
     for (auto line = *reader.next(); line && line->last == RunTick::Last::no; line = *reader.next(), ++ticks)
     {
         REQUIRE (line->tick == static_cast<std::uint64_t> (ticks));
-        const auto wanted = toNumbers (same.read()), got = toNumbers (line->readings.at (0).second);
+        const auto read = toLogged (same.read()), got = toLogged (line->readings.at (0).second);
         for (std::size_t i = 0; i < reading_size; ++i)
-            different += std::isnan (wanted[i]) ? ! std::isnan (got[i]) : std::bit_cast<std::uint64_t> (wanted[i]) != std::bit_cast<std::uint64_t> (got[i]);
+            different += ! sameBits (read.numbers[i], got.numbers[i]);
+        different += ! std::ranges::equal (read.axes, got.axes, sameBits) || ! std::ranges::equal (read.signals, got.signals, sameBits);
     }
     CHECK (ticks == 2000);
     CHECK (different == 0);

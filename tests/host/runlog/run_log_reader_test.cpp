@@ -69,6 +69,44 @@ TEST_CASE ("a log says what came in, and what it does not say is as it was", "[r
     CHECK_FALSE (log.isCutOff());
 }
 
+TEST_CASE ("a log says what else a device has, what of it was read, and when somebody pressed the emergency stop", "[runlog]")
+{
+    auto log = *opened (R"({"format":"tactus-run","version":2,"rate_hz":1000.0,"guards":{"pad":{"max_speed":1.5,"dead_man_buttons":5}},"devices":{"pad":{"axes":["a","b"],"efforts":["b"],"buttons":["","grip"],"signal_inputs":1,"signal_outputs":2}}})"
+                        "\n"
+                        R"({"tick":0,"graph":{},"read":{"pad":{"axes":[0.5,"nan"],"signals":[2]}}})"
+                        "\n"
+                        R"({"tick":4,"rearm":true,"emergency":true,"devices":{"thumb":{"axes":["c"]}},"read":{"pad":{"axes":[]}}})"
+                        "\n");
+    CHECK (log.head().guards.at ("pad").max_speed == 1.5);
+    CHECK (log.head().guards.at ("pad").dead_man_buttons == 5);
+    CHECK (log.head().devices.at ("pad") == DeviceLayout { .axes = { "a", "b" }, .efforts = { "b" }, .buttons = { "", "grip" }, .signal_inputs = 1, .signal_outputs = 2 });
+    const auto zero = **log.next();
+    const auto& read = zero.readings.at (0).second;
+    CHECK (read.axes.size() == 2);
+    CHECK (read.axes[0] == 0.5);
+    CHECK (std::isnan (read.axes[1]));
+    CHECK (read.signals[0] == 2.0);
+    CHECK_FALSE (zero.rearm);
+    CHECK_FALSE (zero.emergency);
+    const auto four = **log.next();
+    CHECK (four.rearm);
+    CHECK (four.emergency);
+    CHECK (four.devices.at ("thumb").axes == std::vector<std::string> { "c" });
+    CHECK (four.readings.at (0).second.axes.size() == 0);
+    CHECK (four.readings.at (0).second.signals[0] == 2.0);
+
+    const auto head_with = [] (const std::string& what)
+    { return problem (R"({"format":"tactus-run","version":2,"rate_hz":1000.0,)" + what + "}\n"); };
+    CHECK (head_with (R"("devices":{"a":{"axes":[1]}})").starts_with ("log/value"));
+    CHECK (head_with (R"("devices":{"a":{"signal_inputs":33}})").starts_with ("log/value"));
+    CHECK (head_with (R"("devices":{"a":{"signal_inputs":18446744073709551615}})").starts_with ("log/value"));
+    CHECK (head_with (R"("guards":{"a":{"dead_man_buttons":-1}})").starts_with ("log/value"));
+    std::string many = "0";
+    for (int i = 0; i < Channels::most; ++i)
+        many += ",0";
+    CHECK (problem (head + first + R"({"tick":1,"read":{"stylus":{"axes":[)" + many + "]}}}\n").starts_with ("log/value"));
+}
+
 TEST_CASE ("a log whose program died is read to its last whole line", "[runlog]")
 {
     for (const std::string rest : { "", "{\"tick\":1", "{\"tick\":1,\"halt\":true}" })
@@ -88,7 +126,7 @@ TEST_CASE ("what is wrong with a log is said with line and column", "[runlog]")
     CHECK (problem ("{}\n") == "log/not_a_log run.jsonl:1");
     CHECK (problem ("t,x\n0,1\n") == "log/not_a_log run.jsonl:1");
     CHECK (problem ("[]\n") == "log/not_a_log run.jsonl:1");
-    CHECK (problem (R"({"format":"tactus-run","version":2})"
+    CHECK (problem (R"({"format":"tactus-run","version":3})"
                     "\n")
            == "log/newer_version run.jsonl:1");
     CHECK (problem (R"({"format":"tactus-run","version":0})"

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <framework/device_parts.hpp>
+#include <framework/node.hpp>
+
+#include <charconv>
+#include <string>
+
+namespace tactus::nodes
+{
+
+/// A button of the device, by its name or by its number.
+///
+/// While the device has nothing to say the last valid reading stays, as in device.position. A device without such a button
+/// gives 0, with a warning when the run is set up.
+struct DeviceButton
+{
+    struct Inputs
+    {
+    };
+
+    struct Params
+    {
+    };
+
+    struct Settings
+    {
+        std::string button = "0";
+    };
+
+    struct Outputs
+    {
+        double pressed = 0.0;
+    };
+
+    static constexpr Info info {
+        .id = "device.button",
+        .name = "Button",
+        .summary = "Whether a button of the device is held.",
+        .source = "definition",
+    };
+
+    static constexpr std::tuple ports {
+        setting (&Settings::button, "button", unit::count, "its name, as the device calls it, or its number from 0"),
+        output (&Outputs::pressed, "pressed", unit::state, "1 while it is held, else 0"),
+    };
+
+    Params params;
+    Settings settings;
+
+    void bind (const DeviceState& state) noexcept
+    {
+        device = &state;
+        index = find (state.layout);
+    }
+
+    std::string missing (const DeviceLayout& device_has) const
+    {
+        if (find (device_has) >= 0) return {};
+        const auto count = device_has.buttons.size();
+        if (const int wanted = number(); wanted >= 0) return "no button " + std::to_string (wanted) + "; it has " + (count == 0 ? "none at all" : std::to_string (count) + ", counted from 0");
+        return lacking ("button", "buttons", settings.button, device_has.buttons);
+    }
+
+    Outputs tick (const Inputs&) noexcept
+    {
+        const Reading& now = device->reading;
+        if (now.valid) is_held = index >= 0 && (now.buttons >> index & 1u) != 0;
+        return { .pressed = is_held ? 1.0 : 0.0 };
+    }
+
+private:
+    /// A name that looks like a number is a name. -1 if it is not there.
+    int find (const DeviceLayout& device_has) const noexcept
+    {
+        int at = partNamed (settings.button, device_has.buttons);
+        if (at < 0) at = number();
+        return at < static_cast<int> (device_has.buttons.size()) && at < most_buttons ? at : -1;
+    }
+
+    /// -1 for a name.
+    int number() const noexcept
+    {
+        const auto& text = settings.button;
+        int n = -1;
+        const auto [end, failure] = std::from_chars (text.data(), text.data() + text.size(), n);
+        return failure == std::errc() && end == text.data() + text.size() ? n : -1;
+    }
+
+    static constexpr int most_buttons = 32;   // bits of Reading::buttons
+
+    inline static const DeviceState absent {};
+    const DeviceState* device = &absent;
+    int index = -1;
+    bool is_held = false;   // last valid
+};
+
+}   // namespace tactus::nodes
+
+TACTUS_NODE (tactus::nodes::DeviceButton);
