@@ -7,19 +7,22 @@
 #   ./test.sh --long    before that: each fuzzer for 60 s, the tests under TSan with those of threads for 30 s each, the
 #                       window under ASan and UBSan, and after it a soak of 1.2e8 ticks
 #   ./test.sh --screens uses the host as a person would, on a display of its own, takes docs/host/, and does nothing else
+#   ./test.sh --devices drives HID devices made of nothing, in a guest (QEMU) that has a kernel for it, and does nothing else;
+#                       without an argument, that is done as well
 #   ./test.sh --figures draws docs/figures/ and counts docs/instructions.md anew, and does nothing else
 . "$(dirname "$0")/.ci/setup.sh"
 
 mode=${1:-}
 case $mode in
-    ''|--quick|--long|--screens|--figures) ;;
-    *) echo "usage: ./test.sh [--quick|--long|--screens|--figures]" >&2; exit 2 ;;
+    ''|--quick|--long|--screens|--devices|--figures) ;;
+    *) echo "usage: ./test.sh [--quick|--long|--screens|--devices|--figures]" >&2; exit 2 ;;
 esac
 
 packages+=(python3 python3-jsonschema)
 [ "$mode" = --long ] && packages+=(clang-14 libclang-rt-14-dev)
 [ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
 [ "$mode" = --screens ] && packages+=(xvfb xauth xdotool imagemagick)
+case $mode in ''|--long|--devices) packages+=(qemu-system-x86 busybox-static cpio kmod procps) ;; esac
 install_packages
 
 # Properties draw the same inputs each time, so that a commit passes or fails for good; --long draws others.
@@ -32,6 +35,19 @@ run_tests ()
     shift
     ctest --test-dir "build/$preset" --output-on-failure --parallel "$(nproc)" "$@"
 }
+
+# HID devices in a guest
+run_guest ()
+{
+    build release tactus guest_device
+    say "Devices"
+    tests/guest/test_devices.sh build/release
+}
+
+if [ "$mode" = --devices ]; then
+    run_guest
+    exit
+fi
 
 if [ "$mode" = --screens ]; then
     build release tactus-host
@@ -77,6 +93,7 @@ build release
 if [ "$mode" != --quick ]; then
     say "A newcomer's node"
     tests/newcomer/run.sh
+    run_guest
 fi
 say "Tests"
 run_tests release

@@ -13,6 +13,7 @@ void addRender (CLI::App&);
 void addPlay (CLI::App&);
 void addSet (CLI::App&);
 void addProbe (CLI::App&);
+void addDevices (CLI::App&);
 void addBench (CLI::App&);
 
 }   // namespace tactus::host

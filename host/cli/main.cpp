@@ -19,6 +19,7 @@ int main (int argc, char** argv)
                 "  tactus play graphs/dry_wood.json --duration 4  in real time\n"
                 "  tactus set roughness=0.7                       while it plays\n"
                 "  tactus probe drag.force                        likewise\n"
+                "  tactus devices                                 what is plugged in, and whether it fits\n"
                 "  tactus render --replay run.jsonl               once more what `play --log run.jsonl` wrote down\n"
                 "\n`tactus COMMAND --help` shows the options and more examples.");
     app.set_version_flag ("--version", TACTUS_VERSION);
@@ -29,6 +30,7 @@ int main (int argc, char** argv)
     addPlay (app);
     addSet (app);
     addProbe (app);
+    addDevices (app);
     addBench (app);
 
     try

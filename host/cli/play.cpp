@@ -40,6 +40,14 @@ std::unique_ptr<OscPort> openPort (const Options& options)
     return nullptr;
 }
 
+/// The clock that a device of the run is; null if none is to tick it.
+std::unique_ptr<hid::HidClock> clockOf (const Session& session)
+{
+    for (const auto& [role, device] : session.realDevices())
+        if (role == session.clockRole()) return std::make_unique<hid::HidClock> (device->port(), session.rate());
+    return nullptr;
+}
+
 [[noreturn]] void failOverrun (Runner& runner, double rate_hz)
 {
     char took[32];
@@ -61,7 +69,8 @@ void run (const Options& options)
     watch.watch (session.files());
 
     AbsoluteTimer timer { 1.0 / session.rate() };
-    Runner runner { session.engine(), timer, session.rate(), { .length = session.ticks(), .core = options.core, .stop_wanted = stopRequested, .hooks = recording ? static_cast<TickHooks*> (&*recording) : &session } };
+    const auto device_clock = clockOf (session);
+    Runner runner { session.engine(), device_clock ? static_cast<TickClock&> (*device_clock) : timer, session.rate(), { .length = session.ticks(), .core = options.core, .stop_wanted = stopRequested, .hooks = recording ? static_cast<TickHooks*> (&*recording) : &session } };
     Remote remote { session, runner };
     std::optional<RemoteControl> control;
     if (port) control.emplace (*port, remote);
@@ -78,7 +87,8 @@ void run (const Options& options)
 
     std::string reached;
     if (port) reached = ", OSC on 127.0.0.1:" + std::to_string (port->number());
-    std::fprintf (stderr, "%s at %g Hz%s%s; Ctrl-C stops\n", (session.name().empty() ? options.graph : session.name()).c_str(), session.rate(), reached.c_str(), options.watch ? ", following its file" : "");
+    const auto ticked_by = device_clock ? ", ticked by " + session.clockRole() : std::string();
+    std::fprintf (stderr, "%s at %g Hz%s%s%s; Ctrl-C stops\n", (session.name().empty() ? options.graph : session.name()).c_str(), session.rate(), ticked_by.c_str(), reached.c_str(), options.watch ? ", following its file" : "");
 
     for (const auto& refused : runner.start())
         std::fprintf (stderr, "note: %s\n", refused.c_str());
@@ -95,12 +105,13 @@ void run (const Options& options)
             control->attend();
         }
         runner.attend();
-        if (terminal && i % 5 == 0) printStatus (runner, session.rate(), true, "");
+        if (terminal && i % 5 == 0) printStatus (runner, session.rate(), true, statusOf (session.realDevices(), device_clock.get()).c_str());
     }
     runner.wait();
     const auto log_failure = session.finishLog();
     printStatus (runner, session.rate(), terminal, "\n");
 
+    std::fputs (accountOf (session.realDevices(), device_clock.get()).c_str(), stderr);
     session.reportRun();
     const auto end = runner.status();
     if (end.let_go_under_force)
@@ -121,6 +132,7 @@ void addPlay (CLI::App& app)
     command->add_flag ("--costs", options->costs, "At the end, say what the costliest nodes took of a tick");
     command->add_option ("--log", options->log, "Write down all that comes in, for `tactus render --replay`: see docs/replay.md");
     command->add_option ("--core", options->core, "Keep the ticks on this core of the processor")->check (CLI::Range (0, 1023));
+    command->add_option ("--clock", options->clock, "The role whose HID device ticks the run, at the rate of its reports, or timer; default: the first that can, unless there is a --rate or --feed");
     auto* osc = command->add_option ("--osc", options->osc, "The UDP port to be reached by from this machine, see docs/osc.md; 0 for any that is free, or off")->check (CLI::IsMember ({ "off" }) | CLI::Range (0, 65535));
     command->footer ("However it stops, the guards bring all forces to zero smoothly first.\n"
                      "With --watch, a file with errors is reported and the graph before goes on. Roles keep the devices they have,\n"
@@ -128,6 +140,7 @@ void addPlay (CLI::App& app)
                      "Examples:\n"
                      "  tactus play graphs/dry_wood.json\n"
                      "  tactus play graphs/dry_wood.json --device stylus=gesture:circle --duration 10\n"
+                     "  tactus play graphs/dry_wood.json --device stylus=hid:auto\n"
                      "  tactus play graphs/dry_wood.json --watch\n"
                      "  tactus play graphs/dry_wood.json --record drag.force,drag.state --out wood.csv\n"
                      "  tactus play graphs/dry_wood.json --log wood.jsonl");

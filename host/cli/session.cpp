@@ -73,14 +73,15 @@ void SessionOptions::addTo (CLI::App& app)
     app.add_option ("--rate", rate_hz, "Ticks per second; default: the feed's, else the graph's")->check (finiteWithin (1.0, 1e6));
     app.add_option ("--duration", duration_s, "Length of the run in s")->check (finiteWithin (1e-9, 1e9));
     app.add_option ("--set", sets, "NODE.PARAM=VALUE, or CONTROL=0…1; may be given more than once")->allow_extra_args (false);
-    app.add_option ("--device", devices, "ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv or ROLE=gesture:NAME")->allow_extra_args (false);
+    app.add_option ("--device", devices, "ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME or ROLE=hid:PROFILE (hid:auto)")->allow_extra_args (false);
 }
 
-Session::Session (const SessionOptions& options, Pace pace) : told (options), loaded (loadGraph (options.graph)), records (options.records)
+Session::Session (const SessionOptions& options, Pace pace) : told (options), loaded (loadGraph (options.graph)), real (pace == Pace::live), records (options.records)
 {
     if (pace == Pace::live) answers = std::make_unique<AnsweringThread>();
     if (report (loaded.messages, loaded, told.graph) > 0) throw Stop {};
     readFeed();
+    chooseClock (pace);
     auto first = compileGraph();
     bindDevices();
     decideLength();
@@ -107,6 +108,34 @@ Compiled Session::compileNow (const graph::Graph& graph, const Plan* before, con
     for (const auto& set : told.sets)
         wanted.overrides.push_back (readSet (set));
     return compile (graph, catalogue(), wanted);
+}
+
+/// A device that has a clock of its own ticks the run, at its rate, unless somebody says otherwise.
+void Session::chooseClock (Pace pace)
+{
+    if (pace != Pace::live || told.clock == "timer") return;
+    const auto folder = std::filesystem::path (told.graph).parent_path();
+    auto described = loaded.graph.devices;
+    for (const auto& text : told.devices)
+        if (const auto parsed = parseDeviceOption (text, described, folder); const auto* option = std::get_if<DeviceOption> (&parsed))
+        {
+            std::erase_if (described, [&] (const auto& d)
+                           { return d.first == option->role; });
+            described.emplace_back (option->role, option->description);
+        }
+    const bool has_a_rate = told.rate_hz > 0.0 || feed;
+    for (const auto& [role, description] : described)
+    {
+        if (told.clock.empty() ? has_a_rate : role != told.clock) continue;
+        const auto device_rate = real.clockRate (description);
+        if (! device_rate) continue;
+        if (has_a_rate && *device_rate != rate_hz)
+            fail ({ "run/two_rates", "--clock " + told.clock, "its device ticks at " + numberText (*device_rate) + " Hz, and the run is to have " + numberText (rate_hz) + " Hz", "leave out --rate, or write --clock timer" });
+        clock_role = role;
+        rate_hz = *device_rate;
+        return;
+    }
+    if (! told.clock.empty()) fail ({ "run/no_clock", "--clock " + told.clock, "no device that is connected ticks for " + inQuotes (told.clock), "name a role whose device is a HID device with a rate in its profile, or write --clock timer" });
 }
 
 std::shared_ptr<const Plan> Session::compileGraph()
@@ -158,7 +187,7 @@ void Session::bindDevices()
 }
 
 /// The device that an option names, else the one that the graph describes, else a simulated tool that nobody moves.
-std::optional<Session::Bound> Session::open (const std::string& role, const graph::Graph& graph, const std::vector<DeviceOption>& options, Messages& messages) const
+std::optional<Session::Bound> Session::open (const std::string& role, const graph::Graph& graph, const std::vector<DeviceOption>& options, Messages& messages)
 {
     const auto folder = std::filesystem::path (told.graph).parent_path();
     const auto option = std::ranges::find (options, role, &DeviceOption::role);
@@ -168,9 +197,9 @@ std::optional<Session::Bound> Session::open (const std::string& role, const grap
         messages.push_back (warning ("device/undescribed", "/devices", "nobody says which device role '" + role + "' is; a simulated tool at rest stands in for it", "describe it under `devices`, or give --device " + role + "=gesture:stroke"));
 
     const Json stand_in { { "driver", "sim" } };
-    auto made = makeDevice (by_option ? option->description : described ? *described
-                                                                        : stand_in,
-                            by_option ? option->folder : folder);
+    auto made = real.open (by_option ? option->description : described ? *described
+                                                                       : stand_in,
+                           by_option ? option->folder : folder);
     for (auto& m : made.messages)
         m.where = by_option ? "--device " + role + m.where : "/devices/" + role + m.where;
     std::ranges::move (made.messages, std::back_inserter (messages));
@@ -178,8 +207,16 @@ std::optional<Session::Bound> Session::open (const std::string& role, const grap
     return Bound { role, std::move (made.device), made.limits, by_option };
 }
 
+std::vector<RealDevice> Session::realDevices() const
+{
+    std::vector<RealDevice> all;
+    for (const auto& d : devices)
+        if (auto* device = dynamic_cast<hid::HidDevice*> (d.device.get())) all.push_back ({ d.role, device });
+    return all;
+}
+
 /// The devices of roles that there were not before.
-std::vector<Session::Bound> Session::openNew (const Plan& plan, const graph::Graph& graph, Messages& messages) const
+std::vector<Session::Bound> Session::openNew (const Plan& plan, const graph::Graph& graph, Messages& messages)
 {
     std::vector<Bound> opened;
     for (const auto& role : plan.roles)

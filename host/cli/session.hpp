@@ -2,6 +2,7 @@
 #pragma once
 
 #include "feed.hpp"
+#include "hardware.hpp"
 
 #include <framework/answering_thread.hpp>
 #include <framework/engine.hpp>
@@ -31,7 +32,8 @@ struct SessionOptions
 {
     std::string graph, feed;
     std::vector<std::string> records, outputs, sets, devices;
-    std::string log;   ///< where what comes in is to be written down; "": nowhere
+    std::string log;     ///< where what comes in is to be written down; "": nowhere
+    std::string clock;   ///< the role whose device ticks the run, or "timer"; "": the first that can
     double rate_hz = 0.0, duration_s = 0.0;
 
     void addTo (CLI::App&);
@@ -55,6 +57,11 @@ public:
 
     Engine& engine() noexcept { return *running; }
     double rate() const noexcept { return rate_hz; }   ///< Hz
+
+    /// The role whose device ticks the run, at its own rate; empty: none does. Only of a live session.
+    const std::string& clockRole() const noexcept { return clock_role; }
+    /// The devices that are really there. [main thread]
+    std::vector<RealDevice> realDevices() const;
 
     /// How long the run lasts; nothing if nobody said.
     std::optional<std::size_t> ticks() const noexcept { return count; }
@@ -128,6 +135,8 @@ private:
     NotedAssets noted { assets };
     std::optional<Feed> feed;
     std::vector<Bound> devices;
+    Hardware real;
+    std::string clock_role;
     std::unique_ptr<AnsweringThread> answers;   // before the engine and the log, whose nodes ask it
     std::unique_ptr<RunLog> log;                // before the engine, which tells it
     std::unique_ptr<Engine> running;
@@ -143,10 +152,11 @@ private:
     std::vector<std::string> probed, captured_ports;
     std::vector<std::string> records;   // the same for all plans, so that a recording goes on
 
-    std::optional<Bound> open (const std::string& role, const graph::Graph&, const std::vector<DeviceOption>&, Messages&) const;
-    std::vector<Bound> openNew (const Plan&, const graph::Graph&, Messages&) const;
+    std::optional<Bound> open (const std::string& role, const graph::Graph&, const std::vector<DeviceOption>&, Messages&);
+    std::vector<Bound> openNew (const Plan&, const graph::Graph&, Messages&);
     void forgetProbes();
     void readFeed();
+    void chooseClock (Pace);
     std::shared_ptr<const Plan> compileGraph();
     void bindDevices();
     void decideLength();

@@ -6,8 +6,10 @@
 #include <framework/plan/compile.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
-#include <host/devices/make_device.hpp>
+#include <host/hid_link/open_device.hpp>
+#include <host/hid_link/profile_shelf.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -20,9 +22,12 @@ namespace
 int checkDevices (const LoadedGraph& loaded, const std::string& file)
 {
     int errors = 0;
-    for (const auto& [role, description] : loaded.graph.devices)
+    const auto& devices = loaded.graph.devices;
+    const bool any_real = std::ranges::any_of (devices, hid::isHid, &std::pair<std::string, Json>::second);
+    const auto profiles = any_real ? hid::profilesAtHand() : hid::LoadedProfiles {};
+    for (const auto& [role, description] : devices)
     {
-        auto messages = makeDevice (description, std::filesystem::path (file).parent_path()).messages;
+        auto messages = hid::checkDevice (description, std::filesystem::path (file).parent_path(), profiles);
         for (auto& m : messages)
             m.where = "/devices/" + role + m.where;
         errors += report (messages, loaded, file);

@@ -216,7 +216,10 @@ MadeDevice makeDevice (const Json& description, const Folder& folder)
     if (driver == std::end (drivers))
     {
         // Without the driver nobody knows which keys are right, so only this is told.
-        if (! id.empty()) in.error ("driver", "device/unknown_driver", "there is no driver " + inQuotes (id), suggestion (id, driverNames()));
+        if (id == "hid")
+            in.error ("driver", "device/real", "this is a real device, and only `tactus play` drives one", "give the role a simulated device instead: \"driver\": \"sim\"");
+        else if (! id.empty())
+            in.error ("driver", "device/unknown_driver", "there is no driver " + inQuotes (id), suggestion (id, driverNames()));
         return made;
     }
 
@@ -238,7 +241,7 @@ namespace
 {
 Message badOption (std::string_view text, std::string what)
 {
-    return problem ("device/option", "--device " + std::string (text), std::move (what), "write ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv or ROLE=gesture:NAME");
+    return problem ("device/option", "--device " + std::string (text), std::move (what), "write ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME or ROLE=hid:PROFILE");
 }
 
 Json simulated (std::string_view role, const std::vector<std::pair<std::string, Json>>& described)
@@ -283,15 +286,16 @@ std::variant<DeviceOption, Message> parseDeviceOption (std::string_view text, co
 
     if (what == "sim") return DeviceOption { .role = role, .description = simulated (role, described), .folder = folder_of_graph };
 
-    for (const std::string_view driver : { "trace", "gesture" })
+    constexpr std::pair<std::string_view, const char*> with_a_name[] { { "trace", "path" }, { "gesture", "path" }, { "hid", "profile" } };
+    for (const auto& [driver, key] : with_a_name)
         if (what.starts_with (driver) && what.substr (driver.size()).starts_with (':'))
         {
-            const auto path = what.substr (driver.size() + 1);
-            if (path.empty()) return badOption (text, "nothing stands after '" + std::string (driver) + ":'");
-            return DeviceOption { .role = role, .description = { { "driver", driver }, { "path", path } }, .folder = {} };
+            const auto name = what.substr (driver.size() + 1);
+            if (name.empty()) return badOption (text, "nothing stands after '" + std::string (driver) + ":'");
+            return DeviceOption { .role = role, .description = { { "driver", driver }, { key, name } }, .folder = {} };
         }
 
-    if (! what.ends_with (".json")) return badOption (text, what.empty() ? "nothing stands after '='" : inQuotes (what) + " is neither sim nor trace: nor gesture: nor a .json file");
+    if (! what.ends_with (".json")) return badOption (text, what.empty() ? "nothing stands after '='" : inQuotes (what) + " is neither sim nor trace: nor gesture: nor hid: nor a .json file");
     return fromFile (text, std::move (role), Folder (what));
 }
 

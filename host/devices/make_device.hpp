@@ -40,14 +40,16 @@ struct MadeDevice
 /// Where a simulated device is not told: mass 0.1 kg, damping 1 N s/m; a hand of stiffness 100 N/m and damping
 /// 2 N s/m, if there is one; its position is where the hand's path starts, as the tool is in the hand, else 0.
 ///
-/// Ids: device/unknown_driver, device/missing, device/unknown_key, device/kind, device/unit, device/out_of_range,
-/// device/unknown_gesture, device/unknown_button, device/name, and those of trace/ and csv/.
+/// The driver "hid" means a real device, for which there is hid::openDevice; here it is refused.
+///
+/// Ids: device/unknown_driver, device/real, device/missing, device/unknown_key, device/kind, device/unit,
+/// device/out_of_range, device/unknown_gesture, device/unknown_button, device/name, and those of trace/ and csv/.
 MadeDevice makeDevice (const Json& description, const std::filesystem::path& folder);
 
 /// What `--device ROLE=sim` means for a role that the graph does not describe: a hand that strokes.
 Json defaultDevice();
 
-/// `--device ROLE=FILE.json|sim|trace:FILE.csv|gesture:NAME`, turned into a description.
+/// `--device ROLE=FILE.json|sim|trace:FILE.csv|gesture:NAME|hid:PROFILE`, turned into a description.
 struct DeviceOption
 {
     std::string role;

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.hpp"
+#include "report.hpp"
+
+#include <framework/json.hpp>
+#include <framework/number_text.hpp>
+#include <host/hid_link/describe_counts.hpp>
+#include <host/hid_link/open_device.hpp>
+#include <host/hid_link/profile_shelf.hpp>
+#include <host/hid_link/udev_rule.hpp>
+#include <host/platform/signals.hpp>
+#include <host/platform/terminal.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <thread>
+
+namespace tactus::host
+{
+
+namespace
+{
+using namespace std::chrono_literals;
+using namespace hid;
+using Clock = std::chrono::steady_clock;
+
+struct Options
+{
+    bool probe = false, json = false;
+    double duration_s = 0.0;
+};
+
+struct Listed
+{
+    ConnectedDevice device;
+    std::vector<std::shared_ptr<const Profile>> profiles;   // the one that says most first
+    bool may_open = true;
+};
+
+std::string hex4 (unsigned n)
+{
+    char text[8];
+    std::snprintf (text, sizeof text, "%04x", n);
+    return text;
+}
+
+std::string_view nameOf (Bus bus) { return bus == Bus::usb ? "usb" : bus == Bus::bluetooth ? "bluetooth"
+                                                                                           : "unknown"; }
+
+/// How much of a profile was seen to be right on a real device.
+std::string_view verifiedOf (const Profile& p)
+{
+    const auto seen = [] (const auto& report)
+    { return report.verified; };
+    const auto all = std::ranges::all_of (p.inputs, seen) && std::ranges::all_of (p.outputs, seen);
+    const auto any = std::ranges::any_of (p.inputs, seen) || std::ranges::any_of (p.outputs, seen);
+    return all ? "verified" : any ? "verified in part"
+                                  : "not verified";
+}
+
+std::vector<Listed> listAll (const LoadedProfiles& profiles)
+{
+    std::vector<Listed> all;
+    for (auto& device : eachOnce (thisComputer().connected(), profiles))
+    {
+        auto fitting = matching (profiles.profiles, device);
+        const bool may_open = thisComputer().mayOpen (device);
+        all.push_back ({ std::move (device), std::move (fitting), may_open });
+    }
+    return all;
+}
+
+//==============================================================================
+Json jsonOf (const Listed& l)
+{
+    const auto& d = l.device;
+    Json profiles = Json::array();
+    for (const auto& p : l.profiles)
+        profiles.push_back ({ { "id", p->id }, { "name", p->name }, { "verified", verifiedOf (*p) } });
+    Json json { { "path", d.path }, { "vid", hex4 (d.vid) }, { "pid", hex4 (d.pid) }, { "usage_page", hex4 (d.usage_page) }, { "usage", hex4 (d.usage) }, { "interface", d.interface_number }, { "bus", nameOf (d.bus) }, { "product", d.product }, { "manufacturer", d.manufacturer }, { "serial", d.serial }, { "profiles", std::move (profiles) }, { "may_open", l.may_open } };
+    if (! l.may_open) json["udev_rule"] = udevRule (d);
+    return json;
+}
+
+std::string textOf (const Listed& l)
+{
+    const auto& d = l.device;
+    std::string text = d.path + "   " + hex4 (d.vid) + ":" + hex4 (d.pid) + "   " + (d.product.empty() ? "without a name" : d.product);
+    if (! d.serial.empty()) text += ", serial " + d.serial;
+    if (d.bus != Bus::unknown) text += ", " + std::string (nameOf (d.bus));
+    text += "\n    ";
+    if (l.profiles.empty()) return text + "no profile fits\n";
+
+    text += "profile " + l.profiles.front()->id + " (" + l.profiles.front()->name + "), " + std::string (verifiedOf (*l.profiles.front()));
+    for (std::size_t i = 1; i < l.profiles.size(); ++i)
+        text += (i == 1 ? "; would also fit: " : ", ") + l.profiles[i]->id;
+    text += "\n    ";
+    text += l.may_open ? "may be opened: --device ROLE=hid:" + l.profiles.front()->id : "may not be opened by this user: " + howToPermit (d);
+    return text + "\n";
+}
+
+//==============================================================================
+/// A device that is looked at.
+class Probed
+{
+public:
+    explicit Probed (std::unique_ptr<HidPort> port) : device (std::move (port)) { device.prepare (1e-3 * static_cast<double> (period.count())); }
+
+    static constexpr auto period = 5ms;   // of look(): far less than what the port keeps
+
+    void look() { latest = device.read(); }
+
+    std::string text (double seconds) const
+    {
+        const auto& port = device.port();
+        const auto& m = device.model();
+        const auto counts = port.counts();
+        std::ostringstream out;
+        out << port.device().path << " (" << port.profile()->id << "): " << (port.isConnected() ? latest.valid || counts.reports > 0 ? "" : "nothing has come; " : "unplugged; ")
+            << counts.reports << " reports, " << numberText (std::round (static_cast<double> (counts.reports) / seconds)) << " per second, " << describe (device.counts(), counts) << '\n';
+        if (m.hasPosition()) out << "    position " << vector (latest.position, 1e3) << " mm\n";
+        if (! port.profile()->rotation[0].empty() || ! port.profile()->rotation[1].empty() || ! port.profile()->rotation[2].empty()) out << "    rotation " << vector (latest.rotation, 1.0) << " rad\n";
+        if (! port.profile()->pressure.empty()) out << "    pressure " << rounded (latest.pressure) << " N\n";
+        out << "   ";
+        for (std::size_t i = 0; i < m.axisNames().size(); ++i)
+            out << ' ' << m.axisNames()[i] << ' ' << rounded (m.sample().axes[i]) << (m.axisUnits()[i] == "1" ? "" : " " + m.axisUnits()[i]);
+        out << '\n';
+        if (! m.buttonNames().empty())
+        {
+            out << "    pressed:";
+            for (const auto& name : pressed())
+                out << ' ' << name;
+            out << '\n';
+        }
+        if (const auto trouble = port.trouble(); ! trouble.empty()) out << "    last trouble: " << trouble << '\n';
+        return out.str();
+    }
+
+    Json json() const
+    {
+        const auto& port = device.port();
+        const auto& m = device.model();
+        const auto read = device.counts();
+        const auto counts = port.counts();
+        Json axes = Json::object(), refused = Json::object();
+        for (std::size_t i = 0; i < m.axisNames().size(); ++i)
+            axes[m.axisNames()[i]] = m.sample().axes[i];
+        for (std::size_t i = 0; i < refusals; ++i)
+            if (read.refused[i] > 0) refused[std::string (describe (static_cast<Refusal> (i)))] = read.refused[i];
+        const auto list = [] (const Vec3& v)
+        { return Json { v.x(), v.y(), v.z() }; };
+        return { { "profile", port.profile()->id }, { "connected", port.isConnected() }, { "valid", latest.valid }, { "reports", counts.reports }, { "taken", read.taken }, { "lost", read.lost }, { "restarts", read.restarts }, { "refused", std::move (refused) }, { "departures", counts.departures }, { "position", list (latest.position) }, { "rotation", list (latest.rotation) }, { "pressure", latest.pressure }, { "axes", std::move (axes) }, { "pressed", pressed() } };
+    }
+
+    const std::string& path() const { return device.port().device().path; }
+
+private:
+    static std::string rounded (double v)
+    {
+        char text[32];
+        std::snprintf (text, sizeof text, "%.6g", v);
+        return text;
+    }
+
+    static std::string vector (const Vec3& v, double scale)
+    {
+        char text[96];
+        std::snprintf (text, sizeof text, "%10.4f %10.4f %10.4f", scale * v.x(), scale * v.y(), scale * v.z());
+        return text;
+    }
+
+    std::vector<std::string> pressed() const
+    {
+        std::vector<std::string> names;
+        const auto& all = device.model().buttonNames();
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if ((latest.buttons >> i & 1u) != 0) names.push_back (all[i]);
+        return names;
+    }
+
+    HidDevice device;
+    Reading latest;
+};
+
+/// Opens what a profile fits and may be opened; says of the others why not.
+std::vector<std::unique_ptr<Probed>> openAll (const std::vector<Listed>& all)
+{
+    std::vector<std::unique_ptr<Probed>> probed;
+    for (const auto& l : all)
+    {
+        if (l.profiles.empty()) continue;
+        auto opened = HidPort::open (thisComputer(), l.device, l.profiles.front());
+        if (const auto* m = std::get_if<Message> (&opened))
+            std::cerr << m->where << ": error: " << m->text << "\n    " << m->remedy << " [" << m->id << "]\n";
+        else
+            probed.push_back (std::make_unique<Probed> (std::move (std::get<0> (opened))));
+    }
+    return probed;
+}
+
+void probe (const std::vector<Listed>& all, const Options& options, Json& json)
+{
+    watchForStop();
+    auto probed = openAll (all);
+    if (probed.empty())
+    {
+        const bool any_fits = std::ranges::any_of (all, [] (const Listed& l)
+                                                   { return ! l.profiles.empty(); });
+        if (any_fits) throw Stop {};   // and why has been said
+        return;
+    }
+
+    const bool live = ! options.json && stderrIsTerminal();
+    const auto begin = Clock::now();
+    const auto show = [&]
+    {
+        const double seconds = std::max (1e-3, std::chrono::duration<double> (Clock::now() - begin).count());
+        std::string text;
+        for (const auto& p : probed)
+            text += p->text (seconds);
+        return text;
+    };
+
+    auto shown = begin;
+    std::ptrdiff_t lines = 0;
+    while (! stopRequested() && (options.duration_s <= 0.0 || Clock::now() - begin < std::chrono::duration<double> (options.duration_s)))
+    {
+        std::this_thread::sleep_for (Probed::period);
+        for (const auto& p : probed)
+            p->look();
+        if (options.json || Clock::now() - shown < (live ? 100ms : 1000ms)) continue;
+        shown = Clock::now();
+        const auto text = show();
+        if (live && lines > 0) std::cout << "\033[" << lines << "A\033[J";
+        lines = std::ranges::count (text, '\n');
+        std::cout << text << std::flush;
+        if (! std::cout) return;
+    }
+
+    if (! options.json)
+    {
+        if (live && lines > 0) std::cout << "\033[" << lines << "A\033[J";
+        std::cout << show();
+        return;
+    }
+    for (auto& device : json)
+        for (const auto& p : probed)
+            if (device["path"] == p->path()) device["probe"] = p->json();
+}
+
+void run (const Options& options)
+{
+    const auto profiles = profilesAtHand();
+    for (const auto& m : profiles.messages)
+        std::cerr << m.file << m.where << ": warning: " << m.text << "\n    " << m.remedy << " [" << m.id << "]\n";
+
+    const auto all = listAll (profiles);
+    Json json = Json::array();
+    for (const auto& l : all)
+        json.push_back (jsonOf (l));
+
+    if (! options.json && all.empty()) std::cout << "No HID device is connected.\n";
+    if (! options.json && (! options.probe || all.empty()))
+        for (const auto& l : all)
+            std::cout << textOf (l);
+    if (options.probe && ! all.empty())
+    {
+        if (! options.json && std::ranges::all_of (all, [] (const Listed& l)
+                                                   { return l.profiles.empty(); }))
+            std::cout << "None of the HID devices that are connected has a profile; `tactus devices` lists them.\n";
+        probe (all, options, json);
+    }
+    if (options.json) std::cout << json.dump (2) << '\n';
+}
+}   // namespace
+
+void addDevices (CLI::App& app)
+{
+    const auto options = std::make_shared<Options>();
+    auto* command = app.add_subcommand ("devices", "What is connected, which profile fits it, and what it says");
+    auto* probe = command->add_flag ("--probe", options->probe, "Open all that have a profile and show what they say, until Ctrl-C; they are woken up as their profiles have it, and not driven");
+    command->add_option ("--duration", options->duration_s, "How long to look, in s")->check (CLI::Range (1e-3, 1e9))->needs (probe);
+    command->add_flag ("--json", options->json, "As JSON; with --probe, what they said last");
+    command->footer ("Profiles come with Tactus; your own may lie in the folder TACTUS_PROFILES, or in ~/.config/tactus/profiles.\n\n"
+                     "Examples:\n"
+                     "  tactus devices\n"
+                     "  tactus devices --probe\n"
+                     "  tactus devices --probe --duration 2 --json");
+    command->callback ([options]
+                       { run (*options); });
+}
+
+}   // namespace tactus::host

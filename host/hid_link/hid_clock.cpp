@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/hid_link/hid_clock.hpp>
+
+#include <algorithm>
+
+namespace tactus::host::hid
+{
+namespace
+{
+using Clock = HidPort::Clock;
+
+Clock::duration durationOf (double s) { return std::chrono::duration_cast<Clock::duration> (std::chrono::duration<double> (s)); }
+}   // namespace
+
+HidClock::HidClock (HidPort& p, double rate_hz) : port (p), period (durationOf (1.0 / rate_hz)), silence (durationOf (longest_silence / rate_hz)) {}
+
+void HidClock::drive (Ticked& ticked) noexcept
+{
+    auto due = Clock::now() + silence;
+    for (;;)
+    {
+        const bool came = port.waitForReport (due);
+        const auto now = Clock::now();
+        by_timer.store (! came, std::memory_order_relaxed);
+        if (! came) timed.fetch_add (1, std::memory_order_relaxed);
+
+        const auto since = came ? now.time_since_epoch() - std::chrono::nanoseconds (port.lastArrival()) : now - due;
+        if (! ticked.tick (std::max (0.0, std::chrono::duration<double> (since).count()))) break;
+        port.kick();
+        due = came ? now + silence : std::max (due + period, now);   // what was missed is not made up for
+    }
+    port.kick();
+}
+
+}   // namespace tactus::host::hid

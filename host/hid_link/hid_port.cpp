@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/devices/problem.hpp>
+#include <host/hid_link/hid_port.hpp>
+#include <host/hid_link/udev_rule.hpp>
+#include <host/platform/realtime.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace tactus::host::hid
+{
+namespace
+{
+using namespace std::chrono_literals;
+using Clock = HidPort::Clock;
+
+constexpr std::size_t reports_waiting = 1024;   // a second of a fast device: a run begins a while after its devices are open
+constexpr auto usual_watchdog = 100ms;          // where a profile has none
+constexpr auto longest_read = 20ms;             // so that a request to stop is heard
+
+// A device that says 1000 Hz may send 1001 reports a second, each of which is answered; several may come at once.
+constexpr double more_than_the_rate = 1.05;
+constexpr double burst = 4.0;
+
+Clock::duration durationOf (double s) { return std::chrono::duration_cast<Clock::duration> (std::chrono::duration<double> (s)); }
+double secondsOf (Clock::duration d) { return std::chrono::duration<double> (d).count(); }
+
+Nanoseconds nanosecondsOf (Clock::time_point t) { return std::chrono::duration_cast<std::chrono::nanoseconds> (t.time_since_epoch()).count(); }
+
+std::size_t longestInput (const Profile& p)
+{
+    std::size_t longest = 1;
+    for (const auto& r : p.inputs)
+        longest = std::max (longest, r.longest);
+    return longest;
+}
+
+bool usesIds (const Profile& p)
+{
+    const auto has = [] (const auto& report)
+    { return report.id.has_value(); };
+    return std::ranges::any_of (p.inputs, has) || std::ranges::any_of (p.outputs, has);
+}
+
+Clock::duration watchdogOf (const Profile& p)
+{
+    const double s = p.limits.guard.watchdog;
+    return isFinite (s) && s > 0.0 ? durationOf (s) : Clock::duration (usual_watchdog);
+}
+}   // namespace
+
+HidPort::HidPort (HidSystem& s, ConnectedDevice d, std::shared_ptr<const Profile> p, Options o)
+    : system (s), wanted (std::move (d)), description (std::move (p)), options (o), watchdog (watchdogOf (*description)), has_ids (usesIds (*description)),
+      ring (longestInput (*description), reports_waiting), quiet (description)
+{
+    for (std::size_t i = 0; i < description->outputs.size(); ++i)
+        outputs.push_back (std::make_unique<Output>());
+}
+
+std::variant<std::unique_ptr<HidPort>, Message> HidPort::open (HidSystem& system, const ConnectedDevice& device, std::shared_ptr<const Profile> profile, Options options)
+{
+    auto opened = system.open (device);
+    if (! opened)
+    {
+        const auto& [not_permitted, why] = opened.error();
+        if (not_permitted) return problem ("hid/not_permitted", device.path, "this user may not open " + device.path + " (" + device.product + ")", howToPermit (device));
+        return problem ("hid/not_opened", device.path, device.path + " (" + device.product + ") does not open: " + why, "see that no other program holds it, and plug it in again");
+    }
+
+    std::unique_ptr<HidPort> port (new HidPort (system, device, std::move (profile), options));
+    if (auto why = port->wake (**opened); ! why.empty())
+        return problem ("hid/init", device.path, device.path + " (" + device.product + ") does not wake up as its profile " + port->profile()->id + " says: " + why, "see that it is this device, and plug it in again");
+    port->become (std::move (*opened));
+    port->reader = std::jthread ([p = port.get()]
+                                 { p->readOn(); });
+    port->writer = std::jthread ([p = port.get()]
+                                 { p->writeOn(); });
+    return port;
+}
+
+HidPort::~HidPort()
+{
+    {
+        const std::lock_guard lock (opening);
+        stopping = true;
+    }
+    stopped.notify_all();
+    something.ring();
+    if (writer.joinable()) writer.join();   // leaves the device alone, and well
+    if (reader.joinable()) reader.join();
+}
+
+//==============================================================================
+// Both threads
+
+/// The init steps. Returns what failed, if something did.
+std::string HidPort::wake (Transport& t)
+{
+    const std::lock_guard lock (writing);
+    quiet.reset();
+    const auto left = t.leaveWill (farewell());
+    if (left) note ("if this program dies, nobody tells the device: " + *left);
+
+    for (const auto& step : description->init)
+    {
+        auto bytes = step.bytes;
+        if (! has_ids) bytes.insert (bytes.begin(), 0);
+        const auto failed = step.kind == Step::Kind::output ? t.write (bytes) : step.kind == Step::Kind::feature ? t.sendFeature (bytes)
+                                                                                                                 : t.getFeature (bytes);
+        if (failed) return *failed;
+        if (step.delay > 0.0) std::this_thread::sleep_for (durationOf (step.delay));
+    }
+    return {};
+}
+
+void HidPort::become (Opened opened)
+{
+    ++connections;
+    const std::lock_guard lock (opening);
+    link = std::move (opened);
+    connected.store (link != nullptr, std::memory_order_release);
+}
+
+HidPort::Opened HidPort::transport() const
+{
+    const std::lock_guard lock (opening);
+    return link;
+}
+
+void HidPort::note (const std::string& what)
+{
+    const std::lock_guard lock (opening);
+    last_trouble = what;
+}
+
+std::string HidPort::trouble() const
+{
+    const std::lock_guard lock (opening);
+    return last_trouble;
+}
+
+PortCounts HidPort::counts() const noexcept
+{
+    const auto n = answers_sent.load (std::memory_order_relaxed);
+    return { .reports = reports.load (std::memory_order_relaxed),
+             .overflown = ring.lost(),
+             .writes = writes.load (std::memory_order_relaxed),
+             .write_errors = write_errors.load (std::memory_order_relaxed),
+             .dropped = dropped.load (std::memory_order_relaxed),
+             .silences = silences.load (std::memory_order_relaxed),
+             .departures = departures.load (std::memory_order_relaxed),
+             .latency_min = latency_min.load (std::memory_order_relaxed),
+             .latency_mean = n > 0 ? latency_sum.load (std::memory_order_relaxed) / static_cast<double> (n) : 0.0,
+             .latency_max = latency_max.load (std::memory_order_relaxed) };
+}
+
+//==============================================================================
+// The reading thread
+
+void HidPort::readOn()
+{
+    if (options.real_time) becomeRealTime (std::nullopt);   // what is not granted, the run says of its own thread
+    std::vector<std::uint8_t> buffer (longest_report + 1);
+    while (! isStopping())
+    {
+        const auto t = transport();
+        if (! t)
+        {
+            lookAgain();
+            continue;
+        }
+        const auto got = t->read (buffer, longest_read);
+        if (! got)
+            lose (*t, got.error());
+        else if (*got > 0)
+        {
+            const auto now = nanosecondsOf (Clock::now());
+            reports.fetch_add (1, std::memory_order_relaxed);
+            ring.push (std::span (buffer).first (*got), now, connections);
+            last_arrival.store (now, std::memory_order_release);
+            arrived.ring();
+        }
+    }
+}
+
+/// It may still hear that it is to do nothing.
+void HidPort::lose (Transport& t, const std::string& why)
+{
+    departures.fetch_add (1, std::memory_order_relaxed);
+    {
+        const std::lock_guard lock (opening);
+        link.reset();
+        connected.store (false, std::memory_order_release);
+        last_trouble = why;
+    }
+    const std::lock_guard lock (writing);
+    current_episode.fetch_add (1, std::memory_order_acq_rel);
+    quieten (t);
+}
+
+const ConnectedDevice* HidPort::sameAmong (const std::vector<ConnectedDevice>& devices) const
+{
+    std::vector<const ConnectedDevice*> alike;
+    for (const auto& d : devices)
+        if (d.vid == wanted.vid && d.pid == wanted.pid && d.serial == wanted.serial && fit (*description, d) > 0) alike.push_back (&d);
+    const auto same_path = std::ranges::find (alike, wanted.path, [] (const auto* d)
+                                              { return d->path; });
+    if (same_path != alike.end()) return *same_path;
+    return alike.size() == 1 || (! alike.empty() && ! wanted.serial.empty()) ? alike.front() : nullptr;
+}
+
+void HidPort::lookAgain()
+{
+    {
+        std::unique_lock lock (opening);
+        stopped.wait_for (lock, options.look_again, [this]
+                          { return isStopping(); });
+    }
+    if (isStopping()) return;
+
+    const auto devices = system.connected();
+    const auto* same = sameAmong (devices);
+    if (same == nullptr) return;
+    auto opened = system.open (*same);
+    if (! opened) return note (opened.error().why);
+    if (auto why = wake (**opened); ! why.empty()) return note (why);
+    become (std::move (*opened));
+}
+
+//==============================================================================
+// The tick thread
+
+void HidPort::offer (std::size_t report, std::span<const std::uint8_t> bytes, std::uint64_t of_episode, Nanoseconds answers) noexcept
+{
+    if (report >= outputs.size()) return;
+    auto& o = outputs[report]->draft;
+    if (bytes.size() > o.bytes.size()) return;
+    ++o.number;
+    o.episode = of_episode;
+    o.size = bytes.size();
+    o.answers = answers;
+    std::ranges::copy (bytes, o.bytes.begin());
+    constexpr std::size_t word = sizeof (std::uint64_t);
+    outputs[report]->offered.store (o, offsetof (Offer, bytes) + (bytes.size() + word - 1) / word * word);
+}
+
+//==============================================================================
+// The writing thread
+
+Clock::time_point HidPort::nextLook (Clock::time_point now) const
+{
+    double wait = secondsOf (watchdog) / 4.0;
+    for (const auto& o : description->outputs)
+        wait = std::min (wait, 0.5 / o.max_rate);
+    return now + durationOf (std::max (wait, 250e-6));
+}
+
+void HidPort::writeOn()
+{
+    if (options.real_time) becomeRealTime (std::nullopt);
+    while (! isStopping())
+    {
+        something.wait (nextLook (Clock::now()));
+        const auto t = transport();
+        const std::lock_guard lock (writing);
+        if (! t)
+        {
+            for (const auto& o : outputs)
+                o->seen = o->offered.load().number;   // nobody is there to miss it
+            continue;
+        }
+        const auto now = Clock::now();
+        for (std::size_t i = 0; i < outputs.size(); ++i)
+            attend (*t, *outputs[i], i, now);
+        if (driven && now - given > watchdog)
+        {
+            silences.fetch_add (1, std::memory_order_relaxed);
+            current_episode.fetch_add (1, std::memory_order_acq_rel);
+            quieten (*t);
+        }
+    }
+    const std::lock_guard lock (writing);
+    if (const auto t = transport()) leave (*t);
+}
+
+void HidPort::attend (Transport& t, Output& o, std::size_t report, Clock::time_point now)
+{
+    const auto& how = description->outputs[report];
+    const double rate = how.max_rate * more_than_the_rate;
+    o.credit = std::min (burst, o.credit + rate * secondsOf (now - o.earned));
+    o.earned = now;
+
+    const auto latest = o.offered.load();
+    const bool is_new = latest.number != o.seen;
+    if (is_new) given = now;
+    if (latest.number == 0 || latest.episode != episode())
+    {
+        o.seen = latest.number;
+        return;
+    }
+
+    const auto bytes = std::span (latest.bytes).first (latest.size);
+    const bool changed = how.keepalive == 0.0 ? is_new : ! std::ranges::equal (bytes, o.latest);
+    const bool kept_alive = how.keepalive > 0.0 && now - o.sent >= durationOf (how.keepalive);
+    if (! changed && ! kept_alive)
+    {
+        o.seen = latest.number;
+        return;
+    }
+    if (o.credit < 1.0) return;
+
+    // What came between was never sent, and what is not sent for being the same is not missed.
+    if (is_new && how.keepalive == 0.0) dropped.fetch_add (latest.number - o.seen - 1, std::memory_order_relaxed);
+    o.seen = latest.number;
+    o.credit -= 1.0;
+    o.sent = now;
+    o.latest.assign (bytes.begin(), bytes.end());
+    driven = true;
+    if (! send (t, report, bytes) && is_new) count (latest.answers, Clock::now());
+}
+
+void HidPort::count (Nanoseconds answers, Clock::time_point sent_at) noexcept
+{
+    if (answers == 0) return;
+    const double s = 1e-9 * static_cast<double> (nanosecondsOf (sent_at) - answers);
+    const auto n = answers_sent.load (std::memory_order_relaxed);
+    latency_sum.store (latency_sum.load (std::memory_order_relaxed) + s, std::memory_order_relaxed);
+    latency_min.store (n == 0 ? s : std::min (s, latency_min.load (std::memory_order_relaxed)), std::memory_order_relaxed);
+    latency_max.store (std::max (s, latency_max.load (std::memory_order_relaxed)), std::memory_order_relaxed);
+    answers_sent.store (n + 1, std::memory_order_relaxed);
+}
+
+std::optional<std::string> HidPort::send (Transport& t, std::size_t report, std::span<const std::uint8_t> bytes)
+{
+    const auto failed = description->outputs[report].is_feature ? t.sendFeature (bytes) : t.write (bytes);
+    writes.fetch_add (1, std::memory_order_relaxed);
+    if (failed)
+    {
+        write_errors.fetch_add (1, std::memory_order_relaxed);
+        note (*failed);
+    }
+    return failed;
+}
+
+/// The neutral reports, whatever was offered. [with `writing` held]
+void HidPort::quieten (Transport& t)
+{
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+    {
+        const auto bytes = quiet.neutral (i);
+        outputs[i]->latest.assign (bytes.begin(), bytes.end());
+        send (t, i, bytes);
+    }
+    driven = false;
+}
+
+/// [with `writing` held]
+void HidPort::leave (Transport& t)
+{
+    quieten (t);
+    for (const auto& step : description->exit)
+    {
+        auto bytes = step.bytes;
+        if (! has_ids) bytes.insert (bytes.begin(), 0);
+        const auto failed = step.kind == Step::Kind::output ? t.write (bytes) : step.kind == Step::Kind::feature ? t.sendFeature (bytes)
+                                                                                                                 : t.getFeature (bytes);
+        if (failed) note (*failed);
+        if (step.delay > 0.0) std::this_thread::sleep_for (durationOf (step.delay));
+    }
+}
+
+/// What is left to be said if nobody can say it any more. [with `writing` held]
+std::vector<OutgoingReport> HidPort::farewell()
+{
+    std::vector<OutgoingReport> last;
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+    {
+        const auto bytes = quiet.neutral (i);
+        last.push_back ({ { bytes.begin(), bytes.end() }, description->outputs[i].is_feature });
+    }
+    for (const auto& step : description->exit)
+        if (step.kind != Step::Kind::get_feature)
+        {
+            auto bytes = step.bytes;
+            if (! has_ids) bytes.insert (bytes.begin(), 0);
+            last.push_back ({ std::move (bytes), step.kind == Step::Kind::feature });
+        }
+    return last;
+}
+
+}   // namespace tactus::host::hid

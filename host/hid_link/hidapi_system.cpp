@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/hid_link/transport.hpp>
+
+#include <host/platform/device_file.hpp>
+#include <host/platform/last_will.hpp>
+
+#include <hidapi.h>
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+namespace tactus::host::hid
+{
+namespace
+{
+struct Close
+{
+    void operator() (hid_device* device) const noexcept { hid_close (device); }
+};
+using Handle = std::unique_ptr<hid_device, Close>;
+
+/// hidapi keeps one text of what went wrong for all of its calls that have no device.
+std::mutex& oneAtATime()
+{
+    static std::mutex mutex;
+    return mutex;
+}
+
+std::string narrow (const wchar_t* wide)
+{
+    std::string text;
+    for (; wide != nullptr && *wide != 0; ++wide)
+    {
+        const auto c = static_cast<std::uint32_t> (*wide);
+        if (c < 0x80)
+            text += static_cast<char> (c);
+        else if (c < 0x800)
+            (text += static_cast<char> (0xc0 | c >> 6)) += static_cast<char> (0x80 | (c & 0x3f));
+        else if (c < 0x10000)
+            ((text += static_cast<char> (0xe0 | c >> 12)) += static_cast<char> (0x80 | (c >> 6 & 0x3f))) += static_cast<char> (0x80 | (c & 0x3f));
+        else
+            text += '?';
+    }
+    return text;
+}
+
+std::string errorOf (hid_device* device)
+{
+    const auto text = narrow (hid_error (device));
+    return text.empty() ? "the system does not say why" : text;
+}
+
+Bus busOf (hid_bus_type type)
+{
+    if (type == HID_API_BUS_USB) return Bus::usb;
+    if (type == HID_API_BUS_BLUETOOTH) return Bus::bluetooth;
+    return Bus::unknown;
+}
+
+/// A device is opened twice, to be read and to be written: hidapi keeps a text of the last failure in each handle, without
+/// a lock, so that two threads must not use the same.
+class HidapiTransport final : public Transport
+{
+public:
+    HidapiTransport (std::string where, Handle in, Handle out) : path (std::move (where)), reading (std::move (in)), writing (std::move (out)) {}
+
+    tl::expected<std::size_t, std::string> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override
+    {
+        const int got = hid_read_timeout (reading.get(), into.data(), into.size(), static_cast<int> (timeout.count()));
+        if (got < 0) return tl::unexpected (errorOf (reading.get()));
+        return static_cast<std::size_t> (got);
+    }
+
+    std::optional<std::string> write (std::span<const std::uint8_t> report) override
+    {
+        return outcome (hid_write (writing.get(), report.data(), report.size()));
+    }
+
+    std::optional<std::string> sendFeature (std::span<const std::uint8_t> report) override
+    {
+        return outcome (hid_send_feature_report (writing.get(), report.data(), report.size()));
+    }
+
+    std::optional<std::string> getFeature (std::span<std::uint8_t> report) override
+    {
+        return outcome (hid_get_feature_report (writing.get(), report.data(), report.size()));
+    }
+
+    std::optional<std::string> leaveWill (const std::vector<OutgoingReport>& reports) override
+    {
+        std::vector<LastWill::Report> last;
+        for (const auto& r : reports)
+            last.push_back ({ r.bytes, r.is_feature });
+        will.reset();
+        auto left = LastWill::leave (path, last);
+        if (! left) return left.error();
+        will.emplace (std::move (*left));
+        return std::nullopt;
+    }
+
+private:
+    std::optional<std::string> outcome (int result)
+    {
+        if (result >= 0) return std::nullopt;
+        return errorOf (writing.get());
+    }
+
+    std::string path;
+    Handle reading, writing;
+    std::optional<LastWill> will;
+};
+
+class Hidapi final : public HidSystem
+{
+public:
+    std::vector<ConnectedDevice> connected() override
+    {
+        const std::lock_guard lock (oneAtATime());
+        auto* const list = hid_enumerate (0, 0);
+        std::vector<ConnectedDevice> found;
+        for (const auto* d = list; d != nullptr; d = d->next)
+        {
+            ConnectedDevice device;
+            device.vid = d->vendor_id;
+            device.pid = d->product_id;
+            device.usage_page = d->usage_page;
+            device.usage = d->usage;
+            device.interface_number = d->interface_number;
+            device.bus = busOf (d->bus_type);
+            device.product = narrow (d->product_string);
+            device.path = d->path != nullptr ? d->path : "";
+            device.serial = narrow (d->serial_number);
+            device.manufacturer = narrow (d->manufacturer_string);
+            found.push_back (std::move (device));
+        }
+        hid_free_enumeration (list);
+        std::ranges::stable_sort (found, {}, &ConnectedDevice::path);
+        return found;
+    }
+
+    tl::expected<std::unique_ptr<Transport>, OpenFailure> open (const ConnectedDevice& device) override
+    {
+        const std::lock_guard lock (oneAtATime());
+        Handle in (hid_open_path (device.path.c_str()));
+        Handle out (in ? hid_open_path (device.path.c_str()) : nullptr);
+        if (! in || ! out) return tl::unexpected (OpenFailure { isForbidden (device.path), errorOf (nullptr) });
+        return std::make_unique<HidapiTransport> (device.path, std::move (in), std::move (out));
+    }
+
+    bool mayOpen (const ConnectedDevice& device) override { return ! isForbidden (device.path); }
+};
+}   // namespace
+
+HidSystem& thisComputer()
+{
+    static Hidapi system;
+    return system;
+}
+
+}   // namespace tactus::host::hid

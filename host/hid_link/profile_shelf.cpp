@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/hid_link/profile_shelf.hpp>
+#include <host/platform/device_file.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iterator>
+#include <utility>
+
+namespace tactus::host::hid
+{
+namespace fs = std::filesystem;
+
+fs::path profileFolder()
+{
+    const auto program = programFolder();
+    for (const auto* place : { "profiles", "../share/tactus/profiles", "../../../host/profiles" })
+        if (const auto folder = (program / place).lexically_normal(); ! program.empty() && fs::is_directory (folder)) return folder;
+    return {};
+}
+
+fs::path ownProfileFolder()
+{
+    if (const char* told = std::getenv ("TACTUS_PROFILES"); told != nullptr && *told != 0) return told;
+    if (const char* config = std::getenv ("XDG_CONFIG_HOME"); config != nullptr && *config != 0) return fs::path (config) / "tactus/profiles";
+    if (const char* home = std::getenv ("HOME"); home != nullptr && *home != 0) return fs::path (home) / ".config/tactus/profiles";
+    return {};
+}
+
+LoadedProfiles profilesAtHand()
+{
+    LoadedProfiles all;
+    if (const auto own = ownProfileFolder(); ! own.empty() && fs::is_directory (own)) all = loadProfiles (own);
+    if (const auto folder = profileFolder(); ! folder.empty())
+    {
+        auto ours = loadProfiles (folder);
+        const auto own = all.profiles;
+        std::ranges::copy_if (ours.profiles, std::back_inserter (all.profiles), [&] (const auto& p)
+                              { return std::ranges::none_of (own, [&] (const auto& o)
+                                                             { return o->id == p->id; }); });
+        std::ranges::move (ours.messages, std::back_inserter (all.messages));
+    }
+    return all;
+}
+
+}   // namespace tactus::host::hid

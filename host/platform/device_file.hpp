@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace tactus::host
+{
+
+/// True if the system has such a device file and does not let this user read and write it. [any thread]
+bool isForbidden (const std::string& path) noexcept;
+
+/// Where the running program is; empty where the system does not tell. [any thread]
+std::filesystem::path programFolder();
+
+}   // namespace tactus::host

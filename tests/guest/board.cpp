@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// A board that speaks the report of host/profiles/tactus_board.json, and misbehaves as it is told.
+#include "uhid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <csignal>
+#include <memory>
+#include <random>
+
+namespace tactus::guest
+{
+
+namespace
+{
+using Report = std::array<std::uint8_t, 64>;
+
+// Vendor page 0xffab, usage 0x0200: 64 bytes each way, no report id.
+constexpr std::uint8_t descriptor[] { 0x06, 0xab, 0xff, 0x0a, 0x00, 0x02, 0xa1, 0x01, 0x75, 0x08, 0x15, 0x00, 0x26, 0xff, 0x00,
+                                      0x95, 0x40, 0x09, 0x01, 0x81, 0x02, 0x95, 0x40, 0x09, 0x02, 0x91, 0x02, 0xc0 };
+
+volatile std::sig_atomic_t ended = 0;
+
+void put32 (Report& r, std::size_t at, std::uint32_t v)
+{
+    for (std::size_t i = 0; i < 4; ++i)
+        r[at + i] = static_cast<std::uint8_t> (v >> (8 * i));
+}
+
+std::int32_t get32 (std::span<const std::uint8_t> r, std::size_t at)
+{
+    std::uint32_t v = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        v |= static_cast<std::uint32_t> (r[at + i]) << (8 * i);
+    return static_cast<std::int32_t> (v);
+}
+
+/// CRC-32 of IEEE 802.3, a bit at a time.
+std::uint32_t crcOf (std::span<const std::uint8_t> bytes)
+{
+    std::uint32_t crc = 0xffffffff;
+    for (const auto byte : bytes)
+    {
+        crc ^= byte;
+        for (int i = 0; i < 8; ++i)
+            crc = (crc & 1u) != 0 ? crc >> 1 ^ 0xedb88320u : crc >> 1;
+    }
+    return ~crc;
+}
+
+/// Pressed into the wood and rubbed to and fro, in nm.
+std::array<std::int32_t, 3> placeAt (std::uint32_t n)
+{
+    const double t = 1e-3 * n;
+    const double depth = 1e6 * std::min (1.0, 4.0 * t) * (1.0 + 0.2 * std::sin (9.0 * t));
+    return { static_cast<std::int32_t> (2e7 * std::sin (6.0 * t)), static_cast<std::int32_t> (5e6 * std::sin (1.3 * t)), static_cast<std::int32_t> (-depth) };
+}
+
+Report reportOf (std::uint32_t n)
+{
+    Report r {};
+    r[0] = 0x54;
+    r[1] = 1;
+    r[2] = 1;   // homed
+    put32 (r, 4, n);
+    put32 (r, 8, 1000 * n);
+    const auto place = placeAt (n);
+    for (std::size_t i = 0; i < 3; ++i)
+        put32 (r, 12 + 4 * i, static_cast<std::uint32_t> (place[i]));
+    return r;
+}
+
+/// What happened, in memory until the end, so that files cost no time.
+struct Log
+{
+    std::string lines;
+
+    void sent (const char* how, std::uint32_t n)
+    {
+        const auto p = placeAt (n);
+        char line[96];
+        std::snprintf (line, sizeof line, "in,%s,%u,%d,%d,%d\n", how, n, p[0], p[1], p[2]);
+        lines += line;
+    }
+
+    void got (std::span<const std::uint8_t> report)
+    {
+        // Without a report id, some kernels hand on the 0 that stands for it.
+        if (report.size() == 65) report = report.subspan (1);
+        if (report.size() != 64)
+        {
+            lines += "out,size\n";
+            return;
+        }
+        const bool good_sum = static_cast<std::uint32_t> (get32 (report, 60)) == crcOf (report.first (60));
+        const bool neutral = std::all_of (report.begin() + 2, report.begin() + 60, [] (auto b)
+                                          { return b == 0; });
+        char line[128];
+        std::snprintf (line, sizeof line, "out,%s,%u,%d,%d,%d,%.6f\n", ! good_sum && ! neutral ? "sum" : neutral            ? "neutral"
+                                                                                                     : (report[2] & 1) != 0 ? "driven"
+                                                                                                                            : "other",
+                       static_cast<std::uint32_t> (get32 (report, 4)), get32 (report, 8), get32 (report, 12), get32 (report, 16), now());
+        lines += line;
+    }
+
+    void mark (const char* what)
+    {
+        char line[64];
+        std::snprintf (line, sizeof line, "%s,%.6f\n", what, now());
+        lines += line;
+    }
+};
+}   // namespace
+
+/// --seconds S, --rate HZ, --log FILE, --serial TEXT, --wait 1 (silent until it is told something); every so many reports: --drop, --malformed, --short, --oversized,
+/// --swap; once, after so many: --stall (100 ms), --unplug (away for --away S).
+int board (const std::vector<std::string>& args)
+{
+    std::signal (SIGTERM, [] (int)
+                 { ended = 1; });
+    const double seconds = option (args, "seconds", 10.0), period = 1.0 / option (args, "rate", 1000.0);
+    const auto every = [&] (const char* name, std::uint32_t n)
+    {
+        const auto each = static_cast<std::uint32_t> (option (args, name, 0.0));
+        return each > 0 && n % each == each - 1;
+    };
+    const auto stall_at = static_cast<std::uint32_t> (option (args, "stall", 0.0)), unplug_at = static_cast<std::uint32_t> (option (args, "unplug", 0.0));
+    const auto serial = text (args, "serial", "B7");
+
+    Log log;
+    const auto plug = [&]
+    { return std::make_unique<Uhid> ("Tactus test board", serial.c_str(), 0x16c0, 0x0486, descriptor); };
+    const bool waits = option (args, "wait", 0.0) > 0.0;
+    bool told = false;
+    const auto heard = [&] (std::span<const std::uint8_t> r)
+    {
+        told = true;
+        log.got (r);
+    };
+
+    auto device = plug();
+    const double end = now() + seconds;
+    std::uint32_t n = 0;
+    double due = now();
+    bool was_open = false;
+    while (now() < end && ended == 0)
+    {
+        device->serve (due, heard);
+        due = std::max (due + period, now() - 4.0 * period);   // late by more than that is not made up for
+        if (device->isOpen() != was_open) log.mark (was_open ? "closed" : "opened");
+        was_open = device->isOpen();
+        if (! was_open || (waits && ! told)) continue;
+
+        ++n;
+        auto r = reportOf (n);
+        if (n == stall_at) device->serve (now() + 0.1, heard);
+        if (n == unplug_at)
+        {
+            log.mark ("unplugged");
+            device.reset();
+            was_open = false;
+            timespec wait {};
+            const double away = option (args, "away", 1.0);
+            wait.tv_sec = static_cast<time_t> (away);
+            wait.tv_nsec = static_cast<long> ((away - std::floor (away)) * 1e9);
+            ::nanosleep (&wait, nullptr);
+            device = plug();
+            log.mark ("plugged");
+            due = now();
+            continue;
+        }
+        if (every ("drop", n))
+            log.sent ("dropped", n);
+        else if (every ("malformed", n))
+        {
+            r[0] = 0x55;
+            device->input (r);
+            log.sent ("malformed", n);
+        }
+        else if (every ("short", n))
+        {
+            device->input (std::span (r).first (20));
+            log.sent ("short", n);
+        }
+        else if (every ("oversized", n))
+        {
+            std::array<std::uint8_t, 200> large {};
+            std::copy (r.begin(), r.end(), large.begin());
+            device->input (large);
+            log.sent ("oversized", n);
+        }
+        else if (every ("swap", n))
+        {
+            device->input (reportOf (n + 1));
+            log.sent ("good", n + 1);
+            device->input (r);
+            log.sent ("good", n);
+            ++n;
+        }
+        else
+        {
+            device->input (r);
+            log.sent ("good", n);
+        }
+    }
+    device->serve (now() + 0.05, heard);
+
+    if (auto* file = std::fopen (text (args, "log", "/dev/stdout").c_str(), "w"))
+    {
+        std::fputs (log.lines.c_str(), file);
+        std::fclose (file);
+    }
+    return 0;
+}
+
+}   // namespace tactus::guest

@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Looks at what in_guest.sh left in a folder: check.py FOLDER PROGRAM SOURCE
+
+What the program counted has to be what the device did; the forces that the device got have to be, by the sequence number
+that each answers, those that `tactus render` gives for the positions that were recorded, bit for bit after encoding."""
+import csv
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+folder, program, source = sys.argv[1:4]
+failures = []
+
+
+def check(holds, what):
+    print(("ok      " if holds else "FAILED  ") + what)
+    if not holds:
+        failures.append(what)
+
+
+def text(name):
+    with open(os.path.join(folder, name), encoding="utf-8") as f:
+        return f.read()
+
+
+class Board:
+    """What a board did and heard, in order."""
+
+    def __init__(self, name):
+        self.rows = [line.split(",") for line in text(name + ".board.csv").splitlines()]
+        self.sent = [(r[1], int(r[2])) for r in self.rows if r[0] == "in"]
+        self.place = {tuple(int(v) for v in r[3:6]): int(r[2]) for r in self.rows if r[0] == "in"}
+        self.heard = [(r[1], int(r[2]), tuple(int(v) for v in r[3:6]), float(r[6])) for r in self.rows if r[0] == "out" and len(r) == 7]
+        self.broken = sum(1 for r in self.rows if r[0] == "out" and (len(r) != 7 or r[1] in ("sum", "other")))
+
+
+def play_rows(name):
+    with open(os.path.join(folder, name + ".play.csv"), newline="", encoding="utf-8") as f:
+        return list(csv.DictReader(f))
+
+
+def counted(name):
+    """The program's own account."""
+    said = text(name + ".play.err")
+    number = lambda pattern: int((re.search(pattern, said) or [0, 0])[1])
+    return {"reports": number(r"tactus_board\): (\d+) reports"), "taken": number(r"reports, (\d+) taken"), "lost": number(r"taken, (\d+) lost"), "refused": number(r"lost, (\d+) refused"),
+            "short": number(r"(\d+) too short"), "long": number(r"(\d+) too long"), "mark": number(r"(\d+) wrong mark"),
+            "restarts": number(r"(\d+) out of order"), "dropped": number(r"(\d+) overwritten before"), "departures": number(r"unplugged (\d+) times"), "no room": number(r"(\d+) without room")}
+
+
+def expected(sent, reports, with_short):
+    """What should have been counted after so many reports had been looked at. Newer kernels keep short reports to themselves."""
+    out = {"lost": 0, "restarts": 0, "short": 0, "long": 0, "mark": 0}
+    kinds = {"short": "short", "oversized": "long", "malformed": "mark"}
+    last = None
+    for how, n in [s for s in sent if s[0] != "dropped" and (with_short or s[0] != "short")][:reports]:
+        if how in kinds:
+            out[kinds[how]] += 1
+            continue
+        if last is not None and n > last:
+            out["lost"] += n - last - 1
+        elif last is not None and n < last:
+            out["restarts"] += 1
+        last = n
+    return out
+
+
+def micro(newton):
+    """As the profile has it: s32, 1 uN."""
+    return int(math.floor(newton / 1e-6 + 0.5))
+
+
+def closed_loop(name):
+    board, rows, said = Board(name), play_rows(name), counted(name)
+    check(board.broken == 0, f"{name}: every report that the board got had the right length and sum")
+
+    # The tick that answers a report has its position.
+    ticks = []
+    for row in rows:
+        place = tuple(round(float(row["hand.position." + c]) * 1e9) for c in "xyz")
+        ticks.append(board.place.get(place, 0))
+
+    applied = [tuple(micro(float(row["motor.applied." + c])) for c in "xyz") for row in rows]   # of the tick before
+    k, compared, wrong = 0, 0, 0
+    for kind, echo, force, _ in board.heard:
+        if kind != "driven" or echo == 0 or not any(force):
+            continue   # while a reading is not valid the graph keeps the place before, which tells no number; there is no force then
+        found = next((i for i in range(k, len(rows) - 1) if ticks[i] == echo and applied[i + 1] == force), None)
+        if found is None:
+            wrong += ticks.count(echo) > 0 and echo not in ticks[-2:]   # what answers the end of the run is not recorded
+            continue
+        k, compared = found, compared + 1
+    check(wrong == 0 and compared > 0, f"{name}: {compared} forces are, by sequence number, what the guard let through, {wrong} are not")
+    check(any(abs(f[2]) > 1e5 for f in applied), f"{name}: there was force on the tool")
+
+    # The same positions once more, offline.
+    with tempfile.TemporaryDirectory() as scratch:
+        trace, again = os.path.join(scratch, "trace.csv"), os.path.join(scratch, "again.csv")
+        with open(trace, "w", encoding="utf-8") as f:
+            f.write("t,x,y,z\n")
+            for row in rows:
+                f.write(",".join([row["t"]] + [row["hand.position." + c] for c in "xyz"]) + "\n")
+        subprocess.run([program, "render", os.path.join(source, "graphs/dry_wood.json"), "--rate", "1000", "--device", "stylus=trace:" + trace,
+                        "--record", "motor.force", "--out", again], check=True)
+        with open(again, newline="", encoding="utf-8") as f:
+            offline = list(csv.DictReader(f))
+    same = sum(all(a["motor.force." + c] == b["motor.force." + c] for c in "xyz") for a, b in zip(rows, offline))
+    check(same == len(rows) == len(offline) and same > 500, f"{name}: {same} of {len(rows)} ticks have offline the force they had live, to the bit")
+
+    full = sum(1 for i in range(len(rows) - 1) if all(rows[i]["motor.force." + c] == rows[i + 1]["motor.applied." + c] for c in "xyz"))
+    print(f"        {said}; {full} ticks with the whole force")
+    return board, said, full
+
+
+board, said, full = closed_loop("loop")
+check(full > 0, "loop: after the ramp the device gets the graph's force as it is")
+check(said["lost"] == 0 and said["refused"] == 0 and said["taken"] > 1000, f"loop: nothing is lost of {said['taken']} reports")
+
+board, said, _ = closed_loop("faults")
+should = expected(board.sent, said["taken"] + said["refused"], said["short"] > 0)
+for what, number in should.items():
+    check(said[what] == number and (number > 0 or what == "short"), f"faults: {what}: {said[what]} counted, {number} by the device")
+
+board, said, _ = closed_loop("unplug")
+check(said["departures"] == 1, "unplug: it went away once")
+came_back = next(i for i, r in enumerate(board.rows) if r[0] == "plugged")
+after = [(r[1], tuple(int(v) for v in r[3:6])) for r in board.rows[came_back:] if r[0] == "out" and len(r) == 7]
+driven = [f for kind, f in after if kind == "driven"]
+check(len(driven) > 10, f"unplug: it is driven again, {len(driven)} times")
+first, most = max(abs(v) for v in driven[0]), max(abs(v) for f in driven for v in f)
+check(first < most / 4, f"unplug: it begins at {first} uN and rises to {most}")
+
+for signal in ("INT", "TERM", "KILL", "SEGV"):
+    heard = Board(signal).heard
+    pushed = [h for h in heard if h[0] == "driven" and any(h[2])]
+    check(len(pushed) > 10, f"{signal}: it was under force")
+    check(heard[-1][0] == "neutral", f"{signal}: the last that the board heard is to rest")
+    if signal in ("INT", "TERM"):
+        last = [h for h in heard if h[0] == "driven"][-1]
+        check(not any(last[2]), f"{signal}: and the force had gone to zero before")
+    else:
+        print(f"        {1e3 * (heard[-1][3] - pushed[-1][3]):.1f} ms after the last push")
+
+check("No HID device is connected." in text("none.txt"), "without a device, the list says so")
+check("tactus_board" in text("devices.txt") and "spacemouse" in text("devices.txt"), "the list names what fits")
+devices = json.loads(text("devices.json"))
+check({p["id"] for d in devices for p in d["profiles"][:1]} >= {"tactus_board", "spacemouse"} and all(d["may_open"] for d in devices), "so does the list as JSON")
+probes = {d["probe"]["profile"]: d["probe"] for d in json.loads(text("probe.json")) if "probe" in d}
+mouse = probes.get("spacemouse", {})
+check(mouse.get("reports", 0) > 3 and mouse["axes"]["x"] == 100 * 4e-6 and mouse["axes"]["rz"] == -0.05 and mouse["pressed"] == ["button1"], f"a SpaceMouse is probed: {mouse.get('reports')} reports")
+check(probes.get("tactus_board", {}).get("taken", 0) > 10, "beside a board")
+rule = 'KERNEL=="hidraw*", ATTRS{idVendor}=="16c0", ATTRS{idProduct}=="0486", TAG+="uaccess"'
+check(rule in text("denied.txt") and rule in text("denied_play.txt") and "hid/not_permitted" in text("denied_play.txt"), "who may not open a device is told the udev rule")
+
+print(f"{len(failures)} failures" if failures else "all is well")
+sys.exit(1 if failures else 0)

@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Runs in the guest: devices made by guest_device, and the program as it is on this computer. What is to be looked at
+# afterwards goes to /run/results; check.py looks at it. Nothing here depends on how long anything takes.
+cd "$(dirname "$0")/../.."
+work=/var/tmp/work
+mkdir -p $work
+tactus=${TACTUS_PROGRAM:-build/release/bin/tactus}
+device=${GUEST_DEVICE:-build/release/bin/guest_device}
+export HOME=$work
+failures=0
+fail () { echo "FAILED: $*"; failures=$((failures + 1)); }
+
+wait_for () { for _ in $(seq 300); do compgen -G "$1" >/dev/null && return; sleep 0.1; done; fail "$1 did not come"; }
+gone () { for _ in $(seq 100); do compgen -G '/dev/hidraw*' >/dev/null || return; sleep 0.1; done; }
+
+# plug OPTIONS…: a board, until unplug. Its log is $work/board.csv.
+plug () { gone; $device board --seconds 300 --log $work/board.csv "$@" & sim=$!; wait_for '/dev/hidraw*'; }
+unplug () { kill -TERM $sim; wait $sim; }
+
+# keep NAME: what the run left, under that name.
+keep () { local f; for f in board.csv play.csv play.err; do [ -e $work/$f ] && mv $work/$f "/run/results/$1.$f"; done; }
+
+play () { $tactus play graphs/dry_wood.json --device stylus=hid:tactus_board --osc off "$@" 2>$work/play.err; }
+recorded=(--record hand.position,motor.force,motor.applied --out $work/play.csv)
+
+echo "== nothing connected"
+$tactus devices >/run/results/none.txt || fail "tactus devices without a device"
+
+echo "== a closed loop"
+plug --wait 1
+play --duration 3 "${recorded[@]}" || fail "the closed loop"
+unplug
+keep loop
+
+echo "== reports that are lost, malformed, short, too long, out of order, and a stall"
+plug --wait 1 --drop 37 --malformed 701 --short 811 --oversized 907 --swap 401 --stall 1500
+play --duration 3 "${recorded[@]}" || fail "the faulty board"
+unplug
+keep faults
+
+echo "== unplugged under force, and back"
+plug --unplug 800 --away 1.5
+play --duration 5 "${recorded[@]}" || fail "unplugged"
+unplug
+keep unplug
+
+for signal in INT TERM KILL SEGV; do
+    echo "== ended by $signal under force"
+    plug
+    play --duration 60 & player=$!
+    for _ in $(seq 300); do pgrep -x tactus >/dev/null && break; sleep 0.1; done
+    sleep 3
+    kill -$signal "$(pgrep -x tactus | head -1)"
+    wait $player
+    sleep 0.5
+    unplug
+    keep "$signal"
+done
+
+echo "== several devices, listed and probed"
+plug
+$device space_mouse --seconds 300 & mouse=$!
+joystick=
+[ -e "$FFB_DESCRIPTOR" ] && { $device descriptor --file "$FFB_DESCRIPTOR" --seconds 300 >/dev/null & joystick=$!; }
+sleep 1
+$tactus devices >/run/results/devices.txt || fail "tactus devices"
+$tactus devices --json >/run/results/devices.json || fail "tactus devices --json"
+$tactus devices --probe --duration 2 --json >/run/results/probe.json || fail "tactus devices --probe"
+kill $mouse $joystick
+
+echo "== a device that this user may not open"
+chmod 0600 /dev/hidraw*
+as_nobody="setpriv --reuid=65534 --regid=65534 --clear-groups"
+$as_nobody $tactus devices >/run/results/denied.txt || fail "tactus devices for anybody"
+$as_nobody $tactus play graphs/dry_wood.json --device stylus=hid:tactus_board --osc off --duration 1 2>/run/results/denied_play.txt
+[ $? -eq 1 ] || fail "a device that may not be opened is an error"
+unplug
+
+cp $work/* /run/results/ 2>/dev/null
+exit $failures

@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# make_guest.sh FOLDER: a kernel with uhid and a first root for it, in FOLDER. The guest's own root is this computer's, read
+# only, so that programs built here run in it unchanged. Nothing is installed. Exit status 77, with a sentence, if there is no
+# kernel to be had.
+set -euo pipefail
+folder=$(mkdir -p "$1" && cd "$1" && pwd)
+no_kernel () { echo "skipped: no kernel for the guest: $*"; exit 77; }
+
+for tool in qemu-system-x86_64 busybox cpio depmod dpkg-deb; do
+    command -v "$tool" >/dev/null || [ -x "/sbin/$tool" ] || no_kernel "$tool is missing"
+done
+
+if ! compgen -G "$folder/kernel/boot/vmlinuz-*" >/dev/null; then
+    package=$(apt-cache depends linux-image-amd64 2>/dev/null | sed -n 's/.*Depends: \(linux-image-[0-9].*\)/\1/p' | head -1)
+    [ -n "$package" ] || no_kernel "apt knows no linux-image-amd64"
+    rm -rf "$folder/kernel" "$folder/download"
+    mkdir -p "$folder/download"
+    (cd "$folder/download" && apt-get download "$package" >apt.log 2>&1) || no_kernel "$package cannot be fetched"
+    dpkg-deb -x "$folder"/download/linux-image-*.deb "$folder/kernel.part"
+    rm -rf "$folder/download"
+    mv "$folder/kernel.part" "$folder/kernel"
+fi
+version=$(basename "$folder"/kernel/boot/vmlinuz-*)
+version=${version#vmlinuz-}
+
+PATH=$PATH:/sbin
+root=$folder/root
+rm -rf "$root"
+mkdir -p "$root"/{bin,modules,proc,sys,dev,mnt}
+[ -e "$folder/kernel/lib/modules/$version/modules.dep" ] || depmod -b "$folder/kernel" "$version"
+cp "$(command -v busybox)" "$root/bin/busybox"
+for module in virtio_pci 9pnet_virtio 9p uhid hid-generic; do
+    modprobe -S "$version" -d "$folder/kernel" -D "$module" 2>/dev/null | awk '/^insmod/ {print $2}'
+done | awk '! seen[$0]++' | while read -r file; do
+    cp "$file" "$root/modules/"
+    basename "$file" >>"$root/modules/order"
+done
+
+cat >"$root/init" <<'INIT'
+#!/bin/busybox sh
+b=/bin/busybox
+$b mount -t proc proc /proc
+$b mount -t sysfs sys /sys
+$b mount -t devtmpfs dev /dev
+for module in $($b cat /modules/order); do $b insmod "/modules/$module"; done
+plan9=trans=virtio,version=9p2000.L,msize=262144
+$b mount -t 9p -o $plan9,ro,cache=loose host /mnt
+$b mount -t proc proc /mnt/proc
+$b mount -t sysfs sys /mnt/sys
+$b mount -o bind /dev /mnt/dev
+$b mkdir -p /mnt/dev/shm
+for place in dev/shm run var/tmp; do $b mount -t tmpfs tmpfs /mnt/$place; done
+$b mkdir -p /mnt/run/udev /mnt/run/results
+$b mount -t 9p -o $plan9 results /mnt/run/results
+$b ip link set lo up
+script=$($b sed -n 's/.*guest_script=\([^ ]*\).*/\1/p' /proc/cmdline)
+$b chroot /mnt /bin/bash "$script"
+echo "GUEST_RESULT=$?"
+$b sync
+$b poweroff -f
+INIT
+chmod +x "$root/init"
+(cd "$root" && find . | cpio -o -H newc 2>/dev/null | gzip -1) >"$folder/root.cpio.gz"

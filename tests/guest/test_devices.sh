@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# test_devices.sh BUILD: the programs of a build folder with HID devices that are not there, in a guest that has them.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+build=$(cd "$1" && pwd)
+guest=build/guest
+results=$(mktemp -d)
+trap 'rm -rf "$results"' EXIT
+
+tests/guest/make_guest.sh $guest || { status=$?; [ $status -eq 77 ] && exit 0; exit $status; }
+data=../shared/data/hid_ffb/openffboard_1axis.bin
+cat >"$results/run.sh" <<RUN
+export TACTUS_PROGRAM=$build/bin/tactus GUEST_DEVICE=$build/bin/guest_device FFB_DESCRIPTOR=$(realpath -m $data)
+exec "$PWD/tests/guest/in_guest.sh"
+RUN
+if ! tests/guest/run_guest.sh $guest "$results/run.sh" "$results"; then
+    tail -n 20 "$results"/*.err >&2 || true
+    exit 1
+fi
+/usr/bin/python3 tests/guest/check.py "$results" "$build/bin/tactus" "$PWD"

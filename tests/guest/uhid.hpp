@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <linux/uhid.h>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tactus::guest
+{
+
+inline double now()
+{
+    timespec t {};
+    clock_gettime (CLOCK_MONOTONIC, &t);
+    return static_cast<double> (t.tv_sec) + 1e-9 * static_cast<double> (t.tv_nsec);
+}
+
+/// A HID device made of nothing (Linux: Documentation/hid/uhid.rst). It is plugged in while this lives.
+class Uhid
+{
+public:
+    Uhid (const char* name, const char* serial, std::uint16_t vid, std::uint16_t pid, std::span<const std::uint8_t> descriptor)
+    {
+        fd = ::open ("/dev/uhid", O_RDWR | O_CLOEXEC);
+        if (fd < 0)
+        {
+            std::perror ("/dev/uhid");
+            std::exit (2);
+        }
+        uhid_event e {};
+        e.type = UHID_CREATE2;
+        auto& c = e.u.create2;
+        std::snprintf (reinterpret_cast<char*> (c.name), sizeof c.name, "%s", name);
+        std::snprintf (reinterpret_cast<char*> (c.uniq), sizeof c.uniq, "%s", serial);
+        std::memcpy (c.rd_data, descriptor.data(), descriptor.size());
+        c.rd_size = static_cast<std::uint16_t> (descriptor.size());
+        c.bus = 3;   // USB
+        c.vendor = vid;
+        c.product = pid;
+        tell (e);
+    }
+
+    ~Uhid()
+    {
+        uhid_event e {};
+        e.type = UHID_DESTROY;
+        tell (e);
+        ::close (fd);
+    }
+
+    Uhid (const Uhid&) = delete;
+    Uhid& operator= (const Uhid&) = delete;
+
+    void input (std::span<const std::uint8_t> report)
+    {
+        uhid_event e {};
+        e.type = UHID_INPUT2;
+        e.u.input2.size = static_cast<std::uint16_t> (report.size());
+        std::memcpy (e.u.input2.data, report.data(), report.size());
+        tell (e);
+    }
+
+    bool isOpen() const { return opened; }
+
+    /// Waits for what the computer wants, at most until then; calls back with each output report.
+    template <typename F>
+    void serve (double until, F&& output)
+    {
+        for (;;)
+        {
+            const double left = until - now();
+            timespec wait { 0, left > 0.0 ? static_cast<long> (std::min (left, 0.5) * 1e9) : 0 };
+            pollfd p { fd, POLLIN, 0 };
+            if (::ppoll (&p, 1, &wait, nullptr) <= 0)
+            {
+                if (now() >= until) return;
+                continue;
+            }
+            uhid_event e {};
+            if (::read (fd, &e, sizeof e) <= 0) return;
+            if (e.type == UHID_OPEN) opened = true;
+            if (e.type == UHID_CLOSE) opened = false;
+            if (e.type == UHID_OUTPUT) output (std::span<const std::uint8_t> (e.u.output.data, e.u.output.size));
+            if (e.type == UHID_GET_REPORT) refuse (e, UHID_GET_REPORT_REPLY);
+            if (e.type == UHID_SET_REPORT)
+            {
+                output (std::span<const std::uint8_t> (e.u.set_report.data, e.u.set_report.size));
+                uhid_event reply {};
+                reply.type = UHID_SET_REPORT_REPLY;
+                reply.u.set_report_reply.id = e.u.set_report.id;
+                tell (reply);
+            }
+        }
+    }
+
+private:
+    void tell (const uhid_event& e)
+    {
+        if (::write (fd, &e, sizeof e) < 0) std::perror ("uhid");
+    }
+
+    void refuse (const uhid_event& asked, std::uint32_t type)
+    {
+        uhid_event reply {};
+        reply.type = type;
+        reply.u.get_report_reply.id = asked.u.get_report.id;
+        reply.u.get_report_reply.err = EIO;
+        tell (reply);
+    }
+
+    int fd = -1;
+    bool opened = false;
+};
+
+/// "--name VALUE" among the arguments.
+inline double option (const std::vector<std::string>& args, const std::string& name, double otherwise)
+{
+    for (std::size_t i = 0; i + 1 < args.size(); ++i)
+        if (args[i] == "--" + name) return std::atof (args[i + 1].c_str());
+    return otherwise;
+}
+
+inline std::string text (const std::vector<std::string>& args, const std::string& name, const std::string& otherwise)
+{
+    for (std::size_t i = 0; i + 1 < args.size(); ++i)
+        if (args[i] == "--" + name) return args[i + 1];
+    return otherwise;
+}
+
+int board (const std::vector<std::string>& args);
+int spaceMouse (const std::vector<std::string>& args);
+int descriptorOnly (const std::vector<std::string>& args);
+
+}   // namespace tactus::guest

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <host/hid/profile_reader.hpp>
+#include <host/hid_link/hid_device.hpp>
+
+#include <framework/json.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <condition_variable>
+#include <cstring>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace tactus::test
+{
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// A board on a wire that is not there: reports of 24 bytes, without ids. In: mark, flags (bit 0: valid), sequence u16,
+/// x, y, z as s32 in nm. Out: mark, enable, echoed sequence u16, force as s32 in uN.
+struct BoardProfile
+{
+    double rate = 1000.0, max_rate = 1000.0, keepalive = 0.0, watchdog = 0.02, ramp = 0.01;
+    std::string steps = R"("init": [{"bytes": "aa 01"}, {"kind": "feature", "bytes": "aa 02"}], "exit": [{"bytes": "aa 03"}],)";
+
+    std::shared_ptr<const host::hid::Profile> make() const
+    {
+        const auto number = [] (double v)
+        { return Json (v).dump(); };
+        auto loaded = host::hid::readProfileText (R"({"format": "tactus-profile", "version": 1, "id": "board", "name": "Board", "match": [{"vid": "0x1209", "pid": "0x0001"}], )" + steps + R"(
+            "inputs": [{"length": 24, "verified": false, "why_not": "made up", "sequence": "count", "fields": [
+                {"name": "mark", "at": 0, "type": "u8", "expect": "0x54"}, {"name": "homed", "at": 1, "type": "u1"},
+                {"name": "count", "at": 2, "type": "u16le"}, {"name": "x", "at": 4, "type": "s32le", "scale": "1 nm"},
+                {"name": "y", "at": 8, "type": "s32le", "scale": "1 nm"}, {"name": "z", "at": 12, "type": "s32le", "scale": "1 nm"}]}],
+            "outputs": [{"name": "effort", "neutral": "54 00*23", "verified": false, "why_not": "made up", "fields": [
+                {"source": "enable", "at": 1, "type": "u1"}, {"name": "count", "at": 2, "type": "u16le", "source": "echo"},
+                {"name": "fx", "at": 4, "type": "s32le", "scale": "1 uN"}, {"name": "fy", "at": 8, "type": "s32le", "scale": "1 uN"},
+                {"name": "fz", "at": 12, "type": "s32le", "scale": "1 uN"}], "max_rate": )"
+                                                  + number (max_rate) + (keepalive > 0.0 ? R"(, "keepalive": )" + number (keepalive) : "") + R"(}],
+            "position": ["x", "y", "z"], "valid": "homed", "force": ["fx", "fy", "fz"],
+            "limits": {"max_force": 3.0, "ramp": )"
+                                                  + number (ramp)
+                                                  + R"(, "stale_input": )" + number (watchdog) + R"(}, "rate": )" + number (rate) + R"(, "sources": ["made up"]})");
+        std::string wrong;
+        for (const auto& m : loaded.messages)
+            wrong += m.where + ": " + m.text + "\n";
+        INFO (wrong);
+        REQUIRE (loaded.profile);
+        return loaded.profile;
+    }
+};
+
+inline Bytes boardReport (std::uint16_t count, std::int32_t x = 0, std::int32_t y = 0, std::int32_t z = 0)
+{
+    Bytes b (24);
+    b[0] = 0x54;
+    b[1] = 1;
+    std::memcpy (b.data() + 2, &count, 2);
+    std::memcpy (b.data() + 4, &x, 4);
+    std::memcpy (b.data() + 8, &y, 4);
+    std::memcpy (b.data() + 12, &z, 4);
+    return b;
+}
+
+/// What a board was told.
+struct Told
+{
+    enum class How
+    {
+        output,
+        feature,
+        will
+    };
+
+    Bytes bytes;
+    How how = How::output;
+    std::chrono::steady_clock::time_point at;
+
+    // Of an output, which begins with a 0.
+    bool isEffort() const { return how == How::output && bytes.size() == 25; }
+    bool isDriven() const { return isEffort() && bytes[2] == 1; }
+    bool isNeutral() const { return isEffort() && bytes[2] == 0; }
+    std::uint16_t echo() const { return static_cast<std::uint16_t> (bytes[3] | bytes[4] << 8); }
+    std::int32_t force (std::size_t axis) const
+    {
+        std::int32_t f = 0;
+        std::memcpy (&f, bytes.data() + 5 + 4 * axis, 4);
+        return f;
+    }
+};
+
+class FakeBoard final : public host::hid::HidSystem
+{
+public:
+    FakeBoard()
+    {
+        what.vid = 0x1209;
+        what.pid = 0x0001;
+        what.product = "Fake board";
+        what.path = "fake/0";
+        what.serial = "S1";
+    }
+
+    host::hid::ConnectedDevice what;
+
+    /// Called with each output, without a lock, before it is noted.
+    std::function<void (const Bytes&)> on_write;
+
+    void send (Bytes report)
+    {
+        change ([&]
+                { waiting.push_back (std::move (report)); });
+    }
+    void plug (bool in)
+    {
+        change ([&]
+                {
+            plugged = in;
+            ++plugging;
+            waiting.clear(); });
+    }
+    void failWrites (bool f)
+    {
+        change ([&]
+                { failing = f; });
+    }
+    void forbid (bool f)
+    {
+        change ([&]
+                { forbidden = f; });
+    }
+
+    std::vector<Told> told() const
+    {
+        const std::lock_guard lock (mutex);
+        return log;
+    }
+    int openings() const
+    {
+        const std::lock_guard lock (mutex);
+        return opened;
+    }
+
+    /// True once what is asked for is so; false if it is not so after a long time.
+    template <typename F>
+    bool until (F&& so) const
+    {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (10);
+        while (! so())
+        {
+            if (std::chrono::steady_clock::now() > end) return false;
+            std::this_thread::sleep_for (std::chrono::microseconds (200));
+        }
+        return true;
+    }
+
+    std::vector<host::hid::ConnectedDevice> connected() override
+    {
+        const std::lock_guard lock (mutex);
+        if (! plugged) return {};
+        return { what };
+    }
+
+    tl::expected<std::unique_ptr<host::hid::Transport>, host::hid::OpenFailure> open (const host::hid::ConnectedDevice&) override
+    {
+        const std::lock_guard lock (mutex);
+        if (forbidden) return tl::unexpected (host::hid::OpenFailure { true, "Permission denied" });
+        if (! plugged) return tl::unexpected (host::hid::OpenFailure { false, "No such device" });
+        ++opened;
+        return std::make_unique<Wire> (*this, plugging);
+    }
+
+private:
+    class Wire final : public host::hid::Transport
+    {
+    public:
+        Wire (FakeBoard& b, int p) : board (b), plugging (p) {}
+
+        tl::expected<std::size_t, std::string> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override
+        {
+            std::unique_lock lock (board.mutex);
+            board.changed.wait_for (lock, timeout, [&]
+                                    { return gone() || ! board.waiting.empty(); });
+            if (gone()) return tl::unexpected (std::string ("Input/output error"));
+            if (board.waiting.empty()) return std::size_t { 0 };
+            const auto report = std::move (board.waiting.front());
+            board.waiting.pop_front();
+            const auto size = std::min (report.size(), into.size());
+            std::copy_n (report.begin(), size, into.begin());
+            return size;
+        }
+
+        std::optional<std::string> write (std::span<const std::uint8_t> report) override { return tell (report, Told::How::output); }
+        std::optional<std::string> sendFeature (std::span<const std::uint8_t> report) override { return tell (report, Told::How::feature); }
+        std::optional<std::string> getFeature (std::span<std::uint8_t>) override { return std::nullopt; }
+        std::optional<std::string> leaveWill (const std::vector<host::hid::OutgoingReport>& reports) override
+        {
+            for (const auto& r : reports)
+                tell (r.bytes, Told::How::will);
+            return std::nullopt;
+        }
+
+    private:
+        bool gone() const { return ! board.plugged || board.plugging != plugging; }
+
+        std::optional<std::string> tell (std::span<const std::uint8_t> report, Told::How how)
+        {
+            const Bytes bytes (report.begin(), report.end());
+            if (board.on_write && how == Told::How::output) board.on_write (bytes);
+            const std::lock_guard lock (board.mutex);
+            if (gone() || board.failing) return "Input/output error";
+            board.log.push_back ({ bytes, how, std::chrono::steady_clock::now() });
+            return std::nullopt;
+        }
+
+        FakeBoard& board;
+        const int plugging;
+    };
+
+    template <typename F>
+    void change (F&& f)
+    {
+        {
+            const std::lock_guard lock (mutex);
+            f();
+        }
+        changed.notify_all();
+    }
+
+    mutable std::mutex mutex;
+    std::condition_variable changed;
+    std::deque<Bytes> waiting;
+    std::vector<Told> log;
+    bool plugged = true, failing = false, forbidden = false;
+    int plugging = 0, opened = 0;
+};
+
+inline std::unique_ptr<host::hid::HidDevice> openBoard (FakeBoard& board, const BoardProfile& profile = {})
+{
+    const host::hid::HidPort::Options options { .look_again = std::chrono::milliseconds (5), .real_time = false };
+    auto opened = host::hid::HidPort::open (board, board.what, profile.make(), options);
+    const auto* message = std::get_if<Message> (&opened);
+    INFO ((message != nullptr ? message->text : std::string()));
+    REQUIRE (message == nullptr);
+    auto device = std::make_unique<host::hid::HidDevice> (std::move (std::get<0> (opened)));
+    device->prepare (1e-3);
+    return device;
+}
+
+}   // namespace tactus::test

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+// A device as the clock of a run, and the loop through it.
+
+#include "fake_board.hpp"
+
+#include <framework/engine.hpp>
+#include <framework/file/graph_file.hpp>
+#include <framework/plan/compile.hpp>
+#include <host/devices/sim.hpp>
+#include <host/hid_link/hid_clock.hpp>
+#include <host/hid_link/open_device.hpp>
+#include <host/runtime/runner.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+using namespace tactus;
+using namespace tactus::host::hid;
+using test::boardReport;
+using test::Bytes;
+using test::FakeBoard;
+using test::openBoard;
+using namespace std::chrono_literals;
+
+namespace
+{
+struct Each final : host::Ticked
+{
+    explicit Each (std::function<bool (double)> f) : what (std::move (f)) {}
+    bool tick (double late_s) noexcept override { return what (late_s); }
+
+    std::function<bool (double)> what;
+};
+
+/// A stroke over the board, in nm: pressed down, back and forth.
+std::array<std::int32_t, 3> placeAt (int k)
+{
+    const double t = 1e-3 * k;
+    return { static_cast<std::int32_t> (2e7 * std::sin (6.0 * t)), static_cast<std::int32_t> (5e6 * std::sin (1.3 * t)), static_cast<std::int32_t> (-1e6 * std::min (1.0, 4.0 * t) * (1.0 + 0.2 * std::sin (9.0 * t))) };
+}
+
+/// Says what others said, tick by tick.
+struct Recorded final : Device
+{
+    explicit Recorded (const std::vector<Reading>& r) : readings (r) {}
+    void prepare (double) override {}
+    Reading read() noexcept override { return readings[std::min (k, readings.size() - 1)]; }
+    void write (const Effort& e) noexcept override
+    {
+        asked.push_back (e);
+        ++k;
+    }
+
+    const std::vector<Reading>& readings;
+    std::vector<Effort> asked;
+    std::size_t k = 0;
+};
+
+/// Notes what goes through a device.
+struct Listening final : Device
+{
+    explicit Listening (Device& d) : device (d) {}
+    void prepare (double dt) override { device.prepare (dt); }
+    Reading read() noexcept override
+    {
+        readings.push_back (device.read());
+        return readings.back();
+    }
+    void write (const Effort& e) noexcept override { device.write (e); }
+
+    Device& device;
+    std::vector<Reading> readings;
+};
+
+std::shared_ptr<Plan> dryWood()
+{
+    const auto loaded = loadGraph (TACTUS_SOURCE_DIR "/graphs/dry_wood.json");
+    auto compiled = compile (loaded.graph, catalogue(), { .rate_hz = 1000.0 });
+    REQUIRE (compiled.plan);
+    return compiled.plan;
+}
+}   // namespace
+
+TEST_CASE ("reports drive the ticks, a timer does while none come, and reports do again", "[hid]")
+{
+    FakeBoard board;
+    const auto device = openBoard (board);
+    HidClock clock { device->port(), 1000.0 };
+    int k = 0, timed = 0, fell_silent_at = 0;
+    std::uint16_t count = 0;
+    bool was_timed = false, driven_again = false;
+    board.send (boardReport (++count));
+    Each each { [&] (double late)
+                {
+                    ++k;
+                    CHECK (late >= 0.0);
+                    const bool now_timed = clock.isByTimer();
+                    timed += now_timed;
+                    driven_again = driven_again || (was_timed && ! now_timed && k > 60);
+                    was_timed = now_timed;
+                    if (k < 50)
+                        board.send (boardReport (++count));
+                    else if (k >= 60 && fell_silent_at == 0)
+                        fell_silent_at = k;
+                    if (k >= 60) board.send (boardReport (++count));
+                    return k < 120;
+                } };
+    clock.drive (each);
+    CHECK (k == 120);
+    CHECK (timed >= 9);
+    CHECK (clock.ticksByTimer() == static_cast<std::uint64_t> (timed));
+    CHECK (driven_again);
+}
+
+TEST_CASE ("a run over dry wood through a device gives it the forces that it would have given offline, bit for bit", "[hid]")
+{
+    FakeBoard board;
+    constexpr int length = 1500;
+    std::atomic<int> sent = 0;
+    const auto sendNext = [&]
+    {
+        const int k = ++sent;
+        if (k > length) return;
+        const auto [x, y, z] = placeAt (k);
+        board.send (boardReport (static_cast<std::uint16_t> (k), x, y, z));
+    };
+    board.on_write = [&] (const Bytes& b)   // each answer brings the next report
+    {
+        if (b.size() == 25 && b[2] == 1) sendNext();
+    };
+
+    const test::BoardProfile profile { .max_rate = 1e5, .watchdog = 10.0, .ramp = 0.02 };
+    const auto limits = limitsOf (*profile.make(), {});
+    std::vector<Reading> readings;
+    {
+        const auto device = openBoard (board, profile);
+        Listening listening { *device };
+        Engine engine { dryWood() };
+        engine.attach ("stylus", listening, limits);
+        HidClock clock { device->port(), 1000.0 };
+        sendNext();
+        host::Runner runner { engine, clock, 1000.0, { .length = length } };
+        runner.start();
+        runner.wait();
+        readings = std::move (listening.readings);
+        CHECK (device->counts().lost == 0);
+        CHECK (device->port().counts().dropped <= clock.ticksByTimer());
+    }
+
+    // The same readings, offline; encoded by the same profile.
+    Recorded recorded { readings };
+    Engine engine { dryWood() };
+    engine.attach ("stylus", recorded, limits);
+    for (std::size_t i = 0; i < readings.size(); ++i)
+        engine.tick();
+
+    std::map<int, std::set<std::array<std::int32_t, 3>>> offline;   // where the timer ticked, a number has several
+    for (std::size_t i = 0; i < readings.size(); ++i)
+    {
+        int k = 0;
+        for (int candidate = 1; candidate <= length; ++candidate)
+            if (const auto [x, y, z] = placeAt (candidate); readings[i].position == Vec3 (x * 1e-9, y * 1e-9, z * 1e-9)) k = candidate;
+        const Vec3 f = recorded.asked[i].force;
+        offline[k].insert ({ static_cast<std::int32_t> (std::floor (f.x() / 1e-6 + 0.5)), static_cast<std::int32_t> (std::floor (f.y() / 1e-6 + 0.5)), static_cast<std::int32_t> (std::floor (f.z() / 1e-6 + 0.5)) });
+    }
+
+    std::size_t compared = 0, different = 0, with_force = 0;
+    for (const auto& told : board.told())
+        if (told.isDriven() && told.echo() > 0 && told.echo() < length)
+        {
+            const std::array force { told.force (0), told.force (1), told.force (2) };
+            ++compared;
+            different += ! offline[told.echo()].contains (force);
+            with_force += force[0] != 0;
+        }
+    CHECK (different == 0);
+    CHECK (compared > length - 20);
+    CHECK (with_force > length / 2);
+}
