@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "describe.hpp"
 
+#include <host/app/model/device_profiles.hpp>
 #include <host/devices/make_device.hpp>
+#include <host/hid_link/open_device.hpp>
 
 #include <algorithm>
 
@@ -37,13 +39,23 @@ Remark about (const Document& d, const std::string& role)
 {
     auto description = descriptionOf (d, role);
     if (description.is_null()) return { "Nobody describes this role: it is simulated, with no hand. Start a description below.", false };
-    const auto made = makeDevice (description, d.graph().folder);
-    Remark r { juce::String::fromUTF8 (made.about.c_str()), false };
-    for (const auto& m : made.messages)
+    Remark r { "A device that is plugged in, by its profile.", false };
+    const auto tell = [&] (const Messages& messages)
     {
-        r.text << (r.text.isEmpty() ? "" : "\n") << juce::String::fromUTF8 ((m.where + ": " + m.text + (m.remedy.empty() ? "" : "; " + m.remedy)).c_str());
-        r.is_wrong = true;
+        for (const auto& m : messages)
+        {
+            r.text << (r.text.isEmpty() ? "" : "\n") << juce::String::fromUTF8 ((m.where + ": " + m.text + (m.remedy.empty() ? "" : "; " + m.remedy)).c_str());
+            r.is_wrong = true;
+        }
+    };
+    if (hid::isHid (description))
+    {
+        tell (hid::checkDevice (description, d.graph().folder, deviceProfiles()));
+        return r;
     }
+    const auto made = makeDevice (description, d.graph().folder);
+    r.text = juce::String::fromUTF8 (made.about.c_str());
+    tell (made.messages);
     return r;
 }
 }   // namespace
@@ -99,11 +111,11 @@ void describeDevice (const Inspected& at, const graph::Node& node, Column& colum
         const auto label = juce::String (path.substr (1)).replaceCharacter ('/', ' ');
         if (path == "/driver")
             column.add (choiceRow (
-                label, { "sim", "trace", "gesture" }, [get]
+                label, { "sim", "trace", "gesture", "hid" }, [get]
                 { return get().toStdString(); },
                 [set, path] (const std::string& t)
                 { set (path, Json (t)); },
-                "sim: a simulated tool in a hand; trace: a recording; gesture: one that is drawn by a formula"));
+                "sim: a simulated tool in a hand; trace: a recording; gesture: one that is drawn by a formula; hid: one that is plugged in, by its profile (docs/devices.md)"));
         else
             column.add (textRow (
                 label, get, [set, path] (const juce::String& t)

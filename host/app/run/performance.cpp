@@ -4,7 +4,9 @@
 #include <framework/plan/missing_parts.hpp>
 #include <framework/refused.hpp>
 #include <framework/turn.hpp>
+#include <host/app/model/device_profiles.hpp>
 #include <host/assets/nearest_by_embree.hpp>
+#include <host/hid_link/open_device.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +62,7 @@ Compiled Performance::compileAt (double rate, const Plan* before, const Plan* wi
 std::optional<Performance::Bound> Performance::open (const std::string& role)
 {
     const auto* described = descriptionOf (document.graph(), role);
-    auto made = makeDevice (described != nullptr ? *described : Json { { "driver", "sim" } }, document.graph().folder);
+    auto made = hid::openDevice (described != nullptr ? *described : Json { { "driver", "sim" } }, document.graph().folder, hid::thisComputer(), deviceProfiles());
     for (auto& m : made.messages)
         m.where = "/devices/" + role + m.where;
     std::ranges::move (made.messages, std::back_inserter (said));

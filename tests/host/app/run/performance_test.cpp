@@ -147,3 +147,14 @@ TEST_CASE ("a graph that breaks while it runs goes on as it was, and says what i
     rig.document.undo();
     CHECK_FALSE (hasErrors (p.messages()));
 }
+
+TEST_CASE ("a device that is not plugged in is said", "[app][run]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    rig.document.perform (graph::SetDevice { "stylus", Json { { "driver", "hid" }, { "profile", "tactus_board" }, { "serial", "none has this" } } });
+    Performance p { rig.document, catalogue() };
+    p.start ({});
+    const auto said = p.messages();
+    REQUIRE (std::ranges::count (said, "hid/not_connected", &Message::id) == 1);
+    CHECK (std::ranges::find (said, "hid/not_connected", &Message::id)->where.starts_with ("/devices/stylus"));
+}
