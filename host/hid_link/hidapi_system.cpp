@@ -2,11 +2,13 @@
 #include <host/hid_link/transport.hpp>
 
 #include <host/platform/device_file.hpp>
+#include <host/platform/file_lock.hpp>
 #include <host/platform/last_will.hpp>
 
 #include <hidapi.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <mutex>
 #include <utility>
 
@@ -63,7 +65,7 @@ Bus busOf (hid_bus_type type)
 class HidapiTransport final : public Transport
 {
 public:
-    HidapiTransport (std::string where, Handle in, Handle out) : path (std::move (where)), reading (std::move (in)), writing (std::move (out)) {}
+    HidapiTransport (std::string where, std::optional<FileLock> l, Handle in, Handle out) : path (std::move (where)), lock (std::move (l)), reading (std::move (in)), writing (std::move (out)) {}
 
     tl::expected<std::size_t, std::string> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override
     {
@@ -107,6 +109,7 @@ private:
     }
 
     std::string path;
+    std::optional<FileLock> lock;   // so that no two drive it, where devices are files
     Handle reading, writing;
     std::optional<LastWill> will;
 };
@@ -142,10 +145,13 @@ public:
     tl::expected<std::unique_ptr<Transport>, OpenFailure> open (const ConnectedDevice& device) override
     {
         const std::lock_guard lock (oneAtATime());
+        auto alone = FileLock::takeExisting (device.path);
+        if (! alone && std::filesystem::exists (device.path) && ! isForbidden (device.path))
+            return tl::unexpected (OpenFailure { false, "another role, or another program that is Tactus, has it" });
         Handle in (hid_open_path (device.path.c_str()));
         Handle out (in ? hid_open_path (device.path.c_str()) : nullptr);
         if (! in || ! out) return tl::unexpected (OpenFailure { isForbidden (device.path), errorOf (nullptr) });
-        return std::make_unique<HidapiTransport> (device.path, std::move (in), std::move (out));
+        return std::make_unique<HidapiTransport> (device.path, std::move (alone), std::move (in), std::move (out));
     }
 
     bool mayOpen (const ConnectedDevice& device) override { return ! isForbidden (device.path); }

@@ -14,14 +14,17 @@
 namespace tactus::host
 {
 
-std::optional<FileLock> FileLock::take (const std::filesystem::path& path)
+std::optional<FileLock> FileLock::take (const std::filesystem::path& path) { return takeOpened (path, true); }
+std::optional<FileLock> FileLock::takeExisting (const std::filesystem::path& path) { return takeOpened (path, false); }
+
+std::optional<FileLock> FileLock::takeOpened (const std::filesystem::path& path, bool make)
 {
 #if defined(_WIN32)
-    const auto opened = CreateFileW (path.c_str(), GENERIC_READ | GENERIC_WRITE, FILE_SHARE_DELETE, nullptr, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, nullptr);
+    const auto opened = CreateFileW (path.c_str(), GENERIC_READ | GENERIC_WRITE, FILE_SHARE_DELETE, nullptr, make ? OPEN_ALWAYS : OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, nullptr);
     if (opened == INVALID_HANDLE_VALUE) return std::nullopt;
     return FileLock (reinterpret_cast<std::intptr_t> (opened));
 #else
-    const int opened = ::open (path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    const int opened = ::open (path.c_str(), O_RDWR | (make ? O_CREAT : 0) | O_CLOEXEC, 0600);
     if (opened < 0) return std::nullopt;
     FileLock lock (opened);
     if (::flock (opened, LOCK_EX | LOCK_NB) != 0) return std::nullopt;

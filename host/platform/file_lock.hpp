@@ -16,11 +16,15 @@ public:
     /// Makes the file if need be; nothing if somebody holds it, or it cannot be made.
     static std::optional<FileLock> take (const std::filesystem::path&);
 
+    /// The same of a file that is there, such as a device; it is never made.
+    static std::optional<FileLock> takeExisting (const std::filesystem::path&);
+
     FileLock (FileLock&&) noexcept;
     FileLock& operator= (FileLock&&) noexcept;
     ~FileLock();
 
 private:
+    static std::optional<FileLock> takeOpened (const std::filesystem::path&, bool make);
     explicit FileLock (std::intptr_t h) noexcept : handle (h) {}
     void release() noexcept;
 

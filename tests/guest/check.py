@@ -154,6 +154,7 @@ probes = {d["probe"]["profile"]: d["probe"] for d in json.loads(text("probe.json
 mouse = probes.get("spacemouse", {})
 check(mouse.get("reports", 0) > 3 and mouse["axes"]["x"] == 100 * 4e-6 and mouse["axes"]["rz"] == -0.05 and mouse["pressed"] == ["button1"], f"a SpaceMouse is probed: {mouse.get('reports')} reports")
 check(probes.get("tactus_board", {}).get("taken", 0) > 10, "beside a board")
+check("hid/not_opened" in text("taken.txt") and "has it" in text("taken.txt"), "two programs do not drive one device")
 rule = 'KERNEL=="hidraw*", ATTRS{idVendor}=="16c0", ATTRS{idProduct}=="0486", TAG+="uaccess"'
 check(rule in text("denied.txt") and rule in text("denied_play.txt") and "hid/not_permitted" in text("denied_play.txt"), "who may not open a device is told the udev rule")
 

@@ -67,6 +67,12 @@ sleep 1
 $tactus devices >/run/results/devices.txt || fail "tactus devices"
 $tactus devices --json >/run/results/devices.json || fail "tactus devices --json"
 $tactus devices --probe --duration 2 --json >/run/results/probe.json || fail "tactus devices --probe"
+$tactus devices --probe --duration 20 >/dev/null 2>&1 & other=$!
+sleep 4
+$tactus play graphs/dry_wood.json --device stylus=hid:tactus_board --osc off --duration 1 2>/run/results/taken.txt
+[ $? -eq 1 ] || fail "a device that another program has is an error"
+kill $other
+wait $other
 kill $mouse $joystick
 
 echo "== a device that this user may not open"
