@@ -7,6 +7,7 @@
 #   ./test.sh --long    before that: each fuzzer for 60 s, the tests under TSan with those of threads for 30 s each, the
 #                       window under ASan and UBSan, and after it a soak of 1.2e8 ticks
 #   ./test.sh --screens uses the host as a person would, on a display of its own, takes docs/host/, and does nothing else
+#   ./test.sh --sound   strokes a board in the host with the mouse, listens, and does nothing else
 #   ./test.sh --devices drives HID devices made of nothing, in a guest (QEMU) that has a kernel for it, and does nothing else;
 #                       without an argument, that is done as well
 #   ./test.sh --figures draws docs/figures/ and counts docs/instructions.md anew, and does nothing else
@@ -14,14 +15,15 @@
 
 mode=${1:-}
 case $mode in
-    ''|--quick|--long|--screens|--devices|--figures) ;;
-    *) echo "usage: ./test.sh [--quick|--long|--screens|--devices|--figures]" >&2; exit 2 ;;
+    ''|--quick|--long|--screens|--sound|--devices|--figures) ;;
+    *) echo "usage: ./test.sh [--quick|--long|--screens|--sound|--devices|--figures]" >&2; exit 2 ;;
 esac
 
 packages+=(python3 python3-jsonschema)
 [ "$mode" = --long ] && packages+=(clang-14 libclang-rt-14-dev)
 [ "$mode" = --figures ] && packages+=(python3-matplotlib valgrind)
 [ "$mode" = --screens ] && packages+=(xvfb xauth xdotool imagemagick)
+[ "$mode" = --sound ] && packages+=(xvfb xauth xdotool imagemagick jackd2 jack-capture python3-numpy)
 case $mode in ''|--long|--devices) packages+=(qemu-system-x86 busybox-static cpio kmod procps) ;; esac
 install_packages
 
@@ -54,6 +56,13 @@ if [ "$mode" = --screens ]; then
     say "Walking through the host"
     rm -rf docs/host
     /usr/bin/python3 tests/host/app/screens/walk.py build/release/bin/tactus-host docs/host
+    exit
+fi
+
+if [ "$mode" = --sound ]; then
+    build release tactus-host
+    say "Listening to strokes"
+    /usr/bin/python3 -B tests/host/app/screens/listen.py build/release/bin/tactus-host out/listen
     exit
 fi
 

@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Strokes a board in the host with the mouse, slowly and fast, and listens: ./test.sh --sound
+
+listen.py HOST OUT   writes slow.wav and fast.wav, as a sound card would have played them
+
+The host runs on a display of its own, and plays through a JACK server without hardware. A texture is a pattern in space: what
+is heard has to go up with the speed of the stroke, by as much.
+"""
+import os
+import pathlib
+import subprocess
+import sys
+import time
+import wave
+
+import numpy
+
+from walk import Walk
+
+RATE = 48000
+SLOW, FAST = 100.0, 300.0  # pixels a second
+STROKES, REACH = 4, 150.0  # to and fro over so many pixels
+LOWEST, HIGHEST = 20.0, 1000.0  # Hz
+TOLERANCE = 0.2  # of the ratio of the speeds
+
+
+def stroke(walk, speed):
+    """To and fro at an even speed, pressed down, as one command, so that nothing comes between."""
+    x, y = walk.at("Surface")
+    step = 0.008  # s
+    steps = round(REACH / speed / step)
+    words = ["mousemove", round(x - REACH / 2), y, "mousedown", 1]
+    for k in range(STROKES):
+        for i in range(1, steps + 1):
+            part = i / steps if k % 2 == 0 else 1 - i / steps
+            words += ["mousemove", round(x + (part - 0.5) * REACH), y, "sleep", step]
+    started = time.monotonic()
+    walk.xdo(*words, "mouseup", 1)
+    return STROKES * REACH / (time.monotonic() - started)
+
+
+def heard(file):
+    """The frequency below which half of what was heard is, in Hz, and how loud it was (root of the mean square, full scale 1)."""
+    with wave.open(str(file)) as w:
+        samples = numpy.frombuffer(w.readframes(w.getnframes()), dtype=numpy.int16)[:: w.getnchannels()] / 32768.0
+    spectrum = numpy.abs(numpy.fft.rfft(samples * numpy.hanning(len(samples)))) ** 2
+    hz = numpy.fft.rfftfreq(len(samples), 1 / RATE)
+    inside = (hz >= LOWEST) & (hz <= HIGHEST)
+    so_far = numpy.cumsum(spectrum[inside])
+    return float(hz[inside][numpy.searchsorted(so_far, so_far[-1] / 2)]), float(numpy.sqrt((samples**2).mean()))
+
+
+def main():
+    host, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+    out.mkdir(parents=True, exist_ok=True)
+    environment = dict(os.environ, JACK_NO_AUDIO_RESERVATION="1")
+    jack = subprocess.Popen(["jackd", "-d", "dummy", "-r", str(RATE), "-p", "256"], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    time.sleep(2.0)
+    walk = Walk(str(host), out, "1280x720", "dark")
+    try:
+        walk.start("--osc", "off", "graphs/canvas_weave.json")
+        walk.wait(lambda: walk.has("Sound"), "the sound button")
+        walk.click("Sound")
+        found = {}
+        for name, speed in (("slow", SLOW), ("fast", FAST)):
+            file = out / f"{name}.wav"
+            file.unlink(missing_ok=True)
+            capture = subprocess.Popen(["jack_capture", "-d", str(STROKES * REACH / speed), "-b", "16", "-c", "1", "-p", "system:playback_1", str(file)], env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(0.3)
+            real_speed = stroke(walk, speed)
+            capture.wait()
+            found[name] = (real_speed, *heard(file))
+            print(f"  {name}: at {real_speed:.0f} pixels a second {found[name][1]:.1f} Hz, loudness {found[name][2]:.4f}", flush=True)
+        walk.shot("sound")
+    finally:
+        walk.end()
+        jack.terminate()
+        jack.wait()
+    ratio = (found["fast"][1] / found["slow"][1]) / (found["fast"][0] / found["slow"][0])
+    print(f"  the sound went up by {ratio:.2f} times as much as the speed")
+    if min(loud for _, _, loud in found.values()) < 1e-3:
+        raise SystemExit("there was silence")
+    if abs(ratio - 1.0) > TOLERANCE:
+        raise SystemExit("the pitch does not follow the speed")
+
+
+if __name__ == "__main__":
+    main()
