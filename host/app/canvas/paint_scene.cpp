@@ -18,7 +18,7 @@ constexpr float too_small_to_read = 0.35f;   // zoom
 class NodePainter
 {
 public:
-    NodePainter (juce::Graphics& graphics, const Look& l, const Highlights& h, float z) : g (graphics), look (l), theme (l.theme()), highlights (h), words (z > too_small_to_read) {}
+    NodePainter (juce::Graphics& graphics, const Look& l, const Highlights& h, float z) : g (graphics), look (l), theme (l.theme()), highlights (h), zoom (z), words (z > too_small_to_read) {}
 
     void operator() (const SceneNode& node) const
     {
@@ -28,7 +28,7 @@ public:
         g.fillRoundedRectangle (bounds.translated (0.0f, 2.0f).expanded (1.0f), corner);
         g.setColour (theme.raised);
         g.fillRoundedRectangle (bounds, corner);
-        header (node);
+        words ? header (node) : nameAlone (node);
         g.setColour (selected ? theme.accent : highlights.hovered == node.id ? theme.dim
                                                                              : theme.hairline);
         g.drawRoundedRectangle (bounds.reduced (0.5f), corner, selected ? 2.0f : 1.0f);
@@ -40,9 +40,21 @@ public:
     }
 
 private:
+    /// As large on the screen as it has to be to be read; over the edges of a small node, if need be.
+    void nameAlone (const SceneNode& node) const
+    {
+        constexpr float size = 10.0f, least_width = 20.0f;   // pixels of the screen
+        constexpr float most_over = 1.6f;                    // times as wide as the node
+        if (node.box.width * zoom < least_width) return;
+        const auto font = look.font (size / zoom);
+        const float width = std::clamp (font.getStringWidthFloat (node.name) + 2.0f / zoom, node.box.width, most_over * node.box.width);
+        g.setColour (theme.text.withMultipliedAlpha (node.bypass ? 0.4f : 1.0f));
+        g.setFont (font);
+        g.drawText (node.name, node.bounds().withSizeKeepingCentre (width, node.box.height), juce::Justification::centred, true);
+    }
+
     void header (const SceneNode& node) const
     {
-        if (! words) return;
         const auto area = node.bounds().withHeight (Box::header_height);
         const auto family = node.face->kind == Face::Kind::subgraph ? std::string ("graph") : node.type.substr (0, node.type.find ('.'));
         const float alpha = node.bypass ? 0.4f : 1.0f;
@@ -120,6 +132,7 @@ private:
     const Look& look;
     const Theme& theme;
     const Highlights& highlights;
+    float zoom;
     bool words;
 };
 
