@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <mutex>
+#include <system_error>
 #include <utility>
 
 namespace tactus::host::hid
@@ -146,7 +147,8 @@ public:
     {
         const std::lock_guard lock (oneAtATime());
         auto alone = FileLock::takeExisting (device.path);
-        if (! alone && std::filesystem::exists (device.path) && ! isForbidden (device.path))
+        std::error_code unseen;
+        if (! alone && std::filesystem::exists (device.path, unseen) && ! isForbidden (device.path))
             return tl::unexpected (OpenFailure { false, "another role, or another program that is Tactus, has it" });
         Handle in (hid_open_path (device.path.c_str()));
         Handle out (in ? hid_open_path (device.path.c_str()) : nullptr);

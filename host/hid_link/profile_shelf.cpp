@@ -5,17 +5,28 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>
+#include <system_error>
 #include <utility>
 
 namespace tactus::host::hid
 {
 namespace fs = std::filesystem;
 
+namespace
+{
+/// Nor is one that may not be looked at.
+bool isFolder (const fs::path& path)
+{
+    std::error_code forbidden;
+    return fs::is_directory (path, forbidden);
+}
+}   // namespace
+
 fs::path profileFolder()
 {
     const auto program = programFolder();
     for (const auto* place : { "profiles", "../share/tactus/profiles", "../../../host/profiles" })
-        if (const auto folder = (program / place).lexically_normal(); ! program.empty() && fs::is_directory (folder)) return folder;
+        if (const auto folder = (program / place).lexically_normal(); ! program.empty() && isFolder (folder)) return folder;
     return {};
 }
 
@@ -30,7 +41,7 @@ fs::path ownProfileFolder()
 LoadedProfiles profilesAtHand()
 {
     LoadedProfiles all;
-    if (const auto own = ownProfileFolder(); ! own.empty() && fs::is_directory (own)) all = loadProfiles (own);
+    if (const auto own = ownProfileFolder(); ! own.empty() && isFolder (own)) all = loadProfiles (own);
     if (const auto folder = profileFolder(); ! folder.empty())
     {
         auto ours = loadProfiles (folder);
