@@ -5,6 +5,7 @@
 #include "support/stage.hpp"
 
 #include <framework/file/graph_file.hpp>
+#include <framework/graph/endpoints.hpp>
 #include <host/app/canvas/commands.hpp>
 #include <host/app/window/main_view.hpp>
 #include <host/assets/nearest_by_embree.hpp>
@@ -618,7 +619,7 @@ std::string disagreement (MainView& view)
                               { return s.id == n.id && s.name == n.name && s.type == n.type && s.bypass == n.bypass; })) return "the canvas shows other nodes than '" + here + "' has";
     std::vector<graph::Id> wires, drawn;
     for (const auto& w : patch->wires)
-        if (patch->find (w.from.node) != nullptr && patch->find (w.to.node) != nullptr) wires.push_back (w.id);
+        if (patch->find (graph::firstNameOf (w.from.node)) != nullptr && patch->find (graph::firstNameOf (w.to.node)) != nullptr) wires.push_back (w.id);
     for (const auto& w : scene.wires())
         drawn.push_back (w.id);
     if (wires != drawn) return "the canvas shows other wires than '" + here + "' has";
