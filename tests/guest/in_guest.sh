@@ -3,8 +3,8 @@
 # Runs in the guest: devices made by guest_device, and the program as it is on this computer. What is to be looked at
 # afterwards goes to /run/results; check.py looks at it. Nothing here depends on how long anything takes.
 cd "$(dirname "$0")/../.."
-work=/var/tmp/work
-mkdir -p $work
+work=$(mktemp -d -p "${TMPDIR:-/var/tmp}")   # in memory, and gone with the guest
+chmod a+rx "$work"
 tactus=${TACTUS_PROGRAM:-build/release/bin/tactus}
 device=${GUEST_DEVICE:-build/release/bin/guest_device}
 export HOME=$work

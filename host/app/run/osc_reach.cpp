@@ -164,8 +164,9 @@ std::optional<Message> OscReach::transport (const Transport& to)
 std::optional<Message> OscReach::start()
 {
     switches.start();
-    if (hasErrors (performance.messages())) return performance.messages().front();
-    return std::nullopt;
+    const auto& said = performance.messages();
+    const auto error = std::ranges::find (said, Message::Severity::error, &Message::severity);
+    return error == said.end() ? std::nullopt : std::optional (*error);
 }
 
 }   // namespace tactus::host
