@@ -12,7 +12,7 @@ for tool in qemu-system-x86_64 busybox cpio depmod dpkg-deb; do
 done
 
 if ! compgen -G "$folder/kernel/boot/vmlinuz-*" >/dev/null; then
-    package=$(apt-cache depends linux-image-amd64 2>/dev/null | sed -n 's/.*Depends: \(linux-image-[0-9].*\)/\1/p' | head -1)
+    package=$(apt-cache depends linux-image-amd64 2>/dev/null | sed -n 's/.*Depends: \(linux-image-[0-9].*\)/\1/p' | tail -n 1)
     [ -n "$package" ] || no_kernel "apt knows no linux-image-amd64"
     rm -rf "$folder/kernel" "$folder/download"
     mkdir -p "$folder/download"
