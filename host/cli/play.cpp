@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
+#include "emergency.hpp"
 #include "live_recording.hpp"
 #include "play_status.hpp"
 #include "remote.hpp"
@@ -71,6 +72,7 @@ void run (const Options& options)
     AbsoluteTimer timer { 1.0 / session.rate() };
     const auto device_clock = clockOf (session);
     Runner runner { session.engine(), device_clock ? static_cast<TickClock&> (*device_clock) : timer, session.rate(), { .length = session.ticks(), .core = options.core, .stop_wanted = stopRequested, .hooks = recording ? static_cast<TickHooks*> (&*recording) : &session } };
+    Emergency emergency { session.engine() };
     Remote remote { session, runner };
     std::optional<RemoteControl> control;
     if (port) control.emplace (*port, remote);
@@ -88,7 +90,7 @@ void run (const Options& options)
     std::string reached;
     if (port) reached = ", OSC on 127.0.0.1:" + std::to_string (port->number());
     const auto ticked_by = device_clock ? ", ticked by " + session.clockRole() : std::string();
-    std::fprintf (stderr, "%s at %g Hz%s%s%s; Ctrl-C stops\n", (session.name().empty() ? options.graph : session.name()).c_str(), session.rate(), ticked_by.c_str(), reached.c_str(), options.watch ? ", following its file" : "");
+    std::fprintf (stderr, "%s at %g Hz%s%s%s; %s\n", (session.name().empty() ? options.graph : session.name()).c_str(), session.rate(), ticked_by.c_str(), reached.c_str(), options.watch ? ", following its file" : "", emergency.hasKeys() ? "Ctrl-C ends it, the space bar is the emergency stop, R lets go on" : "Ctrl-C stops");
 
     for (const auto& refused : runner.start())
         std::fprintf (stderr, "note: %s\n", refused.c_str());
@@ -104,6 +106,7 @@ void run (const Options& options)
                                  { control->values (tick, values); });
             control->attend();
         }
+        emergency.attend();
         runner.attend();
         if (terminal && i % 5 == 0) printStatus (runner, session.rate(), true, statusOf (session.realDevices(), device_clock.get()).c_str());
     }
@@ -134,7 +137,8 @@ void addPlay (CLI::App& app)
     command->add_option ("--core", options->core, "Keep the ticks on this core of the processor")->check (CLI::Range (0, 1023));
     command->add_option ("--clock", options->clock, "The role whose HID device ticks the run, at the rate of its reports, or timer; default: the first that can, unless there is a --rate or --feed");
     auto* osc = command->add_option ("--osc", options->osc, "The UDP port to be reached by from this machine, see docs/osc.md; 0 for any that is free, or off")->check (CLI::IsMember ({ "off" }) | CLI::Range (0, 65535));
-    command->footer ("However it stops, the guards bring all forces to zero smoothly first.\n"
+    command->footer ("However it stops, the guards bring all forces to zero smoothly first. The space bar, or SIGUSR1, is the emergency\n"
+                     "stop: no forces, and the graph goes on; R, or SIGUSR2, lets them rise again, after a stop by a limit too.\n"
                      "With --watch, a file with errors is reported and the graph before goes on. Roles keep the devices they have,\n"
                      "a new one gets its own, --set outranks the file as ever, and what is recorded stays the same.\n\n"
                      "Examples:\n"

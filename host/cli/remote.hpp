@@ -27,6 +27,8 @@ public:
     std::optional<Message> transport (const Transport&) override { return refused ("osc/transport", "what a play from the command line follows is not stopped or sought", "open the graph in tactus-host"); }
     std::optional<Message> start() override { return refused ("osc/start", "it runs already", "/tactus/stop ends it"); }
     void stop() override { running.stop(); }
+    void emergencyStop() override { session.engine().emergencyStop(); }
+    void rearm() override { session.engine().rearm(); }
     std::vector<Role> roles() override { return rolesOf (running.status()); }
 
     Status status() override

@@ -139,9 +139,14 @@ void RemoteControl::carryOut (const OSCMessage& m, Clock::time_point now)
         answer (answerPort (m, 1), address, "", transport (address.substr (transport_addresses.size()), m));
     else if (address == "/tactus/start")
         answer (answerPort (m, 0), address, "", controlled.start());
-    else if (address == "/tactus/stop")
+    else if (address == "/tactus/stop" || address == "/tactus/emergency" || address == "/tactus/rearm")
     {
-        controlled.stop();
+        if (address == "/tactus/stop")
+            controlled.stop();
+        else if (address == "/tactus/emergency")
+            controlled.emergencyStop();
+        else
+            controlled.rearm();
         answer (answerPort (m, 0), address, "", std::nullopt);
     }
 }

@@ -71,6 +71,8 @@ public:
     virtual std::optional<Message> transport (const Transport&) = 0;
     virtual std::optional<Message> start() = 0;
     virtual void stop() = 0;
+    virtual void emergencyStop() = 0;
+    virtual void rearm() = 0;
 };
 
 /// As a run tells of its roles.

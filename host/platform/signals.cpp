@@ -13,6 +13,15 @@ std::atomic<bool> requested { false };
 static_assert (std::atomic<bool>::is_always_lock_free, "a signal handler may set it");
 
 extern "C" void note (int) { requested = true; }
+
+using Act = void (*)() noexcept;
+std::atomic<Act> emergency { nullptr }, rearming { nullptr };
+static_assert (std::atomic<Act>::is_always_lock_free, "a signal handler reads them");
+
+void call (const std::atomic<Act>& act) noexcept
+{
+    if (const auto a = act.load()) a();
+}
 }   // namespace
 
 void watchForStop() noexcept
@@ -21,6 +30,19 @@ void watchForStop() noexcept
     std::signal (SIGTERM, note);
 #ifdef SIGHUP
     std::signal (SIGHUP, note);
+#endif
+}
+
+void watchForEmergency (Act stop, Act rearm) noexcept
+{
+    emergency = stop;
+    rearming = rearm;
+#if defined(SIGUSR1) && defined(SIGUSR2)
+    // Once there has been somebody who knows what to do, none of the two ends the program.
+    std::signal (SIGUSR1, [] (int)
+                 { call (emergency); });
+    std::signal (SIGUSR2, [] (int)
+                 { call (rearming); });
 #endif
 }
 

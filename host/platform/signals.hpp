@@ -14,4 +14,8 @@ bool stopRequested() noexcept;
 /// Asks as a signal would. [any thread]
 void requestStop() noexcept;
 
+/// What the emergency stop does from now on, and what ends it: SIGUSR1 and SIGUSR2 call them, on whichever thread they meet
+/// and in the midst of whatever it does, where there are such signals. null: nothing, any more. [main thread]
+void watchForEmergency (void (*stop)() noexcept, void (*rearm)() noexcept) noexcept;
+
 }   // namespace tactus::host

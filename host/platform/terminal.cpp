@@ -4,6 +4,8 @@
 #if defined(_WIN32)
 #include <io.h>
 #else
+#include <poll.h>
+#include <termios.h>
 #include <unistd.h>
 #endif
 
@@ -18,5 +20,41 @@ bool stderrIsTerminal() noexcept
     return isatty (2) != 0;
 #endif
 }
+
+#if defined(_WIN32)
+struct Keys::Before
+{
+};
+Keys::Keys() = default;
+Keys::~Keys() = default;
+char Keys::next() noexcept { return 0; }
+#else
+struct Keys::Before
+{
+    termios mode;
+};
+
+Keys::Keys()
+{
+    termios mode;
+    if (isatty (STDIN_FILENO) == 0 || tcgetpgrp (STDIN_FILENO) != getpgrp() || tcgetattr (STDIN_FILENO, &mode) != 0) return;
+    auto found = std::make_unique<Before> (Before { mode });
+    mode.c_lflag &= ~static_cast<tcflag_t> (ICANON | ECHO);
+    if (tcsetattr (STDIN_FILENO, TCSANOW, &mode) == 0) before = std::move (found);
+}
+
+Keys::~Keys()
+{
+    if (before) tcsetattr (STDIN_FILENO, TCSANOW, &before->mode);
+}
+
+char Keys::next() noexcept
+{
+    if (! before || tcgetpgrp (STDIN_FILENO) != getpgrp()) return 0;   // to read in the background would stop the program
+    pollfd waiting { STDIN_FILENO, POLLIN, 0 };
+    char key = 0;
+    return poll (&waiting, 1, 0) == 1 && read (STDIN_FILENO, &key, 1) == 1 ? key : '\0';
+}
+#endif
 
 }   // namespace tactus::host

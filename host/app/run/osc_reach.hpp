@@ -42,6 +42,8 @@ private:
     std::optional<Message> transport (const Transport&) override;
     std::optional<Message> start() override;
     void stop() override { switches.stop(); }
+    void emergencyStop() override { performance.emergencyStop(); }
+    void rearm() override { performance.rearm(); }
 
     void lookAgain();
     void sendValues();

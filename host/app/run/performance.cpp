@@ -209,6 +209,24 @@ void Performance::noteDelay (const Plan& plan)
         delay_ticks = std::max (delay_ticks.value_or (0), d.shortest);
 }
 
+void Performance::emergencyStop() noexcept
+{
+    if (begins || ! isRunning()) return stop();   // else one that is about to begin would not know of it
+    engine->emergencyStop();
+}
+
+void Performance::rearm() noexcept
+{
+    if (engine) engine->rearm();
+}
+
+bool Performance::isStoppedForGood() const
+{
+    const auto now = status();
+    return isRunning() && std::ranges::any_of (now->shown(), [] (const RunStatus::Role& r)
+                                               { return Guard::latches (r.stop); });
+}
+
 std::optional<RunStatus> Performance::status() const { return runner ? std::optional (runner->status()) : std::nullopt; }
 
 std::optional<double> Performance::stiffnessLeft() const

@@ -51,6 +51,11 @@ public:
     void start (Hand);      ///< anew, if it runs, as soon as its forces are zero
     void stop() noexcept;   ///< the forces go to zero first; does not wait for that
 
+    /// No force on any device, smoothly, while the graph goes on; what has stopped for good, as this, ends with rearm().
+    void emergencyStop() noexcept;
+    void rearm() noexcept;
+    bool isStoppedForGood() const;   ///< until rearm(), or another run
+
     /// Stops, waits until the forces are zero, and lets go of the devices.
     void letGo();
 

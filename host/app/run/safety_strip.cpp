@@ -54,10 +54,10 @@ public:
 
 SafetyStrip::SafetyStrip() : button (std::make_unique<StopButton>())
 {
-    button->setTooltip ("Brings all forces to zero at once, smoothly. Esc does the same.");
     button->onClick = [this]
     {
-        const auto& act = shown.running ? onStop : onStart;
+        const auto& act = shown.stopped_for_good ? onRearm : shown.running ? onStop
+                                                                           : onStart;
         if (act) act();
     };
     addAndMakeVisible (*button);
@@ -70,6 +70,7 @@ void SafetyStrip::show (Performance& p)
     Shown now;
     const auto status = p.status();
     now.running = p.isRunning();
+    now.stopped_for_good = p.isStoppedForGood();
     if (! status)
     {
         now.alarmed = hasErrors (p.messages());
@@ -105,7 +106,9 @@ void SafetyStrip::show (Performance& p)
             now.delay = "nothing leads from a hand to a motor";
     }
     if (now == shown) return;
-    button->setButtonText (now.running ? "STOP" : "START");
+    button->setButtonText (now.stopped_for_good ? "REARM" : now.running ? "STOP"
+                                                                        : "START");
+    button->setTooltip (now.stopped_for_good ? "Once nobody can be hurt: lets the forces rise again, slowly. Esc ends the run." : "Brings all forces to zero at once, smoothly. Esc does the same; Shift+Esc does it and goes on without forces.");
     shown = std::move (now);
     repaint();
 }

@@ -22,7 +22,7 @@ public:
 
     void show (Performance&);   ///< many times a second
 
-    std::function<void()> onStop, onStart;
+    std::function<void()> onStop, onStart, onRearm;
 
     void paint (juce::Graphics&) override;
     void resized() override;
@@ -31,7 +31,7 @@ private:
     struct Shown
     {
         juce::String state, guard, force, misses, delay;
-        bool running = false, alarmed = false, warned = false;
+        bool running = false, alarmed = false, warned = false, stopped_for_good = false;
 
         bool operator== (const Shown&) const = default;
     };

@@ -108,6 +108,7 @@ void addPorts (Column& column, const char* heading, const std::vector<PortSheet>
 using Keys = std::pair<const char*, const char*>;
 constexpr std::array key_list {
     Keys { "Esc", "brings all forces to zero; once nothing runs, closes what is open" },
+    Keys { "Shift+Esc", "emergency stop: no forces until REARM, and the graph goes on" },
     Keys { "1 ... 9", "brings the values of a snapshot back; Ctrl with the digit stores them" },
     Keys { "Ctrl+N, Ctrl+O, Ctrl+S, Ctrl+Shift+S", "new, open, save, save as" },
     Keys { "H", "holds the tool pressed where it is, or lets it go" },

@@ -35,6 +35,8 @@ MainView::MainView (const Catalogue& c) : catalogue (c), pictures (c), help (c)
     { endPreview(); };
     strip.onStop = [this]
     { current().stop(); };
+    strip.onRearm = [this]
+    { current().rearm(); };
     strip.onStart = [this]
     { start (performance->hand()); };
     hand.view().onPoint = [this] (const Vec3& p)
@@ -249,8 +251,8 @@ void MainView::globalFocusChanged (juce::Component* focused)
 
 bool MainView::keyPressed (const juce::KeyPress& key, juce::Component*)
 {
-    if (key != juce::KeyPress::escapeKey || ! current().isWanted()) return false;
-    current().stop();
+    if (key.getKeyCode() != juce::KeyPress::escapeKey || ! current().isWanted()) return false;
+    stopBy (key);
     return true;   // what is open is closed by the next one
 }
 
@@ -404,9 +406,9 @@ void MainView::resized()
 
 bool MainView::keyPressed (const juce::KeyPress& key)
 {
-    if (key == juce::KeyPress::escapeKey)
+    if (key.getKeyCode() == juce::KeyPress::escapeKey)
     {
-        escape();
+        escape (key);
         return true;
     }
     if (question.isOpen())

@@ -91,7 +91,8 @@ private:
     void notify (const juce::String&);   ///< of what happened: while nothing is said, until the next edit
     void start (Performance::Hand);
     Performance& current() noexcept { return heard ? *heard : *performance; }
-    void escape();
+    void escape (const juce::KeyPress&);
+    void stopBy (const juce::KeyPress&);
     bool fileKey (const juce::KeyPress&);
     void helpOnSelection();
     void openExample (const std::string& type);

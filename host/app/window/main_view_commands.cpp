@@ -49,9 +49,18 @@ void recolour (juce::Component& c, const Theme& theme)
 }
 }   // namespace
 
-void MainView::escape()
+/// With Shift it is the emergency stop.
+void MainView::stopBy (const juce::KeyPress& key)
 {
-    if (current().isWanted()) return current().stop();
+    if (key.getModifiers().isShiftDown())
+        current().emergencyStop();
+    else
+        current().stop();
+}
+
+void MainView::escape (const juce::KeyPress& key)
+{
+    if (current().isWanted()) return stopBy (key);
     if (question.isOpen()) return question.cancel();
     if (help.isOpen()) return help.close();
     palette.close();

@@ -49,9 +49,11 @@ bool Running::says (const std::string& text, int times)
         return n >= times; });
 }
 
+void Running::signal (int number) { kill (static_cast<pid_t> (process), number); }
+
 Ran Running::stop()
 {
-    kill (static_cast<pid_t> (process), SIGINT);
+    signal (SIGINT);
     return finish();
 }
 

@@ -24,6 +24,8 @@ public:
     /// Waits until the program has said this on stderr (so often), on however busy a machine. False if it never does.
     bool says (const std::string& text, int times = 1);
 
+    void signal (int number);
+
     /// Asks it to stop, as Ctrl-C does, and waits until it has.
     Ran stop();
 

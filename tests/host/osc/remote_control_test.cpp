@@ -70,10 +70,12 @@ struct Puppet : Controlled
     }
     std::optional<Message> start() override { return Message { .id = "osc/start", .where = {}, .text = "it runs already", .remedy = "" }; }
     void stop() override { stopped = true; }
+    void emergencyStop() override { emergency = true; }
+    void rearm() override { emergency = false; }
 
     std::string said;
     std::vector<std::string> probed;
-    bool stopped = false, force_is_gone = false;
+    bool stopped = false, emergency = false, force_is_gone = false;
     Trigger wanted;
     std::unique_ptr<TriggeredCapture> capturing;
 };
@@ -196,6 +198,16 @@ TEST_CASE ("it says how it goes, and stops when asked to", "[osc]")
     CHECK_FALSE (stage.puppet.stopped);
     stage.send ("/tactus/stop");
     CHECK (stage.puppet.stopped);
+}
+
+TEST_CASE ("the emergency stop is within reach, and so is what ends it", "[osc]")
+{
+    Stage stage;
+    CHECK (text (stage.ask ("/tactus/emergency", stage.me()), 0) == "/tactus/emergency");
+    CHECK (stage.puppet.emergency);
+    CHECK_FALSE (stage.puppet.stopped);
+    CHECK (text (stage.ask ("/tactus/rearm", stage.me()), 0) == "/tactus/rearm");
+    CHECK_FALSE (stage.puppet.emergency);
 }
 
 TEST_CASE ("a probe sends what was asked for, as often as asked, and ends when its time is over", "[osc]")

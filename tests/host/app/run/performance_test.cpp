@@ -113,6 +113,36 @@ TEST_CASE ("a stop takes the forces off, a start brings them back, and an edit d
                   { return p.isRunning() && p.tool().has_value(); }));
 }
 
+TEST_CASE ("the emergency stop takes the forces off while the graph goes on, until somebody rearms", "[app][run]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    Performance p { rig.document, catalogue() };
+    p.emergencyStop();   // of nothing
+    CHECK_FALSE (p.isStoppedForGood());
+    p.start ({});
+    const auto force = [&]
+    { return p.status()->force; };
+    REQUIRE (until (p, [&]
+                    { return force() > 0.1; }));
+    CHECK_FALSE (p.isStoppedForGood());
+
+    p.emergencyStop();
+    REQUIRE (until (p, [&]
+                    { return p.isStoppedForGood() && force() == 0.0; }));
+    const auto tick = p.status()->ticks;
+    REQUIRE (until (p, [&]
+                    { return p.status()->ticks > tick + 400; }));
+    CHECK (force() == 0.0);
+    rig.hand().key ("b");   // an edit is no reason to push again
+    p.attend();
+    CHECK (p.isStoppedForGood());
+
+    p.rearm();
+    CHECK (until (p, [&]
+                  { return force() > 0.1; }));
+    CHECK_FALSE (p.isStoppedForGood());
+}
+
 TEST_CASE ("under the mouse the tool goes where it points, and meets the surface there", "[app][run]")
 {
     CanvasRig rig { CanvasRig::preset ("soft_pad") };
