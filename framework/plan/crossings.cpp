@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "crossings.hpp"
 
-#include <ranges>
-
 namespace tactus::plan
 {
 
@@ -24,8 +22,9 @@ Crossings::Crossings (const Flat& f, const Succession& s, Plan& p, std::span<Run
 
 const double* Crossings::leave (const double* value, int from, int around, Traveller& t)
 {
-    for (const int s : flat.sectionsBetween (around, from) | std::views::reverse)
-        value = pass (value, s, false, t);
+    const auto passed = flat.sectionsBetween (around, from);
+    for (auto s = passed.rbegin(); s != passed.rend(); ++s)
+        value = pass (value, *s, false, t);
     return value;
 }
 

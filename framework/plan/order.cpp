@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <map>
 #include <queue>
-#include <ranges>
 
 namespace tactus::plan
 {
@@ -286,7 +285,11 @@ std::vector<PathDelay> pathDelays (const Flat& flat, const PortUnits& units, con
 
     const auto size = flat.nodes.size();
     const auto any = [size] (auto is)
-    { return std::ranges::any_of (std::views::iota (0, static_cast<int> (size)), is); };
+    {
+        for (std::size_t n = 0; n < size; ++n)
+            if (is (static_cast<int> (n))) return true;
+        return false;
+    };
     if (! any (acts) || ! any (reads)) return {};
 
     const auto edgeOf = [&] (const FlatWire& w)
