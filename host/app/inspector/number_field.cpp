@@ -210,7 +210,13 @@ void NumberField::paint (juce::Graphics& g)
         std::snprintf (shorter, sizeof shorter, "%.*g", digits, value.number);
         number = shorter;
     }
+    const float number_width = g.getCurrentFont().getStringWidthFloat (number);
     drawNumber (g, number, text);
+    const auto small = look.font (11.0f);
+    if (caption.isEmpty() || small.getStringWidthFloat (caption) + 4.0f + number_width > text.getWidth()) return;
+    g.setFont (small);
+    g.setColour (theme.dim);
+    g.drawText (caption, text, juce::Justification::centredLeft, false);
 }
 
 juce::String tooltipOf (const PortSheet& sheet)

@@ -20,6 +20,9 @@ class NumberField final : public juce::Component, public juce::SettableTooltipCl
 public:
     explicit NumberField (const PortSheet&);
 
+    /// What it is, in a word, before the number where both fit.
+    void setCaption (const juce::String& text) { caption = text; }
+
     void show (const Json& value);   ///< as the file has it
     const QuantityText& shown() const noexcept { return value; }
 
@@ -50,6 +53,7 @@ private:
     void closeEditor();
 
     const PortSheet& sheet;
+    juce::String caption;
     QuantityText value, grabbed;
     bool begun = false, strong = false;
     std::unique_ptr<juce::TextEditor> editor;

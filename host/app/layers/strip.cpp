@@ -137,6 +137,8 @@ LayerStrip::LayerStrip (std::shared_ptr<const DeskContext> c, int i)
     { setGain (std::move (to), goes_on); };
     priority.onChange = [this] (std::optional<Json> to, bool goes_on)
     { setValue ("priority", std::move (to), goes_on); };
+    gain_field.setCaption ("gain");
+    priority.setCaption ("P");
     gain_field.onRefused = priority.onRefused = context->hint;
     priority.setTooltip ("Priority. " + tooltipOf (sheetOf (context->catalogue, "priority")));
     for (auto* child : std::initializer_list<juce::Component*> { &name, &source, &mute, &solo, &fader, &gain_field, &priority, &close })
