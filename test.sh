@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Builds and tests everything from a fresh Debian 12. May be run again.
 #
-#   ./test.sh           the tests, also under ASan and UBSan (framework and nodes), and a newcomer's node
+#   ./test.sh           the tests, also under ASan and UBSan (all but what needs JUCE), and a newcomer's node
 #   ./test.sh --quick   the tests only
 #   ./test.sh --long    before that: each fuzzer for 60 s, the tests under TSan with those of threads for 30 s each, the
 #                       window under ASan and UBSan, and after it the devices and a soak of 1.2e8 ticks
@@ -76,7 +76,7 @@ if [ "$mode" = --figures ]; then
 fi
 
 if [ "$mode" = --long ]; then
-    build fuzz
+    build fuzz fuzzers
     for fuzzer in build/fuzz/bin/fuzz_*; do
         name=${fuzzer##*/fuzz_}
         say "Fuzzing $name for 60 s"

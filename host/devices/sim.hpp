@@ -88,10 +88,10 @@ private:
         Step (double mass, double damping, double dt_s) noexcept;
 
         template <typename T>
-        void operator() (T& x, T& v, const T& force) const noexcept
+        void operator() (T& position, T& velocity, const T& force) const noexcept
         {
-            x += x_per_v * v + x_per_f * force;
-            v += v_loss * v + v_per_f * force;
+            position += x_per_v * velocity + x_per_f * force;
+            velocity += v_loss * velocity + v_per_f * force;
         }
 
         double x_per_v, x_per_f, v_loss, v_per_f;   // g, (T - g)/B, a - 1, (1 - a)/B
