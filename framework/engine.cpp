@@ -257,7 +257,12 @@ void Engine::beforePlan() noexcept
 
     auto& [plan, used, bound, scratch] = *running;
     for (std::size_t i = 0; i < used.size(); ++i)
-        if (used[i]->device) plan->roles[i].state->reading = used[i]->device->read();
+        if (used[i]->device)
+        {
+            auto& reading = plan->roles[i].state->reading;
+            reading = used[i]->device->read();
+            reading.valid = reading.valid && ! mistrusting;
+        }
 
     plan->number = ticks;
     plan->ramps.step();

@@ -99,6 +99,10 @@ public:
     /// After a halt: the efforts rise again, as the guards' ramps allow. [tick thread]
     void resume() noexcept;
 
+    /// While so, no reading is valid, whatever its device says, and all guards hold the efforts at zero: for ticks that do not
+    /// come from the clock that was chosen. A log has it as readings that are not valid. [tick thread]
+    void mistrustReadings (bool so) noexcept { mistrusting = so; }
+
     /// As halt, from anywhere: also from a signal handler, and also for roles that come up later. The next tick heeds it, and
     /// no resume ends it. [any thread]
     void emergencyStop() noexcept;
@@ -197,6 +201,7 @@ private:
     Journal* journal = nullptr;
     bool fresh = true;         // the plan has not ticked yet
     bool is_stopped = false;   // the guards know of the emergency
+    bool mistrusting = false;
     std::uint64_t ticks = 0;
     std::uint64_t settled_at = 0;   // the tick by which all has run that was changed
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/window/main_view.hpp>
 #include <host/app/window/places.hpp>
+#include <host/platform/home_folder.hpp>
 #include <host/platform/signals.hpp>
 
 #include <CLI/CLI.hpp>

@@ -14,6 +14,7 @@ void addPlay (CLI::App&);
 void addSet (CLI::App&);
 void addProbe (CLI::App&);
 void addDevices (CLI::App&);
+void addSession (CLI::App&);
 void addBench (CLI::App&);
 
 }   // namespace tactus::host

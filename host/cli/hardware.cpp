@@ -5,6 +5,7 @@
 #include <host/hid_link/profile_shelf.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace tactus::host
@@ -16,6 +17,31 @@ std::string milliseconds (double s)
     char text[32];
     std::snprintf (text, sizeof text, "%.2f", 1e3 * s);
     return text;
+}
+
+std::optional<double> tickRate (const hid::Profile& p)
+{
+    const bool ticks = p.rate > 0.0 && std::ranges::count (p.quirks, "only_changes") == 0;
+    return ticks ? std::optional (p.rate) : std::nullopt;
+}
+
+/// "    1000.31 reports/s; its clock goes 12.3 +- 0.4 ppm faster than the run's; readings up to 3.00 ms old"
+std::string clockOf (const DeviceHealth& h)
+{
+    char text[160];
+    std::string line;
+    if (h.rate_hz)
+    {
+        std::snprintf (text, sizeof text, "%.2f reports/s", *h.rate_hz);
+        line = text;
+    }
+    if (h.drift_ppm)
+    {
+        std::snprintf (text, sizeof text, "; its clock goes %.1f +- %.1f ppm %s than the run's", std::abs (*h.drift_ppm), h.drift_error_ppm, *h.drift_ppm < 0.0 ? "slower" : "faster");
+        line += text;
+    }
+    if (h.ticks) line += (line.empty() ? "" : ", ") + std::string ("which tick the run");
+    return "    " + line + (line.empty() ? "" : "; ") + "readings up to " + milliseconds (h.oldest) + " ms old\n";
 }
 }   // namespace
 
@@ -35,31 +61,43 @@ std::optional<double> Hardware::clockRate (const Json& description)
 {
     if (! hid::isHid (description)) return std::nullopt;
     const auto found = hid::findDevice (description, hid::thisComputer(), profiles());
-    const bool ticks = found.profile && found.profile->rate > 0.0 && std::ranges::count (found.profile->quirks, "only_changes") == 0;
-    return ticks ? std::optional (found.profile->rate) : std::nullopt;
+    return found.profile ? tickRate (*found.profile) : std::nullopt;
 }
 
-std::string statusOf (std::span<const RealDevice> devices, const hid::HidClock* clock)
+std::optional<double> Hardware::promisedRate (const Json& description)
+{
+    if (! hid::isHid (description)) return std::nullopt;
+    const auto name = description.value ("profile", Json());
+    const auto at = std::ranges::find_if (profiles().profiles, [&] (const auto& p)
+                                          { return name == p->id; });
+    return at == profiles().profiles.end() ? std::nullopt : tickRate (**at);
+}
+
+std::string statusOf (std::span<const DeviceHealth> devices, const RunClock* clock)
 {
     std::string text;
-    for (const auto& [role, device] : devices)
-    {
-        if (! device->port().isConnected()) text += "   " + role + " is unplugged";
-        const auto counts = device->counts();
-        if (counts.lost > 0) text += "   " + role + " lost " + std::to_string (counts.lost);
-    }
-    if (clock != nullptr && clock->isByTimer()) text += "   ticked by the timer, as no reports come";
+    for (const auto& h : devices)
+        text += "   " + h.role + " " + describe (h);
+    if (clock != nullptr && clock->isByTimer()) text += "   ticked by the timer, as no reports come" + std::string (clock->isReplaced() ? "; forces are held at zero" : "");
     return text;
 }
 
-std::string accountOf (std::span<const RealDevice> devices, const hid::HidClock* clock)
+std::string accountOf (std::span<const RealDevice> devices, std::span<const DeviceHealth> health, const RunClock* clock)
 {
     std::string text;
-    for (const auto& [role, device] : devices)
+    for (const auto& real : devices)
     {
+        const auto* device = real.device();
+        if (device == nullptr)
+        {
+            const auto trouble = real.awaited->trouble();
+            text += real.role + " (" + real.profile().id + "): never came" + (trouble.empty() ? std::string() : "; " + trouble) + "\n";
+            continue;
+        }
         const auto read = device->counts();
         const auto port = device->port().counts();
-        text += role + " (" + device->port().profile()->id + "): " + std::to_string (port.reports) + " reports, " + hid::describe (read, port) + "\n";
+        text += real.role + " (" + real.profile().id + "): " + std::to_string (port.reports) + " reports, " + hid::describe (read, port) + "\n";
+        if (const auto h = std::ranges::find (health, real.role, &DeviceHealth::role); h != health.end()) text += clockOf (*h);
         if (port.writes > 0)
             text += "    sent " + std::to_string (port.writes) + ", " + std::to_string (port.write_errors) + " failed, " + std::to_string (port.dropped) + " overwritten before; "
                     + "from report to answer " + milliseconds (port.latency_min) + " to " + milliseconds (port.latency_max) + " ms, mean " + milliseconds (port.latency_mean) + " ms\n";

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/hid_link/hid_clock.hpp>
-#include <host/hid_link/hid_device.hpp>
 #include <host/hid_link/open_device.hpp>
+#include <host/sessions/device_health.hpp>
+#include <host/sessions/run_clock.hpp>
 
 #include <filesystem>
 #include <optional>
@@ -25,24 +25,20 @@ public:
     /// The rate at which the device that a description means would tick a run; nothing if it has no clock or is not there.
     std::optional<double> clockRate (const Json& description);
 
-private:
+    /// The same by its profile, whether it is there or not; nothing without the name of one.
+    std::optional<double> promisedRate (const Json& description);
+
     const hid::LoadedProfiles& profiles();
 
+private:
     bool allowed;
     std::optional<hid::LoadedProfiles> loaded;
 };
 
-/// A device of a run that is really there.
-struct RealDevice
-{
-    std::string role;
-    hid::HidDevice* device = nullptr;
-};
-
-/// For the status line: what is worth knowing of the devices now.
-std::string statusOf (std::span<const RealDevice>, const hid::HidClock*);
+/// For the status line: how the devices are doing, and what ticks if it is not what was chosen.
+std::string statusOf (std::span<const DeviceHealth>, const RunClock*);
 
 /// At the end: a line or some for each device, of what went in and out.
-std::string accountOf (std::span<const RealDevice>, const hid::HidClock*);
+std::string accountOf (std::span<const RealDevice>, std::span<const DeviceHealth>, const RunClock*);
 
 }   // namespace tactus::host

@@ -20,6 +20,7 @@ int main (int argc, char** argv)
                 "  tactus set roughness=0.7                       while it plays\n"
                 "  tactus probe drag.force                        likewise\n"
                 "  tactus devices                                 what is plugged in, and whether it fits\n"
+                "  tactus session graphs/dry_wood.json            which devices stand behind its roles\n"
                 "  tactus render --replay run.jsonl               once more what `play --log run.jsonl` wrote down\n"
                 "\n`tactus COMMAND --help` shows the options and more examples.");
     app.set_version_flag ("--version", TACTUS_VERSION);
@@ -31,6 +32,7 @@ int main (int argc, char** argv)
     addSet (app);
     addProbe (app);
     addDevices (app);
+    addSession (app);
     addBench (app);
 
     try

@@ -42,10 +42,11 @@ std::unique_ptr<OscPort> openPort (const Options& options)
 }
 
 /// The clock that a device of the run is; null if none is to tick it.
-std::unique_ptr<hid::HidClock> clockOf (const Session& session)
+std::unique_ptr<RunClock> clockOf (const Session& session)
 {
-    for (const auto& [role, device] : session.realDevices())
-        if (role == session.clockRole()) return std::make_unique<hid::HidClock> (device->port(), session.rate());
+    for (const auto& real : session.realDevices())
+        if (real.role == session.clockRole())
+            return real.present != nullptr ? std::make_unique<RunClock> (*real.present, session.rate()) : std::make_unique<RunClock> (*real.awaited, session.rate());
     return nullptr;
 }
 
@@ -94,6 +95,7 @@ void run (const Options& options)
 
     for (const auto& refused : runner.start())
         std::fprintf (stderr, "note: %s\n", refused.c_str());
+    HealthWatch health { session.clockRole() };
     for (int i = 0; ! runner.isOver(); ++i)
     {
         std::this_thread::sleep_for (std::chrono::milliseconds (20));
@@ -108,13 +110,14 @@ void run (const Options& options)
         }
         emergency.attend();
         runner.attend();
-        if (terminal && i % 5 == 0) printStatus (runner, session.rate(), true, statusOf (session.realDevices(), device_clock.get()).c_str());
+        if (i % 5 == 0) health.look (session.realDevices());
+        if (terminal && i % 5 == 0) printStatus (runner, session.rate(), true, statusOf (health.health(), device_clock.get()).c_str());
     }
     runner.wait();
     const auto log_failure = session.finishLog();
     printStatus (runner, session.rate(), terminal, "\n");
 
-    std::fputs (accountOf (session.realDevices(), device_clock.get()).c_str(), stderr);
+    std::fputs (accountOf (session.realDevices(), health.health(), device_clock.get()).c_str(), stderr);
     session.reportRun();
     const auto end = runner.status();
     if (end.let_go_under_force)
@@ -135,7 +138,9 @@ void addPlay (CLI::App& app)
     command->add_flag ("--costs", options->costs, "At the end, say what the costliest nodes took of a tick");
     command->add_option ("--log", options->log, "Write down all that comes in, for `tactus render --replay`: see docs/replay.md");
     command->add_option ("--core", options->core, "Keep the ticks on this core of the processor")->check (CLI::Range (0, 1023));
-    command->add_option ("--clock", options->clock, "The role whose HID device ticks the run, at the rate of its reports, or timer; default: the first that can, unless there is a --rate or --feed");
+    command->add_option ("--clock", options->clock, "The role whose HID device ticks the run, at the rate of its reports, or timer; default: as the session has it, else the first that can, unless there is a --rate or --feed");
+    command->add_option ("--session", options->session, "Which devices the roles are bound to: a file (docs/sessions.md), or off; default: the user's, as `tactus session` shows it");
+    command->add_flag ("--strict", options->strict, "A device of the session that is not there ends the run; without, it is waited for, and nothing pushes meanwhile");
     auto* osc = command->add_option ("--osc", options->osc, "The UDP port to be reached by from this machine, see docs/osc.md; 0 for any that is free, or off")->check (CLI::IsMember ({ "off" }) | CLI::Range (0, 65535));
     command->footer ("However it stops, the guards bring all forces to zero smoothly first. The space bar, or SIGUSR1, is the emergency\n"
                      "stop: no forces, and the graph goes on; R, or SIGUSR2, lets them rise again, after a stop by a limit too.\n"

@@ -3,6 +3,7 @@
 #include "overwriting.hpp"
 #include "report.hpp"
 
+#include <framework/file/json_text.hpp>
 #include <framework/graph/reconcile.hpp>
 #include <framework/in_quotes.hpp>
 #include <framework/near_miss.hpp>
@@ -11,6 +12,7 @@
 #include <framework/refused.hpp>
 #include <framework/turn.hpp>
 #include <host/assets/nearest_by_embree.hpp>
+#include <host/platform/home_folder.hpp>
 #include <host/runlog/graph_snapshot.hpp>
 #include <host/runtime/taps.hpp>
 
@@ -81,7 +83,11 @@ Session::Session (const SessionOptions& options, Pace pace) : told (options), lo
     if (pace == Pace::live) answers = std::make_unique<AnsweringThread>();
     if (report (loaded.messages, loaded, told.graph) > 0) throw Stop {};
     readFeed();
-    chooseClock (pace);
+    if (pace == Pace::live)
+    {
+        readDesk();
+        decideClock();
+    }
     auto first = compileGraph();
     bindDevices();
     decideLength();
@@ -110,32 +116,60 @@ Compiled Session::compileNow (const graph::Graph& graph, const Plan* before, con
     return compile (graph, catalogue(), wanted);
 }
 
-/// A device that has a clock of its own ticks the run, at its rate, unless somebody says otherwise.
-void Session::chooseClock (Pace pace)
+/// The session of devices that the run is to use.
+void Session::readDesk()
 {
-    if (pace != Pace::live || told.clock == "timer") return;
-    const auto folder = std::filesystem::path (told.graph).parent_path();
+    if (told.session == "off") return;
+    desk = told.session.empty() ? loadUsualSession (homeFolder()) : loadSession (told.session);
+    if (report (desk.messages, loaded, told.graph) == 0) return;
+    std::cerr << "    the run did not begin; to run without a session: --session off\n";
+    throw Stop {};
+}
+
+/// The roles of the graph that somebody describes, as an option, the session or the graph has it, in this order.
+std::vector<Described> Session::devicesByRole()
+{
     auto described = loaded.graph.devices;
-    for (const auto& text : told.devices)
-        if (const auto parsed = parseDeviceOption (text, described, folder); const auto* option = std::get_if<DeviceOption> (&parsed))
-        {
-            std::erase_if (described, [&] (const auto& d)
-                           { return d.first == option->role; });
-            described.emplace_back (option->role, option->description);
-        }
-    const bool has_a_rate = told.rate_hz > 0.0 || feed;
-    for (const auto& [role, description] : described)
+    const auto describe = [&] (const std::string& role, const Json& description)
     {
-        if (told.clock.empty() ? has_a_rate : role != told.clock) continue;
-        const auto device_rate = real.clockRate (description);
-        if (! device_rate) continue;
-        if (has_a_rate && *device_rate != rate_hz)
-            fail ({ "run/two_rates", "--clock " + told.clock, "its device ticks at " + numberText (*device_rate) + " Hz, and the run is to have " + numberText (rate_hz) + " Hz", "leave out --rate, or write --clock timer" });
-        clock_role = role;
-        rate_hz = *device_rate;
-        return;
-    }
-    if (! told.clock.empty()) fail ({ "run/no_clock", "--clock " + told.clock, "no device that is connected ticks for " + inQuotes (told.clock), "name a role whose device is a HID device with a rate in its profile, or write --clock timer" });
+        const auto at = std::ranges::find (described, role, &Described::first);
+        if (at != described.end())
+            at->second = description;
+        else
+            described.emplace_back (role, description);
+    };
+    for (const auto& role : rolesNamed (loaded.graph))
+        if (const auto bound = bindingOf (desk, role)) describe (role, bound->description);
+    for (const auto& text : told.devices)
+        if (const auto parsed = parseDeviceOption (text, loaded.graph.devices, std::filesystem::path (told.graph).parent_path()); const auto* option = std::get_if<DeviceOption> (&parsed))
+            describe (option->role, option->description);
+    return described;
+}
+
+/// A device that has a clock of its own ticks the run, at its rate, unless somebody says otherwise.
+void Session::decideClock()
+{
+    const auto rateOf = [&] (const Described& d, bool may_wait)
+    {
+        if (const auto rate = real.clockRate (d.second)) return rate;
+        const bool waits = may_wait && ! told.strict && desk.session.binding (d.first) != nullptr;
+        return waits ? real.promisedRate (d.second) : std::nullopt;
+    };
+    ClockWish wish { told.clock, desk.session.clock(), {} };
+    if (told.rate_hz > 0.0 || feed) wish.rate_hz = rate_hz;
+    auto choice = host::chooseClock (wish, devicesByRole(), rateOf);
+    for (auto& m : choice.messages)
+        if (m.id == "session/clock")
+        {
+            m.file = desk.file.string();
+            const auto position = positionOf (desk.positions, m.where);
+            m.line = position.line;
+            m.column = position.column;
+        }
+    if (report (choice.messages, loaded, told.graph) > 0) throw Stop {};
+    if (choice.role.empty()) return;
+    clock_role = choice.role;
+    rate_hz = choice.rate_hz;
 }
 
 std::shared_ptr<const Plan> Session::compileGraph()
@@ -186,13 +220,24 @@ void Session::bindDevices()
     report (missingParts (running->plan()), loaded, told.graph);
 }
 
-/// The device that an option names, else the one that the graph describes, else a simulated tool that nobody moves.
+/// The device that an option names, else the one that the session binds, else the one that the graph describes, else a
+/// simulated tool that nobody moves.
 std::optional<Session::Bound> Session::open (const std::string& role, const graph::Graph& graph, const std::vector<DeviceOption>& options, Messages& messages)
 {
     const auto folder = std::filesystem::path (told.graph).parent_path();
     const auto option = std::ranges::find (options, role, &DeviceOption::role);
-    const auto* described = descriptionOf (graph, role);
     const bool by_option = option != options.end();
+    if (const auto binding = by_option ? std::nullopt : bindingOf (desk, role))
+    {
+        const auto openOne = [this] (const Json& description, const std::filesystem::path& from)
+        { return real.open (description, from); };
+        auto bound = openBound (desk, role, *binding, openOne, hid::thisComputer(), real.profiles(), told.strict ? Absence::refuses : Absence::waits);
+        std::ranges::move (bound.messages, std::back_inserter (messages));
+        if (! bound.device) return std::nullopt;
+        return Bound { role, std::move (bound.device), bound.driver, bound.limits, false };
+    }
+
+    const auto* described = descriptionOf (graph, role);
     if (! by_option && ! described)
         messages.push_back (warning ("device/undescribed", "/devices", "nobody says which device role '" + role + "' is; a simulated tool at rest stands in for it", "describe it under `devices`, or give --device " + role + "=gesture:stroke"));
 
@@ -204,14 +249,15 @@ std::optional<Session::Bound> Session::open (const std::string& role, const grap
         m.where = by_option ? "--device " + role + m.where : "/devices/" + role + m.where;
     std::ranges::move (made.messages, std::back_inserter (messages));
     if (! made.device) return std::nullopt;
-    return Bound { role, std::move (made.device), made.limits, by_option };
+    auto* driver = made.device.get();
+    return Bound { role, std::move (made.device), driver, made.limits, ! by_option };
 }
 
 std::vector<RealDevice> Session::realDevices() const
 {
     std::vector<RealDevice> all;
     for (const auto& d : devices)
-        if (auto* device = dynamic_cast<hid::HidDevice*> (d.device.get())) all.push_back ({ d.role, device });
+        if (auto device = realDevice (d.role, *d.driver)) all.push_back (std::move (*device));
     return all;
 }
 
@@ -407,7 +453,7 @@ Messages Session::notTakenOver (const graph::Graph& graph) const
     {
         const auto *present = descriptionOf (graph, device.role), *before = descriptionOf (loaded.graph, device.role);
         const bool differs = present != nullptr && (before == nullptr || *present != *before);
-        if (differs && ! device.by_option)
+        if (differs && device.by_graph)
             messages.push_back (warning ("watch/device", "/devices/" + device.role, "the device of '" + device.role + "' goes on as it was opened, with the guard it had", "start the run anew for the one described now"));
     }
     return messages;
@@ -443,6 +489,9 @@ std::vector<std::filesystem::path> Session::inputs() const
     const auto folder = std::filesystem::path (told.graph).parent_path();
     for (const auto& [role, description] : loaded.graph.devices)
         add (folder, description);
+    if (! desk.file.empty()) all.push_back (desk.file);
+    for (const auto& role : desk.session.roles())
+        add (desk.file.parent_path(), *desk.session.binding (role));
     for (const auto& text : told.devices)
     {
         all.emplace_back (text.substr (text.find ('=') + 1));

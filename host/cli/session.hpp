@@ -15,6 +15,8 @@
 #include <host/runtime/probe_ring.hpp>
 #include <host/runtime/runner.hpp>
 #include <host/runtime/triggered_capture.hpp>
+#include <host/sessions/binding.hpp>
+#include <host/sessions/choose_clock.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -32,8 +34,10 @@ struct SessionOptions
 {
     std::string graph, feed;
     std::vector<std::string> records, outputs, sets, devices;
-    std::string log;     ///< where what comes in is to be written down; "": nowhere
-    std::string clock;   ///< the role whose device ticks the run, or "timer"; "": the first that can
+    std::string log;       ///< where what comes in is to be written down; "": nowhere
+    std::string clock;     ///< the role whose device ticks the run, or "timer"; "": as the session has it, or the first that can
+    std::string session;   ///< of a live run, which devices its roles are bound to: a file, or "off"; "": the user's
+    bool strict = false;   ///< a device of the session that is not there ends it
     double rate_hz = 0.0, duration_s = 0.0;
 
     void addTo (CLI::App&);
@@ -125,12 +129,14 @@ private:
     {
         std::string role;
         std::unique_ptr<Device> device;
+        Device* driver = nullptr;   // the same, without a workspace around it
         GuardLimits limits;
-        bool by_option = false;   // not from the graph
+        bool by_graph = true;   // not by an option or a session
     };
 
     SessionOptions told;
     LoadedGraph loaded;
+    LoadedSession desk;   // empty if none is used
     FileAssets assets;
     NotedAssets noted { assets };
     std::optional<Feed> feed;
@@ -156,7 +162,9 @@ private:
     std::vector<Bound> openNew (const Plan&, const graph::Graph&, Messages&);
     void forgetProbes();
     void readFeed();
-    void chooseClock (Pace);
+    void readDesk();
+    void decideClock();
+    std::vector<Described> devicesByRole();
     std::shared_ptr<const Plan> compileGraph();
     void bindDevices();
     void decideLength();

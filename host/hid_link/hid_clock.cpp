@@ -9,19 +9,30 @@ namespace
 {
 using Clock = HidPort::Clock;
 
+constexpr double usual_watchdog = 0.1;   // s, where a profile has none
+
 Clock::duration durationOf (double s) { return std::chrono::duration_cast<Clock::duration> (std::chrono::duration<double> (s)); }
+
+double watchdogOf (const Profile& p)
+{
+    const double s = p.limits.guard.watchdog;
+    return s < GuardLimits::none ? s : usual_watchdog;
+}
 }   // namespace
 
-HidClock::HidClock (HidPort& p, double rate_hz) : port (p), period (durationOf (1.0 / rate_hz)), silence (durationOf (longest_silence / rate_hz)) {}
+HidClock::HidClock (HidPort& p, double rate_hz) : port (p), period (durationOf (1.0 / rate_hz)), silence (durationOf (longest_silence / rate_hz)), loss (durationOf (watchdogOf (*p.profile()))) {}
 
 void HidClock::drive (Ticked& ticked) noexcept
 {
-    auto due = Clock::now() + silence;
+    auto heard = Clock::now();
+    auto due = heard + silence;
     for (;;)
     {
         const bool came = port.waitForReport (due);
         const auto now = Clock::now();
+        if (came) heard = now;
         by_timer.store (! came, std::memory_order_relaxed);
+        replaced.store (! came && (! port.isConnected() || now - heard > loss), std::memory_order_relaxed);
         if (! came) timed.fetch_add (1, std::memory_order_relaxed);
 
         const auto since = came ? now.time_since_epoch() - std::chrono::nanoseconds (port.lastArrival()) : now - due;

@@ -50,6 +50,7 @@ struct RunStatus
     double force = 0.0, peak = 0.0;        ///< N, the largest of all roles: now, and since the run began
     Phase phase = Phase::running;
     End end = End::none;
+    bool clock_replaced = false;             ///< this tick is not of the clock that was chosen: forces are held at zero
     bool let_go_under_force = false;         ///< a slew limit made the way to zero too long
     std::uint64_t role_count = 0;            ///< of the plan that ticks; there is more to see of the first `most_roles`
     std::array<Role, most_roles> roles {};   ///< by name; last, since most of them are seldom there

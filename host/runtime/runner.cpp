@@ -43,6 +43,8 @@ bool Runner::tick (double late_s) noexcept
 {
     const auto k = ticks_so_far.ticks();
     const double begin = clock.now();
+    now.clock_replaced = clock.isReplaced();
+    engine.mistrustReadings (now.clock_replaced);
     if (options.hooks) options.hooks->before (k);
     engine.tick ([this] (Plan& plan) noexcept
                  { node_costs.tick (plan); });

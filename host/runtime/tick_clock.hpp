@@ -35,6 +35,10 @@ public:
     /// False if ticks are never late, so that a graph cannot take too long for them.
     virtual bool isRealTime() const noexcept { return true; }
 
+    /// True of a tick that something else gives in its place, as while its device is silent: nobody is to be pushed on it.
+    /// [any thread]
+    virtual bool isReplaced() const noexcept { return false; }
+
     /// The time in s, from any beginning. [tick thread]
     virtual double now() const noexcept { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "session.hpp"
-#include "text_file.hpp"
 
 #include <framework/file/graph_file.hpp>
+#include <host/io/text_file.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -51,13 +51,6 @@ std::string nameOf (const Kept& kept)
     return kept.file.empty() ? "a graph without a name" : kept.file.stem().string();
 }
 }   // namespace
-
-fs::path homeFolder()
-{
-    const auto told = juce::SystemStats::getEnvironmentVariable ("TACTUS_HOME", {});
-    if (told.isNotEmpty()) return told.toStdString();
-    return juce::File::getSpecialLocation (juce::File::userApplicationDataDirectory).getChildFile ("Tactus").getFullPathName().toStdString();
-}
 
 std::string writeKept (const Kept& k)
 {

@@ -12,9 +12,6 @@
 namespace tactus::host
 {
 
-/// Where settings and what is kept for a crash are: TACTUS_HOME in the environment, or where the system has such things.
-std::filesystem::path homeFolder();
-
 /// A document as it is kept in case the program does not end well.
 struct Kept
 {

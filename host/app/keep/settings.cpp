@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "settings.hpp"
-#include "text_file.hpp"
+
+#include <host/io/text_file.hpp>
 
 #include <algorithm>
 

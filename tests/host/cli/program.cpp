@@ -18,6 +18,12 @@ namespace tactus::test
 
 namespace fs = std::filesystem;
 
+namespace
+{
+/// What somebody has bound their devices to is not to change what tests see.
+[[maybe_unused]] const bool has_no_home = setenv ("TACTUS_HOME", (fs::temp_directory_path() / "tactus_test_nobody").c_str(), 1) == 0;
+}   // namespace
+
 Scratch::Scratch()
 {
     static std::atomic<int> count { 0 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <host/app/keep/session.hpp>
-#include <host/app/keep/text_file.hpp>
+#include <host/io/text_file.hpp>
 
 #include "host/io/temporary_folder.hpp"
 

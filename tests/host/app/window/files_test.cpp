@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <host/app/keep/text_file.hpp>
+#include <host/io/text_file.hpp>
 #include <host/app/window/files.hpp>
 
 #include "host/io/temporary_folder.hpp"

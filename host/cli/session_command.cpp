@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.hpp"
+#include "report.hpp"
+
+#include <framework/catalogue.hpp>
+#include <framework/graph/text.hpp>
+#include <framework/number_text.hpp>
+#include <framework/plan/compile.hpp>
+#include <host/assets/file_assets.hpp>
+#include <host/assets/nearest_by_embree.hpp>
+#include <host/hid_link/profile_shelf.hpp>
+#include <host/platform/home_folder.hpp>
+#include <host/sessions/choose_clock.hpp>
+#include <host/sessions/role_fits.hpp>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+namespace tactus::host
+{
+
+namespace
+{
+namespace fs = std::filesystem;
+
+struct Options
+{
+    std::string graph, file, clock;
+    std::vector<std::string> bind, unbind;
+    bool clock_given = false, json = false;
+};
+
+/// Files that an option names are sought from where it was written, and later from where the session lies.
+void makeAbsolute (Json& description, const fs::path& folder)
+{
+    for (const auto* at : { "/path", "/hand/path" })
+        if (const Json::json_pointer where (at); description.contains (where) && description.at (where).is_string())
+        {
+            auto& path = description.at (where);
+            if (const auto text = path.get<std::string>(); text.find_first_of ("./\\") != text.npos) path = fs::absolute (folder / text).lexically_normal().string();
+        }
+}
+
+/// "auto" becomes the profile of what is plugged in now, so that the role can be waited for later.
+void nameProfile (Json& description, const hid::LoadedProfiles& profiles)
+{
+    if (! hid::isHid (description) || description.value ("profile", Json ("auto")) != "auto") return;
+    if (const auto found = hid::findDevice (description, hid::thisComputer(), profiles); found.profile) description["profile"] = found.profile->id;
+}
+
+Json read (const std::string& option, std::string& role, const std::optional<LoadedGraph>& graph, const hid::LoadedProfiles& profiles)
+{
+    const auto folder = graph ? fs::path (graph->graph.folder) : fs::path();
+    auto parsed = parseDeviceOption (option, graph ? graph->graph.devices : std::vector<Described> {}, folder);
+    if (const auto* m = std::get_if<Message> (&parsed)) fail ({ m->id, "--bind " + option, m->text, m->remedy });
+    auto& [name, description, from] = std::get<DeviceOption> (parsed);
+    role = name;
+    makeAbsolute (description, from);
+    nameProfile (description, profiles);
+    for (const auto& m : checkBinding (description, {}, profiles))
+        if (m.severity == Message::Severity::error) fail ({ m.id, "--bind " + option + (m.where.empty() ? "" : ", " + m.where), m.text, m.remedy });
+    return description;
+}
+
+void stopIfWrong (const LoadedSession& s)
+{
+    const LoadedGraph none;
+    if (report (s.messages, none, s.file.string()) > 0) throw Stop {};
+}
+
+std::string spacesTo (std::size_t width, const std::string& text) { return std::string (width > text.size() ? width - text.size() : 0, ' '); }
+
+void printTable (const std::vector<std::vector<std::string>>& rows)
+{
+    std::vector<std::size_t> widths;
+    for (const auto& row : rows)
+        for (std::size_t i = 0; i < row.size(); ++i)
+        {
+            widths.resize (std::max (widths.size(), i + 1));
+            widths[i] = std::max (widths[i], row[i].size());
+        }
+    for (const auto& row : rows)
+    {
+        std::string line;
+        for (std::size_t i = 0; i < row.size(); ++i)
+            line += row[i] + (i + 1 < row.size() ? spacesTo (widths[i] + 2, row[i]) : "");
+        line.erase (line.find_last_not_of (' ') + 1);
+        std::cout << line << '\n';
+    }
+}
+
+std::string describe (const Workspace& w)
+{
+    if (w.isPlain()) return {};
+    return "workspace x" + numberText (w.scale) + " + (" + numberText (w.offset.x()) + ", " + numberText (w.offset.y()) + ", " + numberText (w.offset.z()) + ") m";
+}
+
+void printSession (const LoadedSession& s, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& profiles)
+{
+    std::error_code unseen;
+    std::cout << s.file.string() << (fs::exists (s.file, unseen) ? "\n" : " (not there yet)\n");
+    const auto clock = s.session.clock();
+    std::cout << "clock: " << (clock.empty() ? "the first device that can" : clock) << '\n';
+    const auto roles = s.session.roles();
+    if (roles.empty()) std::cout << "no role is bound: each graph has the devices that it describes; --bind ROLE=hid:auto binds one\n";
+    std::vector<std::vector<std::string>> rows;
+    for (const auto& role : roles)
+    {
+        const auto b = bindingOf (s, role);
+        const auto state = ! hid::isHid (b->description) ? std::string() : isAmong (b->description, connected, profiles) ? "connected"
+                                                                                                                         : "not connected";
+        rows.push_back ({ role, nameOf (b->description), state, describe (b->workspace) });
+    }
+    printTable (rows);
+    if (const auto* audio = s.session.audio()) std::cout << "audio: " << audio->dump() << '\n';
+}
+
+std::string verdict (const RoleFit& fit)
+{
+    std::string text;
+    for (const auto& m : fit.messages)
+        text += (text.empty() ? "" : "; ") + m.where + (m.where.empty() ? "" : ": ") + m.text;
+    for (const auto& l : fit.lacking)
+        text += (text.empty() ? "" : "; ") + l;
+    if (! text.empty()) return "no: " + text;
+    if (! fit.there) return "nobody knows before it is connected";
+    return fit.connected == false ? "yes, once it is connected" : "yes";
+}
+
+constexpr std::string_view whose (RoleFit::From from)
+{
+    return from == RoleFit::From::session ? " (session)" : from == RoleFit::From::graph ? " (graph)"
+                                                                                        : " (nobody says)";
+}
+
+Json jsonOf (const RoleFit& fit)
+{
+    Json lacking = Json::array();
+    for (const auto& l : fit.lacking)
+        lacking.push_back (l);
+    for (const auto& m : fit.messages)
+        lacking.push_back (m.where + ": " + m.text);
+    Json json { { "role", fit.role }, { "needs", describe (fit.needs) }, { "bound_to", nameOf (fit.description) }, { "by", fit.from == RoleFit::From::session ? "session" : fit.from == RoleFit::From::graph ? "graph"
+                                                                                                                                                                                                             : "nobody" } };
+    json["fits"] = fit.fits();
+    json["lacking"] = std::move (lacking);
+    if (fit.connected) json["connected"] = *fit.connected;
+    return json;
+}
+
+std::vector<RoleFit> fitsOf (const LoadedGraph& graph, const std::string& file, const LoadedSession& s, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& profiles)
+{
+    FileAssets assets;
+    const auto compiled = compile (graph.graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } });
+    if (report (compiled.messages, graph, file) > 0 || ! compiled.plan) throw Stop {};
+    return host::fitsOf (*compiled.plan, graph.graph, s, profiles, connected);
+}
+
+void run (const Options& options)
+{
+    std::optional<LoadedGraph> graph;
+    if (! options.graph.empty())
+    {
+        graph = loadGraph (options.graph);
+        if (report (graph->messages, *graph, options.graph) > 0) throw Stop {};
+    }
+    const auto profiles = hid::profilesAtHand();
+    const bool edits = ! options.bind.empty() || ! options.unbind.empty() || options.clock_given;
+
+    LoadedSession session;
+    std::error_code unseen;
+    if (options.file.empty())
+        session = loadUsualSession (homeFolder());
+    else if (edits && ! fs::exists (options.file, unseen))
+        session.file = options.file;
+    else
+        session = loadSession (options.file);
+    stopIfWrong (session);
+
+    if (edits)
+    {
+        std::vector<Described> bound;
+        for (const auto& option : options.bind)
+        {
+            std::string role;
+            auto description = read (option, role, graph, profiles);
+            bound.emplace_back (std::move (role), std::move (description));
+        }
+        for (const auto& role : options.unbind)
+            if (session.session.binding (role) == nullptr) fail ({ "session/not_bound", "--unbind " + role, "the session binds no such role", "see which it binds: tactus session" });
+        session = editSession (std::move (session), [&] (DeviceSession& s)
+                               {
+            for (const auto& role : options.unbind)
+                s.unbind (role);
+            for (auto& [role, description] : bound)
+                s.bind (role, std::move (description));
+            if (options.clock_given) s.setClock (options.clock == "first" ? "" : options.clock); });
+        stopIfWrong (session);
+    }
+
+    const auto connected = hid::eachOnce (hid::thisComputer().connected(), profiles);
+    const auto fits = graph ? fitsOf (*graph, options.graph, session, connected, profiles) : std::vector<RoleFit> {};
+    if (options.json)
+    {
+        Json json { { "file", session.file.string() }, { "session", Json::parse (writeSession (session.session)) } };
+        if (graph)
+        {
+            json["roles"] = Json::array();
+            for (const auto& fit : fits)
+                json["roles"].push_back (jsonOf (fit));
+        }
+        std::cout << json.dump (2, ' ', false, Json::error_handler_t::replace) << '\n';
+        return;
+    }
+    printSession (session, connected, profiles);
+    if (! graph) return;
+    std::cout << '\n'
+              << (graph->graph.name.empty() ? options.graph : graph->graph.name) << '\n';
+    std::vector<std::vector<std::string>> rows { { "role", "needs", "bound to", "fits?" } };
+    for (const auto& fit : fits)
+        rows.push_back ({ fit.role, describe (fit.needs), nameOf (fit.description) + std::string (whose (fit.from)), verdict (fit) });
+    printTable (rows);
+}
+}   // namespace
+
+void addSession (CLI::App& app)
+{
+    const auto options = std::make_shared<Options>();
+    auto* command = app.add_subcommand ("session", "Which devices the roles of graphs are bound to here, and whether they fit a graph");
+    command->add_option ("graph", options->graph, "A graph, to see what it needs");
+    command->add_option ("--bind", options->bind, "ROLE=hid:PROFILE (hid:auto), ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv or ROLE=gesture:NAME; may be given more than once")->allow_extra_args (false);
+    command->add_option ("--unbind", options->unbind, "A role that is again what each graph says; may be given more than once")->allow_extra_args (false);
+    auto* clock = command->add_option ("--clock", options->clock, "What ticks runs: a role, timer, audio, or first, for the first device that can")->check (CLI::Validator ([] (std::string& text)
+                                                                                                                                                                            { return graph::isId (text) ? std::string() : "'" + text + "' is no role: lower case letters, digits and _, a letter first"; },
+                                                                                                                                                                            "ROLE|timer|audio|first"));
+    command->add_option ("--file", options->file, "Another session than the user's");
+    command->add_flag ("--json", options->json, "As JSON");
+    command->footer ("`tactus play` and tactus-host use the session; `tactus render` never does. See docs/sessions.md.\n\n"
+                     "Examples:\n"
+                     "  tactus session\n"
+                     "  tactus session graphs/dry_wood.json\n"
+                     "  tactus session --bind stylus=hid:auto --clock stylus\n"
+                     "  tactus session --unbind stylus --clock first");
+    command->callback ([options, clock]
+                       {
+        options->clock_given = clock->count() > 0;
+        run (*options); });
+}
+
+}   // namespace tactus::host

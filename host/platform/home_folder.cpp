@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "home_folder.hpp"
+
+#include <cstdlib>
+
+#if ! defined(_WIN32)
+#include <pwd.h>
+#include <unistd.h>
+#endif
+
+namespace tactus::host
+{
+
+namespace
+{
+namespace fs = std::filesystem;
+
+fs::path fromEnvironment (const char* name)
+{
+    const char* told = std::getenv (name);
+    return told != nullptr ? fs::path (told) : fs::path();
+}
+
+fs::path configurations()
+{
+#if defined(_WIN32)
+    return fromEnvironment ("APPDATA");
+#else
+    auto home = fromEnvironment ("HOME");
+    if (home.empty())
+        if (const auto* user = ::getpwuid (::getuid()); user != nullptr && user->pw_dir != nullptr) home = user->pw_dir;
+    if (home.empty()) return {};
+#if defined(__APPLE__)
+    return home / "Library";
+#else
+    return home / ".config";
+#endif
+#endif
+}
+}   // namespace
+
+std::filesystem::path homeFolder()
+{
+    if (auto told = fromEnvironment ("TACTUS_HOME"); ! told.empty()) return told;
+    const auto folder = configurations();
+    return folder.empty() ? folder : folder / "Tactus";
+}
+
+}   // namespace tactus::host

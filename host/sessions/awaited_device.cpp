@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "awaited_device.hpp"
+
+#include <utility>
+
+namespace tactus::host
+{
+
+AwaitedDevice::AwaitedDevice (Json d, std::shared_ptr<const hid::Profile> p, hid::HidSystem& s, std::chrono::milliseconds t)
+    : description (std::move (d)), wanted (std::move (p)), system (s), pause (t)
+{
+}
+
+AwaitedDevice::~AwaitedDevice()
+{
+    {
+        const std::lock_guard lock (mutex);
+        stopping = true;
+    }
+    stopped.notify_all();
+}
+
+/// It is looked for from here on: who only asks what a device has does not want it opened.
+void AwaitedDevice::prepare (double dt_s)
+{
+    dt = dt_s;
+    if (! looking.joinable())
+        looking = std::jthread ([this]
+                                { lookOn(); });
+}
+
+Reading AwaitedDevice::read() noexcept
+{
+    if (auto* d = device()) return d->read();
+    Reading nothing;
+    nothing.valid = false;
+    nothing.age = age += dt;
+    return nothing;
+}
+
+void AwaitedDevice::write (const Effort& guarded) noexcept
+{
+    if (auto* d = device()) d->write (guarded);
+}
+
+DeviceLayout AwaitedDevice::layout() const { return hid::layoutOf (hid::HidModel (wanted)); }
+
+std::string AwaitedDevice::trouble() const
+{
+    const std::lock_guard lock (mutex);
+    return last_trouble;
+}
+
+void AwaitedDevice::lookOn()
+{
+    while (device() == nullptr)
+    {
+        look();
+        std::unique_lock lock (mutex);
+        if (stopped.wait_for (lock, pause, [this]
+                              { return stopping; }))
+            return;
+    }
+}
+
+void AwaitedDevice::look()
+{
+    auto made = hid::openDevice (description, {}, system, { .profiles = { wanted }, .messages = {} });
+    if (auto* d = dynamic_cast<hid::HidDevice*> (made.device.get()))
+    {
+        d->prepare (dt);
+        opened = std::move (made.device);
+        there.store (d, std::memory_order_release);
+        return;
+    }
+    const std::lock_guard lock (mutex);
+    last_trouble = made.messages.empty() ? std::string() : made.messages.back().text;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "binding.hpp"
+#include "awaited_device.hpp"
+
+#include <framework/file/json_text.hpp>
+#include <host/devices/guard_limits.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace tactus::host
+{
+
+namespace
+{
+/// What goes away once somebody plugs something in, ends the other program, installs the rule.
+bool isOfTheMoment (const Message& m)
+{
+    constexpr std::string_view ids[] { "hid/not_connected", "hid/several", "hid/not_permitted", "hid/not_opened", "hid/init" };
+    return std::ranges::find (ids, m.id) != std::end (ids);
+}
+
+std::shared_ptr<const hid::Profile> profileOf (const Json& description, const hid::LoadedProfiles& all)
+{
+    const auto name = description.find ("profile");
+    if (name == description.end() || ! name->is_string()) return nullptr;
+    const auto at = std::ranges::find (all.profiles, name->get_ref<const std::string&>(), [] (const auto& p)
+                                       { return p->id; });
+    return at == all.profiles.end() ? nullptr : *at;
+}
+
+/// The device in its absence, if it can be waited for.
+std::unique_ptr<AwaitedDevice> await (const Json& description, hid::HidSystem& system, const hid::LoadedProfiles& all, MadeDevice& made)
+{
+    const auto isError = [] (const Message& m)
+    { return m.severity == Message::Severity::error; };
+    if (! hid::isHid (description) || std::ranges::any_of (made.messages, [&] (const Message& m)
+                                                           { return isError (m) && ! isOfTheMoment (m); }))
+        return nullptr;
+    auto profile = profileOf (description, all);
+    if (! profile) return nullptr;
+
+    for (auto& m : made.messages)
+        if (isError (m))
+        {
+            m.severity = Message::Severity::warning;
+            m.text += ", so no force is let through to it until it is there";
+        }
+    GuardLimits session;
+    if (const auto guard = description.find ("guard"); guard != description.end())
+        session = readGuardLimits (*guard, "/guard", made.messages, hid::layoutOf (hid::HidModel (profile)));
+    made.limits = hid::limitsOf (*profile, session);
+    if (hasErrors (made.messages)) return nullptr;
+    made.about = profile->name + ", once it is there.";
+    return std::make_unique<AwaitedDevice> (description, std::move (profile), system);
+}
+}   // namespace
+
+std::optional<RoleBinding> bindingOf (const LoadedSession& s, std::string_view role)
+{
+    const auto* bound = s.session.binding (role);
+    if (bound == nullptr) return std::nullopt;
+    RoleBinding b { *bound, {}, s.file.parent_path(), {} };
+    if (const auto w = b.description.find ("workspace"); w != b.description.end())
+    {
+        b.workspace = readWorkspace (*w, "/workspace", b.messages);
+        b.description.erase ("workspace");
+    }
+    return b;
+}
+
+BoundDevice openBound (const LoadedSession& s, std::string_view role, const RoleBinding& b, const OpenDevice& open, hid::HidSystem& system, const hid::LoadedProfiles& all, Absence absence)
+{
+    BoundDevice bound;
+    auto made = open (b.description, b.folder);
+    if (! made.device && absence == Absence::waits) made.device = await (b.description, system, all, made);
+
+    bound.messages = b.messages;
+    std::ranges::move (made.messages, std::back_inserter (bound.messages));
+    for (auto& m : bound.messages)
+    {
+        m.where = "/roles/" + std::string (role) + m.where;
+        const auto position = positionOf (s.positions, m.where);
+        m.file = s.file.string();
+        m.line = position.line;
+        m.column = position.column;
+    }
+    if (! made.device || hasErrors (bound.messages)) return bound;
+
+    bound.driver = made.device.get();
+    bound.device = b.workspace.isPlain() ? std::move (made.device) : std::make_unique<WorkspaceDevice> (std::move (made.device), b.workspace);
+    bound.limits = inWorkspace (made.limits, b.workspace);
+    bound.about = std::move (made.about);
+    return bound;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "role_fits.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tactus::host
+{
+
+namespace
+{
+std::string textAt (const Json& object, const char* key)
+{
+    if (! object.is_object()) return {};
+    const auto found = object.find (key);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+std::shared_ptr<const hid::Profile> profileNamed (const std::string& id, const hid::LoadedProfiles& all)
+{
+    const auto at = std::ranges::find (all.profiles, id, [] (const auto& p)
+                                       { return p->id; });
+    return at == all.profiles.end() ? nullptr : *at;
+}
+
+/// The profile that a device goes by, if it is the one that is asked for; else null.
+std::shared_ptr<const hid::Profile> profileFor (const Json& description, const hid::ConnectedDevice& device, const hid::LoadedProfiles& all)
+{
+    const auto serial = textAt (description, "serial"), wanted = textAt (description, "profile");
+    if (! serial.empty() && device.serial != serial) return nullptr;
+    if (wanted.empty() || wanted == "auto")
+    {
+        const auto fitting = hid::matching (all.profiles, device);
+        return fitting.empty() ? nullptr : fitting.front();
+    }
+    const auto profile = profileNamed (wanted, all);
+    return profile && hid::fit (*profile, device) > 0 ? profile : nullptr;
+}
+}   // namespace
+
+std::string nameOf (const Json& description)
+{
+    auto name = textAt (description, "driver");
+    for (const auto* key : { "profile", "path" })
+        if (const auto text = textAt (description, key); ! text.empty()) name += " " + text;
+    if (description.is_object() && name == "sim" && description.contains ("hand"))
+        if (const auto path = textAt (description["hand"], "path"); ! path.empty()) name += " in a hand that follows " + path;
+    if (const auto serial = textAt (description, "serial"); ! serial.empty()) name += ", serial " + serial;
+    return name.empty() ? "nothing" : name;
+}
+
+bool isAmong (const Json& description, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& all)
+{
+    return std::ranges::any_of (connected, [&] (const auto& device)
+                                { return profileFor (description, device, all) != nullptr; });
+}
+
+Messages checkBinding (const Json& binding, const std::filesystem::path& folder, const hid::LoadedProfiles& all)
+{
+    Messages messages;
+    auto description = binding;
+    if (description.is_object())
+        if (const auto w = description.find ("workspace"); w != description.end())
+        {
+            readWorkspace (*w, "/workspace", messages);
+            description.erase ("workspace");
+        }
+    auto more = hid::checkDevice (description, folder, all);
+    std::ranges::move (more, std::back_inserter (messages));
+    return messages;
+}
+
+std::vector<RoleFit> fitsOf (const Plan& plan, const graph::Graph& g, const LoadedSession& session, const hid::LoadedProfiles& all, std::span<const hid::ConnectedDevice> connected)
+{
+    std::vector<RoleFit> fits;
+    for (auto& [role, needs] : needsOf (plan))
+    {
+        auto& fit = fits.emplace_back (RoleFit { .role = role, .needs = std::move (needs) });
+        std::filesystem::path folder = g.folder;
+        fit.description = { { "driver", "sim" } };
+        if (auto bound = bindingOf (session, role))
+        {
+            fit.from = RoleFit::From::session;
+            fit.description = std::move (bound->description);
+            fit.workspace = bound->workspace;
+            fit.messages = std::move (bound->messages);
+            folder = bound->folder;
+        }
+        else if (const auto at = std::ranges::find (g.devices, role, &std::pair<std::string, Json>::first); at != g.devices.end())
+        {
+            fit.from = RoleFit::From::graph;
+            fit.description = at->second;
+        }
+
+        auto wrong = hid::checkDevice (fit.description, folder, all);
+        std::ranges::move (wrong, std::back_inserter (fit.messages));
+        fit.there = partsOf (fit.description, folder, all);
+        if (hid::isHid (fit.description))
+        {
+            fit.connected = isAmong (fit.description, connected, all);
+            if (! fit.there)
+                for (const auto& device : connected)
+                    if (const auto profile = profileFor (fit.description, device, all)) fit.there = partsOf (*profile);
+        }
+        if (fit.there) fit.lacking = lackingOf (fit.needs, *fit.there);
+    }
+    return fits;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <host/sessions/binding.hpp>
+#include <host/sessions/device_session.hpp>
+
+#include <cstdlib>
+#include <string_view>
+
+namespace tactus::fuzz
+{
+
+/// A text is a session that is written as it is read, or is refused, with a place for each problem, and then holds nothing.
+/// Aborts if not.
+inline void trySession (std::string_view text)
+{
+    const auto read = host::readSession (text);
+    for (const auto& m : read.messages)
+        if (m.id.empty() || m.text.empty() || m.line < 1 || m.column < 1) std::abort();
+    if (hasErrors (read.messages))
+    {
+        if (! (read.session == host::DeviceSession {})) std::abort();
+        return;
+    }
+    const auto written = host::writeSession (read.session);
+    const auto again = host::readSession (written);
+    if (hasErrors (again.messages) || host::writeSession (again.session) != written) std::abort();
+    for (const auto& role : read.session.roles())
+        if (const auto bound = host::bindingOf ({ read.session, "session.json" }, role); ! bound || ! (bound->workspace.scale > 0.0)) std::abort();
+}
+
+}   // namespace tactus::fuzz

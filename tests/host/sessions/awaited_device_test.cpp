@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A role whose device is not there when the run begins, or whose clock goes away: nothing pushes until all is well again.
+
+#include "../hid_link/fake_board.hpp"
+
+#include <framework/engine.hpp>
+#include <host/devices/sim.hpp>
+#include <host/runtime/runner.hpp>
+#include <host/sessions/binding.hpp>
+#include <host/sessions/device_health.hpp>
+#include <host/sessions/run_clock.hpp>
+
+#include "support/no_allocation.hpp"
+#include "support/sketch.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <set>
+
+using namespace tactus;
+using namespace tactus::host;
+using test::boardReport;
+using test::FakeBoard;
+using namespace std::chrono_literals;
+
+namespace
+{
+const Json on_board { { "driver", "hid" }, { "profile", "board" } };
+
+hid::LoadedProfiles profiles() { return { .profiles = { test::BoardProfile {}.make() }, .messages = {} }; }
+
+LoadedSession sessionWith (const Json& binding)
+{
+    LoadedSession s { {}, "desk/session.json" };
+    s.session.bind ("stylus", binding);
+    return s;
+}
+
+BoundDevice bindStylus (const Json& binding, hid::HidSystem& system, Absence absence = Absence::waits)
+{
+    const auto session = sessionWith (binding);
+    const auto open = [&] (const Json& d, const std::filesystem::path& from)
+    { return hid::openDevice (d, from, system, profiles()); };
+    return openBound (session, "stylus", *bindingOf (session, "stylus"), open, system, profiles(), absence);
+}
+
+/// Pushed with 1 N whatever happens, with a simulated tool beside it.
+test::Sketch pushed()
+{
+    test::Sketch s;
+    s.node ("push", "signal.constant", { { "value", 1.0 } }).node ("x", "vector.join").node ("motor", "device.force").node ("other", "device.force").node ("hand", "device.position");
+    s.wire ("push.out -> x.x").wire ("x.out -> motor.force").wire ("x.out -> other.force");
+    s.graph.root.nodes[3].role = "beside";
+    return s;
+}
+
+const AwaitedDevice& awaited (const BoundDevice& b) { return dynamic_cast<const AwaitedDevice&> (*b.driver); }
+}   // namespace
+
+TEST_CASE ("a role whose device is not there waits for it without force, and then is driven from zero", "[sessions][hid]")
+{
+    FakeBoard board;
+    const bool is_held_by_another = GENERATE (false, true);
+    is_held_by_another ? board.forbid (true) : board.plug (false);
+
+    auto bound = bindStylus (on_board, board);
+    REQUIRE (bound.device);
+    REQUIRE (bound.messages.size() == 1);
+    CHECK (bound.messages.front().severity == Message::Severity::warning);
+    CHECK (bound.messages.front().id == (is_held_by_another ? "hid/not_permitted" : "hid/not_connected"));
+    CHECK (bound.messages.front().where.starts_with ("/roles/stylus"));
+    CHECK (bound.messages.front().file == "desk/session.json");
+    CHECK (bound.limits.max_force == 3.0);
+    CHECK (bound.device->layout() == awaited (bound).layout());
+
+    Guard guard;
+    guard.prepare (bound.limits, 1e-3);
+    AwaitedDevice device { on_board, awaited (bound).profile(), board, 2ms };
+    device.prepare (1e-3);
+    const auto tick = [&]
+    {
+        const auto applied = guard ({ { 1.0, 0.0, 0.0 }, Vec3::Zero() }, device.read());
+        device.write (applied);
+        return applied.force.x();
+    };
+    for (int k = 0; k < 50; ++k)
+    {
+        const auto reading = device.read();
+        CHECK_FALSE (reading.valid);
+        CHECK (reading.age > 0.0);
+        CHECK (tick() == 0.0);
+    }
+    CHECK (guard.stop() == Guard::Stop::stale);
+    CHECK (device.device() == nullptr);
+    REQUIRE (board.until ([&]
+                          { return ! device.trouble().empty(); }));
+    CHECK (board.told().empty());
+
+    is_held_by_another ? board.forbid (false) : board.plug (true);
+    REQUIRE (board.until ([&]
+                          { return device.device() != nullptr; }));
+    std::uint16_t count = 0;
+    double most_step = 0.0, before = 0.0;
+    const bool reached = board.until ([&]
+                                      {
+        board.send (boardReport (++count));
+        const double now = tick();
+        most_step = std::max (most_step, now - before);
+        before = now;
+        return now == 1.0; });
+    CHECK (reached);
+    CHECK (most_step < 0.2);   // a ramp of 10 ms at 1 kHz
+    NoAllocation none;
+    tick();
+    CHECK (none.allocations() == 0);
+    CHECK (none.locks() == 0);
+}
+
+TEST_CASE ("what no device would mend is an error at once, and so is everything where nobody waits", "[sessions][hid]")
+{
+    FakeBoard board;
+    board.plug (false);
+    const auto idOf = [] (const BoundDevice& b)
+    { return b.messages.empty() ? std::string() : b.messages.front().id; };
+    const auto refused = [&] (const Json& binding, Absence absence, const std::string& id)
+    {
+        const auto bound = bindStylus (binding, board, absence);
+        CHECK_FALSE (bound.device);
+        CHECK (hasErrors (bound.messages));
+        CHECK (idOf (bound) == id);
+    };
+    refused (on_board, Absence::refuses, "hid/not_connected");
+    refused ({ { "driver", "hid" } }, Absence::waits, "hid/not_connected");   // nobody knows what will come
+    refused ({ { "driver", "hid" }, { "profile", "bord" } }, Absence::waits, "hid/unknown_profile");
+    refused ({ { "driver", "hid" }, { "profile", "board" }, { "guard", { { "max_force", "1 mm" } } } }, Absence::waits, "hid/not_connected");
+    refused ({ { "driver", "sim" }, { "workspace", { { "scale", 0 } } } }, Absence::waits, "device/out_of_range");
+    refused ({ { "driver", "sim" }, { "mass", 0 } }, Absence::waits, "device/out_of_range");
+}
+
+TEST_CASE ("a session only tightens what a device's profile allows, in the graph's workspace", "[sessions][hid]")
+{
+    FakeBoard board;
+    const auto bound = bindStylus ({ { "driver", "hid" }, { "profile", "board" }, { "guard", { { "max_force", 50.0 }, { "max_speed", 1.0 }, { "ramp", 0.5 } } }, { "workspace", { { "scale", 0.5 } } } }, board);
+    REQUIRE (bound.device);
+    CHECK (bound.messages.empty());
+    CHECK (bound.limits.max_force == 3.0);
+    CHECK (bound.limits.max_speed == 0.5);
+    CHECK (bound.limits.ramp == 0.5);
+    CHECK (bound.driver != bound.device.get());
+    CHECK (realDevice ("stylus", *bound.driver));
+}
+
+TEST_CASE ("while the clock of a run is away nothing is pushed, not even what has a reading of its own", "[sessions][hid]")
+{
+    FakeBoard board;
+    auto real = test::openBoard (board, { .watchdog = 0.01 });
+    SimulatedDevice beside { {} };
+    Engine engine { pushed().compile ({ .rate_hz = 1000.0 }).plan };
+    engine.attach ("stylus", *real, hid::limitsOf (*real->port().profile(), {}));
+    engine.attach ("beside", beside);
+    RunClock clock { *real, 1000.0 };
+    Runner runner { engine, clock, 1000.0, {} };
+    std::atomic<bool> sending = true;
+    std::jthread reports { [&] (const std::stop_token& over)
+                           {
+                               for (std::uint16_t n = 0; ! over.stop_requested(); std::this_thread::sleep_for (1ms))
+                                   if (sending) board.send (boardReport (++n));
+                           } };
+    runner.start();
+    const auto forces = [&]
+    {
+        const auto now = runner.status();
+        std::set<double> all;
+        for (const auto& role : now.shown())
+            all.insert (role.force);
+        return all;
+    };
+    CHECK (board.until ([&]
+                        { return forces() == std::set { 1.0 }; }));
+
+    const bool by_cable = GENERATE (false, true);
+    by_cable ? board.plug (false) : void (sending = false);
+    CHECK (board.until ([&]
+                        { return runner.status().clock_replaced && forces() == std::set { 0.0 }; }));
+    const auto held = runner.status();
+    CHECK (held.roles[0].stop == Guard::Stop::stale);   // "beside", whose own reading is as good as ever
+    CHECK (held.roles[1].stop == Guard::Stop::stale);
+    CHECK (clock.isByTimer());
+
+    by_cable ? board.plug (true) : void (sending = true);
+    CHECK (board.until ([&]
+                        { return ! runner.status().clock_replaced && forces() == std::set { 1.0 }; }));
+    reports = {};
+    sending = false;
+    runner.stop();
+    runner.wait();
+    CHECK (clock.ticksByTimer() > 0);
+}
+
+TEST_CASE ("a run whose clock is still to come is ticked by a timer at its rate, without force, until it does", "[sessions][hid]")
+{
+    FakeBoard board;
+    board.plug (false);
+    AwaitedDevice real { on_board, test::BoardProfile {}.make(), board, 2ms };
+    SimulatedDevice beside { {} };
+    Engine engine { pushed().compile ({ .rate_hz = 1000.0 }).plan };
+    engine.attach ("stylus", real, hid::limitsOf (*real.profile(), {}));
+    engine.attach ("beside", beside);
+    RunClock clock { real, 1000.0 };
+    Runner runner { engine, clock, 1000.0, {} };
+    runner.start();
+    REQUIRE (board.until ([&]
+                          { return runner.status().ticks > 30; }));
+    CHECK (runner.status().clock_replaced);
+    CHECK (runner.status().peak == 0.0);
+    CHECK (clock.ticksByTimer() >= 30);
+
+    board.plug (true);
+    std::jthread reports { [&] (const std::stop_token& over)
+                           {
+                               for (std::uint16_t n = 0; ! over.stop_requested(); std::this_thread::sleep_for (1ms))
+                                   board.send (boardReport (++n));
+                           } };
+    CHECK (board.until ([&]
+                        { return ! clock.isByTimer() && runner.status().force == 1.0; }));
+    runner.stop();
+    runner.wait();
+}
+
+TEST_CASE ("a run that waits for its clock in vain is stopped as any other", "[sessions][hid]")
+{
+    FakeBoard board;
+    board.plug (false);
+    AwaitedDevice real { on_board, test::BoardProfile {}.make(), board, 2ms };
+    Engine engine { pushed().compile ({ .rate_hz = 1000.0 }).plan };
+    engine.attach ("stylus", real);
+    RunClock clock { real, 1000.0 };
+    Runner runner { engine, clock, 1000.0, { .length = 20 } };
+    runner.start();
+    runner.wait();
+    CHECK (runner.status().end == RunStatus::End::length);
+    CHECK (clock.ticksByTimer() == runner.status().ticks);
+}
+
+TEST_CASE ("a device's state is told while it is awaited, there, and gone", "[sessions][hid]")
+{
+    FakeBoard board;
+    board.plug (false);
+    AwaitedDevice real { on_board, test::BoardProfile {}.make(), board, 2ms };
+    real.prepare (1e-3);
+    const auto device = realDevice ("stylus", real);
+    REQUIRE (device);
+    HealthWatch watch { "stylus" };
+    REQUIRE (board.until ([&]
+                          {
+        watch.look (std::span (&*device, 1));
+        return ! watch.health().front().trouble.empty(); }));
+    CHECK_FALSE (watch.health().front().has_come);
+    CHECK (describe (watch.health().front()).find ("not there yet") == 0);
+
+    board.plug (true);
+    std::uint16_t n = 0;
+    CHECK (board.until ([&]
+                        {
+        board.send (boardReport (++n));
+        real.read();
+        watch.look (std::span (&*device, 1));
+        return watch.health().front().rate_hz.has_value(); }));
+    const auto there = watch.health().front();
+    CHECK (there.connected);
+    CHECK (there.ticks);
+    CHECK_FALSE (there.drift_ppm);   // it is what the others are compared with
+    CHECK (there.reports > 2);
+    CHECK (describe (there).find ("reports/s") != std::string::npos);
+
+    board.plug (false);
+    CHECK (board.until ([&]
+                        {
+        watch.look (std::span (&*device, 1));
+        return ! watch.health().front().connected; }));
+    CHECK (describe (watch.health().front()) == "unplugged");
+    CHECK_FALSE (watch.health().front().rate_hz);
+}

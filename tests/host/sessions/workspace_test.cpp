@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A device's workspace in that of a graph: what is scaled, what the hand feels, and that no limit is loosened by it.
+
+#include <host/devices/sim.hpp>
+#include <host/sessions/workspace.hpp>
+
+#include "support/no_allocation.hpp"
+#include "support/sketch.hpp"
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <cmath>
+
+using namespace tactus;
+using namespace tactus::host;
+
+namespace
+{
+constexpr double dt = 1e-3;
+
+/// Is where it is put.
+struct Put final : Device
+{
+    void prepare (double) override {}
+    Reading read() noexcept override { return reading; }
+    void write (const Effort& e) noexcept override { asked = e; }
+    DeviceLayout layout() const override { return { .axes = { "trigger" } }; }
+    double duration() const noexcept override { return 3.0; }
+
+    Reading reading;
+    Effort asked;
+};
+
+double within (double low, double high) { return low + (high - low) * *rc::gen::inRange (0, 1'000'001) / 1e6; }
+Vec3 vectorWithin (double most) { return { within (-most, most), within (-most, most), within (-most, most) }; }
+Workspace anyWorkspace() { return { std::pow (10.0, within (-1.0, 1.0)), vectorWithin (0.5) }; }
+
+struct Placed
+{
+    explicit Placed (const Workspace& w) : device (make (w)) {}
+
+    std::unique_ptr<WorkspaceDevice> make (const Workspace& w)
+    {
+        auto inner = std::make_unique<Put>();
+        put = inner.get();
+        return std::make_unique<WorkspaceDevice> (std::move (inner), w);
+    }
+
+    Put* put;
+    std::unique_ptr<WorkspaceDevice> device;
+};
+}   // namespace
+
+TEST_CASE ("a position comes scaled and shifted, and all else as the device has it", "[sessions]")
+{
+    rc::prop ("reading", []
+              {
+        const auto w = anyWorkspace();
+        Placed placed { w };
+        auto& there = placed.put->reading;
+        there = { .position = vectorWithin (0.1), .rotation = vectorWithin (3.0), .pressure = within (0.0, 9.0), .buttons = 5, .age = within (0.0, 1.0), .valid = *rc::gen::arbitrary<bool>(), .true_position = vectorWithin (0.1), .true_velocity = vectorWithin (2.0), .axes = { 0.25 }, .signals = { 1.5 } };
+        const auto seen = placed.device->read();
+        RC_ASSERT ((seen.position - w.offset - w.scale * there.position).norm() < 1e-12);
+        RC_ASSERT ((seen.true_position - w.offset - w.scale * there.true_position).norm() < 1e-12);
+        RC_ASSERT (seen.true_velocity == w.scale * there.true_velocity);
+        RC_ASSERT (seen.rotation == there.rotation);
+        RC_ASSERT (seen.pressure == there.pressure && seen.buttons == there.buttons && seen.age == there.age && seen.valid == there.valid);
+        RC_ASSERT (seen.axes[0] == 0.25 && seen.signals[0] == 1.5); });
+
+    Placed placed { { 3.0, { 0.0, 0.0, 0.01 } } };
+    CHECK (placed.device->layout().axes == std::vector<std::string> { "trigger" });
+    CHECK (placed.device->duration() == 3.0);
+    NoAllocation none;
+    placed.device->read();
+    placed.device->write ({ { 1.0, 2.0, 3.0 }, { 4.0, 5.0, 6.0 } });
+    CHECK (none.allocations() == 0);
+    CHECK (none.locks() == 0);
+    CHECK (placed.put->asked.force == Vec3 (1.0, 2.0, 3.0));
+    CHECK (placed.put->asked.torque == Vec3 (4.0, 5.0, 6.0));
+}
+
+TEST_CASE ("a wall of K in the graph is felt as one of K times the scale, at rest against a hand that pushes", "[sessions]")
+{
+    const auto sketch = test::Sketch {}.node ("hand", "device.position").node ("wall", "deform.plane", { { "stiffness", 400.0 } }).node ("motor", "device.force").wire ("hand.position -> wall.position").wire ("wall.force -> motor.force");
+    rc::prop ("stiffness", [&]
+              {
+        const double scale = std::pow (10.0, within (-0.6, 0.4)), push = within (0.2, 1.0);
+        const Workspace w { scale, { 0.0, 0.0, within (-0.05, 0.05) } };
+        // The surface, which is at 0 in the graph, is there on the device.
+        const double surface = -w.offset.z() / scale;
+        auto simulated = std::make_unique<SimulatedDevice> (Simulation { .mass = 0.1, .damping = 20.0, .position = { 0.0, 0.0, surface }, .hand_force = { 0.0, 0.0, -push } });
+        auto* tool = simulated.get();
+        WorkspaceDevice device { std::move (simulated), w };
+        Engine engine { sketch.compile ({ .rate_hz = 1000.0 }).plan };
+        engine.attach ("stylus", device);
+        for (int k = 0; k < 4000; ++k)
+            engine.tick();
+        const double depth = surface - tool->read().true_position.z();
+        RC_ASSERT (std::abs (push / depth / (400.0 * scale) - 1.0) < 1e-3); });
+}
+
+TEST_CASE ("whatever the scale, a guard stops a device exactly where its own limits would", "[sessions]")
+{
+    rc::prop ("limits", []
+              {
+        const auto w = anyWorkspace();
+        GuardLimits limits { .max_force = 3.0 };
+        const bool by_speed = *rc::gen::arbitrary<bool>();
+        if (by_speed)
+            limits.max_speed = 0.5;
+        else
+        {
+            limits.max_energy = 0.01;
+            limits.energy_window = 1.0;
+        }
+        Guard plain, placed;
+        plain.prepare (limits, dt);
+        placed.prepare (inWorkspace (limits, w), dt);
+        const double speed = within (0.3, 0.7);
+        const Vec3 along = Vec3 (1.0, 0.5, -0.2).normalized();
+        Placed device { w };
+        int plain_stopped = -1, placed_stopped = -1;
+        for (int k = 0; k < 400; ++k)
+        {
+            device.put->reading.position = along * speed * dt * k;
+            const Effort wanted { 2.0 * along, Vec3::Zero() };
+            plain (wanted, device.put->reading);
+            placed (wanted, device.device->read());
+            if (plain_stopped < 0 && plain.stop() != Guard::Stop::none) plain_stopped = k;
+            if (placed_stopped < 0 && placed.stop() != Guard::Stop::none) placed_stopped = k;
+            RC_ASSERT (plain.stop() == placed.stop() || std::abs (plain_stopped - placed_stopped) <= 1);
+        }
+        RC_ASSERT (std::abs (plain_stopped - placed_stopped) <= 1); });
+
+    const auto limits = inWorkspace ({ .max_force = 3.0, .max_slew = 100.0, .max_speed = 1.0, .max_impulse = 2.0 }, { 0.5, Vec3::Zero() });
+    CHECK (limits.max_force == 3.0);
+    CHECK (limits.max_slew == 100.0);
+    CHECK (limits.max_speed == 0.5);
+    CHECK (limits.max_impulse == 2.0);
+    CHECK (inWorkspace ({}, { 0.5, Vec3::Zero() }) == GuardLimits {});
+}
+
+TEST_CASE ("a workspace is read with its units, and one that makes no sense is refused", "[sessions]")
+{
+    Messages messages;
+    CHECK (readWorkspace ({ { "scale", 2 }, { "offset", { 0, 0, "1 cm" } } }, "", messages) == Workspace { 2.0, { 0.0, 0.0, 0.01 } });
+    CHECK (readWorkspace (Json::object(), "", messages).isPlain());
+    CHECK (messages.empty());
+
+    const auto [json, id] = GENERATE (table<Json, std::string> ({
+        { { { "scale", 0 } }, "device/out_of_range" },
+        { { { "scale", -1 } }, "device/out_of_range" },
+        { { { "scale", 1e6 } }, "device/out_of_range" },
+        { { { "scale", "2 mm" } }, "device/unit" },
+        { { { "offset", { 1, 2 } } }, "device/kind" },
+        { { { "offset", { 0, 0, "1 N" } } }, "device/unit" },
+        { { { "rotation", 3 } }, "device/unknown_key" },
+        { 3, "device/kind" },
+    }));
+    const auto w = readWorkspace (json, "/roles/stylus/workspace", messages);
+    REQUIRE (messages.size() == 1);
+    CHECK (messages.front().id == id);
+    CHECK (messages.front().where.starts_with ("/roles/stylus/workspace"));
+    CHECK (w.scale == 1.0);
+}
