@@ -5,6 +5,7 @@
 #include <framework/json.hpp>
 #include <framework/number_text.hpp>
 #include <host/hid_link/describe_counts.hpp>
+#include <host/hid_link/force_feedback.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/hid_link/profile_shelf.hpp>
 #include <host/hid_link/udev_rule.hpp>
@@ -40,6 +41,7 @@ struct Listed
     ConnectedDevice device;
     std::vector<std::shared_ptr<const Profile>> profiles;   // the one that says most first
     bool may_open = true;
+    Messages unable;   // why a device that has force feedback cannot be driven
 };
 
 std::string hex4 (unsigned n)
@@ -69,8 +71,13 @@ std::vector<Listed> listAll (const LoadedProfiles& profiles)
     for (auto& device : eachOnce (thisComputer().connected(), profiles))
     {
         auto fitting = matching (profiles.profiles, device);
+        Messages unable;
+        if (fitting.empty() && hasForceFeedback (thisComputer(), device))
+            if (auto pid = profileOf (thisComputer(), device, std::nullopt, unable)) fitting.push_back (std::move (pid));
         const bool may_open = thisComputer().mayOpen (device);
-        all.push_back ({ std::move (device), std::move (fitting), may_open });
+        std::erase_if (unable, [] (const Message& m)
+                       { return m.severity == Message::Severity::warning; });
+        all.push_back ({ std::move (device), std::move (fitting), may_open, std::move (unable) });
     }
     return all;
 }
@@ -94,7 +101,13 @@ std::string textOf (const Listed& l)
     if (! d.serial.empty()) text += ", serial " + d.serial;
     if (d.bus != Bus::unknown) text += ", " + std::string (nameOf (d.bus));
     text += "\n    ";
-    if (l.profiles.empty()) return text + "no profile fits\n";
+    if (l.profiles.empty())
+    {
+        text += "no profile fits\n";
+        for (const auto& m : l.unable)
+            text += "    " + m.text + "\n";
+        return text;
+    }
 
     text += "profile " + l.profiles.front()->id + " (" + l.profiles.front()->name + "), " + std::string (verifiedOf (*l.profiles.front()));
     for (std::size_t i = 1; i < l.profiles.size(); ++i)

@@ -18,13 +18,19 @@ constexpr Usage pid (unsigned id) noexcept { return usageOf (0x0f, id); }
 
 // Reports, then what stands in them.
 constexpr Usage set_effect = pid (0x21), set_constant_force = pid (0x73), effect_operation = pid (0x77), device_gain_report = pid (0x7d), device_control = pid (0x96),
-                create_new_effect = pid (0xab), block_load = pid (0x89);
+                create_new_effect = pid (0xab), block_load = pid (0x89), block_free = pid (0x90);
 constexpr Usage block_index = pid (0x22), constant_force = pid (0x26), duration = pid (0x50), gain = pid (0x52), direction_enable = pid (0x56), direction = pid (0x57),
                 magnitude = pid (0x70), start = pid (0x79), stop = pid (0x7b), loop_count = pid (0x7c), device_gain = pid (0x7e), load_success = pid (0x8c),
-                enable_actuators = pid (0x97), stop_all = pid (0x99);
+                load_full = pid (0x8d), load_error = pid (0x8e), enable_actuators = pid (0x97), stop_all = pid (0x99), device_reset = pid (0x9a);
 
 // A device has no watchdog, so the effect is a short one that is started again and again: if the host dies, it ends.
 constexpr double lasts = 0.5, started_each = 0.2;   // s
+
+// What a device takes to forget its effects: it says nothing when it is done.
+constexpr double reset_takes = 0.05;   // s
+
+// In profiles, until the device says which one it is.
+constexpr int any_block = 1;
 
 /// A number in a report: its field, and which of several.
 struct Place
@@ -133,12 +139,6 @@ private:
     Bytes bytes;
 };
 
-Bytes forWrite (const ReportDescriptor& d, Bytes report)
-{
-    if (! d.has_ids) report.insert (report.begin(), 0);
-    return report;
-}
-
 /// "x", "rx", "slider" … of the generic desktop page; nothing for what is no axis.
 std::string_view axisName (Usage usage) noexcept
 {
@@ -184,6 +184,36 @@ void addInput (std::vector<InputReport>& inputs, const ReportDescriptor& d, cons
         if (! known) report->fields.push_back (std::move (field));
     }
 }
+
+/// Axes in m or rad where their travel is known, and what of them and of the force is the tool's.
+void calibrate (Profile& p, const PidCalibration& calibration)
+{
+    std::vector<std::string> scaled;
+    for (auto& report : p.inputs)
+        for (auto& field : report.fields)
+            if (const auto travel = calibration.travel.find (field.name); travel != calibration.travel.end())
+            {
+                field.scale *= 0.5 * travel->second;
+                field.offset *= 0.5 * travel->second;
+                field.unit = calibration.turns ? "rad" : "m";
+                scaled.push_back (field.name);
+            }
+    const auto known = [&] (const char* name)
+    { return std::ranges::count (scaled, name) > 0 ? std::string (name) : std::string(); };
+
+    if (calibration.turns)
+        p.rotation[1] = known ("steering").empty() ? known ("x") : "steering";
+    else
+    {
+        p.position = { known ("x"), known ("y"), known ("z") };
+        p.axes = Vec3 (1.0, -1.0, -1.0).asDiagonal();   // a stick's y grows towards the person, its z downwards
+    }
+
+    if (calibration.full_force <= 0.0) return;
+    auto& limits = p.limits.guard;
+    (calibration.turns ? p.torque[1] : p.force[0]) = "force";
+    (calibration.turns ? limits.max_torque : limits.max_force) = calibration.full_force * calibration.usable;
+}
 }   // namespace
 
 std::optional<PidDevice> PidDevice::from (const ReportDescriptor& d, Messages& messages)
@@ -221,83 +251,132 @@ std::optional<PidDevice> PidDevice::from (const ReportDescriptor& d, Messages& m
     return PidDevice (d);
 }
 
-Bytes PidDevice::createEffect() const
+bool PidDevice::isMeantBy (const ReportDescriptor& d) noexcept
 {
-    return forWrite (descriptor, Writer (descriptor, Kind::feature, create_new_effect).choose (constant_force).take());
+    return std::ranges::any_of (d.collections, [] (const DescribedCollection& c)
+                                { return c.usage >> 16 == 0x0f; });
 }
 
-Bytes PidDevice::blockLoad() const { return forWrite (descriptor, Writer (descriptor, Kind::feature, block_load).take()); }
+Bytes PidDevice::createEffect() const { return Writer (descriptor, Kind::feature, create_new_effect).choose (constant_force).take(); }
 
-std::optional<int> PidDevice::block (std::span<const std::uint8_t> answer) const noexcept
+Bytes PidDevice::blockLoad() const { return Writer (descriptor, Kind::feature, block_load).take(); }
+
+Answer PidDevice::answer() const
 {
-    // hidapi's answer begins with the id, or with a 0 where there is none.
-    if (! descriptor.has_ids && ! answer.empty()) answer = answer.subspan (1);
-
-    const auto read = [&] (const Place& place) -> std::optional<std::int64_t>
+    const auto& d = descriptor;
+    Answer a;
+    const auto index = find (d, Kind::feature, block_load, block_index);
+    if (d.has_ids) a.id = index->field->report;
+    a.number = index->bits (d.has_ids);
+    a.number.is_signed = false;
+    const auto mark = [&] (Usage status) -> std::optional<Answer::Mark>
     {
-        const auto bits = place.bits (descriptor.has_ids);
-        if (bits.end() > 8 * answer.size()) return {};
-        return static_cast<std::int64_t> (numberOf (bits, bitsAt (bits, answer)));
+        const auto place = find (d, Kind::feature, block_load, status);
+        if (! place) return {};
+        const auto raw = place->field->variable ? 1 : place->field->logical_min + static_cast<std::int64_t> (*place->field->placeOf (status));
+        return Answer::Mark { .bits = place->bits (d.has_ids), .raw = static_cast<std::uint32_t> (static_cast<std::uint64_t> (raw) & maskOf (place->bits (d.has_ids))) };
     };
-    const auto index = find (descriptor, Kind::feature, block_load, block_index);
-    const auto number = read (*index);
-    if (! number || *number <= 0 || (descriptor.has_ids && answer[0] != index->field->report)) return {};
-
-    if (const auto status = find (descriptor, Kind::feature, block_load, load_success))
+    a.success = mark (load_success);
+    if (auto full = mark (load_full))
     {
-        const auto expected = status->field->variable ? 1 : status->field->logical_min + static_cast<std::int64_t> (*status->field->placeOf (load_success));
-        if (read (*status) != expected) return {};
+        full->means = problem ("pid/full", "", "the device has no room for another effect", "end the other programs that use its force feedback, or unplug it and plug it in again");
+        a.refusals.push_back (std::move (*full));
     }
-    return static_cast<int> (*number);
+    if (auto refused = mark (load_error))
+    {
+        refused->means = problem ("pid/refused", "", "the device could not make a constant force", "see that it has power and that its motor is switched on, and plug it in again");
+        a.refusals.push_back (std::move (*refused));
+    }
+    return a;
 }
 
-Profile PidDevice::profile (int block) const
+std::vector<std::string> PidDevice::axisNames() const
+{
+    std::vector<std::string> names;
+    for (const auto& report : profile().inputs)
+        for (const auto& field : report.fields)
+            if (field.isAxis()) names.push_back (field.name);
+    return names;
+}
+
+Profile PidDevice::profile (const PidCalibration& calibration) const
 {
     const auto& d = descriptor;
     const auto output = [&] (Usage report)
     { return Writer (d, Kind::output, report); };
+    const auto blockOf = [&] (Usage report) -> std::optional<Bits>
+    {
+        const auto place = find (d, Kind::output, report, block_index);
+        if (! place) return {};
+        auto bits = place->bits (d.has_ids);
+        bits.is_signed = false;
+        return bits;
+    };
 
     Profile p;
     p.id = "pid";
-    p.name = "Force feedback device";
+    p.name = calibration.turns ? "Force feedback wheel" : "Force feedback device";
     p.sources = { "the device's own report descriptor", "Device Class Definition for Physical Interface Devices 1.0" };
     for (const auto& f : d.fields)
         if (f.kind == Kind::input && ! f.constant && f.variable && f.size <= 32) addInput (p.inputs, d, f);
 
-    // At full gain, triggered by no button, and towards the right: a quarter of a turn from away. That is what a wheel,
-    // which has no other direction, and the drivers of others take (linux, hid-pidff.c).
+    // At full gain, triggered by no button, and with the direction of a quarter of a turn from away: that is what a wheel, which
+    // has no other, and the drivers of others take (linux, hid-pidff.c).
     auto effect = output (set_effect);
-    effect.put (block_index, block).choose (constant_force).time (duration, lasts).most (gain).put (direction_enable, 1).first (direction, 0.25);
+    effect.put (block_index, any_block).choose (constant_force).time (duration, lasts).most (gain).put (direction_enable, 1).first (direction, 0.25);
 
-    const auto step = [&] (Bytes bytes)
-    { return Step { .kind = Step::Kind::output, .bytes = forWrite (d, std::move (bytes)), .delay = 0.0 }; };
-    p.init.push_back (step (output (device_control).choose (enable_actuators).take()));
-    if (find (d, Kind::output, device_gain_report, device_gain)) p.init.push_back (step (output (device_gain_report).most (device_gain).take()));
-    p.init.push_back (step (effect.take()));
-    p.init.push_back (step (output (set_constant_force).put (block_index, block).take()));   // 0; the report `start` starts it
-    p.exit = { step (output (set_constant_force).put (block_index, block).take()), step (output (device_control).choose (stop_all).take()) };
+    const auto step = [] (const char* about, Bytes bytes, std::optional<Bits> given = {})
+    {
+        Step s { .bytes = std::move (bytes), .about = about };
+        s.given = given;
+        return s;
+    };
+    const auto none = [&]
+    { return step ("the report of no force", output (set_constant_force).put (block_index, any_block).take(), blockOf (set_constant_force)); };
 
+    if (find (d, Kind::output, device_control, device_reset))
+    {
+        p.init.push_back (step ("the report that makes it forget all effects", output (device_control).choose (device_reset).take()));
+        p.init.back().delay = reset_takes;
+    }
+    p.init.push_back (step ("the report that makes a constant force", createEffect()));
+    p.init.back().kind = Step::Kind::feature;
+    p.init.push_back (step ("the report that tells where the constant force was put", blockLoad()));
+    p.init.back().kind = Step::Kind::get_feature;
+    p.init.back().answer = answer();
+    p.init.push_back (step ("the report that switches its motors on", output (device_control).choose (enable_actuators).take()));
+    if (find (d, Kind::output, device_gain_report, device_gain)) p.init.push_back (step ("the report of full gain", output (device_gain_report).most (device_gain).take()));
+    p.init.push_back (step ("the report that says what the effect is", effect.take(), blockOf (set_effect)));
+    p.init.push_back (none());   // the report `start` starts it
+    p.exit = { none(), step ("the report that stops all effects", output (device_control).choose (stop_all).take()) };
+    if (const auto freed = blockOf (block_free)) p.exit.push_back (step ("the report that frees the effect", output (block_free).put (block_index, any_block).take(), freed));
+
+    // The direction of an effect is where it comes from (DirectX, Effect Direction): one from the right pushes to the left.
     const auto force = find (d, Kind::output, set_constant_force, magnitude);
-    const double full = static_cast<double> (std::min (force->field->logical_max, -force->field->logical_min));
+    const double counts = static_cast<double> (std::min (force->field->logical_max, -force->field->logical_min));
+    const double full = calibration.full_force > 0.0 ? calibration.full_force : 1.0;
     OutputField field;
     field.name = "force";
     field.bits = force->bits (d.has_ids);
-    field.encoding.scale = 1.0 / full;
-    field.min = -1.0;
-    field.max = 1.0;
+    field.encoding.scale = (calibration.is_reversed ? 1.0 : -1.0) * full / counts;
+    field.min = -full * calibration.usable;
+    field.max = full * calibration.usable;
+    if (calibration.full_force > 0.0) field.unit = calibration.turns ? "N*m" : "N";
 
     OutputReport report;
     report.name = "constant_force";
     if (d.has_ids) report.id = force->field->report;
-    report.body = report.neutral = output (set_constant_force).put (block_index, block).take();
+    report.body = report.neutral = output (set_constant_force).put (block_index, any_block).take();
     report.fields = { std::move (field) };
+    report.given = blockOf (set_constant_force);
     report.why_not = "read from the device's report descriptor";
 
     OutputReport again;
     again.name = "start";
     if (d.has_ids) again.id = find (d, Kind::output, effect_operation, start)->field->report;
-    again.body = output (effect_operation).put (block_index, block).choose (start).put (loop_count, 1).take();
-    again.neutral = output (effect_operation).put (block_index, block).choose (stop).take();
+    again.body = output (effect_operation).put (block_index, any_block).choose (start).put (loop_count, 1).take();
+    again.neutral = output (effect_operation).put (block_index, any_block).choose (stop).take();
+    again.given = blockOf (effect_operation);
     again.max_rate = 1.0 / started_each;
     again.keepalive = started_each;
     again.why_not = report.why_not;
@@ -306,6 +385,9 @@ Profile PidDevice::profile (int block) const
     p.limits.device_watchdog = find (d, Kind::output, set_effect, duration) ? lasts : 0.0;
     p.limits.guard.watchdog = 0.05;
     p.limits.guard.ramp = 0.2;
+    p.limits.guard.max_axis_effort = full * calibration.usable;
+    p.quirks = { "only_changes" };   // USB's HID devices send when something moves, unless they like to send more
+    calibrate (p, calibration);
     return p;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <framework/guard.hpp>
+#include <framework/message.hpp>
 #include <framework/rotation.hpp>
 
 #include <array>
@@ -42,6 +43,36 @@ struct MatchRule
     std::string product;   ///< a part of the product's name
 };
 
+/// Where a number lies within a report.
+struct Bits
+{
+    std::size_t at = 0;     ///< in bits from the start of the report; the lowest bit of a byte comes first
+    std::size_t size = 8;   ///< 1…32
+    bool is_signed = false;
+    bool big_endian = false;   ///< whole bytes only
+    bool is_float = false;     ///< IEEE 754, 32 bits
+
+    std::size_t end() const noexcept { return at + size; }
+};
+
+/// What a device has to answer to a feature report that asks for a number of its own, such as that of an effect it made.
+struct Answer
+{
+    /// A value that may stand in the answer, and what is wrong then.
+    struct Mark
+    {
+        Bits bits;
+        std::uint32_t raw = 1;
+        Message means {};   ///< without a place
+    };
+
+    std::optional<std::uint8_t> id;        ///< of the report
+    Bits number;                           ///< 0 is none
+    std::optional<Mark> success;           ///< has to stand there, if anything has to
+    std::vector<Mark> refusals;            ///< no use to ask again
+    double patience = 0.5, pause = 0.01;   ///< s, how long and how often it is asked
+};
+
 /// One step of waking a device up or of letting it go.
 struct Step
 {
@@ -54,19 +85,10 @@ struct Step
 
     Kind kind = Kind::output;
     Bytes bytes;
-    double delay = 0.0;   ///< s, after it
-};
-
-/// Where a number lies within a report.
-struct Bits
-{
-    std::size_t at = 0;     ///< in bits from the start of the report; the lowest bit of a byte comes first
-    std::size_t size = 8;   ///< 1…32
-    bool is_signed = false;
-    bool big_endian = false;   ///< whole bytes only
-    bool is_float = false;     ///< IEEE 754, 32 bits
-
-    std::size_t end() const noexcept { return at + size; }
+    double delay = 0.0;                ///< s, after it
+    std::string about {};              ///< what it is for: "the report that makes an effect"; may be empty
+    std::optional<Answer> answer {};   ///< of a get_feature, if it matters; its number is put where `given` says from then on
+    std::optional<Bits> given {};
 };
 
 /// A number that a device tells: value = raw scale + offset.
@@ -167,6 +189,7 @@ struct OutputReport
     std::vector<OutputField> fields;
     std::vector<SequenceNibble> sequences;   ///< all count the reports
     std::optional<Checksum> checksum;
+    std::optional<Bits> given;   ///< where the number goes that the device gave (Answer); not together with a checksum
     std::optional<Stream> stream;
     double max_rate = 1000.0;   ///< Hz
     double keepalive = 0.0;     ///< s after which it is sent again though nothing changed; 0: on each tick

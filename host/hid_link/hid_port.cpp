@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/devices/problem.hpp>
+#include <host/hid/answer.hpp>
+#include <host/hid/bits.hpp>
 #include <host/hid_link/hid_port.hpp>
 #include <host/hid_link/udev_rule.hpp>
 #include <host/platform/realtime.hpp>
@@ -70,8 +72,8 @@ std::variant<std::unique_ptr<HidPort>, Message> HidPort::open (HidSystem& system
     }
 
     std::unique_ptr<HidPort> port (new HidPort (system, device, std::move (profile), options));
-    if (auto why = port->wake (**opened); ! why.empty())
-        return problem ("hid/init", device.path, device.path + " (" + device.product + ") does not wake up as its profile " + port->profile()->id + " says: " + why, "see that it is this device, and plug it in again");
+    if (auto failed = port->wake (**opened))
+        return problem (failed->id, device.path, device.path + " (" + device.product + ") does not wake up as its profile " + port->profile()->id + " says: " + failed->text, failed->remedy);
     port->become (std::move (*opened));
     port->reader = std::jthread ([p = port.get()]
                                  { p->readOn(); });
@@ -95,24 +97,75 @@ HidPort::~HidPort()
 //==============================================================================
 // Both threads
 
+/// As it goes over the wire, with the number that the device gave.
+Bytes HidPort::addressed (std::span<const std::uint8_t> wire, const std::optional<Bits>& place) const
+{
+    Bytes bytes (wire.begin(), wire.end());
+    const auto body = std::span (bytes).subspan (has_ids ? 0 : 1);
+    if (place && assigned != 0 && place->end() <= 8 * body.size()) putBits (*place, assigned, body);
+    return bytes;
+}
+
+Bytes HidPort::wireOf (const Step& step) const
+{
+    auto bytes = step.bytes;
+    if (! has_ids) bytes.insert (bytes.begin(), 0);
+    return addressed (bytes, step.given);
+}
+
+/// Nothing, or why nobody tells the device to rest if this program dies.
+std::string HidPort::leaveWill (Transport& t)
+{
+    const auto left = t.leaveWill (farewell());
+    return left ? "if this program dies, nobody tells the device: " + *left : std::string();
+}
+
 /// The init steps. Returns what failed, if something did.
-std::string HidPort::wake (Transport& t)
+std::optional<Message> HidPort::wake (Transport& t)
 {
     const std::lock_guard lock (writing);
     quiet.reset();
-    const auto left = t.leaveWill (farewell());
-    if (left) note ("if this program dies, nobody tells the device: " + *left);
-
+    assigned = 0;
+    auto unwilling = leaveWill (t);
     for (const auto& step : description->init)
+        if (auto failed = perform (t, step)) return failed;
+    if (assigned != 0) unwilling = leaveWill (t);
+    if (! unwilling.empty()) note (unwilling);
+    return std::nullopt;
+}
+
+std::optional<Message> HidPort::perform (Transport& t, const Step& step)
+{
+    if (step.answer) return ask (t, step);
+    auto bytes = wireOf (step);
+    const auto failed = step.kind == Step::Kind::output ? t.write (bytes) : step.kind == Step::Kind::feature ? t.sendFeature (bytes)
+                                                                                                             : t.getFeature (bytes);
+    if (failed) return problem ("hid/init", "", step.about.empty() ? *failed : step.about + " was refused: " + *failed, "see that it is this device, and plug it in again");
+    if (step.delay > 0.0) std::this_thread::sleep_for (durationOf (step.delay));
+    return std::nullopt;
+}
+
+/// Asks until the device has an answer, and keeps the number in it.
+std::optional<Message> HidPort::ask (Transport& t, const Step& step)
+{
+    const auto again = [&] (std::string text)
+    { return problem ("hid/init", "", step.about + " " + std::move (text), "see that it is this device, and plug it in again"); };
+
+    const auto end = Clock::now() + durationOf (step.answer->patience);
+    for (;;)
     {
-        auto bytes = step.bytes;
-        if (! has_ids) bytes.insert (bytes.begin(), 0);
-        const auto failed = step.kind == Step::Kind::output ? t.write (bytes) : step.kind == Step::Kind::feature ? t.sendFeature (bytes)
-                                                                                                                 : t.getFeature (bytes);
-        if (failed) return *failed;
-        if (step.delay > 0.0) std::this_thread::sleep_for (durationOf (step.delay));
+        auto bytes = wireOf (step);
+        if (const auto failed = t.getFeature (bytes)) return again ("was refused: " + *failed);
+        const auto number = numberIn (*step.answer, std::span<const std::uint8_t> (bytes).subspan (has_ids ? 0 : 1));
+        if (! number) return number.error();
+        if (*number)
+        {
+            assigned = **number;
+            return std::nullopt;
+        }
+        if (Clock::now() >= end || isStopping()) return again ("has no answer in it");
+        std::this_thread::sleep_for (durationOf (step.answer->pause));
     }
-    return {};
 }
 
 void HidPort::become (Opened opened)
@@ -225,7 +278,7 @@ void HidPort::lookAgain()
     if (same == nullptr) return;
     auto opened = system.open (*same);
     if (! opened) return note (opened.error().why);
-    if (auto why = wake (**opened); ! why.empty()) return note (why);
+    if (const auto failed = wake (**opened)) return note (failed->text + "; " + failed->remedy);
     become (std::move (*opened));
 }
 
@@ -334,7 +387,10 @@ void HidPort::count (Nanoseconds answers, Clock::time_point sent_at) noexcept
 
 std::optional<std::string> HidPort::send (Transport& t, std::size_t report, std::span<const std::uint8_t> bytes)
 {
-    const auto failed = description->outputs[report].is_feature ? t.sendFeature (bytes) : t.write (bytes);
+    const auto& how = description->outputs[report];
+    const auto put = [&] (std::span<const std::uint8_t> b)
+    { return how.is_feature ? t.sendFeature (b) : t.write (b); };
+    const auto failed = how.given ? put (addressed (bytes, how.given)) : put (bytes);
     writes.fetch_add (1, std::memory_order_relaxed);
     if (failed)
     {
@@ -361,32 +417,22 @@ void HidPort::leave (Transport& t)
 {
     quieten (t);
     for (const auto& step : description->exit)
-    {
-        auto bytes = step.bytes;
-        if (! has_ids) bytes.insert (bytes.begin(), 0);
-        const auto failed = step.kind == Step::Kind::output ? t.write (bytes) : step.kind == Step::Kind::feature ? t.sendFeature (bytes)
-                                                                                                                 : t.getFeature (bytes);
-        if (failed) note (*failed);
-        if (step.delay > 0.0) std::this_thread::sleep_for (durationOf (step.delay));
-    }
+        if (const auto failed = perform (t, step)) note (failed->text);
 }
 
-/// What is left to be said if nobody can say it any more. [with `writing` held]
+/// What is left to be said if nobody can say it any more; before the device has given its number, what needs none.
+/// [with `writing` held]
 std::vector<OutgoingReport> HidPort::farewell()
 {
     std::vector<OutgoingReport> last;
     for (std::size_t i = 0; i < outputs.size(); ++i)
     {
+        if (description->outputs[i].given && assigned == 0) continue;
         const auto bytes = quiet.neutral (i);
-        last.push_back ({ { bytes.begin(), bytes.end() }, description->outputs[i].is_feature });
+        last.push_back ({ addressed (bytes, description->outputs[i].given), description->outputs[i].is_feature });
     }
     for (const auto& step : description->exit)
-        if (step.kind != Step::Kind::get_feature)
-        {
-            auto bytes = step.bytes;
-            if (! has_ids) bytes.insert (bytes.begin(), 0);
-            last.push_back ({ std::move (bytes), step.kind == Step::Kind::feature });
-        }
+        if (step.kind != Step::Kind::get_feature && (! step.given || assigned != 0)) last.push_back ({ wireOf (step), step.kind == Step::Kind::feature });
     return last;
 }
 

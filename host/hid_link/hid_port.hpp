@@ -42,7 +42,7 @@ struct PortCounts
 /// is to be sent only the latest is kept, so that nothing ever queues up.
 ///
 ///  - On opening, also after the device was away, the profile's init steps are done; on closing, the neutral reports and
-///    the exit steps.
+///    the exit steps. A number that the device gives in a step (Answer) is put into what is sent from then on.
 ///  - A device that goes away is looked for every half second, by its serial number, else by its path, else by its ids.
 ///  - If nobody gives an effort for longer than the watchdog, the neutral reports are sent.
 ///  - If the process dies, they are too (Transport::leaveWill).
@@ -61,7 +61,7 @@ public:
     using Clock = std::chrono::steady_clock;
 
     /// Opens it, or says why not. The system outlives the port. [main thread]
-    /// Ids: hid/not_permitted, hid/not_opened, hid/init.
+    /// Ids: hid/not_permitted, hid/not_opened, hid/init, and those that an Answer of the profile means.
     static std::variant<std::unique_ptr<HidPort>, Message> open (HidSystem&, const ConnectedDevice&, std::shared_ptr<const Profile>, Options);
     static std::variant<std::unique_ptr<HidPort>, Message> open (HidSystem& s, const ConnectedDevice& d, std::shared_ptr<const Profile> p) { return open (s, d, std::move (p), Options {}); }
 
@@ -130,7 +130,12 @@ private:
 
     using Opened = std::shared_ptr<Transport>;
 
-    std::string wake (Transport&);
+    std::optional<Message> wake (Transport&);
+    std::optional<Message> perform (Transport&, const Step&);
+    std::optional<Message> ask (Transport&, const Step&);
+    std::string leaveWill (Transport&);
+    Bytes addressed (std::span<const std::uint8_t> wire, const std::optional<Bits>& place) const;
+    Bytes wireOf (const Step&) const;
     void become (Opened);
     Opened transport() const;
     void note (const std::string& what);
@@ -171,6 +176,7 @@ private:
 
     std::mutex writing;              // of all that is written, and of what is below
     HidModel quiet;                  // makes the neutral reports
+    std::uint32_t assigned = 0;      // the number that the device gave, to be sent along; 0: none
     std::uint64_t connections = 0;   // of the reading thread
     bool driven = false;             // something else than neutral was sent last
     Clock::time_point given;         // when there was a new offer last

@@ -156,6 +156,12 @@ public:
         return std::make_unique<HidapiTransport> (device.path, std::move (alone), std::move (in), std::move (out));
     }
 
+    Bytes reportDescriptor (const ConnectedDevice& device) override   // hidapi tells it from 0.14 on
+    {
+        const auto text = reportDescriptorOf (device.path);
+        return { text.begin(), text.end() };
+    }
+
     bool mayOpen (const ConnectedDevice& device) override { return ! isForbidden (device.path); }
 };
 }   // namespace

@@ -2,6 +2,7 @@
 #include <host/devices/fields.hpp>
 #include <host/devices/guard_limits.hpp>
 #include <host/devices/problem.hpp>
+#include <host/hid_link/force_feedback.hpp>
 #include <host/hid_link/hid_device.hpp>
 #include <host/hid_link/open_device.hpp>
 
@@ -21,7 +22,11 @@ constexpr double usual_watchdog = 0.1;   // s
 
 struct Wanted
 {
-    std::string profile, serial;
+    std::string profile, serial;   // "": any
+    std::optional<PidCalibration> calibration {};
+
+    bool meansPid() const { return profile == pid_profile; }
+    bool mayMeanPid() const { return profile.empty() || meansPid(); }
 };
 
 Wanted readWanted (const Json& description, Messages& messages)
@@ -33,8 +38,12 @@ Wanted readWanted (const Json& description, Messages& messages)
     wanted.profile = in.text ("profile");
     wanted.serial = in.text ("serial");
     in.ignore ("guard");   // whose buttons only the device knows
+    in.ignore ("calibration");
     in.finish();
     if (wanted.profile == "auto") wanted.profile.clear();
+    wanted.calibration = readCalibration (description, messages);
+    if (wanted.calibration && ! wanted.mayMeanPid())
+        messages.push_back (problem ("hid/calibration", "/calibration", "the profile " + inQuotes (wanted.profile) + " says how strong the device is", "leave the calibration out, or write \"profile\": \"pid\""));
     return wanted;
 }
 
@@ -53,7 +62,7 @@ std::shared_ptr<const Profile> profileNamed (const std::string& id, const Loaded
     // Perhaps it is there and cannot be read.
     const auto broken = std::ranges::find_if (all.messages, [&] (const Message& m)
                                               { return m.severity == Message::Severity::error && std::filesystem::path (m.file).stem() == id; });
-    std::vector<std::string> names { "auto" };
+    std::vector<std::string> names { "auto", std::string (pid_profile) };
     for (const auto& p : all.profiles)
         names.push_back (p->id);
     if (broken != all.messages.end())
@@ -111,7 +120,7 @@ FoundDevice findDevice (const Json& description, HidSystem& system, const Loaded
 {
     FoundDevice found;
     const auto wanted = readWanted (description, found.messages);
-    const auto named = wanted.profile.empty() ? nullptr : profileNamed (wanted.profile, all, found.messages);
+    const auto named = wanted.mayMeanPid() ? nullptr : profileNamed (wanted.profile, all, found.messages);
     if (hasErrors (found.messages)) return found;
 
     const auto refuse = [&] (const char* id, std::string text, std::string remedy)
@@ -125,14 +134,18 @@ FoundDevice findDevice (const Json& description, HidSystem& system, const Loaded
     for (const auto& device : connected)
     {
         if (! wanted.serial.empty() && device.serial != wanted.serial) continue;
-        const auto fitting = matching (all.profiles, device);
+        const auto fitting = wanted.meansPid() ? std::vector<std::shared_ptr<const Profile>> {} : matching (all.profiles, device);
         const auto profile = named ? named : fitting.empty() ? nullptr
                                                              : fitting.front();
-        if (const int how = profile ? fit (*profile, device) : 0; how > 0) matches.push_back ({ device, profile, how });
+        if (const int how = profile ? fit (*profile, device) : 0; how > 0)
+            matches.push_back ({ device, profile, how });
+        else if (wanted.mayMeanPid() && hasForceFeedback (system, device))
+            matches.push_back ({ device, nullptr, 1 });   // any profile that knows the device says more
     }
     if (matches.empty())
     {
-        const auto what = named ? "no " + named->name + " is connected" : std::string ("no device is connected that a profile fits");
+        const auto what = wanted.meansPid() ? std::string ("no device with force feedback is connected") : named ? "no " + named->name + " is connected"
+                                                                                                                 : std::string ("no device is connected that a profile fits");
         const auto there = connected.empty() ? "there is no HID device at all" : "there are: " + namesOf (connected);
         return refuse ("hid/not_connected", what + (wanted.serial.empty() ? "" : " with serial number " + wanted.serial), "plug it in; " + there + " (see `tactus devices`)");
     }
@@ -148,7 +161,10 @@ FoundDevice findDevice (const Json& description, HidSystem& system, const Loaded
     if (! is_one) return refuse ("hid/several", "several devices would do: " + namesOf (best), "say which by \"serial\"; of those that have none, unplug all but one");
 
     found.device = std::move (matches.front().device);
-    found.profile = std::move (matches.front().profile);
+    const auto& profile = matches.front().profile;
+    if (profile && wanted.calibration)
+        return refuse ("hid/calibration", "the profile " + profile->id + " says how strong " + found.device.product + " is", "leave the calibration out, or write \"profile\": \"pid\"");
+    found.profile = profile ? profile : profileOf (system, found.device, wanted.calibration, found.messages);
     return found;
 }
 
@@ -191,7 +207,7 @@ Messages checkDevice (const Json& description, const std::filesystem::path& fold
     if (! isHid (description)) return makeDevice (description, folder).messages;
     Messages messages;
     const auto wanted = readWanted (description, messages);
-    const auto profile = wanted.profile.empty() ? nullptr : profileNamed (wanted.profile, all, messages);
+    const auto profile = wanted.mayMeanPid() ? nullptr : profileNamed (wanted.profile, all, messages);
     readGuard (description, profile ? layoutOf (HidModel (profile)) : DeviceLayout {}, messages);
     if (! profile)   // any device may come, with any buttons
         std::erase_if (messages, [] (const Message& m)

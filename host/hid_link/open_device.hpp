@@ -23,9 +23,12 @@ struct FoundDevice
 };
 
 /// `{"driver": "hid", "profile": "tactus_board", "serial": "B7", "guard": {…}}`: without a profile, or with "auto", the one
-/// that says most about what is connected; the serial number is only needed where several would do. [main thread]
+/// that says most about what is connected; the serial number is only needed where several would do. The profile "pid", and
+/// where no profile fits also "auto", is any device with force feedback by the USB standard, with a "calibration"
+/// (readCalibration). [main thread]
 ///
-/// Ids: hid/unknown_profile, hid/not_connected, hid/several, hid/no_profile, those of Fields, and warnings of profiles.
+/// Ids: hid/unknown_profile, hid/not_connected, hid/several, hid/calibration, those of Fields and profileOf, and warnings of
+/// profiles.
 FoundDevice findDevice (const Json& description, HidSystem&, const LoadedProfiles&);
 
 /// What a device's profile allows and a description tightens. A device that takes efforts always has a ramp and a watchdog.

@@ -71,6 +71,9 @@ public:
     virtual std::vector<ConnectedDevice> connected() = 0;
     virtual tl::expected<std::unique_ptr<Transport>, OpenFailure> open (const ConnectedDevice&) = 0;
 
+    /// What a device says about its own reports, without opening it; empty where the system does not tell.
+    virtual Bytes reportDescriptor (const ConnectedDevice&) { return {}; }
+
     /// Whether open() would be let, without trying.
     virtual bool mayOpen (const ConnectedDevice&) { return true; }
 };

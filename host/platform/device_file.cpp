@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "device_file.hpp"
 
+#include <fstream>
+#include <iterator>
+
 #if ! defined(_WIN32)
 #include <unistd.h>
 
@@ -17,6 +20,18 @@ bool isForbidden (const std::string& path) noexcept
     return false;
 #else
     return ::access (path.c_str(), R_OK | W_OK) != 0 && (errno == EACCES || errno == EPERM);
+#endif
+}
+
+std::string reportDescriptorOf (const std::string& path)
+{
+#if defined(__linux__)
+    const auto name = std::filesystem::path (path).filename();
+    std::ifstream file (std::filesystem::path ("/sys/class/hidraw") / name / "device/report_descriptor", std::ios::binary);
+    return { std::istreambuf_iterator<char> (file), {} };
+#else
+    (void)path;
+    return {};
 #endif
 }
 

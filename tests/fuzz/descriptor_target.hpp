@@ -3,6 +3,7 @@
 
 #include "report_target.hpp"
 
+#include <host/hid/answer.hpp>
 #include <host/hid/pid_device.hpp>
 
 namespace tactus::fuzz
@@ -34,7 +35,11 @@ inline void tryDescriptor (std::string_view data)
     const auto answer = device->blockLoad();
     if (device->createEffect().empty() || answer.empty()) std::abort();
     const std::span bytes (reinterpret_cast<const std::uint8_t*> (data.data()), std::min (data.size(), answer.size()));
-    tryReport (std::make_shared<const Profile> (device->profile (device->block (bytes).value_or (1))), data);
+    const auto number = numberIn (device->answer(), bytes);
+    if (! number && number.error().remedy.empty()) std::abort();
+
+    const PidCalibration calibration { .full_force = 3.0, .turns = data.size() % 2 == 0, .travel = { { "x", 0.1 }, { "steering", 8.0 } } };
+    tryReport (std::make_shared<const Profile> (device->profile (calibration)), data);
 }
 
 }   // namespace tactus::fuzz

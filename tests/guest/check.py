@@ -146,6 +146,60 @@ for signal in ("INT", "TERM", "KILL", "SEGV"):
     else:
         print(f"        {1e3 * (heard[-1][3] - pushed[-1][3]):.1f} ms after the last push")
 
+class Joystick:
+    """What a joystick was told, by OpenFFBoard's descriptor: 05 block magnitude, 0a block operation, 0b block, 0c control."""
+
+    def __init__(self, name):
+        rows = [line.split(",") for line in text(name + ".board.csv").splitlines()]
+        self.rows = [(how, float(t), bytes.fromhex(report)) for how, t, report in rows]
+        self.told = [report for how, _, report in self.rows if how == "out"]
+        self.forces = [int.from_bytes(r[2:4], "little", signed=True) for r in self.told if r[0] == 5]
+        self.blocks = {r[1] for r in self.told if r[0] in (1, 5, 0x0A, 0x0B)}
+
+    def rests(self):
+        """True if the last it was told is to stop; what is written after a crash may come twice."""
+        return 0x0C in [r[0] for r in self.told[-4:]] and self.told[-1] in (b"\x0c\x04", b"\x0b" + self.told[-1][1:]) and self.forces[-1] == 0
+
+
+if os.path.exists(os.path.join(folder, "joystick.board.csv")):
+    stick, rows = Joystick("joystick"), play_rows("joystick")
+    counts = [-int(math.copysign(math.floor(abs(float(r["motor.applied.x"])) / 4.0 * 32767 + 0.5), float(r["motor.applied.x"]))) for r in rows]
+    pushed = [f for f in stick.forces if f != 0]
+    k, compared = 0, 0
+    for force in pushed:
+        found = next((i for i in range(k, len(counts)) if abs(counts[i] - force) <= 1), None)
+        if found is None:
+            break
+        k, compared = found, compared + 1
+    fade = [abs(f) for f in pushed[max(0, compared - 1):]]   # after the end of the run, which is not recorded
+    check(compared > 50 and len(fade) < 20 and fade == sorted(fade, reverse=True), f"joystick: {compared} of {len(pushed)} forces are, in order, what the guard let through; the others fade")
+    check(max(abs(f) for f in stick.forces) > 500, f"joystick: it is pushed with up to {max(abs(f) for f in stick.forces) / 32767 * 4:.2f} N")
+    check(stick.told[0] == b"\x0c\x08" and stick.told[1][:2] == b"\x11\x01", "joystick: it forgets its effects and makes a constant force")
+    check(stick.blocks == {3}, "joystick: all is said of the block that it gave")
+    starts = sum(1 for r in stick.told if r[:3] == b"\x0a\x03\x01")
+    check(starts >= 4, f"joystick: the effect, which ends by itself, was started {starts} times")
+    check(stick.rests(), "joystick: at the end all effects are stopped")
+
+    weak = Joystick("uncalibrated")
+    most = max(abs(f) for f in weak.forces)
+    check(0 < most <= 3277, f"uncalibrated: it gives {most / 327.67:.1f} % of what it can at the most")
+    check("pid/uncalibrated" in text("uncalibrated.play.err"), "uncalibrated: which is said")
+
+    back = Joystick("replugged")
+    came = next(i for i, r in enumerate(back.rows) if r[0] == "plugged")
+    after = [r for how, _, r in back.rows[came:] if how == "out"]
+    again = [int.from_bytes(r[2:4], "little", signed=True) for r in after if r[0] == 5]
+    check({r[1] for r in after if r[0] in (1, 5, 0x0A)} == {7} and any(again), f"replugged: it is driven again, {sum(1 for f in again if f)} times, in the block that it then gave")
+    first = next((abs(f) for f in again if f), 0)
+    check(first < max(abs(f) for f in again) / 4, f"replugged: it begins at {first} and rises to {max(abs(f) for f in again)}")
+
+    check("pid/full" in text("no_room.play.err"), "no room: which is said")
+
+    killed = Joystick("joystick_killed")
+    check(sum(1 for f in killed.forces if f) > 20 and killed.rests(), "joystick: when its program is killed, all effects are stopped")
+else:
+    print("skipped: the joystick, whose descriptor is not there")
+
 check("No HID device is connected." in text("none.txt"), "without a device, the list says so")
 check("tactus_board" in text("devices.txt") and "spacemouse" in text("devices.txt"), "the list names what fits")
 devices = json.loads(text("devices.json"))

@@ -9,6 +9,7 @@ tactus=${TACTUS_PROGRAM:-build/release/bin/tactus}
 device=${GUEST_DEVICE:-build/release/bin/guest_device}
 export HOME=$work
 failures=0
+say () { echo "== $*"; echo "$SECONDS $*" >>/run/results/times.txt; }
 fail () { echo "FAILED: $*"; failures=$((failures + 1)); }
 
 wait_for () { for _ in $(seq 300); do compgen -G "$1" >/dev/null && return; sleep 0.1; done; fail "$1 did not come"; }
@@ -24,29 +25,29 @@ keep () { local f; for f in board.csv play.csv play.err; do [ -e $work/$f ] && m
 play () { $tactus play graphs/dry_wood.json --device stylus=hid:tactus_board --osc off "$@" 2>$work/play.err; }
 recorded=(--record hand.position,motor.force,motor.applied --out $work/play.csv)
 
-echo "== nothing connected"
+say "nothing connected"
 $tactus devices >/run/results/none.txt || fail "tactus devices without a device"
 
-echo "== a closed loop"
+say "a closed loop"
 plug --wait 1
 play --duration 3 "${recorded[@]}" || fail "the closed loop"
 unplug
 keep loop
 
-echo "== reports that are lost, malformed, short, too long, out of order, and a stall"
+say "reports that are lost, malformed, short, too long, out of order, and a stall"
 plug --wait 1 --drop 37 --malformed 701 --short 811 --oversized 907 --swap 401 --stall 1500
 play --duration 3 "${recorded[@]}" || fail "the faulty board"
 unplug
 keep faults
 
-echo "== unplugged under force, and back"
+say "unplugged under force, and back"
 plug --unplug 800 --away 1.5
 play --duration 5 "${recorded[@]}" || fail "unplugged"
 unplug
 keep unplug
 
 for signal in INT TERM KILL SEGV; do
-    echo "== ended by $signal under force"
+    say "ended by $signal under force"
     plug
     play --duration 60 & player=$!
     for _ in $(seq 300); do pgrep -x tactus >/dev/null && break; sleep 0.1; done
@@ -58,11 +59,54 @@ for signal in INT TERM KILL SEGV; do
     keep "$signal"
 done
 
-echo "== several devices, listed and probed"
+if [ -e "$FFB_DESCRIPTOR" ]; then
+    ln -s "$FFB_DESCRIPTOR" $work/descriptor
+    stick () { gone; $device joystick --file $work/descriptor --seconds 300 --log $work/board.csv "$@" & sim=$!; wait_for '/dev/hidraw*'; }
+    feel () { $tactus play graphs/dry_wood.json --osc off "$@" 2>$work/play.err; }
+    echo '{"driver": "hid", "profile": "pid", "calibration": {"full_force": "4 N", "travel": {"x": "12 cm", "y": "12 cm", "z": "12 cm"}}}' >$work/joystick.json
+
+    say "a joystick with force feedback, by its own descriptor"
+    stick
+    feel --device stylus=$work/joystick.json --duration 2 "${recorded[@]}" || fail "the joystick"
+    unplug
+    keep joystick
+
+    say "the same, not calibrated"
+    stick
+    feel --device stylus=hid:auto --duration 2 "${recorded[@]}" || fail "the joystick, not calibrated"
+    unplug
+    keep uncalibrated
+
+    say "the same, unplugged under force and back with another effect block"
+    stick --unplug 1 --away 0.8
+    feel --device stylus=$work/joystick.json --duration 4 "${recorded[@]}" || fail "the joystick, unplugged"
+    unplug
+    keep replugged
+
+    say "the same, with no room for an effect"
+    stick --blocks 0
+    feel --device stylus=hid:pid --duration 1
+    [ $? -eq 1 ] || fail "a joystick without room is an error"
+    unplug
+    keep no_room
+
+    say "the same, its program killed under force"
+    stick
+    feel --device stylus=$work/joystick.json --duration 60 & player=$!
+    for _ in $(seq 300); do pgrep -x tactus >/dev/null && break; sleep 0.1; done
+    sleep 2
+    kill -KILL "$(pgrep -x tactus | head -1)"
+    wait $player
+    sleep 0.5
+    unplug
+    keep joystick_killed
+fi
+
+say "several devices, listed and probed"
 plug
 $device space_mouse --seconds 300 & mouse=$!
 joystick=
-[ -e "$FFB_DESCRIPTOR" ] && { $device descriptor --file "$FFB_DESCRIPTOR" --seconds 300 >/dev/null & joystick=$!; }
+[ -e "$FFB_DESCRIPTOR" ] && { $device joystick --file "$FFB_DESCRIPTOR" --seconds 300 --log /dev/null & joystick=$!; }
 sleep 1
 $tactus devices >/run/results/devices.txt || fail "tactus devices"
 $tactus devices --json >/run/results/devices.json || fail "tactus devices --json"
@@ -75,7 +119,7 @@ kill $other
 wait $other
 kill $mouse $joystick
 
-echo "== a device that this user may not open"
+say "a device that this user may not open"
 mkdir -p $work/any   # where anybody may read, as the sources may not be
 cp -r "$tactus" host/profiles graphs/dry_wood.json $work/any
 chmod -R a+rX $work/any

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Devices for the guest: guest_device board|space_mouse|descriptor [--option VALUE]…
+// Devices for the guest: guest_device board|space_mouse|joystick [--option VALUE]…
 #include "uhid.hpp"
 
 int main (int argc, char** argv)
@@ -9,7 +9,7 @@ int main (int argc, char** argv)
     const std::string what = args.empty() ? "" : args.front();
     if (what == "board") return board (args);
     if (what == "space_mouse") return spaceMouse (args);
-    if (what == "descriptor") return descriptorOnly (args);
-    std::fprintf (stderr, "usage: guest_device board|space_mouse|descriptor [--option VALUE]...\n");
+    if (what == "joystick") return joystick (args);
+    std::fprintf (stderr, "usage: guest_device board|space_mouse|joystick [--option VALUE]...\n");
     return 2;
 }

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "uhid.hpp"
 
-#include <cmath>
-#include <fstream>
-#include <iterator>
-
 namespace tactus::guest
 {
 
@@ -31,21 +27,6 @@ int spaceMouse (const std::vector<std::string>& args)
         device.input (std::array<std::uint8_t, 7> { 2, 0, 0, 0, 0, rz[0], rz[1] });
         device.input (std::array<std::uint8_t, 3> { 3, 1, 0 });
     }
-    return 0;
-}
-
-/// A device that has a report descriptor from a file and says nothing. --file NAME --vid N --pid N --seconds S
-int descriptorOnly (const std::vector<std::string>& args)
-{
-    std::ifstream file (text (args, "file", ""), std::ios::binary);
-    const std::vector<char> bytes { std::istreambuf_iterator<char> (file), {} };
-    if (bytes.empty() || bytes.size() > HID_MAX_DESCRIPTOR_SIZE) return 2;
-    const std::vector<std::uint8_t> descriptor (bytes.begin(), bytes.end());
-    Uhid device ("Test joystick", "J1", static_cast<std::uint16_t> (option (args, "vid", 0x1209)), static_cast<std::uint16_t> (option (args, "pid", 0xffb0)), descriptor);
-    std::size_t reports = 0;
-    device.serve (now() + option (args, "seconds", 10.0), [&] (auto)
-                  { ++reports; });
-    std::printf ("%zu\n", reports);
     return 0;
 }
 

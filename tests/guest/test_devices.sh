@@ -6,7 +6,7 @@ cd "$(dirname "$0")/../.."
 build=$(cd "$1" && pwd)
 guest=build/guest
 results=$(mktemp -d)
-trap 'rm -rf "$results"' EXIT
+trap '[ -z "${KEEP:-}" ] && rm -rf "$results" || echo $results' EXIT
 
 tests/guest/make_guest.sh $guest || { status=$?; [ $status -eq 77 ] && exit 0; exit $status; }
 data=../shared/data/hid_ffb/openffboard_1axis.bin

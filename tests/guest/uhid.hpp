@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -65,6 +66,9 @@ public:
     Uhid (const Uhid&) = delete;
     Uhid& operator= (const Uhid&) = delete;
 
+    /// What it answers when it is asked for the report of this id; nothing: it refuses.
+    std::function<std::vector<std::uint8_t> (std::uint8_t)> on_ask {};
+
     void input (std::span<const std::uint8_t> report)
     {
         uhid_event e {};
@@ -95,7 +99,7 @@ public:
             if (e.type == UHID_OPEN) opened = true;
             if (e.type == UHID_CLOSE) opened = false;
             if (e.type == UHID_OUTPUT) output (std::span<const std::uint8_t> (e.u.output.data, e.u.output.size));
-            if (e.type == UHID_GET_REPORT) refuse (e, UHID_GET_REPORT_REPLY);
+            if (e.type == UHID_GET_REPORT) reply (e);
             if (e.type == UHID_SET_REPORT)
             {
                 output (std::span<const std::uint8_t> (e.u.set_report.data, e.u.set_report.size));
@@ -113,13 +117,17 @@ private:
         if (::write (fd, &e, sizeof e) < 0) std::perror ("uhid");
     }
 
-    void refuse (const uhid_event& asked, std::uint32_t type)
+    void reply (const uhid_event& asked)
     {
-        uhid_event reply {};
-        reply.type = type;
-        reply.u.get_report_reply.id = asked.u.get_report.id;
-        reply.u.get_report_reply.err = EIO;
-        tell (reply);
+        const auto report = on_ask ? on_ask (asked.u.get_report.rnum) : std::vector<std::uint8_t> {};
+        uhid_event e {};
+        e.type = UHID_GET_REPORT_REPLY;
+        auto& r = e.u.get_report_reply;
+        r.id = asked.u.get_report.id;
+        r.err = report.empty() ? EIO : 0;
+        r.size = static_cast<std::uint16_t> (report.size());
+        std::memcpy (r.data, report.data(), report.size());
+        tell (e);
     }
 
     int fd = -1;
@@ -143,6 +151,6 @@ inline std::string text (const std::vector<std::string>& args, const std::string
 
 int board (const std::vector<std::string>& args);
 int spaceMouse (const std::vector<std::string>& args);
-int descriptorOnly (const std::vector<std::string>& args);
+int joystick (const std::vector<std::string>& args);
 
 }   // namespace tactus::guest

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hid.hpp"
+#include "pid_wheel.hpp"
 
 #include <tests/fuzz/descriptor_target.hpp>
 
@@ -69,34 +70,11 @@ std::vector<Cap> capsOf (const std::string& text, std::array<long, 3>& lengths, 
     }
     return caps;
 }
-
-/// A wheel of our own: one axis, eight buttons, and what one constant force needs. Device Control is an array here.
-const Bytes& wheel()
-{
-    static const Bytes bytes = test::bytes (
-        "05 01 09 04 a1 01 85 01 "                                                                         // joystick, report 1
-        "09 30 16 01 80 26 ff 7f 75 10 95 01 81 02 "                                                       // x, s16
-        "05 09 19 01 29 08 15 00 25 01 75 01 95 08 81 02 "                                                 // buttons 1-8
-        "05 0f "                                                                                           // physical interface
-        "09 21 a1 02 85 02 09 22 15 01 25 28 75 08 95 01 91 02 "                                           // set effect: block
-        "09 25 a1 02 09 26 09 30 15 01 25 02 91 00 c0 "                                                    // type: constant, square
-        "09 50 15 00 26 10 27 35 00 46 10 27 66 01 10 55 fd 75 10 91 02 "                                  // duration, ms
-        "45 00 66 00 00 55 00 09 52 26 ff 00 75 08 91 02 "                                                 // gain
-        "09 56 25 01 75 01 91 02 95 07 91 03 "                                                             // direction enable
-        "09 57 a1 02 0b 01 00 0a 00 26 68 01 75 10 95 01 91 02 c0 c0 "                                     // direction, 0-360
-        "09 73 a1 02 85 03 09 22 15 01 25 28 75 08 91 02 09 70 16 f0 d8 26 10 27 75 10 91 02 c0 "          // constant force, ±10000
-        "09 77 a1 02 85 04 09 22 15 01 25 28 75 08 91 02 09 78 a1 02 09 79 09 7a 09 7b 25 03 91 00 c0 "    // operation
-        "09 7c 15 00 26 ff 00 91 02 c0 "                                                                   // loop count
-        "09 95 a1 02 85 05 09 96 a1 02 09 97 09 98 09 99 15 01 25 03 91 00 c0 c0 "                         // control
-        "09 ab a1 02 85 06 09 25 a1 02 09 26 09 30 15 01 25 02 b1 00 c0 c0 "                               // create
-        "09 89 a1 02 85 07 09 22 15 01 25 28 b1 02 09 8b a1 02 09 8c 09 8d 09 8e 25 03 b1 00 c0 c0 c0");   // block load
-    return bytes;
-}
 }   // namespace
 
 TEST_CASE ("a descriptor tells where each number of a report lies")
 {
-    const auto d = good (wheel());
+    const auto d = good (test::wheel());
     CHECK (d.has_ids);
     CHECK (d.length (Kind::input, 1) == 3);
     CHECK (d.length (Kind::output, 2) == 8);
@@ -188,7 +166,7 @@ TEST_CASE ("any bytes are a descriptor or errors, and a force feedback device dr
               { fuzz::tryDescriptor (*rc::gen::container<std::string> (rc::gen::arbitrary<char>())); });
     rc::prop ("a wheel with one byte changed", []
               {
-        auto bytes = wheel();
+        auto bytes = test::wheel();
         bytes[*rc::gen::inRange<std::size_t> (0, bytes.size())] = *rc::gen::arbitrary<std::uint8_t>();
         fuzz::tryDescriptor ({ reinterpret_cast<const char*> (bytes.data()), bytes.size() }); });
 }
@@ -196,32 +174,37 @@ TEST_CASE ("any bytes are a descriptor or errors, and a force feedback device dr
 TEST_CASE ("a force feedback wheel is driven by one constant force that ends by itself")
 {
     Messages messages;
-    const auto device = PidDevice::from (good (wheel()), messages);
+    const auto device = PidDevice::from (good (test::wheel()), messages);
     REQUIRE (device);
     CHECK (messages.empty());
     CHECK (hexOf (device->createEffect()) == "06 01");
     CHECK (hexOf (device->blockLoad()) == "07 00 00");
-    CHECK (device->block (test::bytes ("07 05 01")) == 5);
-    CHECK_FALSE (device->block (test::bytes ("07 05 02")));   // full
-    CHECK_FALSE (device->block (test::bytes ("07 00 01")));
-    CHECK_FALSE (device->block (test::bytes ("07 05")));
-    CHECK_FALSE (device->block (test::bytes ("06 05 01")));
-    CHECK_FALSE (device->block ({}));
+    const auto blockOf = [&] (const PidDevice& of, const char* answer)
+    { return numberIn (of.answer(), test::bytes (answer)).value_or (std::nullopt); };
+    CHECK (blockOf (*device, "07 05 01") == 5u);
+    CHECK (numberIn (device->answer(), test::bytes ("07 05 02")).error().id == "pid/full");
+    CHECK (numberIn (device->answer(), test::bytes ("07 05 03")).error().id == "pid/refused");
+    for (const auto* no_answer : { "07 00 01", "07 05 00", "07 05", "06 05 01", "07", "" })
+        CHECK (numberIn (device->answer(), test::bytes (no_answer)).value() == std::nullopt);
 
     // Others have a bit for each status.
-    auto bits = hexOf (wheel());
+    auto bits = hexOf (test::wheel());
     const std::string array = "09 8e 25 03 b1 00";
     bits.replace (bits.find (array), array.size(), "09 8e 15 00 25 01 75 01 95 03 b1 02 75 05 95 01 b1 03");
     const auto other = PidDevice::from (good (test::bytes (bits)), messages);
     REQUIRE (other);
-    CHECK (other->block (test::bytes ("07 05 01")) == 5);
-    CHECK_FALSE (other->block (test::bytes ("07 05 06")));
+    CHECK (blockOf (*other, "07 05 01") == 5u);
+    CHECK (numberIn (other->answer(), test::bytes ("07 05 06")).error().id == "pid/full");
 
-    HidModel model (std::make_shared<Profile> (device->profile (5)));
-    REQUIRE (model.init().size() == 3);
-    CHECK (hexOf (model.init()[0].bytes) == "05 01");                        // actuators on
-    CHECK (hexOf (model.init()[1].bytes) == "02 05 01 f4 01 ff 01 5a 00");   // block 5, constant, 500 ms, all gain, towards 90 of 360
-    CHECK (hexOf (model.init()[2].bytes) == "03 05 00 00");
+    HidModel model (std::make_shared<Profile> (device->profile()));
+    REQUIRE (model.init().size() == 5);
+    CHECK (hexOf (model.init()[0].bytes) == "06 01");                        // make a constant force
+    CHECK (hexOf (model.init()[1].bytes) == "07 00 00");                     // where is it
+    CHECK (hexOf (model.init()[2].bytes) == "05 01");                        // actuators on
+    CHECK (hexOf (model.init()[3].bytes) == "02 01 01 f4 01 ff 01 5a 00");   // the block, constant, 500 ms, all gain, from 90 of 360
+    CHECK (hexOf (model.init()[4].bytes) == "03 01 00 00");
+    for (const auto i : { 3u, 4u })
+        CHECK (model.init()[i].given->at == 8);
     CHECK (hexOf (model.exit().back().bytes) == "05 03");   // stop all
 
     CHECK (model.effortNames() == std::vector<std::string> { "force" });
@@ -231,13 +214,13 @@ TEST_CASE ("a force feedback wheel is driven by one constant force that ends by 
         effort.efforts[0] = share;
         return hexOf (model.encode (0, effort));
     };
-    CHECK (sent (0.5) == "03 05 88 13");
-    CHECK (sent (-1.0) == "03 05 f0 d8");
-    CHECK (sent (7.0) == "03 05 10 27");
-    CHECK (sent (std::numeric_limits<double>::quiet_NaN()) == "03 05 00 00");
-    CHECK (hexOf (model.neutral (0)) == "03 05 00 00");
-    CHECK (hexOf (model.encode (1, {})) == "04 05 01 01");   // started, once
-    CHECK (hexOf (model.neutral (1)) == "04 05 03 00");      // stopped
+    CHECK (sent (-0.5) == "03 01 88 13");   // what comes from the right pushes to the left
+    CHECK (sent (1.0) == "03 01 f0 d8");
+    CHECK (sent (-7.0) == "03 01 10 27");
+    CHECK (sent (std::numeric_limits<double>::quiet_NaN()) == "03 01 00 00");
+    CHECK (hexOf (model.neutral (0)) == "03 01 00 00");
+    CHECK (hexOf (model.encode (1, {})) == "04 01 01 01");   // started, once
+    CHECK (hexOf (model.neutral (1)) == "04 01 03 00");      // stopped
     CHECK (model.profile().outputs[1].keepalive < model.profile().limits.device_watchdog);
 
     const auto& s = model.decode (test::bytes ("01 01 80 82"));
@@ -256,7 +239,7 @@ TEST_CASE ("a joystick without force feedback says what it lacks")
         CHECK (m.id == "pid/missing");
 
     // A constant force whose block is told in one report and its magnitude in another.
-    auto spread = hexOf (wheel());
+    auto spread = hexOf (test::wheel());
     const std::string force = "09 70 16 f0 d8";
     spread.insert (spread.find (force), "85 08 ");
     messages.clear();
@@ -300,20 +283,29 @@ TEST_CASE ("OpenFFBoard's descriptor gives its reports, and the force that the s
     REQUIRE (device);
     CHECK (hexOf (device->createEffect()).starts_with ("11 01"));
     CHECK (hexOf (device->blockLoad()).starts_with ("12 00"));
-    CHECK (device->block (test::bytes ("12 03 01 00 10")) == 3);
+    CHECK (numberIn (device->answer(), test::bytes ("12 03 01 00 10")).value() == 3u);
+    CHECK (numberIn (device->answer(), test::bytes ("12 00 02 00 00")).error().id == "pid/full");
 
-    HidModel model (std::make_shared<Profile> (device->profile (3)));
-    HidEffort effort;
-    effort.efforts[0] = 1.0;
-    CHECK (hexOf (model.encode (0, effort)) == "05 03 ff 7f");
-    effort.efforts[0] = -0.5;
-    CHECK (hexOf (model.encode (0, effort)) == "05 03 01 c0");   // -16383, half of -32767 towards 0
-    CHECK (hexOf (model.exit().back().bytes) == "0c 04");        // Device Control is a row of bits here: stop all is the third
+    HidModel model (std::make_shared<Profile> (device->profile ({ .full_force = 4.0, .travel = { { "x", 0.2 }, { "y", 0.1 } } })));
+    const auto sent = [&] (double newton)
+    { return hexOf (model.encode (0, { { newton, 0.0, 0.0 }, Vec3::Zero(), {} })); };
+    Bytes resting (25);
+    resting[0] = 1;
+    REQUIRE (model.decode (resting).refusal == Refusal::none);
+    resting[2] = 0x40;   // x
+    resting[4] = 0x80;   // y, which a stick has towards the person
+    CHECK (model.decode (resting).position.x() == Approx (0.05).epsilon (1e-4));
+    CHECK (model.reading().position.y() == Approx (0.05).epsilon (1e-4));
+    CHECK (sent (-4.0) == "05 01 ff 7f");
+    CHECK (sent (2.0) == "05 01 01 c0");                // -16383, half of -32767 towards 0
+    CHECK (hexOf (model.init()[0].bytes) == "0c 08");   // Device Control is a row of bits here: reset is the fourth,
+    CHECK (hexOf (model.exit()[1].bytes) == "0c 04");   // stop all the third
+    CHECK (hexOf (model.exit()[2].bytes) == "0b 01");   // and the block is freed
     CHECK (model.axisNames().size() == 8);
     CHECK (model.buttonNames().size() == 32);   // of 64
-    const auto& set = model.init()[2].bytes;
+    const auto& set = model.init()[5].bytes;
     CHECK (set.size() == 18);
-    CHECK (set[1] == 3);
+    CHECK (set[1] == 1);
     CHECK (set[2] == 1);
     CHECK ((set[3] | set[4] << 8) == 500);
 }

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/hid/answer.hpp>
+#include <host/hid/bits.hpp>
+
+namespace tactus::host::hid
+{
+namespace
+{
+std::optional<std::uint32_t> read (const Bits& bits, std::span<const std::uint8_t> report)
+{
+    if (bits.end() > 8 * report.size()) return {};
+    return bitsAt (bits, report);
+}
+}   // namespace
+
+tl::expected<std::optional<std::uint32_t>, Message> numberIn (const Answer& answer, std::span<const std::uint8_t> report)
+{
+    if (answer.id && (report.empty() || report.front() != *answer.id)) return std::nullopt;
+    for (const auto& refusal : answer.refusals)
+        if (read (refusal.bits, report) == refusal.raw) return tl::unexpected (refusal.means);
+    if (answer.success && read (answer.success->bits, report) != answer.success->raw) return std::nullopt;
+    const auto number = read (answer.number, report);
+    return number == 0u ? std::nullopt : number;
+}
+
+}   // namespace tactus::host::hid

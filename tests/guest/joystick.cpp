@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "uhid.hpp"
+
+#include <cmath>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+namespace tactus::guest
+{
+
+namespace
+{
+volatile std::sig_atomic_t ended = 0;
+
+// OpenFFBoard's reports.
+constexpr std::uint8_t create_effect = 0x11, block_load = 0x12;
+
+struct Log
+{
+    std::string lines;
+
+    void add (const char* how, std::span<const std::uint8_t> report)
+    {
+        char text[32];
+        std::snprintf (text, sizeof text, "%s,%.6f,", how, now());
+        lines += text;
+        for (const auto byte : report)
+        {
+            std::snprintf (text, sizeof text, "%02x", byte);
+            lines += text;
+        }
+        lines += '\n';
+    }
+};
+
+/// Held a millimetre deep and rubbed to and fro; 12 cm from end to end, and z grows downwards.
+std::array<std::uint8_t, 25> reportAt (double t)
+{
+    constexpr double counts = 65535.0 / 0.12;
+    std::array<std::uint8_t, 25> r {};
+    r[0] = 1;
+    const auto put = [&] (std::size_t at, double metres)
+    {
+        const auto v = static_cast<int> (std::lround (metres * counts));
+        r[at] = static_cast<std::uint8_t> (v);
+        r[at + 1] = static_cast<std::uint8_t> (v >> 8);
+    };
+    put (9, 0.02 * std::sin (6.0 * t));   // x, behind 64 buttons
+    put (13, 1e-3);                       // z
+    return r;
+}
+}   // namespace
+
+/// A joystick with OpenFFBoard's report descriptor, from a file: it answers as one, and writes down all that it is told.
+/// --file NAME --log FILE --seconds S --blocks N (that it gives out; 0: its memory is full) --unplug S --away S (comes back with
+/// another block)
+int joystick (const std::vector<std::string>& args)
+{
+    std::signal (SIGTERM, [] (int)
+                 { ended = 1; });
+    std::ifstream file (text (args, "file", ""), std::ios::binary);
+    const std::vector<char> bytes { std::istreambuf_iterator<char> (file), {} };
+    if (bytes.empty() || bytes.size() > HID_MAX_DESCRIPTOR_SIZE) return 2;
+    const std::vector<std::uint8_t> descriptor (bytes.begin(), bytes.end());
+
+    Log log;
+    std::uint8_t block = option (args, "blocks", 1.0) > 0.0 ? 3 : 0;
+    bool asked = false;
+    const auto plug = [&]
+    {
+        auto device = std::make_unique<Uhid> ("Test joystick", "J1", std::uint16_t { 0x1209 }, std::uint16_t { 0xffb0 }, descriptor);
+        device->on_ask = [&] (std::uint8_t id) -> std::vector<std::uint8_t>
+        {
+            if (id != block_load || ! asked) return {};
+            return { block_load, block, static_cast<std::uint8_t> (block > 0 ? 1 : 2), 0, 0x10 };
+        };
+        return device;
+    };
+    const auto heard = [&] (std::span<const std::uint8_t> report)
+    {
+        asked = asked || (! report.empty() && report[0] == create_effect);
+        log.add ("out", report);
+    };
+
+    auto device = plug();
+    const double begin = now(), end = begin + option (args, "seconds", 10.0);
+    double unplug = option (args, "unplug", 0.0);
+    bool was_open = false;
+    double opened = 0.0;
+    for (double due = begin; now() < end && ended == 0; due = std::max (due + 2e-3, now() - 8e-3))
+    {
+        device->serve (due, heard);
+        if (device->isOpen() && ! was_open) opened = now();
+        was_open = device->isOpen();
+        if (unplug > 0.0 && was_open && now() - opened > unplug)
+        {
+            unplug = 0.0;
+            log.add ("unplugged", {});
+            device.reset();
+            was_open = asked = false;
+            block = 7;
+            timespec wait { 0, static_cast<long> (option (args, "away", 0.8) * 1e9) };
+            ::nanosleep (&wait, nullptr);
+            device = plug();
+            log.add ("plugged", {});
+            continue;
+        }
+        if (was_open) device->input (reportAt (now() - begin));
+    }
+    device->serve (now() + 0.05, heard);
+
+    if (auto* out = std::fopen (text (args, "log", "/dev/stdout").c_str(), "w"))
+    {
+        std::fputs (log.lines.c_str(), out);
+        std::fclose (out);
+    }
+    return 0;
+}
+
+}   // namespace tactus::guest

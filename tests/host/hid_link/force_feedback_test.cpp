@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: MIT
+// A joystick or wheel that nobody wrote a profile for, driven by what its own descriptor says.
+
+#include "../hid/pid_wheel.hpp"
+
+#include <host/hid_link/force_feedback.hpp>
+#include <host/hid_link/hid_device.hpp>
+#include <host/hid_link/open_device.hpp>
+
+#include <framework/guard.hpp>
+#include <framework/json.hpp>
+
+#include <rapidcheck/catch.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <thread>
+
+using namespace tactus;
+using namespace tactus::host;
+using namespace tactus::host::hid;
+using namespace std::chrono_literals;
+
+namespace
+{
+/// The wheel of pid_wheel.hpp, with a memory for effects.
+class Wheel final : public HidSystem
+{
+public:
+    Wheel()
+    {
+        what.vid = 0x1209;
+        what.pid = 0xffb0;
+        what.product = "Wheel";
+        what.path = "fake/wheel";
+        what.serial = "W1";
+    }
+
+    ConnectedDevice what;
+    Bytes descriptor = test::wheel();
+    std::uint8_t free_block = 5;              // that the next effect gets; 0: no room
+    int busy = 0;                             // times that it has no answer yet
+    std::optional<std::uint8_t> refused {};   // id of a report that it does not take
+
+    struct Told
+    {
+        Bytes bytes;
+        char how = 'o';   // o output, f feature, g asked for a feature, w will
+    };
+
+    std::vector<Told> told() const
+    {
+        const std::lock_guard lock (mutex);
+        return log;
+    }
+    Bytes last (std::uint8_t id) const
+    {
+        const auto all = told();
+        const auto it = std::find_if (all.rbegin(), all.rend(), [&] (const Told& t)
+                                      { return t.how != 'w' && ! t.bytes.empty() && t.bytes[0] == id; });
+        return it == all.rend() ? Bytes {} : it->bytes;
+    }
+    int magnitude() const
+    {
+        const auto bytes = last (3);
+        return bytes.size() == 4 ? static_cast<std::int16_t> (bytes[2] | bytes[3] << 8) : 99999;
+    }
+
+    void moveTo (int x)
+    {
+        const std::lock_guard lock (mutex);
+        input = { 1, static_cast<std::uint8_t> (x), static_cast<std::uint8_t> (x >> 8), 0 };
+    }
+    void plug (bool in)
+    {
+        const std::lock_guard lock (mutex);
+        plugged = in;
+        ++plugging;
+    }
+
+    std::vector<ConnectedDevice> connected() override
+    {
+        const std::lock_guard lock (mutex);
+        if (! plugged) return {};
+        return { what };
+    }
+    Bytes reportDescriptor (const ConnectedDevice&) override { return descriptor; }
+    tl::expected<std::unique_ptr<Transport>, OpenFailure> open (const ConnectedDevice&) override
+    {
+        const std::lock_guard lock (mutex);
+        return std::make_unique<Wire> (*this, plugging);
+    }
+
+private:
+    struct Wire final : Transport
+    {
+        Wire (Wheel& w, int p) : wheel (w), plugging (p) {}
+
+        tl::expected<std::size_t, std::string> read (std::span<std::uint8_t> into, std::chrono::milliseconds) override
+        {
+            std::this_thread::sleep_for (500us);
+            const std::lock_guard lock (wheel.mutex);
+            if (gone()) return tl::unexpected (std::string ("Input/output error"));
+            const auto report = std::exchange (wheel.input, {});
+            std::ranges::copy (report, into.begin());
+            return report.size();
+        }
+        std::optional<std::string> write (std::span<const std::uint8_t> report) override { return tell (report, 'o'); }
+        std::optional<std::string> sendFeature (std::span<const std::uint8_t> report) override { return tell (report, 'f'); }
+        std::optional<std::string> getFeature (std::span<std::uint8_t> report) override
+        {
+            if (auto why = tell (report, 'g')) return why;
+            const std::lock_guard lock (wheel.mutex);
+            if (report.size() != 3 || report[0] != 7) return "Protocol error";
+            report[1] = wheel.busy > 0 ? 0 : wheel.free_block;
+            report[2] = wheel.busy > 0 ? 0 : wheel.free_block > 0 ? 1
+                                                                  : 2;
+            wheel.busy = std::max (0, wheel.busy - 1);
+            return std::nullopt;
+        }
+        std::optional<std::string> leaveWill (const std::vector<OutgoingReport>& reports) override
+        {
+            for (const auto& r : reports)
+                tell (r.bytes, 'w');
+            return std::nullopt;
+        }
+
+        bool gone() const { return ! wheel.plugged || wheel.plugging != plugging; }
+        std::optional<std::string> tell (std::span<const std::uint8_t> report, char how)
+        {
+            const std::lock_guard lock (wheel.mutex);
+            if (gone() || (how != 'w' && wheel.refused == report[0])) return "Broken pipe";
+            wheel.log.push_back ({ { report.begin(), report.end() }, how });
+            return std::nullopt;
+        }
+
+        Wheel& wheel;
+        const int plugging;
+    };
+
+    mutable std::mutex mutex;
+    std::vector<Told> log;
+    Bytes input;
+    bool plugged = true;
+    int plugging = 0;
+};
+
+const Json any { { "driver", "hid" }, { "profile", "auto" } };
+const Json of_4_newton { { "driver", "hid" }, { "profile", "pid" }, { "calibration", { { "full_force", "4 N" }, { "travel", { { "x", "12 cm" } } } } } };
+
+std::string idOf (const MadeDevice& made) { return made.messages.empty() ? "" : made.messages.front().id; }
+
+/// A run at 1 kHz that asks for one force.
+struct Run
+{
+    explicit Run (MadeDevice& made) : device (*made.device)
+    {
+        device.prepare (1e-3);
+        guard.prepare (made.limits, 1e-3);
+    }
+
+    void tick (const Effort& wanted)
+    {
+        reading = device.read();
+        device.write (guard (wanted, reading));
+    }
+
+    /// Ticks until something is so, at most some seconds.
+    template <typename F>
+    bool until (const Effort& wanted, F&& so)
+    {
+        for (int i = 0; i < 4000; ++i)
+        {
+            tick (wanted);
+            if (so()) return true;
+            std::this_thread::sleep_for (1ms);
+        }
+        return false;
+    }
+
+    Device& device;
+    Guard guard;
+    Reading reading;
+};
+
+Effort push (double newton) { return { .force = { newton, 0.0, 0.0 } }; }
+}   // namespace
+
+TEST_CASE ("a device with force feedback is woken up, driven in newtons and let go without a profile of its own", "[hid]")
+{
+    Wheel wheel;
+    wheel.busy = 2;
+    auto made = openDevice (of_4_newton, {}, wheel, {});
+    REQUIRE (made.messages.empty());
+    REQUIRE (made.device);
+    CHECK (made.limits.max_force == 4.0);
+    CHECK (made.limits.ramp > 0.0);
+
+    const auto woken = wheel.told();
+    std::string order;
+    for (const auto& t : woken)
+        order += t.how;
+    CHECK (order == "wfgggooowwww");
+    CHECK (wheel.last (2).at (1) == 5);   // the block that it gave
+    CHECK (wheel.last (3) == Bytes { 3, 5, 0, 0 });
+
+    Run run (made);
+    for (int i = 0; i < 50; ++i)
+        run.tick (push (2.0));
+    CHECK_FALSE (run.reading.valid);   // it has not said anything yet
+    CHECK (wheel.magnitude() == 0);
+
+    wheel.moveTo (16384);
+    CHECK (run.until (push (2.0), [&]
+                      { return wheel.magnitude() == -5000; }));   // half of 4 N, and what pushes to the right comes from the left
+    CHECK (run.reading.position.x() == Approx (0.03).epsilon (1e-3));
+    CHECK (wheel.last (4) == Bytes { 4, 5, 1, 1 });
+    CHECK (run.until (push (-100.0), [&]
+                      { return wheel.magnitude() == 10000; }));
+
+    made.device.reset();
+    const auto told = wheel.told();
+    CHECK (told.back().bytes == Bytes { 5, 3 });   // stop all effects
+    CHECK (wheel.magnitude() == 0);
+    CHECK (wheel.last (4) == Bytes { 4, 5, 3, 0 });
+}
+
+TEST_CASE ("the effect is started again and again, since it ends by itself", "[hid]")
+{
+    Wheel wheel;
+    auto made = openDevice (of_4_newton, {}, wheel, {});
+    REQUIRE (made.device);
+    Run run (made);
+    wheel.moveTo (1);
+    const auto starts = [&]
+    {
+        const auto told = wheel.told();
+        return std::ranges::count_if (told, [] (const auto& t)
+                                      { return t.bytes == Bytes { 4, 5, 1, 1 }; });
+    };
+    CHECK (run.until (push (1.0), [&]
+                      { return starts() >= 3; }));
+}
+
+TEST_CASE ("a force feedback device that comes back may put the effect elsewhere", "[hid]")
+{
+    Wheel wheel;
+    auto made = openDevice (of_4_newton, {}, wheel, {});
+    REQUIRE (made.device);
+    Run run (made);
+    wheel.moveTo (1);
+    REQUIRE (run.until (push (2.0), [&]
+                        { return wheel.magnitude() == -5000; }));
+
+    wheel.plug (false);
+    REQUIRE (run.until (push (2.0), [&]
+                        { return ! run.reading.valid; }));
+    wheel.free_block = 9;
+    wheel.plug (true);
+    const auto before = wheel.told().size();
+    REQUIRE (run.until (push (2.0), [&]
+                        { return wheel.last (2).at (1) == 9; }));
+    wheel.moveTo (2);
+    CHECK (run.until (push (2.0), [&]
+                      { return wheel.last (3) == Bytes { 3, 9, 0x78, 0xec }; }));   // -5000
+    made.device.reset();
+
+    const auto told = wheel.told();
+    for (auto i = before; i < told.size(); ++i)
+        if (told[i].bytes[0] >= 2 && told[i].bytes[0] <= 4) CHECK (told[i].bytes[1] == 9);
+    CHECK (told.back().bytes == Bytes { 5, 3 });
+}
+
+TEST_CASE ("without a calibration a device gives a tenth of what it can, and says so", "[hid]")
+{
+    Wheel wheel;
+    auto made = openDevice (any, {}, wheel, {});
+    REQUIRE (made.device);
+    REQUIRE (idOf (made) == "pid/uncalibrated");
+    CHECK (made.messages.front().severity == Message::Severity::warning);
+    CHECK (made.limits.max_force == Approx (1.0));
+    Run run (made);
+    wheel.moveTo (1);
+    int most = 0;
+    run.until (push (1000.0), [&]
+               { most = std::max (most, std::abs (wheel.magnitude())); return most == 1000 && run.guard.stop() == Guard::Stop::none && wheel.magnitude() == -1000; });
+    CHECK (most == 1000);
+
+    // Neither by the effort of the axis, whatever the guard lets through.
+    made.device->write ({ .axes = { 50.0 } });
+    for (int i = 0; i < 50; ++i)
+    {
+        made.device->read();
+        made.device->write ({ .axes = { 50.0 } });
+        std::this_thread::sleep_for (1ms);
+    }
+    CHECK (std::abs (wheel.magnitude()) <= 1000);
+}
+
+TEST_CASE ("a wheel turns and is turned", "[hid]")
+{
+    Wheel wheel;
+    auto made = openDevice ({ { "driver", "hid" }, { "profile", "pid" }, { "calibration", { { "full_force", "2.5 N*m" }, { "travel", { { "x", "900 deg" } } }, { "reversed", true } } } }, {}, wheel, {});
+    REQUIRE (made.messages.empty());
+    CHECK (made.limits.max_torque == 2.5);
+    Run run (made);
+    wheel.moveTo (-16384);
+    CHECK (run.until ({ .torque = { 0.0, 1.25, 0.0 } }, [&]
+                      { return wheel.magnitude() == 5000; }));
+    CHECK (run.reading.rotation.y() == Approx (-0.25 * 5.0 * 3.14159265358979).epsilon (1e-3));
+    CHECK (run.reading.position.isZero (0.0));
+}
+
+TEST_CASE ("why a force feedback device is not driven is said with the way out", "[hid]")
+{
+    const auto attempt = [] (Wheel& wheel, const Json& description)
+    {
+        const auto made = openDevice (description, {}, wheel, {});
+        CHECK_FALSE (made.device);
+        REQUIRE_FALSE (made.messages.empty());
+        CHECK_FALSE (made.messages.front().remedy.empty());
+        return idOf (made);
+    };
+    const auto with = [] (const char* key, const Json& value)
+    {
+        auto d = of_4_newton;
+        d["calibration"][key] = value;
+        return d;
+    };
+
+    Wheel full;
+    full.free_block = 0;
+    CHECK (attempt (full, of_4_newton) == "pid/full");
+
+    Wheel silent;
+    silent.busy = 1000;
+    CHECK (attempt (silent, of_4_newton) == "hid/init");
+
+    for (const std::uint8_t id : Bytes { 2, 3, 5, 6, 7 })
+    {
+        Wheel refuses;
+        refuses.refused = id;
+        CHECK (attempt (refuses, of_4_newton) == "hid/init");
+    }
+
+    Wheel plain;   // joystick without force feedback
+    plain.descriptor = test::bytes ("05 01 09 04 a1 01 09 30 15 00 26 ff 00 75 08 95 01 81 02 c0");
+    CHECK (attempt (plain, of_4_newton) == "hid/not_connected");
+
+    Wheel springs;   // of force feedback, nothing but a report of its state
+    springs.descriptor = test::bytes ("05 01 09 04 a1 01 09 30 15 00 26 ff 00 75 08 95 01 81 02 05 0f 09 92 a1 02 09 9f 81 02 c0 c0");
+    CHECK (attempt (springs, of_4_newton) == "pid/missing");
+
+    Wheel broken;
+    broken.descriptor.resize (broken.descriptor.size() / 2);
+    CHECK (attempt (broken, of_4_newton) == "hid/not_connected");
+
+    Wheel wheel;
+    CHECK (attempt (wheel, with ("travel", { { "slider", "1 cm" } })) == "pid/no_axis");
+    CHECK (attempt (wheel, with ("full_force", "3 m")) == "device/unit");
+    CHECK (attempt (wheel, with ("full_force", -1)) == "device/out_of_range");
+    CHECK (attempt (wheel, with ("reversed", 1)) == "device/kind");
+    CHECK (attempt (wheel, with ("ful_force", 1)) == "device/unknown_key");
+    CHECK (attempt (wheel, { { "driver", "hid" }, { "calibration", Json::object() } }) == "device/missing");
+    CHECK (attempt (wheel, { { "driver", "hid" }, { "calibration", 3 } }) == "device/kind");
+}
+
+TEST_CASE ("no force that is asked for is more than the calibration allows", "[hid]")
+{
+    rc::prop ("whatever is asked for", []
+              {
+        Messages messages;
+        const auto pid = PidDevice::from (readDescriptor (test::wheel()).descriptor, messages);
+        PidCalibration calibration { .full_force = *rc::gen::inRange (1, 1000) * 0.1 };
+        calibration.usable = *rc::gen::inRange (1, 101) * 0.01;
+        calibration.is_reversed = *rc::gen::arbitrary<bool>();
+        HidModel model (std::make_shared<const Profile> (pid->profile (calibration)));
+        const double asked = *rc::gen::inRange (-100000, 100000) * 1e-2;
+        const auto report = model.encode (0, { { asked, 0.0, 0.0 }, Vec3::Zero(), {} });
+        const int counts = static_cast<std::int16_t> (report[2] | report[3] << 8);
+        const double got = (calibration.is_reversed ? 1.0 : -1.0) * counts * calibration.full_force / 10000.0;
+        const double most = calibration.full_force * calibration.usable;
+        RC_ASSERT (std::abs (got - std::clamp (asked, -most, most)) <= 0.5001 * calibration.full_force / 10000.0); });
+}
