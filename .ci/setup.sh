@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 packages=(build-essential cmake ninja-build pkg-config
           juce-modules-source libjack-jackd2-dev libeigen3-dev libhidapi-dev catch2
           nlohmann-json3-dev libcli11-dev libexpected-dev librapidcheck-dev
-          libembree-dev libspng-dev libturbojpeg0-dev libbenchmark-dev faust
+          libembree-dev libsamplerate0-dev libspng-dev libturbojpeg0-dev libbenchmark-dev faust
           fonts-inter fonts-dejavu-core)
 
 say () { printf '\n== %s\n' "$*"; }

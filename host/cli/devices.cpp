@@ -4,6 +4,7 @@
 
 #include <framework/json.hpp>
 #include <framework/number_text.hpp>
+#include <host/audio/card.hpp>
 #include <host/hid_link/describe_counts.hpp>
 #include <host/hid_link/force_feedback.hpp>
 #include <host/hid_link/open_device.hpp>
@@ -115,6 +116,29 @@ std::string textOf (const Listed& l)
     text += "\n    ";
     text += l.may_open ? "may be opened: --device ROLE=hid:" + l.profiles.front()->id : "may not be opened by this user: " + howToPermit (d);
     return text + "\n";
+}
+
+//==============================================================================
+template <typename Numbers>
+std::string inARow (const Numbers& numbers)
+{
+    std::string text;
+    for (const auto n : numbers)
+        text += (text.empty() ? "" : ", ") + numberText (static_cast<double> (n));
+    return text.empty() ? "unknown" : text;
+}
+
+std::string textOf (const audio::ListedCard& c)
+{
+    auto text = "sound card " + c.type + ":" + c.name + "\n    ";
+    if (! c.trouble.empty()) return text + c.trouble + "\n";
+    text += std::to_string (c.outputs.size()) + " outputs, " + std::to_string (c.inputs.size()) + " inputs; " + inARow (c.rates) + " Hz; blocks of " + inARow (c.blocks) + "\n    ";
+    return text + "--audio \"" + c.type + ":" + c.name + "\" --route PORT=CHANNEL, or --device ROLE=audio\n";
+}
+
+Json jsonOf (const audio::ListedCard& c)
+{
+    return { { "driver", "audio" }, { "type", c.type }, { "name", c.name }, { "outputs", c.outputs }, { "inputs", c.inputs }, { "rates_hz", c.rates }, { "blocks", c.blocks }, { "trouble", c.trouble } };
 }
 
 //==============================================================================
@@ -263,7 +287,7 @@ void probe (const std::vector<Listed>& all, const Options& options, Json& json)
     }
     for (auto& device : json)
         for (const auto& p : probed)
-            if (device["path"] == p->path()) device["probe"] = p->json();
+            if (device.value ("path", Json()) == p->path()) device["probe"] = p->json();
 }
 
 void run (const Options& options)
@@ -277,10 +301,17 @@ void run (const Options& options)
     for (const auto& l : all)
         json.push_back (jsonOf (l));
 
+    const auto cards = options.probe ? std::vector<audio::ListedCard> {} : audio::soundCards().list();
+    for (const auto& card : cards)
+        json.push_back (jsonOf (card));
+
     if (! options.json && all.empty()) std::cout << "No HID device is connected.\n";
     if (! options.json && (! options.probe || all.empty()))
         for (const auto& l : all)
             std::cout << textOf (l);
+    if (! options.json)
+        for (const auto& card : cards)
+            std::cout << textOf (card);
     if (options.probe && ! all.empty())
     {
         if (! options.json && std::ranges::all_of (all, [] (const Listed& l)

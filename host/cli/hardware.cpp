@@ -53,6 +53,7 @@ const hid::LoadedProfiles& Hardware::profiles()
 
 MadeDevice Hardware::open (const Json& description, const std::filesystem::path& folder)
 {
+    if (allowed && audio::isAudio (description)) return audio::openAudio (description, rig);
     if (! allowed || ! hid::isHid (description)) return makeDevice (description, folder);
     return hid::openDevice (description, folder, hid::thisComputer(), profiles());
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <host/audio/open_audio.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/sessions/device_health.hpp>
 #include <host/sessions/run_clock.hpp>
@@ -17,9 +18,10 @@ namespace tactus::host
 class Hardware
 {
 public:
-    explicit Hardware (bool allow) : allowed (allow) {}
+    /// Sound cards are opened by the rig, which outlives this.
+    Hardware (bool allow, audio::AudioRig& a) : allowed (allow), rig (a) {}
 
-    /// As hid::openDevice; offline it refuses real devices (device/real).
+    /// As hid::openDevice, and audio::openAudio; offline it refuses real devices (device/real).
     MadeDevice open (const Json& description, const std::filesystem::path& folder);
 
     /// The rate at which the device that a description means would tick a run; nothing if it has no clock or is not there.
@@ -32,6 +34,7 @@ public:
 
 private:
     bool allowed;
+    audio::AudioRig& rig;
     std::optional<hid::LoadedProfiles> loaded;
 };
 

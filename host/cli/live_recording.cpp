@@ -12,7 +12,7 @@ constexpr double room_s = 1.0;   // of frames that wait to be written
 }   // namespace
 
 LiveRecording::LiveRecording (Session& s, const std::vector<std::string>& files)
-    : session (s), recorder (files, s.engine().plan().taps, s.rate(), false), ring (recorder.width() + 1, static_cast<std::size_t> (room_s * s.rate()) + 1)
+    : session (s), recorder (files, s.recorded(), s.rate(), false), ring (recorder.width() + 1, static_cast<std::size_t> (room_s * s.rate()) + 1)
 {
 }
 

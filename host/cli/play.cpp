@@ -58,6 +58,9 @@ std::unique_ptr<RunClock> clockOf (const Session& session)
     fail ("run/overrun", "stopped, because the graph takes longer than its ticks last: " + std::string (took) + " ms of " + numberText (1e3 / rate_hz) + " ms; " + (costs.empty() ? "no node was measured" : describe (costs.front())), "give it less to do, or a lower --rate");
 }
 
+/// The run goes on without it.
+void warn (const std::string& file, const Error& error) { std::fprintf (stderr, "%s: warning: %s, and what the sound card is given is not written any more; the run goes on [%s]\n", file.c_str(), error.what.c_str(), error.id.c_str()); }
+
 void run (const Options& options)
 {
     if (! options.records.empty() && options.outputs.empty())
@@ -72,7 +75,10 @@ void run (const Options& options)
 
     AbsoluteTimer timer { 1.0 / session.rate() };
     const auto device_clock = clockOf (session);
-    Runner runner { session.engine(), device_clock ? static_cast<TickClock&> (*device_clock) : timer, session.rate(), { .length = session.ticks(), .core = options.core, .stop_wanted = stopRequested, .hooks = recording ? static_cast<TickHooks*> (&*recording) : &session } };
+    auto& audio = session.audio();
+    TickClock& clock = audio.clock() ? *audio.clock() : device_clock ? static_cast<TickClock&> (*device_clock)
+                                                                     : timer;
+    Runner runner { session.engine(), clock, session.rate(), { .length = session.ticks(), .core = options.core, .stop_wanted = stopRequested, .hooks = recording ? static_cast<TickHooks*> (&*recording) : &session } };
     Emergency emergency { session.engine() };
     Remote remote { session, runner };
     std::optional<RemoteControl> control;
@@ -90,7 +96,8 @@ void run (const Options& options)
 
     std::string reached;
     if (port) reached = ", OSC on 127.0.0.1:" + std::to_string (port->number());
-    const auto ticked_by = device_clock ? ", ticked by " + session.clockRole() : std::string();
+    const auto ticked_by = audio.clock() ? std::string (", ticked by the sound card") : device_clock ? ", ticked by " + session.clockRole()
+                                                                                                     : std::string();
     std::fprintf (stderr, "%s at %g Hz%s%s%s; %s\n", (session.name().empty() ? options.graph : session.name()).c_str(), session.rate(), ticked_by.c_str(), reached.c_str(), options.watch ? ", following its file" : "", emergency.hasKeys() ? "Ctrl-C ends it, the space bar is the emergency stop, R lets go on" : "Ctrl-C stops");
 
     for (const auto& refused : runner.start())
@@ -101,6 +108,7 @@ void run (const Options& options)
         std::this_thread::sleep_for (std::chrono::milliseconds (20));
         if (recording) recording->drain();
         session.drainLog();
+        if (const auto error = audio.attend()) warn (options.capture, *error);
         if (options.watch && i % 10 == 0 && watch.look()) reload();
         if (control)
         {
@@ -111,13 +119,16 @@ void run (const Options& options)
         emergency.attend();
         runner.attend();
         if (i % 5 == 0) health.look (session.realDevices());
-        if (terminal && i % 5 == 0) printStatus (runner, session.rate(), true, statusOf (health.health(), device_clock.get()).c_str());
+        if (terminal && i % 5 == 0) printStatus (runner, session.rate(), true, (statusOf (health.health(), device_clock.get()) + statusOf (audio.status())).c_str());
     }
     runner.wait();
+    const auto sound = audio.status();   // before the card is let go
+    if (const auto error = audio.end()) warn (options.capture, *error);
     const auto log_failure = session.finishLog();
     printStatus (runner, session.rate(), terminal, "\n");
 
     std::fputs (accountOf (session.realDevices(), health.health(), device_clock.get()).c_str(), stderr);
+    std::fputs (accountOf (sound).c_str(), stderr);
     session.reportRun();
     const auto end = runner.status();
     if (end.let_go_under_force)
@@ -138,9 +149,12 @@ void addPlay (CLI::App& app)
     command->add_flag ("--costs", options->costs, "At the end, say what the costliest nodes took of a tick");
     command->add_option ("--log", options->log, "Write down all that comes in, for `tactus render --replay`: see docs/replay.md");
     command->add_option ("--core", options->core, "Keep the ticks on this core of the processor")->check (CLI::Range (0, 1023));
-    command->add_option ("--clock", options->clock, "The role whose HID device ticks the run, at the rate of its reports, or timer; default: as the session has it, else the first that can, unless there is a --rate or --feed");
+    command->add_option ("--clock", options->clock, "The role whose HID device ticks the run, at the rate of its reports, audio for the sound card, or timer; default: as the session has it, else the first that can, unless there is a --rate or --feed");
     command->add_option ("--session", options->session, "Which devices the roles are bound to: a file (docs/sessions.md), or off; default: the user's, as `tactus session` shows it");
     command->add_flag ("--strict", options->strict, "A device of the session that is not there ends the run; without, it is waited for, and nothing pushes meanwhile");
+    command->add_option ("--route", options->routes, "PORT=CHANNEL[@FULLSCALE]: play a port on a channel of the sound card, as in mix.out=3@\"4 N\"; may be given more than once")->allow_extra_args (false);
+    command->add_option ("--audio", options->card, "The sound card: TYPE:NAME, TYPE or NAME, as `tactus devices` lists them");
+    command->add_option ("--capture", options->capture, "A WAV of what the sound card is given");
     auto* osc = command->add_option ("--osc", options->osc, "The UDP port to be reached by from this machine, see docs/osc.md; 0 for any that is free, or off")->check (CLI::IsMember ({ "off" }) | CLI::Range (0, 65535));
     command->footer ("However it stops, the guards bring all forces to zero smoothly first. The space bar, or SIGUSR1, is the emergency\n"
                      "stop: no forces, and the graph goes on; R, or SIGUSR2, lets them rise again, after a stop by a limit too.\n"
@@ -152,6 +166,7 @@ void addPlay (CLI::App& app)
                      "  tactus play graphs/dry_wood.json --device stylus=hid:auto\n"
                      "  tactus play graphs/dry_wood.json --watch\n"
                      "  tactus play graphs/dry_wood.json --record drag.force,drag.state --out wood.csv\n"
+                     "  tactus play graphs/steel_bar.json --route bar.value=1@\"2 N\" --audio JACK\n"
                      "  tactus play graphs/dry_wood.json --log wood.jsonl");
     command->callback ([options, osc]
                        {

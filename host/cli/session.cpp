@@ -75,10 +75,10 @@ void SessionOptions::addTo (CLI::App& app)
     app.add_option ("--rate", rate_hz, "Ticks per second; default: the feed's, else the graph's")->check (finiteWithin (1.0, 1e6));
     app.add_option ("--duration", duration_s, "Length of the run in s")->check (finiteWithin (1e-9, 1e9));
     app.add_option ("--set", sets, "NODE.PARAM=VALUE, or CONTROL=0…1; may be given more than once")->allow_extra_args (false);
-    app.add_option ("--device", devices, "ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME or ROLE=hid:PROFILE (hid:auto)")->allow_extra_args (false);
+    app.add_option ("--device", devices, "ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME or ROLE=hid:PROFILE (hid:auto), or ROLE=audio:CARD")->allow_extra_args (false);
 }
 
-Session::Session (const SessionOptions& options, Pace pace) : told (options), loaded (loadGraph (options.graph)), real (pace == Pace::live), records (options.records)
+Session::Session (const SessionOptions& options, Pace pace) : told (options), loaded (loadGraph (options.graph)), rig ({}), real (pace == Pace::live, rig), records (options.records)
 {
     if (pace == Pace::live) answers = std::make_unique<AnsweringThread>();
     if (report (loaded.messages, loaded, told.graph) > 0) throw Stop {};
@@ -86,6 +86,7 @@ Session::Session (const SessionOptions& options, Pace pace) : told (options), lo
     if (pace == Pace::live)
     {
         readDesk();
+        chooseAudio();
         decideClock();
     }
     auto first = compileGraph();
@@ -95,6 +96,18 @@ Session::Session (const SessionOptions& options, Pace pace) : told (options), lo
     if (! told.log.empty()) outputs.push_back (told.log);
     refuseOverwriting (outputs, inputs());
     if (! told.log.empty()) startLog (std::move (first));
+    if (pace == Pace::live) startAudio();
+}
+
+void Session::startAudio()
+{
+    if (! rig.isNeeded() && told.capture.empty()) return;
+    auto messages = rig.begin (running->plan(), rate_hz, running.get());
+    for (auto& m : messages)
+        if (m.where.empty()) m.where = told.card.empty() ? "the sound card" : "--audio " + told.card;
+    if (report (messages, loaded, told.graph) > 0) throw Stop {};
+    if (told.capture.empty()) return;
+    if (auto error = rig.captureTo (told.capture)) fail (*error);
 }
 
 void Session::readFeed()
@@ -110,6 +123,7 @@ Compiled Session::compileNow (const graph::Graph& graph, const Plan* before, con
     CompileOptions wanted { .rate_hz = rate_hz, .records = records, .assets = &noted, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() }, .before = before, .withdrawn = withdrawn };
     noted.paths.clear();
     wanted.records.insert (wanted.records.end(), watched.begin(), watched.end());
+    if (with_routes) std::ranges::move (rig.ports(), std::back_inserter (wanted.records));
     if (feed) wanted.feeds = feed->ports();
     for (const auto& set : told.sets)
         wanted.overrides.push_back (readSet (set));
@@ -124,6 +138,42 @@ void Session::readDesk()
     if (report (desk.messages, loaded, told.graph) == 0) return;
     std::cerr << "    the run did not begin; to run without a session: --session off\n";
     throw Stop {};
+}
+
+/// What the session says about sound, and what options add to it.
+void Session::chooseAudio()
+{
+    Messages messages;
+    const auto* written = desk.session.audio();
+    auto settings = written != nullptr ? audio::readAudioSettings (*written, "/audio", messages) : audio::AudioSettings {};
+    for (auto& m : messages)
+        place (m, desk);
+    for (const auto& text : told.routes)
+    {
+        auto route = audio::parseRoute (text);
+        if (auto* m = std::get_if<Message> (&route))
+            messages.push_back (std::move (*m));
+        else
+            settings.routes.push_back (std::move (std::get<audio::Route> (route)));
+    }
+    if (report (messages, loaded, told.graph) > 0) throw Stop {};
+    if (! told.card.empty()) settings.card = audio::parseCard (told.card, audio::soundCards().types());
+    rig.choose (std::move (settings));
+}
+
+/// The session is there for all graphs: what it plays of ports that this one does not have, it does not play.
+void Session::leaveOutRoutes()
+{
+    auto settings = rig.settings();
+    Messages messages;
+    std::erase_if (settings.routes, [&] (const audio::Route& route)
+                   {
+        if (! route.where.starts_with ("/audio") || compileNow (loaded.graph, nullptr, nullptr, { route.port }).plan) return false;
+        messages.push_back (warning ("session/no_port", route.where, "this graph has no port " + inQuotes (route.port) + " that could be played", "nothing to mend, unless it should have one"));
+        place (messages.back(), desk);
+        return true; });
+    report (messages, loaded, told.graph);
+    rig.choose (std::move (settings));
 }
 
 /// The roles of the graph that somebody describes, as an option, the session or the graph has it, in this order.
@@ -159,14 +209,9 @@ void Session::decideClock()
     if (told.rate_hz > 0.0 || feed) wish.rate_hz = rate_hz;
     auto choice = host::chooseClock (wish, devicesByRole(), rateOf);
     for (auto& m : choice.messages)
-        if (m.id == "session/clock")
-        {
-            m.file = desk.file.string();
-            const auto position = positionOf (desk.positions, m.where);
-            m.line = position.line;
-            m.column = position.column;
-        }
+        if (m.id == "session/clock") place (m, desk);
     if (report (choice.messages, loaded, told.graph) > 0) throw Stop {};
+    if (choice.by_sound_card) rig.tickBy (rate_hz);
     if (choice.role.empty()) return;
     clock_role = choice.role;
     rate_hz = choice.rate_hz;
@@ -174,17 +219,21 @@ void Session::decideClock()
 
 std::shared_ptr<const Plan> Session::compileGraph()
 {
+    // First without what is played, so that what is recorded is what it would be: where nobody says, the inputs of all sinks.
     auto compiled = compileNow (loaded.graph, nullptr, nullptr);
-    with_placeholders = hasErrors (compiled.messages);
-    if (compiled.plan) warnOnly (compiled.messages);
-    report (compiled.messages, loaded, told.graph);
-    if (! compiled.plan) throw Stop {};
-    if (! told.outputs.empty())
+    if (compiled.plan && ! told.outputs.empty())
     {
         records.clear();
         for (const auto& tap : compiled.plan->taps)
             records.push_back (tap.name);
     }
+    if (compiled.plan) leaveOutRoutes();
+    with_routes = true;
+    if (compiled.plan && ! rig.settings().routes.empty()) compiled = compileNow (loaded.graph, nullptr, nullptr);
+    with_placeholders = hasErrors (compiled.messages);
+    if (compiled.plan) warnOnly (compiled.messages);
+    report (compiled.messages, loaded, told.graph);
+    if (! compiled.plan) throw Stop {};
     running = std::make_unique<Engine> (compiled.plan);
     return compiled.plan;
 }
@@ -227,8 +276,9 @@ std::optional<Session::Bound> Session::open (const std::string& role, const grap
     const auto folder = std::filesystem::path (told.graph).parent_path();
     const auto option = std::ranges::find (options, role, &DeviceOption::role);
     const bool by_option = option != options.end();
-    if (const auto binding = by_option ? std::nullopt : bindingOf (desk, role))
+    if (auto binding = by_option ? std::nullopt : bindingOf (desk, role))
     {
+        if (audio::isAudio (binding->description)) binding->description = audio::withChannels (binding->description, running->plan(), role);
         const auto openOne = [this] (const Json& description, const std::filesystem::path& from)
         { return real.open (description, from); };
         auto bound = openBound (desk, role, *binding, openOne, hid::thisComputer(), real.profiles(), told.strict ? Absence::refuses : Absence::waits);
@@ -241,16 +291,22 @@ std::optional<Session::Bound> Session::open (const std::string& role, const grap
     if (! by_option && ! described)
         messages.push_back (warning ("device/undescribed", "/devices", "nobody says which device role '" + role + "' is; a simulated tool at rest stands in for it", "describe it under `devices`, or give --device " + role + "=gesture:stroke"));
 
-    const Json stand_in { { "driver", "sim" } };
-    auto made = real.open (by_option ? option->description : described ? *described
-                                                                       : stand_in,
-                           by_option ? option->folder : folder);
+    Json description = by_option ? option->description : described ? *described
+                                                                   : Json { { "driver", "sim" } };
+    if (audio::isAudio (description)) description = audio::withChannels (description, running->plan(), role);
+    auto made = real.open (description, by_option ? option->folder : folder);
     for (auto& m : made.messages)
         m.where = by_option ? "--device " + role + m.where : "/devices/" + role + m.where;
     std::ranges::move (made.messages, std::back_inserter (messages));
     if (! made.device) return std::nullopt;
     auto* driver = made.device.get();
     return Bound { role, std::move (made.device), driver, made.limits, ! by_option };
+}
+
+std::vector<Tap> Session::recorded() const
+{
+    const auto& taps = running->plan().taps;
+    return { taps.begin(), taps.begin() + static_cast<std::ptrdiff_t> (std::min (taps.size(), records.size())) };
 }
 
 std::vector<RealDevice> Session::realDevices() const
@@ -513,10 +569,12 @@ void Session::reportRun() const
 void Session::before (std::uint64_t tick) noexcept
 {
     if (feed) (*feed) (tick, running->plan().feeds);
+    rig.before();
 }
 
-void Session::after (std::uint64_t tick, bool) noexcept
+void Session::after (std::uint64_t tick, bool halts) noexcept
 {
+    rig.after (running->plan(), halts);
     ring.note (running->plan(), tick);
     slot.note (running->plan(), tick);
 }

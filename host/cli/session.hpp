@@ -35,9 +35,12 @@ struct SessionOptions
     std::string graph, feed;
     std::vector<std::string> records, outputs, sets, devices;
     std::string log;       ///< where what comes in is to be written down; "": nowhere
-    std::string clock;     ///< the role whose device ticks the run, or "timer"; "": as the session has it, or the first that can
+    std::string clock;     ///< the role whose device ticks the run, "timer" or "audio"; "": as the session has it, or the first that can
     std::string session;   ///< of a live run, which devices its roles are bound to: a file, or "off"; "": the user's
     bool strict = false;   ///< a device of the session that is not there ends it
+    std::vector<std::string> routes;
+    std::string card;      ///< the sound card: TYPE:NAME, TYPE or NAME; "": as the session has it, or any
+    std::string capture;   ///< where what it is given is to be written; "": nowhere
     double rate_hz = 0.0, duration_s = 0.0;
 
     void addTo (CLI::App&);
@@ -64,6 +67,12 @@ public:
 
     /// The role whose device ticks the run, at its own rate; empty: none does. Only of a live session.
     const std::string& clockRole() const noexcept { return clock_role; }
+    /// What the run plays and hears. [main thread]
+    audio::AudioRig& audio() noexcept { return rig; }
+
+    /// The taps that are recorded: there are others behind them. [main thread, before ticking]
+    std::vector<Tap> recorded() const;
+
     /// The devices that are really there. [main thread]
     std::vector<RealDevice> realDevices() const;
 
@@ -140,6 +149,7 @@ private:
     FileAssets assets;
     NotedAssets noted { assets };
     std::optional<Feed> feed;
+    audio::AudioRig rig;   // before the devices, of which it has some
     std::vector<Bound> devices;
     Hardware real;
     std::string clock_role;
@@ -150,7 +160,7 @@ private:
     std::optional<std::size_t> count;
     std::uint64_t now = 0;
 
-    bool with_placeholders = false;
+    bool with_placeholders = false, with_routes = false;
     bool log_broke = false;
     std::optional<Error> log_failure;
     ProbeRing ring;
@@ -163,10 +173,13 @@ private:
     void forgetProbes();
     void readFeed();
     void readDesk();
+    void chooseAudio();
+    void leaveOutRoutes();
     void decideClock();
     std::vector<Described> devicesByRole();
     std::shared_ptr<const Plan> compileGraph();
     void bindDevices();
+    void startAudio();
     void decideLength();
     void startLog (std::shared_ptr<const Plan>);
     void submit (std::shared_ptr<Plan>, const graph::Graph&, std::span<const Engine::Joining> = {});

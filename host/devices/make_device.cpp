@@ -216,7 +216,7 @@ MadeDevice makeDevice (const Json& description, const Folder& folder)
     if (driver == std::end (drivers))
     {
         // Without the driver nobody knows which keys are right, so only this is told.
-        if (id == "hid")
+        if (id == "hid" || id == "audio")
             in.error ("driver", "device/real", "this is a real device, and only `tactus play` drives one", "give the role a simulated device instead: \"driver\": \"sim\"");
         else if (! id.empty())
             in.error ("driver", "device/unknown_driver", "there is no driver " + inQuotes (id), suggestion (id, driverNames()));
@@ -241,7 +241,7 @@ namespace
 {
 Message badOption (std::string_view text, std::string what)
 {
-    return problem ("device/option", "--device " + std::string (text), std::move (what), "write ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME or ROLE=hid:PROFILE");
+    return problem ("device/option", "--device " + std::string (text), std::move (what), "write ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME, ROLE=hid:PROFILE or ROLE=audio:CARD");
 }
 
 Json simulated (std::string_view role, const std::vector<std::pair<std::string, Json>>& described)
@@ -255,6 +255,16 @@ Json simulated (std::string_view role, const std::vector<std::pair<std::string, 
             return sim;
         }
     return defaultDevice();
+}
+
+/// A sound card: with the channels that the graph says, if it says some.
+Json soundCard (std::string_view role, std::string_view card, const std::vector<std::pair<std::string, Json>>& described)
+{
+    Json audio { { "driver", "audio" } };
+    for (const auto& [name, description] : described)
+        if (name == role && description.is_object() && description.value ("driver", Json()) == "audio") audio = description;
+    if (! card.empty()) audio["card"] = card;
+    return audio;
 }
 
 std::variant<DeviceOption, Message> fromFile (std::string_view option, std::string role, const Folder& path)
@@ -286,6 +296,10 @@ std::variant<DeviceOption, Message> parseDeviceOption (std::string_view text, co
 
     if (what == "sim") return DeviceOption { .role = role, .description = simulated (role, described), .folder = folder_of_graph };
 
+    constexpr std::string_view audio = "audio";
+    if (what == audio || (what.starts_with (audio) && what.substr (audio.size()).starts_with (':')))
+        return DeviceOption { .role = role, .description = soundCard (role, what.substr (std::min (what.size(), audio.size() + 1)), described), .folder = folder_of_graph };
+
     constexpr std::pair<std::string_view, const char*> with_a_name[] { { "trace", "path" }, { "gesture", "path" }, { "hid", "profile" } };
     for (const auto& [driver, key] : with_a_name)
         if (what.starts_with (driver) && what.substr (driver.size()).starts_with (':'))
@@ -295,7 +309,7 @@ std::variant<DeviceOption, Message> parseDeviceOption (std::string_view text, co
             return DeviceOption { .role = role, .description = { { "driver", driver }, { key, name } }, .folder = {} };
         }
 
-    if (! what.ends_with (".json")) return badOption (text, what.empty() ? "nothing stands after '='" : inQuotes (what) + " is neither sim nor trace: nor gesture: nor hid: nor a .json file");
+    if (! what.ends_with (".json")) return badOption (text, what.empty() ? "nothing stands after '='" : inQuotes (what) + " is neither sim nor trace: nor gesture: nor hid: nor audio nor a .json file");
     return fromFile (text, std::move (role), Folder (what));
 }
 

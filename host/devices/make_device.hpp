@@ -40,7 +40,8 @@ struct MadeDevice
 /// Where a simulated device is not told: mass 0.1 kg, damping 1 N s/m; a hand of stiffness 100 N/m and damping
 /// 2 N s/m, if there is one; its position is where the hand's path starts, as the tool is in the hand, else 0.
 ///
-/// The driver "hid" means a real device, for which there is hid::openDevice; here it is refused.
+/// The drivers "hid" and "audio" mean real devices, for which there are hid::openDevice and audio::openAudio; here they are
+/// refused.
 ///
 /// Ids: device/unknown_driver, device/real, device/missing, device/unknown_key, device/kind, device/unit,
 /// device/out_of_range, device/unknown_gesture, device/unknown_button, device/name, and those of trace/ and csv/.
@@ -49,7 +50,7 @@ MadeDevice makeDevice (const Json& description, const std::filesystem::path& fol
 /// What `--device ROLE=sim` means for a role that the graph does not describe: a hand that strokes.
 Json defaultDevice();
 
-/// `--device ROLE=FILE.json|sim|trace:FILE.csv|gesture:NAME|hid:PROFILE`, turned into a description.
+/// `--device ROLE=FILE.json|sim|trace:FILE.csv|gesture:NAME|hid:PROFILE|audio[:CARD]`, turned into a description.
 struct DeviceOption
 {
     std::string role;

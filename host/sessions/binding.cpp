@@ -2,7 +2,6 @@
 #include "binding.hpp"
 #include "awaited_device.hpp"
 
-#include <framework/file/json_text.hpp>
 #include <host/devices/guard_limits.hpp>
 
 #include <algorithm>
@@ -81,10 +80,7 @@ BoundDevice openBound (const LoadedSession& s, std::string_view role, const Role
     for (auto& m : bound.messages)
     {
         m.where = "/roles/" + std::string (role) + m.where;
-        const auto position = positionOf (s.positions, m.where);
-        m.file = s.file.string();
-        m.line = position.line;
-        m.column = position.column;
+        place (m, s);
     }
     if (! made.device || hasErrors (bound.messages)) return bound;
 

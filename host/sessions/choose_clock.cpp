@@ -13,7 +13,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr std::string_view timer = "timer";
+constexpr std::string_view timer = "timer", sound_card = "audio";
 
 Message warning (std::string text, std::string remedy)
 {
@@ -53,7 +53,7 @@ ClockChoice byOption (const ClockWish& wish, const std::vector<Described>& devic
     const auto device = std::ranges::find (devices, wish.option, &Described::first);
     const auto rate = device != devices.end() ? rateOf (*device, true) : std::nullopt;
     if (! rate)
-        choice.messages.push_back (problem ("run/no_clock", "--clock " + wish.option, "no device that is connected ticks for " + inQuotes (wish.option), "name a role whose device is a HID device with a rate in its profile, or write --clock timer"));
+        choice.messages.push_back (problem ("run/no_clock", "--clock " + wish.option, "no device that is connected ticks for " + inQuotes (wish.option), "name a role whose device is a HID device with a rate in its profile, or write --clock timer or --clock audio"));
     else if (wish.rate_hz && *wish.rate_hz != *rate)
         choice.messages.push_back (problem ("run/two_rates", "--clock " + wish.option, "its device ticks at " + numberText (*rate) + " Hz, and the run is to have " + numberText (*wish.rate_hz) + " Hz", "leave out --rate, or write --clock timer"));
     else
@@ -100,7 +100,7 @@ std::vector<std::string> rolesNamed (const graph::Graph& g)
 ClockChoice chooseClock (const ClockWish& wish, const std::vector<Described>& devices, const TickRate& rateOf)
 {
     const auto& said = wish.option.empty() ? wish.session : wish.option;
-    if (said == timer) return {};
+    if (said == timer || said == sound_card) return { .by_sound_card = said == sound_card };
     if (! wish.option.empty()) return byOption (wish, devices, rateOf);
     return wish.session.empty() ? byNobody (wish, devices, rateOf) : bySession (wish, devices, rateOf);
 }

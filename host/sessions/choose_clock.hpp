@@ -23,7 +23,7 @@ std::vector<std::string> rolesNamed (const graph::Graph&);
 /// What is said about the clock of a run, and by whom.
 struct ClockWish
 {
-    std::string option;                 ///< of the command line: a role, or "timer"; "": nothing
+    std::string option;                 ///< of the command line: a role, "timer" or "audio"; "": nothing
     std::string session;                ///< likewise, of the session
     std::optional<double> rate_hz {};   ///< that the run is to have whatever ticks it
 };
@@ -31,9 +31,10 @@ struct ClockWish
 /// Who ticks a run.
 struct ClockChoice
 {
-    std::string role;       ///< whose device; "": the timer
-    double rate_hz = 0.0;   ///< of that device
-    Messages messages;      ///< an error for an option that cannot be had, a warning for a session's
+    std::string role {};          ///< whose device; "": none
+    double rate_hz = 0.0;         ///< of that device
+    Messages messages {};         ///< an error for an option that cannot be had, a warning for a session's
+    bool by_sound_card = false;   ///< where no device does; else it is the timer
 };
 
 /// The rate at which a device would tick, in Hz; nothing if it would not. One that is only awaited can be chosen by name, and

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "session_file.hpp"
 
+#include <framework/file/json_text.hpp>
 #include <host/devices/problem.hpp>
 #include <host/io/text_file.hpp>
 
@@ -47,6 +48,14 @@ bool isThere (const fs::path& file)
     return fs::exists (fs::symlink_status (file, failed));
 }
 }   // namespace
+
+void place (Message& m, const LoadedSession& s)
+{
+    const auto position = positionOf (s.positions, m.where);
+    m.file = s.file.string();
+    m.line = position.line;
+    m.column = position.column;
+}
 
 fs::path usualSessionFile (const fs::path& home) { return home / "session.json"; }
 

@@ -21,6 +21,9 @@ struct LoadedSession
     bool isGood() const { return ! hasErrors (messages); }
 };
 
+/// Says of a message whose `where` is a JSON pointer into a session where that stands in its file.
+void place (Message&, const LoadedSession&);
+
 /// The one that is used where nobody names another.
 std::filesystem::path usualSessionFile (const std::filesystem::path& home);
 

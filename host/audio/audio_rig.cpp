@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "audio_rig.hpp"
+
+#include <framework/in_quotes.hpp>
+#include <framework/number_text.hpp>
+#include <host/devices/problem.hpp>
+#include <host/runtime/probe_ring.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <thread>
+#include <utility>
+
+namespace tactus::host::audio
+{
+
+AudioRig::AudioRig (AudioSettings settings, CardSystem& system) : wanted (std::move (settings)), cards (system), keeper (system, *this) {}
+
+AudioClock& AudioRig::tickBy (double tick_rate_hz)
+{
+    own_clock = std::make_unique<AudioClock> (tick_rate_hz);
+    return *own_clock;
+}
+
+std::unique_ptr<AudioDevice> AudioRig::open (AudioRole role, Messages& messages)
+{
+    if (has_begun)
+    {
+        messages.push_back (problem ("audio/late", "", "the sound card is open, and takes no other role now", "start the run anew"));
+        return nullptr;
+    }
+    auto device = std::make_unique<AudioDevice> (std::move (role), plays);
+    devices.push_back (device.get());
+    return device;
+}
+
+std::optional<Message> AudioRig::nameCard (const std::string& name)
+{
+    const auto named = parseCard (name, cards.types());
+    auto& card = wanted.card;
+    if (card.type.empty() && card.output.empty())
+    {
+        card.type = named.type;
+        card.output = named.output;
+        return std::nullopt;
+    }
+    if (card.type == named.type && card.output == named.output) return std::nullopt;
+    return problem ("audio/two_cards", "/card", inQuotes (name) + " is asked for, and " + inQuotes (card.type.empty() ? card.output : card.output.empty() ? card.type
+                                                                                                                                                          : card.type + ":" + card.output)
+                                                    + " as well: a run has one sound card",
+                    "name the same card everywhere, or only once");
+}
+
+std::vector<std::string> AudioRig::ports() const
+{
+    std::vector<std::string> all;
+    for (const auto& route : wanted.routes)
+        all.push_back (route.port);
+    return all;
+}
+
+Messages AudioRig::begin (const Plan& plan, double tick_rate_hz, const Engine* e)
+{
+    Messages messages;
+    tick_hz = tick_rate_hz;
+    engine = e;
+    std::vector<int> per_tick;
+    for (const auto& route : wanted.routes)
+    {
+        per_tick.push_back (PortMixer::samplesOf (plan, route));
+        if (per_tick.back() == 0) messages.push_back (problem ("audio/port", route.where, "there is no port " + inQuotes (route.port), "name an output of a node, as in mix.out or drag.force.x; `tactus nodes TYPE` lists them"));
+        for (const auto& tap : plan.taps)
+            if (isPartOf (tap.name, route.port))
+                if (const auto wrong = unitProblem (route.full_scale, tap.unit); ! wrong.empty())
+                {
+                    messages.push_back (problem ("audio/unit", route.where, tap.name + ": " + wrong, "calibrate it in " + tap.unit + ", or leave the unit out"));
+                    break;
+                }
+    }
+    if (! messages.empty()) return messages;
+
+    int outs = 0, ins = 0;
+    for (const auto& route : wanted.routes)
+        outs = std::max (outs, route.channel);
+    for (const auto* device : devices)
+    {
+        for (const auto& use : device->uses().outputs)
+            outs = std::max (outs, use.channel);
+        for (const auto& use : device->uses().inputs)
+            ins = std::max (ins, use.channel);
+    }
+    if (outs == 0 && ins == 0) outs = 1;   // a clock needs a channel
+    makeStreams (per_tick);
+    mixer = std::make_unique<PortMixer> (wanted.routes, per_tick, tick_hz);
+    has_begun = true;
+    auto trouble = keeper.open (wanted.card, outs, ins);
+    if (! trouble && ! fits)
+    {
+        keeper.close();
+        trouble = problem ("audio/rate", "", numberText (tick_hz) + " ticks a second are too far from the " + numberText (format.rate_hz) + " Hz of the card", "take a rate of at least " + numberText (std::ceil (format.rate_hz / 256.0)) + " Hz");
+    }
+    if (trouble) messages.push_back (std::move (*trouble));
+    return messages;
+}
+
+void AudioRig::makeStreams (const std::vector<int>& per_tick)
+{
+    std::map<int, std::set<int>> used;   // channels by samples a tick
+    for (std::size_t i = 0; i < wanted.routes.size(); ++i)
+        used[per_tick[i]].insert (wanted.routes[i].channel - 1);
+    std::set<int> in;
+    for (const auto* device : devices)
+    {
+        for (const auto& use : device->uses().outputs)
+            used[1].insert (use.channel - 1);
+        for (const auto& use : device->uses().inputs)
+            in.insert (use.channel - 1);
+    }
+    lanes.clear();
+    for (const auto& [n, all] : used)
+        lanes.push_back (std::make_unique<Lanes> (n, std::vector<int> (all.begin(), all.end()), tick_hz, wanted.reserve_s));
+    heard_channels.assign (in.begin(), in.end());
+    heard = in.empty() ? nullptr : std::make_unique<InStream> (StreamSetup { static_cast<int> (in.size()), tick_hz, wanted.reserve_s });
+}
+
+void AudioRig::begin (const OpenedFormat& opened)
+{
+    format = opened;
+    const CardFormat f { opened.rate_hz, opened.block, own_clock ? Clocks::one : Clocks::apart };
+    fits = Resampler::canDo (opened.rate_hz / tick_hz);
+    for (const auto& l : lanes)
+        fits = fits && Resampler::canDo (opened.rate_hz / (tick_hz * l->per_tick));
+    if (! fits) return;
+    for (auto& l : lanes)
+    {
+        l->stream.prepare (f);
+        l->block.resize (l->channels.size() * static_cast<std::size_t> (opened.block));
+    }
+    if (heard) heard->prepare (f);
+    heard_block.resize (heard_channels.size() * static_cast<std::size_t> (opened.block));
+    const double silence = std::max (CardKeeper::silence_s, CardKeeper::silence_blocks * opened.block / opened.rate_hz);
+    ticks_of_silence = static_cast<std::uint64_t> (silence * tick_hz) + 1;
+    last_block = {};
+}
+
+std::optional<Error> AudioRig::captureTo (const std::filesystem::path& path)
+{
+    auto made = CardCapture::create (path, format.rate_hz, std::max (1, format.outputs));
+    if (! made) return std::move (made.error());
+    capture = std::move (*made);
+    captures.store (capture.get(), std::memory_order_release);
+    return std::nullopt;
+}
+
+//==============================================================================
+void AudioRig::before() noexcept
+{
+    const auto blocks = keeper.blocks();
+    ticks_without = blocks != blocks_seen ? 0 : ticks_without + 1;
+    const bool hears = blocks > 0 && ticks_without <= ticks_of_silence.load (std::memory_order_relaxed);
+    blocks_seen = blocks;
+    plays.store (hears, std::memory_order_relaxed);
+    if (heard)
+    {
+        const auto frame = heard->pop();
+        for (std::size_t i = 0; i < frame.size(); ++i)
+            inputs[static_cast<std::size_t> (heard_channels[i])] = frame[i];
+        for (auto* device : devices)
+            device->hear (inputs);
+    }
+}
+
+void AudioRig::after (const Plan& plan, bool halts) noexcept
+{
+    if (! mixer) return;
+    mixer->look (plan, halts || (engine != nullptr && engine->isEmergency()));
+    for (auto& l : lanes)
+        for (int i = 0; i < l->per_tick; ++i)
+        {
+            channels.fill (0.0);
+            mixer->addTo (channels, i, l->per_tick);
+            if (l->per_tick == 1)
+                for (const auto* device : devices)
+                    device->addTo (channels);
+            for (std::size_t lane = 0; lane < l->channels.size(); ++lane)
+                l->frame[lane] = static_cast<float> (std::clamp (channels[static_cast<std::size_t> (l->channels[lane])], -PortMixer::most_sample, PortMixer::most_sample));
+            l->stream.push (l->frame);
+        }
+}
+
+//==============================================================================
+void AudioRig::block (const float* const* in, int ins, float* const* out, int outs, int frames) noexcept
+{
+    const auto now = std::chrono::steady_clock::now();
+    const double since = std::chrono::duration<double> (now - last_block).count();
+    if (last_block != std::chrono::steady_clock::time_point {} && since > 2.0 * frames / format.rate_hz + wanted.reserve_s) late_blocks.fetch_add (1, std::memory_order_relaxed);
+    last_block = now;
+
+    for (int c = 0; c < outs; ++c)
+        std::fill_n (out[c], frames, 0.0f);
+    if (! fits) return;
+    for (int from = 0; from < frames; from += format.block)
+        play (in, ins, out, outs, from, std::min (format.block, frames - from));
+    for (int c = 0; c < outs; ++c)
+        limit (out[c], frames);
+    if (auto* to = captures.load (std::memory_order_acquire)) to->note (out, outs, frames);
+}
+
+void AudioRig::play (const float* const* in, int ins, float* const* out, int outs, int from, int frames) noexcept
+{
+    const auto count = static_cast<std::size_t> (frames);
+    if (heard)
+    {
+        const auto width = heard_channels.size();
+        for (std::size_t lane = 0; lane < width; ++lane)
+        {
+            const int c = heard_channels[lane];
+            for (std::size_t i = 0; i < count; ++i)
+            {
+                const float sample = c < ins && in[c] != nullptr ? in[c][static_cast<std::size_t> (from) + i] : 0.0f;
+                heard_block[i * width + lane] = std::isfinite (sample) ? sample : 0.0f;
+            }
+        }
+        heard->take (std::span (heard_block).first (count * width));
+    }
+    if (own_clock) own_clock->block (frames, format.rate_hz);
+    for (auto& l : lanes)
+    {
+        const auto width = l->channels.size();
+        const auto samples = std::span (l->block).first (count * width);
+        l->stream.render (samples);
+        for (std::size_t lane = 0; lane < width; ++lane)
+            if (const int c = l->channels[lane]; c < outs)
+                for (std::size_t i = 0; i < count; ++i)
+                    out[c][static_cast<std::size_t> (from) + i] += samples[i * width + lane];
+    }
+}
+
+void AudioRig::limit (float* samples, int frames) noexcept
+{
+    std::uint64_t beyond = 0;
+    for (int i = 0; i < frames; ++i)
+    {
+        beyond += std::abs (samples[i]) > 1.0f ? 1u : 0u;
+        samples[i] = std::clamp (samples[i], -1.0f, 1.0f);
+    }
+    if (beyond > 0) clipped.fetch_add (beyond, std::memory_order_relaxed);
+}
+
+//==============================================================================
+std::optional<Error> AudioRig::attend()
+{
+    keeper.attend();
+    if (! capture) return std::nullopt;
+    if (format.outputs > 0)
+        if (auto drained = capture->drain(); ! drained) return std::move (drained.error());
+    return std::nullopt;
+}
+
+/// What the ticks gave last is still on its way: the end of it is played, and not cut off.
+void AudioRig::letDryOut() const
+{
+    using namespace std::chrono_literals;
+    const auto begin = std::chrono::steady_clock::now();
+    const auto flows = [&]
+    { return std::ranges::any_of (lanes, [] (const auto& l)
+                                  { return l->stream.report().flows != 0; }); };
+    while (keeper.isOpen() && plays && flows() && std::chrono::steady_clock::now() - begin < 500ms)
+        std::this_thread::sleep_for (2ms);
+    if (keeper.isOpen() && plays) std::this_thread::sleep_for (std::chrono::duration<double> (OutStream::fade_out_s + 2.0 * format.block / format.rate_hz));
+}
+
+std::optional<Error> AudioRig::end()
+{
+    letDryOut();
+    keeper.close();
+    captures = nullptr;
+    if (! capture) return std::nullopt;
+    auto committed = std::exchange (capture, nullptr)->commit();
+    return committed ? std::nullopt : std::optional (std::move (committed.error()));
+}
+
+AudioStatus AudioRig::status() const
+{
+    AudioStatus s { .is_open = keeper.isOpen(), .card = keeper.format() };
+    for (const auto& l : lanes)
+    {
+        const auto report = l->stream.report();
+        s.out.underruns += report.underruns;
+        s.out.overruns += report.overruns;
+        s.out.latency_s = std::max (s.out.latency_s, report.latency_s);
+        if (std::abs (report.error_s) >= std::abs (s.out.error_s)) s.out.error_s = report.error_s;
+        s.out.difference = report.difference;
+        s.out.flows = std::max (s.out.flows, report.flows);
+    }
+    if (heard) s.in = heard->report();
+    s.ratio = 1.0 + (lanes.empty() ? s.in.difference : s.out.difference);
+    s.blocks = keeper.blocks();
+    s.xruns = keeper.xruns();
+    s.late_blocks = late_blocks.load (std::memory_order_relaxed);
+    s.departures = keeper.departures();
+    s.clipped = clipped.load (std::memory_order_relaxed);
+    s.not_numbers = mixer ? mixer->notNumbers() : 0;
+    s.by_timer = own_clock && own_clock->isReplaced();
+    s.ticks_by_timer = own_clock ? own_clock->ticksByTimer() : 0;
+    if (keeper.trouble()) s.trouble = keeper.trouble()->text;
+    return s;
+}
+
+}   // namespace tactus::host::audio

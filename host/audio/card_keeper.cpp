@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "card_keeper.hpp"
+
+#include <utility>
+
+namespace tactus::host::audio
+{
+
+std::optional<Message> CardKeeper::open (const CardWanted& what, int outs, int ins)
+{
+    close();
+    wanted = what;
+    outputs = outs;
+    inputs = ins;
+    said = tryAgain (Clock::now());
+    is_wanted = isOpen();
+    return said;
+}
+
+void CardKeeper::close()
+{
+    is_wanted = false;
+    before = xruns();
+    card.reset();
+}
+
+std::optional<Message> CardKeeper::tryAgain (Clock::time_point now)
+{
+    tried = last = now;
+    auto result = system.open (wanted, outputs, inputs, *this);
+    if (auto* message = std::get_if<Message> (&result)) return std::move (*message);
+    card = std::move (std::get<0> (result));
+    seen = blocks();
+    return std::nullopt;
+}
+
+void CardKeeper::attend (Clock::time_point now)
+{
+    if (! is_wanted) return;
+    if (card != nullptr)
+    {
+        if (const auto n = blocks(); n != seen)
+        {
+            seen = n;
+            last = now;
+        }
+        if (now - last < gone_after) return;
+        before = xruns();
+        card.reset();
+        ++gone;
+        tried = now;
+    }
+    else if (now - tried >= retry_after)
+        said = tryAgain (now);
+}
+
+void CardKeeper::begin (const OpenedFormat& format)
+{
+    opened = format;
+    user.begin (format);
+}
+
+void CardKeeper::block (const float* const* in, int ins, float* const* out, int outs, int frames) noexcept
+{
+    user.block (in, ins, out, outs, frames);
+    count.fetch_add (1, std::memory_order_release);
+}
+
+}   // namespace tactus::host::audio

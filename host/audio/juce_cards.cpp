@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "card.hpp"
+
+#include <framework/in_quotes.hpp>
+#include <framework/number_text.hpp>
+#include <host/devices/fields.hpp>
+#include <host/devices/problem.hpp>
+#include <host/platform/jack_words.hpp>
+
+#include <juce_audio_devices/juce_audio_devices.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::host::audio
+{
+namespace
+{
+using Type = juce::AudioIODeviceType;
+
+std::string textOf (const juce::String& s) { return s.toStdString(); }
+
+std::vector<std::string> textsOf (const juce::StringArray& all)
+{
+    std::vector<std::string> texts;
+    for (const auto& s : all)
+        texts.push_back (textOf (s));
+    return texts;
+}
+
+/// JACK (and PipeWire) first: with a server running, the cards are its own.
+std::vector<std::unique_ptr<Type>> makeTypes()
+{
+    std::vector<std::unique_ptr<Type>> types;
+    for (auto* type : { Type::createAudioIODeviceType_JACK(), Type::createAudioIODeviceType_ALSA(), Type::createAudioIODeviceType_CoreAudio(), Type::createAudioIODeviceType_WASAPI (juce::WASAPIDeviceMode::exclusive), Type::createAudioIODeviceType_WASAPI (juce::WASAPIDeviceMode::shared), Type::createAudioIODeviceType_ASIO() })
+        if (type != nullptr) types.emplace_back (type);
+    return types;
+}
+
+/// A name, or else part of one; of several, `system`, which is what JACK calls the card. Empty if none is so called.
+juce::String nameLike (const std::string& wanted, const juce::StringArray& names)
+{
+    const auto text = juce::String (wanted);
+    if (text.isNotEmpty() && names.contains (text)) return text;
+    if (text.isEmpty()) return names.contains ("system") ? juce::String ("system") : names[0];
+    for (const auto& name : names)
+        if (name.containsIgnoreCase (text)) return name;
+    return {};
+}
+
+juce::BigInteger first (int channels)
+{
+    juce::BigInteger all;
+    all.setRange (0, channels, true);
+    return all;
+}
+
+class JuceCard final : public OpenCard, private juce::AudioIODeviceCallback
+{
+public:
+    JuceCard (std::unique_ptr<Type> t, std::unique_ptr<juce::AudioIODevice> d, CardUser& u) : type (std::move (t)), device (std::move (d)), user (u) {}
+    ~JuceCard() override
+    {
+        device->stop();
+        device->close();
+    }
+
+    void start() { device->start (this); }
+    std::uint64_t xruns() const noexcept override { return static_cast<std::uint64_t> (std::max (0, device->getXRunCount())); }
+
+private:
+    void audioDeviceIOCallbackWithContext (const float* const* in, int ins, float* const* out, int outs, int frames, const juce::AudioIODeviceCallbackContext&) override { user.block (in, ins, out, outs, frames); }
+    void audioDeviceAboutToStart (juce::AudioIODevice*) override {}
+    void audioDeviceStopped() override {}
+
+    juce::ScopedJuceInitialiser_GUI juce_runs;   // so that this is the thread where JUCE's messages are handled, if they are
+    std::unique_ptr<Type> type;                  // which the device calls
+    std::unique_ptr<juce::AudioIODevice> device;
+    CardUser& user;
+};
+
+class JuceCards final : public CardSystem
+{
+public:
+    std::vector<std::string> types() override
+    {
+        const juce::ScopedJuceInitialiser_GUI juce_runs;
+        std::vector<std::string> names;
+        for (const auto& type : makeTypes())
+            names.push_back (textOf (type->getTypeName()));
+        return names;
+    }
+
+    std::vector<ListedCard> list() override
+    {
+        const juce::ScopedJuceInitialiser_GUI juce_runs;
+        hushJack();
+        std::vector<ListedCard> all;
+        for (const auto& type : makeTypes())
+        {
+            type->scanForDevices();
+            auto names = type->getDeviceNames (false);
+            const auto inputs = type->getDeviceNames (true);
+            for (const auto& name : inputs)
+                names.addIfNotAlreadyThere (name);
+            for (const auto& name : names)
+            {
+                const bool plays = type->getDeviceNames (false).contains (name);
+                all.push_back (look (*type, plays ? name : juce::String(), inputs.contains (name) ? name : juce::String()));
+            }
+        }
+        return all;
+    }
+
+    std::variant<std::unique_ptr<OpenCard>, Message> open (const CardWanted&, int outputs, int inputs, CardUser&) override;
+
+private:
+    static ListedCard look (Type& type, const juce::String& output, const juce::String& input)
+    {
+        ListedCard card { .type = textOf (type.getTypeName()), .name = textOf (output.isNotEmpty() ? output : input) };
+        const std::unique_ptr<juce::AudioIODevice> device (type.createDevice (output, input));
+        if (! device)
+        {
+            card.trouble = "it cannot be opened";
+            return card;
+        }
+        card.outputs = textsOf (device->getOutputChannelNames());
+        card.inputs = textsOf (device->getInputChannelNames());
+        for (const double rate : device->getAvailableSampleRates())
+            card.rates.push_back (rate);
+        for (const int block : device->getAvailableBufferSizes())
+            card.blocks.push_back (block);
+        return card;
+    }
+};
+
+Message cannot (const char* id, std::string text, std::string remedy) { return problem (std::string ("audio/") + id, "", std::move (text), std::move (remedy)); }
+
+template <typename Numbers>
+std::string listOf (const Numbers& numbers)
+{
+    std::string text;
+    for (const auto n : numbers)
+        text += (text.empty() ? "" : ", ") + numberText (static_cast<double> (n));
+    return text;
+}
+
+std::string cardsThere (const std::vector<std::unique_ptr<Type>>& types)
+{
+    std::string text;
+    for (const auto& type : types)
+    {
+        auto names = type->getDeviceNames (false);
+        names.addArray (type->getDeviceNames (true));
+        names.removeDuplicates (false);
+        for (const auto& name : names)
+            text += (text.empty() ? "" : ", ") + textOf (type->getTypeName()) + ":" + textOf (name);
+    }
+    return text.empty() ? "there is none; start a JACK or PipeWire server, or plug one in" : "there are: " + text;
+}
+
+std::variant<std::unique_ptr<OpenCard>, Message> JuceCards::open (const CardWanted& wanted, int outputs, int inputs, CardUser& user)
+{
+    const juce::ScopedJuceInitialiser_GUI juce_runs;
+    hushJack();
+    auto types = makeTypes();
+    for (const auto& type : types)
+        type->scanForDevices();
+
+    std::unique_ptr<Type> type;
+    juce::String output, input;
+    for (auto& t : types)
+    {
+        if (! wanted.type.empty() && ! t->getTypeName().equalsIgnoreCase (juce::String (wanted.type))) continue;
+        output = outputs > 0 ? nameLike (wanted.output, t->getDeviceNames (false)) : juce::String();
+        // Who says nothing of an input means the same card.
+        const auto ins = t->getDeviceNames (true);
+        input = inputs > 0 ? nameLike (! wanted.input.empty() ? wanted.input : output.isNotEmpty() && ins.contains (output) ? textOf (output)
+                                                                                                                            : wanted.output,
+                                       ins)
+                           : juce::String();
+        if ((outputs > 0 && output.isEmpty()) || (inputs > 0 && input.isEmpty())) continue;
+        type = std::move (t);
+        break;
+    }
+    if (! type)
+    {
+        std::erase (types, nullptr);
+        std::string what = "there is no " + (wanted.type.empty() ? std::string ("sound card") : wanted.type + " card");
+        if (! wanted.output.empty()) what += " " + inQuotes (wanted.output);
+        if (inputs > 0 && ! wanted.input.empty()) what += " with an input " + inQuotes (wanted.input);
+        return cannot ("no_card", what, cardsThere (types));
+    }
+
+    std::unique_ptr<juce::AudioIODevice> device (type->createDevice (output, input));
+    const auto name = textOf (type->getTypeName()) + ":" + textOf (output.isNotEmpty() ? output : input);
+    if (! device) return cannot ("cannot_open", name + " cannot be opened", "see that no other program has it to itself");
+
+    const int has_out = device->getOutputChannelNames().size(), has_in = device->getInputChannelNames().size();
+    if (outputs > has_out) return cannot ("channel", name + " has " + std::to_string (has_out) + " outputs, and channel " + std::to_string (outputs) + " is asked for", "take a channel that it has, or another card: " + cardsThere (types));
+    if (inputs > has_in) return cannot ("channel", name + " has " + std::to_string (has_in) + " inputs, and channel " + std::to_string (inputs) + " is asked for", "take a channel that it has, or another card");
+
+    const auto rates = device->getAvailableSampleRates();
+    const auto same = [] (double a, double b)
+    { return std::abs (a - b) < 0.5; };
+    if (wanted.rate_hz > 0.0 && std::ranges::none_of (rates, [&] (double r)
+                                                      { return same (r, wanted.rate_hz); }))
+        return cannot ("rate", name + " does not run at " + numberText (wanted.rate_hz) + " Hz", "its rates: " + listOf (rates));
+    double rate = wanted.rate_hz;
+    if (rate == 0.0) rate = rates.isEmpty() || rates.contains (48000.0) ? 48000.0 : rates[0];
+    int block = wanted.block > 0 ? wanted.block : device->getDefaultBufferSize();
+    const auto blocks = device->getAvailableBufferSizes();
+    if (wanted.block > 0 && ! blocks.contains (block)) return cannot ("block", name + " does not run with blocks of " + std::to_string (block) + " frames", "its blocks: " + listOf (blocks));
+
+    if (const auto trouble = device->open (first (inputs), first (outputs), rate, block); trouble.isNotEmpty())
+        return cannot ("cannot_open", name + " cannot be opened: " + textOf (trouble), "see that no other program has it to itself, and that it runs at " + numberText (rate) + " Hz");
+    rate = device->getCurrentSampleRate();
+    block = device->getCurrentBufferSizeSamples();
+    if (wanted.rate_hz > 0.0 && ! same (rate, wanted.rate_hz)) return cannot ("rate", name + " was asked for " + numberText (wanted.rate_hz) + " Hz and runs at " + numberText (rate) + " Hz", "leave out the rate, or set up the card or its server");
+    if (rate <= 0.0 || block <= 0) return cannot ("cannot_open", name + " says neither a rate nor a block", "see whether its server still runs");
+
+    const double latency = device->getOutputLatencyInSamples() / rate;
+    user.begin ({ .type = textOf (type->getTypeName()), .name = textOf (output.isNotEmpty() ? output : input), .rate_hz = rate, .block = block, .outputs = outputs, .inputs = inputs, .latency_s = latency });
+    auto card = std::make_unique<JuceCard> (std::move (type), std::move (device), user);
+    card->start();
+    return std::unique_ptr<OpenCard> (std::move (card));
+}
+}   // namespace
+
+CardSystem& soundCards()
+{
+    static JuceCards cards;
+    return cards;
+}
+
+}   // namespace tactus::host::audio

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "open_audio.hpp"
+
+#include <host/devices/guard_limits.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace tactus::host::audio
+{
+namespace
+{
+constexpr double usual_ramp = 0.2;   // s
+
+GuardLimits readGuard (const Json& description, const AudioRole& role, Messages& messages)
+{
+    const auto guard = description.find ("guard");
+    const DeviceLayout layout { .signal_inputs = static_cast<int> (role.inputs.size()), .signal_outputs = static_cast<int> (role.outputs.size()) };
+    return guard == description.end() ? GuardLimits {} : readGuardLimits (*guard, "/guard", messages, layout);
+}
+
+/// The highest channel that nodes of this type and role are set to.
+int highestChannel (const Plan& plan, const std::string& type, const std::string& role)
+{
+    int highest = 0;
+    for (const auto& node : plan.flat.nodes)
+    {
+        if (node.type == nullptr || node.type->info.id != type || node.role != role) continue;
+        for (const auto& setting : node.settings)
+            if (const auto* channel = std::get_if<double> (&setting)) highest = std::max (highest, static_cast<int> (*channel));
+    }
+    return highest;
+}
+
+Json channelsUpTo (int highest)
+{
+    auto list = Json::array();
+    for (int c = 1; c <= highest; ++c)
+        list.push_back ({ { "channel", c } });
+    return list;
+}
+}   // namespace
+
+MadeDevice openAudio (const Json& description, AudioRig& rig)
+{
+    MadeDevice made;
+    auto role = readAudioRole (description, made.messages);
+    made.limits = readGuard (description, role, made.messages);
+    if (made.limits.ramp == 0.0) made.limits.ramp = usual_ramp;
+    if (const auto card = description.value ("card", Json()); card.is_string())
+        if (auto trouble = rig.nameCard (card.get<std::string>())) made.messages.push_back (std::move (*trouble));
+    if (hasErrors (made.messages)) return made;
+
+    made.about = std::to_string (role.outputs.size()) + " outputs and " + std::to_string (role.inputs.size()) + " inputs of a sound card.";
+    made.device = rig.open (std::move (role), made.messages);
+    return made;
+}
+
+Messages checkAudio (const Json& description)
+{
+    Messages messages;
+    readGuard (description, readAudioRole (description, messages), messages);
+    return messages;
+}
+
+Json withChannels (const Json& description, const Plan& plan, const std::string& role)
+{
+    auto full = description;
+    if (full.contains ("outputs") || full.contains ("inputs")) return full;
+    const int outputs = highestChannel (plan, "device.signal_out", role), inputs = highestChannel (plan, "device.signal_in", role);
+    if (outputs > 0 || inputs == 0) full["outputs"] = channelsUpTo (std::max (outputs, 1));
+    if (inputs > 0) full["inputs"] = channelsUpTo (inputs);
+    return full;
+}
+
+}   // namespace tactus::host::audio
