@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/sessions/binding.hpp>
 #include <host/sessions/device_session.hpp>
+#include <host/sessions/workspace.hpp>
 
 #include <cstdlib>
 #include <string_view>
@@ -26,7 +26,11 @@ inline void trySession (std::string_view text)
     const auto again = host::readSession (written);
     if (hasErrors (again.messages) || host::writeSession (again.session) != written) std::abort();
     for (const auto& role : read.session.roles())
-        if (const auto bound = host::bindingOf ({ read.session, "session.json" }, role); ! bound || ! (bound->workspace.scale > 0.0)) std::abort();
+        if (const auto w = read.session.binding (role)->find ("workspace"); w != read.session.binding (role)->end())
+        {
+            Messages messages;
+            if (! (host::readWorkspace (*w, "", messages).scale > 0.0)) std::abort();
+        }
 }
 
 }   // namespace tactus::fuzz

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `tactus session`, and what a run makes of it.
+
+#include "program.hpp"
+
+#include <framework/json.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <cstdlib>
+
+using namespace tactus;
+using test::runTactus;
+using test::Scratch;
+
+namespace
+{
+const std::string wood = TACTUS_SOURCE_DIR "/graphs/dry_wood.json";
+
+bool has (const std::string& text, const std::string& part) { return text.find (part) != std::string::npos; }
+
+test::Ran play (const std::string& session, std::vector<std::string> more = {})
+{
+    std::vector<std::string> all { "play", wood, "--osc", "off", "--duration", "0.1", "--session", session };
+    all.insert (all.end(), more.begin(), more.end());
+    return runTactus (all);
+}
+}   // namespace
+
+TEST_CASE ("a role is bound, shown with what the graph needs of it, and let go", "[sessions][cli]")
+{
+    const Scratch scratch;
+    const auto file = scratch.path ("desk/session.json");
+    auto ran = runTactus ({ "session", "--file", file, "--bind", "stylus=hid:tactus_board", "--bind", "thumb=gesture:tap", "--clock", "stylus" });
+    CHECK (ran.err == "");
+    REQUIRE (ran.status == 0);
+    CHECK (has (ran.out, "clock: stylus"));
+    CHECK (has (ran.out, "hid tactus_board  not connected"));
+
+    ran = runTactus ({ "session", wood, "--file", file });
+    CHECK (ran.status == 0);
+    CHECK (has (ran.out, "position, force"));
+    CHECK (has (ran.out, "hid tactus_board (session)"));
+    CHECK (has (ran.out, "yes, once it is connected"));
+    CHECK (has (runTactus ({ "session", wood, "--file", scratch.write ("none.json", R"({"format": "tactus-session", "version": 1})") }).out, "sim in a hand that follows stroke (graph)"));
+
+    ran = runTactus ({ "session", wood, "--file", file, "--bind", "stylus=hid:spacemouse", "--json" });
+    REQUIRE (ran.status == 0);
+    const auto json = Json::parse (ran.out);
+    CHECK (json["roles"][0]["fits"] == false);
+    CHECK (json["roles"][0]["lacking"] == Json::array ({ "no force" }));
+
+    ran = runTactus ({ "session", "--file", file, "--unbind", "stylus", "--clock", "first" });
+    CHECK (ran.status == 0);
+    CHECK (Json::parse (test::textOf (file)) == Json { { "format", "tactus-session" }, { "version", 1 }, { "roles", { { "thumb", { { "driver", "gesture" }, { "path", "tap" } } } } } });
+}
+
+TEST_CASE ("what cannot be bound is refused, and the session is as it was", "[sessions][cli]")
+{
+    const Scratch scratch;
+    const std::string before = R"({"format": "tactus-session", "version": 1})";
+    const auto file = scratch.write ("session.json", before);
+    const auto refuses = [&] (std::vector<std::string> options, int status, const std::string& id)
+    {
+        options.insert (options.begin(), { "session", "--file", file });
+        const auto ran = runTactus (options);
+        INFO (ran.err);
+        CHECK (ran.status == status);
+        CHECK (has (ran.err, id));
+        CHECK (test::textOf (file) == before);
+    };
+    refuses ({ "--bind", "stylus" }, 1, "device/option");
+    refuses ({ "--bind", "Stylus=sim" }, 1, "device/option");
+    refuses ({ "--bind", "stylus=hid:tactus_bord" }, 1, "did you mean");
+    refuses ({ "--bind", "stylus=gesture:strok" }, 1, "device/unknown_gesture");
+    refuses ({ "--bind", "stylus=trace:nowhere.csv" }, 1, "csv/");
+    refuses ({ "--bind", "stylus=" + scratch.write ("device.json", R"({"driver": "sim", "workspace": {"scale": 0}})") }, 1, "device/out_of_range");
+    refuses ({ "--unbind", "stylus" }, 1, "session/not_bound");
+    refuses ({ "--clock", "The clock" }, 2, "is no role");
+    CHECK (runTactus ({ "session", "--file", scratch.path ("nowhere.json") }).status == 1);
+}
+
+TEST_CASE ("a recording is found again from wherever the session lies", "[sessions][cli]")
+{
+    const Scratch scratch;
+    const auto trace = scratch.write ("pen.csv", "t,x,y,z\n0,0,0,0\n0.05,0.01,0,-0.001\n");
+    const auto file = scratch.path ("desk/session.json");
+    CHECK (runTactus ({ "session", "--file", file, "--bind", "stylus=trace:" + trace }).status == 0);
+    const auto ran = runTactus ({ "play", wood, "--osc", "off", "--session", file, "--record", "hand.position", "--out", scratch.path ("out.csv") });
+    CHECK (ran.err.find ("error") == std::string::npos);
+    CHECK (has (test::textOf (scratch.path ("out.csv")), "\n0.05,0.01,0,-0.001\n"));
+}
+
+TEST_CASE ("a run goes by an option, else by the session, else by the graph, and a render never by a session", "[sessions][cli]")
+{
+    const Scratch scratch;
+    const auto bound = scratch.write ("session.json", R"({"format": "tactus-session", "version": 1, "roles": {"stylus": {"driver": "gesture", "path": "tap", "workspace": {"scale": 2, "offset": [1, 0, 0]}}}})");
+    const auto firstX = [&] (const std::string& session, std::vector<std::string> more)
+    {
+        const auto out = scratch.path ("out.csv");
+        more.insert (more.end(), { "--record", "hand.position.x", "--out", out });
+        const auto ran = play (session, more);
+        INFO (ran.err);
+        CHECK (ran.status == 0);
+        const auto text = test::textOf (out);
+        const auto row = text.find ("\n0,");
+        return row == std::string::npos ? std::string() : text.substr (row + 3, text.find ('\n', row + 1) - row - 3);
+    };
+    const auto by_graph = firstX ("off", {}), by_session = firstX (bound, {}), by_option = firstX (bound, { "--device", "stylus=gesture:tap" });
+    CHECK (std::stod (by_session) == 1.0 + 2.0 * std::stod (by_option));
+    CHECK (by_graph != by_session);
+    CHECK (runTactus ({ "render", wood, "--session", bound }).status == 2);
+}
+
+TEST_CASE ("a device of the session that is not there holds its role at rest, or ends a strict run", "[sessions][cli]")
+{
+    const Scratch scratch;
+    const auto desk = scratch.write ("session.json", "{\"format\": \"tactus-session\", \"version\": 1,\n\"clock\": \"stylus\",\n\"roles\": {\"stylus\": {\"driver\": \"hid\", \"profile\": \"tactus_board\"}, \"other\": {\"driver\": \"nonsense\"}}}");
+    auto ran = play (desk);
+    INFO (ran.err);
+    CHECK (ran.status == 0);
+    CHECK (has (ran.err, desk + ":3:11: warning: no Tactus board is connected"));
+    CHECK (has (ran.err, "at 1000 Hz, ticked by stylus"));
+    CHECK (has (ran.err, "peak  0.000 N"));
+    CHECK (has (ran.err, "stylus (tactus_board): never came"));
+
+    ran = play (desk, { "--strict" });
+    CHECK (ran.status == 1);
+    CHECK (has (ran.err, "error: no Tactus board is connected"));
+
+    ran = play (desk, { "--rate", "4000" });
+    CHECK (has (ran.err, "[session/clock]"));
+    CHECK (has (ran.err, "at 4000 Hz;"));
+    CHECK (play (desk, { "--clock", "timer" }).err.find ("ticked by") == std::string::npos);
+    CHECK (has (play (desk, { "--clock", "stylus", "--rate", "4000" }).err, "run/two_rates"));
+
+    ran = play (scratch.write ("wrong.json", "{\"format\": \"tactus-session\", \"version\": 1,\n\"roles\": {\"stylus\": {\"driver\": \"sim\", \"mass\": \"1 N\"}}}"));
+    CHECK (ran.status == 1);
+    CHECK (has (ran.err, "wrong.json:2:"));
+    CHECK (has (ran.err, "device/unit"));
+}
+
+TEST_CASE ("a session that cannot be read keeps a run from beginning, if somebody named it", "[sessions][cli]")
+{
+    const Scratch scratch;
+    CHECK (has (play (scratch.path ("nowhere.json")).err, "session/unreadable"));
+    CHECK (play (scratch.path ("nowhere.json")).status == 1);
+    const auto half = scratch.write ("half.json", "{\"format\": ");
+    const auto ran = play (half);
+    CHECK (ran.status == 1);
+    CHECK (has (ran.err, "half.json:1:"));
+    CHECK (has (ran.err, "--session off"));
+    CHECK (test::textOf (half) == "{\"format\": ");
+}
+
+TEST_CASE ("a damaged session of the user's ends no run, pushes nobody and is kept, and the next run says no more of it", "[sessions][cli]")
+{
+    const Scratch home;
+    const std::string before = std::getenv ("TACTUS_HOME");
+    setenv ("TACTUS_HOME", home.path ("").c_str(), 1);
+    home.write ("session.json", R"({"format": "tactus-session", "version": 1, "roles": {"stylus": {"driver": "hid", "profile": "tactus_board"})");
+    const auto first = runTactus ({ "play", wood, "--osc", "off", "--duration", "0.1" }), second = runTactus ({ "play", wood, "--osc", "off", "--duration", "0.1" });
+    setenv ("TACTUS_HOME", before.c_str(), 1);
+    CHECK (first.status == 0);
+    CHECK (has (first.err, "[session/set_aside]"));
+    CHECK (has (first.err, home.path ("session.json.broken")));
+    CHECK (has (test::textOf (home.path ("session.json.broken")), "tactus_board"));
+    CHECK (second.status == 0);
+    CHECK_FALSE (has (second.err, "session"));
+}
