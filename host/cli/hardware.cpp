@@ -19,12 +19,6 @@ std::string milliseconds (double s)
     return text;
 }
 
-std::optional<double> tickRate (const hid::Profile& p)
-{
-    const bool ticks = p.rate > 0.0 && std::ranges::count (p.quirks, "only_changes") == 0;
-    return ticks ? std::optional (p.rate) : std::nullopt;
-}
-
 /// "    1000.31 reports/s; its clock goes 12.3 +- 0.4 ppm faster than the run's; readings up to 3.00 ms old"
 std::string clockOf (const DeviceHealth& h)
 {
@@ -58,20 +52,10 @@ MadeDevice Hardware::open (const Json& description, const std::filesystem::path&
     return hid::openDevice (description, folder, hid::thisComputer(), profiles());
 }
 
-std::optional<double> Hardware::clockRate (const Json& description)
+std::optional<double> Hardware::tickRate (const Json& description, bool may_wait)
 {
-    if (! hid::isHid (description)) return std::nullopt;
-    const auto found = hid::findDevice (description, hid::thisComputer(), profiles());
-    return found.profile ? tickRate (*found.profile) : std::nullopt;
-}
-
-std::optional<double> Hardware::promisedRate (const Json& description)
-{
-    if (! hid::isHid (description)) return std::nullopt;
-    const auto name = description.value ("profile", Json());
-    const auto at = std::ranges::find_if (profiles().profiles, [&] (const auto& p)
-                                          { return name == p->id; });
-    return at == profiles().profiles.end() ? std::nullopt : tickRate (**at);
+    if (! hid::isHid (description)) return std::nullopt;   // so that profiles are read only where they are needed
+    return tickRateOf (description, hid::thisComputer(), profiles(), may_wait);
 }
 
 std::string statusOf (std::span<const DeviceHealth> devices, const RunClock* clock)

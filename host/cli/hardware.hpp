@@ -3,6 +3,7 @@
 
 #include <host/audio/open_audio.hpp>
 #include <host/hid_link/open_device.hpp>
+#include <host/sessions/choose_clock.hpp>
 #include <host/sessions/device_health.hpp>
 #include <host/sessions/run_clock.hpp>
 
@@ -24,11 +25,8 @@ public:
     /// As hid::openDevice, and audio::openAudio; offline it refuses real devices (device/real).
     MadeDevice open (const Json& description, const std::filesystem::path& folder);
 
-    /// The rate at which the device that a description means would tick a run; nothing if it has no clock or is not there.
-    std::optional<double> clockRate (const Json& description);
-
-    /// The same by its profile, whether it is there or not; nothing without the name of one.
-    std::optional<double> promisedRate (const Json& description);
+    /// As host::tickRateOf.
+    std::optional<double> tickRate (const Json& description, bool may_wait);
 
     const hid::LoadedProfiles& profiles();
 

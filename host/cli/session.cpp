@@ -200,11 +200,7 @@ std::vector<Described> Session::devicesByRole()
 void Session::decideClock()
 {
     const auto rateOf = [&] (const Described& d, bool may_wait)
-    {
-        if (const auto rate = real.clockRate (d.second)) return rate;
-        const bool waits = may_wait && ! told.strict && desk.session.binding (d.first) != nullptr;
-        return waits ? real.promisedRate (d.second) : std::nullopt;
-    };
+    { return real.tickRate (d.second, may_wait && ! told.strict && desk.session.binding (d.first) != nullptr); };
     ClockWish wish { told.clock, desk.session.clock(), {} };
     if (told.rate_hz > 0.0 || feed) wish.rate_hz = rate_hz;
     auto choice = host::chooseClock (wish, devicesByRole(), rateOf);

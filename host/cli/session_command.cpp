@@ -155,7 +155,7 @@ std::vector<RoleFit> fitsOf (const LoadedGraph& graph, const std::string& file, 
     FileAssets assets;
     const auto compiled = compile (graph.graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } });
     if (report (compiled.messages, graph, file) > 0 || ! compiled.plan) throw Stop {};
-    return host::fitsOf (*compiled.plan, graph.graph, s, profiles, connected);
+    return host::fitsOf (needsOf (*compiled.plan), graph.graph, s, profiles, connected);
 }
 
 void run (const Options& options)

@@ -97,6 +97,21 @@ std::vector<std::string> rolesNamed (const graph::Graph& g)
     return { names.begin(), names.end() };
 }
 
+std::optional<double> tickRateOf (const Json& description, hid::HidSystem& system, const hid::LoadedProfiles& all, bool may_wait)
+{
+    if (! hid::isHid (description)) return std::nullopt;
+    auto profile = hid::findDevice (description, system, all).profile;
+    if (! profile && may_wait)
+    {
+        const auto name = description.value ("profile", Json());
+        const auto at = std::ranges::find_if (all.profiles, [&] (const auto& p)
+                                              { return name == p->id; });
+        if (at != all.profiles.end()) profile = *at;
+    }
+    const bool ticks = profile && profile->rate > 0.0 && std::ranges::count (profile->quirks, "only_changes") == 0;
+    return ticks ? std::optional (profile->rate) : std::nullopt;
+}
+
 ClockChoice chooseClock (const ClockWish& wish, const std::vector<Described>& devices, const TickRate& rateOf)
 {
     const auto& said = wish.option.empty() ? wish.session : wish.option;

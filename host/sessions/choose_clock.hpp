@@ -4,6 +4,7 @@
 #include <framework/graph/graph.hpp>
 #include <framework/json.hpp>
 #include <framework/message.hpp>
+#include <host/hid_link/open_device.hpp>
 
 #include <functional>
 #include <optional>
@@ -40,6 +41,10 @@ struct ClockChoice
 /// The rate at which a device would tick, in Hz; nothing if it would not. One that is only awaited can be chosen by name, and
 /// is not taken where nobody says.
 using TickRate = std::function<std::optional<double> (const Described&, bool may_wait)>;
+
+/// The rate of a HID device that is connected, or that may be waited for and has a profile that is named; nothing if it has
+/// no clock, as one that only speaks when something moves. [main thread]
+std::optional<double> tickRateOf (const Json& description, hid::HidSystem&, const hid::LoadedProfiles&, bool may_wait);
 
 /// The option outranks the session. Without both, the first device that can ticks, unless there is a rate. [main thread]
 /// Ids: run/no_clock, run/two_rates, session/clock.

@@ -70,12 +70,12 @@ Messages checkBinding (const Json& binding, const std::filesystem::path& folder,
     return messages;
 }
 
-std::vector<RoleFit> fitsOf (const Plan& plan, const graph::Graph& g, const LoadedSession& session, const hid::LoadedProfiles& all, std::span<const hid::ConnectedDevice> connected)
+std::vector<RoleFit> fitsOf (const std::vector<RoleNeeds>& all_needs, const graph::Graph& g, const LoadedSession& session, const hid::LoadedProfiles& all, std::span<const hid::ConnectedDevice> connected)
 {
     std::vector<RoleFit> fits;
-    for (auto& [role, needs] : needsOf (plan))
+    for (const auto& [role, needs] : all_needs)
     {
-        auto& fit = fits.emplace_back (RoleFit { .role = role, .needs = std::move (needs) });
+        auto& fit = fits.emplace_back (RoleFit { .role = role, .needs = needs });
         std::filesystem::path folder = g.folder;
         fit.description = { { "driver", "sim" } };
         if (auto bound = bindingOf (session, role))

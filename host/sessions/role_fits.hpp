@@ -34,8 +34,8 @@ struct RoleFit
     bool fits() const { return lacking.empty() && ! hasErrors (messages); }
 };
 
-/// In the order of the plan. `connected` are the devices that are plugged in. [main thread]
-std::vector<RoleFit> fitsOf (const Plan&, const graph::Graph&, const LoadedSession&, const hid::LoadedProfiles&, std::span<const hid::ConnectedDevice> connected);
+/// In the order of the needs. `connected` are the devices that are plugged in. [main thread]
+std::vector<RoleFit> fitsOf (const std::vector<RoleNeeds>&, const graph::Graph&, const LoadedSession&, const hid::LoadedProfiles&, std::span<const hid::ConnectedDevice> connected);
 
 /// "hid tactus_board, serial B7", "gesture stroke", "sim".
 std::string nameOf (const Json& description);

@@ -4,9 +4,11 @@
 #include <framework/plan/missing_parts.hpp>
 #include <framework/refused.hpp>
 #include <framework/turn.hpp>
+#include <host/app/devices_panel/device_desk.hpp>
 #include <host/app/model/device_profiles.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/hid_link/open_device.hpp>
+#include <host/sessions/binding.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +20,8 @@ namespace
 {
 /// A pointer begins this far above the origin, so that a run does not begin inside something. m
 constexpr double hover = 5e-3;
+
+constexpr int looks_apart = 3;   // at the devices: ten times a second
 
 // Of a hand that the graph says nothing of.
 constexpr double usual_stiffness = 400.0, usual_damping = 4.0;   // N/m, N s/m
@@ -56,11 +60,60 @@ Compiled Performance::compileAt (double rate, const Plan* before, const Plan* wi
     const auto gone = [&] (const std::string& port)
     { return std::ranges::count (compiled.messages, "record " + port, &Message::where) > 0; };
     if (std::erase_if (options.records, gone) > 0) compiled = compile (document.graph(), catalogue, options);
+    if (compiled.plan) needed = needsOf (*compiled.plan);
     return compiled;
+}
+
+void Performance::use (const DeviceDesk& d) { desk = &d; }
+
+void Performance::deskChanged()
+{
+    if (! isRunning() || desk == nullptr) return;
+    const auto& now = desk->session().session;
+    const auto differs = [&] (const Bound& d)
+    {
+        const auto *before = run_desk.binding (d.role), *after = now.binding (d.role);
+        return before == nullptr || after == nullptr ? before != after : *before != *after;
+    };
+    if (now.clock() != run_desk.clock() || std::ranges::any_of (devices, differs)) start (moved_by);
+}
+
+/// By the mouse, or a path that somebody has chosen.
+bool Performance::isMovedOtherwise (const std::string& role) const
+{
+    const bool is_first = devices.empty() || devices.front().role == role;
+    return is_first && moved_by.kind != Hand::Kind::described;
+}
+
+/// What the session binds a role to; nothing if it does not, or if the device cannot be had, which is said.
+std::optional<Performance::Bound> Performance::openByDesk (const std::string& role)
+{
+    const auto& session = desk->session();
+    const auto openOne = [this] (const Json& description, const std::filesystem::path& folder)
+    { return hid::openDevice (description, folder, desk->system(), desk->profiles()); };
+    const auto binding = bindingOf (session, role);
+    auto made = openBound (session, role, *binding, openOne, desk->system(), desk->profiles(), Absence::waits);
+    std::ranges::move (made.messages, std::back_inserter (said));
+    if (! made.device) return std::nullopt;
+
+    Bound bound { role, std::move (made.device), made.limits, 0.0, made.driver };
+    if (const auto real = realDevice (role, *made.driver)) bound.damping = real->profile().limits.device_damping / binding->workspace.scale;
+    if (const auto* simulated = dynamic_cast<const SimulatedDevice*> (made.driver))
+    {
+        bound.damping = simulated->simulation().damping;
+        if (auto hand = devices.empty() ? chosenHand (simulated, bound.damping) : nullptr)
+        {
+            bound.driver = hand.get();
+            bound.device = binding->workspace.isPlain() ? std::move (hand) : std::make_unique<WorkspaceDevice> (std::move (hand), binding->workspace);
+        }
+    }
+    return bound;
 }
 
 std::optional<Performance::Bound> Performance::open (const std::string& role)
 {
+    if (desk != nullptr && ! isMovedOtherwise (role) && desk->session().session.binding (role) != nullptr) return openByDesk (role);
+
     const auto* described = descriptionOf (document.graph(), role);
     auto made = hid::openDevice (described != nullptr ? *described : Json { { "driver", "sim" } }, document.graph().folder, hid::thisComputer(), deviceProfiles());
     for (auto& m : made.messages)
@@ -74,7 +127,49 @@ std::optional<Performance::Bound> Performance::open (const std::string& role)
         bound.device = std::move (hand);
     else
         bound.device = std::move (made.device);
+    bound.driver = bound.device.get();
     return bound;
+}
+
+/// A device that has a clock of its own ticks the run, as on the command line.
+ClockChoice Performance::decideClock (const Plan& plan) const
+{
+    auto& system = desk != nullptr ? desk->system() : hid::thisComputer();
+    const auto& profiles = desk != nullptr ? desk->profiles() : deviceProfiles();
+    std::vector<Described> described;
+    for (const auto& role : plan.roles)
+    {
+        const bool is_moved = moved_by.kind != Hand::Kind::described && &role == &plan.roles.front();
+        const auto bound = desk != nullptr ? bindingOf (desk->session(), role.name) : std::nullopt;
+        const auto* own = descriptionOf (document.graph(), role.name);
+        if (! is_moved && (bound || own != nullptr))
+            described.emplace_back (role.name, bound ? bound->description : *own);
+        else
+            described.emplace_back (role.name, Json { { "driver", "sim" } });
+    }
+    const auto rateOf = [&] (const Described& d, bool may_wait)
+    { return tickRateOf (d.second, system, profiles, may_wait && desk != nullptr && desk->session().session.binding (d.first) != nullptr); };
+    return chooseClock ({ {}, desk != nullptr ? desk->session().session.clock() : std::string(), {} }, described, rateOf);
+}
+
+std::vector<RealDevice> Performance::realDevices() const
+{
+    std::vector<RealDevice> all;
+    for (const auto& d : devices)
+        if (auto real = realDevice (d.role, *d.driver)) all.push_back (std::move (*real));
+    return all;
+}
+
+std::unique_ptr<TickClock> Performance::makeClock()
+{
+    for (const auto& real : realDevices())
+        if (real.role == clock_role)
+        {
+            if (real.present != nullptr) return std::make_unique<RunClock> (*real.present, rate_hz);
+            return std::make_unique<RunClock> (*real.awaited, rate_hz);
+        }
+    clock_role.clear();
+    return std::make_unique<AbsoluteTimer> (1.0 / rate_hz);
 }
 
 /// The simulated tool of the first role, in the hand that was chosen; null if the device is to be as it is described.
@@ -135,10 +230,15 @@ void Performance::begin()
     end();
     begins = false;
     run_devices = document.graph().devices;
-    rate_hz = document.graph().rate_hz;
+    if (desk != nullptr) run_desk = desk->session().session;
+    graph_rate_hz = rate_hz = document.graph().rate_hz;
     answers = std::make_unique<AnsweringThread>();
     auto compiled = compileAt (rate_hz, nullptr, nullptr);
+    auto choice = compiled.plan ? decideClock (*compiled.plan) : ClockChoice {};
+    clock_role = choice.role;
+    if (! choice.role.empty() && choice.rate_hz != rate_hz) compiled = compileAt (rate_hz = choice.rate_hz, nullptr, nullptr);
     said = std::move (compiled.messages);
+    std::ranges::move (choice.messages, std::back_inserter (said));
     if (! compiled.plan) return;
 
     noteDelay (*compiled.plan);
@@ -150,7 +250,8 @@ void Performance::begin()
         engine->attach (d.role, *d.device, d.limits);
     std::ranges::move (missingParts (engine->plan()), std::back_inserter (said));
     if (sound != nullptr) sound->setTickRate (rate_hz);
-    clock = std::make_unique<AbsoluteTimer> (1.0 / rate_hz);
+    clock = makeClock();
+    watch = HealthWatch { clock_role };
     runner = std::make_unique<Runner> (*engine, *clock, rate_hz, Runner::Options { .hooks = this });
     runner->start();
 }
@@ -163,6 +264,8 @@ void Performance::end()
     endCapture();
     answers.reset();
     devices.clear();
+    watch = HealthWatch {};
+    clock_role.clear();
     pointer.reset();
     transported.reset();
     delay_ticks.reset();
@@ -171,7 +274,7 @@ void Performance::end()
 void Performance::documentChanged()
 {
     const auto& graph = document.graph();
-    const bool is_same_run = engine != nullptr && graph.rate_hz == rate_hz && graph.devices == run_devices;
+    const bool is_same_run = engine != nullptr && graph.rate_hz == graph_rate_hz && graph.devices == run_devices;
     if (is_same_run) return takeOver();
     said = compileAt (graph.rate_hz, nullptr, nullptr).messages;   // a run that ends first may take a moment
     if (wanted) start (moved_by);                                  // perhaps it compiles now
@@ -302,6 +405,7 @@ void Performance::attend()
 {
     if (begins && ! isRunning()) begin();
     if (runner) runner->attend();
+    if (runner && ++attended % looks_apart == 0) watch.look (realDevices());
     probes.collect();
 }
 

@@ -14,6 +14,11 @@
 #include <host/devices/sim.hpp>
 #include <host/runtime/runner.hpp>
 #include <host/runtime/taps.hpp>
+#include <host/sessions/choose_clock.hpp>
+#include <host/sessions/device_health.hpp>
+#include <host/sessions/device_session.hpp>
+#include <host/sessions/needs.hpp>
+#include <host/sessions/run_clock.hpp>
 
 #include <memory>
 #include <optional>
@@ -22,7 +27,9 @@
 namespace tactus::host
 {
 
-/// The graph of a document as it runs: on the devices it describes, in real time, and each edit is taken over between two
+class DeviceDesk;
+
+/// The graph of a document as it runs: on the devices it describes, or that its roles are bound to, in real time, and each edit is taken over between two
 /// ticks. What does not compile is said, and the graph before goes on. [main thread]
 class Performance final : private Document::Listener, private TickHooks
 {
@@ -32,7 +39,7 @@ public:
     {
         enum class Kind
         {
-            described,   ///< what the graph says: a gesture or a recording
+            described,   ///< what the session binds, or the graph says: a device, a gesture or a recording
             pointer,     ///< the mouse
             path         ///< a gesture or a recording of somebody's choice
         };
@@ -47,6 +54,10 @@ public:
     /// The force on the first role's tool is heard, if there is a sound, which outlives this.
     Performance (Document&, const Catalogue&, Sound* = nullptr);
     ~Performance() override;
+
+    /// From now on roles are bound as this session says, which outlives this. A change of what a run uses starts it anew.
+    void use (const DeviceDesk&);
+    void deskChanged();
 
     void start (Hand);      ///< anew, if it runs, as soon as its forces are zero
     void stop() noexcept;   ///< the forces go to zero first; does not wait for that
@@ -70,7 +81,15 @@ public:
     const Messages& messages() const noexcept { return said; }
 
     std::optional<RunStatus> status() const;
-    double rate() const noexcept { return rate_hz; }   ///< Hz; of the run
+
+    /// What the graph needs of its roles, as it last compiled.
+    const std::vector<RoleNeeds>& needs() const noexcept { return needed; }
+
+    /// How the devices are doing that are really there, or awaited; empty while nothing runs.
+    const std::vector<DeviceHealth>& health() const noexcept { return watch.health(); }
+
+    const std::string& clockRole() const noexcept { return clock_role; }   ///< whose device ticks the run; empty: a timer does
+    double rate() const noexcept { return rate_hz; }                       ///< Hz; of the run
 
     /// How late the latest answer of a sink to a source is on its shortest way, in ticks; nothing if none are joined.
     std::optional<std::int64_t> delay() const noexcept { return delay_ticks; }
@@ -120,7 +139,8 @@ private:
         std::string role;
         std::unique_ptr<Device> device;
         GuardLimits limits;
-        double damping = 0.0;   // N s/m, of a simulated one
+        double damping = 0.0;       // N s/m, of the device, as the graph's workspace has it
+        Device* driver = nullptr;   // the same device, without a workspace around it
     };
 
     void documentChanged() override;
@@ -132,6 +152,11 @@ private:
     void takeOver();
     Compiled compileAt (double rate, const Plan* before, const Plan* withdrawn);
     std::optional<Bound> open (const std::string& role);
+    std::optional<Bound> openByDesk (const std::string& role);
+    ClockChoice decideClock (const Plan&) const;
+    std::unique_ptr<TickClock> makeClock();
+    std::vector<RealDevice> realDevices() const;
+    bool isMovedOtherwise (const std::string& role) const;
     std::unique_ptr<Device> chosenHand (const SimulatedDevice* described, double& damping);
     void noteDelay (const Plan&);
 
@@ -148,7 +173,13 @@ private:
     bool begins = false;                                     // once the run before is over
     bool wanted = false;                                     // started and not stopped: it begins as soon as the graph compiles
     std::vector<std::pair<std::string, Json>> run_devices;   // the devices, when the run began
-    double rate_hz = 0.0;
+    const DeviceDesk* desk = nullptr;
+    DeviceSession run_desk;                      // likewise
+    double graph_rate_hz = 0.0, rate_hz = 0.0;   // which differ where a device ticks
+    std::string clock_role;
+    HealthWatch watch;
+    std::vector<RoleNeeds> needed;
+    int attended = 0;
     std::optional<std::int64_t> delay_ticks;
     std::shared_ptr<PointerPath> pointer;
     std::shared_ptr<TransportPath> transported;
@@ -156,7 +187,7 @@ private:
     Snapshot<std::array<double, 6>> seen;       // position and force
     std::unique_ptr<AnsweringThread> answers;   // before the engine, whose nodes ask it
     std::unique_ptr<Engine> engine;
-    std::unique_ptr<AbsoluteTimer> clock;
+    std::unique_ptr<TickClock> clock;
     std::unique_ptr<Runner> runner;   // last: it ticks the engine
 };
 

@@ -79,7 +79,7 @@ void SafetyStrip::show (Performance& p)
     else
     {
         const bool halting = status->phase == RunStatus::Phase::halting;
-        now.state = now.running ? halting ? juce::String ("stopping") : "running at " + juce::String (p.rate()) + " Hz" : reason (*status, p);
+        now.state = now.running ? halting ? juce::String ("stopping") : "running at " + juce::String (p.rate()) + " Hz" + (p.clockRole().empty() ? juce::String() : " by " + juce::String (p.clockRole())) : reason (*status, p);
         now.alarmed = status->end == RunStatus::End::overrun;
         if (hasErrors (p.messages())) now.state = now.running && ! halting ? "running as before the last edits" : "cannot run: see Problems";
         now.warned = now.warned || hasErrors (p.messages());
@@ -95,6 +95,11 @@ void SafetyStrip::show (Performance& p)
                 now.guard = juce::String (std::string (role.name)) + ": " + describe (role.latestEvent());
                 now.alarmed = now.alarmed || role.stop != Guard::Stop::none;
             }
+        if (now.running && status->clock_replaced)
+        {
+            now.guard = juce::String (p.clockRole()) + " does not tick: forces are held at zero";
+            now.alarmed = true;
+        }
         now.force = inNewton (status->force) + "  |  peak " + inNewton (status->peak);
         now.misses = juce::String (static_cast<juce::int64> (status->misses)) + " missed";
         if (const auto d = p.delay())

@@ -90,7 +90,7 @@ void MainView::show()
                                                    [this]
                                                    { performance->stop(); },
                                                    [this] (bool by_pointer)
-                                                   { start (by_pointer ? Performance::Hand::pointer() : Performance::Hand {}); },
+                                                   { start (by_pointer && ! isBound() ? Performance::Hand::pointer() : Performance::Hand {}); },
                                                    [this]
                                                    { return current().isRunning(); },
                                                    [this]
@@ -100,6 +100,9 @@ void MainView::show()
                                                    [this] (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)> chosen)
                                                    { chooseFile (saves, begin, std::move (chosen)); } });
     performance = std::make_unique<Performance> (*edited, catalogue, &sound);
+    performance->use (plugged);
+    plugged.onChange = [this]
+    { performance->deskChanged(); };
     left.add ("History", std::make_unique<HistoryPanel> (*edited));
 
     top = std::make_unique<TopBar>();
@@ -155,6 +158,10 @@ void MainView::show()
     problems = list.get();
     problems->onShow = [this] (const Culprit& c)
     { patching->show (c.patch, c.id); };
+    auto sheet = std::make_unique<DevicesPanel> (*edited, *performance, plugged);
+    devices = sheet.get();
+    devices->onHint = scopes->onHint;
+    bottom.add ("Devices", std::move (sheet));
     bottom.add ("Problems", std::move (list));
     addAndMakeVisible (*top);
     addAndMakeVisible (*patching);
@@ -204,7 +211,10 @@ void MainView::begin (const Start& how)
         welcome.setVisible (true);
         if (how.safe && ! is_asked) notify ("Safe mode: nothing runs until you press START.");
     }
+    plugged.open (home);
     if (! read.problem.empty()) notify (read.problem);
+    for (const auto& m : plugged.session().messages)
+        notify (juce::String::fromUTF8 ((m.file + ": " + m.text + "; " + m.remedy).c_str()));
     if (! settings.welcomed)
     {
         settings.welcomed = true;
@@ -218,6 +228,13 @@ void MainView::open (const std::filesystem::path& file)
     std::error_code failed;
     const bool is_shipped = std::filesystem::equivalent (std::filesystem::absolute (file, failed).parent_path(), presetFolder(), failed) && ! failed;
     is_shipped ? files->openCopy (std::filesystem::absolute (file), false) : files->open (file);
+}
+
+bool MainView::isBound() const
+{
+    const auto& session = plugged.session().session;
+    return std::ranges::any_of (rolesNamed (edited->graph()), [&] (const std::string& role)
+                                { return session.binding (role) != nullptr; });
 }
 
 void MainView::start (Performance::Hand who)
@@ -284,6 +301,7 @@ void MainView::timerCallback()
         if (const auto why = saveSettings (settings, home)) say ("The settings could not be kept: " + juce::String (*why));
     if (scopes->isVisible()) scopes->refresh();
     layers->refresh();
+    devices->refresh();
 }
 
 void MainView::notify (const juce::String& text)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <host/app/canvas/canvas.hpp>
+#include <host/app/devices_panel/devices_panel.hpp>
 #include <host/app/history/history_panel.hpp>
 #include <host/app/inspector/inspector.hpp>
 #include <host/app/layers/layers_panel.hpp>
@@ -66,6 +67,8 @@ public:
     WelcomePage& welcomePage() noexcept { return welcome; }
     PresetBrowser& browser() noexcept { return *presets; }
     const Settings& remembered() const noexcept { return settings; }
+    DeviceDesk& deviceDesk() noexcept { return plugged; }
+    DevicesPanel& devicesPanel() noexcept { return *devices; }
     const juce::String& saying() const noexcept { return said.isEmpty() ? tip : said; }
 
     /// Asks a person for a file; tests answer at once. See Files::Ways.
@@ -90,6 +93,7 @@ private:
     void say (const juce::String&);      ///< of what is under the pointer
     void notify (const juce::String&);   ///< of what happened: while nothing is said, until the next edit
     void start (Performance::Hand);
+    bool isBound() const;   ///< a role of the graph, by the session
     Performance& current() noexcept { return heard ? *heard : *performance; }
     void escape (const juce::KeyPress&);
     void stopBy (const juce::KeyPress&);
@@ -113,6 +117,7 @@ private:
     Question question;
     std::unique_ptr<Document> edited;
     Sound sound;
+    DeviceDesk plugged;
     std::unique_ptr<Files> files;               // before the performance, so that a change is kept before it runs
     std::unique_ptr<Performance> performance;   // after the document, before what shows it
     std::unique_ptr<OscReach> reach;
@@ -131,6 +136,7 @@ private:
     std::unique_ptr<LiveFeed> live;
     std::unique_ptr<Inspector> inspector;
     ProblemList* problems = nullptr;   // in the bottom tabs
+    DevicesPanel* devices = nullptr;   // in the bottom tabs
     Palette palette;
     WelcomePage welcome { pictures };
     HelpPanel help;

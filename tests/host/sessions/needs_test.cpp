@@ -87,17 +87,17 @@ TEST_CASE ("a role is told what it lacks of the device that the session binds, o
     const auto plan = s.compile().plan;
     REQUIRE (plan);
 
-    auto fit = fitsOf (*plan, s.graph, {}, profiles, {}).front();
+    auto fit = fitsOf (needsOf (*plan), s.graph, {}, profiles, {}).front();
     CHECK (fit.from == RoleFit::From::nobody);
     CHECK_FALSE (fit.fits());
 
     s.graph.devices = { { "stylus", { { "driver", "sim" }, { "axes", { { "grip", Json::object() } } }, { "signal_outputs", 3 } } } };
-    fit = fitsOf (*plan, s.graph, {}, profiles, {}).front();
+    fit = fitsOf (needsOf (*plan), s.graph, {}, profiles, {}).front();
     CHECK (fit.from == RoleFit::From::graph);
     CHECK (fit.lacking.size() == 2);   // button and signal input
 
     const auto there = board.connected();
-    fit = fitsOf (*plan, s.graph, bound ("stylus", { { "driver", "hid" }, { "profile", "board" }, { "workspace", { { "scale", 3 } } } }), profiles, there).front();
+    fit = fitsOf (needsOf (*plan), s.graph, bound ("stylus", { { "driver", "hid" }, { "profile", "board" }, { "workspace", { { "scale", 3 } } } }), profiles, there).front();
     CHECK (fit.from == RoleFit::From::session);
     CHECK (fit.connected == true);
     CHECK (fit.workspace.scale == 3.0);
@@ -105,16 +105,16 @@ TEST_CASE ("a role is told what it lacks of the device that the session binds, o
     CHECK (std::ranges::count (fit.lacking, "no pressure") == 1);
     CHECK (std::ranges::count (fit.lacking, "no position") == 0);
 
-    fit = fitsOf (*plan, s.graph, bound ("stylus", { { "driver", "hid" } }), profiles, {}).front();
+    fit = fitsOf (needsOf (*plan), s.graph, bound ("stylus", { { "driver", "hid" } }), profiles, {}).front();
     CHECK (fit.connected == false);
     CHECK_FALSE (fit.there);   // nobody knows what will come
-    CHECK (fitsOf (*plan, s.graph, bound ("stylus", { { "driver", "hid" } }), profiles, there).front().there);
+    CHECK (fitsOf (needsOf (*plan), s.graph, bound ("stylus", { { "driver", "hid" } }), profiles, there).front().there);
 
-    fit = fitsOf (*plan, s.graph, bound ("stylus", { { "driver", "audio" }, { "outputs", { Json::object(), Json::object(), Json::object() } }, { "inputs", { Json::object() } } }), profiles, {}).front();
+    fit = fitsOf (needsOf (*plan), s.graph, bound ("stylus", { { "driver", "audio" }, { "outputs", { Json::object(), Json::object(), Json::object() } }, { "inputs", { Json::object() } } }), profiles, {}).front();
     REQUIRE (fit.there);
     CHECK (fit.there->others.signal_outputs == 3);
     CHECK (std::ranges::count (fit.lacking, "no signal input 2; it has 1") == 1);
-    CHECK (hasErrors (fitsOf (*plan, s.graph, bound ("stylus", { { "driver", "sim" }, { "mass", "1 N" } }), profiles, {}).front().messages));
+    CHECK (hasErrors (fitsOf (needsOf (*plan), s.graph, bound ("stylus", { { "driver", "sim" }, { "mass", "1 N" } }), profiles, {}).front().messages));
 }
 
 TEST_CASE ("a binding is named in short", "[sessions]")
