@@ -84,14 +84,15 @@ struct Log
         lines += line;
     }
 
-    void got (std::span<const std::uint8_t> report)
+    /// Returns whether it was pushed.
+    bool got (std::span<const std::uint8_t> report)
     {
         // Without a report id, some kernels hand on the 0 that stands for it.
         if (report.size() == 65) report = report.subspan (1);
         if (report.size() != 64)
         {
             lines += "out,size\n";
-            return;
+            return false;
         }
         const bool good_sum = static_cast<std::uint32_t> (get32 (report, 60)) == crcOf (report.first (60));
         const bool neutral = std::all_of (report.begin() + 2, report.begin() + 60, [] (auto b)
@@ -102,6 +103,7 @@ struct Log
                                                                                                                             : "other",
                        static_cast<std::uint32_t> (get32 (report, 4)), get32 (report, 8), get32 (report, 12), get32 (report, 16), now());
         lines += line;
+        return good_sum && (report[2] & 1) != 0 && get32 (report, 8) != 0;
     }
 
     void mark (const char* what)
@@ -113,7 +115,8 @@ struct Log
 };
 }   // namespace
 
-/// --seconds S, --rate HZ, --log FILE, --serial TEXT, --wait 1 (silent until it is told something); every so many reports: --drop, --malformed, --short, --oversized,
+/// --seconds S, --rate HZ, --log FILE, --serial TEXT, --wait 1 (silent until it is told something), --mark FILE (that is
+/// made once it was pushed); every so many reports: --drop, --malformed, --short, --oversized,
 /// --swap; once, after so many: --stall (100 ms), --unplug (away for --away S).
 int board (const std::vector<std::string>& args)
 {
@@ -133,10 +136,11 @@ int board (const std::vector<std::string>& args)
     { return std::make_unique<Uhid> ("Tactus test board", serial.c_str(), 0x16c0, 0x0486, descriptor); };
     const bool waits = option (args, "wait", 0.0) > 0.0;
     bool told = false;
+    Mark mark (args);
     const auto heard = [&] (std::span<const std::uint8_t> r)
     {
         told = true;
-        log.got (r);
+        if (log.got (r)) mark.count();
     };
 
     auto device = plug();

@@ -23,6 +23,17 @@ unplug () { kill -TERM $sim; wait $sim; }
 keep () { local f; for f in board.csv play.csv play.err; do [ -e $work/$f ] && mv $work/$f "/run/results/$1.$f"; done; }
 
 play () { $tactus play graphs/dry_wood.json --device stylus=hid:tactus_board --osc off "$@" 2>$work/play.err; }
+# end_under_force SIGNAL: to the program that plays, once the device was pushed; until nobody has the device any more, also
+# not the guardian that lets go of it.
+end_under_force ()
+{
+    wait_for "$work/pushed"
+    kill -"$1" "$(pgrep -x tactus | head -1)"
+    wait $player
+    for _ in $(seq 100); do pgrep ^tactus >/dev/null || break; sleep 0.1; done
+    rm -f $work/pushed
+}
+
 recorded=(--record hand.position,motor.force,motor.applied --out $work/play.csv)
 
 say "nothing connected"
@@ -48,13 +59,9 @@ keep unplug
 
 for signal in INT TERM KILL SEGV; do
     say "ended by $signal under force"
-    plug
+    plug --mark $work/pushed
     play --duration 60 & player=$!
-    for _ in $(seq 300); do pgrep -x tactus >/dev/null && break; sleep 0.1; done
-    sleep 3
-    kill -$signal "$(pgrep -x tactus | head -1)"
-    wait $player
-    sleep 0.5
+    end_under_force $signal
     unplug
     keep "$signal"
 done
@@ -91,13 +98,9 @@ if [ -e "$FFB_DESCRIPTOR" ]; then
     keep no_room
 
     say "the same, its program killed under force"
-    stick
+    stick --mark $work/pushed
     feel --device stylus=$work/joystick.json --duration 60 & player=$!
-    for _ in $(seq 300); do pgrep -x tactus >/dev/null && break; sleep 0.1; done
-    sleep 2
-    kill -KILL "$(pgrep -x tactus | head -1)"
-    wait $player
-    sleep 0.5
+    end_under_force KILL
     unplug
     keep joystick_killed
 fi
@@ -106,13 +109,14 @@ say "several devices, listed and probed"
 plug
 $device space_mouse --seconds 300 & mouse=$!
 joystick=
-[ -e "$FFB_DESCRIPTOR" ] && { $device joystick --file "$FFB_DESCRIPTOR" --seconds 300 --log /dev/null & joystick=$!; }
-sleep 1
+count=2
+[ -e "$FFB_DESCRIPTOR" ] && { $device joystick --file "$FFB_DESCRIPTOR" --seconds 300 --log /dev/null & joystick=$!; count=3; }
+for _ in $(seq 100); do [ "$(compgen -G '/dev/hidraw*' | wc -l)" -eq $count ] && break; sleep 0.1; done
 $tactus devices >/run/results/devices.txt || fail "tactus devices"
 $tactus devices --json >/run/results/devices.json || fail "tactus devices --json"
 $tactus devices --probe --duration 2 --json >/run/results/probe.json || fail "tactus devices --probe"
-$tactus devices --probe --duration 20 >/dev/null 2>&1 & other=$!
-sleep 4
+$tactus devices --probe --duration 60 >/dev/null 2>&1 & other=$!
+for _ in $(seq 300); do ls -l /proc/$other/fd 2>/dev/null | grep -q hidraw && break; sleep 0.1; done
 $tactus play graphs/dry_wood.json --device stylus=hid:tactus_board --osc off --duration 1 2>/run/results/taken.txt
 [ $? -eq 1 ] || fail "a device that another program has is an error"
 kill $other

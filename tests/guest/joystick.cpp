@@ -15,7 +15,7 @@ namespace
 volatile std::sig_atomic_t ended = 0;
 
 // OpenFFBoard's reports.
-constexpr std::uint8_t create_effect = 0x11, block_load = 0x12;
+constexpr std::uint8_t set_force = 0x05, create_effect = 0x11, block_load = 0x12;
 
 struct Log
 {
@@ -54,7 +54,7 @@ std::array<std::uint8_t, 25> reportAt (double t)
 }   // namespace
 
 /// A joystick with OpenFFBoard's report descriptor, from a file: it answers as one, and writes down all that it is told.
-/// --file NAME --log FILE --seconds S --blocks N (that it gives out; 0: its memory is full) --unplug S --away S (comes back with
+/// --file NAME --log FILE --mark FILE --seconds S --blocks N (that it gives out; 0: its memory is full) --unplug S --away S (comes back with
 /// another block)
 int joystick (const std::vector<std::string>& args)
 {
@@ -78,8 +78,10 @@ int joystick (const std::vector<std::string>& args)
         };
         return device;
     };
+    Mark mark (args);
     const auto heard = [&] (std::span<const std::uint8_t> report)
     {
+        if (report.size() == 4 && report[0] == set_force && (report[2] | report[3]) != 0) mark.count();
         asked = asked || (! report.empty() && report[0] == create_effect);
         log.add ("out", report);
     };

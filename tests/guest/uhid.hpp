@@ -149,6 +149,25 @@ inline std::string text (const std::vector<std::string>& args, const std::string
     return otherwise;
 }
 
+/// Makes the file --mark once it was called so often, so that whoever waits for a device to be under force need not guess how
+/// long that takes.
+class Mark
+{
+public:
+    explicit Mark (const std::vector<std::string>& args) : path (text (args, "mark", "")) {}
+
+    void count()
+    {
+        if (++counted == enough && ! path.empty())
+            if (auto* file = std::fopen (path.c_str(), "w")) std::fclose (file);
+    }
+
+private:
+    static constexpr int enough = 200;
+    std::string path;
+    int counted = 0;
+};
+
 int board (const std::vector<std::string>& args);
 int spaceMouse (const std::vector<std::string>& args);
 int joystick (const std::vector<std::string>& args);
