@@ -54,6 +54,7 @@ for place in dev/shm run var/tmp; do $b mount -t tmpfs tmpfs /mnt/$place; done
 $b mkdir -p /mnt/run/udev /mnt/run/results
 $b mount -t 9p -o $plan9 results /mnt/run/results
 $b ip link set lo up
+$b chroot /mnt /bin/bash -c ': >/run/results/up' && echo GUEST_UP
 script=$($b sed -n 's/.*guest_script=\([^ ]*\).*/\1/p' /proc/cmdline)
 $b chroot /mnt /bin/bash "$script"
 echo "GUEST_RESULT=$?"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # run_guest.sh FOLDER SCRIPT RESULTS: runs SCRIPT in the guest of make_guest.sh, where the folder RESULTS is /run/results, and
-# ends with its exit status. Without hardware help, so that it runs everywhere, some ten times as slow as here: what it shows
-# is that things work, not how fast.
+# ends with its exit status; with 77, and a sentence, where there can be no guest that sees this computer's files. Without
+# hardware help, so that it runs everywhere, some ten times as slow as here: what it shows is that things work, not how fast.
 set -euo pipefail
 folder=$(cd "$1" && pwd) script=$(realpath "$2") results=$(mkdir -p "$3" && cd "$3" && pwd)
 log=$results/console.log
@@ -11,7 +11,12 @@ timeout "${GUEST_TIMEOUT:-420}" qemu-system-x86_64 -M q35 -accel tcg,thread=mult
     -kernel "$folder"/kernel/boot/vmlinuz-* -initrd "$folder/root.cpio.gz" \
     -append "console=ttyS0 quiet panic=-1 tsc=reliable mitigations=off random.trust_cpu=on guest_script=$script" \
     -virtfs local,path=/,mount_tag=host,security_model=none,readonly=on,multidevs=remap \
-    -virtfs "local,path=$results,mount_tag=results,security_model=none" || true
+    -virtfs "local,path=$results,mount_tag=results,security_model=none" 2>"$results/qemu.txt" || true
+cat "$results/qemu.txt" >&2
+if ! grep -q GUEST_UP "$log" 2>/dev/null; then
+    echo "skipped: no guest can run here: $({ tail -n 1 "$results/qemu.txt"; tail -n 1 "$log" 2>/dev/null; } | tr -d '\r' | tr '\n' ' ')"
+    exit 77
+fi
 result=$(tr -d '\r' <"$log" | sed -n 's/^GUEST_RESULT=//p')
 if [ "${result:-99}" -ne 0 ]; then tail -40 "$log" >&2; fi
 exit "${result:-99}"
