@@ -8,7 +8,8 @@
 #   ./test.sh --long    before that: each fuzzer for 60 s, the tests under TSan with those of threads for 30 s each, the
 #                       window under ASan and UBSan, and after it a soak of 1.2e8 ticks
 #   ./test.sh --screens uses the host as a person would, on a display of its own, takes docs/host/, and does nothing else
-#   ./test.sh --sound   strokes a board in the host with the mouse, listens, and does nothing else
+#   ./test.sh --sound   plays a ring on a sound card made of nothing, strokes a board in the host with the mouse, listens to
+#                       both, and does nothing else
 #   ./test.sh --devices drives those HID devices, and does nothing else
 #   ./test.sh --figures draws docs/figures/ and counts docs/instructions.md anew, and does nothing else
 . "$(dirname "$0")/.ci/setup.sh"
@@ -62,7 +63,9 @@ if [ "$mode" = --screens ]; then
 fi
 
 if [ "$mode" = --sound ]; then
-    build release tactus-host
+    build release tactus-host tactus
+    say "Listening to a ring on a sound card"
+    /usr/bin/python3 -B tests/audio/ring.py build/release/bin/tactus out/listen
     say "Listening to strokes"
     /usr/bin/python3 -B tests/host/app/screens/listen.py build/release/bin/tactus-host out/listen
     exit

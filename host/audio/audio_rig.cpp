@@ -70,7 +70,7 @@ Messages AudioRig::begin (const Plan& plan, double tick_rate_hz, const Engine* e
     for (const auto& route : wanted.routes)
     {
         per_tick.push_back (PortMixer::samplesOf (plan, route));
-        if (per_tick.back() == 0) messages.push_back (problem ("audio/port", route.where, "there is no port " + inQuotes (route.port), "name an output of a node, as in mix.out or drag.force.x; `tactus nodes TYPE` lists them"));
+        if (per_tick.back() == 0 && ! route.if_there) messages.push_back (problem ("audio/port", route.where, "there is no port " + inQuotes (route.port), "name an output of a node, as in mix.out or drag.force.x; `tactus nodes TYPE` lists them"));
         for (const auto& tap : plan.taps)
             if (isPartOf (tap.name, route.port))
                 if (const auto wrong = unitProblem (route.full_scale, tap.unit); ! wrong.empty())
@@ -263,13 +263,26 @@ std::optional<Error> AudioRig::attend()
 void AudioRig::letDryOut() const
 {
     using namespace std::chrono_literals;
-    const auto begin = std::chrono::steady_clock::now();
+    auto last = std::chrono::steady_clock::now();
+    auto seen = keeper.blocks();
     const auto flows = [&]
     { return std::ranges::any_of (lanes, [] (const auto& l)
                                   { return l->stream.report().flows != 0; }); };
-    while (keeper.isOpen() && plays && flows() && std::chrono::steady_clock::now() - begin < 500ms)
-        std::this_thread::sleep_for (2ms);
-    if (keeper.isOpen() && plays) std::this_thread::sleep_for (std::chrono::duration<double> (OutStream::fade_out_s + 2.0 * format.block / format.rate_hz));
+    const auto goes = [&]   // the card does
+    {
+        const auto now = std::chrono::steady_clock::now();
+        if (const auto n = keeper.blocks(); n != seen)
+        {
+            seen = n;
+            last = now;
+        }
+        return keeper.isOpen() && now - last < 2s * format.block / format.rate_hz + 20ms;
+    };
+    while (goes() && flows())
+        std::this_thread::sleep_for (1ms);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double> (OutStream::fade_out_s + 2.0 * format.block / format.rate_hz);
+    while (goes() && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for (1ms);
 }
 
 std::optional<Error> AudioRig::end()

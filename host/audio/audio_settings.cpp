@@ -116,6 +116,7 @@ AudioSettings readAudioSettings (const Json& json, const std::string& where, Mes
     {
         Route route;
         route.where = where + "/routes/" + std::to_string (i);
+        route.if_there = true;
         Fields one (routes[i], route.where, messages);
         one.require ("port", "write what is to be played, as in \"mix.out\" or \"drag.force.x\"");
         route.port = one.text ("port");

@@ -36,8 +36,9 @@ struct ChannelUse
 /// matters. (The length would sound an octave too high.)
 struct Route : ChannelUse
 {
-    std::string port;    ///< "mix.out", "mix.level[0]", "drag.force.x"
-    std::string where;   ///< for messages
+    std::string port;        ///< "mix.out", "mix.level[0]", "drag.force.x"
+    std::string where;       ///< for messages
+    bool if_there = false;   ///< a session's, which is for all graphs: where there is no such port, it is silent
 };
 
 /// Which card. Empty texts and zeros: any.

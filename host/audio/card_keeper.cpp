@@ -12,8 +12,8 @@ std::optional<Message> CardKeeper::open (const CardWanted& what, int outs, int i
     wanted = what;
     outputs = outs;
     inputs = ins;
+    is_wanted = true;
     said = tryAgain (Clock::now());
-    is_wanted = isOpen();
     return said;
 }
 

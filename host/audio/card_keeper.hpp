@@ -27,7 +27,7 @@ public:
     CardKeeper (CardSystem& s, CardUser& u) : system (s), user (u) {}
     ~CardKeeper() override { close(); }
 
-    /// Or why not. Then it is not tried again, unless it had been open before. [main thread]
+    /// Or why not; then attend() tries again, until close(). [main thread]
     std::optional<Message> open (const CardWanted&, int outputs, int inputs);
     void close();
 

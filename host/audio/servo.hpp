@@ -14,8 +14,9 @@ namespace tactus::host::audio
 ///     x  += w^2 e' T                      the difference of the clocks that is known
 ///     correction = x + 2 w e'             critically damped
 ///
-/// w falls from 0.3 rad/s to 0.06 rad/s over the first half minute: quick to find the other clock, then slow to be moved, since
-/// e jumps by a tick as ticks and blocks pass each other, and the pitch should not. (A loop over time stamps jumps less,
+/// w falls from 0.15 rad/s to 0.04 rad/s over the first 45 s: quick to find the other clock, then slow to be moved, since
+/// e jumps by a tick as ticks and blocks pass each other, and by what either is late, and the pitch should not: 2 ms make 600 ppm
+/// at first, and then 160. (A loop over time stamps jumps less,
 /// F. Adriaensen, "Using a DLL to filter time", 2005; the tick thread is not asked to read a clock.)
 class Servo
 {
@@ -41,9 +42,9 @@ public:
     double error() const noexcept { return smooth; }       ///< s
 
 private:
-    static constexpr double quickest = 0.3, slowest = 0.06;   // rad/s
-    static constexpr double settled_s = 6.0;                  // s at the quickest
-    static constexpr double smoothing = 0.25;                 // of 1/w
+    static constexpr double quickest = 0.15, slowest = 0.04;   // rad/s
+    static constexpr double settled_s = 12.0;                  // s at the quickest
+    static constexpr double smoothing = 0.25;                  // of 1/w
 
     double elapsed = 0.0, smooth = 0.0, known = 0.0;
 };

@@ -127,7 +127,14 @@ Compiled Session::compileNow (const graph::Graph& graph, const Plan* before, con
     if (feed) wanted.feeds = feed->ports();
     for (const auto& set : told.sets)
         wanted.overrides.push_back (readSet (set));
-    return compile (graph, catalogue(), wanted);
+    auto compiled = compile (graph, catalogue(), wanted);
+    const auto isGone = [&] (const audio::Route& route)
+    { return route.if_there && std::ranges::count (compiled.messages, "record " + route.port, &Message::where) > 0; };
+    std::size_t gone = 0;
+    if (with_routes)
+        for (const auto& route : rig.settings().routes)
+            if (isGone (route)) gone += std::erase (wanted.records, route.port);
+    return gone > 0 ? compile (graph, catalogue(), wanted) : compiled;
 }
 
 /// The session of devices that the run is to use.
@@ -158,21 +165,6 @@ void Session::chooseAudio()
     }
     if (report (messages, loaded, told.graph) > 0) throw Stop {};
     if (! told.card.empty()) settings.card = audio::parseCard (told.card, audio::soundCards().types());
-    rig.choose (std::move (settings));
-}
-
-/// The session is there for all graphs: what it plays of ports that this one does not have, it does not play.
-void Session::leaveOutRoutes()
-{
-    auto settings = rig.settings();
-    Messages messages;
-    std::erase_if (settings.routes, [&] (const audio::Route& route)
-                   {
-        if (! route.where.starts_with ("/audio") || compileNow (loaded.graph, nullptr, nullptr, { route.port }).plan) return false;
-        messages.push_back (warning ("session/no_port", route.where, "this graph has no port " + inQuotes (route.port) + " that could be played", "nothing to mend, unless it should have one"));
-        place (messages.back(), desk);
-        return true; });
-    report (messages, loaded, told.graph);
     rig.choose (std::move (settings));
 }
 
@@ -223,7 +215,6 @@ std::shared_ptr<const Plan> Session::compileGraph()
         for (const auto& tap : compiled.plan->taps)
             records.push_back (tap.name);
     }
-    if (compiled.plan) leaveOutRoutes();
     with_routes = true;
     if (compiled.plan && ! rig.settings().routes.empty()) compiled = compileNow (loaded.graph, nullptr, nullptr);
     with_placeholders = hasErrors (compiled.messages);

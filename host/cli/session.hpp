@@ -174,7 +174,6 @@ private:
     void readFeed();
     void readDesk();
     void chooseAudio();
-    void leaveOutRoutes();
     void decideClock();
     std::vector<Described> devicesByRole();
     std::shared_ptr<const Plan> compileGraph();

@@ -2,6 +2,7 @@
 #include "describe.hpp"
 
 #include <host/app/model/device_profiles.hpp>
+#include <host/audio/open_audio.hpp>
 #include <host/devices/make_device.hpp>
 #include <host/hid_link/open_device.hpp>
 
@@ -51,6 +52,12 @@ Remark about (const Document& d, const std::string& role)
     if (hid::isHid (description))
     {
         tell (hid::checkDevice (description, d.graph().folder, deviceProfiles()));
+        return r;
+    }
+    if (audio::isAudio (description))
+    {
+        r.text = "Channels of the sound card.";
+        tell (audio::checkAudio (description));
         return r;
     }
     const auto made = makeDevice (description, d.graph().folder);
@@ -111,11 +118,11 @@ void describeDevice (const Inspected& at, const graph::Node& node, Column& colum
         const auto label = juce::String (path.substr (1)).replaceCharacter ('/', ' ');
         if (path == "/driver")
             column.add (choiceRow (
-                label, { "sim", "trace", "gesture", "hid" }, [get]
+                label, { "sim", "trace", "gesture", "hid", "audio" }, [get]
                 { return get().toStdString(); },
                 [set, path] (const std::string& t)
                 { set (path, Json (t)); },
-                "sim: a simulated tool in a hand; trace: a recording; gesture: one that is drawn by a formula; hid: one that is plugged in, by its profile (docs/devices.md)"));
+                "sim: a simulated tool in a hand; trace: a recording; gesture: one that is drawn by a formula; hid: one that is plugged in, by its profile (docs/devices.md); audio: channels of a sound card (docs/audio.md)"));
         else
             column.add (textRow (
                 label, get, [set, path] (const juce::String& t)

@@ -106,8 +106,8 @@ HandPanel::HandPanel (Sound& s) : sound (s), play (std::make_unique<PlayButton>(
     {
         if (sound.isOn())
             sound.stop();
-        else if (const auto problem = sound.start(); problem.isNotEmpty() && onHint)
-            onHint ("No sound: " + problem);
+        else if (const auto problem = sound.start(); problem && onHint)
+            onHint ("No sound: " + juce::String::fromUTF8 ((problem->text + "; " + problem->remedy).c_str()));
     };
     addAndMakeVisible (surface);
     addAndMakeVisible (who);

@@ -55,6 +55,7 @@ Compiled Performance::compileAt (double rate, const Plan* before, const Plan* wi
 {
     CompileOptions options { .rate_hz = rate, .records = captured_ports, .assets = &assets, .services = { .nearest_triangle = nearestByEmbree, .answers = answers.get() }, .before = before, .withdrawn = withdrawn };
     std::ranges::move (probes.ports(), std::back_inserter (options.records));   // after what is captured, whose numbers have to stay
+    if (rig) std::ranges::move (rig->ports(), std::back_inserter (options.records));
     auto compiled = compile (document.graph(), catalogue, options);
     // What somebody wants to see may be gone. That is no reason not to run.
     const auto gone = [&] (const std::string& port)
@@ -75,7 +76,9 @@ void Performance::deskChanged()
         const auto *before = run_desk.binding (d.role), *after = now.binding (d.role);
         return before == nullptr || after == nullptr ? before != after : *before != *after;
     };
-    if (now.clock() != run_desk.clock() || std::ranges::any_of (devices, differs)) start (moved_by);
+    const auto sounds = [] (const DeviceSession& s)
+    { return s.audio() != nullptr ? *s.audio() : Json(); };
+    if (now.clock() != run_desk.clock() || sounds (now) != sounds (run_desk) || std::ranges::any_of (devices, differs)) start (moved_by);
 }
 
 /// By the mouse, or a path that somebody has chosen.
@@ -85,12 +88,19 @@ bool Performance::isMovedOtherwise (const std::string& role) const
     return is_first && moved_by.kind != Hand::Kind::described;
 }
 
+/// What a description means, whoever gives it.
+MadeDevice Performance::openOther (const std::string& role, const Json& description, const std::filesystem::path& folder)
+{
+    if (audio::isAudio (description)) return audio::openAudio (audio::withChannels (description, engine ? engine->newest() : *first_plan, role), *rig);
+    return hid::openDevice (description, folder, desk != nullptr ? desk->system() : hid::thisComputer(), desk != nullptr ? desk->profiles() : deviceProfiles());
+}
+
 /// What the session binds a role to; nothing if it does not, or if the device cannot be had, which is said.
 std::optional<Performance::Bound> Performance::openByDesk (const std::string& role)
 {
     const auto& session = desk->session();
-    const auto openOne = [this] (const Json& description, const std::filesystem::path& folder)
-    { return hid::openDevice (description, folder, desk->system(), desk->profiles()); };
+    const auto openOne = [&] (const Json& description, const std::filesystem::path& folder)
+    { return openOther (role, description, folder); };
     const auto binding = bindingOf (session, role);
     auto made = openBound (session, role, *binding, openOne, desk->system(), desk->profiles(), Absence::waits);
     std::ranges::move (made.messages, std::back_inserter (said));
@@ -115,7 +125,7 @@ std::optional<Performance::Bound> Performance::open (const std::string& role)
     if (desk != nullptr && ! isMovedOtherwise (role) && desk->session().session.binding (role) != nullptr) return openByDesk (role);
 
     const auto* described = descriptionOf (document.graph(), role);
-    auto made = hid::openDevice (described != nullptr ? *described : Json { { "driver", "sim" } }, document.graph().folder, hid::thisComputer(), deviceProfiles());
+    auto made = openOther (role, described != nullptr ? *described : Json { { "driver", "sim" } }, document.graph().folder);
     for (auto& m : made.messages)
         m.where = "/devices/" + role + m.where;
     std::ranges::move (made.messages, std::back_inserter (said));
@@ -225,6 +235,29 @@ void Performance::letGo()
     end();
 }
 
+/// As the session has it.
+audio::AudioSettings Performance::audioWanted (Messages& messages) const
+{
+    const auto* written = desk != nullptr ? run_desk.audio() : nullptr;
+    if (written == nullptr) return {};
+    auto settings = audio::readAudioSettings (*written, "/audio", messages);
+    for (auto& m : messages)
+        place (m, desk->session());
+    return hasErrors (messages) ? audio::AudioSettings {} : settings;
+}
+
+/// A run goes on without the sound that cannot be had.
+void Performance::beginSound()
+{
+    if (! rig->isNeeded()) return;
+    for (auto& m : rig->begin (engine->plan(), rate_hz, engine.get()))
+    {
+        m.severity = Message::Severity::warning;
+        if (desk != nullptr && m.where.starts_with ("/")) place (m, desk->session());
+        said.push_back (std::move (m));
+    }
+}
+
 void Performance::begin()
 {
     end();
@@ -233,15 +266,20 @@ void Performance::begin()
     if (desk != nullptr) run_desk = desk->session().session;
     graph_rate_hz = rate_hz = document.graph().rate_hz;
     answers = std::make_unique<AnsweringThread>();
+    Messages of_sound;
+    rig = std::make_unique<audio::AudioRig> (audioWanted (of_sound));
     auto compiled = compileAt (rate_hz, nullptr, nullptr);
     auto choice = compiled.plan ? decideClock (*compiled.plan) : ClockChoice {};
     clock_role = choice.role;
     if (! choice.role.empty() && choice.rate_hz != rate_hz) compiled = compileAt (rate_hz = choice.rate_hz, nullptr, nullptr);
     said = std::move (compiled.messages);
     std::ranges::move (choice.messages, std::back_inserter (said));
+    std::ranges::move (of_sound, std::back_inserter (said));
     if (! compiled.plan) return;
 
     noteDelay (*compiled.plan);
+    if (choice.by_sound_card) rig->tickBy (rate_hz);
+    first_plan = compiled.plan.get();
     for (const auto& role : compiled.plan->roles)
         if (auto bound = open (role.name)) devices.push_back (std::move (*bound));
     probes.select (*compiled.plan, rate_hz, true);
@@ -250,9 +288,10 @@ void Performance::begin()
         engine->attach (d.role, *d.device, d.limits);
     std::ranges::move (missingParts (engine->plan()), std::back_inserter (said));
     if (sound != nullptr) sound->setTickRate (rate_hz);
-    clock = makeClock();
+    beginSound();
+    clock = rig->clock() == nullptr ? makeClock() : nullptr;
     watch = HealthWatch { clock_role };
-    runner = std::make_unique<Runner> (*engine, *clock, rate_hz, Runner::Options { .hooks = this });
+    runner = std::make_unique<Runner> (*engine, clock ? *clock : *rig->clock(), rate_hz, Runner::Options { .hooks = this });
     runner->start();
 }
 
@@ -260,12 +299,14 @@ void Performance::end()
 {
     runner.reset();   // which waits until the forces are zero
     clock.reset();
+    if (rig) rig->end();
     engine.reset();
     endCapture();
     answers.reset();
     devices.clear();
     watch = HealthWatch {};
     clock_role.clear();
+    rig.reset();
     pointer.reset();
     transported.reset();
     delay_ticks.reset();
@@ -389,11 +430,12 @@ std::optional<Performance::Tool> Performance::tool() const
     return Tool { Vec3 (values.data()), Vec3 (values.data() + 3) };
 }
 
-void Performance::after (std::uint64_t tick, bool) noexcept
+void Performance::after (std::uint64_t tick, bool halts) noexcept
 {
     const auto& plan = engine->plan();
     probes.note (plan, tick);
     slot.note (plan, tick);
+    rig->after (plan, halts);
     if (plan.roles.empty()) return;
     const auto& device = *plan.roles.front().state;
     const auto &p = device.reading.position, &f = device.applied.force;
@@ -401,11 +443,21 @@ void Performance::after (std::uint64_t tick, bool) noexcept
     seen.store ({ p.x(), p.y(), p.z(), f.x(), f.y(), f.z() });
 }
 
+std::optional<audio::AudioStatus> Performance::audioStatus() const
+{
+    if (! rig || ! runner || ! rig->isNeeded()) return std::nullopt;
+    return rig->status();
+}
+
+void Performance::before (std::uint64_t) noexcept { rig->before(); }
+
 void Performance::attend()
 {
     if (begins && ! isRunning()) begin();
     if (runner) runner->attend();
     if (runner && ++attended % looks_apart == 0) watch.look (realDevices());
+    if (rig) rig->attend();
+    if (sound != nullptr) sound->attend();
     probes.collect();
 }
 

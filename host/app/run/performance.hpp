@@ -10,6 +10,7 @@
 #include <framework/plan/compile.hpp>
 #include <host/app/model/document.hpp>
 #include <host/assets/file_assets.hpp>
+#include <host/audio/open_audio.hpp>
 #include <host/devices/make_device.hpp>
 #include <host/devices/sim.hpp>
 #include <host/runtime/runner.hpp>
@@ -55,9 +56,13 @@ public:
     Performance (Document&, const Catalogue&, Sound* = nullptr);
     ~Performance() override;
 
-    /// From now on roles are bound as this session says, which outlives this. A change of what a run uses starts it anew.
+    /// From now on roles are bound, ports are played and runs are ticked as this session says, which outlives this. A change of
+    /// what a run uses starts it anew.
     void use (const DeviceDesk&);
     void deskChanged();
+
+    /// How the sound of the run is doing; nothing if it plays and hears nothing.
+    std::optional<audio::AudioStatus> audioStatus() const;
 
     void start (Hand);      ///< anew, if it runs, as soon as its forces are zero
     void stop() noexcept;   ///< the forces go to zero first; does not wait for that
@@ -144,7 +149,7 @@ private:
     };
 
     void documentChanged() override;
-    void before (std::uint64_t) noexcept override {}
+    void before (std::uint64_t) noexcept override;
     void after (std::uint64_t tick, bool halts) noexcept override;
 
     void begin();
@@ -152,6 +157,9 @@ private:
     void takeOver();
     Compiled compileAt (double rate, const Plan* before, const Plan* withdrawn);
     std::optional<Bound> open (const std::string& role);
+    MadeDevice openOther (const std::string& role, const Json& description, const std::filesystem::path& folder);
+    audio::AudioSettings audioWanted (Messages&) const;
+    void beginSound();
     std::optional<Bound> openByDesk (const std::string& role);
     ClockChoice decideClock (const Plan&) const;
     std::unique_ptr<TickClock> makeClock();
@@ -181,14 +189,16 @@ private:
     std::vector<RoleNeeds> needed;
     int attended = 0;
     std::optional<std::int64_t> delay_ticks;
+    const Plan* first_plan = nullptr;   // while the devices of a run are opened, before there is an engine
     std::shared_ptr<PointerPath> pointer;
     std::shared_ptr<TransportPath> transported;
+    std::unique_ptr<audio::AudioRig> rig;   // before the devices, of which it has some
     std::vector<Bound> devices;
     Snapshot<std::array<double, 6>> seen;       // position and force
     std::unique_ptr<AnsweringThread> answers;   // before the engine, whose nodes ask it
     std::unique_ptr<Engine> engine;
-    std::unique_ptr<TickClock> clock;
-    std::unique_ptr<Runner> runner;   // last: it ticks the engine
+    std::unique_ptr<TickClock> clock;   // where it is not the rig's
+    std::unique_ptr<Runner> runner;     // last: it ticks the engine
 };
 
 }   // namespace tactus::host

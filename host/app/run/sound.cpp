@@ -6,83 +6,71 @@
 
 namespace tactus::host
 {
-
 namespace
 {
-constexpr double lowest_hz = 20.0, most_correction = 0.01;
+constexpr double reserve_s = 0.02;   // for ears, which mind a gap more than they mind 10 ms
+
+std::unique_ptr<audio::OutStream> makeStream (double tick_rate) { return std::make_unique<audio::OutStream> (audio::StreamSetup { .lanes = 1, .tick_side_hz = tick_rate, .reserve_s = reserve_s }); }
+}   // namespace
+
+Sound::Sound (audio::CardSystem& cards) : stream (makeStream (tick_rate)), keeper (cards, *this) {}
+
+std::optional<Message> Sound::start()
+{
+    if (isOn()) return std::nullopt;
+    auto trouble = open();
+    on = ! trouble;
+    if (trouble) keeper.close();
+    return trouble;
 }
 
-Sound::Sound() { waiting.reserve (2 * capacity); }
-
-Sound::~Sound() { stop(); }
-
-juce::String Sound::start()
+/// In stereo if the card has it.
+std::optional<Message> Sound::open()
 {
-    if (on) return {};
-    if (const auto problem = manager.initialiseWithDefaultDevices (0, 2); problem.isNotEmpty()) return problem;
-    if (manager.getCurrentAudioDevice() == nullptr) return "there is no sound card";
-    on = true;
-    manager.addAudioCallback (this);
-    return {};
+    auto trouble = keeper.open ({}, 2, 0);
+    if (trouble && trouble->id == "audio/channel") trouble = keeper.open ({}, 1, 0);
+    return trouble;
 }
 
 void Sound::stop()
 {
-    if (! on) return;
     on = false;
-    manager.removeAudioCallback (this);
-    manager.closeAudioDevice();
+    keeper.close();
+}
+
+void Sound::setTickRate (double hz)
+{
+    if (hz == tick_rate) return;
+    keeper.close();
+    tick_rate = hz;
+    high_pass = { lowest_hz, hz };
+    stream = makeStream (hz);
+    if (isOn()) on = ! open();
 }
 
 void Sound::push (double newton) noexcept
 {
-    if (! on.load (std::memory_order_relaxed)) return;
-    const auto slot = index.next();
-    if (! slot) return;
-    ring[*slot] = std::isfinite (newton) ? static_cast<float> (newton / newton_at_full_scale) : 0.0f;
-    index.push();
+    if (! isOn()) return;
+    const auto sample = static_cast<float> (high_pass (std::isfinite (newton) ? newton / newton_at_full_scale : 0.0));
+    stream->push ({ &sample, 1 });
 }
 
-void Sound::audioDeviceAboutToStart (juce::AudioIODevice* device) { rate = device->getCurrentSampleRate(); }
-
-void Sound::audioDeviceIOCallbackWithContext (const float* const*, int, float* const* outputs, int channels, int count, const juce::AudioIODeviceCallbackContext&)
+void Sound::begin (const audio::OpenedFormat& card)
 {
-    if (channels == 0) return;
-    render (outputs[0], count, rate);
-    for (int c = 1; c < channels; ++c)
-        std::copy_n (outputs[0], count, outputs[c]);
+    longest_block = card.block;
+    stream->prepare ({ card.rate_hz, card.block });
 }
 
-void Sound::render (float* samples, int count, double sample_rate) noexcept
+void Sound::block (const float* const*, int, float* const* out, int outs, int frames) noexcept
 {
-    if (filtered_for != sample_rate)
-    {
-        filtered_for = sample_rate;
-        high_pass.setCoefficients (juce::IIRCoefficients::makeHighPass (sample_rate, lowest_hz));
-    }
-    index.drain ([this] (std::size_t slot)
-                 {
-        if (waiting.size() < waiting.capacity()) waiting.push_back (ring[slot]); });
-
-    const double ticks = tick_rate.load (std::memory_order_relaxed), lag = lag_s * ticks;
-    const auto there = static_cast<double> (waiting.size());
-    const double ratio = ticks / sample_rate * (1.0 + most_correction * std::clamp ((there - lag) / lag, -1.0, 1.0));
-    const double needed = ratio * count + 8.0;   // the interpolator looks ahead
-    flowing = there >= (flowing ? needed : std::max (needed, lag));
-    if (! flowing)
-    {
-        std::fill_n (samples, count, 0.0f);
-        dry.fetch_add (static_cast<std::uint64_t> (count), std::memory_order_relaxed);
-        return;
-    }
-    const int used = interpolator.process (ratio, waiting.data(), samples, count);
-    waiting.erase (waiting.begin(), waiting.begin() + std::min (used, static_cast<int> (waiting.size())));
-    // Of what piled up while nobody listened, the latest is played.
-    if (static_cast<double> (waiting.size()) > 4.0 * lag + needed) waiting.erase (waiting.begin(), waiting.end() - static_cast<std::ptrdiff_t> (lag));
-    high_pass.processSamples (samples, count);
+    if (outs == 0) return;
+    for (int from = 0; from < frames; from += longest_block)
+        stream->render ({ out[0] + from, static_cast<std::size_t> (std::min (longest_block, frames - from)) });
     const float gain = volume.load (std::memory_order_relaxed);
-    for (int i = 0; i < count; ++i)
-        samples[i] = std::tanh (gain * samples[i]);
+    for (int i = 0; i < frames; ++i)
+        out[0][i] = std::tanh (gain * out[0][i]);
+    for (int c = 1; c < outs; ++c)
+        std::copy_n (out[0], frames, out[c]);
 }
 
 }   // namespace tactus::host

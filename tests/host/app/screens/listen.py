@@ -7,9 +7,7 @@ listen.py HOST OUT   writes slow.wav and fast.wav, as a sound card would have pl
 The host runs on a display of its own, and plays through a JACK server without hardware. A texture is a pattern in space: what
 is heard has to go up with the speed of the stroke, by as much.
 """
-import os
 import pathlib
-import subprocess
 import sys
 import time
 import wave
@@ -17,6 +15,9 @@ import wave
 import numpy
 
 from walk import Walk
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "audio"))
+from sound_server import Server  # noqa: E402
 
 RATE = 48000
 SLOW, FAST = 100.0, 300.0  # pixels a second
@@ -54,10 +55,9 @@ def heard(file):
 def main():
     host, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
     out.mkdir(parents=True, exist_ok=True)
-    environment = dict(os.environ, JACK_NO_AUDIO_RESERVATION="1")
-    jack = subprocess.Popen(["jackd", "-d", "dummy", "-r", str(RATE), "-p", "256"], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    time.sleep(2.0)
+    server = Server(RATE, 256, 2)
     walk = Walk(str(host), out, "1280x720", "dark")
+    walk.environment.update(server.environment | {"DISPLAY": walk.display, "HOME": walk.environment["HOME"]})
     try:
         walk.start("--osc", "off", "graphs/canvas_weave.json")
         walk.wait(lambda: walk.has("Sound"), "the sound button")
@@ -66,7 +66,7 @@ def main():
         for name, speed in (("slow", SLOW), ("fast", FAST)):
             file = out / f"{name}.wav"
             file.unlink(missing_ok=True)
-            capture = subprocess.Popen(["jack_capture", "-d", str(STROKES * REACH / speed), "-b", "16", "-c", "1", "-p", "system:playback_1", str(file)], env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            capture = server.capture(file, STROKES * REACH / speed, [1], bits=16)
             time.sleep(0.3)
             real_speed = stroke(walk, speed)
             capture.wait()
@@ -75,8 +75,7 @@ def main():
         walk.shot("sound")
     finally:
         walk.end()
-        jack.terminate()
-        jack.wait()
+        server.end()
     ratio = (found["fast"][1] / found["slow"][1]) / (found["fast"][0] / found["slow"][0])
     print(f"  the sound went up by {ratio:.2f} times as much as the speed")
     if min(loud for _, _, loud in found.values()) < 1e-3:

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: MIT
+"""A JACK server without hardware, and what it plays, for the scripts of ./test.sh --sound."""
+import os
+import subprocess
+import time
+
+
+class Server:
+    """The dummy driver: so many frames a block, so many channels. Its name is its own, so that others may run."""
+
+    def __init__(self, rate, block, channels):
+        self.rate = rate
+        self.environment = dict(os.environ, JACK_NO_AUDIO_RESERVATION="1", JACK_DEFAULT_SERVER=f"tactus-{os.getpid()}")
+        self.process = subprocess.Popen(
+            ["jackd", "-n", self.environment["JACK_DEFAULT_SERVER"], "-d", "dummy", "-r", str(rate), "-p", str(block), "-C", str(channels), "-P", str(channels)],
+            env=self.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        )
+        for _ in range(100):
+            time.sleep(0.1)
+            listed = subprocess.run(["jack_lsp"], env=self.environment, capture_output=True, text=True)
+            if f"system:playback_{channels}" in listed.stdout:
+                return
+        self.end()
+        raise SystemExit("jackd does not start")
+
+    def capture(self, file, seconds, channels, bits="FLOAT"):
+        """Records what is on these channels of the card, counted from 1. To be waited for."""
+        ports = [word for c in channels for word in ("-p", f"system:playback_{c}")]
+        return subprocess.Popen(
+            ["jack_capture", "-d", str(seconds), "-b", str(bits), "-c", str(len(channels)), *ports, str(file)],
+            env=self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        )
+
+    def end(self):
+        self.process.terminate()
+        self.process.wait()

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// A sound card as the clock of a run.
+
+#include "support/sketch.hpp"
+
+#include <host/audio/audio_clock.hpp>
+#include <host/runtime/runner.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+#include <cmath>
+#include <functional>
+#include <thread>
+
+using namespace tactus;
+using namespace tactus::host;
+using namespace std::chrono_literals;
+using audio::AudioClock;
+
+namespace
+{
+struct Counted final : Ticked
+{
+    bool tick (double) noexcept override { return ++count < most; }
+    std::atomic<int> count = 0;
+    int most = 1 << 30;
+};
+
+/// A device that is pushed.
+struct Pushed final : Device
+{
+    void prepare (double) override {}
+    Reading read() noexcept override { return {}; }
+    void write (const Effort& e) noexcept override
+    {
+        const double f = e.force.norm();
+        largest_step = std::max (largest_step, std::abs (f - force.load()));
+        force = f;
+    }
+    std::atomic<double> force = 0.0;
+    double largest_step = 0.0;
+};
+
+bool soon (const std::function<bool()>& isSo)
+{
+    for (int i = 0; i < 10'000 && ! isSo(); ++i)
+        std::this_thread::sleep_for (1ms);
+    return isSo();
+}
+}   // namespace
+
+TEST_CASE ("blocks tick as often as they are long, whatever the rates", "[audio]")
+{
+    rc::prop ("no tick is lost or made up",
+              []
+              {
+                  const double tick_hz = *rc::gen::element (500.0, 1000.0, 4000.0, 44'100.0, 48'000.0), card_hz = *rc::gen::element (44'100.0, 48'000.0);
+                  AudioClock clock { tick_hz };
+                  Counted ticked;
+                  std::jthread driver ([&]
+                                       { clock.drive (ticked); });
+                  int frames = 0;
+                  while (ticked.count == 0)   // until it is driven
+                  {
+                      clock.block (1000, card_hz);
+                      std::this_thread::yield();
+                  }
+                  const int before = ticked.count;
+                  for (int k = 0; k < 200; ++k)
+                  {
+                      const int n = *rc::gen::inRange (1, 600);
+                      clock.block (n, card_hz);
+                      frames += n;
+                  }
+                  const int ticks = ticked.count - before;
+                  RC_ASSERT (clock.ticksByTimer() == 0u);
+                  ticked.most = 0;
+                  clock.block (10'000, card_hz);
+                  RC_ASSERT (std::abs (ticks - frames * tick_hz / card_hz) <= 1.001);
+              });
+}
+
+TEST_CASE ("when a card that ticks is gone a timer ticks with all forces at zero, and when it is back they rise by the ramp", "[audio][safety]")
+{
+    constexpr double rate_hz = 1000.0, ramp_s = 0.05;
+    const auto sketch = test::Sketch {}.node ("push", "signal.constant", { { "value", 2.0 } }).node ("join", "vector.join").node ("motor", "device.force").wire ("push.out -> join.z").wire ("join.out -> motor.force");
+    Engine engine { sketch.compile ({ .rate_hz = rate_hz }).plan };
+    Pushed device;
+    engine.attach ("stylus", device, { .ramp = ramp_s });
+    AudioClock clock { rate_hz };
+    Runner runner { engine, clock, rate_hz, {} };
+
+    std::atomic<bool> plays = true;
+    std::jthread card ([&] (const std::stop_token& stop)
+                       {
+        while (! stop.stop_requested())
+        {
+            if (plays) clock.block (96, 48'000.0);
+            std::this_thread::sleep_for (1ms);
+        } });
+    runner.start();
+    REQUIRE (soon ([&]
+                   { return device.force == 2.0; }));
+    CHECK (runner.status().stands_in == 0);
+
+    plays = false;
+    REQUIRE (soon ([&]
+                   { return runner.status().stands_in == 1 && device.force == 0.0; }));
+    CHECK (runner.status().phase == RunStatus::Phase::running);
+    const auto ticks = runner.status().ticks;
+    CHECK (soon ([&]
+                 { return runner.status().ticks > ticks + 20; }));
+    CHECK (device.force == 0.0);
+    CHECK (clock.ticksByTimer() > 20);
+
+    plays = true;
+    REQUIRE (soon ([&]
+                   { return device.force == 2.0; }));
+    CHECK (runner.status().stands_in == 0);
+    runner.stop();
+    CHECK (soon ([&]
+                 { return runner.isOver(); }));
+    CHECK (device.force == 0.0);
+    CHECK (device.largest_step <= 2.0 / (Guard::fade_s * rate_hz) + 1e-9);
+}
+
+TEST_CASE ("a run that a card should tick ends when it is asked to, also where no block ever comes", "[audio]")
+{
+    Engine engine { test::Sketch {}.node ("a", "signal.constant").compile ({ .rate_hz = 1000.0 }).plan };
+    AudioClock clock { 1000.0 };
+    Runner runner { engine, clock, 1000.0, {} };
+    runner.start();
+    REQUIRE (soon ([&]
+                   { return clock.ticksByTimer() > 3; }));
+    runner.stop();
+    CHECK (soon ([&]
+                 { return runner.isOver(); }));
+}
