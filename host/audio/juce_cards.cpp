@@ -167,6 +167,7 @@ std::variant<std::unique_ptr<OpenCard>, Message> JuceCards::open (const CardWant
     for (const auto& type : types)
         type->scanForDevices();
 
+    const auto cards = cardsThere (types);
     std::unique_ptr<Type> type;
     juce::String output, input;
     for (auto& t : types)
@@ -185,11 +186,10 @@ std::variant<std::unique_ptr<OpenCard>, Message> JuceCards::open (const CardWant
     }
     if (! type)
     {
-        std::erase (types, nullptr);
         std::string what = "there is no " + (wanted.type.empty() ? std::string ("sound card") : wanted.type + " card");
         if (! wanted.output.empty()) what += " " + inQuotes (wanted.output);
         if (inputs > 0 && ! wanted.input.empty()) what += " with an input " + inQuotes (wanted.input);
-        return cannot ("no_card", what, cardsThere (types));
+        return cannot ("no_card", what, cards);
     }
 
     std::unique_ptr<juce::AudioIODevice> device (type->createDevice (output, input));
@@ -197,8 +197,8 @@ std::variant<std::unique_ptr<OpenCard>, Message> JuceCards::open (const CardWant
     if (! device) return cannot ("cannot_open", name + " cannot be opened", "see that no other program has it to itself");
 
     const int has_out = device->getOutputChannelNames().size(), has_in = device->getInputChannelNames().size();
-    if (outputs > has_out) return cannot ("channel", name + " has " + std::to_string (has_out) + " outputs, and channel " + std::to_string (outputs) + " is asked for", "take a channel that it has, or another card: " + cardsThere (types));
-    if (inputs > has_in) return cannot ("channel", name + " has " + std::to_string (has_in) + " inputs, and channel " + std::to_string (inputs) + " is asked for", "take a channel that it has, or another card");
+    if (outputs > has_out) return cannot ("channel", name + " has " + std::to_string (has_out) + " outputs, and channel " + std::to_string (outputs) + " is asked for", "take a channel that it has, or another card; " + cards);
+    if (inputs > has_in) return cannot ("channel", name + " has " + std::to_string (has_in) + " inputs, and channel " + std::to_string (inputs) + " is asked for", "take a channel that it has, or another card; " + cards);
 
     const auto rates = device->getAvailableSampleRates();
     const auto same = [] (double a, double b)

@@ -103,7 +103,7 @@ void OutStream::render (std::span<float> frames) noexcept
     }
     now.difference = -servo.difference();
     now.error_s = card.clocks == Clocks::one ? 0.0 : servo.error();
-    now.latency_s = waits / hz;
+    now.latency_s = aim / hz + now.error_s;
     now.flows = flows ? 1 : 0;
     published.store (now);
 }

@@ -93,7 +93,8 @@ Session::Session (const SessionOptions& options, Pace pace) : told (options), lo
     bindDevices();
     decideLength();
     auto outputs = told.outputs;
-    if (! told.log.empty()) outputs.push_back (told.log);
+    for (const auto* file : { &told.log, &told.capture })
+        if (! file->empty()) outputs.push_back (*file);
     refuseOverwriting (outputs, inputs());
     if (! told.log.empty()) startLog (std::move (first));
     if (pace == Pace::live) startAudio();

@@ -12,11 +12,13 @@ import pathlib
 import re
 import subprocess
 import sys
+import time
 
 import numpy
 
 from sound_server import Server
 
+GRAPH = pathlib.Path(__file__).resolve().parent / "ring.json"
 RATE, BLOCK, CHANNELS = 48000, 64, 4
 FREQUENCY, DECAY, AMPLITUDE, SPEED = 120.0, 6.0, 2.0, 1.0  # as in ring.json
 FULL_SCALE = {3: 4.0, 4: 8.0}  # N, by channel
@@ -77,7 +79,7 @@ def play(program, server, out, clock):
     file.unlink(missing_ok=True)
     routes = [word for c, n in FULL_SCALE.items() for word in ("--route", f"ring.value={c}@{n} N")]
     run = subprocess.Popen(
-        [program, "play", pathlib.Path(__file__).parent / "ring.json", "--osc", "off", "--audio", "JACK", "--clock", clock, "--duration", str(SECONDS + 2.0), "--capture", out / f"given_{clock}.wav", *routes],
+        command(program, "--clock", clock, "--duration", str(SECONDS + 2.0), "--capture", out / f"given_{clock}.wav", *routes),
         env=server.environment, stderr=subprocess.PIPE, text=True,
     )
     capture = server.capture(file, SECONDS, sorted(FULL_SCALE))
@@ -99,6 +101,31 @@ def play(program, server, out, clock):
     return worst, ratio
 
 
+def command(program, *more):
+    return [program, "play", GRAPH, "--osc", "off", "--audio", "JACK", *more]
+
+
+def refuse(program, server):
+    """What the card does not have is said."""
+    for words, message in ((["--route", f"ring.value={CHANNELS + 1}"], "audio/channel"), (["--route", "ring.value=1@2 m/s2"], "audio/unit")):
+        ran = subprocess.run(command(program, "--duration", "1", *words), env=server.environment, capture_output=True, text=True)
+        if ran.returncode != 1 or message not in ran.stderr:
+            raise SystemExit(f"{words}: not refused with {message}, but {ran.returncode}: {ran.stderr}")
+
+
+def lose(program, server):
+    """A card that goes away and comes back, while it ticks the run."""
+    run = subprocess.Popen(command(program, "--duration", "8", "--clock", "audio", "--route", "ring.value=1"), env=server.environment, stderr=subprocess.PIPE, text=True)
+    time.sleep(2.0)
+    server.end()
+    time.sleep(1.5)
+    server.start()
+    said = run.communicate()[1]
+    print("\n".join("  " + line.strip() for line in said.splitlines() if "went away" in line or "from the timer" in line), flush=True)
+    if run.returncode != 0 or "it went away 1 time\n" not in said or "ticks came from the timer" not in said:
+        raise SystemExit(said)
+
+
 def main():
     program, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
     out.mkdir(parents=True, exist_ok=True)
@@ -114,6 +141,8 @@ def main():
                 raise SystemExit("what is captured is not what theory has")
             if clock == "audio" and ratio != 1.0:
                 raise SystemExit("a card that ticks the run has no ratio to itself but 1")
+        refuse(program, server)
+        lose(program, server)
     finally:
         server.end()
 

@@ -9,16 +9,19 @@ class Server:
     """The dummy driver: so many frames a block, so many channels. Its name is its own, so that others may run."""
 
     def __init__(self, rate, block, channels):
-        self.rate = rate
+        self.rate, self.block, self.channels = rate, block, channels
         self.environment = dict(os.environ, JACK_NO_AUDIO_RESERVATION="1", JACK_DEFAULT_SERVER=f"tactus-{os.getpid()}")
+        self.start()
+
+    def start(self):
         self.process = subprocess.Popen(
-            ["jackd", "-n", self.environment["JACK_DEFAULT_SERVER"], "-d", "dummy", "-r", str(rate), "-p", str(block), "-C", str(channels), "-P", str(channels)],
+            ["jackd", "-n", self.environment["JACK_DEFAULT_SERVER"], "-d", "dummy", "-r", str(self.rate), "-p", str(self.block), "-C", str(self.channels), "-P", str(self.channels)],
             env=self.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
         )
         for _ in range(100):
             time.sleep(0.1)
             listed = subprocess.run(["jack_lsp"], env=self.environment, capture_output=True, text=True)
-            if f"system:playback_{channels}" in listed.stdout:
+            if f"system:playback_{self.channels}" in listed.stdout:
                 return
         self.end()
         raise SystemExit("jackd does not start")

@@ -188,3 +188,40 @@ TEST_CASE ("a device that is not plugged in is said", "[app][run]")
     REQUIRE (std::ranges::count (said, "hid/not_connected", &Message::id) == 1);
     CHECK (std::ranges::find (said, "hid/not_connected", &Message::id)->where.starts_with ("/devices/stylus"));
 }
+
+TEST_CASE ("a sound card that is not there is said, and the rest of the run goes on", "[app][run]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    Performance p { rig.document, catalogue() };
+    Messages messages;
+    p.setAudio (audio::readAudioSettings (Json::parse (R"({ "output": "nobody has this card", "routes": [ { "port": "drag.force.x", "channel": 1, "full_scale": "4 N" } ] })"), "/audio", messages));
+    REQUIRE (messages.empty());
+    CHECK_FALSE (p.audioStatus());
+    p.start ({});
+    CHECK (std::ranges::count (p.messages(), "audio/no_card", &Message::id) == 1);
+    REQUIRE (p.audioStatus());
+    CHECK_FALSE (p.audioStatus()->is_open);
+    CHECK (until (p, [&]
+                  { return p.status()->ticks > 100; }));
+
+    auto wrong = audio::readAudioSettings (Json::parse (R"({ "routes": [ { "port": "drag.forse.x", "channel": 1 } ] })"), "/audio", messages);
+    p.setAudio (wrong);
+    p.start ({});
+    CHECK (until (p, [&]
+                  { return std::ranges::count (p.messages(), "audio/port", &Message::id) == 1; }));
+    CHECK (until (p, [&]
+                  { return p.isRunning() && p.status()->ticks > 100; }));
+}
+
+TEST_CASE ("a run that a sound card should tick holds its forces at zero while there is none", "[app][run]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    Performance p { rig.document, catalogue() };
+    p.setAudio ({ .card = { .type = "", .output = "nobody has this card", .input = "" }, .routes = {} }, true);
+    p.start ({});
+    REQUIRE (until (p, [&]
+                    { return p.status() && p.status()->ticks > 1000; }));
+    CHECK (p.status()->stands_in == 1);
+    CHECK (p.audioStatus()->by_timer);
+    CHECK (p.status()->peak == 0.0);
+}

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Sound cards on the command line, where there is none of this name: ./test.sh --sound has one.
+
+#include "program.hpp"
+
+#include <framework/json.hpp>
+
+#include <catch2/catch.hpp>
+
+using namespace tactus;
+using test::runTactus;
+using test::Scratch;
+
+namespace
+{
+const std::string wood = TACTUS_SOURCE_DIR "/graphs/dry_wood.json";
+
+bool holds (const std::string& text, const std::string& part) { return text.find (part) != std::string::npos; }
+
+std::string errorOf (std::vector<std::string> more)
+{
+    std::vector<std::string> all { "play", wood, "--osc", "off", "--duration", "0.1" };
+    all.insert (all.end(), more.begin(), more.end());
+    const auto ran = runTactus (all);
+    CHECK (ran.status == 1);
+    return ran.err;
+}
+}   // namespace
+
+TEST_CASE ("what cannot be played is said on the command line, with what would be right", "[cli][audio]")
+{
+    const auto absent = errorOf ({ "--route", "drag.force.x=1@4 N", "--audio", "nobody has this card" });
+    CHECK (holds (absent, "audio/no_card"));
+    CHECK (holds (absent, "'nobody has this card'"));
+    CHECK (holds (errorOf ({ "--clock", "audio", "--audio", "nobody has this card" }), "audio/no_card"));
+    CHECK (holds (errorOf ({ "--device", "stylus=audio:nobody has this card" }), "audio/no_card"));
+    CHECK (holds (errorOf ({ "--route", "drag.force.x" }), "audio/route"));
+    CHECK (holds (errorOf ({ "--route", "drag.force.x=1@4 mm" }), "audio/route"));
+    CHECK (holds (errorOf ({ "--route", "drag.force.x=1@\"4 N\"" }), "audio/route"));
+    CHECK (holds (errorOf ({ "--route", "drag.forse.x=1" }), "did you mean 'force'?"));
+    CHECK (holds (errorOf ({ "--route", "drag.force.x=1@20 m/s2" }), "audio/unit"));
+    CHECK (holds (errorOf ({ "--device", "stylus=audio:one", "--audio", "another" }), "audio/two_cards"));
+}
+
+TEST_CASE ("a render takes no sound card, and a graph that names one is valid wherever it is read", "[cli][audio]")
+{
+    const auto refused = runTactus ({ "render", wood, "--duration", "1", "--device", "stylus=audio" });
+    CHECK (refused.status == 1);
+    CHECK (holds (refused.err, "device/real"));
+
+    Scratch scratch;
+    const auto graphWith = [&] (const std::string& outputs)
+    {
+        return scratch.write ("graph.json", R"({ "format": "tactus-graph", "version": 1, "rate_hz": 1000,
+            "devices": { "shaker": { "driver": "audio", "outputs": )"
+                                                + outputs + R"( } },
+            "nodes": { "wave": { "type": "signal.lfo" }, "out": { "type": "device.signal_out", "role": "shaker" } }, "wires": ["wave.out -> out.in"] })");
+    };
+    CHECK (runTactus ({ "validate", graphWith (R"([ { "channel": 3, "full_scale": "4 N" } ])") }).status == 0);
+    const auto wrong = runTactus ({ "validate", graphWith (R"([ { "channel": 0, "full_scale": "4 mm" } ])") });
+    CHECK (wrong.status == 1);
+    CHECK (holds (wrong.err, "device/out_of_range"));
+    CHECK (holds (wrong.err, "audio/full_scale"));
+}
