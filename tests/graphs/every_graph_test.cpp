@@ -8,6 +8,7 @@
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/devices/make_device.hpp>
+#include <host/sessions/needs.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -96,16 +97,18 @@ Run run (const graph::Graph& g, const std::vector<plan::Override>& overrides = {
 std::string readme()
 {
     std::string text = "# Presets\n\nMade from the files themselves; `TACTUS_UPDATE=1 build/release/bin/tactus_tests \"the list of presets*\"` writes it anew.\n\n"
-                       "| preset | what it feels like | controls | tags |\n|---|---|---|---|\n";
+                       "| preset | what it feels like | controls | needs | tags |\n|---|---|---|---|---|\n";
     for (const auto& path : presets())
     {
         const auto g = loadGraph (path).graph;
-        std::string controls, tags;
+        std::string controls, tags, needs;
+        for (const auto& [role, parts] : host::needsOf (*compiled (g).plan))
+            needs += (needs.empty() ? "" : "; ") + role + ": " + host::describe (parts);
         for (const auto& c : g.controls)
             controls += (controls.empty() ? "" : ", ") + c.name;
         for (const auto& t : g.tags)
             tags += (tags.empty() ? "" : ", ") + t;
-        text += "| [" + g.name + "](" + path.filename().string() + ") | " + g.about + " | " + controls + " | " + tags + " |\n";
+        text += "| [" + g.name + "](" + path.filename().string() + ") | " + g.about + " | " + controls + " | " + needs + " | " + tags + " |\n";
     }
     return text;
 }

@@ -12,7 +12,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr int card_width = 300, refreshes_apart = 6;   // five times a second
+constexpr int card_width = 280, widest_card = 480, refreshes_apart = 6;   // five times a second
 
 const char* const first_that_can = "the first device that can";
 
@@ -144,7 +144,7 @@ void DevicesPanel::setPart (const std::string& role, const std::string& pointer,
 
 void DevicesPanel::refresh()
 {
-    if (! isShowing() || ++refreshes % refreshes_apart != 0) return;
+    if (! isVisible() || ++refreshes % refreshes_apart != 0) return;
     look();
 }
 
@@ -296,6 +296,8 @@ Remark DevicesPanel::ticking() const
     const auto status = run.status();
     if (! status || ! run.isRunning()) return { "Nothing runs.", false };
     const auto& role = run.clockRole();
+    if (const auto wanted = desk.session().session.clock(); role.empty() && ! wanted.empty() && wanted != "timer")
+        return { "A timer ticks, at " + juce::String (run.rate()) + " Hz: " + (fitOf (wanted) == nullptr ? "this graph has no role " + asText (wanted) : asText (wanted) + " has no clock now") + ".", false };
     if (role.empty()) return { "A timer ticks, at " + juce::String (run.rate()) + " Hz.", false };
     if (status->clock_replaced) return { asText (role) + " is away: a timer ticks in its place, and all forces are held at zero.", true };
     return { asText (role) + " ticks, at " + juce::String (run.rate()) + " Hz.", false };
@@ -308,7 +310,7 @@ void DevicesPanel::resized()
 {
     scroll.setBounds (getLocalBounds());
     const int width = getWidth() - scroll.getScrollBarThickness();
-    const int across = std::max (1, width / card_width);
+    const int across = std::clamp (width / card_width, 1, std::max (1, static_cast<int> (columns.size())));
     int x = 0, y = 0, highest = 0;
     for (std::size_t i = 0; i < columns.size(); ++i)
     {
@@ -317,7 +319,7 @@ void DevicesPanel::resized()
             y += highest;
             x = highest = 0;
         }
-        columns[i]->layOut (width / across);
+        columns[i]->layOut (std::min (width / across, widest_card));
         columns[i]->setTopLeftPosition (x, y);
         x += columns[i]->getWidth();
         highest = std::max (highest, columns[i]->getHeight());

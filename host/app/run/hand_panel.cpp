@@ -67,14 +67,14 @@ public:
 
 HandPanel::HandPanel (Sound& s) : sound (s), play (std::make_unique<PlayButton>()), listen (std::make_unique<SoundButton>())
 {
-    who.addItem ("As the graph says", as_described);
+    who.addItem ("Its own device", as_described);
     who.addItem ("Mouse or pen", by_pointer);
     who.addSeparator();
     int id = first_gesture;
     for (const auto& gesture : gestures())
         who.addItem ("Gesture: " + juce::String (std::string (gesture.id)), id++);
     who.setSelectedId (as_described, juce::dontSendNotification);
-    who.setTooltip ("Who moves the tool. A recording (CSV with t,x,y,z) can be dropped here.");
+    who.setTooltip ("Who moves the tool. Its own device is what the Devices panel binds it to, or what the graph says. A recording (CSV with t,x,y,z) can be dropped here.");
     who.onChange = [this]
     { choose(); };
 

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include "../support/canvas_rig.hpp"
+
+#include "host/hid_link/fake_board.hpp"
+#include "host/io/temporary_folder.hpp"
+
+#include <host/app/devices_panel/devices_panel.hpp>
+
+#include <thread>
+
+using namespace tactus;
+using namespace tactus::host;
+using host::test::CanvasRig;
+using tactus::test::BoardProfile;
+using tactus::test::boardReport;
+using tactus::test::FakeBoard;
+
+namespace
+{
+struct Rig
+{
+    Rig()
+    {
+        desk.open (home.path());
+        run.use (desk);
+        desk.onChange = [this]
+        { run.deskChanged(); };
+        panel.onHint = [this] (const juce::String& text)
+        { hint = text; };
+        panel.setSize (1000, 300);
+        panel.setVisible (true);
+    }
+
+    template <typename F>
+    bool until (F&& isSo)
+    {
+        return board.until ([&]
+                            {
+            run.attend();
+            panel.refresh();
+            return isSo(); });
+    }
+
+    Json kept() const { return Json::parse (home.textOf ("session.json")); }
+    Json bound() const
+    {
+        const auto* now = desk.session().session.binding ("stylus");
+        return now != nullptr ? *now : Json();
+    }
+
+    TemporaryFolder home;
+    FakeBoard board;
+    hid::LoadedProfiles profiles { .profiles = { BoardProfile {}.make() }, .messages = {} };
+    DeviceDesk desk { board, profiles };
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    Performance run { rig.document, catalogue() };
+    DevicesPanel panel { rig.document, run, desk };
+    juce::String hint;
+};
+
+std::vector<std::string> wordsOf (const std::vector<BindingChoice>& choices)
+{
+    std::vector<std::string> all;
+    for (const auto& c : choices)
+        all.push_back (c.words);
+    return all;
+}
+}   // namespace
+
+TEST_CASE ("a role is bound in the window, which is kept at once and is no edit of the graph", "[app][sessions]")
+{
+    Rig r;
+    const auto before = r.rig.text();
+    REQUIRE (r.until ([&]
+                      { return ! r.desk.connected().empty() && r.panel.cards() == 2; }));   // the clock's, and the stylus
+    REQUIRE (r.until ([&]
+                      {
+        r.panel.bind ("stylus", "Board");
+        return ! r.bound().is_null(); }));
+    CHECK (r.bound() == Json { { "driver", "hid" }, { "profile", "board" } });
+    CHECK (r.kept()["roles"]["stylus"] == r.bound());
+
+    r.panel.setPart ("stylus", "/workspace/scale", "2");
+    r.panel.setPart ("stylus", "/workspace/offset", "[0, 0, \"1 cm\"]");
+    r.panel.setPart ("stylus", "/guard/max_force", "2 N");
+    CHECK (r.hint.isEmpty());
+    CHECK (r.kept()["roles"]["stylus"] == Json { { "driver", "hid" }, { "profile", "board" }, { "workspace", { { "scale", 2 }, { "offset", { 0, 0, "1 cm" } } } }, { "guard", { { "max_force", "2 N" } } } });
+
+    const auto [pointer, text] = GENERATE (table<std::string, std::string> ({ { "/workspace/scale", "0" }, { "/workspace/scale", "wide" }, { "/workspace/offset", "[1, 2]" }, { "/guard/max_force", "2 mm" } }));
+    const auto good = r.home.textOf ("session.json");
+    r.panel.setPart ("stylus", pointer, text);
+    CHECK (r.hint.isNotEmpty());
+    CHECK (r.home.textOf ("session.json") == good);
+
+    for (const auto* part : { "/workspace/scale", "/workspace/offset", "/guard/max_force" })
+        r.panel.setPart ("stylus", part, "");
+    CHECK (r.bound() == Json { { "driver", "hid" }, { "profile", "board" } });
+    r.panel.bind ("stylus", "gesture tap");
+    CHECK (r.bound() == Json { { "driver", "gesture" }, { "path", "tap" } });
+    r.panel.bind ("stylus", "as the graph says");
+    CHECK (r.bound().is_null());
+    CHECK (r.rig.text() == before);
+    CHECK (r.rig.document.history().position() == 0);
+}
+
+TEST_CASE ("a run takes the device that is bound, is ticked by it, and starts anew when it is bound otherwise", "[app][sessions]")
+{
+    Rig r;
+    r.desk.edit ([] (DeviceSession& s)
+                 { s.bind ("stylus", { { "driver", "hid" }, { "profile", "board" }, { "workspace", { { "scale", 2 }, { "offset", { 0, 0, "1 cm" } } } } }); });
+    std::atomic<bool> sends = true;
+    std::jthread reports { [&] (const std::stop_token& over)
+                           {
+                               for (std::uint16_t n = 0; ! over.stop_requested(); std::this_thread::sleep_for (std::chrono::milliseconds (1)))
+                                   if (sends) r.board.send (boardReport (++n, 1'000'000, 0, -10'000'000));
+                           } };
+    r.run.start ({});
+    REQUIRE (r.run.isRunning());
+    CHECK (r.run.clockRole() == "stylus");
+    CHECK (r.run.rate() == 1000.0);
+    CHECK (r.run.mostForce() == 3.0);
+    CHECK (r.until ([&]
+                    { return r.run.tool() && (r.run.tool()->position - Vec3 (0.002, 0.0, -0.01)).norm() < 1e-12 && r.run.tool()->force.norm() > 0.1; }));
+    CHECK (r.until ([&]
+                    { return ! r.run.health().empty() && r.run.health().front().rate_hz && r.run.health().front().ticks; }));
+
+    // An edit of the graph goes on with it.
+    const auto openings = r.board.openings();
+    r.rig.document.perform (graph::SetParam { "", "drag", "mu", 0.3 });
+    CHECK (r.run.rate() == 1000.0);
+    CHECK (r.board.openings() == openings);
+
+    sends = false;
+    CHECK (r.until ([&]
+                    { return r.run.status()->clock_replaced && r.run.status()->force == 0.0; }));
+    sends = true;
+    CHECK (r.until ([&]
+                    { return ! r.run.status()->clock_replaced && r.run.status()->force > 0.1; }));
+
+    r.desk.edit ([] (DeviceSession& s)
+                 { s.bind ("stylus", { { "driver", "gesture" }, { "path", "tap" } }); });
+    CHECK (r.until ([&]
+                    { return r.run.isRunning() && r.run.rate() == 4000.0 && r.run.clockRole().empty(); }));
+    r.run.letGo();
+    CHECK (r.run.health().empty());
+}
+
+TEST_CASE ("a device that is not there is waited for by a run in the window, and the mouse may have the role meanwhile", "[app][sessions]")
+{
+    Rig r;
+    r.board.plug (false);
+    r.desk.edit ([] (DeviceSession& s)
+                 {
+        s.bind ("stylus", { { "driver", "hid" }, { "profile", "board" } });
+        s.setClock ("stylus"); });
+    r.run.start ({});
+    REQUIRE (r.run.isRunning());
+    CHECK (r.until ([&]
+                    { return r.run.status()->clock_replaced && ! r.run.health().empty() && ! r.run.health().front().has_come; }));
+    CHECK (r.run.status()->peak == 0.0);
+
+    r.run.start (Performance::Hand::pointer());
+    CHECK (r.until ([&]
+                    { return r.run.isRunning() && r.run.clockRole().empty() && r.run.rate() == 4000.0; }));
+    CHECK (r.run.health().empty());
+    r.run.letGo();
+}
+
+TEST_CASE ("the list for a role has what is plugged in, by serial number where two are alike", "[app][sessions]")
+{
+    FakeBoard board;
+    const hid::LoadedProfiles profiles { .profiles = { BoardProfile {}.make() }, .messages = {} };
+    auto there = board.connected();
+    auto words = wordsOf (bindingChoices (nullptr, there, profiles));
+    CHECK (words.front() == "as the graph says");
+    CHECK (std::ranges::count (words, "Board") == 1);
+
+    there.push_back (there.front());
+    there.back().path = "fake/1";
+    there.back().serial = "S2";
+    words = wordsOf (bindingChoices (nullptr, there, profiles));
+    CHECK (std::ranges::count (words, "Board, serial S1") == 1);
+    CHECK (std::ranges::count (words, "Board, serial S2") == 1);
+
+    const Json away { { "driver", "hid" }, { "profile", "board" }, { "serial", "S9" }, { "guard", { { "max_force", 1 } } } };
+    CHECK (wordsOf (bindingChoices (&away, there, profiles)).back() == "hid board, serial S9");
+    const Json here { { "driver", "hid" }, { "profile", "board" }, { "serial", "S2" }, { "workspace", { { "scale", 2 } } } };
+    CHECK (bindingChoices (&here, there, profiles).size() == words.size());
+}
