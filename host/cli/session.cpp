@@ -15,6 +15,7 @@
 #include <host/platform/home_folder.hpp>
 #include <host/runlog/graph_snapshot.hpp>
 #include <host/runtime/taps.hpp>
+#include <host/sessions/needs.hpp>
 
 #include <cmath>
 #include <filesystem>
@@ -255,6 +256,9 @@ void Session::bindDevices()
     for (auto& d : devices)
         running->attach (d.role, *d.device, d.limits);
     report (missingParts (running->plan()), loaded, told.graph);
+    const auto needs = needsOf (running->plan());
+    for (const auto& real_one : realDevices())
+        if (const auto role = std::ranges::find (needs, real_one.role, &RoleNeeds::role); role != needs.end()) report (missingTools (*role, partsOf (real_one.profile())), loaded, told.graph);
 }
 
 /// The device that an option names, else the one that the session binds, else the one that the graph describes, else a

@@ -51,8 +51,11 @@ std::string describe (const DeviceHealth&);
 class HealthWatch
 {
 public:
+    /// Before this a drift would be a guess, s.
+    static constexpr double usual_span = 2.0;
+
     /// `clock_role`: whose device ticks; empty: none of them.
-    explicit HealthWatch (std::string clock_role = {}) : clock (std::move (clock_role)) {}
+    explicit HealthWatch (std::string clock_role = {}, double shortest_span_s = usual_span) : clock (std::move (clock_role)), shortest_span (shortest_span_s) {}
 
     void look (std::span<const RealDevice>);   ///< some ten times a second
 
@@ -66,11 +69,10 @@ private:
         std::uint64_t departures = 0;
     };
 
-    static constexpr double shortest_span = 2.0;   // s, before which a drift would be a guess
-
     Meter& meterOf (const std::string& role);
 
     std::string clock;
+    double shortest_span;
     std::vector<Meter> meters;
     std::vector<DeviceHealth> known;
 };

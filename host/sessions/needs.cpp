@@ -193,4 +193,18 @@ std::vector<std::string> lackingOf (const DeviceParts& needed, const DeviceParts
     return all;
 }
 
+Messages missingTools (const RoleNeeds& needs, const DeviceParts& there)
+{
+    auto tool = needs.parts;
+    tool.others = {};
+    Messages messages;
+    for (const auto& what : lackingOf (tool, there))
+        messages.push_back ({ .severity = Message::Severity::warning,
+                              .id = "device/missing_tool",
+                              .where = "/devices/" + needs.role,
+                              .text = "the device of the role " + inQuotes (needs.role) + " has " + what,
+                              .remedy = "what the graph makes of it is 0, or acts on nothing: bind another device, as `tactus session GRAPH` shows" });
+    return messages;
+}
+
 }   // namespace tactus::host

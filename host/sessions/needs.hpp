@@ -3,6 +3,7 @@
 
 #include <framework/device.hpp>
 #include <framework/json.hpp>
+#include <framework/message.hpp>
 #include <framework/plan/plan.hpp>
 #include <host/hid/profile_reader.hpp>
 
@@ -44,5 +45,9 @@ std::string describe (const DeviceParts&);
 
 /// What is needed and not there, each as "no rotation", "no axis 'grip' (did you mean 'trigger'?); its axes: 'trigger'".
 std::vector<std::string> lackingOf (const DeviceParts& needed, const DeviceParts& there);
+
+/// A warning for each part of the tool that a role needs and its device does not have; the parts with names are told by
+/// missingParts. Id: device/missing_tool.
+Messages missingTools (const RoleNeeds&, const DeviceParts& there);
 
 }   // namespace tactus::host

@@ -287,6 +287,8 @@ void Performance::begin()
     for (auto& d : devices)
         engine->attach (d.role, *d.device, d.limits);
     std::ranges::move (missingParts (engine->plan()), std::back_inserter (said));
+    for (const auto& real : realDevices())
+        if (const auto role = std::ranges::find (needed, real.role, &RoleNeeds::role); role != needed.end()) std::ranges::move (missingTools (*role, partsOf (real.profile())), std::back_inserter (said));
     if (sound != nullptr) sound->setTickRate (rate_hz);
     beginSound();
     clock = rig->clock() == nullptr ? makeClock() : nullptr;

@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 
 using namespace tactus;
@@ -21,7 +22,8 @@ bool has (const std::string& text, const std::string& part) { return text.find (
 
 test::Ran play (const std::string& session, std::vector<std::string> more = {})
 {
-    std::vector<std::string> all { "play", wood, "--osc", "off", "--duration", "0.1", "--session", session };
+    std::vector<std::string> all { "play", wood, "--osc", "off", "--session", session };
+    if (std::ranges::count (more, "--duration") == 0) all.insert (all.end(), { "--duration", "0.1" });
     all.insert (all.end(), more.begin(), more.end());
     return runTactus (all);
 }
@@ -167,4 +169,16 @@ TEST_CASE ("a damaged session of the user's ends no run, pushes nobody and is ke
     CHECK (has (test::textOf (home.path ("session.json.broken")), "tactus_board"));
     CHECK (second.status == 0);
     CHECK_FALSE (has (second.err, "session"));
+}
+
+TEST_CASE ("a run on a session is repeated to the byte from its log, in its workspace and while its clock is away", "[sessions][cli][replay]")
+{
+    const Scratch scratch;
+    const auto binding = GENERATE (as<std::string> {}, R"({"driver": "gesture", "path": "stroke", "workspace": {"scale": 0.5, "offset": [0, 0, "-1 mm"]}, "guard": {"max_force": 1, "max_speed": "0.2 m/s"}})", R"({"driver": "hid", "profile": "tactus_board"})");
+    const auto desk = scratch.write ("session.json", R"({"format": "tactus-session", "version": 1, "clock": "stylus", "roles": {"stylus": )" + binding + "}}");
+    const std::string ports = "hand.position,hand.valid,motor.force,motor.applied";
+    CHECK (play (desk, { "--duration", "0.4", "--log", scratch.path ("run.jsonl"), "--record", ports, "--out", scratch.path ("live.csv") }).status == 0);
+    CHECK (runTactus ({ "render", "--replay", scratch.path ("run.jsonl"), "--record", ports, "--out", scratch.path ("again.csv") }).status == 0);
+    CHECK (test::textOf (scratch.path ("live.csv")).size() > 1000);
+    CHECK (test::textOf (scratch.path ("live.csv")) == test::textOf (scratch.path ("again.csv")));
 }

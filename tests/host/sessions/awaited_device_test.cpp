@@ -281,3 +281,31 @@ TEST_CASE ("a device's state is told while it is awaited, there, and gone", "[se
     CHECK (describe (watch.health().front()) == "unplugged");
     CHECK_FALSE (watch.health().front().rate_hz);
 }
+
+TEST_CASE ("a device's drift is how much faster its clock goes than the one that ticks", "[sessions][hid]")
+{
+    FakeBoard boards[2];
+    const auto owner = test::openBoard (boards[0]), follower = test::openBoard (boards[1]);
+    const std::vector<RealDevice> devices { { "stylus", owner.get(), nullptr }, { "thumb", follower.get(), nullptr } };
+    HealthWatch by_device { "stylus", 0.05 }, too_early { "stylus" };
+    std::uint16_t n = 0, m = 0;
+    const bool measured = boards[0].until ([&]
+                                           {
+        for (int k = 0; k < 4; ++k)
+            boards[0].send (boardReport (++n));
+        for (int k = 0; k < 5; ++k)
+            boards[1].send (boardReport (++m));   // 5 for 4, however slow this machine is
+        std::this_thread::sleep_for (2ms);
+        owner->read();
+        follower->read();
+        by_device.look (devices);
+        too_early.look (devices);
+        return n > 400 && by_device.health()[1].drift_ppm; });
+    REQUIRE (measured);
+    const auto& thumb = by_device.health()[1];
+    CHECK (*thumb.drift_ppm == Approx (250'000.0).epsilon (0.1));
+    CHECK (thumb.drift_error_ppm > 0.0);
+    CHECK_FALSE (by_device.health()[0].drift_ppm);
+    CHECK_FALSE (too_early.health()[1].drift_ppm);
+    CHECK (describe (thumb).find ("ppm") != std::string::npos);
+}

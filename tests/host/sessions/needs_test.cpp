@@ -117,6 +117,17 @@ TEST_CASE ("a role is told what it lacks of the device that the session binds, o
     CHECK (hasErrors (fitsOf (needsOf (*plan), s.graph, bound ("stylus", { { "driver", "sim" }, { "mass", "1 N" } }), profiles, {}).front().messages));
 }
 
+TEST_CASE ("a tool without what a graph wants of it is a warning, and parts with names are left to their nodes", "[sessions]")
+{
+    const DeviceParts needed { .position = true, .force = true, .torque = true, .others = { .axes = { "grip" } } };
+    const auto messages = missingTools ({ "stylus", needed }, { .position = true, .torque = true });
+    REQUIRE (messages.size() == 1);
+    CHECK (messages.front().id == "device/missing_tool");
+    CHECK (messages.front().text == "the device of the role 'stylus' has no force");
+    CHECK_FALSE (hasErrors (messages));
+    CHECK (missingTools ({ "stylus", needed }, needed).empty());
+}
+
 TEST_CASE ("a binding is named in short", "[sessions]")
 {
     CHECK (nameOf ({ { "driver", "hid" }, { "profile", "board" }, { "serial", "B7" } }) == "hid board, serial B7");
