@@ -3,6 +3,6 @@
 # files and reports, and the threads of runs and devices.
 find_package (PkgConfig REQUIRED)
 pkg_check_modules (hidapi REQUIRED IMPORTED_TARGET hidapi-hidraw)
-foreach (part io assets devices hid platform runtime hid_link runlog sessions)
+foreach (part io assets devices hid platform runtime hid_link runlog audio sessions)
     add_subdirectory (host/${part})
 endforeach ()

@@ -70,7 +70,11 @@ Messages AudioRig::begin (const Plan& plan, double tick_rate_hz, const Engine* e
     for (const auto& route : wanted.routes)
     {
         per_tick.push_back (PortMixer::samplesOf (plan, route));
-        if (per_tick.back() == 0 && ! route.if_there) messages.push_back (problem ("audio/port", route.where, "there is no port " + inQuotes (route.port), "name an output of a node, as in mix.out or drag.force.x; `tactus nodes TYPE` lists them"));
+        if (per_tick.back() == 0)
+        {
+            messages.push_back (problem ("audio/port", route.where, "there is no port " + inQuotes (route.port), "name an output of a node, as in mix.out or drag.force.x; `tactus nodes TYPE` lists them"));
+            if (route.if_there) messages.back().severity = Message::Severity::warning;
+        }
         for (const auto& tap : plan.taps)
             if (isPartOf (tap.name, route.port))
                 if (const auto wrong = unitProblem (route.full_scale, tap.unit); ! wrong.empty())
@@ -79,7 +83,7 @@ Messages AudioRig::begin (const Plan& plan, double tick_rate_hz, const Engine* e
                     break;
                 }
     }
-    if (! messages.empty()) return messages;
+    if (hasErrors (messages)) return messages;
 
     int outs = 0, ins = 0;
     for (const auto& route : wanted.routes)

@@ -145,7 +145,6 @@ AudioRole readAudioRole (const Json& description, Messages& messages)
     in.text ("card");
     role.outputs = readChannels (in, "outputs", true, messages);
     role.inputs = readChannels (in, "inputs", false, messages);
-    if (! in.has ("outputs") && ! in.has ("inputs")) messages.push_back (problem ("audio/no_channels", "", "it has neither outputs nor inputs", "write \"outputs\": [{\"channel\": 1, \"full_scale\": \"4 N\"}]"));
     in.finish();
     return role;
 }

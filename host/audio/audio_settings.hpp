@@ -82,7 +82,7 @@ bool isAudio (const Json& description);
 
 /// {"driver": "audio", "outputs": [{"channel": 3, "full_scale": "4 N"}], "inputs": [{"channel": 1, "full_scale": "20 m/s2"}], "guard": {…}}
 ///
-/// "card" names one, as --audio does (for a run without a session). Ids as of Fields, and audio/full_scale, audio/no_channels.
+/// "card" names one, as --audio does (for a run without a session). Ids as of Fields, and audio/full_scale.
 AudioRole readAudioRole (const Json& description, Messages&);
 
 /// PORT=CHANNEL[@FULLSCALE], as in mix.out=3@"4 N". Id: audio/route.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "open_audio.hpp"
+#include "check_audio.hpp"
 
-#include <host/devices/guard_limits.hpp>
+#include <host/devices/problem.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -10,15 +11,6 @@ namespace tactus::host::audio
 {
 namespace
 {
-constexpr double usual_ramp = 0.2;   // s
-
-GuardLimits readGuard (const Json& description, const AudioRole& role, Messages& messages)
-{
-    const auto guard = description.find ("guard");
-    const DeviceLayout layout { .signal_inputs = static_cast<int> (role.inputs.size()), .signal_outputs = static_cast<int> (role.outputs.size()) };
-    return guard == description.end() ? GuardLimits {} : readGuardLimits (*guard, "/guard", messages, layout);
-}
-
 /// The highest channel that nodes of this type and role are set to.
 int highestChannel (const Plan& plan, const std::string& type, const std::string& role)
 {
@@ -46,7 +38,8 @@ MadeDevice openAudio (const Json& description, AudioRig& rig)
     MadeDevice made;
     auto role = readAudioRole (description, made.messages);
     made.limits = readGuard (description, role, made.messages);
-    if (made.limits.ramp == 0.0) made.limits.ramp = usual_ramp;
+    if (role.outputs.empty() && role.inputs.empty() && ! hasErrors (made.messages))
+        made.messages.push_back (problem ("audio/no_channels", "", "it has neither outputs nor inputs", "write \"outputs\": [{\"channel\": 1, \"full_scale\": \"4 N\"}]"));
     if (const auto card = description.value ("card", Json()); card.is_string())
         if (auto trouble = rig.nameCard (card.get<std::string>())) made.messages.push_back (std::move (*trouble));
     if (hasErrors (made.messages)) return made;
@@ -54,13 +47,6 @@ MadeDevice openAudio (const Json& description, AudioRig& rig)
     made.about = std::to_string (role.outputs.size()) + " outputs and " + std::to_string (role.inputs.size()) + " inputs of a sound card.";
     made.device = rig.open (std::move (role), made.messages);
     return made;
-}
-
-Messages checkAudio (const Json& description)
-{
-    Messages messages;
-    readGuard (description, readAudioRole (description, messages), messages);
-    return messages;
 }
 
 Json withChannels (const Json& description, const Plan& plan, const std::string& role)

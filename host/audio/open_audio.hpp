@@ -8,12 +8,9 @@
 namespace tactus::host::audio
 {
 
-/// A device for a role with the driver "audio", in the run whose rig this is. It has a guard with a ramp of 0.2 s where nobody
-/// says how long. Ids of readAudioRole, AudioRig::open, and audio/two_cards. [main thread]
+/// A device for a role with the driver "audio", in the run whose rig this is. Its guard
+/// is as readGuard has it. Ids of readAudioRole, AudioRig::open, audio/no_channels, audio/two_cards. [main thread]
 MadeDevice openAudio (const Json& description, AudioRig&);
-
-/// What is wrong with a description, as far as one can see without a card. [main thread]
-Messages checkAudio (const Json& description);
 
 /// The description with the channels that the nodes of the role ask for, each on the channel of the card with its number,
 /// where it names none. [main thread]

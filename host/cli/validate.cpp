@@ -6,9 +6,9 @@
 #include <framework/plan/compile.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
-#include <host/audio/open_audio.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/hid_link/profile_shelf.hpp>
+#include <host/sessions/role_fits.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -28,7 +28,7 @@ int checkDevices (const LoadedGraph& loaded, const std::string& file)
     const auto profiles = any_real ? hid::profilesAtHand() : hid::LoadedProfiles {};
     for (const auto& [role, description] : devices)
     {
-        auto messages = audio::isAudio (description) ? audio::checkAudio (description) : hid::checkDevice (description, std::filesystem::path (file).parent_path(), profiles);
+        auto messages = checkDescription (description, std::filesystem::path (file).parent_path(), profiles);
         for (auto& m : messages)
             m.where = "/devices/" + role + m.where;
         errors += report (messages, loaded, file);

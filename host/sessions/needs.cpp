@@ -3,6 +3,7 @@
 
 #include <framework/device_parts.hpp>
 #include <framework/in_quotes.hpp>
+#include <host/audio/audio_settings.hpp>
 #include <host/devices/make_device.hpp>
 #include <host/hid/hid_model.hpp>
 #include <host/hid_link/hid_device.hpp>
@@ -125,8 +126,9 @@ std::optional<DeviceParts> partsOf (const Json& description, const std::filesyst
                                               { return name == p->id; });
         return at == profiles.profiles.end() ? std::nullopt : std::optional (partsOf (**at));
     }
-    if (description.value ("driver", Json()) == "audio")
+    if (audio::isAudio (description))
     {
+        if (! description.contains ("outputs") && ! description.contains ("inputs")) return std::nullopt;   // it gets what is asked for
         DeviceParts parts;
         parts.others.signal_outputs = entriesOf (description, "outputs");
         parts.others.signal_inputs = entriesOf (description, "inputs");

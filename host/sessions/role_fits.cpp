@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "role_fits.hpp"
 
+#include <host/audio/check_audio.hpp>
+
 #include <algorithm>
 #include <utility>
 
@@ -55,6 +57,11 @@ bool isAmong (const Json& description, std::span<const hid::ConnectedDevice> con
                                 { return profileFor (description, device, all) != nullptr; });
 }
 
+Messages checkDescription (const Json& description, const std::filesystem::path& folder, const hid::LoadedProfiles& all)
+{
+    return audio::isAudio (description) ? audio::checkAudio (description) : hid::checkDevice (description, folder, all);
+}
+
 Messages checkBinding (const Json& binding, const std::filesystem::path& folder, const hid::LoadedProfiles& all)
 {
     Messages messages;
@@ -65,7 +72,7 @@ Messages checkBinding (const Json& binding, const std::filesystem::path& folder,
             readWorkspace (*w, "/workspace", messages);
             description.erase ("workspace");
         }
-    auto more = hid::checkDevice (description, folder, all);
+    auto more = checkDescription (description, folder, all);
     std::ranges::move (more, std::back_inserter (messages));
     return messages;
 }
@@ -92,7 +99,7 @@ std::vector<RoleFit> fitsOf (const std::vector<RoleNeeds>& all_needs, const grap
             fit.description = at->second;
         }
 
-        auto wrong = hid::checkDevice (fit.description, folder, all);
+        auto wrong = checkDescription (fit.description, folder, all);
         std::ranges::move (wrong, std::back_inserter (fit.messages));
         fit.there = partsOf (fit.description, folder, all);
         if (hid::isHid (fit.description))

@@ -43,7 +43,10 @@ std::string nameOf (const Json& description);
 /// Whether a HID device that is plugged in is what a description asks for.
 bool isAmong (const Json& description, std::span<const hid::ConnectedDevice>, const hid::LoadedProfiles&);
 
-/// What is wrong with the description of a binding, "workspace" and all, as far as one can see without the device.
+/// What is wrong with the description of a device, whatever its driver, as far as one can see without the device.
+Messages checkDescription (const Json& description, const std::filesystem::path& folder, const hid::LoadedProfiles&);
+
+/// What is wrong with the description of a binding, "workspace" and all.
 Messages checkBinding (const Json& binding, const std::filesystem::path& folder, const hid::LoadedProfiles&);
 
 }   // namespace tactus::host

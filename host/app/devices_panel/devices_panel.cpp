@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "devices_panel.hpp"
+#include "sound_words.hpp"
 
 #include <host/app/inspector/fields.hpp>
+#include <host/audio/audio_rig.hpp>
 #include <host/devices/gestures.hpp>
 #include <host/devices/make_device.hpp>
 
@@ -14,7 +16,7 @@ namespace
 {
 constexpr int card_width = 280, widest_card = 480, refreshes_apart = 6;   // five times a second
 
-const char* const first_that_can = "the first device that can";
+const char *const first_that_can = "the first device that can", *const sound_card = "sound card";
 
 /// What may be set of a binding: where it stands, how it is called, and what it does.
 struct Part
@@ -29,6 +31,27 @@ constexpr Part parts[] {
     { "/guard/ramp", "ramp", "As in 0.5 s, from no force to all of it" },
 };
 
+constexpr Part parts_of_sound[] {
+    { "/outputs", "outputs", "Channels of the card for the signal outputs 1, 2 ... of the role, and how much 1 is there: 3@4 N, 4@4 N. Left out: those that the graph asks for" },
+    { "/inputs", "inputs", "The same for the signal inputs: 1@20 m/s2" },
+    { "/guard/max_signal", "signal at most", "Of each output, in its own unit" },
+    { "/guard/ramp", "ramp", "As in 0.5 s, from nothing to all of it" },
+};
+constexpr Part parts_of_card[] {
+    { "/type", "system", "As `tactus devices` lists them: JACK, ALSA ... Left out: any" },
+    { "/output", "plays on", "Name of the card, or a part of it" },
+    { "/input", "hears from", "Name of the card, or a part of it" },
+    { "/rate_hz", "rate", "Hz. Left out: the card's own" },
+    { "/block", "block", "Frames. Small ones are late sooner, large ones add to the delay" },
+    { "/reserve", "reserve", "As in 10 ms: how late a tick or a block may be without a gap; adds to the delay" },
+};
+
+std::span<const Part> partsOf (const std::string& driver)
+{
+    if (driver == "audio") return parts_of_sound;
+    return parts;
+}
+
 juce::String asText (const std::string& s) { return juce::String::fromUTF8 (s.c_str()); }
 
 juce::String written (const Json& v) { return asText (v.is_string() ? v.get<std::string>() : v.dump()); }
@@ -41,10 +64,12 @@ Json readText (const juce::String& t)
 
 juce::String asText (const Message& m) { return asText (m.text + (m.remedy.empty() ? "" : ": " + m.remedy)); }
 
+bool isListOfChannels (const std::string& pointer) { return pointer == "/outputs" || pointer == "/inputs"; }
+
 /// A role may be bound with its workspace and guard; which device it is does not depend on them.
 Json device (Json binding)
 {
-    for (const auto* key : { "workspace", "guard" })
+    for (const auto* key : { "workspace", "guard", "outputs", "inputs" })
         binding.erase (key);
     return binding;
 }
@@ -56,13 +81,13 @@ void take (Json& binding, const std::string& pointer)
     if (! binding.contains (at)) return;
     auto& around = binding.at (at.parent_pointer());
     around.erase (at.back());
-    if (around.empty()) binding.erase (at.parent_pointer().back());
+    if (around.empty() && ! at.parent_pointer().empty()) binding.erase (at.parent_pointer().back());
 }
 }   // namespace
 
 std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& profiles)
 {
-    std::vector<BindingChoice> all { { "as the graph says", Json() }, { "simulated tool", defaultDevice() } };
+    std::vector<BindingChoice> all { { "as the graph says", Json() }, { "simulated tool", defaultDevice() }, { sound_card, { { "driver", "audio" } } } };
     for (const auto& d : connected)
     {
         const auto fitting = hid::matching (profiles.profiles, d);
@@ -131,7 +156,10 @@ void DevicesPanel::setPart (const std::string& role, const std::string& pointer,
     if (text.trim().isEmpty())
         take (binding, pointer);
     else
-        binding[Json::json_pointer (pointer)] = readText (text);
+    {
+        const Json::json_pointer at (pointer);
+        binding[at] = isListOfChannels (pointer) ? readChannelsText (text.toStdString(), binding.contains (at) ? binding.at (at) : Json()) : readText (text);
+    }
     for (const auto& m : checkBinding (binding, desk.session().file.parent_path(), desk.profiles()))
         if (m.severity == Message::Severity::error)
         {
@@ -156,9 +184,11 @@ void DevicesPanel::look()
     for (const auto& fit : fits)
     {
         now.roles.push_back (fit.role);
-        now.bound.push_back (bindingOf (fit.role) != nullptr);
+        const auto* binding = bindingOf (fit.role);
+        now.drivers.push_back (binding != nullptr ? binding->value ("driver", std::string()) : std::string());
         now.choices.push_back (bindingChoices (bindingOf (fit.role), connected, desk.profiles()));
     }
+    now.routes = routes().size();
     if (columns.empty() || now != shape)
     {
         shape = std::move (now);
@@ -177,6 +207,7 @@ void DevicesPanel::rebuild()
     columns.push_back (clockCard());
     for (std::size_t i = 0; i < shape.roles.size(); ++i)
         columns.push_back (roleCard (i));
+    columns.push_back (soundCard());
     for (auto& c : columns)
     {
         c->onHeight = [this]
@@ -191,18 +222,22 @@ std::unique_ptr<Column> DevicesPanel::clockCard()
 {
     auto card = std::make_unique<Column>();
     card->add ("Clock", Words::Kind::title);
-    std::vector<std::string> choices { first_that_can, "timer" };
+    std::vector<std::string> choices { first_that_can, "timer", sound_card };
     choices.insert (choices.end(), shape.roles.begin(), shape.roles.end());
-    if (const auto now = desk.session().session.clock(); ! now.empty() && std::ranges::count (choices, now) == 0) choices.push_back (now);
-    card->add (choiceRow (
-        "ticked by", choices, [this]
-        {
+    const auto chosen = [this]
+    {
         const auto now = desk.session().session.clock();
-        return now.empty() ? std::string (first_that_can) : now; },
+        return now.empty() ? std::string (first_that_can) : now == "audio" ? std::string (sound_card)
+                                                                           : now;
+    };
+    if (std::ranges::count (choices, chosen()) == 0) choices.push_back (chosen());
+    card->add (choiceRow (
+        "ticked by", choices, chosen,
         [this] (const std::string& to)
         { edit ([&] (DeviceSession& s)
-                { s.setClock (to == first_that_can ? std::string() : to); }); },
-        "What ticks a run: the reports of a role's device, or a timer at the rate of the graph"));
+                { s.setClock (to == first_that_can ? std::string() : to == sound_card ? std::string ("audio")
+                                                                                      : to); }); },
+        "What ticks a run: the reports of a role's device, the blocks of the sound card, or a timer at the rate of the graph"));
     card->add (remark ([this]
                        { return ticking(); }));
     card->add ("Kept in " + asText (desk.session().file.string()) + ", not in the graph.", Words::Kind::small);
@@ -231,17 +266,114 @@ std::unique_ptr<Column> DevicesPanel::roleCard (std::size_t i)
                        { return fitting (role); }));
     card->add (remark ([this, role]
                        { return doing (role); }));
-    if (! shape.bound[i]) return card;
-    for (const auto& part : parts)
+    if (shape.drivers[i].empty()) return card;
+    for (const auto& part : partsOf (shape.drivers[i]))
         card->add (textRow (
             part.label, [this, role, at = Json::json_pointer (part.pointer)]
             {
             const auto* now = bindingOf (role);
-            return now != nullptr && now->contains (at) ? written (now->at (at)) : juce::String(); },
+            if (now == nullptr || ! now->contains (at)) return juce::String();
+            return isListOfChannels (at.to_string()) ? asText (textOfChannels (now->at (at))) : written (now->at (at)); },
             [this, role, pointer = std::string (part.pointer)] (const juce::String& text)
             { setPart (role, pointer, text); },
             part.about));
     return card;
+}
+
+Json DevicesPanel::routes() const
+{
+    const auto* sound = desk.session().session.audio();
+    return sound != nullptr ? sound->value ("routes", Json::array()) : Json::array();
+}
+
+void DevicesPanel::setSound (const std::function<void (Json&)>& change)
+{
+    const auto* before = desk.session().session.audio();
+    Json sound = before != nullptr ? *before : Json::object();
+    change (sound);
+    Messages messages;
+    audio::readAudioSettings (sound, "", messages);
+    for (const auto& m : messages)
+        if (m.severity == Message::Severity::error)
+        {
+            if (onHint) onHint (asText (m));
+            return;
+        }
+    edit ([&] (DeviceSession& s)
+          { s.setAudio (sound); });
+}
+
+void DevicesPanel::setCard (const std::string& pointer, const juce::String& text)
+{
+    setSound ([&] (Json& sound)
+              {
+        if (text.trim().isEmpty())
+            take (sound, pointer);
+        else
+            sound[Json::json_pointer (pointer)] = readText (text); });
+}
+
+void DevicesPanel::setRoute (std::size_t i, const juce::String& text)
+{
+    auto all = routes();
+    const bool is_new = i >= all.size();
+    if (text.trim().isEmpty())
+    {
+        if (! is_new) all.erase (i);
+    }
+    else
+    {
+        auto route = readRouteText (text.trim().toStdString(), is_new ? Json::object() : all[i]);
+        if (const auto* problem = std::get_if<Message> (&route))
+        {
+            if (onHint) onHint (asText (*problem));
+            return;
+        }
+        if (is_new)
+            all.push_back (std::get<Json> (route));
+        else
+            all[i] = std::get<Json> (route);
+    }
+    setSound ([&] (Json& sound)
+              { sound["routes"] = all; });
+}
+
+/// The card that all runs play on, and the ports that they play.
+std::unique_ptr<Column> DevicesPanel::soundCard()
+{
+    auto card = std::make_unique<Column>();
+    card->add ("Sound card", Words::Kind::title);
+    for (std::size_t i = 0; i <= shape.routes; ++i)
+        card->add (textRow (
+            i < shape.routes ? "plays" : "plays also", [this, i]
+            {
+            const auto all = routes();
+            return i < all.size() ? asText (textOfRoute (all[i])) : juce::String(); },
+            [this, i] (const juce::String& text)
+            { setRoute (i, text); },
+            "PORT=CHANNEL@FULLSCALE, as in mix.out=3@4 N: a port of the graph on a channel of the card, and how much of it is the loudest"));
+    card->add (remark ([this]
+                       { return sounding(); }));
+    for (const auto& part : parts_of_card)
+        card->add (textRow (
+            part.label, [this, at = Json::json_pointer (part.pointer)]
+            {
+            const auto* now = desk.session().session.audio();
+            return now != nullptr && now->contains (at) ? written (now->at (at)) : juce::String(); },
+            [this, pointer = std::string (part.pointer)] (const juce::String& text)
+            { setCard (pointer, text); },
+            part.about));
+    return card;
+}
+
+Remark DevicesPanel::sounding() const
+{
+    const auto now = run.isRunning() ? run.audioStatus() : std::nullopt;
+    if (! now) return { routes().empty() ? "Plays no port: write one, as in mix.out=1@4 N." : "Nothing runs.", false };
+    if (now->card.type.empty()) return { now->trouble.empty() ? "No sound card." : asText (now->trouble), true };
+    const auto sound = asText (audio::statusOf (*now)).trim();
+    if (! now->is_open) return { sound + (now->trouble.empty() ? juce::String() : ": " + asText (now->trouble)), true };
+    return { asText (now->card.type + ": " + now->card.name + ", ") + juce::String (now->card.rate_hz) + " Hz, blocks of " + juce::String (now->card.block) + "\n" + sound, now->clipped > 0 };
 }
 
 /// What the role needs, and what of it is not there.
@@ -295,6 +427,11 @@ Remark DevicesPanel::ticking() const
 {
     const auto status = run.status();
     if (! status || ! run.isRunning()) return { "Nothing runs.", false };
+    if (const auto sound = run.audioStatus(); sound && desk.session().session.clock() == "audio")
+    {
+        if (status->clock_replaced) return { "The sound card gives no blocks: a timer ticks in its place, and all forces are held at zero.", true };
+        return { "The blocks of the sound card tick, at " + juce::String (run.rate()) + " Hz.", false };
+    }
     const auto& role = run.clockRole();
     if (const auto wanted = desk.session().session.clock(); role.empty() && ! wanted.empty() && wanted != "timer")
         return { "A timer ticks, at " + juce::String (run.rate()) + " Hz: " + (fitOf (wanted) == nullptr ? "this graph has no role " + asText (wanted) : asText (wanted) + " has no clock now") + ".", false };

@@ -24,7 +24,7 @@ struct BindingChoice
 std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<const hid::ConnectedDevice>, const hid::LoadedProfiles&);
 
 /// The devices behind the roles of the graph: what each role needs, what it is bound to and whether that fits, how it is doing,
-/// its workspace and the limits of its guard; and who ticks the run. What is edited here goes into the session, not into the
+/// its workspace and the limits of its guard; who ticks the run; and what the sound card plays. What is edited here goes into the session, not into the
 /// graph.
 class DevicesPanel final : public juce::Component
 {
@@ -36,11 +36,14 @@ public:
 
     std::function<void (const juce::String&)> onHint;
 
-    std::size_t cards() const noexcept { return columns.size(); }   ///< the clock's, and one for each role
+    std::size_t cards() const noexcept { return columns.size(); }   ///< the clock's, one for each role, and the sound card's
     Column& card (std::size_t i) { return *columns[i]; }
 
     void bind (const std::string& role, const std::string& words);                                  ///< by one of the choices
     void setPart (const std::string& role, const std::string& pointer, const juce::String& text);   ///< of the binding; empty: takes it away
+
+    void setCard (const std::string& pointer, const juce::String& text);   ///< of the sound card; empty: takes it away
+    void setRoute (std::size_t, const juce::String& text);                 ///< empty: takes it away; one more than there are: adds it
 
     void paint (juce::Graphics&) override;
     void resized() override;
@@ -51,8 +54,9 @@ private:
     struct Shape
     {
         std::vector<std::string> roles;
-        std::vector<bool> bound;
+        std::vector<std::string> drivers;   // of those that are bound; "": not bound
         std::vector<std::vector<BindingChoice>> choices;
+        std::size_t routes = 0;
 
         bool operator== (const Shape&) const = default;
     };
@@ -64,9 +68,13 @@ private:
     void rebuild();
     std::unique_ptr<Column> clockCard();
     std::unique_ptr<Column> roleCard (std::size_t);
+    std::unique_ptr<Column> soundCard();
+    Json routes() const;
+    void setSound (const std::function<void (Json&)>&);
     Remark fitting (const std::string& role) const;
     Remark doing (const std::string& role) const;
     Remark ticking() const;
+    Remark sounding() const;
 
     Document& document;
     Performance& run;

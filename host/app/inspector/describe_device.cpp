@@ -2,9 +2,10 @@
 #include "describe.hpp"
 
 #include <host/app/model/device_profiles.hpp>
-#include <host/audio/open_audio.hpp>
+#include <host/audio/audio_settings.hpp>
 #include <host/devices/make_device.hpp>
 #include <host/hid_link/open_device.hpp>
+#include <host/sessions/role_fits.hpp>
 
 #include <algorithm>
 
@@ -49,15 +50,10 @@ Remark about (const Document& d, const std::string& role)
             r.is_wrong = true;
         }
     };
-    if (hid::isHid (description))
+    if (hid::isHid (description) || audio::isAudio (description))
     {
-        tell (hid::checkDevice (description, d.graph().folder, deviceProfiles()));
-        return r;
-    }
-    if (audio::isAudio (description))
-    {
-        r.text = "Channels of the sound card.";
-        tell (audio::checkAudio (description));
+        if (audio::isAudio (description)) r.text = "Channels of the sound card.";
+        tell (checkDescription (description, d.graph().folder, deviceProfiles()));
         return r;
     }
     const auto made = makeDevice (description, d.graph().folder);

@@ -72,7 +72,7 @@ TEST_CASE ("a role is bound in the window, which is kept at once and is no edit 
     Rig r;
     const auto before = r.rig.text();
     REQUIRE (r.until ([&]
-                      { return ! r.desk.connected().empty() && r.panel.cards() == 2; }));   // the clock's, and the stylus
+                      { return ! r.desk.connected().empty() && r.panel.cards() == 3; }));   // the clock, the stylus, and the sound card
     REQUIRE (r.until ([&]
                       {
         r.panel.bind ("stylus", "Board");

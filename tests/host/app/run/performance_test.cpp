@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "../support/canvas_rig.hpp"
 
+#include "host/io/temporary_folder.hpp"
+
+#include <host/app/devices_panel/device_desk.hpp>
 #include <host/app/run/performance.hpp>
 
 #include <catch2/catch.hpp>
@@ -192,23 +195,30 @@ TEST_CASE ("a device that is not plugged in is said", "[app][run]")
 TEST_CASE ("a sound card that is not there is said, and the rest of the run goes on", "[app][run]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const TemporaryFolder home;
+    DeviceDesk desk;
+    desk.open (home.path());
     Performance p { rig.document, catalogue() };
-    Messages messages;
-    p.setAudio (audio::readAudioSettings (Json::parse (R"({ "output": "nobody has this card", "routes": [ { "port": "drag.force.x", "channel": 1, "full_scale": "4 N" } ] })"), "/audio", messages));
-    REQUIRE (messages.empty());
+    p.use (desk);
+    desk.onChange = [&]
+    { p.deskChanged(); };
+    const auto play = [&] (const char* sound)
+    { REQUIRE_FALSE (desk.edit ([&] (DeviceSession& s)
+                                { s.setAudio (Json::parse (sound)); })); };
+    play (R"({ "output": "nobody has this card", "routes": [ { "port": "drag.force.x", "channel": 1, "full_scale": "4 N" } ] })");
     CHECK_FALSE (p.audioStatus());
     p.start ({});
     CHECK (std::ranges::count (p.messages(), "audio/no_card", &Message::id) == 1);
+    CHECK_FALSE (hasErrors (p.messages()));
     REQUIRE (p.audioStatus());
     CHECK_FALSE (p.audioStatus()->is_open);
     CHECK (until (p, [&]
                   { return p.status()->ticks > 100; }));
 
-    auto wrong = audio::readAudioSettings (Json::parse (R"({ "routes": [ { "port": "drag.forse.x", "channel": 1 } ] })"), "/audio", messages);
-    p.setAudio (wrong);
-    p.start ({});
+    play (R"({ "output": "nobody has this card", "routes": [ { "port": "drag.forse.x", "channel": 1 } ] })");   // begins anew
     CHECK (until (p, [&]
                   { return std::ranges::count (p.messages(), "audio/port", &Message::id) == 1; }));
+    CHECK_FALSE (hasErrors (p.messages()));
     CHECK (until (p, [&]
                   { return p.isRunning() && p.status()->ticks > 100; }));
 }
@@ -216,12 +226,19 @@ TEST_CASE ("a sound card that is not there is said, and the rest of the run goes
 TEST_CASE ("a run that a sound card should tick holds its forces at zero while there is none", "[app][run]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const TemporaryFolder home;
+    DeviceDesk desk;
+    desk.open (home.path());
+    REQUIRE_FALSE (desk.edit ([] (DeviceSession& s)
+                              {
+        s.setClock ("audio");
+        s.setAudio ({ { "output", "nobody has this card" } }); }));
     Performance p { rig.document, catalogue() };
-    p.setAudio ({ .card = { .type = "", .output = "nobody has this card", .input = "" }, .routes = {} }, true);
+    p.use (desk);
     p.start ({});
     REQUIRE (until (p, [&]
                     { return p.status() && p.status()->ticks > 1000; }));
-    CHECK (p.status()->stands_in == 1);
+    CHECK (p.status()->clock_replaced);
     CHECK (p.audioStatus()->by_timer);
     CHECK (p.status()->peak == 0.0);
 }
