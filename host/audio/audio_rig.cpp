@@ -147,6 +147,9 @@ void AudioRig::begin (const OpenedFormat& opened)
     const double silence = std::max (CardKeeper::silence_s, CardKeeper::silence_blocks * opened.block / opened.rate_hz);
     ticks_of_silence = static_cast<std::uint64_t> (silence * tick_hz) + 1;
     last_block = {};
+    if (! capture || opened.rate_hz == capture_rate) return;
+    captures = nullptr;
+    capture_ended = Error { "audio/capture_rate", format.name, "the card came back at " + numberText (opened.rate_hz) + " Hz", "what was written until then is kept" };
 }
 
 std::optional<Error> AudioRig::captureTo (const std::filesystem::path& path)
@@ -154,6 +157,7 @@ std::optional<Error> AudioRig::captureTo (const std::filesystem::path& path)
     auto made = CardCapture::create (path, format.rate_hz, std::max (1, format.outputs));
     if (! made) return std::move (made.error());
     capture = std::move (*made);
+    capture_rate = format.rate_hz;
     captures.store (capture.get(), std::memory_order_release);
     return std::nullopt;
 }
@@ -254,13 +258,12 @@ void AudioRig::limit (float* samples, int frames) noexcept
 }
 
 //==============================================================================
-std::optional<Error> AudioRig::attend()
+std::optional<Error> AudioRig::attend (CardKeeper::Clock::time_point now)
 {
-    keeper.attend();
+    keeper.attend (now);
     if (! capture) return std::nullopt;
-    if (format.outputs > 0)
-        if (auto drained = capture->drain(); ! drained) return std::move (drained.error());
-    return std::nullopt;
+    if (auto drained = capture->drain(); ! drained) return std::move (drained.error());
+    return std::exchange (capture_ended, std::nullopt);
 }
 
 /// What the ticks gave last is still on its way: the end of it is played, and not cut off.

@@ -68,7 +68,8 @@ public:
     std::vector<std::string> ports() const;
 
     /// Opens the card. The plan is compiled with those ports; an engine, if given, has the emergency stop. Says what is wrong:
-    /// audio/port, audio/unit, audio/rate, and those of CardSystem::open. With errors nothing sounds. [main thread, before ticking]
+    /// audio/port, audio/unit, audio/rate, and those of CardSystem::open. Where only the card is at fault it is looked for
+    /// from now on, as one that went away. [main thread, before ticking]
     Messages begin (const Plan&, double tick_rate_hz, const Engine* = nullptr);
 
     /// Of what the card is given, from now on to the end. After begin. Ids as of CardCapture. [main thread]
@@ -77,8 +78,9 @@ public:
     void before() noexcept;                          // each tick, before the devices are read [tick thread]
     void after (const Plan&, bool halts) noexcept;   // each tick, after they were written [tick thread]
 
-    /// To be called many times a second. Returns what went wrong with the capture, once. [main thread]
-    std::optional<Error> attend();
+    /// To be called many times a second. Returns what went wrong with the capture, once: also audio/capture_rate, where
+    /// the card came back at another rate. [main thread]
+    std::optional<Error> attend (CardKeeper::Clock::time_point now = CardKeeper::Clock::now());
 
     /// Closes the card, and the capture. Returns what went wrong with that. When nothing ticks any more. [main thread]
     std::optional<Error> end();
@@ -132,6 +134,8 @@ private:
     std::atomic<std::uint64_t> clipped = 0, late_blocks = 0;
     std::chrono::steady_clock::time_point last_block {};   // of the audio thread
     std::unique_ptr<CardCapture> capture;
+    double capture_rate = 0.0;            // Hz
+    std::optional<Error> capture_ended;   // and nobody has been told
     std::atomic<CardCapture*> captures = nullptr;
     CardSystem& cards;
     CardKeeper keeper;   // last: its card calls this

@@ -166,7 +166,12 @@ void Session::chooseAudio()
             settings.routes.push_back (std::move (std::get<audio::Route> (route)));
     }
     if (report (messages, loaded, told.graph) > 0) throw Stop {};
-    if (! told.card.empty()) settings.card = audio::parseCard (told.card, audio::soundCards().types());
+    if (! told.card.empty())
+    {
+        const auto named = audio::parseCard (told.card, audio::soundCards().types());
+        settings.card.type = named.type;
+        settings.card.output = settings.card.input = named.output;
+    }
     rig.choose (std::move (settings));
 }
 

@@ -252,6 +252,7 @@ Json simulated (std::string_view role, const std::vector<std::pair<std::string, 
             Json sim { { "driver", "sim" } };
             for (const auto key : known_to_sim)
                 if (const auto it = description.find (key); it != description.end()) sim[std::string (key)] = *it;
+            if (const auto outputs = description.find ("outputs"); outputs != description.end() && outputs->is_array()) sim["signal_outputs"] = outputs->size();   // of a sound card
             return sim;
         }
     return defaultDevice();

@@ -13,6 +13,7 @@
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
 
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -280,6 +281,18 @@ TEST_CASE ("what the card is given is written as a WAV, to the bit", "[audio]")
     REQUIRE (wav->channels[1].size() == s.card.played[1].size());
     for (std::size_t i = 0; i < wav->channels[1].size(); ++i)
         if (wav->channels[1][i] != static_cast<double> (s.card.played[1][i])) FAIL ("sample " << i);
+
+    Stage back { constants(), { route ("two.out", 1, 4.0) } };
+    REQUIRE_FALSE (back.rig.captureTo (folder / "back.wav"));
+    back.run (0.1);
+    back.card.rate_hz = 44'100.0;
+    int told = 0;
+    for (int ms = 0; ms < 2000; ms += 100)   // silent for so long that it is taken anew
+        told += back.rig.attend (CardKeeper::Clock::now() + std::chrono::milliseconds (ms)).has_value();
+    CHECK (back.card.opened == 2);
+    CHECK (told == 1);
+    CHECK_FALSE (back.rig.end());
+    CHECK (host::readWav (folder / "back.wav")->rate_hz == 48'000.0);
 
     Stage other { constants(), { route ("two.out", 1) } };
     const auto error = other.rig.captureTo (folder / "no folder" / "given.wav");

@@ -130,6 +130,12 @@ TEST_CASE ("a role is given channels of the card, and those its nodes ask for wh
     CHECK (test::has (checkAudio ({ { "driver", "audio" }, { "outputs", Json::array() }, { "guard", { { "max_signal", "x" } } } }), "device/unit"));
     CHECK (test::has (host::makeDevice ({ { "driver", "audio" } }, {}).messages, "device/real"));
 
+    const auto guarded = [] (const char* limit)
+    { return checkAudio (Json::parse (R"({ "driver": "audio", "outputs": [ { "channel": 1, "full_scale": "4 N" } ], "guard": { "max_signal": )" + std::string (limit) + " } }")); };
+    CHECK (guarded ("3").empty());
+    CHECK (guarded (R"("300 mN")").empty());
+    CHECK (test::has (guarded (R"("3 m/s2")"), "device/unit"));
+
     const auto plan = test::Sketch {}.node ("a", "device.signal_out", Json::object(), { { "channel", 3 } }).node ("b", "device.signal_in").compile().plan;
     REQUIRE (plan);
     const auto full = withChannels ({ { "driver", "audio" } }, *plan, "stylus");
@@ -139,7 +145,7 @@ TEST_CASE ("a role is given channels of the card, and those its nodes ask for wh
     CHECK (withChannels ({ { "driver", "audio" }, { "outputs", Json::array() } }, *plan, "stylus")["outputs"].empty());
 }
 
-TEST_CASE ("--device ROLE=audio takes what the graph says of the role, and the card that is named", "[audio]")
+TEST_CASE ("an option gives a role the sound card, as the graph describes it, and the card that is named", "[audio]")
 {
     const std::vector<std::pair<std::string, Json>> described { { "shaker", { { "driver", "audio" }, { "outputs", { { { "channel", 3 } } } } } } };
     const auto of = [&] (const char* text)
@@ -148,4 +154,5 @@ TEST_CASE ("--device ROLE=audio takes what the graph says of the role, and the c
     CHECK (of ("shaker=audio:JACK:system")["card"] == "JACK:system");
     CHECK (of ("shaker=audio:JACK:system")["outputs"].size() == 1);
     CHECK (of ("stylus=audio") == Json { { "driver", "audio" } });
+    CHECK (of ("shaker=sim")["signal_outputs"] == 1);
 }
