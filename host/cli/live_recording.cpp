@@ -2,6 +2,7 @@
 #include "live_recording.hpp"
 
 #include <cstdio>
+#include <utility>
 
 namespace tactus::host
 {
@@ -27,17 +28,27 @@ void LiveRecording::after (std::uint64_t tick, bool halts) noexcept
     ring.push();
 }
 
+void LiveRecording::giveUp (std::vector<Error> failed)
+{
+    for (auto& error : failed)
+    {
+        std::fprintf (stderr, "%s: warning: %s; it is not recorded, and the run goes on [%s]\n", error.where.c_str(), error.what.c_str(), error.id.c_str());
+        if (! failure) failure = std::move (error);
+    }
+}
+
 void LiveRecording::drain()
 {
     ring.drain ([this] (std::span<const double> frame)
-                { recorder.frame (static_cast<std::uint64_t> (frame[0]), frame.subspan (1)); });
+                { giveUp (recorder.frame (static_cast<std::uint64_t> (frame[0]), frame.subspan (1))); });
 }
 
-void LiveRecording::commit()
+std::optional<Error> LiveRecording::commit()
 {
     drain();
     if (ring.lost() > 0) std::fprintf (stderr, "warning: %zu ticks were not recorded, because writing could not keep up\n", ring.lost());
-    recorder.commit();
+    giveUp (recorder.commit());
+    return failure;
 }
 
 }   // namespace tactus::host

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <utility>
 
 namespace tactus::host
 {
@@ -22,6 +23,20 @@ void printRow (std::span<const double> values)
         line += numberText (v);
     }
     std::cout << line << '\n';
+}
+
+/// Does this with each of the files; those with which it fails are closed, and their parts that are there are removed.
+template <typename File, typename Do>
+void giveUpWhere (std::vector<File>& files, std::vector<Error>& failed, Do&& work)
+{
+    for (std::size_t i = 0; i < files.size();)
+        if (auto done = work (files[i]); done)
+            ++i;
+        else
+        {
+            failed.push_back (std::move (done.error()));
+            files.erase (files.begin() + static_cast<std::ptrdiff_t> (i));
+        }
 }
 
 bool isWave (const std::string& file) { return std::filesystem::path (file).extension() == ".wav"; }
@@ -62,31 +77,39 @@ void Recorder::note (const std::vector<Tap>& all, std::span<double> values) cons
         values[i] = all[i % taps].sample (static_cast<int> (i / taps), static_cast<int> (per_tick));
 }
 
-void Recorder::frame (std::uint64_t tick, std::span<const double> values)
+std::vector<Error> Recorder::frame (std::uint64_t tick, std::span<const double> values)
 {
     row[0] = static_cast<double> (tick) / rate_hz;
     std::ranges::copy (values.last (taps), row.begin() + 1);
-    for (auto& table : tables)
-        orFail (table.row (row));
-    for (auto& wave : waves)
-    {
-        for (auto missing = (tick - next) * per_tick; missing > 0; --missing)
-            orFail (wave.frame (held));
-        for (std::size_t i = 0; i < per_tick; ++i)
-            orFail (wave.frame (values.subspan (i * taps, taps)));
-    }
+    std::vector<Error> failed;
+    giveUpWhere (tables, failed, [&] (TableWriter& table)
+                 { return table.row (row); });
+    giveUpWhere (waves, failed, [&] (WavWriter& wave)
+                 { return add (wave, tick, values); });
     std::ranges::copy (values.last (taps), held.begin());
     next = tick + 1;
     if (print) printRow (row);
+    return failed;
 }
 
-void Recorder::commit()
+tl::expected<void, Error> Recorder::add (WavWriter& wave, std::uint64_t tick, std::span<const double> values)
 {
-    for (auto& table : tables)
-        orFail (table.commit());
-    for (auto& wave : waves)
-        orFail (wave.commit());
-    if (print && ! std::cout.flush()) fail ("output/unwritable", "the standard output could not be written", "check the disk, or the program it is piped into");
+    for (auto missing = (tick - next) * per_tick; missing > 0; --missing)
+        if (auto written = wave.frame (held); ! written) return written;
+    for (std::size_t i = 0; i < per_tick; ++i)
+        if (auto written = wave.frame (values.subspan (i * taps, taps)); ! written) return written;
+    return {};
+}
+
+std::vector<Error> Recorder::commit()
+{
+    std::vector<Error> failed;
+    const auto commitOne = [] (auto& file)
+    { return file.commit(); };
+    giveUpWhere (tables, failed, commitOne);
+    giveUpWhere (waves, failed, commitOne);
+    if (print && ! std::cout.flush()) failed.push_back ({ "output/unwritable", "the standard output", "it could not be written", "check the disk, or the program it is piped into" });
+    return failed;
 }
 
 }   // namespace tactus::host

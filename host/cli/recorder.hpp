@@ -17,7 +17,8 @@ namespace tactus::host
 
 /// Writes what a run records: a row or frame per tick into each file, or CSV to the standard output if there is none.
 /// Of taps that have several samples a tick, a CSV has the last; a WAV has all, if all taps have as many.
-/// Files appear on commit() or not at all. Any failure ends the command with a message.
+/// Files appear on commit() or not at all. What is wrong from the start ends the command with a message; a file that cannot
+/// be written on is given up, and the others go on.
 class Recorder
 {
 public:
@@ -30,10 +31,13 @@ public:
     void note (const std::vector<Tap>&, std::span<double> values) const noexcept;
 
     /// What was noted at a tick. If some before it are missing, a WAV holds the last values until then, so that it keeps time.
-    void frame (std::uint64_t tick, std::span<const double> values);
-    void commit();
+    /// Returns why files are given up: mostly nothing.
+    std::vector<Error> frame (std::uint64_t tick, std::span<const double> values);
+    std::vector<Error> commit();
 
 private:
+    tl::expected<void, Error> add (WavWriter&, std::uint64_t tick, std::span<const double> values);
+
     double rate_hz;
     std::size_t taps, per_tick = 1;   // samples of each
     std::uint64_t next = 0;           // tick

@@ -26,6 +26,11 @@ struct Options : SessionOptions
     std::string plot, over, replay;
 };
 
+void failIfAny (const std::vector<Error>& failed)
+{
+    if (! failed.empty()) fail (failed.front());
+}
+
 /// What is recorded, on its way to where it was asked for.
 class Output
 {
@@ -40,14 +45,14 @@ public:
     void frame (const Plan& plan)
     {
         recorder.note (plan.taps, values);
-        recorder.frame (ticks++, values);
+        failIfAny (recorder.frame (ticks++, values));
         if (plotter) plotter->frame (std::span (values).last (plan.taps.size()));
         if (stopRequested()) fail ("run/interrupted", "stopped after " + std::to_string (ticks) + " ticks; nothing was written", "run it again, or with a shorter --duration");
     }
 
     void commit (const std::string& name)
     {
-        recorder.commit();
+        failIfAny (recorder.commit());
         if (plotter) plotter->draw (name);
     }
 

@@ -28,6 +28,9 @@ void watchForStop() noexcept
 {
     std::signal (SIGINT, note);
     std::signal (SIGTERM, note);
+#ifdef SIGXFSZ
+    std::signal (SIGXFSZ, SIG_IGN);   // a file that may grow no further is an error of that file
+#endif
 #ifdef SIGHUP
     std::signal (SIGHUP, note);
 #endif

@@ -25,6 +25,7 @@ public:
     bool says (const std::string& text, int times = 1);
 
     void signal (int number);
+    long id() const noexcept { return process; }   ///< as the system numbers it
 
     /// Asks it to stop, as Ctrl-C does, and waits until it has.
     Ran stop();

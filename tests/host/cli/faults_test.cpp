@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// What goes wrong around a run does not reach the force: docs/safety.md.
+
+#include "running.hpp"
+
+#include <host/osc/osc_port.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <thread>
+
+using namespace tactus;
+using test::Running;
+using test::runTactus;
+using test::Scratch;
+using test::textOf;
+
+namespace
+{
+const std::string wood = TACTUS_SOURCE_DIR "/graphs/dry_wood.json";
+const std::string ports = "drag.force,drag.state,motor.force,motor.applied";
+
+/// The most memory that a process has had, in kB.
+long peakOf (long process)
+{
+    std::ifstream status ("/proc/" + std::to_string (process) + "/status");
+    for (std::string line; std::getline (status, line);)
+        if (line.starts_with ("VmHWM:")) return std::stol (line.substr (6));
+    return -1;
+}
+
+/// Throws 20 000 packets a second at a port, half of them OSC that asks for nothing new, until it is told to stop.
+class Flood
+{
+public:
+    explicit Flood (int port)
+        : thread ([this, port] (const std::stop_token& stop)
+                  { run (port, stop); })
+    {
+    }
+
+    int sent() const { return count; }
+
+private:
+    void run (int port, const std::stop_token& stop)
+    {
+        using Clock = std::chrono::steady_clock;
+        const auto nobody = std::move (*host::OscPort::open (0));
+        juce::DatagramSocket socket;
+        socket.bindToPort (0, "127.0.0.1");
+        std::mt19937 random (1);
+        const auto begin = Clock::now();
+        while (! stop.stop_requested())
+        {
+            const auto due = static_cast<int> (20'000.0 * std::chrono::duration<double> (Clock::now() - begin).count());
+            for (; count < due; ++count)
+                if (count % 2 == 0)
+                    nobody->send (port, juce::OSCMessage ("/tactus/param", juce::String ("drag.mu"), juce::String ("0.4"), nobody->number()));
+                else
+                {
+                    char bytes[64];
+                    for (auto& b : bytes)
+                        b = static_cast<char> (random());
+                    socket.write ("127.0.0.1", port, bytes, 1 + static_cast<int> (random() % sizeof bytes));
+                }
+            std::this_thread::sleep_for (std::chrono::milliseconds (1));
+        }
+    }
+
+    std::atomic<int> count = 0;
+    std::jthread thread;
+};
+}   // namespace
+
+TEST_CASE ("a disk that is full ends a recording, and neither the run nor the other recording", "[cli][safety]")
+{
+    const Scratch scratch;
+    const auto csv = scratch.path ("live.csv"), wav = scratch.path ("live.wav");
+    // A limit to the size of files fails as a full disk does, and needs no disk: the CSV is four times as large as the WAV.
+    const auto ran = test::runProgram ("sh", { "-c", "ulimit -f 600; exec " TACTUS_PROGRAM " play " + wood + " --osc off --duration 1 --record " + ports + " --out " + csv + " --out " + wav });
+    INFO (ran.err);
+    CHECK (ran.status == 1);
+    CHECK (ran.err.find (csv + ": warning: cannot be written: ") != std::string::npos);
+    CHECK (ran.err.find ("the run goes on [output/unwritable]") != std::string::npos);
+    for (const auto& left : std::filesystem::directory_iterator (scratch.path (".")))
+        CHECK (left.path().filename() == "live.wav");   // and nothing half-written
+
+    CHECK (runTactus ({ "render", wood, "--duration", "1", "--record", ports, "--out", scratch.path ("offline.wav") }).status == 0);
+    CHECK (std::filesystem::file_size (wav) > 4000 * 4 * 10);
+    CHECK ((textOf (wav) == textOf (scratch.path ("offline.wav"))));
+}
+
+TEST_CASE ("a disk that is full ends a log after a whole line, and not the run", "[cli][safety]")
+{
+    const Scratch scratch;
+    const auto log = scratch.path ("run.jsonl"), wav = scratch.path ("live.wav");
+    const auto ran = test::runProgram ("sh", { "-c", "ulimit -f 200; exec " TACTUS_PROGRAM " play " + wood + " --osc off --duration 1 --record drag.state --log " + log + " --out " + wav });
+    INFO (ran.err);
+    CHECK (ran.status == 1);
+    CHECK (ran.err.find (log + ": warning: cannot be written: ") != std::string::npos);
+    CHECK (ran.err.find ("the run goes on [output/unwritable]") != std::string::npos);
+    CHECK (runTactus ({ "render", wood, "--duration", "1", "--record", "drag.state", "--out", scratch.path ("offline.wav") }).status == 0);
+    CHECK ((textOf (wav) == textOf (scratch.path ("offline.wav"))));
+
+    const auto again = runTactus ({ "render", "--replay", log, "--record", "drag.state", "--out", scratch.path ("again.csv") });
+    INFO (again.err);
+    CHECK (again.status == 0);
+    CHECK (again.err.find ("[log/cut_off]") != std::string::npos);
+    CHECK (textOf (scratch.path ("again.csv")).size() > 1000);
+}
+
+TEST_CASE ("a flood of OSC changes no bit of the force, and takes no memory", "[cli][osc][safety]")
+{
+    const Scratch scratch;
+    Running play { { "play", wood, "--osc", "0", "--duration", "2", "--record", ports, "--out", scratch.path ("live.csv") } };
+    REQUIRE (play.says ("Ctrl-C stops"));
+    const auto text = play.err();
+    const std::string before = "OSC on 127.0.0.1:";
+    Flood flood { std::stoi (text.substr (text.find (before) + before.size())) };
+    std::this_thread::sleep_for (std::chrono::milliseconds (700));
+    const auto at_first = peakOf (play.id());
+    std::this_thread::sleep_for (std::chrono::milliseconds (800));
+    const auto in_the_end = peakOf (play.id());
+    const auto ran = play.finish();
+    INFO (ran.err);
+    CHECK (ran.status == 0);
+    CHECK (flood.sent() > 10'000);
+    CHECK (at_first > 0);
+    CHECK (in_the_end - at_first < 8'000);
+    CHECK (runTactus ({ "render", wood, "--duration", "2", "--record", ports, "--out", scratch.path ("offline.csv") }).status == 0);
+    CHECK ((textOf (scratch.path ("live.csv")) == textOf (scratch.path ("offline.csv"))));
+}
