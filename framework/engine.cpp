@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine.hpp"
 
+#include "plan/find_hit.hpp"
 #include "plan/find_param.hpp"
 
 #include <algorithm>
@@ -173,6 +174,14 @@ std::variant<std::vector<plan::ParamRef>, Message> Engine::params (std::string_v
 void Engine::set (const plan::ParamRef& param, double value) noexcept
 {
     plan::turn (param, value);
+    touched.store (true, std::memory_order_release);
+}
+
+std::variant<std::vector<plan::HitRef>, Message> Engine::hits (std::string_view name) { return plan::findHits (newest(), name); }
+
+void Engine::strike (const plan::HitRef& hit, double speed) noexcept
+{
+    plan::strike (hit, speed);
     touched.store (true, std::memory_order_release);
 }
 

@@ -75,6 +75,13 @@ public:
     /// Turns a parameter; a ramp leads there (plan/ramps.hpp). [any thread]
     void set (const plan::ParamRef&, double) noexcept;
 
+    /// Inputs for hits of the newest plan by their name, in all instances that it stands for. [main thread]
+    std::variant<std::vector<plan::HitRef>, Message> hits (std::string_view name);
+
+    /// Has a hit of this speed (m/s) come to what stands there, on one tick: the next one on which the node runs. Those that
+    /// come between two ticks add up. [any thread]
+    void strike (const plan::HitRef&, double speed) noexcept;
+
     //==========================================================================
     /// One sample. Allocates nothing, takes no lock, asks no clock. [tick thread]
     void tick() noexcept;

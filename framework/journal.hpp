@@ -25,6 +25,10 @@ public:
     /// An edit has another value there, and was outdone by a turn that came after it and before this plan.
     virtual void outdone (std::size_t instance, std::size_t knob) noexcept = 0;
 
+    /// So much comes to what stands at an input, by the numbers of the instance in the plan and of the input among those that
+    /// take hits, on the first tick from this one on on which the node runs.
+    virtual void struck (std::size_t instance, std::size_t input, double speed) noexcept = 0;
+
     /// A slow answer was not there when it was due; see SlowAnswers::isLate.
     virtual void late (std::uint64_t question) noexcept = 0;
 

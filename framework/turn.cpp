@@ -99,4 +99,14 @@ std::optional<Message> turnControl (Engine& engine, const graph::Graph& graph, c
     return std::nullopt;
 }
 
+std::optional<Message> strike (Engine& engine, const std::string& name, double speed)
+{
+    if (! (speed > 0.0 && speed <= fastest_hit)) return refused ("hit/value", "a hit on " + inQuotes (name) + " is out of range", "give a speed in m/s: more than 0, at most " + plan::shown (Json (fastest_hit)));
+    auto found = engine.hits (name);
+    if (auto* message = std::get_if<Message> (&found)) return std::move (*message);
+    for (const auto& hit : std::get<std::vector<plan::HitRef>> (found))
+        engine.strike (hit, speed);
+    return std::nullopt;
+}
+
 }   // namespace tactus

@@ -25,4 +25,11 @@ std::optional<Message> turnParam (Engine&, const std::string& name, const Json& 
 /// [main thread]
 std::optional<Message> turnControl (Engine&, const graph::Graph&, const std::string& id, double value);
 
+/// Strikes an input that takes hits, at a speed in m/s: in all instances that the name stands for. Returns why not, if so.
+/// Ids: those of findHits, hit/value. [main thread]
+std::optional<Message> strike (Engine&, const std::string& name, double speed);
+
+/// Nothing is struck faster than this: a hand's blow is below 20 m/s, and what is far beyond is a mistake.
+inline constexpr double fastest_hit = 1000.0;   // m/s
+
 }   // namespace tactus

@@ -45,6 +45,7 @@ struct Storage
     std::vector<double> defaults;   // of unconnected input components, one per source
     std::vector<const double*> sources;
     std::deque<Sum> sums;
+    std::deque<Strike> strikes;
     std::deque<DelayLine> delays;
     std::deque<DrivenNode> driven;
     std::deque<Bypass> bypasses;
@@ -270,15 +271,24 @@ private:
         if (const auto* old = standsFor (i)) plan->takeover.standing.push_back ({ outputsOf (i), old->outputs, flat.nodes[at (i)].type->outputs_size });
     }
 
-    /// Of sums at the inputs of a node, from this one on; nobody but a tap sees them before it runs.
-    void keepSums (int i, std::size_t first)
+    /// Of sums at the inputs of a node, from these on; nobody but a tap sees them before it runs.
+    void keepSums (int i, std::size_t first_sum, std::size_t first_strike)
     {
-        const auto* old = first < storage->sums.size() ? standsFor (i) : nullptr;
+        const bool any = first_sum < storage->sums.size() || first_strike < storage->strikes.size();
+        const auto* old = any ? standsFor (i) : nullptr;
         if (old == nullptr) return;
         const auto begin = slots.firstInput (i), end = slots.firstInput (i + 1);
         for (auto slot = begin; slot < end; ++slot)
-            for (auto s = first; s < storage->sums.size(); ++s)
-                if (auto& sum = storage->sums[s]; storage->sources[slot] == &sum.out) plan->takeover.standing.push_back ({ &sum.out, old->sources[slot - begin], sizeof (double) });
+        {
+            const auto keep = [&] (double& out)
+            {
+                if (storage->sources[slot] == &out) plan->takeover.standing.push_back ({ &out, old->sources[slot - begin], sizeof (double) });
+            };
+            for (auto s = first_sum; s < storage->sums.size(); ++s)
+                keep (storage->sums[s].out);
+            for (auto s = first_strike; s < storage->strikes.size(); ++s)
+                keep (storage->strikes[s].out);
+        }
     }
 
     void use (int i, bool is_bound)
@@ -373,18 +383,30 @@ private:
     {
         const auto& n = flat.nodes[at (i)];
         auto slot = slots.firstInput (i);
-        const auto first_sum = storage->sums.size();
+        const auto first_sum = storage->sums.size(), first_strike = storage->strikes.size();
         for (const auto& row : n.type->inputs)
             for (int k = 0; k < n.slots (row); ++k, ++slot)
             {
                 storage->defaults[slot] = row.initial[row.list ? 0 : k];
                 storage->sources[slot] = &storage->defaults[slot];
-                const auto all = (*drivers)[slot];
-                if (all.empty()) continue;
-                const auto* feed = feedAmong (all);
-                storage->sources[slot] = feed ? feed : joined (all, Driver::Kind::replace, i);
+                if (const auto all = (*drivers)[slot]; ! all.empty())
+                {
+                    const auto* feed = feedAmong (all);
+                    storage->sources[slot] = feed ? feed : joined (all, Driver::Kind::replace, i);
+                }
+                if (takesHits (row) && plan->instances[at (i)].knobs) storage->sources[slot] = struck (i, storage->sources[slot], storage->strikes.size() - first_strike);
             }
-        keepSums (i, first_sum);
+        keepSums (i, first_sum, first_strike);
+    }
+
+    /// What stands at the n-th input for hits of a node.
+    const double* struck (int i, const double* from, std::size_t n)
+    {
+        auto& instance = plan->instances[at (i)];
+        instance.is_struck = true;
+        auto& s = storage->strikes.emplace_back (Strike { from, &instance.knobs->pulses[n] });
+        stepsOf (i).body.add ({ &Strike::step, &s, nullptr, nullptr }, i);
+        return &s.out;
     }
 
     void addNode (int i)

@@ -107,7 +107,7 @@ PortUnits check (Flat& flat, const Setup& setup, Order& ordered)
     return units;
 }
 
-/// The params that subgraphs show, by their names from the top.
+/// The params and inputs that subgraphs show, by their names from the top.
 void addShown (const Scope& scope, std::map<std::string, Ports>& all)
 {
     for (const auto& member : scope.members)
@@ -115,7 +115,7 @@ void addShown (const Scope& scope, std::map<std::string, Ports>& all)
         {
             if (inside->stand_in >= 0) continue;
             for (const auto& x : inside->exposed)
-                if (x.role == Role::param && ! x.to.empty()) all.emplace (inside->prefix.substr (0, inside->prefix.size() - 1) + "." + x.name, x.to);
+                if (x.role != Role::output && ! x.to.empty()) all.emplace (inside->prefix.substr (0, inside->prefix.size() - 1) + "." + x.name, x.to);
             addShown (*inside, all);
         }
 }

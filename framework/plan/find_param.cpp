@@ -48,7 +48,7 @@ Ports shownAs (const std::string& name, const Plan& plan)
 {
     Ports found;
     for (const auto& [text, ports] : plan.shown)
-        if (isCovered (text, name)) found.insert (found.end(), ports.begin(), ports.end());
+        if (isCovered (text, name) && ports.front().role == Role::param) found.insert (found.end(), ports.begin(), ports.end());
     return found;
 }
 

@@ -34,6 +34,15 @@ void turn (const ParamRef& param, double value) noexcept
     param.knobs->touched.store (true, std::memory_order_release);
 }
 
+bool takesHits (const PortSheet& input) noexcept { return input.width == 1 && ! input.list && input.unit.kind == UnitRule::Kind::fixed && input.unit.unit.quantity == Quantity::hit; }
+
+void strike (const HitRef& hit, double speed) noexcept
+{
+    if (! isFinite (speed) || speed <= 0.0) return;
+    hit.knobs->pulses[hit.index].asked.fetch_add (speed, std::memory_order_release);
+    hit.knobs->touched.store (true, std::memory_order_release);
+}
+
 double* Instance::param (std::size_t knob) const noexcept
 {
     const auto [sheet, component] = placeOf (knobs->type, knob);

@@ -18,7 +18,8 @@ struct Instance
 {
     std::uint64_t serial = 0;                 ///< of the node; a new one if it was made anew
     std::shared_ptr<void> node;               ///< none for a bypassed subgraph
-    std::shared_ptr<Knobs> knobs;             ///< none without params
+    std::shared_ptr<Knobs> knobs;             ///< none without params and inputs for hits
+    bool is_struck = false;                   ///< runs, and hears its pulses
     std::vector<bool> driven;                 ///< by knob: a wire or feed has the last word; empty if none is
     int delay = 1;                            ///< ticks from input to output, if it peeks
     void* outputs = nullptr;                  ///< in the plan's storage, as its type lays them out

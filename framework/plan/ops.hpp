@@ -37,6 +37,23 @@ struct Sum
     }
 };
 
+/// What comes to an input for hits: by wire or feed, and from outside.
+struct Strike
+{
+    const double* from;
+    Pulse* pulse;
+    double out = 0.0;
+
+    static void step (void* self, const double* const*, void*) noexcept
+    {
+        auto& s = *static_cast<Strike*> (self);
+        s.out = *s.from;
+        if (s.pulse->pending == 0.0) return;
+        s.out += s.pulse->pending;
+        s.pulse->pending = 0.0;
+    }
+};
+
 /// One component of a wire with an explicit delay. Reading stands at the start of a tick, writing at its end.
 struct DelayLine
 {

@@ -113,7 +113,7 @@ public:
     std::vector<LineUse> lines;                                ///< by wire, then component
     std::vector<PassageUse> passages;                          ///< by wire, then component, then step
     std::vector<std::vector<plan::PortRef>> fed;               ///< as feeds: what each drives
-    std::map<std::string, std::vector<plan::PortRef>> shown;   ///< params by the names under which subgraphs show them
+    std::map<std::string, std::vector<plan::PortRef>> shown;   ///< params and inputs by the names under which subgraphs show them
     plan::Ramps ramps;
     plan::Takeover takeover;
 };

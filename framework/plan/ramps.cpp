@@ -29,6 +29,21 @@ void Ramps::look (Journal* journal) noexcept
             head (i, k, target);
             if (journal) journal->turned (i, k, target);
         }
+        strike (i, instances[i], journal);
+    }
+}
+
+/// What nobody hears, since the node does not run, is over.
+void Ramps::strike (std::size_t i, const Instance& instance, Journal* journal) noexcept
+{
+    auto& pulses = instance.knobs->pulses;
+    for (std::size_t p = 0; p < pulses.size(); ++p)
+    {
+        if (pulses[p].asked.load (std::memory_order_relaxed) == 0.0) continue;
+        const double speed = pulses[p].asked.exchange (0.0, std::memory_order_acquire);
+        if (! instance.is_struck) continue;
+        pulses[p].pending += speed;
+        if (journal) journal->struck (i, p, speed);
     }
 }
 

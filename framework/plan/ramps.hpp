@@ -19,7 +19,7 @@ public:
 
     void prepare (std::span<const Instance>, double rate_hz);   // [main thread]
 
-    void look (Journal* = nullptr) noexcept;   ///< heads for all targets that were set since it last looked   [tick thread]
+    void look (Journal* = nullptr) noexcept;   ///< heads for all targets that were set since it last looked, and hands on hits   [tick thread]
     void goOn() noexcept;                      ///< with what is on its way from the plan before               [tick thread]
     void step() noexcept;                      ///< one tick further                                           [tick thread]
     void startAll() noexcept;                  ///< all nodes have ticked now                                  [tick thread]
@@ -27,6 +27,8 @@ public:
     void head (std::size_t instance, std::size_t knob, double to, bool at_once = false) noexcept;   // [tick thread]
 
 private:
+    static void strike (std::size_t instance, const Instance&, Journal*) noexcept;
+
     std::span<const Instance> instances;
     std::vector<std::size_t> moving;   // instances; with room for all
     int ticks = 1;                     // of a ramp

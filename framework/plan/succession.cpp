@@ -172,7 +172,7 @@ std::uint32_t Succession::turnsBefore (const Knobs& knobs, std::size_t knob, dou
 std::shared_ptr<Knobs> Succession::knobsOf (std::size_t i, Takeover& takeover) const
 {
     const auto& n = flat.nodes[i];
-    if (n.type->make == nullptr || n.type->params.empty()) return nullptr;
+    if (n.type->make == nullptr || ! Knobs::areIn (*n.type)) return nullptr;
 
     const auto forebear = knobsBefore (i);
     if (forebear.plan == nullptr)

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/app/window/main_view.hpp>
 #include <host/app/window/places.hpp>
+#include <host/osc/osc_options.hpp>
 #include <host/platform/home_folder.hpp>
 #include <host/platform/signals.hpp>
 
 #include <CLI/CLI.hpp>
+
+#include <cstdio>
 
 namespace tactus::host
 {
@@ -81,7 +84,9 @@ private:
         options.add_flag ("--safe", how.safe, "Nothing runs until START is pressed");
         options.add_flag ("--light", how.light, "Light colours, whatever was chosen");
         std::string osc = std::to_string (OscPort::usual);
-        auto* osc_given = options.add_option ("--osc", osc, "The UDP port to be reached by from this machine, see docs/osc.md; 0 for any that is free, or off")->check (CLI::IsMember ({ "off" }) | CLI::Range (0, 65535));
+        std::string osc_answer;
+        auto* osc_given = options.add_option ("--osc", osc, "The UDP port to be reached by from this machine, see docs/osc.md; 0 for any that is free, off, or ADDRESS:PORT to be reached by others too")->check (oscCheck());
+        options.add_option ("--osc-answer", osc_answer, "The one other machine that gets answers, by its address: 192.168.1.7")->check (addressCheck());
         options.add_option ("--places", places_file, "Keeps a JSON file with where things are on the screen, for scripts");
         options.set_version_flag ("--version", TACTUS_VERSION);
         std::vector<std::string> arguments;
@@ -91,7 +96,9 @@ private:
         {
             options.parse (std::move (arguments));
             const bool may_be_taken = osc_given->count() == 0;   // by another window
-            if (osc != "off" && ! (may_be_taken && OscPort::isTaken (OscPort::usual))) how.osc = std::stoi (osc);
+            if (osc != "off" && ! (may_be_taken && OscPort::isTaken (OscPort::usual))) how.osc = readListen (osc);
+            if (how.osc) how.osc->answered = osc_answer;
+            if (const auto warning = how.osc ? warningOf (*how.osc) : std::string(); ! warning.empty()) std::fprintf (stderr, "warning: %s\n", warning.c_str());
             return true;
         }
         catch (const CLI::ParseError& e)

@@ -12,6 +12,7 @@ void addValidate (CLI::App&);
 void addRender (CLI::App&);
 void addPlay (CLI::App&);
 void addSet (CLI::App&);
+void addHit (CLI::App&);
 void addProbe (CLI::App&);
 void addDevices (CLI::App&);
 void addSession (CLI::App&);

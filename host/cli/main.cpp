@@ -18,6 +18,7 @@ int main (int argc, char** argv)
                 "  tactus render graphs/dry_wood.json --out wood.csv --plot wood.png\n"
                 "  tactus play graphs/dry_wood.json --duration 4  in real time\n"
                 "  tactus set roughness=0.7                       while it plays\n"
+                "  tactus hit ring.hit=0.4                        likewise\n"
                 "  tactus probe drag.force                        likewise\n"
                 "  tactus devices                                 what is plugged in, and whether it fits\n"
                 "  tactus session graphs/dry_wood.json            which devices stand behind its roles\n"
@@ -30,6 +31,7 @@ int main (int argc, char** argv)
     addRender (app);
     addPlay (app);
     addSet (app);
+    addHit (app);
     addProbe (app);
     addDevices (app);
     addSession (app);

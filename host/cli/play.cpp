@@ -7,6 +7,7 @@
 #include "report.hpp"
 
 #include <framework/number_text.hpp>
+#include <host/osc/osc_options.hpp>
 #include <host/platform/signals.hpp>
 #include <host/platform/terminal.hpp>
 #include <host/runtime/file_watch.hpp>
@@ -25,7 +26,7 @@ namespace
 struct Options : SessionOptions
 {
     bool watch = false, costs = false;
-    std::string osc = std::to_string (OscPort::usual);
+    std::string osc = std::to_string (OscPort::usual), osc_answer;
     bool osc_asked_for = false;
     std::optional<int> core;
 };
@@ -34,8 +35,14 @@ struct Options : SessionOptions
 std::unique_ptr<OscPort> openPort (const Options& options)
 {
     if (options.osc == "off") return nullptr;
-    auto opened = OscPort::open (std::stoi (options.osc));
-    if (opened) return std::move (*opened);
+    auto listen = readListen (options.osc).value();
+    listen.answered = options.osc_answer;
+    auto opened = OscPort::open (listen);
+    if (opened)
+    {
+        if (const auto warning = warningOf (listen); ! warning.empty()) std::fprintf (stderr, "warning: %s\n", warning.c_str());
+        return std::move (*opened);
+    }
     if (options.osc_asked_for) fail (opened.error());
     std::fprintf (stderr, "warning: %s\n", describe (opened.error()).c_str());
     return nullptr;
@@ -95,7 +102,7 @@ void run (const Options& options)
     };
 
     std::string reached;
-    if (port) reached = ", OSC on 127.0.0.1:" + std::to_string (port->number());
+    if (port) reached = ", OSC on " + port->listensTo().address + ":" + std::to_string (port->number());
     const auto ticked_by = audio.clock() ? std::string (", ticked by the sound card") : device_clock ? ", ticked by " + session.clockRole()
                                                                                                      : std::string();
     std::fprintf (stderr, "%s at %g Hz%s%s%s; %s\n", (session.name().empty() ? options.graph : session.name()).c_str(), session.rate(), ticked_by.c_str(), reached.c_str(), options.watch ? ", following its file" : "", emergency.hasKeys() ? "Ctrl-C ends it, the space bar is the emergency stop, R lets go on" : "Ctrl-C stops");
@@ -133,9 +140,10 @@ void run (const Options& options)
     const auto end = runner.status();
     if (end.let_go_under_force)
         std::fprintf (stderr, "warning: the slew limit kept force on a device for %g s, so it was let go under force\n", Runner::longest_halt_s);
-    if (recording) recording->commit();
+    const auto not_recorded = recording ? recording->commit() : std::nullopt;
     if (options.costs) printCosts (runner);
     if (log_failure) fail (*log_failure);
+    if (not_recorded) fail (*not_recorded);
     if (end.end == RunStatus::End::overrun) failOverrun (runner, session.rate());
 }
 }   // namespace
@@ -155,7 +163,8 @@ void addPlay (CLI::App& app)
     command->add_option ("--route", options->routes, "PORT=CHANNEL[@FULLSCALE]: play a port on a channel of the sound card, as in mix.out=3@\"4 N\"; may be given more than once")->allow_extra_args (false);
     command->add_option ("--audio", options->card, "The sound card: TYPE:NAME, TYPE or NAME, as `tactus devices` lists them");
     command->add_option ("--capture", options->capture, "A WAV of what the sound card is given");
-    auto* osc = command->add_option ("--osc", options->osc, "The UDP port to be reached by from this machine, see docs/osc.md; 0 for any that is free, or off")->check (CLI::IsMember ({ "off" }) | CLI::Range (0, 65535));
+    auto* osc = command->add_option ("--osc", options->osc, "The UDP port to be reached by from this machine, see docs/osc.md; 0 for any that is free, off, or ADDRESS:PORT to be reached by others too")->check (oscCheck());
+    command->add_option ("--osc-answer", options->osc_answer, "The one other machine that gets answers, by its address: 192.168.1.7")->check (addressCheck());
     command->footer ("However it stops, the guards bring all forces to zero smoothly first. The space bar, or SIGUSR1, is the emergency\n"
                      "stop: no forces, and the graph goes on; R, or SIGUSR2, lets them rise again, after a stop by a limit too.\n"
                      "With --watch, a file with errors is reported and the graph before goes on. Roles keep the devices they have,\n"

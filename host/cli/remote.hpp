@@ -19,6 +19,7 @@ public:
 
     std::optional<Message> setParam (const std::string& name, const Json& value) override { return turnParam (session.engine(), name, value); }
     std::optional<Message> turnControl (const std::string& id, double value) override { return tactus::turnControl (session.engine(), session.graph(), id, value); }
+    std::optional<Message> strike (const std::string& input, double speed) override { return tactus::strike (session.engine(), input, speed); }
     std::variant<std::vector<std::string>, Message> probe (const std::vector<std::string>& ports) override { return session.probe (ports); }
     std::variant<std::vector<std::string>, Message> capture (const std::string& port, const std::string& watched, const Trigger& trigger) override { return session.capture (port, watched, trigger); }
     const TriggeredCapture* captured() override { return session.captured(); }

@@ -2,6 +2,7 @@
 #include "replay.hpp"
 #include "report.hpp"
 
+#include <framework/plan/find_hit.hpp>
 #include <framework/plan/find_param.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/runlog/graph_snapshot.hpp>
@@ -112,6 +113,8 @@ void Replay::carryOut()
     if (next->graph && std::exchange (has_first, true) && told.graph.empty()) takeOver();
     for (const auto& [param, target] : next->turns)
         turn (param, target);
+    for (const auto& [input, speed] : next->hits)
+        strike (input, speed);
     for (const auto& [role, reading] : next->readings)
         if (const auto hand = hands.find (role); hand != hands.end()) hand->second.reading = reading;
     if (next->rearm) running->rearm();
@@ -126,6 +129,14 @@ void Replay::turn (const std::string& param, double target)
     if (const auto* ref = std::get_if<plan::ParamRef> (&found)) return running->set (*ref, target);
     if (told.graph.empty()) failHere (std::get<Message> (found));
     if (not_turned.insert (param).second) std::cerr << told.graph << ": warning: " << param << " was turned in the run, and is not there [log/not_turned]\n";
+}
+
+void Replay::strike (const std::string& input, double speed)
+{
+    const auto found = running->hits (input);
+    if (const auto* refs = std::get_if<std::vector<plan::HitRef>> (&found)) return running->strike (refs->front(), speed);
+    if (told.graph.empty()) failHere (std::get<Message> (found));
+    if (not_turned.insert (input).second) std::cerr << told.graph << ": warning: " << input << " was hit in the run, and is not there [log/not_struck]\n";
 }
 
 void Replay::failHere (const Message& m) const { fail ({ m.id, log.placeOf (next ? next->line : 1), m.text, m.remedy }); }

@@ -54,6 +54,7 @@ private:
     void fetch();
     void carryOut();
     void turn (const std::string& param, double target);
+    void strike (const std::string& input, double speed);
     [[noreturn]] void failHere (const Message&) const;
 
     SessionOptions told;

@@ -9,34 +9,40 @@ namespace tactus::host
 
 namespace
 {
-constexpr const char* loopback = "127.0.0.1";
 constexpr std::size_t largest_packet = 65536;
 }   // namespace
 
-bool OscPort::bind (juce::DatagramSocket& s, int number)
+bool OscPort::bind (juce::DatagramSocket& s, const OscListen& where)
 {
     s.setEnablePortReuse (false);   // else two programs share a port, and one of them hears nothing
-    return s.bindToPort (number, loopback);
+    return s.bindToPort (where.port, where.address);
 }
 
 bool OscPort::isTaken (int number)
 {
     juce::DatagramSocket s;
-    return ! bind (s, number);
+    return ! bind (s, { .port = number });
 }
 
-tl::expected<std::unique_ptr<OscPort>, Error> OscPort::open (int number)
+tl::expected<std::unique_ptr<OscPort>, Error> OscPort::open (const OscListen& where)
 {
     std::unique_ptr<OscPort> port { new OscPort };
-    if (! bind (port->socket, number) || ! port->sender.connect (loopback, number == 0 ? usual : number))
-        return tl::unexpected (Error { "osc/port_taken", std::string (loopback) + ":" + std::to_string (number), "another program listens on this UDP port already", "give another one, as in --osc " + std::to_string (number == usual ? usual + 1 : usual) + ", or --osc 0 for any that is free" });
+    if (! bind (port->socket, where) || ! port->sender.connect (OscListen::loopback, where.port == 0 ? usual : where.port))
+    {
+        const auto place = where.address + ":" + std::to_string (where.port);
+        juce::DatagramSocket any;
+        if (! where.isLoopback() && ! bind (any, { .address = where.address, .port = 0 }))
+            return tl::unexpected (Error { "osc/no_address", place, "this machine has no such address, or does not let it be listened to", "give that of a network card, 0.0.0.0 for all of them, or leave it out" });
+        return tl::unexpected (Error { "osc/port_taken", place, "another program listens on this UDP port already", "give another one, as in --osc " + std::to_string (where.port == usual ? usual + 1 : usual) + ", or --osc 0 for any that is free" });
+    }
+    port->where = where;
     port->bound = port->socket.getBoundPort();
     port->listening = std::jthread ([raw = port.get()] (const std::stop_token& stop)
                                     { raw->listen (stop); });
     return port;
 }
 
-std::optional<juce::OSCMessage> OscPort::next (std::chrono::milliseconds patience)
+std::optional<OscPort::Received> OscPort::receive (std::chrono::milliseconds patience)
 {
     std::unique_lock lock (guard);
     if (patience.count() > 0) arrived.wait_for (lock, patience, [this]
@@ -47,7 +53,26 @@ std::optional<juce::OSCMessage> OscPort::next (std::chrono::milliseconds patienc
     return message;
 }
 
-void OscPort::send (int to, const juce::OSCMessage& message) { sender.sendToIPAddress (loopback, to, message); }
+std::optional<juce::OSCMessage> OscPort::next (std::chrono::milliseconds patience)
+{
+    auto received = receive (patience);
+    if (! received) return std::nullopt;
+    return std::move (received->message);
+}
+
+void OscPort::send (int to, const juce::OSCMessage& message) { sender.sendToIPAddress (OscListen::loopback, to, message); }
+
+void OscPort::send (const OscReturn& to, const juce::OSCMessage& message)
+{
+    if (to.port != 0 && ! to.host.empty()) sender.sendToIPAddress (to.host, to.port, message);
+}
+
+/// Whoever has an address of this machine's loopback is on this machine.
+std::string OscPort::answersTo (const std::string& from) const
+{
+    if (from.starts_with ("127.")) return OscListen::loopback;
+    return from == where.answered ? from : std::string();
+}
 
 std::size_t OscPort::dropped() const
 {
@@ -61,19 +86,21 @@ void OscPort::listen (const std::stop_token& stop)
     while (! stop.stop_requested())
     {
         if (socket.waitUntilReady (true, 20) != 1) continue;
-        const int size = socket.read (buffer.data(), static_cast<int> (buffer.size()), false);
-        if (size > 0) take ({ buffer.data(), static_cast<std::size_t> (size) });
+        juce::String from;
+        int from_port = 0;
+        const int size = socket.read (buffer.data(), static_cast<int> (buffer.size()), false, from, from_port);
+        if (size > 0) take ({ buffer.data(), static_cast<std::size_t> (size) }, answersTo (from.toStdString()));
     }
 }
 
-void OscPort::take (std::string_view bytes)
+void OscPort::take (std::string_view bytes, const std::string& answers_to)
 {
     auto packet = readPacket (bytes);
     const std::lock_guard lock (guard);
     lost += ! packet.right;
     for (auto& message : packet.messages)
         if (waiting.size() < most_waiting)
-            waiting.push_back (std::move (message));
+            waiting.push_back ({ std::move (message), answers_to });
         else
             ++lost;
     arrived.notify_one();

@@ -75,8 +75,8 @@ std::vector<Controlled::Role> rolesOf (const RunStatus& status)
 void RemoteControl::attend (Clock::time_point now)
 {
     for (int i = 0; i < most_at_a_time; ++i)
-        if (const auto message = port.next())
-            carryOut (*message, now);
+        if (const auto received = port.receive())
+            carryOut (received->message, received->host, now);
         else
             break;
 
@@ -92,10 +92,17 @@ void RemoteControl::attend (Clock::time_point now)
     }
 }
 
-void RemoteControl::carryOut (const OSCMessage& m, Clock::time_point now)
+void RemoteControl::carryOut (const OSCMessage& m, const std::string& host, Clock::time_point now)
 {
     const auto address = textOf (m.getAddressPattern().toString());
     const auto subject = m.size() > 0 && m[0].isString() ? textOf (m[0].getString()) : std::string();
+
+    const auto last = [&] (int place)
+    { return OscReturn { host, answerPort (m, place) }; };
+    const auto at = [&] (int i)
+    { return OscReturn { host, m[i].getInt32() }; };
+    const auto hasPort = [&] (int i)
+    { return m.size() > i && isPort (m[i]) && ! host.empty(); };
 
     if (address == "/tactus/param" || address == "/tactus/control")
     {
@@ -108,50 +115,58 @@ void RemoteControl::carryOut (const OSCMessage& m, Clock::time_point now)
             problem = controlled.turnControl (subject, value->is_number() ? value->get<double>() : std::nan (""));
         else
             problem = controlled.setParam (subject, *value);
-        answer (answerPort (m, 2), address, subject, problem);
+        answer (last (2), address, subject, problem);
     }
+    else if (address == "/tactus/hit")
+    {
+        const auto speed = m.size() >= 2 ? numberOf (m[1]) : std::nullopt;
+        const bool right = ! subject.empty() && speed && m.size() <= 3;
+        answer (last (2), address, subject, right ? controlled.strike (subject, *speed) : badArguments ("an input for hits, a speed in m/s (float or int), and perhaps the port for the answer"));
+    }
+    else if (host.empty() && (address == "/tactus/probe" || address == "/tactus/trigger"))
+        return;   // whoever gets no answers has no use for them
     else if (address == "/tactus/probe")
     {
-        if (auto problem = subscribe (m, now); problem && m.size() >= 2 && isPort (m[1])) answer (m[1].getInt32(), address, subject, problem);
+        if (auto problem = subscribe (m, host, now); problem && hasPort (1)) answer (at (1), address, subject, problem);
     }
     else if (address == "/tactus/trigger")
     {
-        if (auto problem = subscribeCapture (m, now); problem && m.size() >= 2 && isPort (m[1])) answer (m[1].getInt32(), address, subject, problem);
+        if (auto problem = subscribeCapture (m, host, now); problem && hasPort (1)) answer (at (1), address, subject, problem);
     }
-    else if (address == "/tactus/status" && m.size() == 1 && isPort (m[0]))
+    else if (address == "/tactus/status" && m.size() == 1 && hasPort (0))
     {
         const auto s = controlled.status();
         const auto whole = [] (std::uint64_t n)
         { return static_cast<juce::int32> (n & 0x7fffffffu); };
-        port.send (m[0].getInt32(), OSCMessage ("/tactus/status", juce::String::fromUTF8 (s.name.c_str()), static_cast<float> (s.rate_hz), static_cast<float> (s.time_s), static_cast<float> (s.force), static_cast<float> (s.peak), whole (s.ticks), whole (s.misses)));
+        port.send (at (0), OSCMessage ("/tactus/status", juce::String::fromUTF8 (s.name.c_str()), static_cast<float> (s.rate_hz), static_cast<float> (s.time_s), static_cast<float> (s.force), static_cast<float> (s.peak), whole (s.ticks), whole (s.misses)));
     }
-    else if (address == "/tactus/costs" && m.size() >= 1 && m.size() <= 2 && isPort (m[0]))
+    else if (address == "/tactus/costs" && m.size() >= 1 && m.size() <= 2 && hasPort (0))
     {
         const auto wanted = m.size() > 1 ? numberOf (m[1]) : std::optional (usual_costs);
         if (wanted && *wanted >= 1.0)
-            sendCosts (m[0].getInt32(), static_cast<std::size_t> (std::min (*wanted, most_costs)));
+            sendCosts (at (0), static_cast<std::size_t> (std::min (*wanted, most_costs)));
         else
-            answer (m[0].getInt32(), address, "", badArguments ("the port for the answer, and perhaps how many nodes"));
+            answer (at (0), address, "", badArguments ("the port for the answer, and perhaps how many nodes"));
     }
-    else if (address == "/tactus/guard" && m.size() == 1 && isPort (m[0]))
-        sendRoles (m[0].getInt32());
+    else if (address == "/tactus/guard" && m.size() == 1 && hasPort (0))
+        sendRoles (at (0));
     else if (address.starts_with (transport_addresses))
-        answer (answerPort (m, 1), address, "", transport (address.substr (transport_addresses.size()), m));
+        answer (last (1), address, "", transport (address.substr (transport_addresses.size()), m));
     else if (address == "/tactus/start")
-        answer (answerPort (m, 0), address, "", controlled.start());
-    else if (address == "/tactus/stop" || address == "/tactus/emergency" || address == "/tactus/rearm")
+        answer (last (0), address, "", controlled.start());
+    else if (address == "/tactus/rearm")
+        answer (last (0), address, "", rearm());
+    else if (address == "/tactus/stop" || address == "/tactus/emergency")
     {
         if (address == "/tactus/stop")
             controlled.stop();
-        else if (address == "/tactus/emergency")
-            controlled.emergencyStop();
         else
-            controlled.rearm();
-        answer (answerPort (m, 0), address, "", std::nullopt);
+            controlled.emergencyStop();
+        answer (last (0), address, "", std::nullopt);
     }
 }
 
-void RemoteControl::sendCosts (int to, std::size_t most)
+void RemoteControl::sendCosts (const OscReturn& to, std::size_t most)
 {
     auto costs = controlled.costs();
     costs.resize (std::min (costs.size(), most));
@@ -160,11 +175,19 @@ void RemoteControl::sendCosts (int to, std::size_t most)
     answer (to, "/tactus/costs", "", std::nullopt);
 }
 
-void RemoteControl::sendRoles (int to)
+void RemoteControl::sendRoles (const OscReturn& to)
 {
     for (const auto& r : controlled.roles())
         port.send (to, OSCMessage ("/tactus/guard", juce::String::fromUTF8 (r.name.c_str()), static_cast<juce::int32> (r.withholds), static_cast<float> (r.force), static_cast<float> (r.torque), juce::String::fromUTF8 (r.last_stop.c_str())));
     answer (to, "/tactus/guard", "", std::nullopt);
+}
+
+/// Whoever sends this has to see that nobody can be hurt.
+std::optional<Message> RemoteControl::rearm()
+{
+    if (! port.listensTo().isLoopback()) return refused ("osc/rearm", "other machines may send this too, and cannot see whether somebody would be hurt", "rearm where the device is: with R in the terminal of play, with REARM in the window");
+    controlled.rearm();
+    return std::nullopt;
 }
 
 std::optional<Message> RemoteControl::transport (const std::string& what, const OSCMessage& m)
@@ -176,7 +199,7 @@ std::optional<Message> RemoteControl::transport (const std::string& what, const 
     return badArguments ("/tactus/transport/play 0 or 1, /tactus/transport/seek s, or /tactus/transport/speed factor; and perhaps the port for the answer");
 }
 
-std::optional<Message> RemoteControl::subscribe (const OSCMessage& m, Clock::time_point now)
+std::optional<Message> RemoteControl::subscribe (const OSCMessage& m, const std::string& host, Clock::time_point now)
 {
     const auto number = [&] (int i, double otherwise)
     { return m.size() > i ? numberOf (m[i]) : std::optional (otherwise); };
@@ -184,7 +207,7 @@ std::optional<Message> RemoteControl::subscribe (const OSCMessage& m, Clock::tim
     if (m.size() < 2 || m.size() > 4 || ! m[0].isString() || ! isPort (m[1]) || ! rate || ! length || ! (*rate > 0.0) || ! (*length > 0.0))
         return badArguments ("a port of the graph, the port for the answers, and perhaps how often (Hz) and how long (s)");
 
-    Probe probe { .name = textOf (m[0].getString()), .to = m[1].getInt32(), .rate = std::min (*rate, highest_rate), .end = now + durationOf (*length) };
+    Probe probe { .name = textOf (m[0].getString()), .to = { host, m[1].getInt32() }, .rate = std::min (*rate, highest_rate), .end = now + durationOf (*length) };
     const auto same = std::ranges::find_if (probes, [&] (const Probe& p)
                                             { return p.name == probe.name && p.to == probe.to; });
     if (same != probes.end())
@@ -209,7 +232,7 @@ std::optional<Message> RemoteControl::subscribe (const OSCMessage& m, Clock::tim
     return std::nullopt;
 }
 
-std::optional<Message> RemoteControl::subscribeCapture (const juce::OSCMessage& m, Clock::time_point now)
+std::optional<Message> RemoteControl::subscribeCapture (const OSCMessage& m, const std::string& host, Clock::time_point now)
 {
     const auto whole = [&] (int i, int otherwise)
     { return m.size() <= i ? otherwise : m[i].isInt32() ? m[i].getInt32()
@@ -222,7 +245,7 @@ std::optional<Message> RemoteControl::subscribeCapture (const juce::OSCMessage& 
     if (m.size() < 4 || m.size() > 8 || ! m[0].isString() || ! isPort (m[1]) || ! m[2].isString() || ! std::isfinite (level) || ! edge || before < 0 || after < 0 || ! (length > 0.0))
         return badArguments ("a port of the graph, the port for the answers, the port of the graph that triggers, its level, and perhaps rising, falling or either, ticks before, ticks after, and for how long (s)");
 
-    Capture wanted { .name = textOf (m[0].getString()), .watched = textOf (m[2].getString()), .to = m[1].getInt32(), .trigger = { level, *edge, static_cast<std::size_t> (before), static_cast<std::size_t> (after) }, .end = now + durationOf (length) };
+    Capture wanted { .name = textOf (m[0].getString()), .watched = textOf (m[2].getString()), .to = { host, m[1].getInt32() }, .trigger = { level, *edge, static_cast<std::size_t> (before), static_cast<std::size_t> (after) }, .end = now + durationOf (length) };
     if (! capture) return arm (std::move (wanted));
     if (capture->to != wanted.to || capture->name != wanted.name) return refused ("probe/busy", "somebody else waits for a trigger", "wait until that is over");
     capture->end = wanted.end;
@@ -321,9 +344,9 @@ void RemoteControl::values (std::uint64_t tick, std::span<const double> now)
     }
 }
 
-void RemoteControl::answer (int to, const std::string& address, const std::string& subject, const std::optional<Message>& problem)
+void RemoteControl::answer (const OscReturn& to, const std::string& address, const std::string& subject, const std::optional<Message>& problem)
 {
-    if (to == 0) return;
+    if (to.port == 0) return;
     const auto text = [] (const std::string& s)
     { return juce::String::fromUTF8 (s.c_str()); };
     if (problem)

@@ -53,6 +53,9 @@ public:
     virtual std::optional<Message> setParam (const std::string& name, const Json& value) = 0;
     virtual std::optional<Message> turnControl (const std::string& id, double value) = 0;
 
+    /// One hit on an input for hits, in m/s.
+    virtual std::optional<Message> strike (const std::string& input, double speed) = 0;
+
     /// From now on these ports are looked at, and no others. Returns the names of their components, each once, or why
     /// not; then all is as it was.
     virtual std::variant<std::vector<std::string>, Message> probe (const std::vector<std::string>& ports) = 0;
@@ -101,7 +104,7 @@ private:
     struct Probe
     {
         std::string name;
-        int to;        // port
+        OscReturn to;
         double rate;   // Hz
         Clock::time_point end;
         double due = 0.0;   // tick
@@ -112,24 +115,25 @@ private:
     struct Capture
     {
         std::string name, watched;
-        int to;   // port
+        OscReturn to;
         Trigger trigger;
         Clock::time_point end;
         std::vector<std::string> components {};
         std::size_t sent = 0;   // ticks
     };
 
-    void carryOut (const juce::OSCMessage&, Clock::time_point);
-    void sendCosts (int to, std::size_t most);
-    void sendRoles (int to);
+    void carryOut (const juce::OSCMessage&, const std::string& host, Clock::time_point);
+    void sendCosts (const OscReturn& to, std::size_t most);
+    void sendRoles (const OscReturn& to);
+    std::optional<Message> rearm();
     std::optional<Message> transport (const std::string& what, const juce::OSCMessage&);
-    std::optional<Message> subscribe (const juce::OSCMessage&, Clock::time_point);
-    std::optional<Message> subscribeCapture (const juce::OSCMessage&, Clock::time_point);
+    std::optional<Message> subscribe (const juce::OSCMessage&, const std::string& host, Clock::time_point);
+    std::optional<Message> subscribeCapture (const juce::OSCMessage&, const std::string& host, Clock::time_point);
     std::optional<Message> arm (Capture);
     void confirmCapture();
     void sendCapture();
     std::optional<Message> look (const std::vector<Probe>&);
-    void answer (int to, const std::string& address, const std::string& subject, const std::optional<Message>&);
+    void answer (const OscReturn& to, const std::string& address, const std::string& subject, const std::optional<Message>&);
 
     OscPort& port;
     Controlled& controlled;

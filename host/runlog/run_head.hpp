@@ -13,7 +13,7 @@ namespace tactus::host
 {
 
 inline constexpr std::string_view run_format = "tactus-run";
-inline constexpr int run_version = 2;   ///< 1 had no axes, signals, layouts of devices and emergency stops
+inline constexpr int run_version = 3;   ///< 1 had no axes, signals, layouts of devices and emergency stops, 2 no hits
 
 /// What is fixed when a run begins: the first line of its log.
 struct RunHead

@@ -42,6 +42,13 @@ void RunJournal::outdone (std::size_t instance, std::size_t knob) noexcept
     ring.put (knob);
 }
 
+void RunJournal::struck (std::size_t instance, std::size_t input, double speed) noexcept
+{
+    put (Kind::struck, instance);
+    ring.put (input);
+    put (speed);
+}
+
 void RunJournal::late (std::uint64_t question) noexcept
 {
     put (Kind::late);

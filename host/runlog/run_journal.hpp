@@ -23,6 +23,7 @@ public:
         took,        ///< 0, serial of the plan
         turned,      ///< number of the instance; number of the knob, target
         outdone,     ///< number of the instance; number of the knob
+        struck,      ///< number of the instance; number of the input for hits, speed
         late,        ///< 0; number of the question
         halted,      ///< 0
         resumed,     ///< 0
@@ -36,6 +37,7 @@ public:
     void tookOver (const Plan&) noexcept override;
     void turned (std::size_t instance, std::size_t knob, double target) noexcept override;
     void outdone (std::size_t instance, std::size_t knob) noexcept override;
+    void struck (std::size_t instance, std::size_t input, double speed) noexcept override;
     void late (std::uint64_t question) noexcept override;
     void halted() noexcept override;
     void resumed() noexcept override;

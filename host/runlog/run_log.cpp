@@ -2,6 +2,7 @@
 #include "run_log.hpp"
 #include "log_number.hpp"
 
+#include <framework/plan/find_hit.hpp>
 #include <framework/plan/find_param.hpp>
 
 #include <algorithm>
@@ -137,6 +138,12 @@ void RunLog::take()
     case RunJournal::Kind::outdone:
         kept += (kept.empty() ? "" : ",") + textOf (plan::nameOf (*expected.front().plan, of, static_cast<std::size_t> (words.take())));
         break;
+    case RunJournal::Kind::struck:
+    {
+        const auto input = static_cast<std::size_t> (words.take());
+        hits += (hits.empty() ? "" : ",") + textOf (plan::nameOfHit (*expected.front().plan, of, input)) + ":" + logNumber (number());
+        break;
+    }
     case RunJournal::Kind::late:
         late += (late.empty() ? "" : ",") + std::to_string (words.take());
         break;
@@ -201,9 +208,11 @@ void RunLog::takeTick (std::size_t roles, std::size_t feeds)
 
     if (! kept.empty()) add ("kept", "[" + kept + "]");
     if (! turns.empty()) add ("turn", "{" + turns + "}");
+    if (! hits.empty()) add ("hit", "{" + hits + "}");
     if (! late.empty()) add ("late", "[" + late + "]");
     kept.clear();
     turns.clear();
+    hits.clear();
     late.clear();
 
     std::string read;

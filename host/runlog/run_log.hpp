@@ -84,7 +84,7 @@ private:
 
     // Of the line for this tick.
     std::string line;
-    std::string turns, kept;
+    std::string turns, kept, hits;
     std::string late;
 };
 

@@ -269,6 +269,11 @@ tl::expected<RunTick, Error> RunLogReader::readTick (const std::string& text)
               for (const auto& [param, target] : v.items())
                   line.number (target, where + "/" + pointerPart (param), tick.turns.emplace_back (param, 0.0).second);
           } },
+        { "hit", JsonKind::object, [&] (Json& v, const std::string& where)
+          {
+              for (const auto& [input, speed] : v.items())
+                  line.number (speed, where + "/" + pointerPart (input), tick.hits.emplace_back (input, 0.0).second);
+          } },
         { "late", JsonKind::list, [&] (Json& v, const std::string& where)
           {
               for (const auto& question : v)

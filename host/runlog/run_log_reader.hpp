@@ -40,6 +40,7 @@ struct RunTick
     std::map<std::string, DeviceLayout> devices {};         ///< the same, of those that have more than a tool
     std::vector<std::string> kept {};                       ///< parameters that stay where they were turned, whatever it has
     std::vector<std::pair<std::string, double>> turns {};   ///< targets by parameter
+    std::vector<std::pair<std::string, double>> hits {};    ///< speeds by input
     std::vector<std::uint64_t> late {};                     ///< as RepeatedAnswers takes them
     std::optional<bool> halt {};                            ///< from this tick on all efforts are brought to zero, or rise again
     bool rearm = false;                                     ///< what has stopped a guard for good ends; before an emergency stop

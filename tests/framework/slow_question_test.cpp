@@ -66,6 +66,7 @@ struct Lateness final : Journal
     void tookOver (const Plan&) noexcept override {}
     void turned (std::size_t, std::size_t, double) noexcept override {}
     void outdone (std::size_t, std::size_t) noexcept override {}
+    void struck (std::size_t, std::size_t, double) noexcept override {}
     void late (std::uint64_t question) noexcept override { questions.push_back (question); }
     void halted() noexcept override {}
     void resumed() noexcept override {}

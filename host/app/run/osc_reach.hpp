@@ -32,6 +32,7 @@ public:
 private:
     std::optional<Message> setParam (const std::string& name, const Json& value) override;
     std::optional<Message> turnControl (const std::string& id, double value) override;
+    std::optional<Message> strike (const std::string& input, double speed) override { return performance.strike (input, speed); }
     std::variant<std::vector<std::string>, Message> probe (const std::vector<std::string>& ports) override;
     std::variant<std::vector<std::string>, Message> capture (const std::string& port, const std::string& watched, const Trigger&) override;
     const TriggeredCapture* captured() override { return performance.captured(); }

@@ -395,6 +395,8 @@ std::optional<Message> Performance::turn (const std::string& param, const Json& 
 
 std::optional<Message> Performance::turnControl (const std::string& id, double value) { return isRunning() ? tactus::turnControl (*engine, document.graph(), id, value) : stopped(); }
 
+std::optional<Message> Performance::strike (const std::string& input, double speed) { return isRunning() ? tactus::strike (*engine, input, speed) : stopped(); }
+
 std::variant<std::vector<std::string>, Message> Performance::capture (const std::string& port, const std::string& watched, const Trigger& trigger)
 {
     if (! isRunning()) return stopped();

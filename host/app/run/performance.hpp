@@ -128,6 +128,9 @@ public:
     std::optional<Message> turn (const std::string& param, const Json& value);
     std::optional<Message> turnControl (const std::string& id, double value);
 
+    /// Strikes an input for hits, in m/s; or why not, likewise.
+    std::optional<Message> strike (const std::string& input, double speed);
+
     /// Takes down what stands on a port around an edge of another one, in place of what was asked for before. Returns the
     /// names of its components, or why not. The end of the run ends it, and an edit that is about what it looks at.
     std::variant<std::vector<std::string>, Message> capture (const std::string& port, const std::string& watched, const Trigger&);

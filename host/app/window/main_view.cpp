@@ -273,9 +273,9 @@ bool MainView::keyPressed (const juce::KeyPress& key, juce::Component*)
     return true;   // what is open is closed by the next one
 }
 
-void MainView::openPort (int number)
+void MainView::openPort (const OscListen& where)
 {
-    auto opened = OscPort::open (number);
+    auto opened = OscPort::open (where);
     if (! opened) return say (juce::String::fromUTF8 (describe (opened.error()).c_str()));
     reach = std::make_unique<OscReach> (std::move (*opened), *performance, *edited,
                                         OscReach::Switches { [this]

@@ -39,7 +39,7 @@ public:
         bool safe = false;            ///< nothing runs by itself
         bool light = false;           ///< whatever the settings say
         std::vector<std::filesystem::path> files {};
-        std::optional<int> osc {};   ///< the UDP port to be reached by
+        std::optional<OscListen> osc {};   ///< where to be reached
     };
 
     /// What only a window does that people see: reads the settings, asks about what a crash left, opens files or welcomes.
@@ -83,7 +83,7 @@ private:
     void documentChanged() override;
     void documentRefused (const Message&) override;
     void timerCallback() override;
-    void openPort (int number);
+    void openPort (const OscListen&);
     void globalFocusChanged (juce::Component*) override;
     bool keyPressed (const juce::KeyPress&, juce::Component*) override;
     void show();

@@ -22,6 +22,7 @@ struct Notes final : Journal
     void tookOver (const Plan& plan) noexcept override { add ("plan " + std::to_string (plan.serial)); }
     void turned (std::size_t instance, std::size_t knob, double target) noexcept override { add ("turn " + std::to_string (instance) + " " + std::to_string (knob) + " " + std::to_string (target)); }
     void outdone (std::size_t instance, std::size_t knob) noexcept override { add ("outdone " + std::to_string (instance) + " " + std::to_string (knob)); }
+    void struck (std::size_t instance, std::size_t input, double speed) noexcept override { add ("hit " + std::to_string (instance) + " " + std::to_string (input) + " " + std::to_string (speed)); }
     void late (std::uint64_t question) noexcept override { add ("late " + std::to_string (question)); }
     void halted() noexcept override { add ("halt"); }
     void resumed() noexcept override { add ("resume"); }

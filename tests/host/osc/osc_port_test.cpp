@@ -195,3 +195,64 @@ TEST_CASE ("whatever else is sent to a port does no harm, and is counted", "[osc
         CHECK (alive());
     }
 }
+
+TEST_CASE ("where to listen is a port, or an address with a port, and nothing else", "[osc]")
+{
+    CHECK (readListen ("7770")->port == 7770);
+    CHECK (readListen ("7770")->isLoopback());
+    CHECK (readListen ("0")->port == 0);
+    CHECK (readListen ("192.168.1.5:9000")->address == "192.168.1.5");
+    CHECK (readListen ("0.0.0.0:9000")->port == 9000);
+    CHECK_FALSE (readListen ("0.0.0.0:9000")->isLoopback());
+    for (const auto* wrong : { "", ":", "65536", "-1", "+1", "1.2.3.4", "1.2.3:5", "1.2.3.4.5:6", "256.0.0.1:5", "a.b.c.d:5", "1.2.3.4:", "::1:5", "localhost:5", "7770 ", "0x10", "1..2.3:4", "0000.0.0.0:1" })
+    {
+        INFO (wrong);
+        CHECK_FALSE (readListen (wrong));
+    }
+    CHECK (warningOf (*readListen ("7770")).empty());
+    CHECK (warningOf (*readListen ("0.0.0.0:7770")).find ("0.0.0.0") != std::string::npos);
+    rc::prop ("any text", []
+              {
+        const auto text = *rc::gen::container<std::string> (rc::gen::elementOf (std::string ("0129.:-x")));
+        if (const auto listen = readListen (text)) RC_ASSERT (listen->port >= 0 && listen->port <= 65535 && isAddress (listen->address)); });
+}
+
+TEST_CASE ("a port that others reach answers this machine and the one that is named, and nobody else", "[osc]")
+{
+    const auto open = [] (const std::string& answered)
+    { return std::move (*OscPort::open (OscListen { .address = "0.0.0.0", .port = 0, .answered = answered })); };
+    const auto receive = [] (OscPort& port, const std::string& from)
+    {
+        juce::DatagramSocket sender;
+        REQUIRE (sender.bindToPort (0, from));
+        const auto bytes = padded ("/tactus/stop") + padded (",");
+        sender.write ("127.0.0.1", port.number(), bytes.data(), static_cast<int> (bytes.size()));
+        const auto received = port.receive (patience);
+        REQUIRE (received);
+        return received->host;
+    };
+    const auto alone = open ("");
+    CHECK (receive (*alone, "127.0.0.1") == "127.0.0.1");
+    CHECK (receive (*alone, "127.0.0.2") == "127.0.0.1");   // this machine, too
+
+    juce::Array<juce::IPAddress> all;
+    juce::IPAddress::findAllAddresses (all);
+    const auto* card = std::find_if (all.begin(), all.end(), [] (const auto& a)
+                                     { return ! a.isIPv6 && ! a.toString().startsWith ("127."); });
+    if (card == all.end()) return;   // a machine without a network
+    const auto address = card->toString().toStdString();
+    const auto from_card = [&] (OscPort& port)
+    {
+        juce::DatagramSocket sender;
+        REQUIRE (sender.bindToPort (0, address));
+        const auto bytes = padded ("/tactus/stop") + padded (",");
+        sender.write (address, port.number(), bytes.data(), static_cast<int> (bytes.size()));
+        const auto received = port.receive (patience);
+        REQUIRE (received);
+        return received->host;
+    };
+    CHECK (from_card (*alone) == "");
+    CHECK (from_card (*open (address)) == address);
+    CHECK (from_card (*open ("10.1.2.3")) == "");
+    CHECK (OscPort::open (OscListen { .address = "203.0.113.7", .port = 0 }).error().id == "osc/no_address");
+}

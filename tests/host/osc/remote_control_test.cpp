@@ -30,6 +30,13 @@ struct Puppet : Controlled
         return std::nullopt;
     }
 
+    std::optional<Message> strike (const std::string& input, double speed) override
+    {
+        said = input + " hit at " + std::to_string (speed);
+        if (input != "ring.hit") return Message { .id = "hit/unknown", .where = {}, .text = "no such input", .remedy = "try ring.hit" };
+        return std::nullopt;
+    }
+
     std::variant<std::vector<std::string>, Message> probe (const std::vector<std::string>& ports) override
     {
         std::vector<std::string> names;
@@ -407,4 +414,19 @@ TEST_CASE ("what the hand follows is played, stopped, sought and slowed down fro
     CHECK (stage.puppet.said.empty());
     const auto refused = stage.ask ("/tactus/start", stage.other->number());
     CHECK (refused[2].getString() == "osc/start");
+}
+
+TEST_CASE ("a hit is handed on with its speed, and what is none is refused", "[osc]")
+{
+    Stage s;
+    CHECK (s.ask ("/tactus/hit", String ("ring.hit"), 0.5f, s.other->number()).getAddressPattern().toString() == "/tactus/done");
+    CHECK (s.puppet.said == "ring.hit hit at 0.500000");
+    s.send ("/tactus/hit", String ("ring.hit"), 2);
+    CHECK (s.puppet.said == "ring.hit hit at 2.000000");
+    const auto refused = s.ask ("/tactus/hit", String ("rang.hit"), 1.0f, s.other->number());
+    CHECK (refused[2].getString() == "hit/unknown");
+    s.puppet.said.clear();
+    CHECK (s.ask ("/tactus/hit", String ("ring.hit"), String ("fast"), s.other->number())[2].getString() == "osc/arguments");
+    CHECK (s.ask ("/tactus/hit", 1, 1, s.other->number())[2].getString() == "osc/arguments");
+    CHECK (s.puppet.said.empty());
 }

@@ -9,7 +9,9 @@
 #include "support/sketch.hpp"
 
 #include <framework/graph/history.hpp>
+#include <framework/plan/find_hit.hpp>
 #include <framework/plan/find_param.hpp>
+#include <framework/turn.hpp>
 #include <host/runlog/graph_snapshot.hpp>
 #include <host/runlog/run_log.hpp>
 #include <host/runlog/run_log_reader.hpp>
@@ -79,6 +81,7 @@ graph::Graph anyGraph (unsigned seed)
     test::Sketch felt;
     felt.node ("hand", "device.position").node ("wall", "deform.plane").node ("drag", "friction.elasto_plastic").node ("motor", "device.force");
     felt.wire ("hand.position -> wall.position").wire ("hand.position -> drag.position").wire ("wall.resistance -> drag.normal_force").wire ("wall.force -> motor.force").wire ("drag.force -> motor.force");
+    felt.node ("bell", "vibration.modal", {}, { { "modes", Json::array ({ { { "frequency", 100.0 }, { "decay", 20.0 }, { "amplitude", 0.1 } } }) } }).wire ("bell.value -> motor.force.z");
     felt.node ("lever", "device.axis", {}, { { "axis", "b" } }).node ("brake", "device.effort", {}, { { "axis", "b" } }).node ("ear", "device.signal_in", {}, { { "channel", 2 } }).node ("mouth", "device.signal_out").node ("grip", "device.button", {}, { { "button", "grip" } });
     felt.wire ("lever.axis -> brake.effort").wire ("ear.out -> mouth.in").wire ("grip.pressed -> mouth.in");
     return test::besides (felt.graph, test::prefixed (test::randomGraph (seed, 10), "e_", "stylus"));
@@ -130,6 +133,13 @@ std::vector<std::uint64_t> run (const std::filesystem::path& file, unsigned seed
         engine.set (std::get<plan::ParamRef> (param), std::generate_canonical<double, 53> (random));
     };
 
+    const auto hit = [&]
+    {
+        const auto& plan = engine.newest();
+        for (std::size_t i = 0; i < plan.instances.size(); ++i)
+            if (plan.instances[i].is_struck && dice (3)) tactus::strike (engine, plan::nameOfHit (plan, i, 0), 1.0 + std::generate_canonical<double, 53> (random));
+    };
+
     std::vector<std::uint64_t> digests;
     for (int k = 0; k < ticks; ++k)
     {
@@ -145,6 +155,8 @@ std::vector<std::uint64_t> run (const std::filesystem::path& file, unsigned seed
         }
         while (dice (10))
             turn();
+        while (dice (10))
+            hit();
         if (k >= ticks * 8 / 10 && k < ticks * 9 / 10) engine.halt();
         if (k == ticks * 9 / 10) engine.resume();
         if (dice (60)) engine.emergencyStop();
@@ -157,6 +169,8 @@ std::vector<std::uint64_t> run (const std::filesystem::path& file, unsigned seed
     REQUIRE_FALSE (log->brokenAt());
     return digests;
 }
+
+int hits_again = 0;   // by all runs from logs
 
 /// The same from the log.
 std::vector<std::uint64_t> runAgain (const std::filesystem::path& file)
@@ -206,6 +220,13 @@ std::vector<std::uint64_t> runAgain (const std::filesystem::path& file)
             REQUIRE (std::holds_alternative<plan::ParamRef> (found));
             engine->set (std::get<plan::ParamRef> (found), target);
         }
+        for (const auto& [input, speed] : line.hits)
+        {
+            ++hits_again;
+            const auto found = engine->hits (input);
+            REQUIRE (std::holds_alternative<std::vector<plan::HitRef>> (found));
+            engine->strike (std::get<std::vector<plan::HitRef>> (found).front(), speed);
+        }
         if (line.halt) halting = *line.halt;
         if (line.halt == false) engine->resume();
         if (halting) engine->halt();
@@ -228,6 +249,7 @@ TEST_CASE ("whatever was edited and turned, a run from its log gives the same bi
         const auto seed = *rc::gen::arbitrary<unsigned>();
         const auto live = run (file, seed, 600);
         RC_ASSERT (runAgain (file) == live); });
+    CHECK (hits_again > 0);
 }
 
 TEST_CASE ("every reading comes back to the bit", "[runlog]")

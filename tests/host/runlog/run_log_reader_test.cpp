@@ -126,7 +126,7 @@ TEST_CASE ("what is wrong with a log is said with line and column", "[runlog]")
     CHECK (problem ("{}\n") == "log/not_a_log run.jsonl:1");
     CHECK (problem ("t,x\n0,1\n") == "log/not_a_log run.jsonl:1");
     CHECK (problem ("[]\n") == "log/not_a_log run.jsonl:1");
-    CHECK (problem (R"({"format":"tactus-run","version":3})"
+    CHECK (problem (R"({"format":"tactus-run","version":4})"
                     "\n")
            == "log/newer_version run.jsonl:1");
     CHECK (problem (R"({"format":"tactus-run","version":0})"

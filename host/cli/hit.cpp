@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands.hpp"
+#include "osc_client.hpp"
+#include "report.hpp"
+
+#include <framework/in_quotes.hpp>
+
+#include <charconv>
+#include <utility>
+
+namespace tactus::host
+{
+
+namespace
+{
+struct Options
+{
+    std::vector<std::string> hits;
+    OscOption osc;
+};
+
+constexpr float usual_speed = 1.0f;   // m/s
+
+/// NODE.PORT[=SPEED]
+std::pair<std::string, float> readHit (const std::string& text)
+{
+    const auto equals = text.find ('=');
+    const auto name = text.substr (0, equals);
+    float speed = usual_speed;
+    bool right = name.find ('.') != name.npos;
+    if (equals != text.npos)
+    {
+        const auto* const end = text.data() + text.size();
+        const auto [read_to, error] = std::from_chars (text.data() + equals + 1, end, speed);
+        right = right && error == std::errc {} && read_to == end;
+    }
+    if (! right) throw CLI::ValidationError ("NODE.PORT[=SPEED]", inQuotes (text) + " is not that, as in ring.hit or ring.hit=0.4 (m/s)");
+    return { name, speed };
+}
+
+void run (const Options& options)
+{
+    std::vector<std::pair<std::string, float>> hits;
+    for (const auto& text : options.hits)
+        hits.push_back (readHit (text));
+
+    OscClient client { options.osc.number };
+    for (const auto& [name, speed] : hits)
+    {
+        client.send (juce::OSCMessage ("/tactus/hit", juce::String::fromUTF8 (name.c_str()), speed, client.own()));
+        OscClient::check (client.answer());
+    }
+}
+}   // namespace
+
+void addHit (CLI::App& app)
+{
+    const auto options = std::make_shared<Options>();
+    auto* command = app.add_subcommand ("hit", "Strike what takes hits in a graph that `tactus play` runs");
+    command->add_option ("hits", options->hits, "NODE.PORT, or NODE.PORT=SPEED in m/s; 1 m/s if nothing is said")->required();
+    options->osc.addTo (*command);
+    command->footer ("A hit is there on one tick, and comes to what the wires bring.\n\n"
+                     "Examples:\n"
+                     "  tactus hit ring.hit\n"
+                     "  tactus hit ring.hit=0.4 click.hit=2");
+    command->callback ([options]
+                       { run (*options); });
+}
+
+}   // namespace tactus::host
