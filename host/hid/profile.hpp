@@ -202,6 +202,13 @@ struct Direct
 {
 };
 
+/// A signal output whose motor takes no samples, but how strong it is to shake, and perhaps how fast: names of efforts.
+struct SignalEffort
+{
+    std::string amplitude;   ///< gets the signal's amplitude
+    std::string frequency;   ///< gets its frequency in Hz; empty: the motor has one of its own
+};
+
 /// p = M q + p0; effort = transpose (M) F.
 struct LinearMap
 {
@@ -278,6 +285,7 @@ struct Profile
     std::array<std::string, 3> position, rotation;   ///< axes that kinematics takes, or that are it; empty: none
     std::string pressure, valid;                     ///< axes; `valid` is not 0 while the reading is
     std::array<std::string, 3> force, torque;        ///< efforts; with kinematics, `force` are its motors
+    std::vector<SignalEffort> signals;               ///< signal outputs that follow those of the streams
     Mat3 axes = Mat3::Identity();                    ///< Tactus (x right, y away, z up) = axes · device
 
     KinematicsModel kinematics;

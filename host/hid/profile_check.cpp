@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/hid/profile_check.hpp>
 
+#include <framework/device.hpp>
 #include <framework/in_quotes.hpp>
 
 #include <algorithm>
@@ -66,6 +67,7 @@ public:
         three ("torque", p.torque, efforts, "N*m");
         known ("pressure", p.pressure, axes, "N");
         known ("valid", p.valid, axes, "");
+        signals();
         joints();
         echoes();
         steps();
@@ -92,6 +94,19 @@ private:
     {
         for (const auto& name : names)
             known (key, name, among, unit);
+    }
+
+    void signals()
+    {
+        auto channels = p.signals.size();
+        for (const auto& report : p.outputs)
+            if (report.stream) channels += report.stream->channels.size();
+        if (channels > static_cast<std::size_t> (Channels::most)) in.error ("signals", "profile/too_many", "there are " + std::to_string (channels) + " signal outputs", "leave all but " + std::to_string (Channels::most) + " out");
+        for (const auto& signal : p.signals)
+        {
+            known ("signals", signal.amplitude, efforts, "");
+            known ("signals", signal.frequency, efforts, "Hz");
+        }
     }
 
     /// Each drive has a counter, and a motor where the device pushes at all.

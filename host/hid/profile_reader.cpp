@@ -156,6 +156,10 @@ Profile read (ProfileFields& in)
     p.torque = in.threeNames ("torque");
     if (in.has ("pressure")) p.pressure = in.name ("pressure");
     if (in.has ("valid")) p.valid = in.name ("valid");
+    in.each ("signals", [&] (ProfileFields& s)
+             {
+        s.require ("amplitude", "name the effort that says how strong it shakes");
+        p.signals.push_back ({ .amplitude = s.has ("amplitude") ? s.name ("amplitude") : std::string(), .frequency = s.has ("frequency") ? s.name ("frequency") : std::string() }); });
     p.axes = readAxes (in);
     p.kinematics = readKinematics (in);
     p.limits = readLimits (in);

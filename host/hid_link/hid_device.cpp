@@ -9,17 +9,48 @@ namespace tactus::host::hid
 
 DeviceLayout layoutOf (const HidModel& model)
 {
-    return { .axes = model.axisNames(), .efforts = model.effortNames(), .buttons = model.buttonNames() };
+    auto signals = model.profile().signals.size();
+    for (std::size_t i = 0; i < model.outputs(); ++i)
+        signals += model.channelNames (i).size();
+    return { .axes = model.axisNames(), .efforts = model.effortNames(), .buttons = model.buttonNames(), .signal_outputs = static_cast<int> (signals) };
 }
+
+namespace
+{
+// Half a period of the slowest that such motors are asked for: else the amplitude would be felt to come and go with the signal.
+constexpr double least_hold = 12.5e-3;   // s
+
+/// How often the report is sent that has this effort.
+double periodOf (const Profile& profile, const std::string& effort)
+{
+    for (const auto& report : profile.outputs)
+        if (std::ranges::count (report.fields, effort, &OutputField::name) > 0) return 1.0 / report.max_rate;
+    return 0.0;
+}
+}   // namespace
 
 HidDevice::HidDevice (std::unique_ptr<HidPort> port)
     : link (std::move (port)), values (link->profile()), only_changes (std::ranges::count (link->profile()->quirks, "only_changes") > 0)
 {
+    std::size_t channel = 0;
+    for (std::size_t i = 0; i < values.outputs(); ++i)
+        if (const auto& stream = values.profile().outputs[i].stream)
+        {
+            streams.push_back ({ i, StreamFeed (*stream, channel) });
+            channel += stream->channels.size();
+        }
+    const auto& names = values.effortNames();
+    for (const auto& signal : values.profile().signals)
+        shaken.push_back ({ indexOf (names, signal.amplitude), indexOf (names, signal.frequency), static_cast<int> (channel++), std::max (least_hold, periodOf (values.profile(), signal.amplitude)) });
 }
 
 void HidDevice::prepare (double dt_s)
 {
     dt = dt_s;
+    for (auto& s : streams)
+        s.feed.prepare (dt);
+    for (auto& s : shaken)
+        s.shaking.prepare (dt, s.hold);
     ticks_without = 0;
     has_to_rest = true;
 }
@@ -90,18 +121,33 @@ Reading HidDevice::read() noexcept
     return reading;
 }
 
+void HidDevice::shake (const Channels& signals, HidEffort& effort) noexcept
+{
+    for (auto& [amplitude, frequency, channel, hold, shaking] : shaken)
+    {
+        shaking.tick (signals[channel]);
+        if (amplitude >= 0) effort.efforts[static_cast<std::size_t> (amplitude)] += shaking.amplitude();
+        if (frequency >= 0 && shaking.frequency() > 0.0) effort.efforts[static_cast<std::size_t> (frequency)] = shaking.frequency();
+    }
+}
+
 void HidDevice::write (const Effort& guarded) noexcept
 {
     const auto isZero = [] (double v)
     { return v == 0.0; };
-    const bool rests = guarded.force.isZero (0.0) && guarded.torque.isZero (0.0) && std::ranges::all_of (guarded.axes, isZero);
+    const bool rests = guarded.force.isZero (0.0) && guarded.torque.isZero (0.0) && std::ranges::all_of (guarded.axes, isZero) && std::ranges::all_of (guarded.signals, isZero);
     has_to_rest = has_to_rest && ! rests;
 
     HidEffort effort { guarded.force, guarded.torque, values.restEfforts() };
     for (std::size_t i = 0; i < values.effortNames().size(); ++i)
         if (const double asked = guarded.axes[static_cast<int> (i)]; asked != 0.0) effort.efforts[i] = asked;
+    shake (guarded.signals, effort);
+
     for (std::size_t i = 0; i < values.outputs(); ++i)
-        link->offer (i, has_to_rest ? values.neutral (i) : values.encode (i, effort), episode, latest);
+        if (values.channelNames (i).empty()) link->offer (i, has_to_rest ? values.neutral (i) : values.encode (i, effort), episode, latest);
+    for (auto& [report, feed] : streams)
+        feed.tick (guarded.signals, [&, i = report] (std::span<const float> samples)
+                   { link->offer (i, has_to_rest ? values.neutral (i) : values.encode (i, effort, samples), episode, latest); });
 }
 
 void HidDevice::publish() noexcept { published.store (tally); }

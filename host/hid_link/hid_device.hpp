@@ -4,12 +4,15 @@
 #include <framework/device.hpp>
 #include <host/hid/hid_model.hpp>
 #include <host/hid_link/hid_port.hpp>
+#include <host/hid_link/shaking.hpp>
+#include <host/hid_link/stream_feed.hpp>
 #include <host/runtime/snapshot.hpp>
 
 #include <array>
 #include <bitset>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace tactus::host::hid
 {
@@ -25,7 +28,8 @@ struct ReadingCounts
     double age = 0.0, oldest = 0.0;                   ///< s, of the reading: now, and the most it was once there had been one
 };
 
-/// What nodes find of it by name: all of its axes, efforts and buttons.
+/// What nodes find of it by name: all of its axes, efforts and buttons; and its signal outputs, first the channels of its
+/// streams, then those that its profile makes of efforts.
 DeviceLayout layoutOf (const HidModel&);
 
 /// A HID device in a run. What came is decoded, and what is to be sent is encoded, at the tick: so an answer has the pose
@@ -36,6 +40,9 @@ DeviceLayout layoutOf (const HidModel&);
 /// are counted and left out: many devices send some.)
 ///
 /// An effort of an axis that is 0 leaves it as it is in the neutral report: a frequency of 0 would be none.
+///
+/// A signal for a stream goes into blocks of samples at the stream's rate, each sent when it is full; one for a motor that
+/// takes an amplitude becomes that.
 ///
 /// After the device was away, or the ticks stood still so long that the port let it go, nothing is sent to it until the
 /// guard has gone to zero once: then efforts rise as the guard's ramp has it.
@@ -61,6 +68,22 @@ public:
 private:
     void take (const ArrivedReport&) noexcept;
     void publish() noexcept;
+    void shake (const Channels& signals, HidEffort&) noexcept;
+
+    /// A report of samples; of an output without, there is none.
+    struct Streamed
+    {
+        std::size_t report;
+        StreamFeed feed;
+    };
+
+    /// A motor that is told how to shake, by the numbers of its efforts; -1: none.
+    struct Shaken
+    {
+        int amplitude, frequency, channel;
+        double hold;   // s
+        Shaking shaking {};
+    };
 
     std::unique_ptr<HidPort> link;
     HidModel values;
@@ -76,6 +99,9 @@ private:
     bool has_one = false;        // of this connection
     bool refused = false;        // the newest one
     bool has_to_rest = true;     // until the guard has been at zero
+
+    std::vector<Streamed> streams;
+    std::vector<Shaken> shaken;
 
     Snapshot<ReadingCounts> published;
 };

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <host/hid/profile.hpp>
+
+#include <framework/device.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace tactus::host::hid
+{
+
+/// Turns signals that have a value each tick into blocks of frames at the rate of a stream: in straight lines from tick to
+/// tick, so that there is no delay beyond the block's. What is above half the lower of the two rates folds back. After
+/// construction nothing is allocated.
+class StreamFeed
+{
+public:
+    /// Its channels are the device's signals from this one on.
+    StreamFeed (const Stream& s, std::size_t first_channel) : frames (s.frames), channels (s.channels.size()), first (first_channel), rate_hz (s.rate), before (channels), block (frames * channels) {}
+
+    void prepare (double dt_s) noexcept   // [main thread]
+    {
+        step = rate_hz > 0.0 ? 1.0 / (rate_hz * dt_s) : 1.0;
+        next = step;
+        filled = 0;
+        std::ranges::fill (before, 0.0);
+    }
+
+    /// One tick. Calls back with each block that is full: frames after each other, one sample a channel.
+    template <typename F>
+    void tick (const Channels& signals, F&& full) noexcept
+    {
+        for (; next <= 1.0; next += step)
+        {
+            for (std::size_t c = 0; c < channels; ++c)
+                block[filled * channels + c] = static_cast<float> (before[c] + next * (at (signals, c) - before[c]));
+            if (++filled < frames) continue;
+            filled = 0;
+            full (std::span<const float> (block));
+        }
+        next -= 1.0;
+        for (std::size_t c = 0; c < channels; ++c)
+            before[c] = at (signals, c);
+    }
+
+private:
+    double at (const Channels& signals, std::size_t c) const noexcept { return signals[static_cast<int> (first + c)]; }
+
+    std::size_t frames, channels, first;
+    double rate_hz, step = 1.0, next = 1.0;   // ticks from frame to frame, and from the last tick to the next frame
+    std::size_t filled = 0;
+    std::vector<double> before;
+    std::vector<float> block;
+};
+
+}   // namespace tactus::host::hid

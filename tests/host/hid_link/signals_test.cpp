@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// Signals for what shakes: samples, block by block, or an amplitude and a frequency.
+
+#include "../hid/hid.hpp"
+#include "fake_board.hpp"
+#include "support/no_allocation.hpp"
+
+#include <host/hid/crc32.hpp>
+#include <host/hid_link/shaking.hpp>
+#include <host/hid_link/stream_feed.hpp>
+
+#include <rapidcheck/catch.h>
+
+#include <cmath>
+#include <numbers>
+
+using namespace tactus;
+using namespace tactus::host::hid;
+using test::FakeBoard;
+
+namespace
+{
+std::unique_ptr<HidDevice> open (FakeBoard& board, const char* profile, double dt_s)
+{
+    auto opened = HidPort::open (board, board.what, test::profileOf (profile), { .look_again = std::chrono::milliseconds (5), .real_time = false });
+    REQUIRE (std::holds_alternative<std::unique_ptr<HidPort>> (opened));
+    auto device = std::make_unique<HidDevice> (std::move (std::get<0> (opened)));
+    device->prepare (dt_s);
+    return device;
+}
+
+/// All output reports of this id that were sent so far.
+std::vector<test::Bytes> sent (const FakeBoard& board, std::uint8_t id)
+{
+    std::vector<test::Bytes> reports;
+    for (const auto& t : board.told())
+        if (t.how == test::Told::How::output && t.bytes.at (0) == id) reports.push_back (t.bytes);
+    return reports;
+}
+
+void tick (HidDevice& device, const Channels& signals)
+{
+    device.read();
+    device.write ({ .signals = signals });
+}
+}   // namespace
+
+TEST_CASE ("a stream gets its frames at its own rate, in straight lines from tick to tick", "[hid]")
+{
+    rc::prop ("any two rates", []
+              {
+        const double rate = *rc::gen::inRange (100, 9000), dt = 1.0 / *rc::gen::inRange (100, 9000);
+        const auto frames = *rc::gen::inRange<std::size_t> (1, 40);
+        StreamFeed feed ({ .at = 0, .frames = frames, .rate = rate, .channels = { "a", "b" }, .is_signed = true, .bits = 8 }, 1);
+        feed.prepare (dt);
+        std::vector<double> got;
+        const int ticks = 500;
+        for (int k = 1; k <= ticks; ++k)
+            feed.tick ({ 9.0, k * dt, -2.0 * k * dt }, [&] (std::span<const float> block)
+                       {
+                RC_ASSERT (block.size() == 2 * frames);
+                for (std::size_t i = 0; i < frames; ++i)
+                {
+                    got.push_back (static_cast<double> (block[2 * i]));
+                    RC_ASSERT (std::abs (static_cast<double> (block[2 * i + 1]) + 2.0 * got.back()) < 1e-5);
+                } });
+        for (std::size_t i = 0; i < got.size(); ++i)
+            RC_ASSERT (std::abs (got[i] - static_cast<double> (i + 1) / rate) < 1e-5);   // a ramp of 1 per s, at the time of the frame
+        RC_ASSERT (std::abs (static_cast<double> (got.size()) - ticks * dt * rate) <= static_cast<double> (frames) + 1.0); });
+}
+
+TEST_CASE ("how strong and how fast a tone shakes is seen whatever the rate", "[hid]")
+{
+    rc::prop ("any tone", []
+              {
+        const double hertz = *rc::gen::inRange (41, 600), dt = 1.0 / *rc::gen::inRange (4000, 10000), loud = *rc::gen::inRange (1, 100) * 0.01;
+        Shaking shaking;
+        shaking.prepare (dt, 12.5e-3);
+        for (int k = 0; k < 2000; ++k)
+            shaking.tick (loud * std::sin (2.0 * std::numbers::pi * hertz * k * dt));
+        RC_ASSERT (shaking.amplitude() <= loud);
+        RC_ASSERT (shaking.amplitude() > 0.88 * loud);
+        RC_ASSERT (std::abs (shaking.frequency() - hertz) < 0.05 * hertz);
+        for (int k = 0; k < 2000; ++k)
+            shaking.tick (0.0);
+        RC_ASSERT (shaking.amplitude() == 0.0);
+        RC_ASSERT (shaking.frequency() == 0.0); });
+}
+
+TEST_CASE ("a DualSense gets samples over Bluetooth, counted and with their sum", "[hid]")
+{
+    FakeBoard pad;
+    const auto device = open (pad, "dualsense_bluetooth_samples", 1.0 / 3000.0);
+    CHECK (device->layout().signal_outputs == 2);
+    const auto reports = [&]
+    { return sent (pad, 0x32); };
+    const auto block = [&] (const Channels& signals)
+    {
+        const auto before = reports().size();
+        for (int k = 0; k < 32; ++k)
+            tick (*device, signals);
+        REQUIRE (pad.until ([&]
+                            { return reports().size() > before; }));
+        return reports().back();
+    };
+    const auto still = block ({});
+    const auto driven = block ({ 0.5, -0.25 }), again = block ({ 2.0, -2.0 });
+
+    // By hand: 0.5 of 127 is 64, -0.25 is -32; what is too much is all there is.
+    const auto check = [] (const test::Bytes& report, const char* frame, int count)
+    {
+        std::string hex = "00 91 07 fe 00 00 00 00 ff 00 92 40";
+        auto expected = test::bytes (hex);
+        expected.insert (expected.begin(), 0x32);
+        expected[1] = static_cast<std::uint8_t> (count << 4);
+        expected[10] = static_cast<std::uint8_t> (count);
+        for (int i = 0; i < 32; ++i)
+            for (const auto byte : test::bytes (frame))
+                expected.push_back (byte);
+        expected.resize (138);
+        REQUIRE (report.size() == 142);
+        CHECK (test::Bytes (report.begin(), report.begin() + 138) == expected);
+        const auto sum = crc32 (std::span (report).first (138), crc32 (test::bytes ("a2")));
+        for (std::size_t i = 0; i < 4; ++i)
+            CHECK (report[138 + i] == static_cast<std::uint8_t> (sum >> (8 * i)));
+    };
+    check (still, "00 00", 0);
+    check (driven, "40 e0", 1);
+    check (again, "7f 81", 2);
+}
+
+TEST_CASE ("rumble motors get the amplitude of their signal, and HD rumble its frequency, too", "[hid]")
+{
+    const auto shaken = [] (const char* profile, std::uint8_t id, auto&& isIt)
+    {
+        FakeBoard pad;
+        const auto device = open (pad, profile, 1e-3);
+        tick (*device, {});
+        int k = 0;
+        CHECK (pad.until ([&]
+                          {
+            for (int i = 0; i < 20; ++i, ++k)
+                tick (*device, { 0.5 * std::sin (2.0 * std::numbers::pi * 100.0 * 1e-3 * k) });
+            const auto reports = sent (pad, id);
+            return ! reports.empty() && isIt (reports.back()); }));
+        tick (*device, {});
+        return device->layout().signal_outputs;
+    };
+    // 0.5 of 255 is 128; a sine of 100 Hz at 1 kHz has its largest samples at 0.951.
+    CHECK (shaken ("dualsense_usb", 0x02, [] (const test::Bytes& r)
+                   { return r[4] == std::lround (0.5 * std::sin (0.4 * std::numbers::pi) * 255.0) && r[3] == 0; })
+           == 2);
+    // 100 Hz: round (32 log2 (100/10)) - 0x40 = 106 - 64 = 42 in the low band of the left motor.
+    CHECK (shaken ("switch_controllers", 0x10, [] (const test::Bytes& r)
+                   { return (r[4] & 0x7f) == 42 && r[5] > 0x40 && r[5] <= 0x72 && (r[6] << 8 | r[7]) == 0x0001; })
+           == 4);
+}
+
+TEST_CASE ("signals cost the tick no allocation and no lock", "[hid]")
+{
+    FakeBoard pad;
+    const auto device = open (pad, "dualsense_bluetooth_samples", 1e-3);
+    tick (*device, {});
+    NoAllocation watch;
+    for (int k = 0; k < 100; ++k)
+        tick (*device, { 0.1 * (k % 7), -0.1 });
+    CHECK (watch.allocations() == 0);
+    CHECK (watch.locks() == 0);
+}
