@@ -204,6 +204,8 @@ check("No HID device is connected." in text("none.txt"), "without a device, the 
 check("tactus_board" in text("devices.txt") and "spacemouse" in text("devices.txt"), "the list names what fits")
 devices = json.loads(text("devices.json"))
 check({p["id"] for d in devices for p in d["profiles"][:1]} >= {"tactus_board", "spacemouse"} and all(d["may_open"] for d in devices), "so does the list as JSON")
+if any(d["product"] == "Test joystick" for d in devices):
+    check(any(d["product"] == "Test joystick" and d["profiles"][0]["id"] == "pid" for d in devices), "a joystick with force feedback is listed as one")
 probes = {d["probe"]["profile"]: d["probe"] for d in json.loads(text("probe.json")) if "probe" in d}
 mouse = probes.get("spacemouse", {})
 check(mouse.get("reports", 0) > 3 and mouse["axes"]["x"] == 100 * 4e-6 and mouse["axes"]["rz"] == -0.05 and mouse["pressed"] == ["button1"], f"a SpaceMouse is probed: {mouse.get('reports')} reports")

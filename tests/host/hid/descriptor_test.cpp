@@ -292,8 +292,8 @@ TEST_CASE ("OpenFFBoard's descriptor gives its reports, and the force that the s
     Bytes resting (25);
     resting[0] = 1;
     REQUIRE (model.decode (resting).refusal == Refusal::none);
-    resting[2] = 0x40;   // x
-    resting[4] = 0x80;   // y, which a stick has towards the person
+    resting[10] = 0x40;   // x, after 64 buttons
+    resting[12] = 0x80;   // y, which a stick has towards the person
     CHECK (model.decode (resting).position.x() == Approx (0.05).epsilon (1e-4));
     CHECK (model.reading().position.y() == Approx (0.05).epsilon (1e-4));
     CHECK (sent (-4.0) == "05 01 ff 7f");
