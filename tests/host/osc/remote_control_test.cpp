@@ -103,7 +103,7 @@ void run (TriggeredCapture& capture, int ticks, int edge)
 
 struct Stage
 {
-    Stage() : port (std::move (*OscPort::open (0))), other (std::move (*OscPort::open (0))), control (*port, puppet) {}
+    explicit Stage (const OscListen& where = {}) : port (std::move (*OscPort::open (where))), other (std::move (*OscPort::open (0))), control (*port, puppet) {}
 
     /// Sends, lets it be carried out, and returns the answer; the answering thread of the port is waited for.
     template <typename... Args>
@@ -215,6 +215,11 @@ TEST_CASE ("the emergency stop is within reach, and so is what ends it", "[osc]"
     CHECK_FALSE (stage.puppet.stopped);
     CHECK (text (stage.ask ("/tactus/rearm", stage.me()), 0) == "/tactus/rearm");
     CHECK_FALSE (stage.puppet.emergency);
+
+    Stage open { OscListen { .address = "0.0.0.0" } };   // to whoever cannot see the device
+    open.ask ("/tactus/emergency", open.me());
+    CHECK (text (open.ask ("/tactus/rearm", open.me()), 2) == "osc/rearm");
+    CHECK (open.puppet.emergency);
 }
 
 TEST_CASE ("a probe sends what was asked for, as often as asked, and ends when its time is over", "[osc]")
