@@ -157,6 +157,8 @@ TEST_CASE ("an option for the clock outranks the session, which outranks the fir
     CHECK (choose ("", "stylus").rate_hz == 500.0);
     CHECK (choose ("thumb", "stylus").role == "thumb");
     CHECK (choose ("timer", "stylus").role.empty());
+    CHECK (choose ("timer", "stylus").messages.empty());
+    CHECK (choose ("thumb", "timer").role == "thumb");
     CHECK (choose ("", "timer").role.empty());
     CHECK (choose ("", "timer").messages.empty());
     CHECK (choose ("", "stylus", 500.0).role == "stylus");
