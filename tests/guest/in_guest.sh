@@ -12,7 +12,7 @@ failures=0
 say () { echo "== $*"; echo "$SECONDS $*" >>/run/results/times.txt; }
 fail () { echo "FAILED: $*"; failures=$((failures + 1)); }
 
-wait_for () { for _ in $(seq 300); do compgen -G "$1" >/dev/null && return; sleep 0.1; done; fail "$1 did not come"; }
+wait_for () { for _ in $(seq 1200); do compgen -G "$1" >/dev/null && return; sleep 0.1; done; fail "$1 did not come"; }
 gone () { for _ in $(seq 100); do compgen -G '/dev/hidraw*' >/dev/null || return; sleep 0.1; done; }
 
 # plug OPTIONS…: a board, until unplug. Its log is $work/board.csv.
@@ -60,7 +60,7 @@ keep unplug
 for signal in INT TERM KILL SEGV; do
     say "ended by $signal under force"
     plug --mark $work/pushed
-    play --duration 60 & player=$!
+    play --duration 600 & player=$!
     end_under_force $signal
     unplug
     keep "$signal"
@@ -99,7 +99,7 @@ if [ -e "$FFB_DESCRIPTOR" ]; then
 
     say "the same, its program killed under force"
     stick --mark $work/pushed
-    feel --device stylus=$work/joystick.json --duration 60 & player=$!
+    feel --device stylus=$work/joystick.json --duration 600 & player=$!
     end_under_force KILL
     unplug
     keep joystick_killed
@@ -115,8 +115,8 @@ for _ in $(seq 100); do [ "$(compgen -G '/dev/hidraw*' | wc -l)" -eq $count ] &&
 $tactus devices >/run/results/devices.txt || fail "tactus devices"
 $tactus devices --json >/run/results/devices.json || fail "tactus devices --json"
 $tactus devices --probe --duration 2 --json >/run/results/probe.json || fail "tactus devices --probe"
-$tactus devices --probe --duration 60 >/dev/null 2>&1 & other=$!
-for _ in $(seq 300); do ls -l /proc/$other/fd 2>/dev/null | grep -q hidraw && break; sleep 0.1; done
+$tactus devices --probe --duration 600 >/dev/null 2>&1 & other=$!
+for _ in $(seq 1200); do ls -l /proc/$other/fd 2>/dev/null | grep -q hidraw && break; sleep 0.1; done
 $tactus play graphs/dry_wood.json --device stylus=hid:tactus_board --osc off --duration 1 2>/run/results/taken.txt
 [ $? -eq 1 ] || fail "a device that another program has is an error"
 kill $other
