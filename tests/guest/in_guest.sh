@@ -69,7 +69,7 @@ done
 if [ -e "$FFB_DESCRIPTOR" ]; then
     ln -s "$FFB_DESCRIPTOR" $work/descriptor
     stick () { gone; $device joystick --file $work/descriptor --seconds 300 --log $work/board.csv "$@" & sim=$!; wait_for '/dev/hidraw*'; }
-    feel () { $tactus play graphs/dry_wood.json --osc off "$@" 2>$work/play.err; }
+    feel () { $tactus play graphs/dry_wood.json --osc off --rate 1000 "$@" 2>$work/play.err; }
     echo '{"driver": "hid", "profile": "pid", "calibration": {"full_force": "4 N", "travel": {"x": "12 cm", "y": "12 cm", "z": "12 cm"}}}' >$work/joystick.json
 
     say "a joystick with force feedback, by its own descriptor"
