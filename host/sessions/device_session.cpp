@@ -76,7 +76,9 @@ void DeviceSession::setAudio (Json audio)
 ReadSession readSession (std::string_view text)
 {
     ReadSession read;
-    auto [json, positions, messages] = readJson (text);
+    auto parsed = readJson (text);
+    auto& json = parsed.root;
+    auto& messages = parsed.messages;
     const auto refuse = [&] (std::string id, const std::string& where, std::string what, std::string remedy)
     {
         messages.push_back (problem (std::move (id), where, std::move (what), std::move (remedy)));
@@ -114,13 +116,13 @@ ReadSession readSession (std::string_view text)
     for (auto& m : messages)
         if (m.line == 0)
         {
-            const auto position = positionOf (positions, m.where);
+            const auto position = positionOf (parsed.positions, m.where);
             m.line = position.line;
             m.column = position.column;
         }
     if (! hasErrors (messages)) read.session.all = std::move (json);
     read.messages = std::move (messages);
-    read.positions = std::move (positions);
+    read.positions = std::move (parsed.positions);
     return read;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <host/io/text_file.hpp>
 #include <host/app/window/files.hpp>
+#include <host/io/text_file.hpp>
 
 #include "host/io/temporary_folder.hpp"
 
