@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A board that speaks the report of host/profiles/tactus_board.json, and misbehaves as it is told.
-#include "uhid.hpp"
+#include "gadget.hpp"
 
 #include <algorithm>
 #include <array>
@@ -116,7 +116,8 @@ struct Log
 }   // namespace
 
 /// --seconds S, --rate HZ, --log FILE, --serial TEXT, --wait 1 (silent until it is told something), --mark FILE (that is
-/// made once it was pushed); every so many reports: --drop, --malformed, --short, --oversized,
+/// made once it was pushed), --gadget FILE (the device's end of a USB gadget that is there, in place of a device of uhid), --describe
+/// 1 (only writes its report descriptor to stdout); every so many reports: --drop, --malformed, --short, --oversized,
 /// --swap; once, after so many: --stall (100 ms), --unplug (away for --away S).
 int board (const std::vector<std::string>& args)
 {
@@ -131,9 +132,15 @@ int board (const std::vector<std::string>& args)
     const auto stall_at = static_cast<std::uint32_t> (option (args, "stall", 0.0)), unplug_at = static_cast<std::uint32_t> (option (args, "unplug", 0.0));
     const auto serial = text (args, "serial", "B7");
 
+    if (option (args, "describe", 0.0) > 0.0) return std::fwrite (descriptor, 1, sizeof descriptor, stdout) == sizeof descriptor ? 0 : 1;
+
     Log log;
-    const auto plug = [&]
-    { return std::make_unique<Uhid> ("Tactus test board", serial.c_str(), 0x16c0, 0x0486, descriptor); };
+    const auto gadget = text (args, "gadget", "");
+    const auto plug = [&]() -> std::unique_ptr<MadeUp>
+    {
+        if (! gadget.empty()) return std::make_unique<Gadget> (gadget.c_str());
+        return std::make_unique<Uhid> ("Tactus test board", serial.c_str(), std::uint16_t { 0x16c0 }, std::uint16_t { 0x0486 }, descriptor);
+    };
     const bool waits = option (args, "wait", 0.0) > 0.0;
     bool told = false;
     Mark mark (args);
@@ -203,10 +210,7 @@ int board (const std::vector<std::string>& args)
             ++n;
         }
         else
-        {
-            device->input (r);
-            log.sent ("good", n);
-        }
+            log.sent (device->input (r) ? "good" : "dropped", n);
     }
     device->serve (now() + 0.05, heard);
 

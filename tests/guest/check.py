@@ -132,6 +132,20 @@ if not starved("loop"):
     check(full > 0, "loop: after the ramp the device gets the graph's force as it is")
     check(said["lost"] == 0, "loop: nothing is lost")
 
+if os.path.exists(os.path.join(folder, "usb.board.csv")):
+    board, said, _ = closed_loop("usb")
+    check(said["refused"] == 0 and said["taken"] > 300, f"usb: {said['taken']} reports are understood")
+    taken = gaps = 0   # among those that the program took
+    for kind, _ in board.sent:
+        taken += kind == "good"
+        gaps += kind == "dropped" and taken > 0
+        if taken == said["taken"]:
+            break
+    if not starved("usb"):
+        check(said["lost"] == gaps, f"usb: {said['lost']} counted as lost, {gaps} for which the bus had no room")
+else:
+    print("skipped: this kernel has no USB gadgets")
+
 board, said, _ = closed_loop("faults")
 should = {} if starved("faults") else expected(board.sent, said["taken"] + said["refused"], said["short"] > 0)
 for what, number in should.items():

@@ -66,6 +66,36 @@ for signal in INT TERM KILL SEGV; do
     keep "$signal"
 done
 
+# gadget: a board on a bus of its own, as the kernel's USB stack sees it.
+gadget=/sys/kernel/config/usb_gadget/board
+make_gadget ()
+{
+    mount -t configfs none /sys/kernel/config 2>/dev/null
+    mkdir $gadget || return
+    echo 0x16c0 >$gadget/idVendor
+    echo 0x0486 >$gadget/idProduct
+    mkdir -p $gadget/strings/0x409 $gadget/configs/c.1 $gadget/functions/hid.0
+    echo "G1" >$gadget/strings/0x409/serialnumber
+    echo "Tactus test board" >$gadget/strings/0x409/product
+    echo 0 >$gadget/functions/hid.0/subclass
+    echo 0 >$gadget/functions/hid.0/protocol
+    echo 64 >$gadget/functions/hid.0/report_length
+    $device board --describe 1 >$gadget/functions/hid.0/report_desc
+    ln -s $gadget/functions/hid.0 $gadget/configs/c.1/
+    ls /sys/class/udc | head -1 >$gadget/UDC
+}
+
+say "a closed loop by USB"
+if make_gadget; then
+    wait_for '/dev/hidg0'
+    wait_for '/dev/hidraw*'
+    $device board --seconds 300 --log $work/board.csv --wait 1 --gadget /dev/hidg0 & sim=$!
+    play --duration 3 "${recorded[@]}" || fail "the closed loop by USB"
+    unplug
+    echo >$gadget/UDC
+    keep usb
+fi
+
 if [ -e "$FFB_DESCRIPTOR" ]; then
     ln -s "$FFB_DESCRIPTOR" $work/descriptor
     stick () { gone; $device joystick --file $work/descriptor --seconds 300 --log $work/board.csv "$@" & sim=$!; wait_for '/dev/hidraw*'; }

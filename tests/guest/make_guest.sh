@@ -30,7 +30,7 @@ rm -rf "$root"
 mkdir -p "$root"/{bin,modules,proc,sys,dev,mnt}
 [ -e "$folder/kernel/lib/modules/$version/modules.dep" ] || depmod -b "$folder/kernel" "$version"
 cp "$(command -v busybox)" "$root/bin/busybox"
-for module in virtio_pci 9pnet_virtio 9p uhid hid-generic; do
+for module in virtio_pci 9pnet_virtio 9p uhid hid-generic usbhid dummy_hcd usb_f_hid; do
     modprobe -S "$version" -d "$folder/kernel" -D "$module" 2>/dev/null | awk '/^insmod/ {print $2}'
 done | awk '! seen[$0]++' | while read -r file; do
     cp "$file" "$root/modules/"

@@ -30,8 +30,33 @@ inline double now()
     return static_cast<double> (t.tv_sec) + 1e-9 * static_cast<double> (t.tv_nsec);
 }
 
-/// A HID device made of nothing (Linux: Documentation/hid/uhid.rst). It is plugged in while this lives.
-class Uhid
+/// A HID device made of nothing. It is plugged in while this lives.
+class MadeUp
+{
+public:
+    using Heard = std::function<void (std::span<const std::uint8_t>)>;
+
+    virtual ~MadeUp() = default;
+
+    /// False if there was no room for the report, which is lost.
+    virtual bool input (std::span<const std::uint8_t> report) = 0;
+
+    /// True while somebody has it open, as far as it can know.
+    virtual bool isOpen() const = 0;
+
+    /// Waits for what the computer wants, at most until then; calls back with each output report.
+    virtual void serve (double until, const Heard&) = 0;
+};
+
+/// For poll: the time that is left, half a second at most.
+inline timespec waitUntil (double until)
+{
+    const double left = until - now();
+    return { 0, left > 0.0 ? static_cast<long> (std::min (left, 0.5) * 1e9) : 0 };
+}
+
+/// By the kernel's uhid (Linux: Documentation/hid/uhid.rst): without a bus.
+class Uhid final : public MadeUp
 {
 public:
     Uhid (const char* name, const char* serial, std::uint16_t vid, std::uint16_t pid, std::span<const std::uint8_t> descriptor)
@@ -55,7 +80,7 @@ public:
         tell (e);
     }
 
-    ~Uhid()
+    ~Uhid() override
     {
         uhid_event e {};
         e.type = UHID_DESTROY;
@@ -69,25 +94,23 @@ public:
     /// What it answers when it is asked for the report of this id; nothing: it refuses.
     std::function<std::vector<std::uint8_t> (std::uint8_t)> on_ask {};
 
-    void input (std::span<const std::uint8_t> report)
+    bool input (std::span<const std::uint8_t> report) override
     {
         uhid_event e {};
         e.type = UHID_INPUT2;
         e.u.input2.size = static_cast<std::uint16_t> (report.size());
         std::memcpy (e.u.input2.data, report.data(), report.size());
         tell (e);
+        return true;
     }
 
-    bool isOpen() const { return opened; }
+    bool isOpen() const override { return opened; }
 
-    /// Waits for what the computer wants, at most until then; calls back with each output report.
-    template <typename F>
-    void serve (double until, F&& output)
+    void serve (double until, const Heard& output) override
     {
         for (;;)
         {
-            const double left = until - now();
-            timespec wait { 0, left > 0.0 ? static_cast<long> (std::min (left, 0.5) * 1e9) : 0 };
+            const auto wait = waitUntil (until);
             pollfd p { fd, POLLIN, 0 };
             if (::ppoll (&p, 1, &wait, nullptr) <= 0)
             {

@@ -253,6 +253,10 @@ def walk(w):
     w.wait(lambda: w.has("drag"), "the recovered graph")
     w.shot("recovered")
 
+    w.click("Devices")
+    time.sleep(1.0)  # what is plugged in is looked for
+    w.shot("devices")
+
 
 def main():
     host, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
