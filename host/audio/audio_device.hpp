@@ -7,6 +7,7 @@
 #include <framework/device.hpp>
 
 #include <atomic>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -18,8 +19,11 @@ namespace tactus::host::audio
 class AudioDevice final : public Device
 {
 public:
-    /// The flag says whether the card plays, and outlives this.
-    AudioDevice (AudioRole r, const std::atomic<bool>& plays) : role (std::move (r)), card_plays (plays) {}
+    /// The flag says whether the card plays, and outlives this. Says when it goes.
+    AudioDevice (AudioRole r, const std::atomic<bool>& plays, std::function<void (const AudioDevice&)> goes) : role (std::move (r)), card_plays (plays), on_end (std::move (goes)) {}
+    ~AudioDevice() override { on_end (*this); }
+    AudioDevice (const AudioDevice&) = delete;
+    AudioDevice& operator= (const AudioDevice&) = delete;
 
     void prepare (double dt_s) override;
     Reading read() noexcept override;
@@ -37,6 +41,7 @@ public:
 private:
     AudioRole role;
     const std::atomic<bool>& card_plays;
+    const std::function<void (const AudioDevice&)> on_end;
     std::vector<HighPass> filters;
     Channels heard, samples;
 };

@@ -31,7 +31,8 @@ std::unique_ptr<AudioDevice> AudioRig::open (AudioRole role, Messages& messages)
         messages.push_back (problem ("audio/late", "", "the sound card is open, and takes no other role now", "start the run anew"));
         return nullptr;
     }
-    auto device = std::make_unique<AudioDevice> (std::move (role), plays);
+    auto device = std::make_unique<AudioDevice> (std::move (role), plays, [this] (const AudioDevice& gone)
+                                                 { std::erase (devices, &gone); });
     devices.push_back (device.get());
     return device;
 }
@@ -67,14 +68,12 @@ Messages AudioRig::begin (const Plan& plan, double tick_rate_hz, const Engine* e
     tick_hz = tick_rate_hz;
     engine = e;
     std::vector<int> per_tick;
+    std::vector<Route> played;
     for (const auto& route : wanted.routes)
     {
-        per_tick.push_back (PortMixer::samplesOf (plan, route));
-        if (per_tick.back() == 0)
-        {
-            messages.push_back (problem ("audio/port", route.where, "there is no port " + inQuotes (route.port), "name an output of a node, as in mix.out or drag.force.x; `tactus nodes TYPE` lists them"));
-            if (route.if_there) messages.back().severity = Message::Severity::warning;
-        }
+        const auto samples = PortMixer::samplesOf (plan, route);
+        const auto from = messages.size();
+        if (samples == 0) messages.push_back (problem ("audio/port", route.where, "there is no port " + inQuotes (route.port), "name an output of a node, as in mix.out or drag.force.x; `tactus nodes TYPE` lists them"));
         for (const auto& tap : plan.taps)
             if (isPartOf (tap.name, route.port))
                 if (const auto wrong = unitProblem (route.full_scale, tap.unit); ! wrong.empty())
@@ -82,11 +81,17 @@ Messages AudioRig::begin (const Plan& plan, double tick_rate_hz, const Engine* e
                     messages.push_back (problem ("audio/unit", route.where, tap.name + ": " + wrong, "calibrate it in " + tap.unit + ", or leave the unit out"));
                     break;
                 }
+        if (route.if_there)
+            for (auto i = from; i < messages.size(); ++i)
+                messages[i].severity = Message::Severity::warning;
+        if (samples > 0 && messages.size() > from) continue;   // of another unit: not played
+        played.push_back (route);
+        per_tick.push_back (std::max (1, samples));
     }
     if (hasErrors (messages)) return messages;
 
     int outs = 0, ins = 0;
-    for (const auto& route : wanted.routes)
+    for (const auto& route : played)
         outs = std::max (outs, route.channel);
     for (const auto* device : devices)
     {
@@ -96,8 +101,8 @@ Messages AudioRig::begin (const Plan& plan, double tick_rate_hz, const Engine* e
             ins = std::max (ins, use.channel);
     }
     if (outs == 0 && ins == 0) outs = 1;   // a clock needs a channel
-    makeStreams (per_tick);
-    mixer = std::make_unique<PortMixer> (wanted.routes, per_tick, tick_hz);
+    makeStreams (played, per_tick);
+    mixer = std::make_unique<PortMixer> (played, per_tick, tick_hz);
     has_begun = true;
     auto trouble = keeper.open (wanted.card, outs, ins);
     if (! trouble && ! fits)
@@ -109,11 +114,11 @@ Messages AudioRig::begin (const Plan& plan, double tick_rate_hz, const Engine* e
     return messages;
 }
 
-void AudioRig::makeStreams (const std::vector<int>& per_tick)
+void AudioRig::makeStreams (const std::vector<Route>& routes, const std::vector<int>& per_tick)
 {
     std::map<int, std::set<int>> used;   // channels by samples a tick
-    for (std::size_t i = 0; i < wanted.routes.size(); ++i)
-        used[per_tick[i]].insert (wanted.routes[i].channel - 1);
+    for (std::size_t i = 0; i < routes.size(); ++i)
+        used[per_tick[i]].insert (routes[i].channel - 1);
     std::set<int> in;
     for (const auto* device : devices)
     {

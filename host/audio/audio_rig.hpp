@@ -72,6 +72,9 @@ public:
     /// from now on, as one that went away. [main thread, before ticking]
     Messages begin (const Plan&, double tick_rate_hz, const Engine* = nullptr);
 
+    /// In place of begin, where nothing is needed: no role is opened from now on. [main thread]
+    void seal() noexcept { has_begun = true; }
+
     /// Of what the card is given, from now on to the end. After begin. Ids as of CardCapture. [main thread]
     std::optional<Error> captureTo (const std::filesystem::path&);
 
@@ -107,7 +110,7 @@ private:
     void play (const float* const* in, int ins, float* const* out, int outs, int from, int frames) noexcept;
     void limit (float* samples, int frames) noexcept;
     void letDryOut() const;
-    void makeStreams (const std::vector<int>& per_tick);
+    void makeStreams (const std::vector<Route>&, const std::vector<int>& per_tick);
 
     AudioSettings wanted;
     std::unique_ptr<AudioClock> own_clock;

@@ -38,7 +38,7 @@ struct Route : ChannelUse
 {
     std::string port;        ///< "mix.out", "mix.level[0]", "drag.force.x"
     std::string where;       ///< for messages
-    bool if_there = false;   ///< a session's, which is for all graphs: where there is no such port, it is silent
+    bool if_there = false;   ///< a session's, which is for all graphs: where there is no such port, or one in another unit, it is silent
 };
 
 /// Which card. Empty texts and zeros: any.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "card_keeper.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace tactus::host::audio
@@ -27,7 +28,9 @@ void CardKeeper::close()
 std::optional<Message> CardKeeper::tryAgain (Clock::time_point now)
 {
     tried = last = now;
+    const auto began = Clock::now();
     auto result = system.open (wanted, outputs, inputs, *this);
+    pause = std::max<Clock::duration> (retry_after, rarity * (Clock::now() - began));
     if (auto* message = std::get_if<Message> (&result)) return std::move (*message);
     card = std::move (std::get<0> (result));
     seen = blocks();
@@ -50,7 +53,7 @@ void CardKeeper::attend (Clock::time_point now)
         ++gone;
         tried = now;
     }
-    else if (now - tried >= retry_after)
+    else if (now - tried >= pause)
         said = tryAgain (now);
 }
 

@@ -20,8 +20,9 @@ public:
     /// Without a block for so long a card counts as gone, as far as its readings go, and so long at least where blocks are long.
     static constexpr double silence_s = 0.1;
     static constexpr double silence_blocks = 4.0;
-    static constexpr std::chrono::milliseconds gone_after { 500 };   // then it is closed
-    static constexpr std::chrono::milliseconds retry_after { 500 };
+    static constexpr std::chrono::milliseconds gone_after { 500 };    // then it is closed
+    static constexpr std::chrono::milliseconds retry_after { 500 };   // and so long that looking takes no more than a part of the thread's time
+    static constexpr int rarity = 20;
 
     /// Both outlive this. [main thread]
     CardKeeper (CardSystem& s, CardUser& u) : system (s), user (u) {}
@@ -55,6 +56,7 @@ private:
     std::optional<Message> said;
     std::uint64_t before = 0, gone = 0, seen = 0;
     Clock::time_point last {}, tried {};
+    Clock::duration pause = retry_after;
     std::atomic<std::uint64_t> count = 0;
     std::unique_ptr<OpenCard> card;   // last: it calls this
 };

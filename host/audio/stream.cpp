@@ -33,6 +33,7 @@ void OutStream::prepare (const CardFormat& format) noexcept
     aim = card.clocks == Clocks::one ? a_block + ahead + 1.0 : a_block + ahead + 1.0 + setup.reserve_s * setup.tick_side_hz;
     flows = false;
     std::ranges::fill (last, 0.0f);
+    fifo.take (fifo.size());   // of the time without a card; nobody else takes before its first block
 }
 
 /// From the frame on that leaves as much waiting as should.

@@ -113,6 +113,7 @@ void run (const Options& options)
     for (int i = 0; ! runner.isOver(); ++i)
     {
         std::this_thread::sleep_for (std::chrono::milliseconds (20));
+        emergency.attend();   // before all that may take a while
         if (recording) recording->drain();
         session.drainLog();
         if (const auto error = audio.attend()) warn (options.capture, *error);
@@ -123,7 +124,6 @@ void run (const Options& options)
                                  { control->values (tick, values); });
             control->attend();
         }
-        emergency.attend();
         runner.attend();
         if (i % 5 == 0) health.look (session.realDevices());
         if (terminal && i % 5 == 0) printStatus (runner, session.rate(), true, (statusOf (health.health(), device_clock.get()) + statusOf (audio.status())).c_str());

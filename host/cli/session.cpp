@@ -103,7 +103,7 @@ Session::Session (const SessionOptions& options, Pace pace) : told (options), lo
 
 void Session::startAudio()
 {
-    if (! rig.isNeeded() && told.capture.empty()) return;
+    if (! rig.isNeeded() && told.capture.empty()) return rig.seal();
     auto messages = rig.begin (running->plan(), rate_hz, running.get());
     for (auto& m : messages)
         if (m.where.empty()) m.where = told.card.empty() ? "the sound card" : "--audio " + told.card;

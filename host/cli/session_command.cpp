@@ -195,7 +195,7 @@ void run (const Options& options)
             for (const auto& role : options.unbind)
                 s.unbind (role);
             for (auto& [role, description] : bound)
-                s.bind (role, std::move (description));
+                s.bind (role, boundAnew (s.binding (role), std::move (description)));
             if (options.clock_given) s.setClock (options.clock == "first" ? "" : options.clock); });
         stopIfWrong (session);
     }

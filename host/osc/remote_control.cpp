@@ -153,7 +153,7 @@ void RemoteControl::carryOut (const OSCMessage& m, const std::string& host, Cloc
     else if (address.starts_with (transport_addresses))
         answer (last (1), address, "", transport (address.substr (transport_addresses.size()), m));
     else if (address == "/tactus/start")
-        answer (last (0), address, "", controlled.start());
+        answer (last (0), address, "", start());
     else if (address == "/tactus/rearm")
         answer (last (0), address, "", rearm());
     else if (address == "/tactus/stop" || address == "/tactus/emergency")
@@ -182,7 +182,13 @@ void RemoteControl::sendRoles (const OscReturn& to)
     answer (to, "/tactus/guard", "", std::nullopt);
 }
 
-/// Whoever sends this has to see that nobody can be hurt.
+/// Whoever has forces rise has to see that nobody can be hurt.
+std::optional<Message> RemoteControl::start()
+{
+    if (! port.listensTo().isLoopback()) return refused ("osc/start", "other machines may send this too, and cannot see whether somebody would be hurt", "start it where the device is");
+    return controlled.start();
+}
+
 std::optional<Message> RemoteControl::rearm()
 {
     if (! port.listensTo().isLoopback()) return refused ("osc/rearm", "other machines may send this too, and cannot see whether somebody would be hurt", "rearm where the device is: with R in the terminal of play, with REARM in the window");

@@ -125,6 +125,7 @@ private:
     void carryOut (const juce::OSCMessage&, const std::string& host, Clock::time_point);
     void sendCosts (const OscReturn& to, std::size_t most);
     void sendRoles (const OscReturn& to);
+    std::optional<Message> start();
     std::optional<Message> rearm();
     std::optional<Message> transport (const std::string& what, const juce::OSCMessage&);
     std::optional<Message> subscribe (const juce::OSCMessage&, const std::string& host, Clock::time_point);

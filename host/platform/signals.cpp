@@ -31,6 +31,9 @@ void watchForStop() noexcept
 #ifdef SIGXFSZ
     std::signal (SIGXFSZ, SIG_IGN);   // a file that may grow no further is an error of that file
 #endif
+#ifdef SIGTSTP
+    std::signal (SIGTSTP, note);   // Ctrl-Z would leave the force on a device as it is
+#endif
 #ifdef SIGHUP
     std::signal (SIGHUP, note);
 #endif

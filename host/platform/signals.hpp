@@ -4,7 +4,7 @@
 namespace tactus::host
 {
 
-/// From now on a request to stop (Ctrl-C, a closed terminal, kill) is noted instead of ending the program at once, so
+/// From now on a request to stop (Ctrl-C, Ctrl-Z, a closed terminal, kill) is noted instead of ending the program at once, so
 /// that forces go to zero and files are left whole or not at all. [main thread]
 void watchForStop() noexcept;
 

@@ -45,7 +45,7 @@ Keys::Keys()
 
 Keys::~Keys()
 {
-    if (before) tcsetattr (STDIN_FILENO, TCSANOW, &before->mode);
+    if (before && tcgetpgrp (STDIN_FILENO) == getpgrp()) tcsetattr (STDIN_FILENO, TCSANOW, &before->mode);
 }
 
 char Keys::next() noexcept

@@ -2,6 +2,7 @@
 #include "binding.hpp"
 #include "awaited_device.hpp"
 
+#include <host/audio/audio_settings.hpp>
 #include <host/devices/guard_limits.hpp>
 
 #include <algorithm>
@@ -69,11 +70,20 @@ std::optional<RoleBinding> bindingOf (const LoadedSession& s, std::string_view r
     return b;
 }
 
+Json boundAnew (const Json* before, Json description)
+{
+    if (before == nullptr || ! before->is_object() || audio::isAudio (*before) || audio::isAudio (description)) return description;
+    for (const auto* key : { "guard", "workspace" })
+        if (const auto kept = before->find (key); kept != before->end() && ! description.contains (key)) description[key] = *kept;
+    return description;
+}
+
 BoundDevice openBound (const LoadedSession& s, std::string_view role, const RoleBinding& b, const OpenDevice& open, hid::HidSystem& system, const hid::LoadedProfiles& all, Absence absence)
 {
     BoundDevice bound;
-    auto made = open (b.description, b.folder);
-    if (! made.device && absence == Absence::waits) made.device = await (b.description, system, all, made);
+    const bool may_open = ! hasErrors (b.messages);
+    auto made = ! may_open ? MadeDevice {} : open (b.description, b.folder);
+    if (may_open && ! made.device && absence == Absence::waits) made.device = await (b.description, system, all, made);
 
     bound.messages = b.messages;
     std::ranges::move (made.messages, std::back_inserter (bound.messages));

@@ -42,6 +42,10 @@ enum class Absence
     refuses,   ///< it is an error
 };
 
+/// A role that gets another device keeps what a person has said of it: its guard and its workspace, unless the new description
+/// has its own, or one of the two is a sound card, which has another kind of both.
+Json boundAnew (const Json* before, Json description);
+
 /// What opens a device without regard to sessions.
 using OpenDevice = std::function<MadeDevice (const Json& description, const std::filesystem::path& folder)>;
 

@@ -145,7 +145,7 @@ void DevicesPanel::bind (const std::string& role, const std::string& words)
         if (to.is_null())
             s.unbind (role);
         else
-            s.bind (role, to); });
+            s.bind (role, boundAnew (s.binding (role), to)); });
 }
 
 void DevicesPanel::setPart (const std::string& role, const std::string& pointer, const juce::String& text)

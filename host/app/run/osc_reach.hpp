@@ -19,7 +19,7 @@ public:
     /// What starts and stops as the strip's button does; the others outlive this.
     struct Switches
     {
-        std::function<void()> start, stop;
+        std::function<void()> start {}, stop {}, emergency {};
     };
 
     OscReach (std::unique_ptr<OscPort>, Performance&, Document&, Switches);
@@ -43,7 +43,7 @@ private:
     std::optional<Message> transport (const Transport&) override;
     std::optional<Message> start() override;
     void stop() override { switches.stop(); }
-    void emergencyStop() override { performance.emergencyStop(); }
+    void emergencyStop() override { switches.emergency(); }
     void rearm() override { performance.rearm(); }
 
     void lookAgain();

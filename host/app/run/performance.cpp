@@ -69,24 +69,38 @@ void Performance::use (const DeviceDesk& d) { desk = &d; }
 
 void Performance::deskChanged()
 {
-    if (! isRunning() || desk == nullptr) return;
+    if (! wanted || ! isRunning() || desk == nullptr) return;
     const auto& now = desk->session().session;
-    const auto differs = [&] (const Bound& d)
+    const auto differs = [&] (const auto& role)
     {
-        const auto *before = run_desk.binding (d.role), *after = now.binding (d.role);
+        const auto *before = run_desk.binding (role.name), *after = now.binding (role.name);
         return before == nullptr || after == nullptr ? before != after : *before != *after;
     };
     const auto sounds = [] (const DeviceSession& s)
     { return s.audio() != nullptr ? *s.audio() : Json(); };
-    if (now.clock() != run_desk.clock() || sounds (now) != sounds (run_desk) || std::ranges::any_of (devices, differs)) start (moved_by);
+    if (now.clock() != run_desk.clock() || sounds (now) != sounds (run_desk) || std::ranges::any_of (engine->newest().roles, differs)) beginAnew (true);
+}
+
+/// The first that is no sound card's: whose tool is seen, heard, and moved by the mouse.
+std::string Performance::handRoleOf (const Plan& plan) const
+{
+    for (const auto& role : plan.roles)
+    {
+        const auto* bound = desk != nullptr ? desk->session().session.binding (role.name) : nullptr;
+        const auto* description = bound != nullptr ? bound : descriptionOf (document.graph(), role.name);
+        if (description == nullptr || ! audio::isAudio (*description)) return role.name;
+    }
+    return {};
+}
+
+const Performance::Bound* Performance::handDevice() const
+{
+    const auto at = std::ranges::find (devices, hand_role, &Bound::role);
+    return at != devices.end() ? &*at : nullptr;
 }
 
 /// By the mouse, or a path that somebody has chosen.
-bool Performance::isMovedOtherwise (const std::string& role) const
-{
-    const bool is_first = devices.empty() || devices.front().role == role;
-    return is_first && moved_by.kind != Hand::Kind::described;
-}
+bool Performance::isMovedOtherwise (const std::string& role) const { return role == hand_role && moved_by.kind != Hand::Kind::described; }
 
 /// What a description means, whoever gives it.
 MadeDevice Performance::openOther (const std::string& role, const Json& description, const std::filesystem::path& folder)
@@ -111,7 +125,7 @@ std::optional<Performance::Bound> Performance::openByDesk (const std::string& ro
     if (const auto* simulated = dynamic_cast<const SimulatedDevice*> (made.driver))
     {
         bound.damping = simulated->simulation().damping;
-        if (auto hand = devices.empty() ? chosenHand (simulated, bound.damping) : nullptr)
+        if (auto hand = role == hand_role ? chosenHand (simulated, bound.damping) : nullptr)
         {
             bound.driver = hand.get();
             bound.device = binding->workspace.isPlain() ? std::move (hand) : std::make_unique<WorkspaceDevice> (std::move (hand), binding->workspace);
@@ -133,7 +147,7 @@ std::optional<Performance::Bound> Performance::open (const std::string& role)
 
     const auto* simulated = dynamic_cast<SimulatedDevice*> (made.device.get());
     Bound bound { role, nullptr, made.limits, simulated != nullptr ? simulated->simulation().damping : 0.0 };
-    if (auto hand = devices.empty() ? chosenHand (simulated, bound.damping) : nullptr)
+    if (auto hand = role == hand_role ? chosenHand (simulated, bound.damping) : nullptr)
         bound.device = std::move (hand);
     else
         bound.device = std::move (made.device);
@@ -149,7 +163,7 @@ ClockChoice Performance::decideClock (const Plan& plan) const
     std::vector<Described> described;
     for (const auto& role : plan.roles)
     {
-        const bool is_moved = moved_by.kind != Hand::Kind::described && &role == &plan.roles.front();
+        const bool is_moved = isMovedOtherwise (role.name);
         const auto bound = desk != nullptr ? bindingOf (desk->session(), role.name) : std::nullopt;
         const auto* own = descriptionOf (document.graph(), role.name);
         if (! is_moved && (bound || own != nullptr))
@@ -218,6 +232,13 @@ std::unique_ptr<Device> Performance::chosenHand (const SimulatedDevice* describe
 void Performance::start (Hand who)
 {
     moved_by = std::move (who);
+    beginAnew (false);
+}
+
+/// For what a run cannot take over. What nobody has rearmed stays stopped, unless a person begins it.
+void Performance::beginAnew (bool stays_stopped)
+{
+    held = stays_stopped && (held || isStoppedForGood());
     stop();
     begins = wanted = true;
     if (! isRunning()) begin();
@@ -249,7 +270,7 @@ audio::AudioSettings Performance::audioWanted (Messages& messages) const
 /// A run goes on without the sound that cannot be had.
 void Performance::beginSound()
 {
-    if (! rig->isNeeded()) return;
+    if (! rig->isNeeded()) return rig->seal();
     for (auto& m : rig->begin (engine->plan(), rate_hz, engine.get()))
     {
         m.severity = Message::Severity::warning;
@@ -269,6 +290,7 @@ void Performance::begin()
     Messages of_sound;
     rig = std::make_unique<audio::AudioRig> (audioWanted (of_sound));
     auto compiled = compileAt (rate_hz, nullptr, nullptr);
+    hand_role = compiled.plan ? handRoleOf (*compiled.plan) : std::string();
     auto choice = compiled.plan ? decideClock (*compiled.plan) : ClockChoice {};
     clock_role = choice.role;
     if (! choice.role.empty() && choice.rate_hz != rate_hz) compiled = compileAt (rate_hz = choice.rate_hz, nullptr, nullptr);
@@ -284,6 +306,7 @@ void Performance::begin()
         if (auto bound = open (role.name)) devices.push_back (std::move (*bound));
     probes.select (*compiled.plan, rate_hz, true);
     engine = std::make_unique<Engine> (std::move (compiled.plan));
+    if (held) engine->emergencyStop();
     for (auto& d : devices)
         engine->attach (d.role, *d.device, d.limits);
     std::ranges::move (missingParts (engine->plan()), std::back_inserter (said));
@@ -320,7 +343,7 @@ void Performance::documentChanged()
     const bool is_same_run = engine != nullptr && graph.rate_hz == graph_rate_hz && graph.devices == run_devices;
     if (is_same_run) return takeOver();
     said = compileAt (graph.rate_hz, nullptr, nullptr).messages;   // a run that ends first may take a moment
-    if (wanted) start (moved_by);                                  // perhaps it compiles now
+    if (wanted) beginAnew (true);                                  // perhaps it compiles now
 }
 
 void Performance::takeOver()
@@ -334,6 +357,11 @@ void Performance::takeOver()
         return;
     }
     if (! captured_taps.empty() && tapsOf (*compiled.plan, captured_ports) != captured_taps) endCapture();
+    if (hand_role.empty() && ! handRoleOf (*compiled.plan).empty())   // the run had no hand
+    {
+        engine->submit (std::move (waiting));
+        return beginAnew (true);
+    }
     noteDelay (*compiled.plan);
     std::vector<Bound> opened;
     for (const auto& role : compiled.plan->roles)
@@ -357,12 +385,14 @@ void Performance::noteDelay (const Plan& plan)
 
 void Performance::emergencyStop() noexcept
 {
+    held = true;
     if (begins || ! isRunning()) return stop();   // else one that is about to begin would not know of it
     engine->emergencyStop();
 }
 
 void Performance::rearm() noexcept
 {
+    held = false;
     if (engine) engine->rearm();
 }
 
@@ -375,10 +405,20 @@ bool Performance::isStoppedForGood() const
 
 std::optional<RunStatus> Performance::status() const { return runner ? std::optional (runner->status()) : std::nullopt; }
 
+/// Where a sound card ticks, the ticks of a block go by one reading.
+std::optional<std::int64_t> Performance::delay() const
+{
+    if (! delay_ticks || ! rig || rig->clock() == nullptr) return delay_ticks;
+    const auto card = rig->status().card;
+    return card.rate_hz > 0.0 ? *delay_ticks + static_cast<std::int64_t> (std::ceil (card.block * rate_hz / card.rate_hz)) : *delay_ticks;
+}
+
 std::optional<double> Performance::stiffnessLeft() const
 {
-    if (devices.empty() || devices.front().damping <= 0.0 || ! delay_ticks) return std::nullopt;
-    return 2.0 * devices.front().damping * rate_hz / (2.0 * static_cast<double> (*delay_ticks) + 1.0);
+    const auto* hand = handDevice();
+    const auto ticks = delay();
+    if (hand == nullptr || hand->damping <= 0.0 || ! ticks) return std::nullopt;
+    return 2.0 * hand->damping * rate_hz / (2.0 * static_cast<double> (*ticks) + 1.0);
 }
 
 std::optional<double> Performance::mostForce() const
@@ -429,7 +469,7 @@ void Performance::point (const Vec3& p)
 
 std::optional<Performance::Tool> Performance::tool() const
 {
-    if (! isRunning() || devices.empty()) return std::nullopt;
+    if (! isRunning() || handDevice() == nullptr) return std::nullopt;
     const auto values = seen.load();
     return Tool { Vec3 (values.data()), Vec3 (values.data() + 3) };
 }
@@ -440,8 +480,10 @@ void Performance::after (std::uint64_t tick, bool halts) noexcept
     probes.note (plan, tick);
     slot.note (plan, tick);
     rig->after (plan, halts);
-    if (plan.roles.empty()) return;
-    const auto& device = *plan.roles.front().state;
+    const auto role = std::ranges::find_if (plan.roles, [this] (const auto& r)
+                                            { return r.name == hand_role; });
+    if (role == plan.roles.end()) return;
+    const auto& device = *role->state;
     const auto &p = device.reading.position, &f = device.applied.force;
     if (sound != nullptr) sound->push (f.sum());
     seen.store ({ p.x(), p.y(), p.z(), f.x(), f.y(), f.z() });

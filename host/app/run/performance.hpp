@@ -67,7 +67,8 @@ public:
     void start (Hand);      ///< anew, if it runs, as soon as its forces are zero
     void stop() noexcept;   ///< the forces go to zero first; does not wait for that
 
-    /// No force on any device, smoothly, while the graph goes on; what has stopped for good, as this, ends with rearm().
+    /// No force on any device, smoothly, while the graph goes on; what has stopped for good, as this, ends with rearm(), or
+    /// when a person starts anew; no edit ends it.
     void emergencyStop() noexcept;
     void rearm() noexcept;
     bool isStoppedForGood() const;   ///< until rearm(), or another run
@@ -97,7 +98,7 @@ public:
     double rate() const noexcept { return rate_hz; }                       ///< Hz; of the run
 
     /// How late the latest answer of a sink to a source is on its shortest way, in ticks; nothing if none are joined.
-    std::optional<std::int64_t> delay() const noexcept { return delay_ticks; }
+    std::optional<std::int64_t> delay() const;
 
     /// How stiff a wall may be on the first device before it buzzes, K < 2b/((2d+1)T), in N/m; nothing where nobody says how
     /// much the device damps.
@@ -155,8 +156,11 @@ private:
     void before (std::uint64_t) noexcept override;
     void after (std::uint64_t tick, bool halts) noexcept override;
 
+    void beginAnew (bool stays_stopped);
     void begin();
     void end();
+    std::string handRoleOf (const Plan&) const;
+    const Bound* handDevice() const;
     void takeOver();
     Compiled compileAt (double rate, const Plan* before, const Plan* withdrawn);
     std::optional<Bound> open (const std::string& role);
@@ -181,13 +185,14 @@ private:
     std::vector<std::size_t> captured_taps;
     Sound* sound;
     Hand moved_by;
+    bool held = false;                                       // by an emergency stop, or what else has stopped for good, until rearm
     bool begins = false;                                     // once the run before is over
     bool wanted = false;                                     // started and not stopped: it begins as soon as the graph compiles
     std::vector<std::pair<std::string, Json>> run_devices;   // the devices, when the run began
     const DeviceDesk* desk = nullptr;
     DeviceSession run_desk;                      // likewise
     double graph_rate_hz = 0.0, rate_hz = 0.0;   // which differ where a device ticks
-    std::string clock_role;
+    std::string clock_role, hand_role;
     HealthWatch watch;
     std::vector<RoleNeeds> needed;
     int attended = 0;

@@ -8,6 +8,8 @@ namespace tactus::host
 
 namespace
 {
+constexpr int button_width = 112;
+
 juce::String inNewton (double force) { return juce::String (force, 3) + " N"; }
 
 juce::String inNewtonPerMillimetre (double stiffness) { return stiffness >= 1000.0 ? juce::String (stiffness / 1000.0, 1) + " N/mm" : juce::String (std::round (stiffness)) + " N/m"; }
@@ -52,14 +54,21 @@ public:
     }
 };
 
-SafetyStrip::SafetyStrip() : button (std::make_unique<StopButton>())
+SafetyStrip::SafetyStrip() : button (std::make_unique<StopButton>()), rearm (std::make_unique<StopButton>())
 {
+    rearm->setButtonText ("REARM");
+    rearm->setTooltip ("Once nobody can be hurt: lets the forces rise again, slowly.");
+    rearm->onClick = [this]
+    {
+        if (onRearm) onRearm();
+    };
+    addChildComponent (*rearm);
     button->onClick = [this]
     {
-        const auto& act = shown.stopped_for_good ? onRearm : shown.running ? onStop
-                                                                           : onStart;
+        const auto& act = shown.running ? onStop : onStart;
         if (act) act();
     };
+    button->setTooltip ("Brings all forces to zero at once, smoothly. Esc does the same; Shift+Esc does it and goes on without forces.");
     addAndMakeVisible (*button);
 }
 
@@ -118,7 +127,12 @@ void SafetyStrip::show (Performance& p)
     repaint();
 }
 
-void SafetyStrip::resized() { button->setBounds (getLocalBounds().removeFromRight (112).reduced (8, 7)); }
+void SafetyStrip::resized()
+{
+    auto area = getLocalBounds();
+    button->setBounds (area.removeFromRight (button_width).reduced (8, 7));
+    rearm->setBounds (area.removeFromRight (button_width).reduced (8, 7));   // not where STOP is: who clicks there wants no force
+}
 
 void SafetyStrip::paint (juce::Graphics& g)
 {
@@ -128,7 +142,7 @@ void SafetyStrip::paint (juce::Graphics& g)
     g.setColour (theme.hairline);
     g.drawHorizontalLine (getHeight() - 1, 0.0f, static_cast<float> (getWidth()));
 
-    auto area = getLocalBounds().withTrimmedRight (120).reduced (16, 0).toFloat();
+    auto area = getLocalBounds().withTrimmedRight (shown.stopped_for_good ? 2 * button_width : button_width).reduced (16, 0).toFloat();
     g.setColour (shown.alarmed ? theme.stop : shown.warned ? theme.warning
                                           : shown.running  ? theme.of (Quantity::energy)
                                                            : theme.dim);

@@ -39,7 +39,7 @@ private:
     class StopButton;
 
     Shown shown;
-    std::unique_ptr<StopButton> button;
+    std::unique_ptr<StopButton> button, rearm;
 };
 
 }   // namespace tactus::host

@@ -45,7 +45,9 @@ void Sound::setTickRate (double hz)
     tick_rate = hz;
     high_pass = { lowest_hz, hz };
     stream = makeStream (hz);
-    if (isOn()) on = ! open();
+    if (! isOn()) return;
+    on = ! open();
+    if (! on) keeper.close();
 }
 
 void Sound::push (double newton) noexcept

@@ -281,7 +281,13 @@ void MainView::openPort (const OscListen& where)
                                         OscReach::Switches { [this]
                                                              { start (performance->hand()); },
                                                              [this]
-                                                             { current().stop(); } });
+                                                             {
+                                                                 resumes = false;
+                                                                 current().stop(); },
+                                                             [this]
+                                                             {
+                                                                 resumes = false;
+                                                                 current().emergencyStop(); } });
 }
 
 void MainView::timerCallback()

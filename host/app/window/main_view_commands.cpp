@@ -52,6 +52,7 @@ void recolour (juce::Component& c, const Theme& theme)
 /// With Shift it is the emergency stop.
 void MainView::stopBy (const juce::KeyPress& key)
 {
+    resumes = false;   // after a preview
     if (key.getModifiers().isShiftDown())
         current().emergencyStop();
     else
@@ -72,7 +73,7 @@ void MainView::preview (const std::filesystem::path& file)
     auto loaded = loadGraph (file);
     if (hasErrors (loaded.messages)) return;   // the list says so
     endPreview();
-    resumes = performance->isWanted();
+    resumes = performance->isWanted() && ! performance->isStoppedForGood();
     performance->letGo();
     const auto name = juce::String (loaded.graph.name);
     heard_document = std::make_unique<Document> (std::move (loaded.graph));

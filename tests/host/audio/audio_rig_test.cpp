@@ -250,6 +250,23 @@ TEST_CASE ("what cannot be played is said before anything sounds", "[audio]")
     AudioRig other { { .card = {}, .routes = { route ("two.out", 1) } }, card };
     const auto without = constants().compile ({ .records = { "three.out" } }).plan;
     CHECK (test::has (other.begin (*without, 4000.0), "audio/port"));
+    // A session's routes are there for all graphs: one that this graph cannot play is said, and the others are played.
+    auto missing = route ("mix.out", 1), right = route ("two.out", 2);
+    for (auto* r : { &missing, &right })
+        r->if_there = true;
+    AudioRig session { { .card = {}, .routes = { missing, right } }, card };
+    const auto begun = session.begin (*plan, 1000.0);
+    CHECK (test::has (begun, "audio/port"));
+    CHECK_FALSE (hasErrors (begun));
+    CHECK (session.status().is_open);
+
+    {
+        AudioRig forgetful { {}, card };
+        Messages of_it;
+        forgetful.open ({ .outputs = { ChannelUse { .channel = 50 } }, .inputs = {} }, of_it).reset();   // as where its binding is at fault
+        CHECK_FALSE (forgetful.isNeeded());
+    }
+
     Messages messages;
     AudioRig late { {}, card };
     late.begin (*plan, 1000.0);

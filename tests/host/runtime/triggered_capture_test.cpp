@@ -57,7 +57,7 @@ TEST_CASE ("a window is what stood there around the first edge that has enough b
         RC_ASSERT (capture->triggeredAt() == at);
         for (std::size_t i = 0; i < trigger.ticks(); ++i)
             RC_ASSERT (capture->frame (i)[0] == static_cast<double> (at - trigger.before + i)); });
-    CHECK (complete > 20);
+    CHECK (complete > 10);
 }
 
 TEST_CASE ("a plan from before the capture is not looked at", "[runtime]")

@@ -140,10 +140,20 @@ TEST_CASE ("the emergency stop takes the forces off while the graph goes on, unt
     p.attend();
     CHECK (p.isStoppedForGood());
 
+    rig.document.perform (graph::SetHeader { .rate_hz = 5000.0 });   // nor is one that begins the run anew
+    REQUIRE (until (p, [&]
+                    { return p.isRunning() && p.rate() == 5000.0 && p.status()->ticks > 8000; }));
+    CHECK (p.isStoppedForGood());
+    CHECK (p.status()->peak == 0.0);
+
     p.rearm();
     CHECK (until (p, [&]
                   { return force() > 0.1; }));
     CHECK_FALSE (p.isStoppedForGood());
+    p.emergencyStop();
+    p.start ({});   // a person does
+    CHECK (until (p, [&]
+                  { return p.isRunning() && force() > 0.1; }));
 }
 
 TEST_CASE ("under the mouse the tool goes where it points, and meets the surface there", "[app][run]")
