@@ -6,10 +6,13 @@
 #include <host/app/devices_panel/device_desk.hpp>
 #include <host/app/run/performance.hpp>
 
+#include <framework/file/graph_file.hpp>
+
 #include <catch2/catch.hpp>
 
 #include <bit>
 #include <chrono>
+#include <fstream>
 #include <thread>
 
 using namespace tactus;
@@ -231,6 +234,27 @@ TEST_CASE ("a sound card that is not there is said, and the rest of the run goes
     CHECK_FALSE (hasErrors (p.messages()));
     CHECK (until (p, [&]
                   { return p.isRunning() && p.status()->ticks > 100; }));
+}
+
+TEST_CASE ("a sound card's role is never the hand's, also where it is the first", "[app][run]")
+{
+    const TemporaryFolder folder;
+    auto json = Json::parse (std::ifstream (TACTUS_SOURCE_DIR "/graphs/dry_wood.json"));
+    json["nodes"]["shake"] = { { "type", "device.signal_out" }, { "role", "a_shaker" } };   // before "stylus"
+    json["devices"]["a_shaker"] = { { "driver", "audio" }, { "card", "nobody has this card" } };
+    json["wires"].push_back ("grain.value -> shake.in");
+    const auto file = folder.path() / "graph.json";
+    std::ofstream (file) << json;
+    CanvasRig rig { loadGraph (file).graph };
+    Performance p { rig.document, catalogue() };
+    p.start (Performance::Hand::pointer());
+    p.point (Vec3 (0.01, 0.0, -0.002));
+    CHECK (until (p, [&]
+                  { return p.tool() && p.tool()->position.z() < 0.0 && p.tool()->force.z() > 0.1; }));
+    CHECK (p.stiffnessLeft());
+    p.start ({});   // by the stylus's own gesture
+    CHECK (until (p, [&]
+                  { return p.isRunning() && p.transport() != nullptr && p.status()->peak > 0.1; }));
 }
 
 TEST_CASE ("a run that a sound card should tick holds its forces at zero while there is none", "[app][run]")
