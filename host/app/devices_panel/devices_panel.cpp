@@ -345,7 +345,7 @@ std::unique_ptr<Column> DevicesPanel::soundCard()
     card->add ("Sound card", Words::Kind::title);
     for (std::size_t i = 0; i <= shape.routes; ++i)
         card->add (textRow (
-            i < shape.routes ? "plays" : "plays also", [this, i]
+            i < shape.routes || i == 0 ? "plays" : "plays also", [this, i]
             {
             const auto all = routes();
             return i < all.size() ? asText (textOfRoute (all[i])) : juce::String(); },

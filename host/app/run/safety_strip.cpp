@@ -120,9 +120,8 @@ void SafetyStrip::show (Performance& p)
             now.delay = "nothing leads from a hand to a motor";
     }
     if (now == shown) return;
-    button->setButtonText (now.stopped_for_good ? "REARM" : now.running ? "STOP"
-                                                                        : "START");
-    button->setTooltip (now.stopped_for_good ? "Once nobody can be hurt: lets the forces rise again, slowly. Esc ends the run." : "Brings all forces to zero at once, smoothly. Esc does the same; Shift+Esc does it and goes on without forces.");
+    button->setButtonText (now.running ? "STOP" : "START");
+    rearm->setVisible (now.stopped_for_good);
     shown = std::move (now);
     repaint();
 }
