@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# From a fresh Debian 12 to the host in its window or, where there is no display, to forces, vibration and pictures under
-# out/. May be run again.
+# Works on a fresh Debian 12: installs what is needed, builds, and opens the host. Without a display, it renders all presets to CSV, WAV and PNG under out/.
+# Can be run repeatedly.
 #
-#   ./demo.sh             the window if there is a display
-#   ./demo.sh --offline   files in any case
+#   ./demo.sh             opens the window if there is a display
+#   ./demo.sh --offline   renders files even if there is a display
 . "$(dirname "$0")/.ci/setup.sh"
 
 offline=${1:-}
@@ -16,7 +16,7 @@ esac
 install_packages
 if [ -z "$offline" ] && [ -n "${DISPLAY:-}" ]; then
     build release tactus-host
-    say "Opening the host. What it renders without a display: ./demo.sh --offline"
+    say "Opening the host. To render files instead: ./demo.sh --offline"
     exec build/release/bin/tactus-host
 fi
 
@@ -25,7 +25,7 @@ export PATH="$PWD/build/release/bin:$PATH"
 mkdir -p out
 made=()
 
-# render NAME GRAPH [OPTIONS…]: CSV, WAV and PNG
+# render NAME GRAPH [OPTIONS…]: writes CSV, WAV and PNG
 render ()
 {
     local name=$1 graph=$2
@@ -57,7 +57,7 @@ render dry_wood_circle graphs/dry_wood.json --device stylus=gesture:circle --rec
 
 strokes=../shared/data/strokes_evemu
 if [ -d "$strokes" ]; then
-    say "The same wood, under strokes that somebody else drew on a tablet"
+    say "The same wood, under strokes recorded on a tablet"
     for recording in "$strokes"/*.events; do
         name=$(basename "${recording%.events}" | tr -c "A-Za-z0-9\n" _)
         evemu_to_trace "$recording" --out "out/trace_$name.csv"
@@ -67,7 +67,7 @@ fi
 
 switches=../shared/data/buttons_switchcurves
 if [ -d "$switches" ]; then
-    say "Keys that somebody else measured, pressed by a simulated finger"
+    say "Measured keys, pressed by a simulated finger"
     for curve in "$switches"/*.csv; do
         name=$(basename "${curve%.csv}" | tr -c "A-Za-z0-9\n" _)
         switch_to_graph "$curve" --out "out/key_$name.json"
@@ -75,5 +75,5 @@ if [ -d "$switches" ]; then
     done
 fi
 
-say "Made, each as .csv, .wav and .png:"
+say "Files written, each as .csv, .wav and .png:"
 printf '  out/%s\n' "${made[@]}"

@@ -1,23 +1,25 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Builds and tests everything from a fresh Debian 12. May be run again.
+# Builds and tests everything. Works on a fresh Debian 12 and can be run repeatedly.
 #
-#   ./test.sh           the tests, also under ASan and UBSan (all but what needs JUCE), a newcomer's node, and HID devices made of
-#                       nothing, in a guest (QEMU) that has a kernel for it
-#   ./test.sh --quick   the tests only
-#   ./test.sh --long    before that: each fuzzer for 60 s, the tests under TSan with those of threads for 30 s each, the
-#                       window under ASan and UBSan, and after it a soak of 1.2e8 ticks
-#   ./test.sh --screens uses the host as a person would, on a display of its own, takes docs/host/, and does nothing else
-#   ./test.sh --sound   plays a ring on a sound card made of nothing, strokes a board in the host with the mouse, listens to
-#                       both, and does nothing else
-#   ./test.sh --devices drives those HID devices, and does nothing else
-#   ./test.sh --figures draws docs/figures/ and counts docs/instructions.md anew, and does nothing else
+#   ./test.sh           runs the tests, normally and under ASan and UBSan (everything that does not need JUCE), adds a node as
+#                       a newcomer would, and drives virtual HID devices in a QEMU guest
+#   ./test.sh --quick   runs only the tests
+#   ./test.sh --long    adds to ./test.sh: each fuzzer for 60 s, the tests under TSan (thread tests for 30 s each), the
+#                       window under ASan and UBSan, and a soak of 1.2e8 ticks
+#
+# Each of these runs only one part:
+#   ./test.sh --screens drives the host with mouse and keyboard on a virtual display, and draws build/screens/;
+#                       with --update, also copies the pictures used in the pages to docs/host/
+#   ./test.sh --sound   plays a ring on a virtual sound card, strokes a board in the host with the mouse, and listens to both
+#   ./test.sh --devices drives the virtual HID devices
+#   ./test.sh --figures redraws docs/figures/ and recounts docs/instructions.md
 . "$(dirname "$0")/.ci/setup.sh"
 
 mode=${1:-}
 case $mode in
     ''|--quick|--long|--screens|--sound|--devices|--figures) ;;
-    *) echo "usage: ./test.sh [--quick|--long|--screens|--sound|--devices|--figures]" >&2; exit 2 ;;
+    *) echo "usage: ./test.sh [--quick|--long|--screens [--update]|--sound|--devices|--figures]" >&2; exit 2 ;;
 esac
 
 packages+=(python3 python3-jsonschema)
@@ -27,10 +29,10 @@ packages+=(python3 python3-jsonschema)
 [ "$mode" = --sound ] && packages+=(xvfb xauth xdotool imagemagick jackd2 jack-capture python3-numpy)
 install_packages
 
-# Without these the guest is skipped, and says so.
+# Without these packages the guest is skipped, with a message.
 case $mode in ''|--long|--devices) (packages=(qemu-system-x86 busybox-static cpio kmod procps) && install_packages) || true ;; esac
 
-# Properties draw the same inputs each time, so that a commit passes or fails for good; --long draws others.
+# Property tests use the same random inputs each time, so a commit either passes or fails. --long uses new ones.
 export RC_PARAMS=${RC_PARAMS:-}
 [ "$mode" = --long ] || RC_PARAMS=${RC_PARAMS:-seed=1}
 
@@ -41,7 +43,7 @@ run_tests ()
     ctest --test-dir "build/$preset" --output-on-failure --parallel "$(nproc)" "$@"
 }
 
-# HID devices in a guest
+# Drives the virtual HID devices in a QEMU guest.
 run_guest ()
 {
     build release tactus guest_device
@@ -57,8 +59,13 @@ fi
 if [ "$mode" = --screens ]; then
     build release tactus-host
     say "Walking through the host"
-    rm -rf docs/host
-    /usr/bin/python3 tests/host/app/screens/walk.py build/release/bin/tactus-host docs/host
+    rm -rf build/screens
+    /usr/bin/python3 tests/host/app/screens/walk.py build/release/bin/tactus-host build/screens
+    if [ "${2:-}" = --update ]; then
+        grep -oh 'host/[0-9a-z-]*\.png' README.md docs/*.md | sort -u | while read -r picture; do
+            cp "build/screens/${picture#host/}" docs/host/
+        done
+    fi
     exit
 fi
 
@@ -75,7 +82,7 @@ if [ "$mode" = --figures ]; then
     build release
     say "Figures"
     build/release/bin/tactus_tests "[figures]"
-    /usr/bin/python3 tests/figures/draw.py   # Debian's, to which its matplotlib belongs
+    /usr/bin/python3 tests/figures/draw.py   # Debian's Python, which has matplotlib
     say "Instructions per tick"
     /usr/bin/python3 tests/bench/instructions.py build/release
     exit
@@ -100,7 +107,7 @@ fi
 if [ "$mode" != --quick ]; then
     build asan
     say "Tests under ASan and UBSan"
-    RC_PARAMS="$RC_PARAMS max_success=20" run_tests asan   # memory is misused by the kind of input, seldom by its number
+    RC_PARAMS="$RC_PARAMS max_success=20" run_tests asan   # memory errors depend on the kind of input, rarely on the number of inputs
 fi
 
 build release

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-# Sourced by demo.sh and test.sh: what a fresh Debian 12 needs, and the build.
+# Sourced by demo.sh and test.sh: installs what a fresh Debian 12 needs, and builds.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 packages=(build-essential cmake ninja-build pkg-config
           juce-modules-source libjack-jackd2-dev libeigen3-dev libhidapi-dev catch2
-          nlohmann-json3-dev libcli11-dev libexpected-dev librapidcheck-dev
+          nlohmann-json3-dev libcli11-dev librapidcheck-dev
           libembree-dev libsamplerate0-dev libspng-dev libturbojpeg0-dev libbenchmark-dev faust
           fonts-inter fonts-dejavu-core)
 
@@ -14,7 +14,7 @@ say () { printf '\n== %s\n' "$*"; }
 install_packages ()
 {
     if ! command -v dpkg-query >/dev/null; then
-        say "This is no Debian: please see that these are installed: ${packages[*]}"
+        say "This is not Debian. Please make sure that these packages are installed: ${packages[*]}"
         return
     fi
     local missing=() package
@@ -29,12 +29,12 @@ install_packages ()
     "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "${missing[@]}"
 }
 
-# build PRESET [TARGET…]
+# build PRESET [TARGET…]: builds these targets, or everything if none is given
 build ()
 {
     local preset=$1
     shift
-    say "Building $preset${*:+: $*} (the first time takes minutes, most of them for JUCE)"
+    say "Building $preset${*:+: $*} (the first time takes some minutes)"
     [ -f "build/$preset/build.ninja" ] || cmake --preset "$preset"
     cmake --build --preset "$preset" ${*:+--target "$@"}
 }

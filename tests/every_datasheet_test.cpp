@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What every datasheet promises: names, units, ranges and sentences that people and files can rely on. What the nodes
-// then do is held to account in every_node_test.cpp.
+// What every datasheet promises: names, units, ranges and sentences that people and files can rely on. every_node_test.cpp
+// tests what the nodes do.
 
-#include <framework/catalogue.hpp>
+#include <framework/node/catalogue.hpp>
 
 #include "support/rig.hpp"
 
@@ -28,7 +28,7 @@ bool isName (std::string_view s)
 }
 }   // namespace
 
-TEST_CASE ("every node has an id of its own, family.name, as its header is called", "[nodes][contract]")
+TEST_CASE ("every node has a unique id, family.name, that matches its header", "[nodes][contract]")
 {
     std::set<std::string> ids;
 
@@ -46,7 +46,7 @@ TEST_CASE ("every node has an id of its own, family.name, as its header is calle
     }
 }
 
-TEST_CASE ("every node says what it is and where it comes from", "[nodes][contract]")
+TEST_CASE ("every node has a name, a summary and a source", "[nodes][contract]")
 {
     for (const auto& type : catalogue())
     {
@@ -121,7 +121,7 @@ TEST_CASE ("every row of a datasheet has a name, a sentence and a default in ran
     }
 }
 
-TEST_CASE ("every choice has alternatives, each with a name of its own", "[nodes][contract]")
+TEST_CASE ("every choice has alternatives with different names", "[nodes][contract]")
 {
     for (const auto& type : catalogue())
         for (const auto& p : type.params)
@@ -134,7 +134,7 @@ TEST_CASE ("every choice has alternatives, each with a name of its own", "[nodes
         }
 }
 
-TEST_CASE ("every unit that is taken from another port names one that exists", "[nodes][contract]")
+TEST_CASE ("every unit that depends on another port names one that exists", "[nodes][contract]")
 {
     for (const auto& type : catalogue())
     {
@@ -164,7 +164,7 @@ TEST_CASE ("every unit that is taken from another port names one that exists", "
     }
 }
 
-TEST_CASE ("every node with a list says how long it is", "[nodes][contract]")
+TEST_CASE ("every node with a list has a setting for its length", "[nodes][contract]")
 {
     for (const auto& type : catalogue())
     {
@@ -180,7 +180,7 @@ TEST_CASE ("every node with a list says how long it is", "[nodes][contract]")
     }
 }
 
-TEST_CASE ("every node has no problem as delivered", "[nodes][contract]")
+TEST_CASE ("no node has a problem with its defaults", "[nodes][contract]")
 {
     for (const auto& type : catalogue())
     {

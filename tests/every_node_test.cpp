@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every node promises. A new node is held to this without anyone writing a test for it.
+// What every node promises. A new node is tested against this without a test of its own.
 
 #include "support/no_allocation.hpp"
 #include "support/rig.hpp"
@@ -20,7 +20,7 @@ namespace
 {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// Draws the numbers nodes are fed with. All of a run follows from its seed.
+/// Generates random inputs for nodes. The seed determines the whole run.
 class Dice
 {
 public:
@@ -30,7 +30,7 @@ public:
     int below (int n) { return std::uniform_int_distribution { 0, n - 1 }(random); }
     bool once_in (int n) { return below (n) == 0; }
 
-    /// A size from nothing to what a double just holds, with the sizes of hands and forces among them.
+    /// A size from 0 to the largest double, including the sizes of hands and forces.
     double size()
     {
         static constexpr double sizes[] { 0.0, 5e-324, 1e-310, 1e-200, 1e-9, 1e-6, 1e-3, 1e-2, 1.0, 10.0, 1e3, 1e9, 1e150, 1e300, 1.7e308 };
@@ -55,7 +55,7 @@ enum class Span
     hard
 };
 
-void drawParams (Rig& rig, Dice& dice, Span span)
+void randomParams (Rig& rig, Dice& dice, Span span)
 {
     for (const auto& p : rig.type().params)
     {
@@ -68,8 +68,8 @@ void drawParams (Rig& rig, Dice& dice, Span span)
     rig.moved();
 }
 
-/// Numbers, also those of records, within their usual ranges; all else stays as delivered.
-void drawSettings (Rig& rig, Dice& dice)
+/// Sets numbers, also in records, within their usual ranges. Everything else keeps its default.
+void randomSettings (Rig& rig, Dice& dice)
 {
     for (const auto& s : rig.type().settings)
     {
@@ -91,16 +91,16 @@ void drawSettings (Rig& rig, Dice& dice)
     }
 }
 
-/// New inputs for the next tick: now and then the same again, else each of the run's size or of one of its own.
-void drawInputs (Rig& rig, Dice& dice, double size)
+/// New inputs for the next tick: sometimes the same again, otherwise each of the run's size or of its own random size.
+void randomInputs (Rig& rig, Dice& dice, double size)
 {
     if (dice.once_in (4)) return;
     for (auto& v : rig.in)
         v = dice.uniform (-1.0, 1.0) * (dice.once_in (4) ? dice.size() : size);
 }
 
-/// As drawInputs, of sizes that hands have, so that nothing overflows.
-void drawTameInputs (Rig& rig, Dice& dice)
+/// Like randomInputs, but in the range of hand movements, so that nothing overflows.
+void randomTameInputs (Rig& rig, Dice& dice)
 {
     if (dice.once_in (4)) return;
     for (auto& v : rig.in)
@@ -136,7 +136,7 @@ bool sameBits (const std::vector<double>& a, const std::vector<double>& b)
         { return std::bit_cast<std::uint64_t> (v); });
 }
 
-/// What an output gives on a fault: 0, but for the states, and for what a material does not forget.
+/// The value of an output on a fault: 0, except for states, and for what a material does not forget.
 double onFault (std::string_view type, std::string_view output, double before)
 {
     if (output == "state" || output == "triangle") return -1.0;
@@ -152,6 +152,39 @@ std::vector<double> onFault (const Rig& rig, const std::vector<double>& before)
         expected.push_back (onFault (rig.type().info.id, rig.outputs[i].port->id, before[i]));
     return expected;
 }
+
+/// A closed path of random size and shape.
+class TangledLoop
+{
+public:
+    static constexpr int steps = 5000;
+
+    explicit TangledLoop (Dice& dice)
+    {
+        const double size = std::pow (10.0, dice.uniform (-5.0, -2.0));
+        for (int w = 0; w < waves; ++w)
+            for (int i = 0; i < 3; ++i)
+            {
+                sines[w][i] = dice.uniform (-size, size);
+                cosines[w][i] = dice.uniform (-size, size);
+            }
+    }
+
+    Vec3 operator() (int k) const
+    {
+        Vec3 p = Vec3::Zero();
+        for (int w = 0; w < waves; ++w)
+        {
+            const double angle = 2.0 * M_PI * (w + 1) * (k % steps) / steps;
+            p += std::sin (angle) * sines[w] + std::cos (angle) * cosines[w];
+        }
+        return p;
+    }
+
+private:
+    static constexpr int waves = 4;
+    Vec3 sines[waves], cosines[waves];
+};
 
 bool isHit (const PortSheet& port) { return port.unit.kind == UnitRule::Kind::fixed && port.unit.unit.quantity == Quantity::hit; }
 
@@ -173,15 +206,15 @@ TEST_CASE ("every node gives finite outputs for finite inputs", "[nodes][contrac
                 Dice dice { seed };
                 static constexpr double rates[] { 100.0, 1000.0, 4000.0, 48000.0 };
                 Rig rig { type, rates[dice.below (4)] };
-                if (dice.once_in (2)) drawSettings (rig, dice);
-                if (! dice.once_in (4)) drawParams (rig, dice, dice.once_in (2) ? Span::usual : Span::hard);
+                if (dice.once_in (2)) randomSettings (rig, dice);
+                if (! dice.once_in (4)) randomParams (rig, dice, dice.once_in (2) ? Span::usual : Span::hard);
                 rig.prepare();
 
                 const double size = dice.size();
                 for (int k = 0; k < 100; ++k)
                 {
-                    if (dice.once_in (20)) drawParams (rig, dice, dice.once_in (2) ? Span::usual : Span::hard);
-                    drawInputs (rig, dice, size);
+                    if (dice.once_in (20)) randomParams (rig, dice, dice.once_in (2) ? Span::usual : Span::hard);
+                    randomInputs (rig, dice, size);
                     rig.tick();
                     checkFinite (rig);
                 } });
@@ -201,7 +234,7 @@ TEST_CASE ("every node answers a non-finite input with 0 and goes on", "[nodes][
 
                 for (int k = 0; k < 20; ++k)
                 {
-                    drawTameInputs (rig, dice);
+                    randomTameInputs (rig, dice);
                     twin.in = rig.in;
                     rig.tick();
                     twin.tick();
@@ -216,15 +249,15 @@ TEST_CASE ("every node answers a non-finite input with 0 and goes on", "[nodes][
                 twin.in[at] = 0.0;
                 rig.tick();
                 twin.tick();
-                if (type.peek)   // its outputs were there before the input was; the next ones are of it
+                if (type.peek)   // its outputs came before the input; the next ones depend on it
                 {
-                    drawTameInputs (rig, dice);
+                    randomTameInputs (rig, dice);
                     rig.in[at] = 0.0;
                     rig.tick();
                     twin.tick();
                 }
 
-                // a hit that is no number may also just be no hit
+                // a hit that is not finite may simply not count as a hit
                 if (! (isHit (port) && sameBits (rig.outs(), twin.outs())))
                     for (std::size_t i = 0; i < rig.outputs.size(); ++i)
                     {
@@ -235,7 +268,7 @@ TEST_CASE ("every node answers a non-finite input with 0 and goes on", "[nodes][
 
                 for (int k = 0; k < 20; ++k)
                 {
-                    drawTameInputs (rig, dice);
+                    randomTameInputs (rig, dice);
                     if (! std::isfinite (rig.in[at])) rig.in[at] = 0.0;
                     rig.tick();
                     checkFinite (rig);
@@ -243,14 +276,14 @@ TEST_CASE ("every node answers a non-finite input with 0 and goes on", "[nodes][
         }
 }
 
-TEST_CASE ("every node lives on after a fault", "[nodes][contract]")
+TEST_CASE ("every node works again after a fault", "[nodes][contract]")
 {
     for (const auto& type : catalogue())
     {
         if (type.inputs.empty()) continue;
         DYNAMIC_SECTION (type.info.id)
         {
-            // What moves on a node that had no fault, sooner or later moves again on one that had.
+            // An output that moves on a node without a fault sooner or later moves again on a node that had one.
             std::vector<char> lives, lives_on;
             Dice dice { 1 };
             for (int trial = 0; trial < 50; ++trial)
@@ -261,7 +294,7 @@ TEST_CASE ("every node lives on after a fault", "[nodes][contract]")
                 const auto at = static_cast<std::size_t> (dice.below (static_cast<int> (rig.in.size())));
                 for (int k = 0; k < 40; ++k)
                 {
-                    drawTameInputs (rig, dice);
+                    randomTameInputs (rig, dice);
                     twin.in = rig.in;
                     if (k == 20) rig.in[at] = inf;
                     rig.tick();
@@ -286,13 +319,13 @@ TEST_CASE ("a node without a memory does not remember a fault", "[nodes][contrac
         if (type.peek) continue;
         DYNAMIC_SECTION (type.info.id)
         {
-            // Without a memory is a node that after any past answers as a fresh one does.
+            // A node has no memory if it always answers like a fresh one, whatever its past.
             const auto answers = [&] (Dice& dice, bool with_fault)
             {
                 Rig old = prepared (type), fresh = prepared (type);
                 for (int k = 0; k < 10; ++k)
                 {
-                    drawTameInputs (old, dice);
+                    randomTameInputs (old, dice);
                     old.tick();
                 }
                 if (with_fault && ! old.in.empty())
@@ -330,13 +363,13 @@ TEST_CASE ("every node repeats itself to the bit", "[nodes][contract]")
                 {
                     Dice dice { seed };
                     Rig rig { type };
-                    drawSettings (rig, dice);
-                    drawParams (rig, dice, Span::usual);
+                    randomSettings (rig, dice);
+                    randomParams (rig, dice, Span::usual);
                     rig.prepare();
                     std::vector<double> all;
                     for (int k = 0; k < 50; ++k)
                     {
-                        drawTameInputs (rig, dice);
+                        randomTameInputs (rig, dice);
                         rig.tick();
                         for (std::size_t i = 0; i < rig.outputs.size(); ++i)
                             all.push_back (rig.out (i));
@@ -360,13 +393,13 @@ TEST_CASE ("every node that can adopt goes on exactly where the old instance was
                 Rig old = prepared (type), young = prepared (type);
                 for (int k = 0; k < 50; ++k)
                 {
-                    drawTameInputs (old, dice);
+                    randomTameInputs (old, dice);
                     old.tick();
                 }
                 young.adopt (old);
                 for (int k = 0; k < 50; ++k)
                 {
-                    drawTameInputs (old, dice);
+                    randomTameInputs (old, dice);
                     young.in = old.in;
                     old.tick();
                     young.tick();
@@ -391,8 +424,8 @@ TEST_CASE ("no node allocates or locks within a tick", "[nodes][contract]")
             Rig rig = prepared (type);
             for (int k = 0; k < 200; ++k)
             {
-                if (k % 20 == 0) drawParams (rig, dice, Span::usual);
-                drawTameInputs (rig, dice);
+                if (k % 20 == 0) randomParams (rig, dice, Span::usual);
+                randomTameInputs (rig, dice);
                 if (k == 100 && ! rig.in.empty()) rig.in[0] = not_a_number;
 
                 int allocations = 0, locks = 0;
@@ -421,8 +454,8 @@ TEST_CASE ("a node that claims an amplitude never exceeds it", "[nodes][contract
                       {
                 Dice dice { seed };
                 Rig rig { type };
-                if (dice.once_in (2)) drawSettings (rig, dice);
-                if (! dice.once_in (4)) drawParams (rig, dice, dice.once_in (2) ? Span::usual : Span::hard);
+                if (dice.once_in (2)) randomSettings (rig, dice);
+                if (! dice.once_in (4)) randomParams (rig, dice, dice.once_in (2) ? Span::usual : Span::hard);
                 rig.prepare();
 
                 const double amplitude = rig.claims().amplitude;
@@ -431,13 +464,14 @@ TEST_CASE ("a node that claims an amplitude never exceeds it", "[nodes][contract
                 const double size = dice.size();
                 for (int k = 0; k < 100; ++k)
                 {
-                    drawInputs (rig, dice, size);
+                    randomInputs (rig, dice, size);
                     rig.tick();
                     for (std::size_t i = 0; i < rig.outputs.size(); ++i)
                     {
                         const auto& [port, index] = rig.outputs[i];
                         if (port->id == "state") continue;
-                        const double length = port->width == 3 && index == 0 ? std::hypot (rig.out (i), rig.out (i + 1), rig.out (i + 2)) : std::abs (rig.out (i));
+                        const bool is_vector = port->width == 3 && index == 0;
+                        const double length = is_vector ? std::hypot (rig.out (i), rig.out (i + 1), rig.out (i + 2)) : std::abs (rig.out (i));
                         if (length > amplitude * (1.0 + 1e-9))
                             fail (port->id, " is ", length, ", claimed ", amplitude);
                     }
@@ -446,7 +480,7 @@ TEST_CASE ("a node that claims an amplitude never exceeds it", "[nodes][contract
     }
 }
 
-TEST_CASE ("a node that claims to be passive gives no energy on a closed path", "[nodes][contract]")
+TEST_CASE ("a node that claims to be passive generates no energy on a closed path", "[nodes][contract]")
 {
     for (const auto& type : catalogue())
     {
@@ -463,36 +497,17 @@ TEST_CASE ("a node that claims to be passive gives no energy on a closed path", 
                       {
                 Dice dice { seed };
                 Rig rig { type };
-                if (dice.once_in (2)) drawParams (rig, dice, Span::usual);
+                if (dice.once_in (2)) randomParams (rig, dice, Span::usual);
                 rig.prepare();
                 if (! rig.claims().passive) return;
 
-                constexpr int steps = 5000, waves = 4;
-                const double size = std::pow (10.0, dice.uniform (-5.0, -2.0));
-                Vec3 sines[waves], cosines[waves];
-                for (int w = 0; w < waves; ++w)
-                    for (int i = 0; i < 3; ++i)
-                    {
-                        sines[w][i] = dice.uniform (-size, size);
-                        cosines[w][i] = dice.uniform (-size, size);
-                    }
-                const auto path = [&] (int k)
-                {
-                    Vec3 p = Vec3::Zero();
-                    for (int w = 0; w < waves; ++w)
-                    {
-                        const double angle = 2.0 * M_PI * (w + 1) * (k % steps) / steps;
-                        p += std::sin (angle) * sines[w] + std::cos (angle) * cosines[w];
-                    }
-                    return p;
-                };
-
+                const TangledLoop path { dice };
                 double given = 0.0, handled = 0.0;
                 Vec3 p = path (0);
                 rig.input ("position", p);
                 rig.tick();
                 Vec3 force = rig.vector ("force");
-                for (int k = 1; k <= 2 * steps; ++k)
+                for (int k = 1; k <= 2 * TangledLoop::steps; ++k)
                 {
                     const Vec3 next = path (k);
                     rig.input ("position", next);

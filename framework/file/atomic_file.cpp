@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace
 {
-/// Two processes, or two files of one process, never meet: a number drawn once a process, and a count.
+/// A name that no other process and no other file of this process uses. It contains a random number per process and a counter.
 fs::path temporaryIn (const fs::path& folder)
 {
     static const std::random_device::result_type process = std::random_device {}();
@@ -27,51 +27,49 @@ fs::path temporaryIn (const fs::path& folder)
 }
 }   // namespace
 
-std::string AtomicFile::lastReason() { return errno != 0 ? std::generic_category().message (errno) : "the system gives no reason"; }
+Message AtomicFile::unwritable (const std::string& reason) const
+{
+    return Message::error ("output/unwritable", target.string(), "cannot be written: " + reason,
+                           "choose another file, create its folder, or free some space");
+}
 
-AtomicFile::AtomicFile (fs::path wanted) : target (std::move (wanted)) { open(); }
+Message AtomicFile::writeError() const { return unwritable (errno != 0 ? std::generic_category().message (errno) : "the system gives no reason"); }
 
-void AtomicFile::open()
+Result<AtomicFile> AtomicFile::create (const fs::path& path)
+{
+    AtomicFile file (path);
+    if (auto opened = file.open(); ! opened) return std::move (opened).error();
+    return file;
+}
+
+Result<> AtomicFile::open()
 {
     std::error_code ignored;
     const auto existing = fs::status (target, ignored);
     if (fs::is_directory (existing))
-    {
-        refusal = "it is a folder";
-        return;
-    }
+        return unwritable ("it is a folder");
     const bool direct = fs::exists (existing) && ! fs::is_regular_file (existing);
     if (fs::is_regular_file (existing))
     {
-        // The link is to stay a link, and a file that is write-protected is so on purpose: a rename would ignore both.
+        // A rename would replace a symbolic link, and ignore the write protection of a file.
         if (const auto behind_link = fs::canonical (target, ignored); ! ignored) target = behind_link;
         errno = 0;
-        if (! std::ofstream (target, std::ios::binary | std::ios::app))
-        {
-            refusal = lastReason();
-            return;
-        }
+        if (! std::ofstream (target, std::ios::binary | std::ios::app)) return writeError();
     }
     if (const auto folder = target.parent_path(); ! direct && ! folder.empty() && ! fs::is_directory (folder, ignored))
-    {
-        refusal = "there is no folder " + folder.string();
-        return;
-    }
+        return unwritable ("there is no folder " + folder.string());
 
     const auto opened = direct ? target : temporaryIn (target.parent_path());
     errno = 0;
     out.open (opened, std::ios::binary);
-    if (! out)
-    {
-        refusal = lastReason();
-        return;
-    }
+    if (! out) return writeError();
     if (! direct) temporary = opened;
     if (fs::is_regular_file (existing)) fs::permissions (temporary, existing.permissions(), ignored);
+    return {};
 }
 
 AtomicFile::AtomicFile (AtomicFile&& other) noexcept
-    : target (std::move (other.target)), temporary (std::exchange (other.temporary, {})), out (std::move (other.out)), refusal (std::move (other.refusal))
+    : target (std::move (other.target)), temporary (std::exchange (other.temporary, {})), out (std::move (other.out))
 {
 }
 
@@ -83,7 +81,6 @@ AtomicFile& AtomicFile::operator= (AtomicFile&& other) noexcept
         target = std::move (other.target);
         temporary = std::exchange (other.temporary, {});
         out = std::move (other.out);
-        refusal = std::move (other.refusal);
     }
     return *this;
 }
@@ -99,18 +96,18 @@ void AtomicFile::discard() noexcept
     temporary.clear();
 }
 
-std::optional<std::string> AtomicFile::commit()
+Result<> AtomicFile::commit()
 {
     errno = 0;
     out.close();
-    if (! out) return lastReason();
-    if (temporary.empty()) return std::nullopt;
+    if (! out) return writeError();
+    if (temporary.empty()) return {};
 
     std::error_code failure;
     fs::rename (temporary, target, failure);
-    if (failure) return failure.message();
+    if (failure) return unwritable (failure.message());
     temporary.clear();
-    return std::nullopt;
+    return {};
 }
 
 }   // namespace tactus

@@ -1,33 +1,32 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Graph files: text to graph and back. Ids of the messages:
+/// Graph files: text to graph and back. Messages:
 ///
 ///     file/unreadable       the file cannot be opened or read
 ///     file/too_large        more than 64 MB
-///     file/syntax           not JSON; line, column and what was expected there
+///     file/syntax           not JSON; with line, column and what was expected
 ///     file/too_deep         nested deeper than 64 levels, or a chain of more than 32 files
 ///     file/duplicate_key    a key twice in one object
 ///     file/not_a_graph      no object with "format": "tactus-graph"
 ///     file/newer_version    written by a newer Tactus
-///     file/unknown_version  a version that never was
-///     file/migration        an old file that is not as its version should be
-///     file/missing_key      a key that must be there is not
-///     file/wrong_kind       a text where an object belongs, …
-///     file/bad_value        the right kind, but not a value that means anything there
-///     file/unknown_key      warning: a key that is probably a misspelt one; it is kept
-///     file/cycle            files that contain each other
+///     file/unknown_version  a version that never existed
+///     file/migration        an old file that does not conform to its version
+///     file/missing_key      a required key is missing
+///     file/wrong_kind       a string instead of an object, …
+///     file/bad_value        the right kind, but a meaningless value
+///     file/unknown_key      warning: a key that is probably misspelt; it is kept
+///     file/cycle            files that include each other
 ///     file/more             there are more problems than are listed
 ///     graph/bad_id          an id that is not [a-z][a-z0-9_]*
-///     graph/bad_path        a path to a port or parameter that cannot be read
-///     wire/syntax           a wire text that cannot be read
-///     unit/syntax           a text with a unit that cannot be read
+///     graph/bad_path        an invalid path to a port or parameter
+///     wire/syntax           a wire that cannot be parsed
+///     unit/syntax           a value with a unit that cannot be parsed
 ///     output/unwritable     the file cannot be written
 
-#include "text_position.hpp"
-
 #include <framework/graph/graph.hpp>
-#include <framework/message.hpp>
+#include <framework/text/result.hpp>
+#include <framework/text/text_position.hpp>
 
 #include <filesystem>
 #include <string>
@@ -38,26 +37,27 @@ namespace tactus
 
 struct LoadedGraph
 {
-    graph::Graph graph;   ///< as much as could be read; whole if there are no errors
-    Messages messages;    ///< by line and column, which they carry
+    graph::Graph graph;   ///< everything that could be read; complete if there are no errors
+    Messages messages;    ///< sorted by line and column
     TextPositions positions;
 
-    /// The position of a pointer or of its nearest parent that stands in the file: for messages of later steps.
+    /// The position of a pointer, or of its nearest parent that exists in the file; for messages of later steps.
     TextPosition positionOf (std::string_view pointer) const;
 };
 
-/// Reads a graph file (contract section 4): syntax, known keys and their kinds, wire texts, ids, version and migrations.
-/// What only the catalogue knows is checked by compile. Never throws; text may be anything. [main thread]
+/// Reads a graph file (contract section 4): syntax, known keys and their kinds, wires, ids, version and migrations.
+/// Everything that needs the catalogue is checked by compile. Does not throw; accepts any text. [main thread]
 LoadedGraph readGraph (std::string_view text);
 
-/// Reads a file and the "file:" subgraphs it refers to, relative to its folder. Its messages carry the name of the file
-/// they are about. [main thread]
+/// Reads a file and the "file:" subgraphs it refers to, relative to its folder. Each message has the name of its file.
+/// [main thread]
 LoadedGraph loadGraph (const std::filesystem::path&);
 
-/// The text of a graph: stable under load-save-load, byte for byte, one node or wire a line where it fits.
+/// The text of a graph, with one node or wire per line where it fits. Loading and saving it again gives the same bytes.
 std::string writeGraph (const graph::Graph&);
 
-/// Writes through a temporary file beside it, so that a crash leaves the old file or the new one. [main thread]
-Messages saveGraph (const graph::Graph&, const std::filesystem::path&);
+/// Writes through a temporary file in the same folder, so that a crash leaves either the old file or the new one.
+/// Error: output/unwritable. [main thread]
+Result<> saveGraph (const graph::Graph&, const std::filesystem::path&);
 
 }   // namespace tactus

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "graph_file.hpp"
-#include "json_text.hpp"
 
-#include <framework/in_quotes.hpp>
+#include <framework/kit/at.hpp>
+#include <framework/text/json_text.hpp>
+#include <framework/text/quote.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -11,7 +12,6 @@
 #include <map>
 #include <memory>
 #include <system_error>
-#include <variant>
 
 namespace tactus
 {
@@ -22,22 +22,14 @@ namespace
 constexpr std::string_view file_type = "file:";
 constexpr std::size_t longest_chain = 32;
 
-Message problem (std::string id, std::string text, std::string remedy)
-{
-    Message m;
-    m.id = std::move (id);
-    m.text = std::move (text);
-    m.remedy = std::move (remedy);
-    return m;
-}
-
 Message unreadable (const fs::path& path, const std::string& reason)
 {
-    return problem ("file/unreadable", inQuotes (path.string()) + " cannot be read: " + reason, "check the path; one that stands in a file is relative to the folder of that file");
+    return Message::error ("file/unreadable", {}, quote (path.string()) + " cannot be read: " + reason,
+                           "check the path; a path in a file is relative to the folder of that file");
 }
 
-/// The text of a file, or what is wrong with it. One byte more than allowed is read, so that endless files end too.
-std::variant<std::string, Message> readText (const fs::path& path)
+/// The text of a file. Reads at most one byte more than allowed, so that it also stops on endless files.
+Result<std::string> readText (const fs::path& path)
 {
     std::error_code failure;
     if (fs::is_directory (path, failure)) return unreadable (path, "it is a folder");
@@ -48,27 +40,27 @@ std::variant<std::string, Message> readText (const fs::path& path)
     std::string text;
     char block[1u << 16u];
     while (text.size() <= largest_file && (in.read (block, sizeof block), in.gcount() > 0))
-        text.append (block, static_cast<std::size_t> (in.gcount()));
+        text.append (block, at (in.gcount()));
     if (in.bad()) return unreadable (path, std::generic_category().message (errno));
     return text;
 }
 
-/// Loads a file and what it includes. A file that is included twice is loaded once.
+/// Loads a file and the files it includes. A file that is included twice is loaded once.
 class Loader
 {
 public:
     LoadedGraph load (const fs::path& path)
     {
         auto text = readText (path);
-        if (const auto* readable = std::get_if<std::string> (&text)) return parse (path, *readable);
+        if (text) return parse (path, *text);
         LoadedGraph loaded;
-        loaded.messages.push_back (std::move (std::get<Message> (text)));
+        loaded.messages.push_back (std::move (text).error());
         loaded.messages.back().file = path.string();
         return loaded;
     }
 
 private:
-    /// One name for a file, whatever way leads to it.
+    /// A path that is the same for a file however it was reached.
     static fs::path identityOf (const fs::path& path)
     {
         std::error_code failure;
@@ -93,7 +85,8 @@ private:
         const auto patch = [&] (const graph::Patch& p, const std::string& where)
         {
             for (const auto& node : p.nodes)
-                if (node.type.starts_with (file_type)) include (loaded, node.type.substr (file_type.size()), where + "/nodes/" + pointerPart (node.name) + "/type");
+                if (node.type.starts_with (file_type))
+                    include (loaded, node.type.substr (file_type.size()), where + "/nodes/" + pointerPart (node.name) + "/type");
         };
         patch (loaded.graph.root, "");
         for (const auto& [name, subgraph] : loaded.graph.graphs)
@@ -111,7 +104,7 @@ private:
             m.column = position.column;
             loaded.messages.push_back (std::move (m));
         };
-        if (written.find ('\0') != std::string::npos) return refuse (unreadable (written, "there is a zero byte in its name"));
+        if (written.find ('\0') != std::string::npos) return refuse (unreadable (written, "its name contains a zero byte"));
 
         const auto path = fs::path (loaded.graph.folder) / written;
         const auto identity = identityOf (path);
@@ -120,24 +113,26 @@ private:
             std::string round;
             for (auto file = first; file != chain.end(); ++file)
                 round += file->filename().string() + " -> ";
-            return refuse (problem ("file/cycle", "the file contains itself: " + round + identity.filename().string(), "take the node out of one of these files"));
+            return refuse (Message::error ("file/cycle", {}, "the file contains itself: " + round + identity.filename().string(),
+                                           "remove the node from one of these files"));
         }
         if (chain.size() >= longest_chain)
-            return refuse (problem ("file/too_deep", "files are included in files more than " + std::to_string (longest_chain) + " deep", "move subgraphs into one file"));
+            return refuse (Message::error ("file/too_deep", {}, "include files are nested more than " + std::to_string (longest_chain) + " levels deep",
+                                           "move subgraphs into one file"));
 
         auto& graph = loaded_files[identity];
         if (graph == nullptr)
         {
             auto text = readText (path);
-            if (auto* wrong = std::get_if<Message> (&text)) return refuse (std::move (*wrong));
-            auto inner = parse (path, std::get<std::string> (text));
+            if (! text) return refuse (std::move (text).error());
+            auto inner = parse (path, *text);
             std::ranges::move (inner.messages, std::back_inserter (loaded.messages));
             graph = std::make_shared<const graph::Graph> (std::move (inner.graph));
         }
         loaded.graph.files.emplace (written, graph);
     }
 
-    std::vector<fs::path> chain;   ///< the files that are being loaded, the outermost first
+    std::vector<fs::path> chain;   ///< the files being loaded, outermost first
     std::map<fs::path, std::shared_ptr<const graph::Graph>> loaded_files;
 };
 }   // namespace

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "graph_file.hpp"
 #include "migrate.hpp"
-#include "part_reader.hpp"
+
+#include <framework/graph/part_reader.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -26,19 +27,29 @@ public:
             { "about", JsonKind::text, into (graph.about) },
             { "tags", JsonKind::list, [&] (Json& v, const std::string& at)
               { readTags (v, at, graph.tags); } },
-            { "rate_hz", JsonKind::number, [&] (Json& v, const std::string& at)
+            { "rate_hz", JsonKind::number,
+              [&] (Json& v, const std::string& at)
               {
                   graph.rate_hz = v.get<double>();
-                  if (! (graph.rate_hz > 0.0)) error ("file/bad_value", at, "the rate is " + v.dump() + " Hz; it should be more than 0", "4000 suits most devices");
+                  if (! (graph.rate_hz > 0.0))
+                      error ("file/bad_value", at, "the rate is " + v.dump() + " Hz; it should be more than 0", "4000 suits most devices");
               } },
             { "devices", JsonKind::object, [&] (Json& v, const std::string& at)
               { readDevices (v, at, graph); } },
-            { "controls", JsonKind::object, [&] (Json& v, const std::string& at)
-              { eachId (v, at, "a control", [&] (const std::string& id, Json& control, const std::string& where)
-                        { readControl (id, control, where, graph.controls.emplace_back()); }); } },
-            { "graphs", JsonKind::object, [&] (Json& v, const std::string& at)
-              { eachId (v, at, "a subgraph", [&] (const std::string& id, Json& patch, const std::string& where)
-                        { readSubgraph (patch, where, graph.graphs.emplace_back (id, Patch {}).second); }); } },
+            { "controls", JsonKind::object,
+              [&] (Json& v, const std::string& at)
+              {
+                  eachId (v, at, "a control",
+                          [&] (const std::string& id, Json& control, const std::string& where)
+                          { readControl (id, control, where, graph.controls.emplace_back()); });
+              } },
+            { "graphs", JsonKind::object,
+              [&] (Json& v, const std::string& at)
+              {
+                  eachId (v, at, "a subgraph",
+                          [&] (const std::string& id, Json& patch, const std::string& where)
+                          { readSubgraph (patch, where, graph.graphs.emplace_back (id, Patch {}).second); });
+              } },
             { "ui", JsonKind::object, keep ("ui", graph.extra) },
         };
         addPatch (fields, graph.root);
@@ -50,7 +61,7 @@ private:
     {
         for (std::size_t i = 0; i < list.size(); ++i)
             if (isKind (list[i], JsonKind::text, where + '/' + std::to_string (i)))
-                tags.push_back (std::move (list[i].get_ref<std::string&>()));
+                tags.push_back (std::move (list[i].asString()));
     }
 
     void readDevices (Json& object, const std::string& where, Graph& graph)
@@ -60,25 +71,28 @@ private:
     }
 };
 
-/// What must be right before anything else is looked at. Returns the version.
-std::optional<int> readHeader (const Json& file, ObjectReader& problems)
+/// Checks what must be right before anything else is read. Returns the version.
+std::optional<int> readHeader (const Json& file, OrderedReader& problems)
 {
     constexpr auto remedy = "a graph file begins with { \"format\": \"tactus-graph\", \"version\": 1, …";
     if (! file.is_object())
     {
-        problems.error ("file/not_a_graph", "", "the file does not hold an object, {…}, and so it is no graph", remedy);
+        problems.error ("file/not_a_graph", "", "the file does not contain an object, {…}, so it is not a graph", remedy);
         return std::nullopt;
     }
     const auto format = file.find ("format");
     if (format == file.end() || *format != "tactus-graph")
     {
-        problems.error ("file/not_a_graph", format == file.end() ? "" : "/format", format == file.end() ? "the file has no 'format', and so it is no graph" : "the 'format' of the file is not \"tactus-graph\"", remedy);
+        if (format == file.end())
+            problems.error ("file/not_a_graph", "", "the file has no 'format', so it is not a graph", remedy);
+        else
+            problems.error ("file/not_a_graph", "/format", "the 'format' of the file is not \"tactus-graph\"", remedy);
         return std::nullopt;
     }
     const auto version = file.find ("version");
     if (version == file.end())
     {
-        problems.error ("file/missing_key", "", "the file does not say its 'version'", "add \"version\": " + std::to_string (graph_format.version));
+        problems.error ("file/missing_key", "", "the file has no 'version'", "add \"version\": " + std::to_string (graph_format.version));
         return std::nullopt;
     }
     if (! problems.isKind (*version, JsonKind::number, "/version")) return std::nullopt;
@@ -86,7 +100,8 @@ std::optional<int> readHeader (const Json& file, ObjectReader& problems)
     constexpr double most = 1e6;
     if (! (n >= 0.0 && n <= most && n == std::floor (n)))
     {
-        problems.error ("file/bad_value", "/version", "the version is " + version->dump() + "; it should be a whole number", "write \"version\": " + std::to_string (graph_format.version));
+        problems.error ("file/bad_value", "/version", "the version is " + version->dump() + "; it should be a whole number",
+                        "write \"version\": " + std::to_string (graph_format.version));
         return std::nullopt;
     }
     return static_cast<int> (n);
@@ -110,19 +125,19 @@ LoadedGraph readGraph (std::string_view text, const FileFormat& format)
     if (whole)
         if (const auto version = readHeader (json.root, reader))
         {
-            auto problems = migrate (json.root, *version, format);
-            if (problems.empty())
+            if (auto migrated = migrate (json.root, *version, format))
                 reader.readFile (json.root, loaded.graph);
-            std::ranges::move (problems, std::back_inserter (reader.messages));
+            else
+                reader.messages.push_back (std::move (migrated).error());
         }
 
     loaded.messages = std::move (reader.messages);
     for (auto& m : loaded.messages)
         if (m.line == 0)
         {
-            const auto at = loaded.positionOf (m.where);
-            m.line = at.line;
-            m.column = at.column;
+            const auto position = loaded.positionOf (m.where);
+            m.line = position.line;
+            m.column = position.column;
         }
     std::ranges::stable_sort (loaded.messages, {}, [] (const Message& m)
                               { return std::tuple (m.line, m.column); });

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "atomic_file.hpp"
 #include "graph_file.hpp"
-#include "graph_parts.hpp"
-#include "json_text.hpp"
-#include "json_writer.hpp"
 #include "migrate.hpp"
 
+#include <framework/graph/graph_parts.hpp>
 #include <framework/graph/text.hpp>
+#include <framework/text/json_text.hpp>
+#include <framework/text/json_writer.hpp>
 
 #include <array>
 #include <cmath>
@@ -35,11 +35,11 @@ void appendUnlessEmpty (Json& object, std::string key, const Json& value)
     if (! value.empty()) append (object, std::move (key), value);
 }
 
-/// What the reader has kept, and `ui` at the end, since it is of least interest in a diff.
+/// Adds the keys that the reader has kept, with `ui` at the end, because it matters least in a diff.
 void appendExtra (Json& object, const Json& extra)
 {
     const Json* ui = nullptr;
-    for (const auto& [key, value] : extra.get_ref<const Json::object_t&>())
+    for (const auto& [key, value] : extra.asObject())
         if (key == "ui")
             ui = &value;
         else
@@ -162,22 +162,19 @@ std::string writeGraph (const Graph& graph)
     return writeJson (graphJson (graph), one_a_line);
 }
 
-Messages saveGraph (const Graph& graph, const std::filesystem::path& path)
+Result<> saveGraph (const Graph& graph, const std::filesystem::path& path)
 {
-    AtomicFile file (path);
-    auto reason = file.refused();
-    if (! reason)
+    const auto failed = [&] (const Message& why)
     {
-        file.stream() << writeGraph (graph);
-        reason = file.commit();
-    }
-    if (! reason) return {};
-    Message m;
-    m.id = "output/unwritable";
-    m.file = path.string();
-    m.text = path.string() + " cannot be written: " + *reason;
-    m.remedy = "choose another file or folder";
-    return { m };
+        auto m = Message::error (why.id, {}, path.string() + " " + why.text, "choose another file or folder");
+        m.file = path.string();
+        return m;
+    };
+    auto file = AtomicFile::create (path);
+    if (! file) return failed (file.error());
+    file->stream() << writeGraph (graph);
+    if (auto done = file->commit(); ! done) return failed (done.error());
+    return {};
 }
 
 }   // namespace tactus

@@ -9,34 +9,32 @@ namespace
 {
 Message problem (std::string id, std::string text, std::string remedy)
 {
-    Message m;
-    m.id = std::move (id);
-    m.where = "/version";
-    m.text = std::move (text);
-    m.remedy = std::move (remedy);
-    return m;
+    return Message::error (std::move (id), "/version", std::move (text), std::move (remedy));
 }
 }   // namespace
 
-Messages migrate (Json& file, int version, const FileFormat& format)
+Result<> migrate (Json& file, int version, const FileFormat& format)
 {
     const auto newest = std::to_string (format.version);
     if (version > format.version)
-        return { problem ("file/newer_version", "the file is of version " + std::to_string (version) + ", and this Tactus reads versions up to " + newest, "open it with a newer Tactus") };
+        return problem ("file/newer_version", "the file is version " + std::to_string (version) + ", but this Tactus reads only versions up to " + newest,
+                        "open it with a newer Tactus");
 
     for (; version < format.version; ++version)
     {
         const auto step = std::ranges::find (format.steps, version, &Migration::from);
         if (step == format.steps.end())
-            return { problem ("file/unknown_version", "there never was a version " + std::to_string (version) + " of the graph file", "write \"version\": " + newest) };
+            return problem ("file/unknown_version", "version " + std::to_string (version) + " of the graph file does not exist",
+                            "write \"version\": " + newest);
         try
         {
             step->step (file);
             file["version"] = version + 1;
         }
-        catch (const Json::exception& reason)
+        catch (const JsonError& reason)
         {
-            return { problem ("file/migration", "the file could not be brought from version " + std::to_string (version) + " to the next: " + reason.what(), "its parts should be as version " + std::to_string (version) + " has them") };
+            return problem ("file/migration", "the file could not be migrated from version " + std::to_string (version) + " to the next: " + reason.what(),
+                            "make sure that its parts conform to version " + std::to_string (version));
         }
     }
     return {};

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "edit.hpp"
 
+#include "graph_parts.hpp"
 #include "references.hpp"
 #include "regroup.hpp"
 #include "text.hpp"
 
-#include <framework/file/graph_parts.hpp>
-#include <framework/file/json_text.hpp>
-#include <framework/in_quotes.hpp>
-#include <framework/refused.hpp>
+#include <framework/kit/at.hpp>
+#include <framework/text/json_text.hpp>
+#include <framework/text/quote.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,8 @@ namespace tactus::graph
 {
 namespace
 {
-using Result = std::variant<Command, Message>;
+/// The command that undoes an edit, or why the edit was refused.
+using Inverse = Result<Command>;
 
 template <typename T>
 typename std::vector<T>::iterator iteratorAt (std::vector<T>& list, Place place)
@@ -28,9 +29,9 @@ typename std::vector<T>::iterator iteratorAt (std::vector<T>& list, Place place)
 }
 
 template <typename Iterator, typename List>
-std::size_t placeOf (Iterator at, List& list)
+std::size_t placeOf (Iterator it, List& list)
 {
-    return static_cast<std::size_t> (at - list.begin());
+    return at (it - list.begin());
 }
 
 struct Member
@@ -39,17 +40,17 @@ struct Member
     Place place;
 };
 
-/// Sets a member of an object, at a place if it is new, or removes it. Returns what to set to have the old one back.
+/// Sets or removes a member of an object. A new member goes to the given place. Returns the old member.
 Member exchangeMember (Json& object, const std::string& key, const std::optional<Json>& value, Place place)
 {
-    auto& members = object.get_ref<Json::object_t&>();
-    const auto at = std::ranges::find (members, key, [] (const auto& m) -> const std::string&
+    auto& members = object.asObject();
+    const auto it = std::ranges::find (members, key, [] (const auto& m) -> const std::string&
                                        { return m.first; });
-    if (at != members.end() && value) return { std::exchange (at->second, *value), std::nullopt };
-    if (at == members.end() && ! value) return {};
+    if (it != members.end() && value) return { std::exchange (it->second, *value), std::nullopt };
+    if (it == members.end() && ! value) return {};
 
-    // Keys of an ordered object cannot be moved, so it is built again around the place.
-    const auto index = at != members.end() ? placeOf (at, members) : std::min (place.value_or (members.size()), members.size());
+    // Keys of an ordered object cannot be moved, so the object is rebuilt.
+    const auto index = it != members.end() ? placeOf (it, members) : std::min (place.value_or (members.size()), members.size());
     Member old;
     auto changed = Json::object();
     std::size_t i = 0;
@@ -71,7 +72,7 @@ Member exchangeMember (Json& object, const std::string& key, const std::optional
     return old;
 }
 
-/// A key that stands twice among the targets of a control or in an object.
+/// True if two targets of a control have the same path.
 bool hasTwice (const Control& control)
 {
     std::set<std::string_view> paths;
@@ -85,7 +86,7 @@ class Editor
 public:
     Editor (Graph& g, Checks c) : graph (g), checks (c) {}
 
-    Result operator() (const AddNode& c)
+    Inverse operator() (const AddNode& c)
     {
         auto* patch = find (c.patch);
         if (patch == nullptr) return noPatch (c.patch);
@@ -99,61 +100,71 @@ public:
         return RemoveNode { c.patch, c.node.name, true };
     }
 
-    Result operator() (const RemoveNode& c)
+    Inverse operator() (const RemoveNode& c)
     {
         auto* patch = find (c.patch);
         if (patch == nullptr) return noPatch (c.patch);
-        const auto at = std::ranges::find (patch->nodes, c.name, &Node::name);
-        if (at == patch->nodes.end()) return noNode (c.patch, c.name);
+        const auto it = std::ranges::find (patch->nodes, c.name, &Node::name);
+        if (it == patch->nodes.end()) return noNode (c.patch, c.name);
 
         Batch back { nameOf (c), {} };
-        back.commands.push_back (AddNode { c.patch, *at, placeOf (at, patch->nodes) });
+        back.commands.push_back (AddNode { c.patch, *it, placeOf (it, patch->nodes) });
         if (! c.only_node) std::ranges::move (dropReferences (graph, c.patch, c.name), std::back_inserter (back.commands));
-        patch->nodes.erase (at);
+        patch->nodes.erase (it);
         if (back.commands.size() == 1) return std::move (back.commands.front());
         return back;
     }
 
-    Result operator() (const RenameNode& c)
+    Inverse operator() (const RenameNode& c)
     {
         auto* patch = find (c.patch);
         if (patch == nullptr) return noPatch (c.patch);
-        const auto at = std::ranges::find (patch->nodes, c.name, &Node::name);
-        if (at == patch->nodes.end()) return noNode (c.patch, c.name);
+        const auto it = std::ranges::find (patch->nodes, c.name, &Node::name);
+        if (it == patch->nodes.end()) return noNode (c.patch, c.name);
         if (patch->find (c.to) != nullptr) return taken ("a node", c.to);
         if (checked() && ! isId (c.to)) return badId (c.to);
 
         Batch back { nameOf (c), {} };
         back.commands.push_back (RenameNode { c.patch, c.to, c.name, true });
         if (! c.only_node) std::ranges::move (renameReferences (graph, c.patch, c.name, c.to), std::back_inserter (back.commands));
-        at->name = c.to;
+        it->name = c.to;
         if (checked() && anythingTwice())
         {
-            // Something that was never there has been referred to by the new name.
+            // A reference to a node that never existed uses the new name.
             takeBack (back.commands);
-            return refused ("edit/name_taken", "a control or an override refers to " + inQuotes (c.to) + " already", "remove that target first, or choose another name");
+            return Message::error ("edit/name_taken", {}, "a control or an override already refers to " + quote (c.to),
+                                   "remove that target first, or choose another name");
         }
         if (back.commands.size() == 1) return std::move (back.commands.front());
         return back;
     }
 
-    Result operator() (const SetParam& c) { return checked() && c.value && ! isId (c.param) ? badId (c.param) : setMember (c, &Node::params, &SetParam::param); }
-    Result operator() (const SetSetting& c) { return checked() && c.value && ! isId (c.setting) ? badId (c.setting) : setMember (c, &Node::settings, &SetSetting::setting); }
-
-    Result operator() (const SetOverride& c)
+    Inverse operator() (const SetParam& c)
     {
-        if (const auto parsed = parseOverride (c.path); checked() && parsed.index() == 1) return refused ("graph/bad_path", std::get<std::string> (parsed), "write node.param, or [3]/node.param for one instance");
+        return checked() && c.value && ! isId (c.param) ? badId (c.param) : setMember (c, &Node::params, &SetParam::param);
+    }
+    Inverse operator() (const SetSetting& c)
+    {
+        return checked() && c.value && ! isId (c.setting) ? badId (c.setting) : setMember (c, &Node::settings, &SetSetting::setting);
+    }
+
+    Inverse operator() (const SetOverride& c)
+    {
+        if (checked())
+            if (const auto parsed = parseOverride (c.path); ! parsed)
+                return Message::error ("graph/bad_path", {}, parsed.error().text, "write node.param, or [3]/node.param for one instance");
         return setMember (c, &Node::overrides, &SetOverride::path);
     }
 
-    Result operator() (const SetNodeKey& c)
+    Inverse operator() (const SetNodeKey& c)
     {
         auto* patch = find (c.patch);
         if (patch == nullptr) return noPatch (c.patch);
         auto* node = find (*patch, c.node);
         if (node == nullptr) return noNode (c.patch, c.node);
-        if (c.key == "params" || c.key == "settings") return refused ("edit/bad_value", inQuotes (c.key) + " are set one by one", "use SetParam or SetSetting");
-        if (c.key == "type" && ! c.value) return refused ("edit/bad_value", "a node cannot be without a type");
+        if (c.key == "params" || c.key == "settings")
+            return Message::error ("edit/bad_value", {}, quote (c.key) + " are set one at a time", "use SetParam or SetSetting");
+        if (c.key == "type" && ! c.value) return Message::error ("edit/bad_value", {}, "a node must have a type");
         if (checked() && c.value)
             if (auto wrong = checkNodeKey (c.key, *c.value); ! wrong.empty()) return wrong.front();
 
@@ -192,7 +203,7 @@ public:
     }
 
     //==============================================================================
-    Result operator() (const AddWire& c)
+    Inverse operator() (const AddWire& c)
     {
         auto* patch = find (c.patch);
         if (patch == nullptr) return noPatch (c.patch);
@@ -205,31 +216,31 @@ public:
         return RemoveWire { c.patch, c.wire.id };
     }
 
-    Result operator() (const RemoveWire& c)
+    Inverse operator() (const RemoveWire& c)
     {
         auto* patch = find (c.patch);
         if (patch == nullptr) return noPatch (c.patch);
-        const auto at = std::ranges::find (patch->wires, c.wire, &Wire::id);
-        if (at == patch->wires.end()) return noWire (c.patch);
-        AddWire back { c.patch, std::move (*at), placeOf (at, patch->wires) };
-        patch->wires.erase (at);
+        const auto it = std::ranges::find (patch->wires, c.wire, &Wire::id);
+        if (it == patch->wires.end()) return noWire (c.patch);
+        AddWire back { c.patch, std::move (*it), placeOf (it, patch->wires) };
+        patch->wires.erase (it);
         return back;
     }
 
-    Result operator() (const ChangeWire& c)
+    Inverse operator() (const ChangeWire& c)
     {
         auto* patch = find (c.patch);
         if (patch == nullptr) return noPatch (c.patch);
-        const auto at = std::ranges::find (patch->wires, c.wire, &Wire::id);
-        if (at == patch->wires.end()) return noWire (c.patch);
+        const auto it = std::ranges::find (patch->wires, c.wire, &Wire::id);
+        if (it == patch->wires.end()) return noWire (c.patch);
         if (checked())
             if (auto wrong = problem (*patch, c.patch, c.to)) return *wrong;
-        ChangeWire back { c.patch, c.wire, std::exchange (*at, c.to) };
-        at->id = c.wire;
+        ChangeWire back { c.patch, c.wire, std::exchange (*it, c.to) };
+        it->id = c.wire;
         return back;
     }
 
-    Result operator() (const ChangeExpose& c)
+    Inverse operator() (const ChangeExpose& c)
     {
         auto* patch = find (c.patch);
         if (patch == nullptr) return noPatch (c.patch);
@@ -244,7 +255,7 @@ public:
     }
 
     //==============================================================================
-    Result operator() (const AddControl& c)
+    Inverse operator() (const AddControl& c)
     {
         if (findControl (c.control.id) != graph.controls.end()) return taken ("a control", c.control.id);
         if (checked())
@@ -253,27 +264,27 @@ public:
         return RemoveControl { c.control.id };
     }
 
-    Result operator() (const RemoveControl& c)
+    Inverse operator() (const RemoveControl& c)
     {
-        const auto at = findControl (c.control);
-        if (at == graph.controls.end()) return noControl (c.control);
-        AddControl back { std::move (*at), placeOf (at, graph.controls) };
-        graph.controls.erase (at);
+        const auto it = findControl (c.control);
+        if (it == graph.controls.end()) return noControl (c.control);
+        AddControl back { std::move (*it), placeOf (it, graph.controls) };
+        graph.controls.erase (it);
         return back;
     }
 
-    Result operator() (const ChangeControl& c)
+    Inverse operator() (const ChangeControl& c)
     {
-        const auto at = findControl (c.control);
-        if (at == graph.controls.end()) return noControl (c.control);
+        const auto it = findControl (c.control);
+        if (it == graph.controls.end()) return noControl (c.control);
         if (c.to.id != c.control && findControl (c.to.id) != graph.controls.end()) return taken ("a control", c.to.id);
         if (checked())
             if (auto wrong = problem (c.to)) return *wrong;
-        return ChangeControl { c.to.id, std::exchange (*at, c.to) };
+        return ChangeControl { c.to.id, std::exchange (*it, c.to) };
     }
 
     //==============================================================================
-    Result operator() (const AddSubgraph& c)
+    Inverse operator() (const AddSubgraph& c)
     {
         if (graph.find (c.name) != nullptr) return taken ("a subgraph", c.name);
         if (checked())
@@ -290,29 +301,30 @@ public:
         return RemoveSubgraph { c.name };
     }
 
-    Result operator() (const RemoveSubgraph& c)
+    Inverse operator() (const RemoveSubgraph& c)
     {
-        const auto at = std::ranges::find (graph.graphs, c.name, [] (const auto& g) -> const std::string&
+        const auto it = std::ranges::find (graph.graphs, c.name, [] (const auto& g) -> const std::string&
                                            { return g.first; });
-        if (at == graph.graphs.end()) return noPatch (c.name);
+        if (it == graph.graphs.end()) return noPatch (c.name);
         if (checked())
         {
             const auto users = usersOf (c.name);
-            if (! users.empty()) return refused ("edit/in_use", "the subgraph " + inQuotes (c.name) + " is the type of " + users, "remove these nodes first");
+            if (! users.empty())
+                return Message::error ("edit/in_use", {}, "the subgraph " + quote (c.name) + " is the type of " + users, "remove these nodes first");
         }
-        AddSubgraph back { c.name, std::move (at->second), placeOf (at, graph.graphs) };
-        graph.graphs.erase (at);
+        AddSubgraph back { c.name, std::move (it->second), placeOf (it, graph.graphs) };
+        graph.graphs.erase (it);
         return back;
     }
 
-    Result operator() (const RenameSubgraph& c)
+    Inverse operator() (const RenameSubgraph& c)
     {
-        const auto at = std::ranges::find (graph.graphs, c.name, [] (const auto& g) -> const std::string&
+        const auto it = std::ranges::find (graph.graphs, c.name, [] (const auto& g) -> const std::string&
                                            { return g.first; });
-        if (at == graph.graphs.end()) return noPatch (c.name);
-        if (graph.find (c.to) != nullptr || ! usersOf (c.to).empty()) return taken ("a subgraph, or a node of one,", c.to);
+        if (it == graph.graphs.end()) return noPatch (c.name);
+        if (graph.find (c.to) != nullptr || ! usersOf (c.to).empty()) return subgraphTaken (c.to);
         if (checked() && ! isId (c.to)) return badId (c.to);
-        at->first = c.to;
+        it->first = c.to;
         const auto follow = [&] (Patch& patch)
         {
             for (auto& node : patch.nodes)
@@ -324,22 +336,22 @@ public:
         return RenameSubgraph { c.to, c.name };
     }
 
-    Result operator() (const CollapseNodes& c)
+    Inverse operator() (const CollapseNodes& c)
     {
         auto* patch = find (c.patch);
         if (patch == nullptr) return noPatch (c.patch);
         for (const auto& name : c.nodes)
             if (patch->find (name) == nullptr) return noNode (c.patch, name);
-        if (c.nodes.empty()) return refused ("edit/bad_value", "there are no nodes to collapse");
+        if (c.nodes.empty()) return Message::error ("edit/bad_value", {}, "there are no nodes to collapse");
         if (patch->find (c.name) != nullptr) return taken ("a node", c.name);
-        if (graph.find (c.subgraph) != nullptr || ! usersOf (c.subgraph).empty()) return taken ("a subgraph, or a node of one,", c.subgraph);
+        if (graph.find (c.subgraph) != nullptr || ! usersOf (c.subgraph).empty()) return subgraphTaken (c.subgraph);
         for (const auto& name : { c.name, c.subgraph })
             if (! isId (name)) return badId (name);
         return regrouped ([&]
                           { return collapse (graph, c); });
     }
 
-    Result operator() (const ExpandNode& c)
+    Inverse operator() (const ExpandNode& c)
     {
         auto* patch = find (c.patch);
         if (patch == nullptr) return noPatch (c.patch);
@@ -348,7 +360,7 @@ public:
                           { return expand (graph, c); });
     }
 
-    Result operator() (const ReplaceGraph& c)
+    Inverse operator() (const ReplaceGraph& c)
     {
         auto before = std::make_shared<Graph> (std::move (graph));
         graph = *c.to;
@@ -356,68 +368,71 @@ public:
     }
 
     //==============================================================================
-    Result operator() (const SetDevice& c)
+    Inverse operator() (const SetDevice& c)
     {
         if (checked() && c.description)
         {
             if (! isId (c.role)) return badId (c.role);
-            if (! c.description->is_object()) return refused ("file/wrong_kind", "the description of a device should be an object, {…}");
-            if (auto wrong = problemOf (*c.description)) return refused ("edit/bad_value", *wrong);
+            if (! c.description->is_object()) return Message::error ("file/wrong_kind", {}, "the description of a device should be an object, {…}");
+            if (auto fits = checkValue (*c.description); ! fits) return std::move (fits).error();
         }
-        const auto at = std::ranges::find (graph.devices, c.role, [] (const auto& d) -> const std::string&
+        const auto it = std::ranges::find (graph.devices, c.role, [] (const auto& d) -> const std::string&
                                            { return d.first; });
         SetDevice back { c.role };
-        if (at == graph.devices.end())
+        if (it == graph.devices.end())
         {
-            if (! c.description) return refused ("edit/unknown_device", "there is no device for the role " + inQuotes (c.role));
+            if (! c.description) return Message::error ("edit/unknown_device", {}, "there is no device for the role " + quote (c.role));
             graph.devices.emplace (iteratorAt (graph.devices, c.place), c.role, *c.description);
         }
         else if (c.description)
-            back.description = std::exchange (at->second, *c.description);
+            back.description = std::exchange (it->second, *c.description);
         else
         {
-            back.description = std::move (at->second);
-            back.place = placeOf (at, graph.devices);
-            graph.devices.erase (at);
+            back.description = std::move (it->second);
+            back.place = placeOf (it, graph.devices);
+            graph.devices.erase (it);
         }
         return back;
     }
 
-    Result operator() (const SetHeader& c)
+    Inverse operator() (const SetHeader& c)
     {
         auto* patch = find (c.patch);
         if (patch == nullptr) return noPatch (c.patch);
-        if (! c.patch.empty() && (c.name || c.about || c.tags || c.rate_hz)) return refused ("edit/bad_value", "a subgraph has no name, text, tags or rate of its own", "set them in the graph");
+        if (! c.patch.empty() && (c.name || c.about || c.tags || c.rate_hz))
+            return Message::error ("edit/bad_value", {}, "a subgraph has no name, description, tags or rate of its own", "set them in the graph");
         if (checked())
         {
-            if (c.rate_hz && ! (*c.rate_hz > 0.0 && std::isfinite (*c.rate_hz))) return refused ("file/bad_value", "the rate should be a finite number of Hz above 0", "4000 suits most devices");
-            if (c.ui && ! c.ui->is_null() && ! c.ui->is_object()) return refused ("file/wrong_kind", "'ui' should be an object, {…}");
+            if (c.rate_hz && ! (*c.rate_hz > 0.0 && std::isfinite (*c.rate_hz)))
+                return Message::error ("file/bad_value", {}, "the rate should be a finite number of Hz above 0", "4000 suits most devices");
+            if (c.ui && ! c.ui->is_null() && ! c.ui->is_object()) return Message::error ("file/wrong_kind", {}, "'ui' should be an object, {…}");
             if (c.ui)
-                if (auto wrong = problemOf (*c.ui)) return refused ("edit/bad_value", *wrong);
+                if (auto fits = checkValue (*c.ui); ! fits) return std::move (fits).error();
         }
         SetHeader back { c.patch };
         if (c.name) back.name = std::exchange (graph.name, *c.name);
         if (c.about) back.about = std::exchange (graph.about, *c.about);
         if (c.tags) back.tags = std::exchange (graph.tags, *c.tags);
         if (c.rate_hz) back.rate_hz = std::exchange (graph.rate_hz, *c.rate_hz);
-        if (c.ui)   // its place does not matter: it is written last
-            back.ui = exchangeMember (c.patch.empty() ? graph.extra : patch->extra, "ui", c.ui->is_null() ? std::nullopt : c.ui, std::nullopt).value.value_or (Json());
+        if (c.ui)   // its place does not matter, because it is written last
+            back.ui = exchangeMember (c.patch.empty() ? graph.extra : patch->extra, "ui", c.ui->is_null() ? std::nullopt : c.ui, std::nullopt)
+                          .value.value_or (Json());
         return back;
     }
 
-    Result operator() (const Batch& c)
+    Inverse operator() (const Batch& c)
     {
         Batch back { c.name, {} };
         for (const auto& command : c.commands)
         {
-            auto result = apply (graph, command, checks);
-            if (auto* message = std::get_if<Message> (&result))
+            auto inverse = apply (graph, command, checks);
+            if (! inverse)
             {
                 std::ranges::reverse (back.commands);
                 takeBack (back.commands);
-                return std::move (*message);
+                return inverse;
             }
-            back.commands.push_back (std::move (std::get<Command> (result)));
+            back.commands.push_back (*std::move (inverse));
         }
         std::ranges::reverse (back.commands);
         return back;
@@ -429,33 +444,33 @@ private:
     Patch* find (const std::string& name)
     {
         if (name.empty()) return &graph.root;
-        const auto at = std::ranges::find (graph.graphs, name, [] (const auto& g) -> const std::string&
+        const auto it = std::ranges::find (graph.graphs, name, [] (const auto& g) -> const std::string&
                                            { return g.first; });
-        return at == graph.graphs.end() ? nullptr : &at->second;
+        return it == graph.graphs.end() ? nullptr : &it->second;
     }
 
     static Node* find (Patch& patch, const std::string& name)
     {
-        const auto at = std::ranges::find (patch.nodes, name, &Node::name);
-        return at == patch.nodes.end() ? nullptr : &*at;
+        const auto it = std::ranges::find (patch.nodes, name, &Node::name);
+        return it == patch.nodes.end() ? nullptr : &*it;
     }
 
     std::vector<Control>::iterator findControl (const std::string& id) { return std::ranges::find (graph.controls, id, &Control::id); }
 
     template <typename C>
-    Result setMember (const C& c, Json Node::*object, std::string C::*key)
+    Inverse setMember (const C& c, Json Node::*object, std::string C::*key)
     {
         auto* patch = find (c.patch);
         if (patch == nullptr) return noPatch (c.patch);
         auto* node = find (*patch, c.node);
         if (node == nullptr) return noNode (c.patch, c.node);
         if (checked() && c.value)
-            if (auto wrong = problemOf (*c.value)) return refused ("edit/bad_value", *wrong);
+            if (auto fits = checkValue (*c.value); ! fits) return std::move (fits).error();
         auto old = exchangeMember (node->*object, c.*key, c.value, c.place);
         return C { c.patch, c.node, c.*key, std::move (old.value), old.place };
     }
 
-    /// The nodes of a subgraph, but for those inside of it, as a sentence lists them.
+    /// Lists the nodes that use a subgraph, except those inside it.
     std::string usersOf (const std::string& subgraph) const
     {
         std::string users;
@@ -471,27 +486,28 @@ private:
         return users;
     }
 
-    /// Carries out an edit that touches much, all of it or nothing.
+    /// Carries out an edit that touches much of the graph, completely or not at all.
     template <typename Edit>
-    Result regrouped (Edit edit)
+    Inverse regrouped (Edit edit)
     {
         auto before = std::make_shared<Graph> (graph);
-        auto problem = edit();
-        if (! problem && checked() && anythingTwice()) problem = refused ("edit/name_taken", "a control or an override would refer to one thing twice");
-        if (! problem) return ReplaceGraph { std::move (before) };
+        auto done = edit();
+        if (done && checked() && anythingTwice())
+            done = Message::error ("edit/name_taken", {}, "a control or an override would refer to the same parameter twice");
+        if (done) return ReplaceGraph { std::move (before) };
         graph = std::move (*before);
-        return std::move (*problem);
+        return std::move (done).error();
     }
 
-    /// Carries out what undoes a half-done edit.
+    /// Undoes a half-done edit.
     void takeBack (const std::vector<Command>& commands)
     {
         for (const auto& command : commands)
-            apply (graph, command, Checks::none);
+            (void)apply (graph, command, Checks::none);
     }
 
     //==============================================================================
-    /// A node that a path begins with and that is not there.
+    /// Reports the first node of a path if it does not exist.
     std::optional<Message> problem (const Patch& patch, const std::string& in, std::string_view path) const
     {
         const auto name = std::string (path.substr (0, path.find_first_of ("[/.")));
@@ -510,7 +526,9 @@ private:
     {
         if (auto wrong = check (control); ! wrong.empty()) return wrong.front();
         for (const auto& target : control.to)
-            if (auto wrong = problem (graph.root, "", std::string_view (target.path).substr (std::min (target.path.size(), target.path.find_first_not_of (" \t\r\n"))))) return wrong;
+            if (auto wrong =
+                    problem (graph.root, "", std::string_view (target.path).substr (std::min (target.path.size(), target.path.find_first_not_of (" \t\r\n")))))
+                return wrong;
         return std::nullopt;
     }
 
@@ -519,7 +537,7 @@ private:
         const auto in = [] (const Patch& patch)
         {
             return std::ranges::any_of (patch.nodes, [] (const Node& n)
-                                        { return ! n.overrides.empty() && problemOf (n.overrides); });
+                                        { return ! n.overrides.empty() && ! checkValue (n.overrides); });
         };
         return std::ranges::any_of (graph.controls, hasTwice) || in (graph.root)
                || std::ranges::any_of (graph.graphs, [&] (const auto& g)
@@ -542,20 +560,39 @@ private:
         return ids;
     }
 
-    static std::string inside (const std::string& patch) { return patch.empty() ? "" : " in the subgraph " + inQuotes (patch); }
-    static Message noPatch (const std::string& name) { return refused ("edit/unknown_patch", "there is no subgraph " + inQuotes (name)); }
-    static Message noNode (const std::string& patch, const std::string& name) { return refused ("edit/unknown_node", "there is no node " + inQuotes (name) + inside (patch)); }
-    static Message noWire (const std::string& patch) { return refused ("edit/unknown_wire", "the wire is not there any more" + inside (patch)); }
-    static Message noControl (const std::string& id) { return refused ("edit/unknown_control", "there is no control " + inQuotes (id)); }
-    static Message badId (const std::string& id) { return refused ("graph/bad_id", inQuotes (id) + " is not an id", "ids are small letters, digits and _, and begin with a letter"); }
-    static Message taken (const std::string& what, const std::string& name) { return refused ("edit/name_taken", what + " called " + inQuotes (name) + " is there already", "choose another name"); }
-    static Message idTaken (const std::string& what, const std::string& name) { return refused ("edit/id_taken", "the " + what + ' ' + inQuotes (name) + " has the id of another that is in the graph", "give a copy an id of its own with newId()"); }
+    static std::string inside (const std::string& patch) { return patch.empty() ? "" : " in the subgraph " + quote (patch); }
+    static Message noPatch (const std::string& name) { return Message::error ("edit/unknown_patch", {}, "there is no subgraph " + quote (name)); }
+    static Message noNode (const std::string& patch, const std::string& name)
+    {
+        return Message::error ("edit/unknown_node", {}, "there is no node " + quote (name) + inside (patch));
+    }
+    static Message noWire (const std::string& patch) { return Message::error ("edit/unknown_wire", {}, "the wire no longer exists" + inside (patch)); }
+    static Message noControl (const std::string& id) { return Message::error ("edit/unknown_control", {}, "there is no control " + quote (id)); }
+    static Message badId (const std::string& id)
+    {
+        return Message::error ("graph/bad_id", {}, quote (id) + " is not an id", "ids consist of lower-case letters, digits and _, and begin with a letter");
+    }
+    static Message taken (const std::string& what, const std::string& name)
+    {
+        return Message::error ("edit/name_taken", {}, what + " called " + quote (name) + " already exists", "choose another name");
+    }
+    static Message subgraphTaken (const std::string& name)
+    {
+        return Message::error ("edit/name_taken", {},
+                               "a subgraph called " + quote (name) + ", or a node that uses a subgraph called " + quote (name) + ", already exists",
+                               "choose another name");
+    }
+    static Message idTaken (const std::string& what, const std::string& name)
+    {
+        return Message::error ("edit/id_taken", {}, "the " + what + ' ' + quote (name) + " has the id of another one in the graph",
+                               "give the copy a new id with newId()");
+    }
 
     Graph& graph;
     Checks checks;
 };
 }   // namespace
 
-Result apply (Graph& graph, const Command& command, Checks checks) { return std::visit (Editor (graph, checks), command.edit); }
+Result<Command> apply (Graph& graph, const Command& command, Checks checks) { return std::visit (Editor (graph, checks), command.edit); }
 
 }   // namespace tactus::graph

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The only way to change a graph: commands, each a plain struct that can be kept, sent and undone. A command names its
-/// patch ("" is the graph itself, else a subgraph) and its nodes by name; wires go by id, since two may look alike.
+/// Commands are the only way to change a graph. Each is a plain struct that can be stored, sent and undone. A command names its
+/// patch ("" for the graph itself, else a subgraph) and its nodes; wires are identified by id, because two may look the same.
 ///
-/// Ids of the messages of refused edits, besides those of graph files (bad ids, wrong kinds, units):
+/// Errors of refused edits, in addition to those of graph files (bad ids, wrong kinds, units):
 ///
 ///     edit/unknown_patch, edit/unknown_node, edit/unknown_wire, edit/unknown_control, edit/unknown_device
-///     edit/name_taken       a node, control, subgraph or target of that name is there already
-///     edit/id_taken         a node or wire was copied with its id; give it a new one
-///     edit/in_use           a subgraph that nodes still have as their type
-///     edit/cannot_expand    a node of no subgraph, or one whose subgraph does not stand in its place as it is
-///     edit/bad_value        a key that this command cannot set, or a value that a file could not hold
+///     edit/name_taken       a node, control, subgraph or target of that name already exists
+///     edit/id_taken         a node or wire was copied with its id; give the copy a new one
+///     edit/in_use           nodes still use the subgraph as their type
+///     edit/cannot_expand    the node is not a subgraph, or its contents cannot replace it as they are
+///     edit/bad_value        the command cannot set this key, or a file could not hold the value
 
 #include "graph.hpp"
 
-#include <framework/message.hpp>
+#include <framework/text/result.hpp>
 
 #include <concepts>
 #include <cstddef>
@@ -29,7 +29,7 @@
 namespace tactus::graph
 {
 
-/// A place in a list or object; none, or beyond the end, is the end.
+/// An index in a list or object. None, or an index beyond the end, means the end.
 using Place = std::optional<std::size_t>;
 
 struct AddNode
@@ -39,21 +39,21 @@ struct AddNode
     Place place {};
 };
 
-/// With the node go its wires, the ports it shows, its overrides and the targets of controls on it, wherever they are.
+/// Also removes everything that refers to the node: wires, exposed ports, overrides and targets of controls, anywhere in the graph.
 struct RemoveNode
 {
     std::string patch, name;
-    bool only_node = false;   ///< leave what refers to it: for the way back
+    bool only_node = false;   ///< keep the references to the node; used by inverse commands
 };
 
-/// Whatever refers to the node follows, also through instances of its subgraph ("grain/wave.phase").
+/// Also renames all references to the node, including those through instances of its subgraph ("grain/wave.phase").
 struct RenameNode
 {
     std::string patch, name, to;
     bool only_node = false;
 };
 
-/// Without a value, the parameter goes back to its default.
+/// Without a value, resets the parameter to its default.
 struct SetParam
 {
     std::string patch, node, param;
@@ -68,7 +68,7 @@ struct SetSetting
     Place place {};
 };
 
-/// A parameter inside a subgraph node, under its key among the overrides: "drag.mu", or "[3]/drag.mu" of one instance.
+/// Sets a parameter inside a subgraph node, by its key in the overrides: "drag.mu", or "[3]/drag.mu" for one instance.
 struct SetOverride
 {
     std::string patch, node, path;
@@ -76,7 +76,7 @@ struct SetOverride
     Place place {};
 };
 
-/// Any other key of a node: type, role, roles, bypass, overrides, count, every, times, hold, ui, and unknown ones.
+/// Sets any other key of a node: type, role, roles, bypass, overrides, count, every, times, hold, ui, and unknown ones.
 struct SetNodeKey
 {
     std::string patch, node, key;
@@ -97,7 +97,7 @@ struct RemoveWire
     Id wire {};
 };
 
-/// The wire keeps its id, whatever `to` says.
+/// The wire keeps its id; the id in `to` is ignored.
 struct ChangeWire
 {
     std::string patch;
@@ -139,27 +139,28 @@ struct RenameSubgraph
     std::string name, to;
 };
 
-/// Nodes of a patch, with the wires among them, become a new subgraph, and one node of it takes their place. Wires from
-/// outside reach them through ports that it shows; whatever else names them follows. Nodes and wires keep their ids.
+/// Moves nodes of a patch, with the wires between them, into a new subgraph, and replaces them by one node of it. Wires from
+/// outside reach them through exposed ports; all other references are adapted. Nodes and wires keep their ids.
 struct CollapseNodes
 {
     std::string patch;
     std::vector<std::string> nodes;
-    std::string name;       ///< of the node
-    std::string subgraph;   ///< that it is of
+    std::string name;       ///< name of the new node
+    std::string subgraph;   ///< name of the new subgraph
 };
 
-/// The reverse: what is in its subgraph takes the node's place, with the params, overrides and roles that the node gave
-/// it. A subgraph that no other node is of goes; of one that is shared, copies are made, which know their origin. A node
-/// whose name is taken outside is given another one that begins with the name of the subgraph node. A node with a `count`
-/// becomes a node for each instance, "finger_0", "finger_1" …, which can be expanded one by one; a wire from all of them
-/// becomes as many, which compile refuses (wire/two_into_one) where their sum went into a port for a single one.
+/// The reverse: replaces a subgraph node by the contents of its subgraph, with the params, overrides and roles of the node applied.
+/// Removes the subgraph if no other node uses it. If it is shared, its nodes and wires are copied, and the copies record their
+/// origin. A node whose name is taken outside gets a new one that begins with the name of the subgraph node. A node with a
+/// `count` becomes one node per instance, "finger_0", "finger_1" …, each of which can be expanded in turn. A wire from all
+/// instances becomes one wire per instance; compile rejects these (wire/two_into_one) if their sum went into a port that takes
+/// a single wire.
 struct ExpandNode
 {
     std::string patch, name;
 };
 
-/// All of it: the way back from edits that change much. Nodes and wires that were there under the same ids are the same.
+/// Replaces the whole graph; the inverse of edits that change much of it. Nodes and wires with the same ids count as the same.
 struct ReplaceGraph
 {
     std::shared_ptr<const Graph> to;
@@ -171,7 +172,7 @@ struct ChangeExpose
     Expose to;
 };
 
-/// Without a description, the role has none any more.
+/// Without a description, removes the device of the role.
 struct SetDevice
 {
     std::string role;
@@ -179,7 +180,7 @@ struct SetDevice
     Place place {};
 };
 
-/// What is given is set. A subgraph has nothing but `ui`; null removes it.
+/// Sets the values that are present. A subgraph has only `ui`; null removes it.
 struct SetHeader
 {
     std::string patch {};
@@ -191,17 +192,20 @@ struct SetHeader
 
 struct Command;
 
-/// All of it or nothing, as one step of undo.
+/// Carries out all commands or none, as one undo step.
 struct Batch
 {
     std::string name;
     std::vector<Command> commands;
 };
 
-/// Any of these. No variant itself, since apply would then find std::apply.
+/// Any of these commands. It is not itself a variant, because a call of `apply` would then find std::apply.
 struct Command
 {
-    using Edit = std::variant<AddNode, RemoveNode, RenameNode, SetParam, SetSetting, SetOverride, SetNodeKey, AddWire, RemoveWire, ChangeWire, AddControl, RemoveControl, ChangeControl, AddSubgraph, RemoveSubgraph, RenameSubgraph, CollapseNodes, ExpandNode, ReplaceGraph, ChangeExpose, SetDevice, SetHeader, Batch>;
+    using Edit = std::variant<AddNode, RemoveNode, RenameNode, SetParam, SetSetting, SetOverride, SetNodeKey,                       //
+                              AddWire, RemoveWire, ChangeWire, AddControl, RemoveControl, ChangeControl,                            //
+                              AddSubgraph, RemoveSubgraph, RenameSubgraph, CollapseNodes, ExpandNode, ReplaceGraph, ChangeExpose,   //
+                              SetDevice, SetHeader, Batch>;
 
     template <typename T>
     requires (! std::same_as<T, Command>)
@@ -212,19 +216,18 @@ struct Command
     Edit edit;
 };
 
-/// A command from outside is checked. An inverse is not: it brings back what was there, right or wrong.
+/// Commands from outside are checked. Inverse commands are not: they restore the previous state, valid or not.
 enum class Checks
 {
     all,
     none
 };
 
-/// Carries out a command. Returns the command that takes it back, or why it is refused; then the graph is as it was.
-/// After the inverse (with Checks::none) the graph is the same again, byte for byte in its file, with the same ids.
-/// [main thread]
-std::variant<Command, Message> apply (Graph&, const Command&, Checks = Checks::all);
+/// Carries out a command and returns its inverse. On an error, leaves the graph unchanged. After the inverse (with Checks::none)
+/// the graph is the same as before, byte for byte in its file, with the same ids. [main thread]
+Result<Command> apply (Graph&, const Command&, Checks = Checks::all);
 
-/// What a menu says: "rename 'drag' to 'stick'"; the name of a batch.
+/// The text for a menu: "rename 'drag' to 'stick'". For a batch, its name.
 std::string nameOf (const Command&);
 
 }   // namespace tactus::graph

@@ -3,7 +3,7 @@
 
 #include "text.hpp"
 
-#include <framework/file/json_text.hpp>
+#include <framework/text/json_text.hpp>
 
 #include <algorithm>
 
@@ -25,12 +25,15 @@ public:
             inPatch (patch);
         for (auto& control : graph.controls)
             for (auto& target : control.to)
-                if (auto parsed = parseEndpoint (target.path); auto* e = std::get_if<Endpoint> (&parsed))
+                if (auto e = parseEndpoint (target.path))
                     if (follow (*e, &graph.root, Side::param)) target.path = toText (*e);
     }
 
 private:
-    const Patch* subgraphOf (const Node* n) const { return n != nullptr && n->type.starts_with ("graph:") ? graph.find (std::string_view (n->type).substr (6)) : nullptr; }
+    const Patch* subgraphOf (const Node* n) const
+    {
+        return n != nullptr && n->type.starts_with ("graph:") ? graph.find (std::string_view (n->type).substr (6)) : nullptr;
+    }
 
     /// True if the endpoint was rewritten.
     bool follow (Endpoint& e, const Patch* from, Side side, std::size_t begin = 0)
@@ -71,10 +74,9 @@ private:
         bool touched = false;
         for (const auto& [key, value] : n.overrides.items())
         {
-            auto parsed = parseOverride (key);
-            auto* e = std::get_if<Endpoint> (&parsed);
-            const auto begin = e != nullptr && e->node.starts_with ('[') ? e->node.find ('/') + 1 : 0;
-            const bool rewritten = e != nullptr && follow (*e, inside, Side::param, begin);
+            auto e = parseOverride (key);
+            const auto begin = e && e->node.starts_with ('[') ? e->node.find ('/') + 1 : 0;
+            const bool rewritten = e && follow (*e, inside, Side::param, begin);
             touched = touched || rewritten;
             append (changed, rewritten ? toText (*e) : key, value);
         }

@@ -9,15 +9,15 @@
 namespace tactus::graph
 {
 
-/// What an endpoint may stand for.
+/// What kind of port an endpoint refers to.
 enum class Side
 {
-    start,   ///< of a wire, or an output that is shown
-    end,     ///< of a wire, or an input that is shown
-    param    ///< of controls, overrides, and params that are shown
+    start,   ///< start of a wire, or exposed output
+    end,     ///< end of a wire, or exposed input
+    param    ///< param of a control, override or exposed param
 };
 
-/// A name on the way of an endpoint's path: in which patch it is looked up, and where it stands.
+/// A name in the path of an endpoint: the patch in which it is looked up, and its position.
 struct Waypoint
 {
     const Patch* patch;
@@ -26,11 +26,11 @@ struct Waypoint
     std::size_t begin, end;   ///< in Endpoint::node
 };
 
-/// Calls `visit` for each name on the way of each endpoint in a graph, from the outside in, until it returns false. It may
-/// rewrite the endpoint, and then is not asked about the rest of that path.
+/// Calls `visit` for each name in the path of each endpoint of a graph, from the outside in, until it returns false. If `visit`
+/// rewrites the endpoint, the rest of that path is skipped.
 void forEachEndpoint (Graph&, const std::function<bool (Endpoint&, const Waypoint&)>& visit);
 
-/// "grain" of "grain[2]/wave".
+/// Returns "grain" for "grain[2]/wave".
 std::string firstNameOf (const std::string& path);
 
 }   // namespace tactus::graph

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// A graph as people edit and save it: plain data, in the order it was written. Nothing here has been checked against
-/// the catalogue; framework/plan/compile.hpp does that. Change a graph only through framework/graph/edit.hpp.
+/// A graph as people edit and save it: plain data, in the order it was written. It is not checked against the catalogue; that
+/// happens in framework/plan/compile.hpp. Change a graph only through framework/graph/edit.hpp.
 
-#include <framework/json.hpp>
+#include <framework/text/json.hpp>
 
 #include <cstdint>
 #include <map>
@@ -16,13 +16,13 @@
 namespace tactus::graph
 {
 
-/// Identity for life. Names only address; state follows the id through rename and regrouping. Unique in a process,
+/// A permanent identity. Names are only addresses; state follows the id through renaming and regrouping. Unique in a process,
 /// not written to files.
 using Id = std::uint64_t;
 
 Id newId() noexcept;   // [any thread]
 
-/// What a copy was made from, or a node that stands for several; then which of them.
+/// The node or wire that a copy was made from; for one of several instances, also its number.
 struct Ancestor
 {
     Id id = 0;
@@ -34,7 +34,7 @@ struct Ancestor
 /// One end of a wire or a port address: `node.port`, `in[2]`, `position.x`, `finger[3].x`, `grain/wave.phase`.
 struct Endpoint
 {
-    std::string node;   ///< path: names joined by '/', each perhaps with an instance "[3]" or "[*]"
+    std::string node;   ///< path: names joined by '/', each with an optional instance "[3]" or "[*]"
     std::string port;
     int index = -1;       ///< entry of an array port, -1 for none
     int component = -1;   ///< 0, 1, 2 for .x, .y, .z; -1 for the whole port
@@ -45,22 +45,22 @@ struct Endpoint
 struct Wire
 {
     Id id = newId();
-    std::vector<Ancestor> origin {};   ///< of a copy that expanding made: the subgraph nodes around what it is a copy of, and that; state follows
+    std::vector<Ancestor> origin {};   ///< for a copy made by expanding: the subgraph nodes that enclose the original, then the original; state follows it
     Endpoint from, to;
     int delay = 0;                 ///< ticks; 0 is no delay
-    bool add = false;              ///< `(+)`: onto a parameter's stored value instead of replacing it
+    bool add = false;              ///< `(+)`: adds to the stored value of a parameter instead of replacing it
     Json gain;                     ///< as written: null, a number, or a string with a unit
-    std::optional<bool> enabled;   ///< as written; a wire is enabled unless it says otherwise
+    std::optional<bool> enabled;   ///< as written; a wire is enabled by default
     Json extra = Json::object();   ///< `ui` and unknown keys
 };
 
 struct Node
 {
     Id id = newId();
-    std::vector<Ancestor> origin {};   ///< as of a wire
+    std::vector<Ancestor> origin {};   ///< as for a wire
     std::string name;
     std::string type;               ///< id in the catalogue, "graph:NAME" or "file:path.json"
-    std::string role;               ///< of a device node
+    std::string role;               ///< for a device node
     Json params = Json::object();   ///< values as written, so that "0.4 mm" stays "0.4 mm"
     Json settings = Json::object();
     Json roles;                        ///< subgraph: inner role to outer role
@@ -69,7 +69,7 @@ struct Node
     Json extra = Json::object();   ///< `count`, `every`, `times`, `hold`, and unknown keys
 };
 
-/// What a subgraph shows of its inside, in order.
+/// The ports that a subgraph exposes, in order.
 struct Expose
 {
     std::vector<std::pair<std::string, Endpoint>> inputs, outputs, params;
@@ -112,7 +112,7 @@ struct Graph
     std::vector<std::pair<std::string, Patch>> graphs;   ///< subgraphs by name
     Json extra = Json::object();                         ///< `ui` and unknown keys
 
-    std::string folder;                                          ///< where relative paths start; not saved
+    std::string folder;                                          ///< base of relative paths; not saved
     std::map<std::string, std::shared_ptr<const Graph>> files;   ///< loaded "file:" subgraphs by path as written; not saved
 
     const Patch* find (std::string_view subgraph) const noexcept;

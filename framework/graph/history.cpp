@@ -6,7 +6,7 @@ namespace tactus::graph
 
 namespace
 {
-/// Of many values for one parameter only the last is worth keeping. Returns whether the earlier command took it over.
+/// Replaces the value of the earlier command if both set the same parameter. Returns true if it did.
 bool merge (Command& earlier, const Command& later)
 {
     auto* a = std::get_if<SetParam> (&earlier.edit);
@@ -17,11 +17,10 @@ bool merge (Command& earlier, const Command& later)
 }
 }   // namespace
 
-std::optional<Message> History::perform (Command command, Step step)
+Result<> History::perform (Command command, Step step)
 {
-    auto result = apply (edited, command);
-    if (auto* refused = std::get_if<Message> (&result)) return std::move (*refused);
-    auto& inverse = std::get<Command> (result);
+    auto inverse = apply (edited, command);
+    if (! inverse) return std::move (inverse).error();
 
     steps.erase (steps.begin() + static_cast<std::ptrdiff_t> (done), steps.end());
     if (step == Step::own || steps.empty())
@@ -30,10 +29,10 @@ std::optional<Message> History::perform (Command command, Step step)
         ++done;
     }
     auto& last = steps.back();
-    if (! last.commands.empty() && merge (last.commands.back(), command)) return std::nullopt;
+    if (! last.commands.empty() && merge (last.commands.back(), command)) return {};
     last.commands.push_back (std::move (command));
-    last.inverses.push_back (std::move (inverse));
-    return std::nullopt;
+    last.inverses.push_back (*std::move (inverse));
+    return {};
 }
 
 bool History::undo()
@@ -41,7 +40,7 @@ bool History::undo()
     if (done == 0) return false;
     auto& [name, commands, inverses] = steps[--done];
     for (auto i = inverses.size(); i-- > 0;)
-        commands[i] = std::get<Command> (apply (edited, inverses[i], Checks::none));   // the way forth again, to the same ids
+        commands[i] = *apply (edited, inverses[i], Checks::none);   // redoing it brings back the same ids
     return true;
 }
 
@@ -49,7 +48,7 @@ bool History::redo()
 {
     if (done == steps.size()) return false;
     for (const auto& command : steps[done++].commands)
-        apply (edited, command, Checks::none);
+        (void)apply (edited, command, Checks::none);
     return true;
 }
 

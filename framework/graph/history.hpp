@@ -6,16 +6,15 @@
 namespace tactus::graph
 {
 
-/// Whether an edit is a step of its own, or goes on with the last one: a knob that is turned sends hundreds of values,
-/// and undo should take back the turn.
+/// Whether an edit is its own undo step, or joins the last one. Turning a knob sends hundreds of values, which undo should
+/// revert together.
 enum class Step
 {
     own,
     joined
 };
 
-/// A graph with all that was done to it. The graph is changed through here only, so undo and redo cannot fail.
-/// [main thread]
+/// A graph with its undo history. The graph changes only through this class, so undo and redo cannot fail. [main thread]
 class History
 {
 public:
@@ -23,13 +22,13 @@ public:
 
     const Graph& graph() const noexcept { return edited; }
 
-    /// Carries out a command; what was undone before can then not be redone. Returns why it was refused, if it was.
-    std::optional<Message> perform (Command, Step = Step::own);
+    /// Carries out a command and discards the steps that could be redone. Fails if the command is refused.
+    Result<> perform (Command, Step = Step::own);
 
     bool undo();   ///< false if there is nothing to undo
     bool redo();
 
-    /// The steps by name, the oldest first; those that are undone come after position().
+    /// The names of the steps, oldest first. The undone ones come after position().
     std::vector<std::string> names() const;
     std::size_t position() const noexcept { return done; }
 
@@ -37,7 +36,7 @@ private:
     struct Done
     {
         std::string name;
-        std::vector<Command> commands, inverses;   ///< one each for every edit of the step, in the order they were done
+        std::vector<Command> commands, inverses;   ///< one of each per edit of the step, in order
     };
 
     Graph edited;

@@ -9,7 +9,7 @@ namespace tactus::graph
 
 namespace
 {
-/// Every node and wire, in the order of the file.
+/// Visits every node and wire, in file order.
 template <typename Graph, typename Visit>
 void forEach (Graph& graph, Visit visit)
 {
@@ -27,7 +27,10 @@ void forEach (Graph& graph, Visit visit)
 
 bool isId (const Json& value) { return value.is_number_unsigned(); }
 
-bool isAncestor (const Json& value) { return value.is_array() && value.size() == 2 && isId (value[0]) && isId (value[1]) && value[1].get<Id>() < static_cast<Id> (most_instances); }
+bool isAncestor (const Json& value)
+{
+    return value.is_array() && value.size() == 2 && isId (value[0]) && isId (value[1]) && value[1].get<Id>() < static_cast<Id> (most_instances);
+}
 
 bool isEntry (const Json& value)
 {

@@ -6,12 +6,11 @@
 namespace tactus::graph
 {
 
-/// The ids of all nodes and wires of a graph, without those of the files it includes, in the order in which they stand in
-/// its file, which does not hold them. What is a copy comes as a list of its id and its
-/// origin, which is a list of ids, each with the number of an instance.
+/// The ids of all nodes and wires of a graph, in file order, without those of included files. (The file itself does not hold ids.)
+/// A copy is stored as a list of its id and its origin; the origin is a list of pairs of an id and an instance number.
 Json idsOf (const Graph&);
 
-/// Gives a graph that was read from its file the ids it had. False if there are not as many, or they are none.
+/// Restores the ids of a graph that has been read from its file again. Returns false if their number differs, or they are not ids.
 bool giveIds (Graph&, const Json&);
 
 }   // namespace tactus::graph

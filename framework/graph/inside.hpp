@@ -6,7 +6,7 @@
 namespace tactus::graph
 {
 
-/// What a node stands for that is a subgraph, and the graph that is written in.
+/// The patch inside a subgraph node, and the graph that contains the patch.
 struct Inside
 {
     const Graph* owner = nullptr;
@@ -15,7 +15,7 @@ struct Inside
     explicit operator bool() const noexcept { return patch != nullptr; }
 };
 
-/// Nothing for a node of the catalogue, and where the subgraph or file is not there.
+/// Empty for a node of the catalogue, and if the subgraph or file does not exist.
 Inside insideOf (const Graph& owner, const Node&);
 
 }   // namespace tactus::graph

@@ -10,7 +10,7 @@ namespace tactus::graph
 
 namespace
 {
-/// What stands between brackets that `text` begins with, the brackets included; empty if it does not.
+/// The leading "[…]" of a string, with its brackets; empty if there is none.
 std::string_view bracketed (std::string_view text) noexcept { return text.starts_with ('[') ? text.substr (0, text.find (']') + 1) : std::string_view {}; }
 }   // namespace
 
@@ -31,17 +31,18 @@ PathStep firstStep (std::string_view path) noexcept
 
     const auto number = path.substr (bracket + 1, end - bracket - 2);
     step.instance = PathStep::all;
-    if (number != "*" && std::from_chars (number.data(), number.data() + number.size(), step.instance).ec != std::errc {}) step.instance = std::numeric_limits<int>::max();
+    if (number != "*" && std::from_chars (number.data(), number.data() + number.size(), step.instance).ec != std::errc {})
+        step.instance = std::numeric_limits<int>::max();
     return step;
 }
 
-int instancesSaid (std::string_view path) noexcept
+int namedInstances (std::string_view path) noexcept
 {
-    int said = 0;
+    int named = 0;
     path = path.substr (0, path.find ('.'));
     for (auto at = path.find ('['); at != std::string_view::npos; at = path.find ('[', at + 1))
-        said += ! path.substr (at).starts_with ("[*]");
-    return said;
+        named += ! path.substr (at).starts_with ("[*]");
+    return named;
 }
 
 std::optional<std::size_t> covers (std::string_view name, std::string_view text) noexcept

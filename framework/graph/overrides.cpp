@@ -3,7 +3,8 @@
 
 #include "instances.hpp"
 
-#include <framework/file/json_text.hpp>
+#include <framework/kit/at.hpp>
+#include <framework/text/json_text.hpp>
 
 #include <algorithm>
 
@@ -12,10 +13,10 @@ namespace tactus::graph
 
 namespace
 {
-/// An override as seen from outside its node.
+/// The path of an override as seen from outside its node.
 std::string absolute (const std::string& key) { return (key.starts_with ('[') ? "x" : "x/") + key; }
 
-/// True also for a component or an entry of what is covered.
+/// True if `by` covers the key, or the parameter whose component or entry the key names.
 bool covered (const std::string& key, const std::string& by)
 {
     const auto text = absolute (key);
@@ -24,14 +25,14 @@ bool covered (const std::string& key, const std::string& by)
 }
 }   // namespace
 
-std::vector<const Json::object_t::value_type*> byPrecedence (const Json& overrides)
+std::vector<const Json::Member*> byPrecedence (const Json& overrides)
 {
-    std::vector<const Json::object_t::value_type*> all;
+    std::vector<const Json::Member*> all;
     if (overrides.is_object())
-        for (const auto& entry : overrides.get_ref<const Json::object_t&>())
+        for (const auto& entry : overrides.asObject())
             all.push_back (&entry);
     std::ranges::stable_sort (all, {}, [] (const auto* entry)
-                              { return instancesSaid (entry->first); });
+                              { return namedInstances (entry->first); });
     return all;
 }
 
@@ -49,7 +50,7 @@ Json rolesOf (const Node& node, int instance)
     if (! node.roles.is_object()) return node.roles;
     auto roles = Json::object();
     for (const auto& [inner, outer] : node.roles.items())
-        append (roles, inner, outer.is_array() ? outer.at (static_cast<std::size_t> (instance)) : outer);
+        append (roles, inner, outer.is_array() ? outer.at (at (instance)) : outer);
     return roles;
 }
 

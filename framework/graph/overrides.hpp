@@ -9,15 +9,15 @@
 namespace tactus::graph
 {
 
-/// The `overrides` of a node, those that outrank others last: what names more single instances holds, wherever it stands.
-/// They point into it.
-std::vector<const Json::object_t::value_type*> byPrecedence (const Json& overrides);
+/// The `overrides` of a node in order of precedence, lowest first: those that name more single instances take precedence,
+/// whatever order they were written in. The pointers point into `overrides`.
+std::vector<const Json::Member*> byPrecedence (const Json& overrides);
 
-/// Gives the `overrides` of a node a value that outranks all that are there: what it covers goes, also where that named a
-/// single instance. The key is as of parseOverride.
+/// Adds an override that takes precedence over all existing ones: removes those it covers, even if they name a single instance.
+/// The key has the form that parseOverride reads.
 void giveOverride (Json& overrides, const std::string& key, const Json& value);
 
-/// The roles that a subgraph node gives to one of its instances.
+/// The role mapping of one instance of a subgraph node.
 Json rolesOf (const Node&, int instance);
 
 }   // namespace tactus::graph

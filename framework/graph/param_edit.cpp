@@ -5,35 +5,41 @@
 #include "instances.hpp"
 #include "text.hpp"
 
-#include <framework/in_quotes.hpp>
-#include <framework/refused.hpp>
+#include <framework/text/quote.hpp>
 
 #include <algorithm>
 
 namespace tactus::graph
 {
 
-std::variant<Command, Message> paramEdit (const Graph& graph, std::string_view name, std::optional<Json> value)
+Result<Command> paramEdit (const Graph& graph, std::string_view name, std::optional<Json> value)
 {
-    auto parsed = parseEndpoint (name);
-    if (auto* problem = std::get_if<std::string> (&parsed)) return refused ("param/name", *problem, "name a parameter, as in drag.mu");
-    auto& e = std::get<Endpoint> (parsed);
+    const auto parsed = parseEndpoint (name);
+    if (! parsed) return Message::error ("param/name", {}, parsed.error().text, "name a parameter, such as drag.mu");
+    const auto& e = *parsed;
     const auto step = firstStep (e.node);
     const auto* node = graph.root.find (step.name);
-    if (node == nullptr) return refused ("edit/unknown_node", "there is no node " + inQuotes (step.name), "name a node of the graph");
+    if (node == nullptr) return Message::error ("edit/unknown_node", {}, "there is no node " + quote (step.name), "name a node of the graph");
 
     const auto instance = step.instance >= 0 ? "[" + std::to_string (step.instance) + "]/" : "";
-    if (! step.rest.empty()) return SetOverride { "", node->name, instance + toText ({ std::string (step.rest), e.port, e.index, e.component }), std::move (value) };
+    if (! step.rest.empty())
+        return SetOverride { "", node->name, instance + toText ({ std::string (step.rest), e.port, e.index, e.component }), std::move (value) };
     if (instance.empty())
     {
-        if (e.index >= 0 || e.component >= 0) return refused ("param/shape", inQuotes (name) + " is a part of what is kept as a whole", "give all of " + node->name + "." + e.port);
+        if (e.index >= 0 || e.component >= 0)
+            return Message::error ("param/shape", {}, quote (name) + " is part of a value that is stored as a whole",
+                                   "set all of " + node->name + "." + e.port);
         return SetParam { "", node->name, e.port, std::move (value) };
     }
 
     const auto* inside = insideOf (graph, *node).patch;
-    const auto shown = inside != nullptr ? std::ranges::find (inside->expose.params, e.port, &std::pair<std::string, Endpoint>::first) : std::vector<std::pair<std::string, Endpoint>>::const_iterator {};
-    if (inside == nullptr || shown == inside->expose.params.end()) return refused ("param/unknown", inQuotes (step.name) + " shows no parameter " + inQuotes (e.port), "name one inside, as in " + e.node + "/drag.mu");
-    auto end = shown->second;
+    const std::vector<std::pair<std::string, Endpoint>> none;
+    const auto& exposed = inside != nullptr ? inside->expose.params : none;
+    const auto param = std::ranges::find (exposed, e.port, &std::pair<std::string, Endpoint>::first);
+    if (param == exposed.end())
+        return Message::error ("param/unknown", {}, quote (step.name) + " exposes no parameter " + quote (e.port),
+                               "name an inner one, such as " + e.node + "/drag.mu");
+    auto end = param->second;
     if (e.index >= 0) end.index = e.index;
     if (e.component >= 0) end.component = e.component;
     return SetOverride { "", node->name, instance + toText (end), std::move (value) };

@@ -10,7 +10,7 @@ namespace tactus::graph
 
 namespace
 {
-/// Hands the ids of the old things on to the new ones with the same key, in order. Null: has been dealt with.
+/// Passes the ids of old things on to the new ones with the same key, in order, and sets the matched ones to null.
 template <typename Thing, typename Key>
 void handOn (std::vector<Thing*>& now, std::vector<const Thing*>& before, Key key)
 {
@@ -53,7 +53,7 @@ void reconcile (Patch& now, const Patch& before)
             return toText (w); });
 }
 
-/// A file that is included in several places stays one, so that the work does not grow with the ways that lead to it.
+/// A file that is included in several places is processed once, so the work does not grow with the number of paths to it.
 using Done = std::map<std::pair<const Graph*, const Graph*>, std::shared_ptr<const Graph>>;
 
 void reconcile (Graph& now, const Graph& before, Done& done)

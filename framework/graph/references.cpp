@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "references.hpp"
 
-#include <framework/file/json_text.hpp>
+#include <framework/text/json_text.hpp>
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@ namespace tactus::graph
 {
 namespace
 {
-/// Walks over everything in a graph that names nodes, and changes or drops what names the one that is meant.
+/// Visits everything in a graph that names nodes, and renames or drops the references to one node.
 class Walk
 {
 public:
@@ -42,7 +42,7 @@ private:
         return instance != nullptr && instance->type.starts_with (prefix) ? graph.find (std::string_view (instance->type).substr (prefix.size())) : nullptr;
     }
 
-    /// Looks at the nodes a path leads through, from a patch on, up to the dot of its port if it has one.
+    /// Follows the nodes of a path, starting in a patch, up to the dot of the port if there is one.
     Found follow (std::string& path, const Patch* from) const
     {
         auto found = Found::nothing;
@@ -106,7 +106,7 @@ private:
     {
         auto changed = Json::object();
         bool touched = false;
-        for (const auto& [key, value] : n.overrides.get_ref<const Json::object_t&>())
+        for (const auto& [key, value] : n.overrides.asObject())
         {
             const auto slash = key.starts_with ('[') ? key.find ('/') : std::string::npos;
             const auto begin = slash == std::string::npos ? 0 : slash + 1;
@@ -133,7 +133,7 @@ private:
     Graph& graph;
     const Patch* patch;
     std::string_view node;
-    const std::string_view* to;   ///< none: what refers to the node goes
+    const std::string_view* to;   ///< null: drop the references
     std::vector<Command> back;
 };
 }   // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What refers to a node by its name: wires, shown ports, overrides, targets of controls; in its own patch, and from
-/// outside through the instances of its subgraph.
+/// References to a node by name: in wires, exposed ports, overrides and targets of controls; in its own patch, and from outside
+/// through the instances of its subgraph.
 
 #include "edit.hpp"
 
@@ -12,7 +12,7 @@
 namespace tactus::graph
 {
 
-/// Both return the commands that put back what was touched, in the order in which they are to be carried out.
+/// Both return the commands that undo the changes, in the order in which to carry them out.
 std::vector<Command> renameReferences (Graph&, std::string_view patch, std::string_view node, std::string_view to);
 std::vector<Command> dropReferences (Graph&, std::string_view patch, std::string_view node);
 

@@ -7,8 +7,8 @@
 #include "separate.hpp"
 #include "text.hpp"
 
-#include <framework/file/json_text.hpp>
-#include <framework/in_quotes.hpp>
+#include <framework/text/json_text.hpp>
+#include <framework/text/quote.hpp>
 
 #include <algorithm>
 #include <map>
@@ -56,8 +56,8 @@ public:
                 inner.wires.push_back (std::move (wire));
                 continue;
             }
-            if (starts) wire.from = shown (wire.from, inner.expose.outputs);
-            if (ends) wire.to = shown (wire.to, inner.expose.inputs);
+            if (starts) wire.from = exposed (wire.from, inner.expose.outputs);
+            if (ends) wire.to = exposed (wire.to, inner.expose.inputs);
             patchOf (graph, command.patch).wires.push_back (std::move (wire));
         }
         moveNodes();
@@ -67,21 +67,21 @@ public:
 private:
     bool isInside (const Endpoint& e) const { return members.contains (firstNameOf (e.node)); }
 
-    /// The port of the new node that stands for one inside. Which entry or component of it is meant is said outside.
-    Endpoint shown (const Endpoint& e, std::vector<std::pair<std::string, Endpoint>>& list)
+    /// The port of the new node that exposes an inner port. An entry or component is selected from outside.
+    Endpoint exposed (const Endpoint& e, std::vector<std::pair<std::string, Endpoint>>& list)
     {
         const Endpoint whole { e.node, e.port };
-        auto at = std::ranges::find (list, whole, &std::pair<std::string, Endpoint>::second);
-        if (at == list.end())
+        auto port = std::ranges::find (list, whole, &std::pair<std::string, Endpoint>::second);
+        if (port == list.end())
         {
             const auto isTaken = [&] (const std::string& name)
             { return used.contains (name); };
             const auto node = firstNameOf (e.node);
             const auto name = isTaken (e.port) ? freeName (node + "_" + e.port, isTaken) : e.port;
             used.insert (name);
-            at = list.insert (list.end(), { name, whole });
+            port = list.insert (list.end(), { name, whole });
         }
-        return { command.name, at->first, e.index, e.component };
+        return { command.name, port->first, e.index, e.component };
     }
 
     void moveNodes()
@@ -110,7 +110,7 @@ private:
     const CollapseNodes& command;
     const std::set<std::string> members;
     Patch inner;
-    std::set<std::string> used;   // names of ports that are shown
+    std::set<std::string> used;   // names of exposed ports
 };
 
 //==============================================================================
@@ -119,13 +119,13 @@ class Expand
 public:
     Expand (Graph& g, const ExpandNode& c) : graph (g), command (c), node (*patchOf (g, c.patch).find (c.name)) {}
 
-    std::optional<Message> run()
+    Result<> run()
     {
         const auto* body = node.type.starts_with ("graph:") ? graph.find (node.type.substr (6)) : nullptr;
-        if (body == nullptr) return cannot ("is a node of no subgraph in this graph");
+        if (body == nullptr) return cannot ("is not a subgraph of this graph");
         if (node.bypass) return cannot ("is bypassed");
         for (const auto* key : { "every", "times" })
-            if (node.extra.contains (key)) return cannot ("has a `" + std::string (key) + "`");
+            if (node.extra.contains (key)) return cannot ("uses `" + std::string (key) + "`");
         if (node.roles.is_object() && std::ranges::any_of (node.roles, [] (const Json& outer)
                                                            { return outer.is_array() && outer.size() != 1; }))
             return cannot ("gives roles to several instances");
@@ -137,11 +137,11 @@ public:
         rename();
         for (auto& n : inner.nodes)
             giveRoles (n);
-        if (auto problem = giveValues (node.params, true)) return problem;
-        if (auto problem = giveValues (node.overrides, false)) return problem;
-        if (auto problem = reroute()) return problem;
+        if (auto done = giveValues (node.params, true); ! done) return done;
+        if (auto done = giveValues (node.overrides, false); ! done) return done;
+        if (auto done = reroute(); ! done) return done;
         takePlace();
-        return std::nullopt;
+        return {};
     }
 
 private:
@@ -206,19 +206,19 @@ private:
         n.roles = std::move (roles);
     }
 
-    /// What the node said of the params inside is said inside, where it outranks what is there.
-    std::optional<Message> giveValues (const Json& values, bool of_shown)
+    /// Moves the values that the node gives to inner params to those params, where they replace the params' own values.
+    Result<> giveValues (const Json& values, bool of_exposed)
     {
         for (const auto* entry : byPrecedence (values))
         {
             const auto& [key, value] = *entry;
-            const auto parsed = parseEndpoint (of_shown ? "x." + key : key);
-            if (! std::holds_alternative<Endpoint> (parsed)) return cannot ("has a value for " + inQuotes (key) + ", which names no parameter inside");
-            auto e = std::get<Endpoint> (parsed);
-            if (of_shown)
+            const auto parsed = parseEndpoint (of_exposed ? "x." + key : key);
+            if (! parsed) return cannot ("has a value for " + quote (key) + ", which names no parameter inside");
+            auto e = *parsed;
+            if (of_exposed)
             {
-                const auto inside = throughShown (e, Side::param);
-                if (! inside) return cannot ("has a value for " + inQuotes (key) + ", which its subgraph does not show");
+                const auto inside = exposedBy (inner, e, Side::param);
+                if (! inside) return cannot ("has a value for " + quote (key) + ", which its subgraph does not expose");
                 e = *inside;
             }
             else
@@ -226,14 +226,15 @@ private:
 
             const auto step = firstStep (e.node);
             const auto n = std::ranges::find (inner.nodes, step.name, &Node::name);
-            if (n == inner.nodes.end()) return cannot ("has a value for " + inQuotes (key) + ", and there is no such node inside");
-            if (auto problem = give (*n, e, value)) return problem;
+            if (n == inner.nodes.end()) return cannot ("has a value for " + quote (key) + ", but there is no such node inside");
+            if (auto done = give (*n, e, value); ! done) return done;
         }
-        return std::nullopt;
+        return {};
     }
 
-    /// A shown parameter of a node that says more about its inside becomes one of that, to stay above it.
-    std::optional<Message> give (Node& n, const Endpoint& e, const Json& value) const
+    /// Gives a value to a parameter. For an exposed parameter of a node that has overrides, the value becomes an override too, to
+    /// keep its precedence.
+    Result<> give (Node& n, const Endpoint& e, const Json& value) const
     {
         const auto step = firstStep (e.node);
         const auto instance = step.instance >= 0 ? "[" + std::to_string (step.instance) + "]/" : "";
@@ -241,12 +242,12 @@ private:
             giveOverride (n.overrides, instance + toText ({ std::string (step.rest), e.port, e.index, e.component }), value);
         else if (const auto* inside = subgraphOf (n); inside && (! instance.empty() || ! n.overrides.empty()))
         {
-            auto shown = shownBy (*inside, e, Side::param);
-            if (! shown) return cannot ("has a value for " + inQuotes (toText (e)) + ", and there is no such parameter inside");
-            giveOverride (n.overrides, instance + toText (*shown), value);
+            auto exposed = exposedBy (*inside, e, Side::param);
+            if (! exposed) return cannot ("has a value for " + quote (toText (e)) + ", but there is no such parameter inside");
+            giveOverride (n.overrides, instance + toText (*exposed), value);
         }
         else if (! instance.empty())
-            return cannot ("has a value for " + inQuotes (toText (e)) + ", one instance of a subgraph in another file");
+            return cannot ("has a value for " + quote (toText (e)) + ", which is one instance of a subgraph in another file");
         else
         {
             auto changed = Json::object();
@@ -256,23 +257,23 @@ private:
             append (changed, wanted, value);
             n.params = std::move (changed);
         }
-        return std::nullopt;
+        return {};
     }
 
     const Patch* subgraphOf (const Node& n) const { return n.type.starts_with ("graph:") ? graph.find (std::string_view (n.type).substr (6)) : nullptr; }
 
-    std::optional<Endpoint> throughShown (const Endpoint& e, Side side) const { return shownBy (inner, e, side); }
-
-    /// What a port that a subgraph shows stands for.
-    static std::optional<Endpoint> shownBy (const Patch& patch, const Endpoint& e, Side side)
+    /// The inner port that a subgraph exposes under a name.
+    static std::optional<Endpoint> exposedBy (const Patch& patch, const Endpoint& e, Side side)
     {
+        const auto& [inputs, outputs, params, extra] = patch.expose;
         using List = const std::vector<std::pair<std::string, Endpoint>>*;
-        const auto lists = side == Side::start ? std::vector<List> { &patch.expose.outputs } : side == Side::end ? std::vector<List> { &patch.expose.inputs, &patch.expose.params }
-                                                                                                                 : std::vector<List> { &patch.expose.params };
+        std::vector<List> lists { &params };
+        if (side == Side::start) lists = { &outputs };
+        if (side == Side::end) lists = { &inputs, &params };
         for (const auto* list : lists)
-            if (const auto at = std::ranges::find (*list, e.port, &std::pair<std::string, Endpoint>::first); at != list->end())
+            if (const auto port = std::ranges::find (*list, e.port, &std::pair<std::string, Endpoint>::first); port != list->end())
             {
-                auto inside = at->second;
+                auto inside = port->second;
                 if (e.index >= 0) inside.index = e.index;
                 if (e.component >= 0) inside.component = e.component;
                 return inside;
@@ -280,10 +281,10 @@ private:
         return std::nullopt;
     }
 
-    std::optional<Message> reroute()
+    Result<> reroute()
     {
         const auto* patch = &patchOf (graph, command.patch);
-        std::optional<Message> problem;
+        Result<> done;
         forEachEndpoint (graph, [&] (Endpoint& e, const Waypoint& p)
                          {
                              if (p.patch != patch || p.name != command.name) return true;
@@ -296,16 +297,16 @@ private:
                                  e.node = before + inside.node;
                                  return true;
                              }
-                             const auto inside = throughShown (e, p.side);
+                             const auto inside = exposedBy (inner, e, p.side);
                              if (! inside)
                              {
-                                 problem = cannot ("is asked for " + inQuotes (e.port) + ", which its subgraph does not show");
+                                 done = cannot ("does not expose " + quote (e.port) + ", but something refers to it");
                                  return false;
                              }
                              e = *inside;
                              e.node.insert (0, before);
                              return true; });
-        return problem;
+        return done;
     }
 
     void takePlace()
@@ -330,8 +331,8 @@ private:
             std::ranges::for_each (inner.nodes, copy);
             std::ranges::for_each (inner.wires, copy);
         }
-        const auto at = patch.nodes.erase (std::ranges::find (patch.nodes, command.name, &Node::name));
-        patch.nodes.insert (at, std::make_move_iterator (inner.nodes.begin()), std::make_move_iterator (inner.nodes.end()));
+        const auto place = patch.nodes.erase (std::ranges::find (patch.nodes, command.name, &Node::name));
+        patch.nodes.insert (place, std::make_move_iterator (inner.nodes.begin()), std::make_move_iterator (inner.nodes.end()));
         std::ranges::move (inner.wires, std::back_inserter (patch.wires));
         if (! shared) std::erase_if (graph.graphs, [&] (const auto& g)
                                      { return "graph:" + g.first == type; });
@@ -341,17 +342,17 @@ private:
     const ExpandNode& command;
     const Node& node;
     Patch inner;
-    std::map<std::string, std::string> names;   // inside, and what they become
+    std::map<std::string, std::string> names;   // the new name, by inner name
 };
 }   // namespace
 
-std::optional<Message> collapse (Graph& graph, const CollapseNodes& command)
+Result<> collapse (Graph& graph, const CollapseNodes& command)
 {
     Collapse (graph, command).run();
-    return std::nullopt;
+    return {};
 }
 
-std::optional<Message> expand (Graph& graph, const ExpandNode& command)
+Result<> expand (Graph& graph, const ExpandNode& command)
 {
     const bool counted = patchOf (graph, command.patch).find (command.name)->extra.contains ("count");
     return counted ? separate (graph, command) : Expand (graph, command).run();

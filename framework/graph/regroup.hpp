@@ -6,9 +6,9 @@
 namespace tactus::graph
 {
 
-/// Both carry out their command, whose patch and nodes must be there and its new names free. They return why it cannot
-/// be done, and then leave the graph half done.
-std::optional<Message> collapse (Graph&, const CollapseNodes&);
-std::optional<Message> expand (Graph&, const ExpandNode&);
+/// Both carry out their command. Its patch and nodes must exist, and its new names must be free. On an error (edit/cannot_expand)
+/// they leave the graph partly changed.
+Result<> collapse (Graph&, const CollapseNodes&);
+Result<> expand (Graph&, const ExpandNode&);
 
 }   // namespace tactus::graph

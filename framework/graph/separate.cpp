@@ -5,8 +5,9 @@
 #include "overrides.hpp"
 #include "text.hpp"
 
-#include <framework/file/json_text.hpp>
-#include <framework/in_quotes.hpp>
+#include <framework/kit/at.hpp>
+#include <framework/text/json_text.hpp>
+#include <framework/text/quote.hpp>
 
 #include <algorithm>
 #include <set>
@@ -24,12 +25,12 @@ public:
     {
     }
 
-    std::optional<Message> run()
+    Result<> run()
     {
-        if (count == 0) return cannot ("has a `count` that is no whole number from 1 on");
+        if (count == 0) return cannot ("has a `count` that is not a whole number of at least 1");
         if (node.roles.is_object() && ! std::ranges::all_of (node.roles, [&] (const Json& outer)
-                                                             { return ! outer.is_array() || outer.size() == static_cast<std::size_t> (count); }))
-            return cannot ("gives roles to another number of instances than it has");
+                                                             { return ! outer.is_array() || outer.size() == at (count); }))
+            return cannot ("gives roles to a different number of instances than it has");
 
         chooseNames();
         inPatch (graph.root);
@@ -37,8 +38,8 @@ public:
             inPatch (p);
         for (auto& control : graph.controls)
             inControl (control);
-        if (! problem) takePlace();
-        return std::move (problem);
+        if (done) takePlace();
+        return std::move (done);
     }
 
 private:
@@ -59,9 +60,12 @@ private:
         }
     }
 
-    const Patch* subgraphOf (const Node* n) const { return n != nullptr && n->type.starts_with ("graph:") ? graph.find (std::string_view (n->type).substr (6)) : nullptr; }
+    const Patch* subgraphOf (const Node* n) const
+    {
+        return n != nullptr && n->type.starts_with ("graph:") ? graph.find (std::string_view (n->type).substr (6)) : nullptr;
+    }
 
-    /// What a path from a patch on becomes: several where it means all instances.
+    /// What a path relative to a patch becomes: several paths if it refers to all instances.
     std::vector<std::string> spread (const std::string& path, const Patch* from)
     {
         for (std::string_view left = path; from != nullptr && ! left.empty();)
@@ -77,8 +81,8 @@ private:
             const auto after = step.rest.empty() ? "" : '/' + std::string (step.rest);
             std::vector<std::string> all;
             for (int k = 0; k < count; ++k)
-                if (step.instance < 0 || step.instance == k) all.push_back (before + names[static_cast<std::size_t> (k)] + after);
-            if (all.empty()) problem = cannot ("is asked for an instance that it does not have, in " + inQuotes (path));
+                if (step.instance < 0 || step.instance == k) all.push_back (before + names[at (k)] + after);
+            if (all.empty()) done = cannot ("does not have the instance that " + quote (path) + " names");
             return all;
         }
         return { path };
@@ -118,14 +122,14 @@ private:
                 auto all = spread (end, &p);
                 if (all.size() == 1)
                     end = std::move (all.front());
-                else if (! problem)
-                    problem = cannot ("shows all its instances at once as " + inQuotes (name) + " of the subgraph it is in");
+                else if (done)
+                    done = cannot ("exposes all its instances together as " + quote (name) + " of the enclosing subgraph");
             }
         for (auto& n : p.nodes)
             if (const auto* inside = subgraphOf (&n); inside != nullptr && ! n.overrides.empty()) n.overrides = spreadOverrides (n.overrides, inside);
     }
 
-    /// In order of precedence, so that what held before still holds.
+    /// Keeps the order of precedence, so that all values stay the same.
     Json spreadOverrides (const Json& overrides, const Patch* inside)
     {
         auto changed = Json::object();
@@ -133,9 +137,8 @@ private:
         for (const auto* entry : byPrecedence (overrides))
         {
             const auto& [key, value] = *entry;
-            auto parsed = parseOverride (key);
-            auto* e = std::get_if<Endpoint> (&parsed);
-            if (e == nullptr)
+            auto e = parseOverride (key);
+            if (! e)
             {
                 append (changed, key, value);
                 continue;
@@ -158,10 +161,9 @@ private:
         std::vector<Control::Target> targets;
         for (const auto& target : control.to)
         {
-            const auto parsed = parseEndpoint (target.path);
-            const auto* e = std::get_if<Endpoint> (&parsed);
-            auto all = e != nullptr ? spread (*e, &graph.root) : std::vector<Endpoint> {};
-            if (e == nullptr || (all.size() == 1 && all.front() == *e))
+            const auto e = parseEndpoint (target.path);
+            auto all = e ? spread (*e, &graph.root) : std::vector<Endpoint> {};
+            if (! e || (all.size() == 1 && all.front() == *e))
             {
                 targets.push_back (target);
                 continue;
@@ -170,7 +172,7 @@ private:
             {
                 auto path = toText (one);
                 std::erase_if (targets, [&] (const Control::Target& t)
-                               { return t.path == path; });   // a later one holds
+                               { return t.path == path; });   // a later one takes precedence
                 targets.push_back ({ std::move (path), target.low, target.high });
             }
         }
@@ -185,7 +187,7 @@ private:
             auto& one = instances.emplace_back (node);
             one.id = newId();
             one.origin = ancestryOf (node, k);
-            one.name = names[static_cast<std::size_t> (k)];
+            one.name = names[at (k)];
             one.roles = rolesOf (node, k);
             one.overrides = overridesOf (k);
             auto extra = Json::object();
@@ -193,11 +195,11 @@ private:
                 if (key != "count") append (extra, key, value);
             one.extra = std::move (extra);
         }
-        const auto at = patch.nodes.erase (std::ranges::find (patch.nodes, command.name, &Node::name));
-        patch.nodes.insert (at, std::make_move_iterator (instances.begin()), std::make_move_iterator (instances.end()));
+        const auto place = patch.nodes.erase (std::ranges::find (patch.nodes, command.name, &Node::name));
+        patch.nodes.insert (place, std::make_move_iterator (instances.begin()), std::make_move_iterator (instances.end()));
     }
 
-    /// What is said of one instance, or of all.
+    /// The overrides for one instance, including those for all.
     Json overridesOf (int instance) const
     {
         auto own = Json::object();
@@ -205,9 +207,9 @@ private:
         {
             const auto& [key, value] = *entry;
             const auto step = firstStep (key);
-            const bool says_instance = key.starts_with ('[');
-            if (says_instance && step.instance >= 0 && step.instance != instance) continue;
-            giveOverride (own, says_instance ? std::string (step.rest) : key, value);
+            const bool names_instance = key.starts_with ('[');
+            if (names_instance && step.instance >= 0 && step.instance != instance) continue;
+            giveOverride (own, names_instance ? std::string (step.rest) : key, value);
         }
         return own;
     }
@@ -217,20 +219,16 @@ private:
     Patch& patch;
     const Node& node;
     const int count;
-    std::vector<std::string> names;   // what the instances become
-    std::optional<Message> problem;
+    std::vector<std::string> names;   // of the new nodes, by instance
+    Result<> done;
 };
 }   // namespace
 
 Message cannotExpand (const std::string& node, const std::string& why)
 {
-    Message m;
-    m.id = "edit/cannot_expand";
-    m.text = inQuotes (node) + " " + why;
-    m.remedy = "change that first";
-    return m;
+    return Message::error ("edit/cannot_expand", {}, quote (node) + " " + why, "change that first");
 }
 
-std::optional<Message> separate (Graph& graph, const ExpandNode& command) { return Separate (graph, command).run(); }
+Result<> separate (Graph& graph, const ExpandNode& command) { return Separate (graph, command).run(); }
 
 }   // namespace tactus::graph

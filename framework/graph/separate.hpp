@@ -6,11 +6,11 @@
 namespace tactus::graph
 {
 
-/// Carries out ExpandNode for a node with a `count`, which must be there: a node for each instance takes its place. Returns
-/// why it cannot be done, and then leaves the graph half done.
-std::optional<Message> separate (Graph&, const ExpandNode&);
+/// Carries out ExpandNode for a node with a `count`, which must exist: replaces it by one node per instance. On an error
+/// (edit/cannot_expand) it leaves the graph partly changed.
+Result<> separate (Graph&, const ExpandNode&);
 
-/// "'hand' is bypassed": why a node cannot be expanded, with or without a `count`.
+/// The error for a node that cannot be expanded: "'hand' is bypassed".
 Message cannotExpand (const std::string& node, const std::string& why);
 
 }   // namespace tactus::graph

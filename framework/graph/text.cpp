@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "text.hpp"
 
-#include <framework/in_quotes.hpp>
+#include <framework/kit/at.hpp>
+#include <framework/text/quote.hpp>
 
 #include <charconv>
 #include <optional>
@@ -21,7 +22,7 @@ std::string_view trimmed (std::string_view text) noexcept
     return text.substr (first, text.find_last_not_of (space) + 1 - first);
 }
 
-/// The text still to be read.
+/// Reads a string from the front.
 struct Reader
 {
     std::string_view text;
@@ -44,24 +45,24 @@ struct Reader
         return read;
     }
 
-    /// A count from 0, as it stands in brackets.
+    /// A whole number of at least 0, as written in brackets.
     std::optional<int> number()
     {
         int n = 0;
         if (text.starts_with ('-')) return std::nullopt;
         const auto [end, error] = std::from_chars (text.data(), text.data() + text.size(), n);
         if (error != std::errc {}) return std::nullopt;
-        text.remove_prefix (static_cast<std::size_t> (end - text.data()));
+        text.remove_prefix (at (end - text.data()));
         return n;
     }
 
-    /// What stands next, for a sentence.
-    std::string next() const { return text.empty() ? "its end" : inQuotes (text); }
+    /// The text that follows, for a message.
+    std::string next() const { return text.empty() ? "the end" : quote (text); }
 };
 
-constexpr auto id_rule = "ids are small letters, digits and _, and begin with a letter";
+constexpr auto id_rule = "ids consist of lower-case letters, digits and _, and begin with a letter";
 
-/// "[3]" or "[*]" after its bracket, appended in its one spelling; false if it is neither.
+/// Reads "[3]" or "[*]" after its opening bracket and appends it in its normal form. Returns false if it is neither.
 bool readInstance (Reader& in, std::string& path)
 {
     if (in.take ("*]"))
@@ -75,49 +76,51 @@ bool readInstance (Reader& in, std::string& path)
     return true;
 }
 
-std::variant<Endpoint, std::string> readEndpoint (std::string_view written, bool relative)
+Result<Endpoint> readEndpoint (std::string_view written, bool relative)
 {
     const auto text = trimmed (written);
     const auto wrong = [text] (const std::string& what)
-    { return inQuotes (text) + ": " + what; };
+    { return Message::error ("port/syntax", {}, quote (text) + ": " + what); };
 
     Endpoint end;
     Reader in { text };
-    if (text.empty()) return std::string ("an empty text where a port, written node.port, should be");
+    if (text.empty()) return Message::error ("port/syntax", {}, "expected a port, written node.port; found nothing");
 
     if (relative && in.take ("["))
     {
-        if (! readInstance (in, end.node)) return wrong ("an instance is written [0], [1] … or [*], found " + in.next());
-        if (! in.take ("/")) return wrong ("a / should follow the instance, as in [3]/drag.mu, found " + in.next());
+        if (! readInstance (in, end.node)) return wrong ("an instance is written [0], [1] … or [*]; found " + in.next());
+        if (! in.take ("/")) return wrong ("a / should follow the instance, as in [3]/drag.mu; found " + in.next());
         end.node += '/';
     }
 
     while (true)
     {
         const auto name = in.id();
-        if (name.empty()) return wrong ("the id of a node should stand before " + in.next() + "; " + id_rule);
+        if (name.empty()) return wrong ("expected the id of a node before " + in.next() + "; " + id_rule);
         end.node += name;
-        if (in.take ("[") && ! readInstance (in, end.node)) return wrong ("an instance of a node is written [0], [1] … or [*], found " + in.next());
+        if (in.take ("[") && ! readInstance (in, end.node)) return wrong ("an instance of a node is written [0], [1] … or [*]; found " + in.next());
         if (! in.take ("/")) break;
         end.node += '/';
     }
     if (! in.take ("."))
-        return wrong (in.text.empty() ? "the port is missing; write node.port" : "found " + in.next() + " after the node; a port is written node.port, and " + id_rule);
+        return wrong (in.text.empty() ? "the port is missing; write node.port"
+                                      : "found " + in.next() + " after the node; a port is written node.port, and " + id_rule);
 
     const auto port = in.id();
-    if (port.empty()) return wrong ("the id of a port should stand before " + in.next() + "; " + id_rule);
+    if (port.empty()) return wrong ("expected the id of a port before " + in.next() + "; " + id_rule);
     end.port = port;
     if (in.take ("["))
     {
         const auto n = in.number();
-        if (! n || ! in.take ("]")) return wrong ("an entry of an array port is written in[0], in[1] …, found " + in.next());
+        if (! n || ! in.take ("]")) return wrong ("an entry of an array port is written in[0], in[1] …; found " + in.next());
         end.index = *n;
     }
     if (in.take ("."))
     {
         const auto component = in.id();
         if (component != "x" && component != "y" && component != "z")
-            return wrong ("a component is .x, .y or .z" + std::string (component.empty() ? "" : ", not ." + std::string (component)) + "; a node inside a subgraph is reached with a /, as in grain/wave.phase");
+            return wrong ("a component is .x, .y or .z" + std::string (component.empty() ? "" : ", not ." + std::string (component))
+                          + "; a node inside a subgraph is reached with a /, as in grain/wave.phase");
         end.component = component[0] - 'x';
     }
     if (! in.text.empty()) return wrong ("found " + in.next() + " after the port; " + id_rule);
@@ -131,23 +134,23 @@ bool isId (std::string_view text) noexcept
     return ! in.id().empty() && in.text.empty();
 }
 
-std::variant<Endpoint, std::string> parseEndpoint (std::string_view text) { return readEndpoint (text, false); }
-std::variant<Endpoint, std::string> parseOverride (std::string_view text) { return readEndpoint (text, true); }
+Result<Endpoint> parseEndpoint (std::string_view text) { return readEndpoint (text, false); }
+Result<Endpoint> parseOverride (std::string_view text) { return readEndpoint (text, true); }
 
-std::variant<Wire, std::string> parseWire (std::string_view written)
+Result<Wire> parseWire (std::string_view written)
 {
     constexpr std::string_view arrow = "->";
     constexpr auto form = "; a wire is written 'node.port -> node.port', with a delay 'node.port -> [1] -> node.port'";
     const auto wrong = [written] (const std::string& what)
-    { return inQuotes (trimmed (written)) + ": " + what; };
+    { return Message::error ("wire/syntax", {}, quote (trimmed (written)) + ": " + what); };
 
     Wire wire;
     auto cut = written.find (arrow);
     if (cut == std::string_view::npos) return wrong (std::string ("there is no -> in it") + form);
 
     auto from = parseEndpoint (written.substr (0, cut));
-    if (auto* sentence = std::get_if<std::string> (&from)) return "the start of the wire: " + *sentence;
-    wire.from = std::get<Endpoint> (from);
+    if (! from) return Message::error ("wire/syntax", {}, "the start of the wire: " + from.error().text);
+    wire.from = *std::move (from);
     auto rest = trimmed (written.substr (cut + arrow.size()));
 
     if (rest.starts_with ('['))
@@ -167,11 +170,11 @@ std::variant<Wire, std::string> parseWire (std::string_view written)
         wire.add = true;
         rest = trimmed (rest.substr (3));
     }
-    if (rest.find (arrow) != std::string_view::npos) return wrong (std::string ("more than one wire in one text") + form);
+    if (rest.find (arrow) != std::string_view::npos) return wrong (std::string ("more than one wire in one string") + form);
 
     auto to = parseEndpoint (rest);
-    if (auto* sentence = std::get_if<std::string> (&to)) return "the end of the wire: " + *sentence;
-    wire.to = std::get<Endpoint> (to);
+    if (! to) return Message::error ("wire/syntax", {}, "the end of the wire: " + to.error().text);
+    wire.to = *std::move (to);
     return wire;
 }
 

@@ -4,7 +4,7 @@
 #include "carries.hpp"
 
 #include <framework/graph/text.hpp>
-#include <framework/number_text.hpp>
+#include <framework/text/number_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,15 +16,13 @@ namespace tactus::plan
 
 namespace
 {
-std::size_t at (int i) { return static_cast<std::size_t> (i); }
-
-/// The frequencies that a node's datasheet names, as its params and settings have them.
+/// The frequencies in the params and settings of a node, as its datasheet declares them.
 class Frequencies
 {
 public:
     Frequencies (const Flat& flat, int node)
     {
-        const auto& n = flat.nodes[at (node)];
+        const auto& n = flat.node (node);
         for (std::size_t p = 0; p < n.type->params.size(); ++p)
             for (const double value : flat.param (node, p))
                 note (n.type->params[p].unit, n.type->params[p].id, value);
@@ -32,7 +30,8 @@ public:
             look (n.type->settings[s], n.settings[s]);
     }
 
-    /// Samples at some rate hold up to half of it, where nothing is said of what they are made of. 0 for none.
+    /// The highest frequency in Hz, 0 for none. Sampled data contains up to half its rate, unless the node declares
+    /// frequencies.
     double highest() const noexcept { return named > 0.0 ? named : sampled; }
 
 private:
@@ -63,7 +62,7 @@ private:
     }
 };
 
-/// What a signal has above half of some rate.
+/// What a signal contains above half of a given rate.
 struct Content
 {
     enum class Kind
@@ -74,20 +73,21 @@ struct Content
     };
 
     Kind kind = Kind::none;
-    std::string what {};   ///< "'bar' (vibration.modal) has up to 3000 Hz"
+    std::string what {};   ///< "'bar' (vibration.modal) contains up to 3000 Hz"
 };
 
-class Listener
+/// Estimates the frequency content of signals.
+class ContentEstimate
 {
 public:
-    Listener (const Flat& f, const Setup& s) : flat (f), setup (s), into (f.nodes.size())
+    ContentEstimate (const Flat& f, const Setup& s) : flat (f), setup (s), sources (f.nodes.size())
     {
         for (const auto& w : flat.wires)
-            if (w.from) into[at (w.to.node)].push_back (w.from->node);
+            if (w.from) sources[at (w.to.node)].push_back (w.from->node);
     }
 
-    /// Of what comes out of a node.
-    Content behind (int node, double rate_hz) const
+    /// Content of the output of a node: the worst case of all upstream nodes that generate a signal.
+    Content upstream (int node, double rate_hz) const
     {
         std::set<int> seen { node };
         std::vector<int> open { node };
@@ -99,52 +99,56 @@ public:
             const auto content = of (n, rate_hz);
             if (content && content->kind > worst.kind) worst = *content;
             if (! content)
-                for (const int source : into[at (n)])
+                for (const int source : sources[at (n)])
                     if (seen.insert (source).second) open.push_back (source);
         }
         return worst;
     }
 
-    /// Of what a node makes itself; nothing for a generic one, which has what it gets.
+    /// Content of the signal that a node generates. None for a generic node, which only passes on its inputs.
     std::optional<Content> of (int node, double rate_hz) const
     {
-        const auto& n = flat.nodes[at (node)];
+        const auto& n = flat.node (node);
         if (! n.runs() || ! limits (node)) return std::nullopt;
         const auto name = "'" + n.path + "' (" + std::string (n.type->info.id) + ")";
 
         if (const double highest = Frequencies (flat, node).highest(); highest > 0.0)
         {
             if (highest <= 0.5 * rate_hz) return Content {};
-            return Content { Content::Kind::some, name + " has up to " + numberText (highest) + " Hz" };
+            return Content { Content::Kind::some, name + " contains up to " + numberText (highest) + " Hz" };
         }
         if (! n.type->claims && ! n.type->warning) return generic (n) ? std::nullopt : std::optional (Content { Content::Kind::unknown });
 
-        constexpr double fast = 1.0;   // m/s, of a stroke
+        constexpr double fast = 1.0;   // speed of a fast stroke of the hand, in m/s
         const auto made = makeNode (flat, node);
         const double k = n.type->claims ? n.type->claims (made.get()).spatial_frequency : 0.0;
-        if (k * fast > 0.5 * rate_hz) return Content { Content::Kind::some, name + " has up to " + numberText (k) + " 1/m, stroked faster than " + numberText (std::round (500.0 * rate_hz / k) / 1000.0) + " m/s" };
+        if (k * fast > 0.5 * rate_hz)
+            return Content { Content::Kind::some, name + " contains up to " + numberText (k) + " 1/m, too much for strokes faster than "
+                                                      + numberText (std::round (500.0 * rate_hz / k) / 1000.0) + " m/s" };
         if (k > 0.0) return Content {};
 
         auto slower = setup, own = setup;
         slower.rate_hz = rate_hz;
         own.rate_hz *= flat.speed (n.section);
         if (n.type->warning && n.type->warning (made.get(), own).empty())
-            if (const auto text = n.type->warning (made.get(), slower); ! text.empty()) return Content { Content::Kind::some, name + " says of that rate: " + text };
+            if (const auto text = n.type->warning (made.get(), slower); ! text.empty())
+                return Content { Content::Kind::some, name + " warns at that rate: " + text };
         return generic (n) ? std::nullopt : std::optional (Content { Content::Kind::unknown });
     }
 
 private:
     const Flat& flat;
     const Setup& setup;
-    std::vector<std::vector<int>> into;   // the nodes from which each hears
+    std::vector<std::vector<int>> sources;   // by node: the nodes wired into it
 
-    /// Of a filter that may be of several kinds, only the low-pass is one for all that is above.
+    /// False for a filter that is not set to low-pass, because it lets high frequencies through. True for all other nodes.
     bool limits (int node) const
     {
-        const auto& n = flat.nodes[at (node)];
+        const auto& n = flat.node (node);
         if (! generic (n) || n.type->inputs.empty()) return true;
         for (std::size_t p = 0; p < n.type->params.size(); ++p)
-            if (const auto& names = n.type->params[p].choices; ! names.empty() && names[static_cast<std::size_t> (flat.param (node, p)[0])] != "low") return false;
+            if (const auto& names = n.type->params[p].choices; ! names.empty() && names[static_cast<std::size_t> (flat.param (node, p)[0])] != "low")
+                return false;
         return true;
     }
 
@@ -155,26 +159,27 @@ private:
     }
 };
 
-std::string folded (double rate_hz) { return "; above " + numberText (0.5 * rate_hz) + " Hz it comes out as something else"; }
+std::string folded (double rate_hz) { return "; everything above " + numberText (0.5 * rate_hz) + " Hz is aliased"; }
 }   // namespace
 
 void warnOfAliasing (Flat& flat, const PortUnits& units, const Setup& setup)
 {
-    if (flat.sections.size() == 1 || hasErrors (flat.messages)) return;   // nodes with errors are not to be asked
-    const Listener listener { flat, setup };
+    if (flat.sections.size() == 1 || hasErrors (flat.messages)) return;   // nodes with errors must not be created
+    const ContentEstimate estimate { flat, setup };
     const auto rateOf = [&] (int section)
     { return setup.rate_hz * flat.speed (section); };
     const auto warn = [&] (Origin origin, const std::string& text)
-    { flat.warn ("rate/aliasing", origin, text, "put a low-pass with a cutoff below half the slower rate before it, or run it at the faster one"); };
+    { flat.warn ("rate/aliasing", origin, text, "insert a low-pass with a cutoff below half the slower rate, or run it at the faster rate"); };
 
-    for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
+    for (int n = 0; n < flat.nodeCount(); ++n)
     {
-        const auto& node = flat.nodes[at (n)];
+        const auto& node = flat.node (n);
         if (! node.runs() || ! flat.rests (node.section)) continue;
-        const auto content = listener.of (n, rateOf (node.section));
+        const auto content = estimate.of (n, rateOf (node.section));
         if (! content || content->kind != Content::Kind::some) continue;
-        if (const auto outside = listener.of (n, setup.rate_hz); outside && outside->kind == Content::Kind::some) continue;   // not for the section's sake
-        warn (node.origin, content->what + ", and runs at " + numberText (rateOf (node.section)) + " Hz in '" + flat.section (node.section).path + "'" + folded (rateOf (node.section)));
+        if (const auto outside = estimate.of (n, setup.rate_hz); outside && outside->kind == Content::Kind::some) continue;   // the section is not to blame
+        warn (node.origin, content->what + ", but runs at " + numberText (rateOf (node.section)) + " Hz in '" + flat.section (node.section).path + "'"
+                               + folded (rateOf (node.section)));
     }
 
     for (const auto& w : flat.wires)
@@ -185,11 +190,12 @@ void warnOfAliasing (Flat& flat, const PortUnits& units, const Setup& setup)
         const double slowest = std::min (outside, inside);
         if (slowest >= before) continue;
 
-        const auto content = listener.behind (w.from->node, slowest);
+        const auto content = estimate.upstream (w.from->node, slowest);
         const bool out_of_times = outside < before;
         if (content.kind == Content::Kind::none || (content.kind == Content::Kind::unknown && ! out_of_times)) continue;
-        const auto what = content.kind == Content::Kind::some ? content.what : "nothing says what there is above";
-        warn (w.origin, "\"" + graph::toText (*w.written) + "\" leads from " + numberText (before) + " Hz to " + numberText (slowest) + " Hz, and " + what + folded (slowest));
+        const auto what = content.kind == Content::Kind::some ? content.what : "its content above this is unknown";
+        warn (w.origin, "\"" + graph::toText (*w.written) + "\" goes from " + numberText (before) + " Hz to " + numberText (slowest) + " Hz, and " + what
+                            + folded (slowest));
     }
 }
 

@@ -3,14 +3,14 @@
 
 #include "unit_check.hpp"
 
-#include <framework/node.hpp>
+#include <framework/node/node.hpp>
 
 namespace tactus::plan
 {
 
-/// Warns (rate/aliasing) of what does not fit where the rate falls: wires into `every` sections and out of `times`
-/// sections, and nodes in `every` sections. Nodes tell by what their datasheets have in Hz, by their claims and by
-/// their own warnings; generic nodes have what they get.
+/// Warns (rate/aliasing) where the rate is too low for a signal: on wires into `every` sections and out of `times`
+/// sections, and for nodes in `every` sections. The frequency content of a signal comes from the node that generates it: its
+/// datasheet rows in Hz, its claims and its warnings. A generic node passes on the frequency content of its inputs.
 void warnOfAliasing (Flat&, const PortUnits&, const Setup&);
 
 }   // namespace tactus::plan

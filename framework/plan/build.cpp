@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "build.hpp"
-#include "crossings.hpp"
+#include "compile.hpp"
+#include "find_param.hpp"
 #include "grouped.hpp"
 #include "lateness.hpp"
 #include "ops.hpp"
+#include "plan_diff.hpp"
+#include "rate_conversions.hpp"
 #include "slots.hpp"
-#include "succession.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -22,9 +24,7 @@ namespace
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double zero = 0.0;
 
-std::size_t at (int i) { return static_cast<std::size_t> (i); }
-
-/// Everything a plan's records point into. Nothing in it moves once the plan runs.
+/// Everything that the records of a plan point into. Nothing in it moves once the plan runs.
 struct Storage
 {
     struct Arena
@@ -42,14 +42,14 @@ struct Storage
     explicit Storage (std::size_t outputs_size) : outputs (outputs_size) {}
 
     Arena outputs;
-    std::vector<double> defaults;   // of unconnected input components, one per source
+    std::vector<double> defaults;   // of unconnected input components; one per source
     std::vector<const double*> sources;
     std::deque<Sum> sums;
     std::deque<Strike> strikes;
     std::deque<DelayLine> delays;
     std::deque<DrivenNode> driven;
     std::deque<Bypass> bypasses;
-    std::vector<RunningSection> sections;   // as in the flat graph; the first, which is the plan, is empty
+    std::vector<RunningSection> sections;   // as in the flat graph; the first one, for the graph itself, is empty
     std::deque<std::vector<double>> samples;
 };
 
@@ -79,43 +79,48 @@ struct Driver
     {
         replace,
         add,
-        feed   ///< has the last word
+        feed   ///< takes precedence over wires
     };
 
     Kind kind;
     Sum::Term term;
 };
 
-class Builder
+}   // namespace
+
+class PlanBuilder
 {
 public:
-    Builder (Flat& f, const PortUnits& u, const Order& o, const Outside& out, const Setup& s, const Plan* b, const Plan* withdrawn)
-        : flat (f), units (u), order (o), outside (out), setup (s), before (b), succession (f, b, withdrawn, s.rate_hz), slots (f), steps (f.sections.size())
+    PlanBuilder (Flat& f, const PortUnits& u, const Order& o, Outside out, const Setup& s, const CompileOptions& options)
+        : flat (f), units (u), order (o), outside (std::move (out)), setup (s), kept (options.kept), before (partsOf (options.before)),
+          diff (f, before, partsOf (options.withdrawn), s.rate_hz), slots (f), steps (f.sections.size())
     {
     }
 
     std::shared_ptr<Plan> run()
     {
         layOut();
-        plan->rate_hz = setup.rate_hz;
-        plan->feeds.assign (outside.feeds.size(), 0.0);
-        plan->fed = outside.feeds;
+        parts.exposed = std::move (outside.exposed);
+        parts.rate_hz = setup.rate_hz;
+        parts.feeds.assign (outside.feeds.size(), 0.0);
+        parts.fed = outside.feeds;
         makeNodes();
         connectDrivers();
         auto all = recordsOf (0);
-        plan->records = std::move (all.records);
-        plan->owners = std::move (all.owners);
+        parts.records = std::move (all.records);
+        parts.owners = std::move (all.owners);
         std::set<int> rests;
-        for (int s = 1; s < static_cast<int> (flat.sections.size()); ++s)
+        for (int s = 1; s < flat.sectionCount(); ++s)
             if (flat.rests (s)) rests.insert (flat.ticksOf (s));
-        plan->rests.assign (rests.begin(), rests.end());
+        parts.rests.assign (rests.begin(), rests.end());
         addTaps();
         const auto delays = nodeDelays();
-        plan->delays = pathDelays (flat, units, delays);
+        parts.delays = pathDelays (flat, units, delays);
         warnOfDelays (flat, units, delays);
-        plan->storage = storage;
+        parts.storage = storage;
         keepFlat();
-        succession.compare (*plan);
+        diff.compare (parts);
+        keepValues();
         return std::move (plan);
     }
 
@@ -128,23 +133,26 @@ private:
     Flat& flat;
     const PortUnits& units;
     const Order& order;
-    const Outside& outside;
+    Outside outside;
     const Setup& setup;
-    const Plan* before;
-    Succession succession;
+    const std::vector<std::string>& kept;
+    const PlanParts* before;
+    PlanDiff diff;
     Slots slots;
 
     std::shared_ptr<Plan> plan = std::make_shared<Plan>();
+    PlanParts& parts = plan->parts;
     std::shared_ptr<Storage> storage;
-    std::vector<std::size_t> output_at;       // of each node: into the arena
-    std::optional<Grouped<Driver>> drivers;   // by slot; of each slot in the order of the wires, then of the feeds
+    std::vector<std::size_t> output_at;       // by node: offset in the arena
+    std::optional<Grouped<Driver>> drivers;   // by slot; within a slot in the order of the wires, then of the feeds
     std::vector<Steps> steps;                 // by section
     std::set<std::string> tap_names;
 
+    static const PlanParts* partsOf (const Plan* other) { return other ? &other->parts : nullptr; }
     std::byte* outputsOf (int n) { return storage->outputs.bytes + output_at[at (n)]; }
     const double** sourcesOf (int n) { return storage->sources.data() + slots.firstInput (n); }
-    Steps& stepsOf (int n) { return steps[at (flat.nodes[at (n)].section)]; }
-    void* nodeOf (int n) { return plan->instances[at (n)].node.get(); }
+    Steps& stepsOf (int n) { return steps[at (flat.node (n).section)]; }
+    void* nodeOf (int n) { return parts.instances[at (n)].node.get(); }
 
     void layOut()
     {
@@ -161,17 +169,17 @@ private:
         storage->defaults.resize (slots.inputCount());
         storage->sources.resize (slots.inputCount());
         storage->sections.resize (flat.sections.size());
-        for (int s = 1; s < static_cast<int> (flat.sections.size()); ++s)
+        for (int s = 1; s < flat.sectionCount(); ++s)
         {
             const int around = flat.section (s).around;
             auto& running = storage->sections[at (s)];
-            running.around = around == 0 ? &plan->number : &storage->sections[at (around)].number;
+            running.around = around == 0 ? &parts.number : &storage->sections[at (around)].number;
             running.factor = static_cast<std::uint64_t> (flat.section (s).factor);
         }
     }
 
-    /// What a section runs, in order: delayed wires and peeking nodes give what they have, nodes run, delayed wires take
-    /// what they get.
+    /// The records of a section, in order: delayed wires and peeking nodes deliver their outputs, nodes run, delayed wires read
+    /// their inputs.
     Owned recordsOf (int section)
     {
         auto& [peeks, body, writes] = steps[at (section)];
@@ -179,7 +187,7 @@ private:
         for (const auto& step : order[at (section)])
             if (step.section >= 0)
                 addSection (step.section, body);
-            else if (const auto& node = flat.nodes[at (step.node)]; ! node.muted)
+            else if (const auto& node = flat.node (step.node); ! node.muted)
             {
                 connectInputs (step.node);
                 node.bypass ? addBypass (step.node) : addNode (step.node);
@@ -190,38 +198,39 @@ private:
         return std::move (peeks);
     }
 
-    /// The record of a section belongs to the first node that runs in it.
+    /// The owner of a section's record is the first node that runs in it.
     void addSection (int section, Owned& around)
     {
         auto& running = storage->sections[at (section)];
         auto inside = recordsOf (section);
         if (inside.records.empty()) return;
         running.records = std::move (inside.records);
-        around.add ({ flat.section (section).kind == Section::Kind::every ? &RunningSection::every : &RunningSection::times, &running, nullptr, nullptr }, static_cast<int> (inside.owners.front()));
+        around.add ({ flat.section (section).kind == Section::Kind::every ? &RunningSection::every : &RunningSection::times, &running, nullptr, nullptr },
+                    static_cast<int> (inside.owners.front()));
     }
 
     void makeNodes()
     {
         if (before)
             for (const auto& role : before->roles)
-                plan->roles.push_back ({ role.name, role.state, {} });
-        plan->instances.resize (flat.nodes.size());
-        for (int i = 0; i < static_cast<int> (flat.nodes.size()); ++i)
+                parts.roles.push_back ({ role.name, role.state, {} });
+        parts.instances.resize (flat.nodes.size());
+        for (int i = 0; i < flat.nodeCount(); ++i)
             makeNode (i);
-        std::ranges::sort (plan->roles, {}, &Plan::RoleUse::name);
-        plan->ramps.prepare (plan->instances, setup.rate_hz);
+        std::ranges::sort (parts.roles, {}, &RoleUse::name);
+        parts.ramps.prepare (parts.instances, setup.rate_hz);
     }
 
     void makeNode (int i)
     {
-        const auto& n = flat.nodes[at (i)];
-        auto& instance = plan->instances[at (i)];
+        const auto& n = flat.node (i);
+        auto& instance = parts.instances[at (i)];
         instance.outputs = outputsOf (i);
         instance.sources = sourcesOf (i);
-        const bool goes_on = succession.goesOn (at (i));
-        if (goes_on)
+        const bool is_shared = diff.continues (at (i));
+        if (is_shared)
         {
-            const auto& old = *succession.heritageOf (at (i));
+            const auto& old = *diff.predecessorOf (at (i));
             instance.serial = old.serial;
             instance.node = old.node;
             instance.delay = old.delay;
@@ -231,7 +240,7 @@ private:
             instance.serial = newSerial();
             instance.node = plan::makeNode (flat, i);
         }
-        instance.knobs = succession.knobsOf (at (i), plan->takeover);
+        instance.knobs = diff.knobsOf (at (i), parts.takeover);
         keepOutputs (i);
 
         if (! instance.node)
@@ -240,49 +249,49 @@ private:
             return;
         }
         n.type->initialiseOutputs (outputsOf (i));
-        if (n.type->bind && n.runs()) use (i, goes_on);
-        if (! goes_on) prepare (i);
+        if (n.type->bind && n.runs()) use (i, is_shared);
+        if (! is_shared) prepare (i);
     }
 
     void prepare (int i)
     {
-        const auto& n = flat.nodes[at (i)];
-        auto& instance = plan->instances[at (i)];
+        const auto& n = flat.node (i);
+        auto& instance = parts.instances[at (i)];
         auto own = setup;
         own.rate_hz *= flat.speed (n.section);
         if (n.type->prepare) n.type->prepare (instance.node.get(), own);
         if (n.type->update) n.type->update (instance.node.get());
         if (n.type->delay) instance.delay = n.type->delay (instance.node.get());
-        succession.succeed (at (i), plan->takeover);
+        diff.noteSuccessor (at (i), parts.takeover);
     }
 
-    /// The node before whose values stand until this one runs, if its section rests; null if there is none.
-    const Instance* standsFor (int i) const
+    /// The predecessor whose outputs are held until this node first runs, if its section does not run on every tick; else null.
+    const Instance* heldFrom (int i) const
     {
-        const auto& n = flat.nodes[at (i)];
-        const auto* old = flat.rests (n.section) ? succession.heritageOf (at (i)) : nullptr;
+        const auto& n = flat.node (i);
+        const auto* old = flat.rests (n.section) ? diff.predecessorOf (at (i)) : nullptr;
         if (old == nullptr) return nullptr;
-        const auto& then = before->flat.nodes[static_cast<std::size_t> (old - before->instances.data())];
+        const auto& then = before->flat.nodes[at (old - before->instances.data())];
         return ! then.muted && then.bypass == n.bypass && then.list_size == n.list_size ? old : nullptr;
     }
 
     void keepOutputs (int i)
     {
-        if (const auto* old = standsFor (i)) plan->takeover.standing.push_back ({ outputsOf (i), old->outputs, flat.nodes[at (i)].type->outputs_size });
+        if (const auto* old = heldFrom (i)) parts.takeover.held.push_back ({ outputsOf (i), old->outputs, flat.node (i).type->outputs_size });
     }
 
-    /// Of sums at the inputs of a node, from these on; nobody but a tap sees them before it runs.
+    /// Holds the sums at the inputs of a node, with these initial values. Until the node runs, only a tap can see them.
     void keepSums (int i, std::size_t first_sum, std::size_t first_strike)
     {
         const bool any = first_sum < storage->sums.size() || first_strike < storage->strikes.size();
-        const auto* old = any ? standsFor (i) : nullptr;
+        const auto* old = any ? heldFrom (i) : nullptr;
         if (old == nullptr) return;
         const auto begin = slots.firstInput (i), end = slots.firstInput (i + 1);
         for (auto slot = begin; slot < end; ++slot)
         {
             const auto keep = [&] (double& out)
             {
-                if (storage->sources[slot] == &out) plan->takeover.standing.push_back ({ &out, old->sources[slot - begin], sizeof (double) });
+                if (storage->sources[slot] == &out) parts.takeover.held.push_back ({ &out, old->sources[slot - begin], sizeof (double) });
             };
             for (auto s = first_sum; s < storage->sums.size(); ++s)
                 keep (storage->sums[s].out);
@@ -293,12 +302,12 @@ private:
 
     void use (int i, bool is_bound)
     {
-        const auto& n = flat.nodes[at (i)];
-        auto role = std::ranges::find (plan->roles, n.role, &Plan::RoleUse::name);
-        if (role == plan->roles.end())
+        const auto& n = flat.node (i);
+        auto role = std::ranges::find (parts.roles, n.role, &RoleUse::name);
+        if (role == parts.roles.end())
         {
-            plan->roles.push_back ({ n.role, std::make_shared<DeviceState>(), {} });
-            role = std::prev (plan->roles.end());
+            parts.roles.push_back ({ n.role, std::make_shared<DeviceState>(), {} });
+            role = std::prev (parts.roles.end());
         }
         if (! is_bound) n.type->bind (nodeOf (i), *role->state);
         if (n.type->effort) role->sinks.push_back ({ n.type->effort, nodeOf (i), at (i) });
@@ -306,7 +315,7 @@ private:
 
     double* param (int i, std::size_t p, std::size_t k)
     {
-        const auto& type = *flat.nodes[at (i)].type;
+        const auto& type = *flat.node (i).type;
         return reinterpret_cast<double*> (static_cast<std::byte*> (type.paramsOf (nodeOf (i))) + type.params[p].offset) + k;
     }
 
@@ -317,8 +326,8 @@ private:
 
     void connectDrivers()
     {
-        Crossings crossings { flat, succession, *plan, storage->sections };
-        std::vector<std::pair<std::size_t, Driver>> all;   // with their slots
+        RateConversions conversions { flat, diff, parts, storage->sections };
+        std::vector<std::pair<std::size_t, Driver>> all;   // each with its slot
         all.reserve (flat.wires.size() + outside.feeds.size());
         for (int i = 0; i < static_cast<int> (flat.wires.size()); ++i)
         {
@@ -329,10 +338,10 @@ private:
                 const int from_component = w.from && w.from->component >= 0 ? w.from->component : c;
                 const int to_component = w.to.component >= 0 ? w.to.component : c;
                 const double* from = w.from ? output (*w.from, from_component) : &zero;
-                Traveller traveller { i, c, w.crosses ? carriedBy (flat, units, w) : Carries::signal };
-                if (w.from && w.crosses) from = crossings.leave (from, flat.node (*w.from).section, w.section, traveller);
+                ConvertedValue value { i, c, w.crosses ? carriedBy (flat, units, w) : Carries::signal };
+                if (w.from && w.crosses) from = conversions.leave (from, flat.node (*w.from).section, w.section, value);
                 if (w.delay > 0) from = delayed (from, i, c);
-                if (w.crosses) from = crossings.enter (from, w.section, flat.node (w.to).section, traveller);
+                if (w.crosses) from = conversions.enter (from, w.section, flat.node (w.to).section, value);
                 all.push_back ({ slots (w.to, to_component), { w.add ? Driver::Kind::add : Driver::Kind::replace, { from, w.gain } } });
             }
         }
@@ -340,8 +349,9 @@ private:
             for (int k = 0; k < static_cast<int> (outside.feeds[f].size()); ++k)
             {
                 const auto& port = outside.feeds[f][at (k)];
-                Traveller traveller { static_cast<int> (flat.wires.size() + f), k, carriedBy (flat, units, port) };
-                all.push_back ({ slots (port, port.component), { Driver::Kind::feed, { crossings.enter (&plan->feeds[f], 0, flat.node (port).section, traveller), 1.0 } } });
+                ConvertedValue value { static_cast<int> (flat.wires.size() + f), k, carriedBy (flat, units, port) };
+                all.push_back (
+                    { slots (port, port.component), { Driver::Kind::feed, { conversions.enter (&parts.feeds[f], 0, flat.node (port).section, value), 1.0 } } });
             }
         drivers.emplace (slots.count(), [&] (auto visit)
                          {
@@ -352,16 +362,17 @@ private:
     const double* delayed (const double* from, int wire, int component)
     {
         const auto& w = flat.wires[at (wire)];
-        auto line = succession.lineOf (wire, component, w.delay, plan->takeover);
+        auto line = diff.lineOf (wire, component, w.delay, parts.takeover);
         auto& d = storage->delays.emplace_back (DelayLine { from, line.get() });
-        plan->lines.push_back ({ wire, component, std::move (line) });
+        parts.lines.push_back ({ wire, component, std::move (line) });
         auto& section = steps[at (w.section)];
         section.peeks.add ({ &DelayLine::read, &d, nullptr, nullptr }, w.to.node);
         section.writes.add ({ &DelayLine::write, &d, nullptr, nullptr }, w.to.node);
         return &d.line->out;
     }
 
-    /// One value for the drivers of a kind, to a node: the wire itself where there is one without gain, else a sum; null for none.
+    /// One value for all drivers of a kind: the wire itself if there is only one and it has no gain, otherwise a sum. Null if
+    /// there are no drivers.
     const double* joined (std::span<const Driver> all, Driver::Kind kind, int node)
     {
         const auto is_meant = [kind] (const Driver& d)
@@ -377,11 +388,14 @@ private:
         return &s.out;
     }
 
-    static const double* feedAmong (std::span<const Driver> all) { return ! all.empty() && all.back().kind == Driver::Kind::feed ? all.back().term.from : nullptr; }
+    static const double* feedAmong (std::span<const Driver> all)
+    {
+        return ! all.empty() && all.back().kind == Driver::Kind::feed ? all.back().term.from : nullptr;
+    }
 
     void connectInputs (int i)
     {
-        const auto& n = flat.nodes[at (i)];
+        const auto& n = flat.node (i);
         auto slot = slots.firstInput (i);
         const auto first_sum = storage->sums.size(), first_strike = storage->strikes.size();
         for (const auto& row : n.type->inputs)
@@ -394,15 +408,16 @@ private:
                     const auto* feed = feedAmong (all);
                     storage->sources[slot] = feed ? feed : joined (all, Driver::Kind::replace, i);
                 }
-                if (takesHits (row) && plan->instances[at (i)].knobs) storage->sources[slot] = struck (i, storage->sources[slot], storage->strikes.size() - first_strike);
+                if (takesHits (row) && parts.instances[at (i)].knobs)
+                    storage->sources[slot] = struck (i, storage->sources[slot], storage->strikes.size() - first_strike);
             }
         keepSums (i, first_sum, first_strike);
     }
 
-    /// What stands at the n-th input for hits of a node.
+    /// The value at the n-th hit input of a node, including hits from outside.
     const double* struck (int i, const double* from, std::size_t n)
     {
-        auto& instance = plan->instances[at (i)];
+        auto& instance = parts.instances[at (i)];
         instance.is_struck = true;
         auto& s = storage->strikes.emplace_back (Strike { from, &instance.knobs->pulses[n] });
         stepsOf (i).body.add ({ &Strike::step, &s, nullptr, nullptr }, i);
@@ -411,7 +426,7 @@ private:
 
     void addNode (int i)
     {
-        const auto& n = flat.nodes[at (i)];
+        const auto& n = flat.node (i);
         const double* const* sources = sourcesOf (i);
         if (n.type->peek) stepsOf (i).peeks.add ({ n.type->peek, nodeOf (i), sources, outputsOf (i) }, i);
 
@@ -431,8 +446,8 @@ private:
 
     std::vector<DrivenNode::Drive> drivesOf (int i)
     {
-        const auto& n = flat.nodes[at (i)];
-        auto& instance = plan->instances[at (i)];
+        const auto& n = flat.node (i);
+        auto& instance = parts.instances[at (i)];
         std::vector<DrivenNode::Drive> drives;
         auto slot = slots.firstParam (i);
         for (std::size_t p = 0; p < n.type->params.size(); ++p)
@@ -444,14 +459,15 @@ private:
                 const auto knob = Knobs::indexOf (*n.type, p, k);
                 instance.driven.resize (instance.knobs->all.size());
                 instance.driven[knob] = true;
-                drives.push_back ({ param (i, p, k), &instance.knobs->all[knob].value, feed ? feed : joined (all, Driver::Kind::replace, i), feed ? nullptr : joined (all, Driver::Kind::add, i), n.type->params[p].limits.hard });
+                drives.push_back ({ param (i, p, k), &instance.knobs->all[knob].value, feed ? feed : joined (all, Driver::Kind::replace, i),
+                                    feed ? nullptr : joined (all, Driver::Kind::add, i), n.type->params[p].limits.hard });
             }
         return drives;
     }
 
     void addBypass (int i)
     {
-        const auto& n = flat.nodes[at (i)];
+        const auto& n = flat.node (i);
         auto& bypass = storage->bypasses.emplace_back();
         std::memset (outputsOf (i), 0, n.type->outputs_size);
         for (const auto& out : n.type->outputs)
@@ -465,16 +481,17 @@ private:
                         bypass.copies.push_back ({ to + c, passedOn (i, static_cast<int> (&in - n.type->inputs.data()), c, first) });
                 first += at (n.slots (in));
             }
-            const bool is_factor = out.width == 1 && out.unit.kind == UnitRule::Kind::fixed && out.unit.unit.quantity == Quantity::gain;   // a vector in 1 is a direction
+            const bool is_factor =
+                out.width == 1 && out.unit.kind == UnitRule::Kind::fixed && out.unit.unit.quantity == Quantity::gain;   // a dimensionless vector is a direction
             if (is_factor) *to = 1.0;
         }
         stepsOf (i).body.add ({ &Bypass::step, &bypass, sourcesOf (i), nullptr }, i);
     }
 
-    /// The sources that make up one component of what a bypassed input passes on.
+    /// The sources that are summed to one component of the value that a bypassed input passes on.
     std::vector<std::size_t> passedOn (int i, int port, int component, std::size_t first)
     {
-        const auto& n = flat.nodes[at (i)];
+        const auto& n = flat.node (i);
         const auto& in = n.type->inputs[at (port)];
         std::vector<std::size_t> passed;
         for (int k = component; k < n.slots (in); k += in.width)
@@ -492,12 +509,13 @@ private:
                 continue;
             }
             const auto& row = flat.sheet (*port);
-            const bool every_entry = row.list && port->index < 0;
-            for (int i = every_entry ? 0 : port->index; i <= (every_entry ? flat.node (*port).list_size - 1 : port->index); ++i)
+            const bool every_entry = row.list && port->index < 0, every_component = row.width == 3 && port->component < 0;
+            const int first_entry = every_entry ? 0 : port->index, last_entry = every_entry ? flat.node (*port).list_size - 1 : port->index;
+            const int first_component = every_component ? 0 : port->component, last_component = every_component ? 2 : port->component;
+            for (int i = first_entry; i <= last_entry; ++i)
             {
                 const auto entry = every_entry ? name + "[" + std::to_string (i) + "]" : name;
-                const bool every_component = row.width == 3 && port->component < 0;
-                for (int c = every_component ? 0 : port->component; c <= (every_component ? 2 : port->component); ++c)
+                for (int c = first_component; c <= last_component; ++c)
                 {
                     const PortRef one { port->node, port->role, port->port, i, c };
                     addTap (every_component ? entry + "." + "xyz"[c] : entry, units (one).quantity, units.symbol (one), valueOf (one), flat.node (one).section);
@@ -506,17 +524,17 @@ private:
         }
     }
 
-    /// Nobody wants a column twice.
+    /// Skips a tap that exists already.
     void addTap (const std::string& name, Quantity quantity, std::string symbol, const double* value, int section)
     {
         if (! tap_names.insert (name).second) return;
-        plan->taps.push_back ({ name, quantity, std::move (symbol), value });
+        parts.taps.push_back ({ name, quantity, std::move (symbol), value });
         const double speed = flat.rests (section) ? 1.0 : flat.speed (section);
         if (speed == 1.0) return;
         auto& samples = storage->samples.emplace_back (static_cast<std::size_t> (speed));
         storage->sections[at (section)].samples.push_back ({ value, samples.data(), samples.size() });
-        plan->taps.back().per_tick = static_cast<int> (samples.size());
-        plan->taps.back().samples = samples.data();
+        parts.taps.back().per_tick = static_cast<int> (samples.size());
+        parts.taps.back().samples = samples.data();
     }
 
     const double* valueOf (const PortRef& r)
@@ -527,41 +545,50 @@ private:
         return n.muted ? &zero : storage->sources[slots (r, r.component)];
     }
 
-    /// For the plan after this one; without what only messages were in need of.
+    /// Keeps the flat graph for the next plan, without the parts that only messages need.
     void keepFlat()
     {
-        plan->flat = std::move (flat);
-        plan->flat.assignments = {};
-        plan->flat.places = {};
-        for (auto& n : plan->flat.nodes)
+        auto messages = std::move (flat.messages);
+        parts.flat = std::move (flat);
+        flat.messages = std::move (messages);
+        parts.flat.assignments = {};
+        parts.flat.places = {};
+        for (auto& n : parts.flat.nodes)
             n.origin = {};
-        for (auto& w : plan->flat.wires)
+        for (auto& w : parts.flat.wires)
         {
             w.origin = {};
             w.written = {};
         }
-        for (auto& s : plan->flat.sections)
+        for (auto& s : parts.flat.sections)
             s.origin = {};
+    }
+
+    /// Drops the edits of params that must keep their values.
+    void keepValues()
+    {
+        if (kept.empty()) return;
+        std::erase_if (parts.takeover.changes, [&] (const Takeover::Change& change)
+                       { return std::ranges::count (kept, nameOf (parts.flat, change.instance, change.knob)) > 0; });
     }
 
     std::vector<int> nodeDelays()
     {
         std::vector<int> delays;
-        for (int i = 0; i < static_cast<int> (flat.nodes.size()); ++i)
+        for (int i = 0; i < flat.nodeCount(); ++i)
         {
-            const auto& n = flat.nodes[at (i)];
+            const auto& n = flat.node (i);
             const bool source = n.type->bind && ! n.type->effort;
             const bool waits = n.type->peek && ! n.bypass && ! source;
-            delays.push_back (waits ? plan->instances[at (i)].delay : 0);
+            delays.push_back (waits ? parts.instances[at (i)].delay : 0);
         }
         return delays;
     }
 };
-}   // namespace
 
 std::shared_ptr<void> makeNode (const Flat& flat, int number)
 {
-    const auto& n = flat.nodes[at (number)];
+    const auto& n = flat.node (number);
     if (! n.type->make) return nullptr;
     auto node = n.type->make();
     for (std::size_t p = 0; p < n.type->params.size(); ++p)
@@ -581,9 +608,9 @@ std::shared_ptr<void> makeNode (const Flat& flat, int number)
     return node;
 }
 
-std::shared_ptr<Plan> build (Flat& flat, const PortUnits& units, const Order& order, const Outside& outside, const Setup& setup, const Plan* before, const Plan* withdrawn)
+std::shared_ptr<Plan> build (Flat& flat, const PortUnits& units, const Order& order, Outside outside, const Setup& setup, const CompileOptions& options)
 {
-    return Builder { flat, units, order, outside, setup, before, withdrawn }.run();
+    return PlanBuilder { flat, units, order, std::move (outside), setup, options }.run();
 }
 
 }   // namespace tactus::plan

@@ -4,31 +4,37 @@
 #include "plan.hpp"
 #include "unit_check.hpp"
 
-#include <framework/node.hpp>
+#include <framework/node/node.hpp>
+
+namespace tactus
+{
+struct CompileOptions;
+}
 
 namespace tactus::plan
 {
 
-/// What is driven and read from outside the graph, resolved. A placeholder's port is nothing: driven in vain, read as 0.
+/// The resolved ports that are driven or read from outside the graph. A port of a placeholder is empty: values written to it
+/// are ignored, and it reads as 0.
 struct Outside
 {
-    /// A port or a part of it, under the name that was asked for.
+    /// A port or a part of it, with its name in the request.
     struct Read
     {
         std::string name;
         std::optional<PortRef> port;
     };
 
-    std::vector<std::vector<PortRef>> feeds;   ///< one component each, perhaps in several instances
+    std::vector<std::vector<PortRef>> feeds;   ///< by feed: one component, possibly in several instances
     std::vector<Read> records;
+    std::map<std::string, std::vector<PortRef>> exposed;   ///< params and inputs by the names under which subgraphs expose them
 };
 
-/// A node with its params and settings in place, not yet prepared; null for a bypassed subgraph.
+/// Makes a node with its params and settings, but does not prepare it. Returns null for a bypassed subgraph.
 std::shared_ptr<void> makeNode (const Flat&, int number);
 
-/// Makes the nodes, lays out their outputs, and writes the records in the given order. For a graph without errors, which
-/// goes over into the plan. The plan before is null, or the one this is to take over from; likewise the withdrawn one
-/// (CompileOptions).
-std::shared_ptr<Plan> build (Flat&, const PortUnits&, const Order&, const Outside&, const Setup&, const Plan* before, const Plan* withdrawn);
+/// Makes the nodes, lays out their outputs, and writes the records in the given order. The graph must be free of errors. It is
+/// moved into the plan, except for its messages. Uses `before`, `withdrawn` and `kept` of the options.
+std::shared_ptr<Plan> build (Flat&, const PortUnits&, const Order&, Outside, const Setup&, const CompileOptions&);
 
 }   // namespace tactus::plan

@@ -8,15 +8,15 @@
 namespace tactus::plan
 {
 
-/// How a wire's values pass from one rate to another.
+/// What a wire carries, which decides how its values are converted from one rate to another.
 enum class Carries
 {
-    signal,   ///< has values in between
-    steps,    ///< a state or a count: has none
-    hits      ///< each is there on one tick, and arrives on one
+    signal,   ///< can be interpolated
+    steps,    ///< a state or a count: cannot be interpolated
+    hits      ///< each lasts one tick and arrives on one tick
 };
 
-/// By the quantity at either end: what is a hit at one is none the less one where a generic node takes it.
+/// The quantities at both ends decide: a hit stays a hit if a generic node receives it.
 inline Carries carriedBy (const Flat& flat, const PortUnits& units, const PortRef& port)
 {
     const auto quantity = units (port).quantity;

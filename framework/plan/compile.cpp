@@ -19,34 +19,36 @@ namespace
 {
 using namespace plan;
 
-/// A placeholder runs, and gives 0; every other error keeps a graph from running.
-bool runs (const Messages& messages)
+/// A placeholder can run; its outputs are 0. Any other error keeps the graph from running.
+bool canRun (const Messages& messages)
 {
     return std::ranges::none_of (messages, [] (const Message& m)
                                  { return m.severity == Message::Severity::error && m.id != "node/unknown_type"; });
 }
 
-/// Delayed wires are memory: a short file may ask for more than there is.
+/// Delayed wires take memory, and even a short file can request more than the machine has.
 void checkDelays (Flat& flat)
 {
     constexpr double most = 5e7;   // samples, 400 MB
     double total = 0.0;
     for (const auto& w : flat.wires)
         total += static_cast<double> (w.delay) * flat.widthOf (w.to);
-    if (total > most) flat.error ("graph/too_large", flat.at ({}, "wires"), "the delays of all wires together hold " + std::to_string (static_cast<long long> (total)) + " samples", "shorten them");
+    if (total > most)
+        flat.error ("graph/too_large", flat.at ({}, "wires"),
+                    "the delays of all wires together take " + std::to_string (static_cast<long long> (total)) + " samples", "shorten them");
 }
 
 bool addsUp (Quantity q) { return q == Quantity::force || q == Quantity::torque || q == Quantity::hit; }
 
-/// Several wires into one place add up if the quantity does; else it is an error that names both. So do the instances that
-/// one wire starts from, also where no other wire may join them.
+/// Several wires into one port are summed if the quantity can be summed; otherwise this is an error that names both wires. The
+/// same applies to one wire that starts from several instances, even into ports that accept only one wire.
 void checkFanIn (Flat& flat, const PortUnits& units)
 {
     const auto inWords = [] (Quantity q)
     { return q == Quantity::any ? "value" : std::string (name (q)); };
     const Slots slots (flat);
     std::vector<const FlatWire*> taken (slots.count(), nullptr);
-    Identity wrong {};   // the wire last spoken of
+    Identity wrong {};   // the wire reported last
     for (const auto& w : flat.wires)
     {
         if (w.identity == wrong || w.add || (w.to.role == Role::input && (addsUp (units (w.to).quantity) || flat.sheet (w.to).unit.adds_up))) continue;
@@ -63,10 +65,14 @@ void checkFanIn (Flat& flat, const PortUnits& units)
             {
                 const auto quantity = w.from ? units (*w.from).quantity : Quantity::any;
                 if (addsUp (quantity)) continue;
-                flat.error ("wire/which_instance", w.origin, "\"" + toText (*w.written) + "\" starts from several instances, and a " + inWords (quantity) + " does not add up", other->from ? "name one, as in " + flat.nameOf (*other->from) : "name one");
+                flat.error ("wire/which_instance", w.origin,
+                            "\"" + toText (*w.written) + "\" starts from several instances, but a " + inWords (quantity) + " cannot be summed",
+                            other->from ? "name one, as in " + flat.nameOf (*other->from) : "name one");
             }
             else
-                flat.error ("wire/two_into_one", w.origin, "\"" + toText (*other->written) + "\" and \"" + toText (*w.written) + "\" both end at '" + flat.nameOf (w.to) + "', and a " + inWords (units (w.to).quantity) + " does not add up",
+                flat.error ("wire/two_into_one", w.origin,
+                            "\"" + toText (*other->written) + "\" and \"" + toText (*w.written) + "\" both end at '" + flat.nameOf (w.to) + "', but a "
+                                + inWords (units (w.to).quantity) + " cannot be summed",
                             w.to.role == Role::param ? "add the second with (+), or remove one" : "join them in a signal.add or vector.add, or remove one");
             wrong = w.identity;
             break;
@@ -74,16 +80,16 @@ void checkFanIn (Flat& flat, const PortUnits& units)
     }
 }
 
-/// Nodes that look at their own settings are asked what is wrong with them, and what will not come out at this rate.
+/// Asks nodes that check their own settings for problems, and for warnings at this rate.
 void askNodes (Flat& flat, const Setup& setup)
 {
-    for (int i = 0; i < static_cast<int> (flat.nodes.size()); ++i)
+    for (int i = 0; i < flat.nodeCount(); ++i)
     {
-        const auto& n = flat.nodes[static_cast<std::size_t> (i)];
+        const auto& n = flat.node (i);
         if (! n.type->problem && ! n.type->warning) continue;
         auto own = setup;
         own.rate_hz *= flat.speed (n.section);
-        const std::string id (n.type->info.id), remedy = "`tactus nodes " + id + "` says what it takes";
+        const std::string id (n.type->info.id), remedy = "`tactus nodes " + id + "` lists what it takes";
         const auto node = makeNode (flat, i);
         const auto problem = n.type->problem ? n.type->problem (node.get()) : std::string {};
         if (! problem.empty())
@@ -94,7 +100,7 @@ void askNodes (Flat& flat, const Setup& setup)
     }
 }
 
-/// All that can be said of a flat graph without what is outside of it.
+/// All checks of a flat graph that do not involve feeds and records.
 PortUnits check (Flat& flat, const Setup& setup, Order& ordered)
 {
     auto units = checkUnits (flat);
@@ -107,8 +113,8 @@ PortUnits check (Flat& flat, const Setup& setup, Order& ordered)
     return units;
 }
 
-/// The params and inputs that subgraphs show, by their names from the top.
-void addShown (const Scope& scope, std::map<std::string, Ports>& all)
+/// Collects the params and inputs that subgraphs expose, by their names from the top.
+void addExposed (const Scope& scope, std::map<std::string, Ports>& all)
 {
     for (const auto& member : scope.members)
         for (const auto& inside : member.instances)
@@ -116,12 +122,12 @@ void addShown (const Scope& scope, std::map<std::string, Ports>& all)
             if (inside->stand_in >= 0) continue;
             for (const auto& x : inside->exposed)
                 if (x.role != Role::output && ! x.to.empty()) all.emplace (inside->prefix.substr (0, inside->prefix.size() - 1) + "." + x.name, x.to);
-            addShown (*inside, all);
+            addExposed (*inside, all);
         }
 }
 
-/// Of two columns for one port, the one that says which instance it means goes before the one for all.
-void sortOut (std::vector<Ports>& feeds, const std::vector<std::string>& names)
+/// If two columns drive one port, the one that names its instance takes precedence over the one for all instances.
+void dropGeneral (std::vector<Ports>& feeds, const std::vector<std::string>& names)
 {
     if (std::ranges::all_of (feeds, [] (const Ports& p)
                              { return p.size() <= 1; }))
@@ -130,7 +136,8 @@ void sortOut (std::vector<Ports>& feeds, const std::vector<std::string>& names)
         std::erase_if (feeds[f], [&] (const PortRef& port)
                        {
                            for (std::size_t other = 0; other < feeds.size(); ++other)
-                               if (graph::instancesSaid (names[other]) > graph::instancesSaid (names[f]) && std::ranges::count (feeds[other], port) > 0) return true;
+                               if (graph::namedInstances (names[other]) > graph::namedInstances (names[f]) && std::ranges::count (feeds[other], port) > 0)
+                                   return true;
                            return false; });
 }
 
@@ -155,17 +162,16 @@ void readFeeds (Flat& flat, const Scope& top, const std::vector<std::string>& na
             break;
         }
     }
-    sortOut (feeds, names);
+    dropGeneral (feeds, names);
 }
 
-/// Each instance has columns of its own, under its own name.
+/// Each instance gets its own columns, under its own name.
 void readRecord (Flat& flat, const Scope& top, const std::string& name, std::vector<Outside::Read>& records)
 {
     const auto origin = flat.asIs ({}, "record " + name);
     Ports ports;
-    const auto parsed = graph::parseEndpoint (name);
-    const auto* asked = std::get_if<graph::Endpoint> (&parsed);
-    if (asked == nullptr)
+    const auto asked = graph::parseEndpoint (name);
+    if (! asked)
     {
         find (name, Side::record, top, origin, flat, ports);
         return;
@@ -181,7 +187,8 @@ void readRecord (Flat& flat, const Scope& top, const std::string& name, std::vec
         {
             if (! flat.sheet (port).choices.empty())
             {
-                flat.error ("record/choice", origin, "'" + name + "' is a choice among names and has no number to record", "record a port that carries a number");
+                flat.error ("record/choice", origin, "'" + name + "' is a choice among names and has no number to record",
+                            "record a port that carries a number");
                 return;
             }
             records.push_back ({ ports.size() == 1 ? column : flat.nameOf (port), port });
@@ -196,13 +203,14 @@ Outside findOutside (Flat& flat, const Scope& top, const CompileOptions& options
     for (const auto& name : options.records)
         readRecord (flat, top, name, outside.records);
     if (options.records.empty())
-        for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
-            if (const auto& node = flat.nodes[static_cast<std::size_t> (n)]; node.type->effort && ! node.muted)
+        for (int n = 0; n < flat.nodeCount(); ++n)
+            if (const auto& node = flat.node (n); node.type->effort && ! node.muted)
                 for (int p = 0; p < static_cast<int> (node.type->inputs.size()); ++p)
                 {
                     const PortRef port { n, Role::input, p, -1, -1 };
                     outside.records.push_back ({ flat.nameOf (port), port });
                 }
+    addExposed (top, outside.exposed);
     return outside;
 }
 }   // namespace
@@ -217,7 +225,7 @@ Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const Compi
     const Setup setup { .rate_hz = rate, .services = options.services };
     Order ordered;
     const auto units = check (flat, setup, ordered);
-    for (const auto& [name, patch] : g.graphs)   // a subgraph nobody uses yet is checked by itself
+    for (const auto& [name, patch] : g.graphs)   // an unused subgraph is checked on its own
         if (! used.contains (&patch))
         {
             auto alone = flattenUnused (g, name, catalogue, options.assets);
@@ -225,14 +233,14 @@ Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const Compi
             check (alone.flat, setup, unneeded);
             flat.messages.insert (flat.messages.end(), alone.flat.messages.begin(), alone.flat.messages.end());
         }
-    const auto outside = findOutside (flat, *top, options);
+    auto outside = findOutside (flat, *top, options);
 
     auto messages = std::move (flat.messages);
-    if (! runs (messages)) return { nullptr, std::move (messages) };
+    if (! canRun (messages)) return { nullptr, std::move (messages) };
 
-    auto made = build (flat, units, ordered, outside, setup, options.before, options.withdrawn);
-    addShown (*top, made->shown);
-    std::ranges::move (std::exchange (made->flat.messages, {}), std::back_inserter (messages));
+    flat.messages.clear();
+    auto made = build (flat, units, ordered, std::move (outside), setup, options);
+    std::ranges::move (flat.messages, std::back_inserter (messages));
     return { std::move (made), std::move (messages) };
 }
 

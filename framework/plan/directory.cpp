@@ -3,7 +3,7 @@
 
 #include <framework/graph/instances.hpp>
 #include <framework/graph/text.hpp>
-#include <framework/near_miss.hpp>
+#include <framework/text/closest_match.hpp>
 
 namespace tactus::plan
 {
@@ -29,8 +29,11 @@ std::span<const Role> rolesOf (Side side) noexcept
     return all;
 }
 
-const char* withArticle (Role role) { return role == Role::input ? "an input" : role == Role::param ? "a parameter"
-                                                                                                    : "an output"; }
+const char* withArticle (Role role)
+{
+    if (role == Role::input) return "an input";
+    return role == Role::param ? "a parameter" : "an output";
+}
 
 std::string nameOf (Side side)
 {
@@ -48,8 +51,8 @@ std::string nameOf (Side side)
     return "port";
 }
 
-/// Looks a port up by name among the rows of a node, or among what a subgraph exposes. Each step is false once something
-/// is wrong, and said.
+/// Looks up a port by name among the rows of a node, or among the ports that a subgraph exposes. Each step returns false if it
+/// has reported a problem.
 struct Finder
 {
     Flat& flat;
@@ -61,16 +64,17 @@ struct Finder
     bool in (const Scope& scope, std::string_view path) const
     {
         const auto step = graph::firstStep (path);
-        const auto* at = scope.find (step.name);
-        if (at == nullptr) return unknownNode (scope, step.name);
-        const auto& member = *at;
+        const auto* named = scope.find (step.name);
+        if (named == nullptr) return unknownNode (scope, step.name);
+        const auto& member = *named;
         if (member.node < 0 && member.instances.empty()) return true;
         if (! hasInstance (scope, member, step)) return false;
 
         if (member.node >= 0)
         {
             if (step.rest.empty()) return amongRows (member.node);
-            flat.error ("port/not_a_subgraph", origin, "'" + scope.prefix + std::string (step.name) + "' is a node, so nothing lies inside it", "address it as " + std::string (step.name) + "." + e.port);
+            flat.error ("port/not_a_subgraph", origin, "'" + scope.prefix + std::string (step.name) + "' is a node, so there is nothing inside it",
+                        "address it as " + std::string (step.name) + "." + e.port);
             return false;
         }
         const auto inside = [&] (const Scope& s)
@@ -78,7 +82,7 @@ struct Finder
             if (! step.rest.empty()) return in (s, step.rest);
             return s.stand_in >= 0 ? amongRows (s.stand_in) : amongExposed (s);
         };
-        if (step.instance >= 0) return inside (*member.instances[static_cast<std::size_t> (step.instance)]);
+        if (step.instance >= 0) return inside (*member.instances[at (step.instance)]);
         return std::ranges::all_of (member.instances, [&] (const auto& s)
                                     { return inside (*s); });
     }
@@ -90,24 +94,29 @@ private:
         std::vector<std::string> names;
         for (const auto& n : scope.patch->nodes)
             names.push_back (n.name);
-        flat.error ("port/unknown_node", origin, "there is no node '" + scope.prefix + std::string (name) + "'" + didYouMean (name, names), "nodes here: " + listed (names));
+        flat.error ("port/unknown_node", origin, "there is no node '" + scope.prefix + std::string (name) + "'" + didYouMean (name, names),
+                    "nodes here: " + listed (names));
         return false;
     }
 
     bool hasInstance (const Scope& scope, const Scope::Member& member, const graph::PathStep& step) const
     {
-        if (step.instance == graph::PathStep::not_said || (member.counted && step.instance < static_cast<int> (member.instances.size()))) return true;
+        if (step.instance == graph::PathStep::unspecified || (member.counted && step.instance < static_cast<int> (member.instances.size()))) return true;
         const auto name = scope.prefix + std::string (step.name);
         if (member.counted)
-            flat.error ("port/no_instance", origin, "'" + name + "' has " + std::to_string (member.instances.size()) + " instances, counted from 0, and no [" + std::to_string (step.instance) + "]", "use a smaller number, or raise its `count`");
+            flat.error ("port/no_instance", origin,
+                        "'" + name + "' has " + std::to_string (member.instances.size()) + " instances, counted from 0, but no ["
+                            + std::to_string (step.instance) + "]",
+                        "use a smaller number, or raise its `count`");
         else
-            flat.error ("port/not_counted", origin, "'" + name + "' has no `count`, so none of its instances can be meant", "leave out the brackets after its name" + std::string (member.node >= 0 ? "" : ", or give it a `count`"));
+            flat.error ("port/not_counted", origin, "'" + name + "' has no `count`, so it has no numbered instances",
+                        "leave out the brackets after its name" + std::string (member.node >= 0 ? "" : ", or give it a `count`"));
         return false;
     }
 
     bool amongRows (int node) const
     {
-        const auto& n = flat.nodes[static_cast<std::size_t> (node)];
+        const auto& n = flat.node (node);
         for (const auto role : rolesOf (side))
         {
             const auto& rows = n.ports (role);
@@ -156,14 +165,17 @@ private:
         for (const auto role : { Role::output, Role::input, Role::param })
             if (has (role))
             {
-                flat.error ("port/wrong_side", origin, "'" + path + "." + port + "' is " + withArticle (role) + ", not " + (wanted.starts_with ('p') ? "a " : "an ") + wanted, side == Side::param && role == Role::input ? "wire something into it, such as a signal.constant" : "it has: " + listed (names));
+                flat.error ("port/wrong_side", origin,
+                            "'" + path + "." + port + "' is " + withArticle (role) + ", not " + (wanted.starts_with ('p') ? "a " : "an ") + wanted,
+                            side == Side::param && role == Role::input ? "wire something into it, such as a signal.constant" : "it has: " + listed (names));
                 return false;
             }
-        flat.error (side == Side::param ? "param/unknown" : "port/unknown", origin, "'" + path + "' (" + type + ") has no " + wanted + " '" + port + "'" + didYouMean (port, names), "it has: " + listed (names));
+        flat.error (side == Side::param ? "param/unknown" : "port/unknown", origin,
+                    "'" + path + "' (" + type + ") has no " + wanted + " '" + port + "'" + didYouMean (port, names), "it has: " + listed (names));
         return false;
     }
 
-    /// Applies the index and component of the endpoint to the port it names.
+    /// Adds the port, narrowed to the index and component of the endpoint.
     bool narrow (PortRef r) const
     {
         const auto& sheet = flat.sheet (r);
@@ -179,14 +191,17 @@ private:
         }
         if (sheet.list && r.index >= node.list_size)
         {
-            flat.error ("port/bad_index", origin, "'" + flat.nameOf (r) + "' does not exist: '" + node.path + "' has " + std::to_string (node.list_size) + " entries, counted from 0", "raise its setting `inputs`, or use a smaller index");
+            flat.error ("port/bad_index", origin,
+                        "'" + flat.nameOf (r) + "' does not exist: '" + node.path + "' has " + std::to_string (node.list_size) + " entries, counted from 0",
+                        "raise its setting `inputs`, or use a smaller index");
             return false;
         }
         if (e.component >= 0)
         {
             if (sheet.width != 3 || r.component >= 0)
             {
-                flat.error ("port/not_a_vector", origin, "'" + flat.nameOf (r) + "' is a scalar and has no component " + component_names[e.component], "leave out " + std::string (component_names[e.component]));
+                flat.error ("port/not_a_vector", origin, "'" + flat.nameOf (r) + "' is a scalar and has no component " + component_names[e.component],
+                            "leave out " + std::string (component_names[e.component]));
                 return false;
             }
             r.component = e.component;
@@ -217,10 +232,10 @@ bool find (const graph::Endpoint& e, Side side, const Scope& scope, Origin origi
 
 bool find (std::string_view text, Side side, const Scope& scope, Origin origin, Flat& flat, Ports& found)
 {
-    const auto parsed = graph::parseEndpoint (text);
-    if (const auto* endpoint = std::get_if<graph::Endpoint> (&parsed)) return find (*endpoint, side, scope, origin, flat, found);
+    const auto endpoint = graph::parseEndpoint (text);
+    if (endpoint) return find (*endpoint, side, scope, origin, flat, found);
     found.clear();
-    flat.error ("port/syntax", origin, std::get<std::string> (parsed), "name a port, as in drag.force or hand.position.x");
+    flat.error ("port/syntax", origin, endpoint.error().text, "name a port, such as drag.force or hand.position.x");
     return false;
 }
 
@@ -229,11 +244,12 @@ std::vector<std::string> spelledOut (std::string_view path, const Scope& scope)
     const auto step = graph::firstStep (path);
     const auto* member = scope.find (step.name);
     const auto size = member == nullptr ? 0 : member->instances.size();
-    if (size == 0 || (step.instance != graph::PathStep::not_said && ! member->counted)) return { std::string (path) };
+    if (size == 0 || (step.instance != graph::PathStep::unspecified && ! member->counted)) return { std::string (path) };
 
     std::vector<std::string> all;
     const bool every = step.instance < 0;
-    for (auto k = every ? 0 : static_cast<std::size_t> (step.instance); k < (every ? size : std::min (size, static_cast<std::size_t> (step.instance) + 1)); ++k)
+    const auto first = every ? 0 : at (step.instance), end = every ? size : std::min (size, first + 1);
+    for (auto k = first; k < end; ++k)
     {
         auto name = std::string (step.name);
         if (member->counted) name += '[' + std::to_string (k) + ']';

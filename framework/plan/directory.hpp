@@ -10,48 +10,48 @@
 namespace tactus::plan
 {
 
-/// Which roles a name may be looked up among, in this order.
+/// The roles that are searched for a name, in this order.
 enum class Side
 {
-    start,   ///< of a wire: outputs
-    end,     ///< of a wire, or a feed: inputs, then params
+    start,   ///< start of a wire: outputs
+    end,     ///< end of a wire or feed: inputs, then params
     param,   ///< params
     record   ///< outputs, then inputs, then params
 };
 
-/// The ports that a name stands for: mostly one, and of a subgraph with a count one in each instance.
+/// The ports that a name refers to: usually one; for a subgraph with a count, one in each instance.
 using Ports = std::vector<PortRef>;
 
-/// A patch in place: what its names stand for, and what it shows of its inside.
+/// An expanded patch: what its names refer to, and the ports it exposes.
 struct Scope
 {
-    /// What a name in a patch stands for: a node, the instances of a subgraph, or a placeholder (neither).
+    /// What a name in a patch refers to: a node, the instances of a subgraph, or a placeholder (neither).
     struct Member
     {
         int node = -1;
         bool counted = false;                            ///< has a `count`
-        std::vector<std::unique_ptr<Scope>> instances;   ///< one without it
+        std::vector<std::unique_ptr<Scope>> instances;   ///< exactly one if there is no `count`
     };
 
     struct Exposed
     {
         Role role;
         std::string name;
-        Ports to;   ///< none: a placeholder's
+        Ports to;   ///< empty for the port of a placeholder
     };
 
     const graph::Graph* owner = nullptr;
     const graph::Patch* patch = nullptr;
-    std::string prefix;   // of paths
+    std::string prefix;   // of the paths inside
     int number = 0;       // in Flat::scopes
-    int stand_in = -1;    // the node that has its ports while it is bypassed
+    int stand_in = -1;    // the node that provides its ports while the subgraph is bypassed
     int section = 0;      // in Flat::sections
     Origin origin {};     // of the patch
     Names names;
     std::vector<Member> members;   // by the numbers of their names
     std::vector<Exposed> exposed;
 
-    /// Null if there is none.
+    /// The member of a name, or null.
     const Member* find (std::string_view name) const noexcept
     {
         const auto known = names.find (name);
@@ -59,16 +59,16 @@ struct Scope
     }
 };
 
-/// Finds a port by the names people use, from a patch and downwards. Puts into `found` what the name stands for, in the
-/// order of instances: nothing for the port of a placeholder. False, with a message added, if there is no such port.
+/// Finds a port by its address, such as "drag.mu", relative to a patch. Stores in `found` the ports the name refers to, in the
+/// order of instances; none for the port of a placeholder. Returns false and adds a message if there is no such port.
 bool find (const graph::Endpoint&, Side, const Scope&, Origin, Flat&, Ports& found);
 bool find (std::string_view text, Side, const Scope&, Origin, Flat&, Ports& found);
 
-/// The paths that a path from a patch downwards stands for, with each instance named: "hand/finger" may be "hand/finger[0]"
-/// and "hand/finger[1]". What cannot be found stays as it is.
+/// Expands a path into one path per instance: "hand/finger" may become "hand/finger[0]" and "hand/finger[1]". Returns the
+/// path unchanged if it cannot be found.
 std::vector<std::string> spelledOut (std::string_view path, const Scope&);
 
-/// "a, b, c", or "none"; of many, the first.
+/// "a, b, c", or "none"; a long list is truncated.
 std::string listed (const std::vector<std::string>& names);
 
 }   // namespace tactus::plan

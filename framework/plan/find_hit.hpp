@@ -3,22 +3,21 @@
 
 #include "plan.hpp"
 
-#include <framework/message.hpp>
+#include <framework/text/result.hpp>
 
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 namespace tactus::plan
 {
 
-/// Inputs for hits of a plan by the names people use: "ring.hit", "grain/ring.hit", "finger[3]/ring.hit"; of a subgraph with a
-/// count, where the name does not say which, one in each instance. Never none.
-/// Ids: hit/name, port/unknown_node, hit/unknown, hit/not_running. [main thread]
-std::variant<std::vector<HitRef>, Message> findHits (const Plan&, std::string_view name);
+/// Finds hit inputs of a plan by name: "ring.hit", "grain/ring.hit", "finger[3]/ring.hit". For a subgraph with a count, a name
+/// without an instance refers to the input in every instance. The result is never empty.
+/// Errors: hit/name, port/unknown_node, hit/unknown, hit/not_running. [main thread]
+Result<std::vector<HitRef>> findHits (const Plan&, std::string_view name);
 
-/// The name under which findHits finds an input of an instance.
+/// The name by which findHits finds this input of this instance.
 std::string nameOfHit (const Plan&, std::size_t instance, std::size_t input);
 
 }   // namespace tactus::plan

@@ -3,22 +3,23 @@
 
 #include "plan.hpp"
 
-#include <framework/message.hpp>
+#include <framework/text/result.hpp>
 
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 namespace tactus::plan
 {
 
-/// A parameter of a plan by the names people use: "drag.mu", "grain/wave.direction.x", "mix.gain[2]", "finger[3]/drag.mu",
-/// and what a subgraph shows as its own, "grain.roughness". Of a vector one component, of a list one entry; of a subgraph
-/// with a count, where the name does not say which, one in each instance. Never none. [main thread]
-std::variant<std::vector<ParamRef>, Message> findParams (const Plan&, std::string_view name);
+/// Finds parameters of a plan by name: "drag.mu", "grain/wave.direction.x", "mix.gain[2]", "finger[3]/drag.mu", or
+/// "grain.roughness" if a subgraph exposes it. A name refers to one component of a vector and one entry of a list. For a
+/// subgraph with a count, a name without an instance refers to the parameter in every instance. The result is never empty.
+/// Errors: param/name, port/unknown_node, param/unknown, param/shape. [main thread]
+Result<std::vector<ParamRef>> findParams (const Plan&, std::string_view name);
 
-/// The name under which findParams finds a knob of an instance. [main thread]
-std::string nameOf (const Plan&, std::size_t instance, std::size_t knob);
+/// The name by which findParams finds this knob of this instance. [main thread]
+std::string nameOf (const Flat&, std::size_t instance, std::size_t knob);
+inline std::string nameOf (const Plan& plan, std::size_t instance, std::size_t knob) { return nameOf (plan.flat(), instance, knob); }
 
 }   // namespace tactus::plan

@@ -19,7 +19,7 @@ void appendEscaped (std::string& pointer, std::string_view name)
             pointer += c;
 }
 
-/// The JSON pointer of a place in its file.
+/// The JSON pointer of a place within its file.
 std::string pointerTo (Origin place)
 {
     if (place == nullptr || place->kind == Place::Kind::file) return {};
@@ -39,7 +39,8 @@ Message messageAt (Origin origin, Message::Severity severity, std::string id, st
     const auto file = fileOf (origin);
     return { severity, std::move (id), pointerTo (origin), std::move (text), std::move (remedy), file ? std::string (file->text) : "", 0, 0 };
 }
-/// A sentence about "finger[3]/drag" as if it were about "finger/drag".
+
+/// Turns a sentence about "finger[3]/drag" into one about "finger/drag".
 std::string withoutInstances (const std::string& text)
 {
     std::string result;
@@ -62,13 +63,13 @@ Origin fileOf (Origin place) noexcept
     return place;
 }
 
-std::span<double> Flat::param (int node, std::size_t row) noexcept
+std::span<double> Flat::param (int number, std::size_t row) noexcept
 {
-    const auto& n = nodes[static_cast<std::size_t> (node)];
+    const auto& n = node (number);
     auto first = n.values;
     for (std::size_t p = 0; p < row; ++p)
-        first += static_cast<std::size_t> (n.slots (n.type->params[p]));
-    return { values.data() + first, static_cast<std::size_t> (n.slots (n.type->params[row])) };
+        first += tactus::at (n.slots (n.type->params[p]));
+    return { values.data() + first, tactus::at (n.slots (n.type->params[row])) };
 }
 
 std::string Flat::nameOf (const PortRef& r) const
@@ -81,16 +82,16 @@ std::string Flat::nameOf (const PortRef& r) const
 
 std::vector<int> Flat::sectionsBetween (int around, int within) const
 {
-    std::vector<int> way;
+    std::vector<int> between;
     for (int s = within; s != around; s = section (s).around)
-        way.push_back (s);
-    std::ranges::reverse (way);
-    return way;
+        between.push_back (s);
+    std::ranges::reverse (between);
+    return between;
 }
 
 double Flat::speed (int s) const
 {
-    double up = 1.0, down = 1.0;   // apart, so that what is the same rate has the same bits
+    double up = 1.0, down = 1.0;   // kept separate, so that equal rates are bit-identical
     for (; s > 0; s = section (s).around)
         (section (s).kind == Section::Kind::times ? up : down) *= section (s).factor;
     return up / down;
@@ -108,17 +109,17 @@ bool Flat::rests (int s) const { return ticksOf (s) > 1; }
 
 void Flat::error (std::string id, Origin origin, std::string text, std::string remedy)
 {
-    if (! isFull()) say (messageAt (origin, Message::Severity::error, std::move (id), std::move (text), std::move (remedy)));
+    if (! isFull()) add (messageAt (origin, Message::Severity::error, std::move (id), std::move (text), std::move (remedy)));
 }
 
 void Flat::warn (std::string id, Origin origin, std::string text, std::string remedy)
 {
-    if (! isFull()) say (messageAt (origin, Message::Severity::warning, std::move (id), std::move (text), std::move (remedy)));
+    if (! isFull()) add (messageAt (origin, Message::Severity::warning, std::move (id), std::move (text), std::move (remedy)));
 }
 
-void Flat::say (Message m)
+void Flat::add (Message m)
 {
-    if (auto key = withoutInstances (m.text); key.size() < m.text.size() && ! said.insert (m.id + m.file + m.where + key).second) return;
+    if (auto key = withoutInstances (m.text); key.size() < m.text.size() && ! reported.insert (m.id + m.file + m.where + key).second) return;
     messages.push_back (std::move (m));
 }
 

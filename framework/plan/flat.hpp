@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// A graph with its subgraphs expanded, its names resolved against the catalogue and its values read: what the later
-/// steps of compiling work on. See compile.hpp for the whole, flatten.hpp for how it is made.
+/// A flat graph: subgraphs expanded, names resolved against the catalogue, values read. The later steps of compiling work on
+/// it. compile.hpp lists all steps; flatten.hpp makes the flat graph.
 
-#include <framework/catalogue.hpp>
 #include <framework/graph/graph.hpp>
-#include <framework/message.hpp>
+#include <framework/kit/at.hpp>
+#include <framework/node/catalogue.hpp>
+#include <framework/text/message.hpp>
 
 #include <deque>
 #include <optional>
@@ -19,15 +20,15 @@
 namespace tactus::plan
 {
 
-/// A step on the way to where something was written. Only a message puts the way in words.
+/// A step on the path to the place where something was written. The path becomes text only for a message.
 struct Place
 {
     enum class Kind
     {
-        file,    ///< `text` is an included file's name; the way begins here
+        file,    ///< `text` is the name of an included file; the path begins here
         name,    ///< a member called `text`
         entry,   ///< entry `number` of a list
-        as_is    ///< `text` as it stands: the rest of a JSON pointer, or an option of the command line
+        as_is    ///< `text` verbatim: the rest of a JSON pointer, or an option of the command line
     };
 
     const Place* around;
@@ -36,7 +37,7 @@ struct Place
     Kind kind;
 };
 
-/// Where something was written, for messages; null for the graph itself. What it names has to stay as long.
+/// Where something was written, for messages; null for the graph itself. The names it refers to must outlive it.
 using Origin = const Place*;
 
 Origin fileOf (Origin) noexcept;
@@ -44,9 +45,9 @@ Origin fileOf (Origin) noexcept;
 /// Identity in a graph with its subgraphs expanded.
 struct Identity
 {
-    int scope = 0;      ///< where it stands: in which of Flat::scopes
-    graph::Id id = 0;   ///< its own
-    int instance = 0;   ///< of a subgraph node with a count: which one
+    int scope = 0;      ///< the patch it is in: number in Flat::scopes
+    graph::Id id = 0;   ///< its own id
+    int instance = 0;   ///< for a subgraph node with a count: which instance
 
     bool operator== (const Identity&) const = default;
 };
@@ -56,14 +57,14 @@ struct PortRef
 {
     int node = -1;
     Role role = Role::input;
-    int port = -1;        ///< row among the inputs, params or outputs of the node's type
-    int index = -1;       ///< entry of an array port; -1 if the port is none
+    int port = -1;        ///< row among the inputs, params or outputs of the node type
+    int index = -1;       ///< entry of an array port; -1 for other ports
     int component = -1;   ///< -1 for all components
 
     bool operator== (const PortRef&) const = default;
 };
 
-/// A value given to a parameter: the point `amount` of the way from low to high.
+/// An assignment to a parameter: low + amount * (high - low).
 struct Assignment
 {
     PortRef to;
@@ -80,116 +81,122 @@ struct FlatNode
     std::string role {};
     Origin origin {};
     bool bypass = false;
-    bool muted = false;   ///< inside a bypassed subgraph: takes no part
-    int section = 0;      ///< of Flat::sections, whose rate it runs at
+    bool muted = false;   ///< inside a bypassed subgraph: does not run
+    int section = 0;      ///< number in Flat::sections; it runs at the rate of that section
     std::vector<SettingValue> settings {};
-    std::size_t values = 0;   ///< where those of its params begin in Flat::values
+    std::size_t values = 0;   ///< index in Flat::values of the first value of its params
     int list_size = 0;
 
     bool runs() const noexcept { return ! muted && ! bypass; }
 
     const std::vector<PortSheet>& ports (Role role_) const noexcept
     {
-        return role_ == Role::input ? type->inputs : role_ == Role::param ? type->params
-                                                                          : type->outputs;
+        if (role_ == Role::input) return type->inputs;
+        return role_ == Role::param ? type->params : type->outputs;
     }
 
-    /// How many numbers a row stands for: the components of a vector, the entries of an array port.
+    /// How many numbers a row holds: the components of a vector, or the entries of an array port.
     int slots (const PortSheet& row) const noexcept { return row.width * (row.list ? list_size : 1); }
 };
 
 struct FlatWire
 {
-    std::optional<PortRef> from;   ///< nothing: a placeholder's output, which is 0
+    std::optional<PortRef> from;   ///< empty for the output of a placeholder, which is 0
     PortRef to;
     int delay = 0;
     bool add = false;
     double gain = 1.0;
     std::optional<Dimension> gain_dimension {};   ///< if the gain has a unit
     Origin origin {};
-    const graph::Wire* written = nullptr;   ///< in the graph, as long as it is being compiled
-    Identity identity {};                   ///< of all wires that one wire of the graph stands for, where its ends are instances
-    int section = 0;                        ///< where it is written, and in whose ticks its delay counts: at its ends, or around them
-    bool crosses = false;                   ///< an end of it is in a section within
+    const graph::Wire* written = nullptr;   ///< the wire in the graph; valid only during compiling
+    Identity identity {};                   ///< shared by all flat wires that one wire of the graph becomes between instances
+    int section = 0;                        ///< the section it is written in, which encloses both ends; its delay counts ticks of this section
+    bool crosses = false;                   ///< one of its ends is in an inner section
 };
 
-/// What runs as a whole, at a rate of its own: the graph itself, and the inside of each subgraph node with `every` or
-/// `times`.
+/// A part of the graph that runs as a whole at its own rate: the graph itself, and the inside of each subgraph node with
+/// `every` or `times`.
 struct Section
 {
     enum class Kind
     {
-        every,   ///< on each `factor`-th tick of the section around
-        times    ///< `factor` times in each tick of the section around
+        every,   ///< on every `factor`-th tick of the enclosing section
+        times    ///< `factor` times in each tick of the enclosing section
     };
 
-    int around = -1;   ///< of Flat::sections; -1 for the graph itself
+    int around = -1;   ///< number in Flat::sections; -1 for the graph itself
     Kind kind = Kind::every;
     int factor = 1;
-    bool linear = false;   ///< its outputs go from value to value in straight lines
-    std::string path {};   ///< of the subgraph node
+    bool linear = false;   ///< its outputs are interpolated linearly between values
+    std::string path {};   ///< path of the subgraph node
     Origin origin {};
 };
 
 struct Flat
 {
-    std::vector<FlatNode> nodes;   ///< in file order, a subgraph's nodes where it stands
+    std::vector<FlatNode> nodes;   ///< in file order, with the nodes of a subgraph in its place
     std::vector<FlatWire> wires;
-    std::vector<double> values;                                            ///< of all params, node by node and row by row
+    std::vector<double> values;                                            ///< values of all params, node by node and row by row
     std::vector<Assignment> assignments;                                   ///< in order of precedence, lowest first
     std::deque<NodeType> made_types;                                       ///< of bypassed subgraphs
-    std::deque<std::string> made_names;                                    ///< text that stands in no graph: of their ports, of origins
+    std::deque<std::string> made_names;                                    ///< text that no graph contains: port names of made_types, text of origins
     std::deque<Place> places;                                              ///< what origins point to
     std::vector<Identity> scopes { { -1, 0 } };                            ///< the graph itself, then the subgraph node of each patch that was expanded
-    std::vector<Section> sections { {} };                                  ///< the graph itself, then those within, each after the one around it
-    std::unordered_map<graph::Id, std::vector<graph::Ancestor>> origins;   ///< of copies
+    std::vector<Section> sections { {} };                                  ///< the graph itself, then the inner sections, each after the one that encloses it
+    std::unordered_map<graph::Id, std::vector<graph::Ancestor>> origins;   ///< by the id of a copy: what it was copied from
     Messages messages;
 
-    const PortSheet& sheet (const PortRef& r) const { return nodes[static_cast<std::size_t> (r.node)].ports (r.role)[static_cast<std::size_t> (r.port)]; }
-    const FlatNode& node (const PortRef& r) const { return nodes[static_cast<std::size_t> (r.node)]; }
+    const FlatNode& node (int n) const { return nodes[tactus::at (n)]; }
+    const FlatNode& node (const PortRef& r) const { return node (r.node); }
+    const PortSheet& sheet (const PortRef& r) const { return node (r).ports (r.role)[tactus::at (r.port)]; }
+    const Section& section (int s) const { return sections[tactus::at (s)]; }
 
-    /// The values of a node's param.
+    int nodeCount() const noexcept { return static_cast<int> (nodes.size()); }
+    int sectionCount() const noexcept { return static_cast<int> (sections.size()); }
+
+    /// The values of a param of a node.
     std::span<double> param (int node, std::size_t row) noexcept;
     std::span<const double> param (int node, std::size_t row) const noexcept { return const_cast<Flat*> (this)->param (node, row); }
 
     /// "grain/wave.phase", "mix.in[2]", "hand.position.x".
     std::string nameOf (const PortRef&) const;
 
-    /// How many components a reference stands for.
+    /// How many components a reference covers.
     int widthOf (const PortRef& r) const { return r.component >= 0 ? 1 : sheet (r).width; }
 
-    const Section& section (int s) const { return sections[static_cast<std::size_t> (s)]; }
-
-    /// The sections on the way from one, which is not among them, to one within, which comes last.
+    /// The sections on the way from `around` (not included) to `within` (included, last).
     std::vector<int> sectionsBetween (int around, int within) const;
 
-    /// Ticks of a section in one of the graph.
+    /// Ticks of a section per tick of the graph.
     double speed (int section) const;
 
-    /// How many ticks of the graph one of a section lasts. In a `times` section, where nothing returns to the hand, as
-    /// many as one of the section around.
+    /// How many ticks of the graph one tick of a section lasts. For a `times` section, from which nothing returns to the hand,
+    /// the same as for the enclosing section.
     int ticksOf (int section) const;
 
-    /// True if the section, or one around it, rests on some ticks.
+    /// True if the section, or one that encloses it, does not run on every tick.
     bool rests (int section) const;
 
-    /// True once so much is wrong that nobody reads on; what is found beyond is not kept, so need not be put in words.
+    /// True once there are too many problems to store more. Callers can then skip writing the message.
     bool isFull() const noexcept { return messages.size() >= 1000; }
 
     Origin at (Origin around, std::string_view name) { return &places.emplace_back (Place { around, name, 0, Place::Kind::name }); }
     Origin at (Origin around, std::string_view name, std::string_view inner) { return at (at (around, name), inner); }
     Origin entry (Origin list, int number) { return &places.emplace_back (Place { list, {}, number, Place::Kind::entry }); }
     Origin inFile (std::string_view name) { return &places.emplace_back (Place { nullptr, name, 0, Place::Kind::file }); }
-    Origin asIs (Origin around, std::string text) { return &places.emplace_back (Place { around, made_names.emplace_back (std::move (text)), 0, Place::Kind::as_is }); }
+    Origin asIs (Origin around, std::string text)
+    {
+        return &places.emplace_back (Place { around, made_names.emplace_back (std::move (text)), 0, Place::Kind::as_is });
+    }
 
-    /// What is wrong with several instances of one thing is said of the first.
+    /// Adds a message. A problem that several instances share is reported for the first one only.
     void error (std::string id, Origin, std::string text, std::string remedy);
     void warn (std::string id, Origin, std::string text, std::string remedy);
 
 private:
-    void say (Message);
+    void add (Message);
 
-    std::unordered_set<std::string> said;   ///< about instances, whichever they were
+    std::unordered_set<std::string> reported;   ///< messages about instances, without the instance numbers
 };
 
 }   // namespace tactus::plan

@@ -7,7 +7,7 @@
 #include <framework/graph/instances.hpp>
 #include <framework/graph/overrides.hpp>
 #include <framework/graph/text.hpp>
-#include <framework/near_miss.hpp>
+#include <framework/text/closest_match.hpp>
 
 #include <cmath>
 
@@ -17,21 +17,21 @@ namespace tactus::plan
 namespace
 {
 constexpr int max_depth = 32;
-constexpr std::size_t max_nodes = 1'000'000;   // subgraphs within subgraphs multiply: a small file can ask for 2^32
-constexpr std::size_t max_wires = 2'000'000;   // from all instances to all instances; and as many values for them
+constexpr std::size_t max_nodes = 1'000'000;   // nested subgraphs multiply: a small file can request 2^32
+constexpr std::size_t max_wires = 2'000'000;   // from all instances to all instances; values given to them have the same limit
 
-/// Room for more, which many small steps do not move each time.
+/// Reserves room in large steps, so that many small additions do not move everything each time.
 template <typename T>
 void makeRoom (std::vector<T>& all, std::size_t more)
 {
     if (all.size() + more > all.capacity()) all.reserve (std::max (all.size() + more, 2 * all.capacity()));
 }
 
-/// The members of an object, of anything else none; they stay where they are.
-const Json::object_t& membersOf (const Json& json)
+/// The members of an object, none for anything else. Does not copy them.
+const Json::Object& membersOf (const Json& json)
 {
-    static const Json::object_t none;
-    return json.is_object() ? json.get_ref<const Json::object_t&>() : none;
+    static const Json::Object none;
+    return json.is_object() ? json.asObject() : none;
 }
 
 class Flattener
@@ -58,7 +58,10 @@ public:
         if (! too_large) readControls (g);
         if (! too_large) readOverrides();
         if (too_large)
-            flat.error ("graph/too_large", *too_large, "with its subgraphs expanded the graph has more than " + std::to_string (max_nodes) + " nodes, or " + std::to_string (max_wires) + " wires or values for them", "use a subgraph fewer times, or with fewer instances");
+            flat.error ("graph/too_large", *too_large,
+                        "with its subgraphs expanded, the graph has more than " + std::to_string (max_nodes) + " nodes, or " + std::to_string (max_wires)
+                            + " wires or values for them",
+                        "use a subgraph fewer times, or with fewer instances");
     }
 
 private:
@@ -69,12 +72,12 @@ private:
     Assets* assets;
     Flattened& result;
     Flat& flat;
-    std::vector<const graph::Patch*> open;      // the patches we are inside of
+    std::vector<const graph::Patch*> open;      // the patches being expanded, outermost first
     Origin all_nodes = flat.at ({}, "nodes");   // of the graph itself
-    std::optional<Origin> too_large;            // where the graph came to be
-    Ports starts, ends;                         // of the wire, or the value, that is being read
+    std::optional<Origin> too_large;            // the place where the graph became too large
+    Ports starts, ends;                         // of the wire or value being read
 
-    // By view, not by copy: a place goes on pointing at the name.
+    // Takes views, not copies: the place keeps pointing to the name.
     Origin at (Origin around, std::string_view name) { return flat.at (around, name); }
     Origin at (Origin around, std::string_view name, std::string_view inner) { return flat.at (around, name, inner); }
 
@@ -100,7 +103,7 @@ private:
                 addNode (scope, node, here, roles, muted, member);
             }
         }
-        if (! too_large)   // else not all is there that names may stand for
+        if (! too_large)   // otherwise some of the nodes that names refer to are missing
         {
             expose (scope);
             addWires (scope, muted);
@@ -108,10 +111,11 @@ private:
         open.pop_back();
     }
 
-    /// Asked before anything that multiplies is made.
+    /// Call this before making anything that multiplies.
     bool isTooLarge (Origin here, std::size_t more_nodes = 0, std::size_t more_wires = 0)
     {
-        const bool is_over = flat.nodes.size() + flat.scopes.size() + more_nodes > max_nodes || std::max (flat.wires.size(), flat.assignments.size()) + more_wires > max_wires;
+        const bool is_over =
+            flat.nodes.size() + flat.scopes.size() + more_nodes > max_nodes || std::max (flat.wires.size(), flat.assignments.size()) + more_wires > max_wires;
         if (is_over && ! too_large) too_large = here;
         return too_large.has_value();
     }
@@ -124,16 +128,25 @@ private:
             std::vector<std::string> ids;
             for (const auto& t : nodes)
                 ids.emplace_back (t.info.id);
-            flat.error ("node/unknown_type", at (here, "type"), "'" + scope.prefix + node.name + "' has the unknown type '" + node.type + "'" + didYouMean (node.type, ids),
-                        "it is kept as a placeholder whose outputs are 0; `tactus nodes` lists the types there are");
+            flat.error ("node/unknown_type", at (here, "type"),
+                        "'" + scope.prefix + node.name + "' has the unknown type '" + node.type + "'" + didYouMean (node.type, ids),
+                        "it is kept as a placeholder whose outputs are 0; `tactus nodes` lists all types");
             return;
         }
 
         if (node.extra.contains ("count"))
-            flat.error ("node/needless_count", at (here, "count"), "'" + scope.prefix + node.name + "' (" + node.type + ") is no subgraph, and only these have several instances", "collapse it to a subgraph and give that the `count`, or remove it");
+            flat.error ("node/needless_count", at (here, "count"),
+                        "'" + scope.prefix + node.name + "' (" + node.type + ") is not a subgraph, and only subgraphs have several instances",
+                        "collapse it to a subgraph and give the subgraph the `count`, or remove the `count`");
 
-        member.node = static_cast<int> (flat.nodes.size());
-        flat.nodes.push_back ({ .path = scope.prefix + node.name, .identity = { scope.number, node.id }, .type = type, .origin = here, .bypass = node.bypass, .muted = muted, .section = scope.section });
+        member.node = flat.nodeCount();
+        flat.nodes.push_back ({ .path = scope.prefix + node.name,
+                                .identity = { scope.number, node.id },
+                                .type = type,
+                                .origin = here,
+                                .bypass = node.bypass,
+                                .muted = muted,
+                                .section = scope.section });
         auto& made = flat.nodes.back();
         readRole (node, here, roles, made);
         readSettings (scope, node, here, made);
@@ -141,19 +154,20 @@ private:
             assignOwn (scope, node, here, member.node, key, value);
     }
 
-    /// What stands under a node's own params is nearly always a row of its datasheet; what else it may be, an entry or a
-    /// mistake, is read as any address is.
+    /// A key in the params of a node is nearly always a row of its datasheet. Anything else, an entry or a mistake, is read like any
+    /// other address.
     void assignOwn (const Scope& scope, const graph::Node& node, Origin here, int number, const std::string& key, const Json& value)
     {
-        const auto& rows = flat.nodes[static_cast<std::size_t> (number)].type->params;
+        const auto& rows = flat.node (number).type->params;
         const auto row = std::ranges::find (rows, key, &PortSheet::id);
         if (row == rows.end() || ! graph::isId (node.name)) return assign (scope, node.name + "." + key, value, at (here, "params", key));
 
-        // A plain number as it should be has no unit to be checked, and whatever else is given to the param comes later.
+        // A valid plain number has no unit to check, and all other values for the param are processed later.
         const int port = static_cast<int> (row - rows.begin());
-        const bool is_plain = value.is_number() && row->width == 1 && ! row->list && row->choices.empty() && isFinite (value.get<double>()) && row->limits.hard.contains (value.get<double>());
+        const bool is_plain = value.is_number() && row->width == 1 && ! row->list && row->choices.empty() && isFinite (value.get<double>())
+                              && row->limits.hard.contains (value.get<double>());
         if (is_plain)
-            flat.param (number, static_cast<std::size_t> (port))[0] = value.get<double>();
+            flat.param (number, tactus::at (port))[0] = value.get<double>();
         else
             flat.assignments.push_back ({ { number, Role::param, port }, &value, &value, 0.0, at (here, "params", key) });
     }
@@ -161,9 +175,11 @@ private:
     void readRole (const graph::Node& node, Origin here, const Roles& roles, FlatNode& made)
     {
         if (made.type->bind != nullptr && node.role.empty())
-            flat.error ("node/no_role", here, "'" + made.path + "' (" + node.type + ") does not say which device it belongs to", "give it a role, as in \"role\": \"stylus\"");
+            flat.error ("node/no_role", here, "'" + made.path + "' (" + node.type + ") has no role, so its device is unknown",
+                        "give it a role, for example \"role\": \"stylus\"");
         if (made.type->bind == nullptr && ! node.role.empty())
-            flat.warn ("node/needless_role", at (here, "role"), "'" + made.path + "' (" + node.type + ") is not a device node, so its role means nothing", "remove the role");
+            flat.warn ("node/needless_role", at (here, "role"), "'" + made.path + "' (" + node.type + ") is not a device node, so its role has no effect",
+                       "remove the role");
         const auto outer = roles.find (node.role);
         made.role = outer == roles.end() ? node.role : outer->second;
     }
@@ -182,16 +198,17 @@ private:
                 for (const auto& s : made.type->settings)
                     ids.emplace_back (s.id);
                 const bool is_param = std::ranges::count (made.type->params, key, &PortSheet::id) > 0;
-                flat.error ("node/unknown_setting", at (here, "settings", key), "'" + made.path + "' (" + node.type + ") has no setting '" + key + "'" + didYouMean (key, ids),
+                flat.error ("node/unknown_setting", at (here, "settings", key),
+                            "'" + made.path + "' (" + node.type + ") has no setting '" + key + "'" + didYouMean (key, ids),
                             is_param ? "it is a parameter: move it to params" : "its settings: " + listed (ids));
                 continue;
             }
             std::string within;
-            const auto read = readSetting (value, *sheet, { assets, scope.owner->folder }, within);
-            if (const auto* problem = std::get_if<std::string> (&read))
-                flat.error ("setting/value", flat.asIs (at (here, "settings", key), within), "setting '" + key + "' of '" + made.path + "': " + *problem, "`tactus nodes " + node.type + "` says what it takes");
+            if (auto read = readSetting (value, *sheet, { assets, scope.owner->folder }, within))
+                made.settings[tactus::at (sheet - made.type->settings.begin())] = *std::move (read);
             else
-                made.settings[static_cast<std::size_t> (sheet - made.type->settings.begin())] = std::get<SettingValue> (read);
+                flat.error ("setting/value", flat.asIs (at (here, "settings", key), within),
+                            "setting '" + key + "' of '" + made.path + "': " + read.error().text, "`tactus nodes " + node.type + "` lists what it takes");
         }
 
         for (std::size_t i = 0; i < made.type->settings.size(); ++i)
@@ -201,7 +218,7 @@ private:
         addValues (made);
     }
 
-    /// The values of its params, as the datasheet has them.
+    /// Adds the values of its params, initialised with the defaults of the datasheet.
     void addValues (FlatNode& made)
     {
         made.values = flat.values.size();
@@ -217,23 +234,26 @@ private:
 
         if (open.size() >= max_depth)
         {
-            flat.error ("graph/too_deep", at (here, "type"), "'" + scope.prefix + node.name + "' lies " + std::to_string (max_depth) + " subgraphs deep", "nest them less deeply");
+            flat.error ("graph/too_deep", at (here, "type"), "'" + scope.prefix + node.name + "' is nested " + std::to_string (max_depth) + " subgraphs deep",
+                        "nest them less deeply");
             return;
         }
         if (std::ranges::count (open, first.patch) > 0)
         {
-            flat.error ("graph/recursive", at (here, "type"), "'" + scope.prefix + node.name + "' contains itself through '" + node.type + "'", "a subgraph may hold others, but not one it is inside of");
+            flat.error ("graph/recursive", at (here, "type"), "'" + scope.prefix + node.name + "' contains itself through '" + node.type + "'",
+                        "a subgraph can contain other subgraphs, but not one that contains it");
             return;
         }
         const auto count = graph::countOf (node);
         if (count == 0)
         {
-            flat.error ("node/bad_count", at (here, "count"), "the `count` of '" + scope.prefix + node.name + "' is " + shown (node.extra.at ("count")), "a whole number from 1 to " + std::to_string (graph::most_instances) + "; it is 1 where there is none");
+            flat.error ("node/bad_count", at (here, "count"), "the `count` of '" + scope.prefix + node.name + "' is " + shown (node.extra.at ("count")),
+                        "give a whole number from 1 to " + std::to_string (graph::most_instances) + "; without a `count` it is 1");
             return;
         }
         checkRoles (scope, node, here, *first.patch, count.value_or (1));
 
-        if (count && isTooLarge (at (here, "count"), static_cast<std::size_t> (*count) * (first.patch->nodes.size() + 1))) return;
+        if (count && isTooLarge (at (here, "count"), tactus::at (*count) * (first.patch->nodes.size() + 1))) return;
         member.counted = count.has_value();
         for (int k = 0; k < count.value_or (1) && ! isTooLarge (all_nodes) && ! flat.isFull(); ++k)
         {
@@ -263,14 +283,14 @@ private:
         {
             const auto& [key, value] = *entry;
             const auto origin = at (here, "overrides", key);
-            auto parsed = graph::parseOverride (key);
-            if (auto* inner = std::get_if<graph::Endpoint> (&parsed))
+            auto inner = graph::parseOverride (key);
+            if (inner)
             {
                 inner->node.insert (0, node.name + (inner->node.starts_with ('[') ? "" : "/"));
                 assign (scope, *inner, value, origin);
             }
             else
-                flat.error ("param/name", origin, std::get<std::string> (parsed), "name a parameter, as in drag.mu");
+                flat.error ("param/name", origin, inner.error().text, "name a parameter, such as drag.mu");
         }
     }
 
@@ -280,33 +300,39 @@ private:
         {
             const auto origin = at (here, "roles", inner);
             if (! hasRole (patch, inner))
-                flat.warn ("node/unknown_role", origin, "nothing in '" + scope.prefix + node.name + "' has the role '" + inner + "'", "name a role of the subgraph's device nodes");
+                flat.warn ("node/unknown_role", origin, "nothing in '" + scope.prefix + node.name + "' has the role '" + inner + "'",
+                           "name a role of the subgraph's device nodes");
             const bool is_list = outer.is_array() && std::ranges::all_of (outer, &Json::is_string);
             if (! is_list && ! outer.is_string())
-                flat.error ("node/bad_roles", origin, "role '" + inner + "' of '" + scope.prefix + node.name + "' must be the name of a role, or a list of names", "write { \"" + inner + "\": \"stylus\" }");
-            else if (is_list && outer.size() != static_cast<std::size_t> (count))
-                flat.error ("node/bad_roles", origin, "role '" + inner + "' of '" + scope.prefix + node.name + "' is given " + std::to_string (outer.size()) + " names, and there " + (count == 1 ? "is 1 instance" : "are " + std::to_string (count) + " instances"), "one name for each instance, or a single one, not in a list, for all");
+                flat.error ("node/bad_roles", origin,
+                            "role '" + inner + "' of '" + scope.prefix + node.name + "' must be the name of a role, or a list of names",
+                            "write { \"" + inner + "\": \"stylus\" }");
+            else if (is_list && outer.size() != tactus::at (count))
+                flat.error ("node/bad_roles", origin,
+                            "role '" + inner + "' of '" + scope.prefix + node.name + "' is given " + std::to_string (outer.size()) + " names, but there "
+                                + (count == 1 ? "is 1 instance" : "are " + std::to_string (count) + " instances"),
+                            "give a list with one name for each instance, or a single name for all");
         }
     }
 
-    /// What the roles inside an instance mean outside of all. Those that are wrong have been spoken of.
+    /// Maps the roles inside an instance to roles of the whole graph. Wrong roles have already been reported.
     static Roles rolesInside (const graph::Node& node, const Roles& roles, int instance)
     {
         Roles mapped;
-        const auto k = static_cast<std::size_t> (instance);
+        const auto k = tactus::at (instance);
         for (const auto& [inner, outer] : membersOf (node.roles))
         {
             const auto& name = outer.is_array() && k < outer.size() ? outer[k] : outer;
             if (! name.is_string()) continue;
-            const auto through = roles.find (name.get_ref<const std::string&>());
-            mapped[inner] = through == roles.end() ? name.get_ref<const std::string&>() : through->second;
+            const auto through = roles.find (name.asString());
+            mapped[inner] = through == roles.end() ? name.asString() : through->second;
         }
         for (const auto& [inner, outer] : roles)
             mapped.try_emplace (inner, outer);
         return mapped;
     }
 
-    /// True if a device node of the patch, or of a subgraph it hands the role on to, has the role.
+    /// True if a device node of the patch has the role, or if a device node in a nested subgraph may have it.
     static bool hasRole (const graph::Patch& patch, const std::string& role)
     {
         return std::ranges::any_of (patch.nodes, [&] (const graph::Node& n)
@@ -325,7 +351,8 @@ private:
             for (const auto& [id, patch] : scope.owner->graphs)
                 names.push_back (id);
             if (inside.patch == nullptr)
-                flat.error ("graph/unknown_subgraph", at (here, "type"), "there is no subgraph '" + std::string (name) + "' under `graphs`" + didYouMean (name, names), "subgraphs here: " + listed (names));
+                flat.error ("graph/unknown_subgraph", at (here, "type"),
+                            "there is no subgraph '" + std::string (name) + "' under `graphs`" + didYouMean (name, names), "subgraphs here: " + listed (names));
         }
         else if (const auto file = scope.owner->files.find (std::string (name)); file != scope.owner->files.end())
         {
@@ -334,11 +361,12 @@ private:
             inside.origin = flat.inFile (file->first);
         }
         else
-            flat.error ("graph/unknown_file", at (here, "type"), "the subgraph file '" + std::string (name) + "' was not loaded", "check the path; it is relative to the file that names it");
+            flat.error ("graph/unknown_file", at (here, "type"), "the subgraph file '" + std::string (name) + "' was not loaded",
+                        "check the path; it is relative to the file that names it");
         return inside.patch != nullptr;
     }
 
-    /// A bypassed subgraph keeps its exposed ports, as a node whose outputs pass the inputs of the same name.
+    /// Replaces a bypassed subgraph by a node with its exposed ports, whose outputs pass on the inputs of the same name.
     void bypassSubgraph (const Scope& scope, const graph::Node& node, Origin here, bool muted, Scope& inside, int instance)
     {
         NodeType type {};
@@ -359,18 +387,23 @@ private:
             if (x.role == Role::output)
             {
                 row.offset = offset;
-                offset += sizeof (double) * static_cast<std::size_t> (row.list ? list_capacity : row.width);
+                offset += sizeof (double) * tactus::at (row.list ? list_capacity : row.width);
             }
-            (x.role == Role::input ? type.inputs : x.role == Role::param ? type.params
-                                                                         : type.outputs)
-                .push_back (row);
+            auto& params_or_outputs = x.role == Role::param ? type.params : type.outputs;
+            (x.role == Role::input ? type.inputs : params_or_outputs).push_back (row);
         }
         type.outputs_size = std::max (offset, sizeof (double));
         type.outputs_align = alignof (double);
         flat.made_types.push_back (std::move (type));
 
-        inside.stand_in = static_cast<int> (flat.nodes.size());
-        flat.nodes.push_back ({ .path = inside.prefix.substr (0, inside.prefix.size() - 1), .identity = { scope.number, node.id, instance }, .type = &flat.made_types.back(), .origin = here, .bypass = true, .muted = muted, .section = scope.section });
+        inside.stand_in = flat.nodeCount();
+        flat.nodes.push_back ({ .path = inside.prefix.substr (0, inside.prefix.size() - 1),
+                                .identity = { scope.number, node.id, instance },
+                                .type = &flat.made_types.back(),
+                                .origin = here,
+                                .bypass = true,
+                                .muted = muted,
+                                .section = scope.section });
         flat.nodes.back().list_size = list_size;
         addValues (flat.nodes.back());
     }
@@ -401,14 +434,21 @@ private:
             const bool starts_somewhere = find (wire.from, Side::start, scope, origin, flat, starts);
             if (! find (wire.to, Side::end, scope, origin, flat, ends) || ! starts_somewhere) continue;
 
-            FlatWire w { .from = {}, .to = {}, .delay = wire.delay, .add = wire.add, .origin = origin, .written = &wire, .identity = { scope.number, wire.id }, .section = scope.section };
-            const bool is_drawn = readGain (wire, w) && ! muted && wire.enabled.value_or (true);
-            addEach (w, is_drawn);
+            FlatWire w { .from = {},
+                         .to = {},
+                         .delay = wire.delay,
+                         .add = wire.add,
+                         .origin = origin,
+                         .written = &wire,
+                         .identity = { scope.number, wire.id },
+                         .section = scope.section };
+            const bool is_active = readGain (wire, w) && ! muted && wire.enabled.value_or (true);
+            addEach (w, is_active);
         }
     }
 
-    /// From all starts to all ends.
-    void addEach (FlatWire& w, bool is_drawn)
+    /// Adds wires from all starts to all ends.
+    void addEach (FlatWire& w, bool is_active)
     {
         const auto from = std::max (starts.size(), std::size_t { 1 });
         if (isTooLarge (w.origin, 0, from * ends.size())) return;
@@ -418,7 +458,7 @@ private:
                 w.to = to;
                 if (! starts.empty()) w.from = starts[k];
                 w.crosses = (w.from && flat.node (*w.from).section != w.section) || flat.node (to).section != w.section;
-                if (! wireFits (w) || ! is_drawn) continue;
+                if (! wireFits (w) || ! is_active) continue;
                 if (from == 1 && ends.size() == 1)
                     flat.wires.push_back (std::move (w));
                 else
@@ -430,13 +470,14 @@ private:
     {
         if (wire.gain.is_null()) return true;
         const auto read = readNumber (wire.gain);
-        if (const auto* problem = std::get_if<std::string> (&read))
+        if (! read)
         {
-            flat.error ("wire/gain", at (w.origin, "gain"), "gain of \"" + graph::toText (wire) + "\": " + *problem, "a number, or text with a unit such as \"1e-4 m/N\"");
+            flat.error ("wire/gain", at (w.origin, "gain"), "gain of \"" + graph::toText (wire) + "\": " + read.error().text,
+                        "give a number, or text with a unit such as \"1e-4 m/N\"");
             return false;
         }
-        w.gain = std::get<Number> (read).value;
-        w.gain_dimension = std::get<Number> (read).dimension;
+        w.gain = read->value;
+        w.gain_dimension = read->dimension;
         return true;
     }
 
@@ -447,7 +488,8 @@ private:
             if (end && flat.sheet (*end).list && end->index < 0)
             {
                 const auto name = flat.nameOf (*end);
-                flat.error ("wire/which_entry", w.origin, "\"" + graph::toText (*w.written) + "\" does not say which entry of the array port '" + name + "' it means", "write " + name + "[0]");
+                flat.error ("wire/which_entry", w.origin, "\"" + graph::toText (*w.written) + "\" does not name an entry of the array port '" + name + "'",
+                            "write " + name + "[0]");
                 return false;
             }
         if (! to.choices.empty())
@@ -463,8 +505,11 @@ private:
         if (w.from && flat.widthOf (*w.from) != flat.widthOf (w.to))
         {
             const bool vector_first = flat.widthOf (*w.from) == 3;
-            flat.error ("wire/width", w.origin, "'" + flat.nameOf (*w.from) + (vector_first ? "' is a vector and '" : "' is a scalar and '") + flat.nameOf (w.to) + (vector_first ? "' a scalar" : "' a vector"),
-                        vector_first ? "wire one component, as in " + flat.nameOf (*w.from) + ".x" : "wire it to one component, as in " + flat.nameOf (w.to) + ".x");
+            flat.error ("wire/width", w.origin,
+                        "'" + flat.nameOf (*w.from) + (vector_first ? "' is a vector and '" : "' is a scalar and '") + flat.nameOf (w.to)
+                            + (vector_first ? "' a scalar" : "' a vector"),
+                        vector_first ? "wire one component, as in " + flat.nameOf (*w.from) + ".x"
+                                     : "wire it to one component, as in " + flat.nameOf (w.to) + ".x");
             return false;
         }
         return true;
@@ -487,8 +532,8 @@ private:
     std::optional<graph::Endpoint> parameter (std::string_view name, Origin origin)
     {
         auto parsed = graph::parseEndpoint (name);
-        if (auto* e = std::get_if<graph::Endpoint> (&parsed)) return std::move (*e);
-        flat.error ("param/name", origin, std::get<std::string> (parsed), "name a parameter, as in drag.mu");
+        if (parsed) return *std::move (parsed);
+        flat.error ("param/name", origin, parsed.error().text, "name a parameter, such as drag.mu");
         return {};
     }
 
@@ -501,14 +546,13 @@ private:
             for (const auto& o : overrides)
                 if (o.name == control.id)
                 {
-                    const auto read = readNumber (o.value);
-                    if (const auto* problem = std::get_if<std::string> (&read))
-                        flat.error ("control/value", origin, "control '" + control.id + "': " + *problem, "a number from 0 to 1");
+                    if (const auto read = readNumber (o.value))
+                        value = read->value;
                     else
-                        value = std::get<Number> (read).value;
+                        flat.error ("control/value", origin, "control '" + control.id + "': " + read.error().text, "give a number from 0 to 1");
                 }
             if (! (value >= 0.0 && value <= 1.0))
-                flat.error ("control/value", at (origin, "value"), "control '" + control.id + "' is out of its range", "a number from 0 to 1");
+                flat.error ("control/value", at (origin, "value"), "control '" + control.id + "' is out of its range", "give a number from 0 to 1");
 
             for (const auto& t : control.to)
             {

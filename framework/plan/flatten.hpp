@@ -9,7 +9,8 @@
 namespace tactus::plan
 {
 
-/// A value given from outside, as by --set: "drag.mu" to "0.3", or a control's id to 0…1. It outranks the file.
+/// A value given from outside, for example with --set: 0.3 for "drag.mu", or 0…1 for the id of a control. It takes precedence
+/// over the file.
 struct Override
 {
     std::string name;
@@ -19,14 +20,14 @@ struct Override
 struct Flattened
 {
     Flat flat;
-    std::unique_ptr<Scope> top;           ///< to find ports by name; lives as long as the graph
+    std::unique_ptr<Scope> top;           ///< for finding ports by name; valid as long as the graph
     std::set<const graph::Patch*> used;   ///< the patches that were expanded
 };
 
-/// Expands, resolves and reads. Unknown node types become placeholders, with the message node/unknown_type.
+/// Expands subgraphs, resolves names and reads values. Unknown node types become placeholders, with the message node/unknown_type.
 Flattened flatten (const graph::Graph&, const Catalogue&, std::span<const Override>, Assets*);
 
-/// The same for a subgraph that no node uses, as if it stood alone.
+/// Does the same for a subgraph that no node uses, as if it were a graph on its own.
 Flattened flattenUnused (const graph::Graph&, const std::string& subgraph, const Catalogue&, Assets*);
 
 }   // namespace tactus::plan

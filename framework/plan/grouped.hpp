@@ -9,16 +9,17 @@
 namespace tactus::plan
 {
 
-/// Items sorted into numbered groups, side by side in one list; within a group they keep the order they came in.
+/// Items sorted into numbered groups, stored side by side in one list. Within a group they keep the order they arrived in.
 template <typename T>
 class Grouped
 {
 public:
-    /// Calls `forEach` twice with a visitor, which it has to call with (group, item) for each item, both times alike.
+    /// Calls `forEach` twice with a visitor, which must be called with (group, item) for each item, in the same order both times.
     template <typename ForEach>
     Grouped (std::size_t groups, const ForEach& forEach) : first (groups + 1, 0)
     {
-        // While items come in, each group's entry is where its next item goes: at last its end, where the next begins.
+        // While items are being added, a group's entry is the index for its next item. At the end it is where the next group
+        // begins.
         const auto entry = [this] (auto group) -> std::size_t&
         { return first[static_cast<std::size_t> (group) + 1]; };
         forEach ([&] (auto group, const T&)
@@ -36,7 +37,7 @@ public:
 
 private:
     std::vector<T> all;
-    std::vector<std::size_t> first;   // of each group, and the end
+    std::vector<std::size_t> first;   // index of the first item of each group, then the end
 };
 
 }   // namespace tactus::plan

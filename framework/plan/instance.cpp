@@ -34,7 +34,10 @@ void turn (const ParamRef& param, double value) noexcept
     param.knobs->touched.store (true, std::memory_order_release);
 }
 
-bool takesHits (const PortSheet& input) noexcept { return input.width == 1 && ! input.list && input.unit.kind == UnitRule::Kind::fixed && input.unit.unit.quantity == Quantity::hit; }
+bool takesHits (const PortSheet& input) noexcept
+{
+    return input.width == 1 && ! input.list && input.unit.kind == UnitRule::Kind::fixed && input.unit.unit.quantity == Quantity::hit;
+}
 
 void strike (const HitRef& hit, double speed) noexcept
 {

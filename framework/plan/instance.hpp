@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What lives on from plan to plan: nodes, their parameters, and what is under way on wires that are delayed or lead
-/// from one rate to another.
+/// What survives from plan to plan: nodes, their parameters, and the values in transit on wires that are delayed or change
+/// rate.
 
 #include "knobs.hpp"
 
@@ -13,34 +13,34 @@
 namespace tactus::plan
 {
 
-/// A node as it stands in a plan, beside its entry in the flat graph.
+/// A node in a plan; its entry in the flat graph has the same number.
 struct Instance
 {
-    std::uint64_t serial = 0;                 ///< of the node; a new one if it was made anew
-    std::shared_ptr<void> node;               ///< none for a bypassed subgraph
-    std::shared_ptr<Knobs> knobs;             ///< none without params and inputs for hits
-    bool is_struck = false;                   ///< runs, and hears its pulses
-    std::vector<bool> driven;                 ///< by knob: a wire or feed has the last word; empty if none is
+    std::uint64_t serial = 0;                 ///< of the node; a replacement gets a new one
+    std::shared_ptr<void> node;               ///< null for a bypassed subgraph
+    std::shared_ptr<Knobs> knobs;             ///< null if it has neither params nor hit inputs
+    bool is_struck = false;                   ///< the node runs and accepts hits from outside
+    std::vector<bool> driven;                 ///< by knob: a wire or feed sets the value; empty if none is driven
     int delay = 1;                            ///< ticks from input to output, if it peeks
     void* outputs = nullptr;                  ///< in the plan's storage, as its type lays them out
-    const double* const* sources = nullptr;   ///< of its inputs, in the plan's storage
-    bool dirty = true;                        ///< is not what it was in the plan before, or hears from something that is not
+    const double* const* sources = nullptr;   ///< by input component, in the plan's storage
+    bool dirty = true;                        ///< the node or something upstream differs from the previous plan
 
-    /// Its place in the node. Not for a knob of a choice.
+    /// Address of a parameter in the node. Not for a choice, which is an int.
     double* param (std::size_t knob) const noexcept;
-    void write (std::size_t knob, double value) const noexcept;   ///< also of a choice   [tick thread]
+    void write (std::size_t knob, double value) const noexcept;   ///< also works for a choice   [tick thread]
     bool isDriven (std::size_t knob) const noexcept { return ! driven.empty() && driven[knob]; }
 };
 
-/// What is under way on one component of a delayed wire.
+/// The values in transit on one component of a delayed wire.
 struct Line
 {
     std::uint64_t serial = 0;
     std::vector<double> samples;
     std::size_t now = 0;
-    double out = 0.0;   ///< what arrives on this tick
+    double out = 0.0;   ///< the value that arrives on this tick
 
-    /// Goes on from a line of another length: the newest samples stay, and beyond the oldest is held. [tick thread]
+    /// Continues a line of another length. Keeps the newest samples; if this line is longer, repeats the oldest. [tick thread]
     void adopt (const Line& old) noexcept
     {
         const auto had = old.samples.size(), size = samples.size();
@@ -52,34 +52,35 @@ struct Line
 };
 
 /// How one component of a wire enters or leaves a section.
-struct Way
+struct Conversion
 {
     enum class Kind
     {
-        latch,    ///< as it stands when the section runs
-        gather,   ///< all there was since it last arrived, added up
-        line,     ///< in a straight line from the value before to the newest
-        pulse     ///< on the first tick, then 0
+        latch,    ///< the value at the time the section runs
+        gather,   ///< the sum of all values since the last delivery
+        line,     ///< a straight line from the previous value to the newest
+        pulse     ///< the value on the first tick, then 0
     };
 
     Kind kind = Kind::latch;
-    int factor = 1;   ///< of the section
+    int factor = 1;   ///< factor of the section
     bool enters = true;
 
-    bool operator== (const Way&) const = default;
+    bool operator== (const Conversion&) const = default;
 };
 
-/// What is under way there.
-struct Passage
+/// The state of one rate conversion.
+struct RateConverter
 {
     std::uint64_t serial = 0;
-    double out = 0.0;                    ///< what arrives
-    double gathered = 0.0;               ///< and has not arrived yet
+    double out = 0.0;                    ///< the value that arrives
+    double gathered = 0.0;               ///< sum that has not been delivered yet
     double before = 0.0, newest = 0.0;   ///< the ends of the line
-    bool begun = false;                  ///< there is a newest
+    bool begun = false;                  ///< `newest` is set
 
-    /// Goes on where another way stood. The serial is not touched, since the next plan is made of it meanwhile. [tick thread]
-    void adopt (const Passage& old) noexcept
+    /// Takes over the state of a conversion of another kind, except for its serial: the main thread may be reading this one to
+    /// build the next plan. [tick thread]
+    void adopt (const RateConverter& old) noexcept
     {
         out = old.out;
         gathered = old.gathered;
@@ -89,7 +90,7 @@ struct Passage
     }
 };
 
-/// Unique in a process, as ids are. [any thread]
+/// Unique in a process. [any thread]
 std::uint64_t newSerial() noexcept;
 
 }   // namespace tactus::plan

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The parameters of a running node as they are turned live. A target may be set from any thread; the tick thread goes
-/// there in a straight line, each parameter on its own. Choices are taken at once.
+/// Knobs turn the parameters of a running node. Any thread may set a target; the tick thread ramps each parameter to its
+/// target in a straight line. Choices apply immediately.
 
-#include <framework/catalogue.hpp>
+#include <framework/node/catalogue.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -20,40 +20,43 @@ namespace tactus::plan
 struct Knob
 {
     std::atomic<double> target = 0.0;
-    std::atomic<std::uint32_t> turns = 0;   ///< how often a target was set
+    std::atomic<std::uint32_t> turns = 0;   ///< number of times a target was set
 
-    // Of the tick thread.
-    std::uint32_t heeded = 0;   ///< of these turns, what came of is under way, or outdone by an edit
-    int left = 0;               ///< ticks of the ramp
-    double to = 0.0;            ///< its end
-    double value = 0.0;         ///< where it stands: the stored value, before wires
+    // Tick thread only.
+    std::uint32_t heeded = 0;   ///< value of `turns` up to which targets are applied, or replaced by an edit
+    int left = 0;               ///< ticks left of the ramp
+    double to = 0.0;            ///< end of the ramp
+    double value = 0.0;         ///< current value: the stored one, before wires
 };
 
-/// An input that takes hits, for those who strike from outside. What they ask for comes to what the wires bring, all of it on
-/// the first tick on which the node runs.
+/// A hit input as seen from outside the graph. Hits from outside are added to the hits from wires, all on the next tick on
+/// which the node runs.
 struct Pulse
 {
-    std::atomic<double> asked = 0.0;   ///< m/s, the sum of all that were not looked at
+    std::atomic<double> asked = 0.0;   ///< the sum of all hits that the tick thread has not picked up, in m/s
 
-    // Of the tick thread.
-    double pending = 0.0;   ///< and that the node has not heard
+    // Tick thread only.
+    double pending = 0.0;   ///< picked up but not yet passed to the node, in m/s
 };
 
 bool takesHits (const PortSheet&) noexcept;
 
-/// All knobs of a node, and its inputs for hits. They outlive the plan they were made for: a later one that holds the node
-/// holds these too.
+/// All knobs and hit inputs of a node. They outlive the plan they were made for: a later plan that contains the same node
+/// shares them.
 struct Knobs
 {
-    explicit Knobs (const NodeType& t) : type (t), all (indexOf (t, t.params.size(), 0)), pulses (static_cast<std::size_t> (std::ranges::count_if (t.inputs, takesHits))) {}
+    explicit Knobs (const NodeType& t)
+        : type (t), all (indexOf (t, t.params.size(), 0)), pulses (static_cast<std::size_t> (std::ranges::count_if (t.inputs, takesHits)))
+    {
+    }
 
-    /// True if there is anything of a node of this type that can be turned or struck.
+    /// True if a node of this type has params or hit inputs.
     static bool areIn (const NodeType& t) noexcept { return ! t.params.empty() || std::ranges::any_of (t.inputs, takesHits); }
 
-    /// A list has room for all entries it can ever have, so that none moves.
+    /// Number of knobs for a param. A list has a knob for each entry it can ever have, so that knobs never move.
     static std::size_t roomOf (const PortSheet& row) noexcept { return static_cast<std::size_t> (row.list ? list_capacity : row.width); }
 
-    /// Where a component of a param stands.
+    /// Index of the knob for a component of a param.
     static std::size_t indexOf (const NodeType& t, std::size_t param, std::size_t component) noexcept
     {
         for (std::size_t p = 0; p < param; ++p)
@@ -64,16 +67,16 @@ struct Knobs
     const NodeType& type;
     std::vector<Knob> all;
     std::vector<Pulse> pulses;           ///< by input that takes hits, in the order of the datasheet
-    std::atomic<bool> touched = false;   ///< one of them is
+    std::atomic<bool> touched = false;   ///< a knob or pulse has changed
 
-    // Of the tick thread.
-    bool started = false;   ///< the node has ticked: from now on, values are ramped
-    bool ramping = false;   ///< is in the list of those that are
+    // Tick thread only.
+    bool started = false;   ///< the node has ticked: new targets start a ramp
+    bool ramping = false;   ///< the node is in the list of nodes with a ramp
 };
 
 bool isChoice (const NodeType&, std::size_t knob) noexcept;
 
-/// A parameter as those who turn it hold it. What it names may be gone from the plan; then turning it does nothing.
+/// A handle for turning a parameter. If the node is no longer in the plan, turning does nothing.
 struct ParamRef
 {
     std::shared_ptr<Knobs> knobs;
@@ -81,18 +84,18 @@ struct ParamRef
     const PortSheet* sheet = nullptr;
 };
 
-/// Of a choice, the number of the alternative. A value that is not finite is passed over, one beyond the range of the
-/// model stops at its end. [any thread]
+/// Sets the target of a parameter; for a choice, the number of the alternative. Ignores a value that is not finite, and clamps
+/// to the range of the model. [any thread]
 void turn (const ParamRef&, double) noexcept;
 
-/// An input for hits, likewise.
+/// A handle for triggering hits at an input.
 struct HitRef
 {
     std::shared_ptr<Knobs> knobs;
-    std::size_t index = 0;   ///< among its pulses
+    std::size_t index = 0;   ///< among the pulses
 };
 
-/// A speed in m/s that is not finite and positive is passed over. [any thread]
+/// Triggers a hit with a speed in m/s. Ignores a speed that is not finite and positive. [any thread]
 void strike (const HitRef&, double speed) noexcept;
 
 }   // namespace tactus::plan

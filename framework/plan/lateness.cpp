@@ -12,20 +12,18 @@ namespace tactus::plan
 
 namespace
 {
-std::size_t at (int i) { return static_cast<std::size_t> (i); }
-
 constexpr int none = -1;
 
-/// For each node the first of some, by path, from which there is a way along `next`; or none.
+/// For each node: a start from which it can be reached along `next`, the first one by path; or none.
 template <typename Begins>
 std::vector<int> reachedFrom (const Flat& flat, const Grouped<int>& next, Begins begins)
 {
     std::vector<int> by_path (flat.nodes.size()), from (flat.nodes.size(), none), open;
     std::iota (by_path.begin(), by_path.end(), 0);
     std::erase_if (by_path, [&] (int n)
-                   { return ! begins (flat.nodes[at (n)]); });
+                   { return ! begins (flat.node (n)); });
     std::ranges::sort (by_path, {}, [&] (int n) -> const std::string&
-                       { return flat.nodes[at (n)].path; });
+                       { return flat.node (n).path; });
     for (const int start : by_path)
     {
         if (from[at (start)] == none) open.push_back (start);
@@ -69,7 +67,7 @@ void warnOfDelays (Flat& flat, const PortUnits& units, const std::vector<int>& n
     const auto sink = reachedFrom (flat, back, acts);
     const auto component = components (flat.nodes.size(), next);
 
-    std::vector<bool> told (flat.nodes.size(), false);
+    std::vector<bool> reported (flat.nodes.size(), false);
     const auto wires = flat.wires.size();
     for (std::size_t i = 0; i < wires; ++i)
     {
@@ -78,18 +76,22 @@ void warnOfDelays (Flat& flat, const PortUnits& units, const std::vector<int>& n
         const int from = w.from->node, to = w.to.node;
         if (source[at (from)] == none || sink[at (to)] == none || component[at (from)] == component[at (to)]) continue;
 
-        const auto way = " what goes from '" + flat.nodes[at (source[at (from)])].path + "' to '" + flat.nodes[at (sink[at (to)])].path + "' by ";
+        const auto path = " the path from '" + flat.node (source[at (from)]).path + "' to '" + flat.node (sink[at (to)]).path + "' by ";
         const std::string cost = "each tick costs stiffness that the hand can feel; ";
-        const auto& node = flat.nodes[at (from)];
+        const auto& node = flat.node (from);
         const auto written = std::int64_t { w.delay } * flat.ticksOf (w.section);
         if (written > 0)
-            flat.warn ("rate/late", w.origin, "\"" + graph::toText (*w.written) + "\" holds back" + way + ticks (written), cost + "leave the delay out");
+            flat.warn ("rate/late", w.origin, "\"" + graph::toText (*w.written) + "\" delays" + path + ticks (written), cost + "leave the delay out");
         if (const auto lines = delayOf (flat, units, w) - written; lines > 0)
-            flat.warn ("rate/late", w.origin, "\"" + graph::toText (*w.written) + "\" leaves a section in straight lines, which holds back" + way + ticks (lines), cost + "\"hold\": \"latch\" answers within the tick");
-        if (node_delays[at (from)] > 0 && ! told[at (from)])
+            flat.warn ("rate/late", w.origin, "\"" + graph::toText (*w.written) + "\" leaves a section with linear hold, which delays" + path + ticks (lines),
+                       cost + "\"hold\": \"latch\" answers within the tick");
+        if (node_delays[at (from)] > 0 && ! reported[at (from)])
         {
-            told[at (from)] = true;
-            flat.warn ("rate/late", node.origin, "'" + node.path + "' (" + std::string (node.type->info.id) + ") holds back" + way + ticks (std::int64_t { node_delays[at (from)] } * flat.ticksOf (node.section)), cost + "go past it");
+            reported[at (from)] = true;
+            flat.warn ("rate/late", node.origin,
+                       "'" + node.path + "' (" + std::string (node.type->info.id) + ") delays" + path
+                           + ticks (std::int64_t { node_delays[at (from)] } * flat.ticksOf (node.section)),
+                       cost + "bypass it with a wire");
         }
     }
 }

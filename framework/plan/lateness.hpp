@@ -6,9 +6,9 @@
 namespace tactus::plan
 {
 
-/// Warns (rate/late) of all that holds back what returns to the hand: delayed wires, delaying nodes, and sections whose
-/// outputs go in straight lines, wherever they stand on a way from a device's source to a sink. Loops are left alone:
-/// they cannot be without. `node_delays` as for pathDelays.
+/// Warns (rate/late) about everything that delays the response to the hand: delayed wires, delaying nodes, and sections with
+/// linear outputs, anywhere on a path from a device's source to a sink. Does not warn about delays in loops, which need them.
+/// `node_delays` as for pathDelays.
 void warnOfDelays (Flat&, const PortUnits&, const std::vector<int>& node_delays);
 
 }   // namespace tactus::plan

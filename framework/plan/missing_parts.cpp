@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "missing_parts.hpp"
 
-#include <framework/in_quotes.hpp>
+#include <framework/text/quote.hpp>
 
 #include <algorithm>
 #include <set>
@@ -13,22 +13,21 @@ namespace tactus
 Messages missingParts (const Plan& plan)
 {
     Messages messages;
-    std::set<std::pair<std::string, std::string>> told;
-    for (std::size_t i = 0; i < plan.instances.size(); ++i)
+    std::set<std::pair<std::string, std::string>> reported;
+    for (std::size_t i = 0; i < plan.instances().size(); ++i)
     {
-        const auto& node = plan.flat.nodes[i];
+        const auto& node = plan.flat().nodes[i];
         if (! node.type->missing || ! node.runs()) continue;
-        const auto role = std::ranges::find (plan.roles, node.role, &Plan::RoleUse::name);
-        auto what = node.type->missing (plan.instances[i].node.get(), role->state->layout);
-        if (what.empty() || ! told.emplace (node.role, what).second) continue;
+        auto what = node.type->missing (plan.instances()[i].node.get(), plan.findRole (node.role)->state->layout);
+        if (what.empty() || ! reported.emplace (node.role, what).second) continue;
 
         const auto outermost = node.path.substr (0, node.path.find_first_of ("/["));
         const bool acts = node.type->effort != nullptr;
-        messages.push_back ({ .severity = Message::Severity::warning,
-                              .id = "device/missing_part",
-                              .where = "/nodes/" + outermost,
-                              .text = inQuotes (node.path) + " (" + std::string (node.type->info.id) + "): the device of the role " + inQuotes (node.role) + " has " + what,
-                              .remedy = std::string (acts ? "until then it acts on nothing" : "until then it reads 0") + ": set the node to what there is, or give the role another device" });
+        messages.push_back (
+            Message::warning ("device/missing_part", "/nodes/" + outermost,
+                              quote (node.path) + " (" + std::string (node.type->info.id) + "): the device of the role " + quote (node.role) + " has " + what,
+                              std::string (acts ? "it has no effect until you " : "it reads 0 until you ")
+                                  + "set the node to a part that the device has, or give the role another device"));
     }
     return messages;
 }

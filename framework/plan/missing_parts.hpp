@@ -3,14 +3,14 @@
 
 #include "plan.hpp"
 
-#include <framework/message.hpp>
+#include <framework/text/message.hpp>
 
 namespace tactus
 {
 
-/// A warning for each part that nodes of a plan are set to and the device of their role does not have, each once: to be asked
-/// for once the roles have their devices (Engine::attach, Engine::submit). Such a node reads 0, or acts on nothing.
-/// Id: device/missing_part. [main thread]
+/// Returns a warning (device/missing_part) for each part that a node is set to but the device of its role does not have.
+/// Reports each part once. Such a node reads 0, or has no effect. Call it when the roles have their devices (Engine::attach,
+/// Engine::submit). [main thread]
 Messages missingParts (const Plan&);
 
 }   // namespace tactus

@@ -10,17 +10,17 @@
 namespace tactus::plan
 {
 
-/// Numbers names from 0 in the order they come in, and finds them again. The names of a large patch lie anywhere in
-/// memory; here they are side by side, and one that is looked up is mostly in the cache.
+/// Numbers names from 0 in the order they are added, and looks them up. Stores them side by side, so a lookup usually hits the
+/// cache; the names of a large patch are scattered in memory.
 class Names
 {
 public:
     static constexpr std::size_t none = ~std::size_t {};
 
-    /// The number of a name; one that is known keeps its number.
+    /// The number of a name. A name that was added before keeps its number.
     std::size_t add (std::string_view);
 
-    /// `none` if it is not known.
+    /// The number of a name, or `none`.
     std::size_t find (std::string_view) const noexcept;
 
     std::size_t size() const noexcept { return begins.size() - 1; }
@@ -33,12 +33,12 @@ private:
     };
 
     std::string_view name (std::size_t number) const noexcept { return std::string_view (text).substr (begins[number], begins[number + 1] - begins[number]); }
-    std::size_t placeOf (std::string_view, std::uint32_t hash) const noexcept;   // in the table: its own, or the free one for it
+    std::size_t placeOf (std::string_view, std::uint32_t hash) const noexcept;   // the name's entry in the table, or the free entry where it belongs
     void grow();
 
-    std::string text;                                    // of all, one after another
-    std::vector<std::size_t> begins { 0 };               // of each, and the end
-    std::vector<Entry> table = std::vector<Entry> (8);   // a power of two of them, never more than half taken
+    std::string text;                                    // all names, one after another
+    std::vector<std::size_t> begins { 0 };               // where each name begins, then the end
+    std::vector<Entry> table = std::vector<Entry> (8);   // size is a power of two, at most half full
 };
 
 }   // namespace tactus::plan

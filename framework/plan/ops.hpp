@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The steps of a plan that are not nodes: sums, delayed wires, driven parameters, bypassed nodes. Each has the shape
-/// of a node's thunk, so that a tick is one loop over records.
+/// The steps of a plan that are not nodes: sums, delayed wires, driven parameters, bypassed nodes. Each has the signature
+/// of a node's thunk, so a tick is one loop over records.
 
 #include "instance.hpp"
 #include "sum.hpp"
 
-#include <framework/catalogue.hpp>
+#include <framework/node/catalogue.hpp>
 
 #include <cstddef>
 #include <vector>
@@ -15,7 +15,7 @@
 namespace tactus::plan
 {
 
-/// Where several wires, or one with a gain, come together.
+/// Adds up several wires, or applies the gain of one.
 struct Sum
 {
     struct Term
@@ -25,7 +25,7 @@ struct Sum
     };
 
     std::vector<Term> terms;
-    std::vector<double> scratch;   // as many as terms
+    std::vector<double> scratch;   // as long as terms
     double out = 0.0;
 
     static void step (void* self, const double* const*, void*) noexcept
@@ -37,7 +37,7 @@ struct Sum
     }
 };
 
-/// What comes to an input for hits: by wire or feed, and from outside.
+/// Adds hits from outside to what a wire or feed brings to a hit input.
 struct Strike
 {
     const double* from;
@@ -54,7 +54,7 @@ struct Strike
     }
 };
 
-/// One component of a wire with an explicit delay. Reading stands at the start of a tick, writing at its end.
+/// One component of a wire with an explicit delay. It is read at the start of a tick and written at its end.
 struct DelayLine
 {
     const double* from = nullptr;
@@ -74,23 +74,23 @@ struct DelayLine
     }
 };
 
-/// A node some of whose parameters are wired or fed: they are set before it ticks. If one cannot be, because what
-/// drives it is not finite, the node gets non-finite inputs instead, and so does what it does on any fault.
+/// A node with wired or fed parameters, which are set before it ticks. If a driving value is not finite, the node gets
+/// non-finite inputs instead, so it responds as to any fault.
 struct DrivenNode
 {
     struct Drive
     {
         double* target;
-        const double* stored;              // its knob
-        const double* replace = nullptr;   // instead of the stored value
-        const double* add = nullptr;       // to it
+        const double* stored;              // value of its knob
+        const double* replace = nullptr;   // replaces the stored value
+        const double* add = nullptr;       // adds to the stored value
         Interval hard {};
     };
 
     const NodeType* type;
     void* node;
     std::vector<Drive> drives;
-    std::vector<const double*> faulted;   // as many sources as the node has, all nan
+    std::vector<const double*> faulted;   // all NaN; as many as the node has sources
 
     static void step (void* self, const double* const* sources, void* outputs) noexcept
     {
@@ -114,14 +114,14 @@ struct DrivenNode
     }
 };
 
-/// Stands in for a bypassed node: passes inputs on to outputs. Of an array port, what is wired adds up; the default of
-/// an entry that is not (1 for a product) is nothing that came in.
+/// Replaces a bypassed node: passes its inputs on to its outputs. Wired entries of an array port add up. Unwired entries are
+/// left out, because their default (1 for a product) is not an input.
 struct Bypass
 {
     struct Copy
     {
         double* to;
-        std::vector<std::size_t> slots;   // among the sources; their sum
+        std::vector<std::size_t> slots;   // indices of sources, which add up
     };
 
     std::vector<Copy> copies;

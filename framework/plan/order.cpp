@@ -10,7 +10,7 @@
 namespace tactus::plan
 {
 
-/// Tarjan 1972, without recursion, so that a chain of 10^5 nodes does not overflow the stack.
+/// Tarjan 1972, without recursion, so a chain of 10^5 nodes does not overflow the stack.
 std::vector<int> components (std::size_t size, const Grouped<int>& next)
 {
     std::vector<int> number (size, -1), low (size, 0), component (size, -1), path;
@@ -19,12 +19,12 @@ std::vector<int> components (std::size_t size, const Grouped<int>& next)
 
     for (int start = 0; start < static_cast<int> (size); ++start)
     {
-        if (number[static_cast<std::size_t> (start)] >= 0) continue;
+        if (number[at (start)] >= 0) continue;
         calls.emplace_back (start, 0);
         while (! calls.empty())
         {
             const int v = calls.back().first;
-            const auto i = static_cast<std::size_t> (v);
+            const auto i = at (v);
             if (calls.back().second == 0)
             {
                 number[i] = low[i] = visited++;
@@ -33,7 +33,7 @@ std::vector<int> components (std::size_t size, const Grouped<int>& next)
             if (calls.back().second < next[i].size())
             {
                 const int w = next[i][calls.back().second++];
-                const auto j = static_cast<std::size_t> (w);
+                const auto j = at (w);
                 if (number[j] < 0)
                     calls.emplace_back (w, 0);
                 else if (component[j] < 0)
@@ -43,14 +43,14 @@ std::vector<int> components (std::size_t size, const Grouped<int>& next)
             calls.pop_back();
             if (! calls.empty())
             {
-                const auto parent = static_cast<std::size_t> (calls.back().first);
+                const auto parent = at (calls.back().first);
                 low[parent] = std::min (low[parent], low[i]);
             }
             if (low[i] == number[i])
             {
                 while (component[i] < 0)
                 {
-                    component[static_cast<std::size_t> (path.back())] = found;
+                    component[at (path.back())] = found;
                     path.pop_back();
                 }
                 ++found;
@@ -62,36 +62,34 @@ std::vector<int> components (std::size_t size, const Grouped<int>& next)
 
 namespace
 {
-std::size_t at (int i) { return static_cast<std::size_t> (i); }
-
-/// A bypassed node passes its inputs on at once, so it does not peek.
+/// A bypassed node passes its inputs on within the tick, so it does not peek.
 bool peeks (const FlatNode& n) { return n.type->peek != nullptr && ! n.bypass; }
 
-/// What runs as one in the section where a wire stands: nodes by their numbers, and after them the sections.
+/// The blocks that run as a whole within a section: nodes by their numbers, then sections.
 struct Blocks
 {
     const Flat& flat;
 
     std::size_t size() const { return flat.nodes.size() + flat.sections.size(); }
-    int ofSection (int s) const { return static_cast<int> (flat.nodes.size()) + s; }
+    int ofSection (int s) const { return flat.nodeCount() + s; }
 
-    /// The node, or the section it is in, as seen from the section around.
+    /// The block of a node as seen from the section `around`: the node itself, or the section that contains it.
     int of (int node, int around) const
     {
         int block = node;
-        for (int s = flat.nodes[at (node)].section; s != around; s = flat.section (s).around)
+        for (int s = flat.node (node).section; s != around; s = flat.section (s).around)
             block = ofSection (s);
         return block;
     }
     int from (const FlatWire& w) const { return of (w.from->node, w.section); }
     int to (const FlatWire& w) const { return of (w.to.node, w.section); }
 
-    bool isSection (int block) const { return block >= static_cast<int> (flat.nodes.size()); }
-    int section (int block) const { return block - static_cast<int> (flat.nodes.size()); }
-    const std::string& path (int block) const { return isSection (block) ? flat.section (section (block)).path : flat.nodes[at (block)].path; }
-    int around (int block) const { return isSection (block) ? flat.section (section (block)).around : flat.nodes[at (block)].section; }
+    bool isSection (int block) const { return block >= flat.nodeCount(); }
+    int section (int block) const { return block - flat.nodeCount(); }
+    const std::string& path (int block) const { return isSection (block) ? flat.section (section (block)).path : flat.node (block).path; }
+    int around (int block) const { return isSection (block) ? flat.section (section (block)).around : flat.node (block).section; }
 
-    /// True if the wire makes its end wait for its start within a tick. What leaves a section waits for all of it.
+    /// True if the end of the wire must wait for its start within a tick. A wire out of a section waits for the whole section.
     bool bind (const FlatWire& w) const
     {
         if (! w.from || w.delay > 0) return false;
@@ -100,7 +98,7 @@ struct Blocks
     }
 };
 
-/// All blocks by their paths. The first eight characters settle nearly all comparisons.
+/// All blocks sorted by path. The first eight characters decide nearly all comparisons.
 std::vector<int> sortedByPath (const Blocks& blocks)
 {
     struct Entry
@@ -131,7 +129,8 @@ std::vector<int> sortedByPath (const Blocks& blocks)
     return sorted;
 }
 
-/// Steps from the nearest block without inputs to each; what is far from the sources is near the end of a chain.
+/// Number of steps to each block from the nearest block without inputs. A block with a large distance is near the end of a
+/// chain.
 std::vector<int> distances (const Blocks& blocks, const Grouped<int>& next)
 {
     const auto size = blocks.size();
@@ -142,7 +141,7 @@ std::vector<int> distances (const Blocks& blocks, const Grouped<int>& next)
     std::vector<int> distance (size, static_cast<int> (size));
     std::queue<int> open;
     for (int b = 0; b < static_cast<int> (size); ++b)
-        if (! fed[at (b)] || (! blocks.isSection (b) && peeks (blocks.flat.nodes[at (b)])))
+        if (! fed[at (b)] || (! blocks.isSection (b) && peeks (blocks.flat.node (b))))
         {
             distance[at (b)] = 0;
             open.push (b);
@@ -157,13 +156,13 @@ std::vector<int> distances (const Blocks& blocks, const Grouped<int>& next)
     return distance;
 }
 
-/// Wires that bind, by the block they start from.
+/// Binding wires, by the block they start from.
 using Outgoing = Grouped<const FlatWire*>;
 
-/// The shortest loop through `start` that stays within its component, as wires.
+/// The shortest loop through `start` within its component, as wires.
 std::vector<const FlatWire*> loopThrough (int start, const Blocks& blocks, const Outgoing& out, const std::vector<int>& component)
 {
-    std::map<int, const FlatWire*> by;   // how each block was reached
+    std::map<int, const FlatWire*> by;   // by block: the wire that reached it
     std::queue<int> open;
     open.push (start);
     for (; ! open.empty() && ! by.contains (start); open.pop())
@@ -207,14 +206,16 @@ void reportLoops (Flat& flat, const Blocks& blocks, const Grouped<int>& next)
         for (const auto* w : loop)
         {
             chain += (chain.empty() ? "" : ", then ") + textOf (flat, *w);
-            if (const int from = blocks.from (*w); blocks.isSection (from)) whole += "; '" + blocks.path (from) + "' runs as a whole, so nothing comes out of it before all that goes in is there";
+            if (const int from = blocks.from (*w); blocks.isSection (from))
+                whole += "; '" + blocks.path (from) + "' runs as a whole, so it has no output before all of its inputs have arrived";
         }
 
-        // A delay costs least on the wire that leads back: from far from the sources to near them.
+        // A delay costs least on the wire that leads back, from a block far from the sources to one near them.
         const auto* back = *std::ranges::max_element (loop, {}, [&] (const FlatWire* w)
                                                       { return distance[at (blocks.from (*w))] - distance[at (blocks.to (*w))]; });
         const auto origin = back->origin;
-        flat.error ("graph/loop", origin, "a loop without a delay: " + chain + whole, "put a delay where it goes back: \"" + textOf (flat, *back, " -> [1] -> ") + "\"");
+        flat.error ("graph/loop", origin, "a loop without a delay: " + chain + whole,
+                    "put a delay on the wire that leads back: \"" + textOf (flat, *back, " -> [1] -> ") + "\"");
     }
 }
 }   // namespace
@@ -248,7 +249,8 @@ Order order (Flat& flat)
     {
         const int b = by_path[at (ready.top())];
         ready.pop();
-        if (const int around = blocks.around (b); around >= 0) ordered[at (around)].push_back (blocks.isSection (b) ? Step { .section = blocks.section (b) } : Step { .node = b });
+        if (const int around = blocks.around (b); around >= 0)
+            ordered[at (around)].push_back (blocks.isSection (b) ? Step { .section = blocks.section (b) } : Step { .node = b });
         for (const int m : next[at (b)])
             if (--waiting[at (m)] == 0) ready.push (rank[at (m)]);
     }
@@ -258,7 +260,7 @@ Order order (Flat& flat)
 
 namespace
 {
-/// How long, in ticks of the graph, what enters a section from one around it may wait until the section runs.
+/// How long a value that enters a section may wait until the section runs, in ticks of the graph.
 int waitOf (const Flat& flat, int around, int section) { return flat.ticksOf (section) - flat.ticksOf (around); }
 }   // namespace
 
@@ -271,64 +273,79 @@ std::int64_t delayOf (const Flat& flat, const PortUnits& units, const FlatWire& 
     return delay;
 }
 
-std::vector<PathDelay> pathDelays (const Flat& flat, const PortUnits& units, const std::vector<int>& node_delays)
+namespace
 {
+/// Finds the path delays between device sources and device sinks.
+class PathSearch
+{
+public:
+    PathSearch (const Flat& f, const PortUnits& units, const std::vector<int>& node_delays)
+        : flat (f), edges (f.nodes.size(), [&] (auto visit)
+                           {
+                               for (const auto& w : f.wires)
+                                   if (w.from) visit (w.from->node, edgeOf (w, units, node_delays)); }),
+          next (f.nodes.size(), [&] (auto visit)
+                {
+                    for (const auto& w : f.wires)
+                        if (w.from) visit (w.from->node, w.to.node); }),
+          component (components (f.nodes.size(), next)), members (f.nodes.size(), 0), reach (f.nodes.size())
+    {
+        for (const int c : component)
+            ++members[at (c)];
+    }
+
+    /// Adds the delays from a source to all sinks that it reaches.
+    void addPaths (int source, std::vector<PathDelay>& found)
+    {
+        findShortest (source);
+        // Sinks have the lowest components, so from high to low, each node comes after all nodes that lead to it.
+        std::ranges::sort (reached, [&] (int a, int b)
+                           { return component[at (a)] != component[at (b)] ? component[at (a)] > component[at (b)] : a < b; });
+        for (const int n : reached)
+            spread (n);
+        for (const int sink : reached)
+            if (acts (flat, sink))
+                found.push_back (
+                    { flat.node (source).path, flat.node (sink).path, reach[at (sink)].shortest, reach[at (sink)].longest, reach[at (sink)].recirculates });
+    }
+
+    static bool acts (const Flat& flat, int n) { return flat.node (n).type->effort != nullptr; }
+    static bool reads (const Flat& flat, int n) { return flat.node (n).type->bind != nullptr && ! acts (flat, n); }
+
+private:
     struct Edge
     {
         int to;
         std::int64_t shortest, longest;
     };
-    const auto acts = [&] (int n)
-    { return flat.nodes[at (n)].type->effort != nullptr; };
-    const auto reads = [&] (int n)
-    { return flat.nodes[at (n)].type->bind != nullptr && ! acts (n); };
 
-    const auto size = flat.nodes.size();
-    const auto any = [size] (auto is)
-    {
-        for (std::size_t n = 0; n < size; ++n)
-            if (is (static_cast<int> (n))) return true;
-        return false;
-    };
-    if (! any (acts) || ! any (reads)) return {};
-
-    const auto edgeOf = [&] (const FlatWire& w)
-    {
-        const auto from = at (w.from->node);
-        const auto delay = delayOf (flat, units, w) + std::int64_t { node_delays[from] } * flat.ticksOf (flat.nodes[from].section);
-        return Edge { w.to.node, delay, delay + waitOf (flat, w.section, flat.nodes[at (w.to.node)].section) };
-    };
-    const Grouped<Edge> edges (size, [&] (auto visit)
-                               {
-                                   for (const auto& w : flat.wires)
-                                       if (w.from) visit (w.from->node, edgeOf (w)); });
-    const Grouped<int> next (size, [&] (auto visit)
-                             {
-                                 for (const auto& w : flat.wires)
-                                     if (w.from) visit (w.from->node, w.to.node); });
-
-    // Components come numbered sinks first; walking them from high to low visits each node after all that lead to it.
-    const auto component = components (size, next);
-    std::vector<int> members (size, 0);
-    for (const int c : component)
-        ++members[at (c)];
-
-    // What a source does not reach costs nothing: of many sources each mostly has a few nodes of its own.
     struct Reach
     {
-        std::int64_t shortest = -1, longest = -1;   // -1: not
+        std::int64_t shortest = -1, longest = -1;   // -1: not reached
         bool recirculates = false;
     };
-    std::vector<Reach> reach (size);
-    std::vector<int> reached;
-    std::vector<PathDelay> found;
-    for (int source = 0; source < static_cast<int> (size); ++source)
+
+    const Flat& flat;
+    Grouped<Edge> edges;
+    Grouped<int> next;
+    std::vector<int> component, members;   // members: nodes per component
+    std::vector<Reach> reach;              // as seen from the current source
+    std::vector<int> reached;              // only these are reset for the next source: with many sources, each mostly reaches few nodes
+
+    Edge edgeOf (const FlatWire& w, const PortUnits& units, const std::vector<int>& node_delays) const
     {
-        if (! reads (source)) continue;
+        const auto& from = flat.node (w.from->node);
+        const auto delay = delayOf (flat, units, w) + std::int64_t { node_delays[at (w.from->node)] } * flat.ticksOf (from.section);
+        return { w.to.node, delay, delay + waitOf (flat, w.section, flat.node (w.to).section) };
+    }
+
+    /// Dijkstra's algorithm.
+    void findShortest (int source)
+    {
         for (const int n : reached)
             reach[at (n)] = {};
         reached = { source };
-        reach[at (source)] = { 0, waitOf (flat, 0, flat.nodes[at (source)].section), false };
+        reach[at (source)] = { 0, waitOf (flat, 0, flat.node (source).section), false };
 
         using Arrival = std::pair<std::int64_t, int>;
         std::priority_queue<Arrival, std::vector<Arrival>, std::greater<>> open;
@@ -346,23 +363,39 @@ std::vector<PathDelay> pathDelays (const Flat& flat, const PortUnits& units, con
                 open.emplace (shortest, e.to);
             }
         }
-        std::ranges::sort (reached, [&] (int a, int b)
-                           { return component[at (a)] != component[at (b)] ? component[at (a)] > component[at (b)] : a < b; });
-        for (const int n : reached)
-        {
-            auto& here = reach[at (n)];
-            if (members[at (component[at (n)])] > 1 || std::ranges::count (next[at (n)], n) > 0) here.recirculates = true;
-            here.longest = std::max (here.longest, here.shortest);
-            for (const auto& e : edges[at (n)])
-            {
-                auto& there = reach[at (e.to)];
-                if (component[at (e.to)] != component[at (n)]) there.longest = std::max (there.longest, here.longest + e.longest);
-                there.recirculates = there.recirculates || here.recirculates;
-            }
-        }
-        for (const int sink : reached)
-            if (acts (sink)) found.push_back ({ flat.nodes[at (source)].path, flat.nodes[at (sink)].path, reach[at (sink)].shortest, reach[at (sink)].longest, reach[at (sink)].recirculates });
     }
+
+    /// Passes on to the following nodes the longest delay of a node, and whether it is on a loop.
+    void spread (int n)
+    {
+        auto& here = reach[at (n)];
+        if (members[at (component[at (n)])] > 1 || std::ranges::count (next[at (n)], n) > 0) here.recirculates = true;
+        here.longest = std::max (here.longest, here.shortest);
+        for (const auto& e : edges[at (n)])
+        {
+            auto& there = reach[at (e.to)];
+            if (component[at (e.to)] != component[at (n)]) there.longest = std::max (there.longest, here.longest + e.longest);
+            there.recirculates = there.recirculates || here.recirculates;
+        }
+    }
+};
+}   // namespace
+
+std::vector<PathDelay> pathDelays (const Flat& flat, const PortUnits& units, const std::vector<int>& node_delays)
+{
+    std::vector<int> sources;
+    bool has_sink = false;
+    for (int n = 0; n < flat.nodeCount(); ++n)
+    {
+        if (PathSearch::reads (flat, n)) sources.push_back (n);
+        has_sink = has_sink || PathSearch::acts (flat, n);
+    }
+    if (sources.empty() || ! has_sink) return {};
+
+    PathSearch search (flat, units, node_delays);
+    std::vector<PathDelay> found;
+    for (const int source : sources)
+        search.addPaths (source, found);
     std::ranges::sort (found, {}, [] (const PathDelay& d)
                        { return std::pair { d.source, d.sink }; });
     return found;

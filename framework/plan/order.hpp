@@ -9,38 +9,41 @@
 namespace tactus::plan
 {
 
-/// A node, or a section within; the other is -1.
+/// A node or an inner section; the other number is -1.
 struct Step
 {
     int node = -1, section = -1;
 };
 
-/// By section, what runs in it, the first first.
+/// The steps of each section, in running order.
 using Order = std::vector<std::vector<Step>>;
 
-/// An order in which each node runs after everything it needs on the same tick of its section; peeking nodes give their
-/// outputs before any runs, and a section runs as a whole. A loop without a delay is an error (graph/loop), its chain
-/// printed with a proposal where to put one. Ties go by path, so the order does not depend on how the file was written.
+/// Finds an order in which each node runs after everything it needs on the same tick of its section. Peeking nodes deliver
+/// their outputs before any node runs, and a section runs as a whole. A loop without a delay is an error (graph/loop) that
+/// shows the chain and proposes where to put the delay. Ties are broken by path, so the order does not depend on how the file
+/// was written.
 Order order (Flat&);
 
-/// Strongly connected components of a graph of so many nodes given by successors, numbered so that each comes after those it leads to.
+/// Strongly connected components of a graph of `size` nodes with these successors. Each component has a higher number than those
+/// it leads to.
 std::vector<int> components (std::size_t size, const Grouped<int>& next);
 
-/// How late a sink answers a source, in ticks of the graph, over all paths between them. What comes in between two runs
-/// of an `every` section waits for the next, so it adds nothing to the shortest and up to k - 1 ticks to the longest.
+/// The range of delays from a source to a sink over all paths between them, in ticks of the graph. A value that arrives between
+/// two runs of an `every` section waits for the next run, which adds nothing to the shortest delay and up to k - 1 ticks to the
+/// longest.
 struct PathDelay
 {
     std::string source, sink;
     std::int64_t shortest = 0, longest = 0;
-    bool recirculates = false;   ///< a loop lies on the way, so that echoes follow after `longest`
+    bool recirculates = false;   ///< there is a loop on the way, so echoes follow after `longest`
 };
 
-/// What a wire that starts somewhere adds to a path, in ticks of the graph: its delay, and the straight lines in which
-/// what it carries leaves sections.
+/// What a wire adds to the delay of a path, in ticks of the graph: its own delay, and the delay of linear outputs of the
+/// sections it leaves. The wire must have a start.
 std::int64_t delayOf (const Flat&, const PortUnits&, const FlatWire&);
 
-/// The delays between all device nodes that read and all that act, wherever a path joins them. `node_delays` holds the
-/// ticks each node takes from its inputs to its outputs, in those of its section.
+/// The delays between all device sources and all device sinks that a path connects. `node_delays` holds the ticks from the
+/// inputs to the outputs of each node, in ticks of its section.
 std::vector<PathDelay> pathDelays (const Flat&, const PortUnits&, const std::vector<int>& node_delays);
 
 }   // namespace tactus::plan

@@ -6,13 +6,17 @@
 #include "sum.hpp"
 #include "takeover.hpp"
 
-#include <framework/catalogue.hpp>
+#include <framework/node/catalogue.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace tactus
@@ -27,95 +31,191 @@ struct Record
     void* outputs;
 };
 
-/// One recorded component: its name, what it carries, and where it stands after each tick.
+/// One recorded component: its name, what it carries, and where to find it after each tick.
 struct Tap
 {
     std::string name;   ///< "motor.force.x"
     Quantity quantity = Quantity::any;
-    std::string unit;   ///< SI symbol, "" if nothing says
+    std::string unit;   ///< SI symbol, "" if unknown
     const double* value = nullptr;
     int per_tick = 1;                  ///< samples in a tick: more than one in a section that runs `times` a tick
-    const double* samples = nullptr;   ///< all of the tick, if there are several; the last of them is the value
+    const double* samples = nullptr;   ///< all samples of the tick, if there are several; the last one is the value
 
-    /// The sample that stands at the end of the i-th of n equal parts of the tick.
+    /// The sample at the end of the i-th of n equal parts of the tick.
     double sample (int i, int n) const noexcept { return samples ? samples[((i + 1) * per_tick + n - 1) / n - 1] : *value; }
 };
 
-/// What compiling a graph results in: contiguous records in running order, and the storage they point into. It never
-/// changes shape; only the values of its nodes, wires and feeds move. One thread ticks it. A plan that was compiled to
-/// follow another shares with it the nodes that go on, and from the moment it takes over only it may tick.
+namespace plan
+{
+
+/// A sink node of a role.
+struct SinkUse
+{
+    Effort (*effort) (const void* node) noexcept;
+    const void* node;
+    std::size_t instance;   ///< its number
+};
+
+/// A role as a plan uses it. It remains after its last node is removed, so that the output of its device can still go to zero.
+struct RoleUse
+{
+    std::string name;
+    std::shared_ptr<DeviceState> state;   ///< the engine writes it before each tick; nodes of all plans point to it
+    std::vector<SinkUse> sinks;
+    bool untouched = false;   ///< same sinks as in the previous plan, and nothing upstream of them has changed
+};
+
+/// One component of a delayed wire.
+struct LineUse
+{
+    int wire, component;
+    std::shared_ptr<Line> line;
+};
+
+/// One component of a wire at the point where it enters or leaves a section. Feeds are numbered after the wires.
+struct RateConverterUse
+{
+    int wire, component;
+    int step;   ///< how many sections the wire has entered or left before this one
+    Conversion conversion;
+    std::shared_ptr<RateConverter> converter;
+};
+
+/// Everything a plan consists of. Public while PlanBuilder assembles it, then private to the Plan.
+struct PlanParts
+{
+    double rate_hz = 0.0;
+    std::uint64_t number = 0;   ///< number of the next tick, counted through all plans
+    std::vector<Record> records;
+    std::vector<std::uint32_t> owners;   ///< by record: the node it works for, as in flat.nodes; for a wire, the node where it ends
+    std::vector<std::uint64_t> rests;    ///< periods, in ticks, of the sections that do not run on every tick; rising
+    std::vector<RoleUse> roles;          ///< sorted by name
+    std::vector<Tap> taps;               ///< as in CompileOptions::records, in order
+    std::vector<double> feeds;           ///< as in CompileOptions::feeds
+    std::vector<PathDelay> delays;       ///< between the sources and the sinks of devices
+    std::shared_ptr<void> storage;       ///< outputs, wires, constants: what all pointers point into
+
+    // For the next plan, and for turning knobs.
+    Flat flat;                                             ///< what the plan was built from
+    std::vector<Instance> instances;                       ///< as flat.nodes
+    std::vector<LineUse> lines;                            ///< by wire, then component
+    std::vector<RateConverterUse> rate_converters;         ///< by wire, then component, then step
+    std::vector<std::vector<PortRef>> fed;                 ///< by feed: the ports it drives
+    std::map<std::string, std::vector<PortRef>> exposed;   ///< params and inputs by the names under which subgraphs expose them
+    Ramps ramps;
+    Takeover takeover;
+};
+
+class PlanBuilder;
+
+}   // namespace plan
+
+/// The result of compiling a graph: contiguous records in running order, and the storage they point into. Its shape never
+/// changes; only the values of its nodes, wires and feeds do. One thread ticks it. A plan compiled to follow another one
+/// shares the unchanged nodes with it; once it has taken over, only the new plan may tick.
 class Plan
 {
 public:
-    /// A sink node and the role it acts on.
-    struct SinkUse
-    {
-        Effort (*effort) (const void* node) noexcept;
-        const void* node;
-        std::size_t instance;   ///< its number
-    };
+    using SinkUse = plan::SinkUse;
+    using RoleUse = plan::RoleUse;
 
-    /// A role stays when its last node goes, so that what is on its device can be taken off.
-    struct RoleUse
-    {
-        std::string name;
-        std::shared_ptr<DeviceState> state;   ///< written by the engine before the tick; nodes of all plans point at it
-        std::vector<SinkUse> sinks;
-        bool untouched = false;   ///< the same sinks as in the plan before, and nothing that leads to them is changed
-    };
+    /// Makes a plan without nodes. Its taps read values that the caller stores elsewhere.
+    explicit Plan (std::vector<Tap> taps = {}) { parts.taps = std::move (taps); }
 
-    /// One component of a delayed wire.
-    struct LineUse
-    {
-        int wire, component;
-        std::shared_ptr<plan::Line> line;
-    };
+    // Instances hold pointers into the plan, so it must not be moved or copied.
+    Plan (const Plan&) = delete;
+    Plan& operator= (const Plan&) = delete;
 
-    /// One component of a wire where it enters or leaves a section; feeds are counted after the wires.
-    struct PassageUse
-    {
-        int wire, component;
-        int step;   ///< of its way through the sections
-        plan::Way way;
-        std::shared_ptr<plan::Passage> passage;
-    };
-
-    void tick() noexcept   // [tick thread]
-    {
-        for (const auto& r : records)
-            r.step (r.self, r.sources, r.outputs);
-        ++number;
-    }
-
-    /// Goes on where the plan it was compiled to follow stands now. Before the first tick. [tick thread]
+    /// Takes over the state of the plan that this one was compiled to follow. Called before the first tick. [tick thread]
     void takeOver (const Plan& before, Journal* journal = nullptr) noexcept
     {
-        if (feeds.size() == before.feeds.size()) std::ranges::copy (before.feeds, feeds.begin());
-        takeover.carryOut (instances, ramps, journal);
+        if (parts.feeds.size() == before.parts.feeds.size()) setFeeds (before.parts.feeds);
+        parts.takeover.carryOut (parts.instances, parts.ramps, journal);
     }
 
-    std::uint64_t serial = plan::newSerial();   ///< of this plan, in its process; a later one has a higher one
+    /// Starts moving to the targets that were set since the last call, and passes hits on to their inputs. [tick thread]
+    void applyTurns (Journal* journal) noexcept { parts.ramps.look (journal); }
 
-    double rate_hz = 0.0;       ///< of its ticks
-    std::uint64_t number = 0;   ///< of the tick that comes next, counted through all plans; whoever steps the records one by one sets it before each tick
-    std::vector<Record> records;
-    std::vector<std::uint32_t> owners;     ///< by record: the node it works for, as flat.nodes; of a wire's, the node where it ends
-    std::vector<std::uint64_t> rests;      ///< ticks from run to run of sections that do not run on each, rising
-    std::vector<RoleUse> roles;            ///< sorted by name
-    std::vector<Tap> taps;                 ///< what CompileOptions::records asked for, in order
-    std::vector<double> feeds;             ///< one value per CompileOptions::feeds, set before each tick
-    std::vector<plan::PathDelay> delays;   ///< between devices' sources and sinks
-    std::shared_ptr<void> storage;         ///< outputs, wires, constants: what all pointers point into
+    /// Until now, targets applied immediately; from now on, each new one starts a ramp. Call it right before the first tick.
+    /// [tick thread]
+    void startRamping() noexcept { parts.ramps.startAll(); }
 
-    // For the plan that follows, and for those who turn knobs.
-    plan::Flat flat;                                           ///< what it was built from
-    std::vector<plan::Instance> instances;                     ///< as flat.nodes
-    std::vector<LineUse> lines;                                ///< by wire, then component
-    std::vector<PassageUse> passages;                          ///< by wire, then component, then step
-    std::vector<std::vector<plan::PortRef>> fed;               ///< as feeds: what each drives
-    std::map<std::string, std::vector<plan::PortRef>> shown;   ///< params and inputs by the names under which subgraphs show them
-    plan::Ramps ramps;
-    plan::Takeover takeover;
+    /// Sets the number of the next tick, counted through all plans, and moves all ramps by one tick. [tick thread]
+    void beginTick (std::uint64_t number) noexcept
+    {
+        parts.number = number;
+        parts.ramps.step();
+    }
+
+    /// Runs all records once. [tick thread]
+    void tick() noexcept
+    {
+        for (const auto& r : parts.records)
+            r.step (r.self, r.sources, r.outputs);
+        ++parts.number;
+    }
+
+    /// Runs the same tick with bit-identical results, for measuring: calls `around (i, step)` for each record in running order,
+    /// and `around` calls `step()` exactly once. [tick thread]
+    template <typename Around>
+    void tick (Around&& around) noexcept
+    {
+        for (std::size_t i = 0; i < parts.records.size(); ++i)
+        {
+            const auto& r = parts.records[i];
+            around (i, [&r]() noexcept
+                    { r.step (r.self, r.sources, r.outputs); });
+        }
+        ++parts.number;
+    }
+
+    /// One value per CompileOptions::feeds, to be set before each tick. [tick thread]
+    std::span<double> feeds() noexcept { return parts.feeds; }
+    std::span<const double> feeds() const noexcept { return parts.feeds; }
+
+    /// As many values as there are feeds. [tick thread]
+    void setFeeds (std::span<const double> values) noexcept
+    {
+        std::ranges::copy (values.first (std::min (values.size(), parts.feeds.size())), parts.feeds.begin());
+    }
+
+    std::uint64_t serial() const noexcept { return own_serial; }       ///< unique in the process; a later plan has a higher one
+    double rateHz() const noexcept { return parts.rate_hz; }           ///< tick rate
+    std::uint64_t nextTick() const noexcept { return parts.number; }   ///< number of the next tick
+
+    const std::vector<Record>& records() const noexcept { return parts.records; }
+    const std::vector<RoleUse>& roles() const noexcept { return parts.roles; }             ///< sorted by name
+    const std::vector<Tap>& taps() const noexcept { return parts.taps; }                   ///< as in CompileOptions::records, in order
+    const std::vector<plan::PathDelay>& delays() const noexcept { return parts.delays; }   ///< between the sources and the sinks of devices
+
+    /// By record: the number of the node it works for; for a wire, the node where it ends.
+    const std::vector<std::uint32_t>& owners() const noexcept { return parts.owners; }
+
+    /// The periods, in ticks, of the sections that do not run on every tick; rising.
+    const std::vector<std::uint64_t>& rests() const noexcept { return parts.rests; }
+
+    const plan::Flat& flat() const noexcept { return parts.flat; }                              ///< what it was built from
+    const std::vector<plan::Instance>& instances() const noexcept { return parts.instances; }   ///< as flat().nodes
+
+    /// Params and inputs by the names under which subgraphs expose them.
+    const std::map<std::string, std::vector<plan::PortRef>>& exposed() const noexcept { return parts.exposed; }
+
+    /// The use of a role, or null. [any thread]
+    const RoleUse* findRole (std::string_view name) const noexcept
+    {
+        const auto role = std::ranges::find (parts.roles, name, &RoleUse::name);
+        return role == parts.roles.end() ? nullptr : &*role;
+    }
+
+    /// Frees everything that only edits need. The plan still ticks, but no other plan can follow it, and its knobs can no
+    /// longer be turned.
+    void forgetGraph();
+
+private:
+    friend class plan::PlanBuilder;
+
+    std::uint64_t own_serial = plan::newSerial();
+    plan::PlanParts parts;
 };
 
 }   // namespace tactus

@@ -33,7 +33,7 @@ void Ramps::look (Journal* journal) noexcept
     }
 }
 
-/// What nobody hears, since the node does not run, is over.
+/// A hit on a node that does not run is dropped.
 void Ramps::strike (std::size_t i, const Instance& instance, Journal* journal) noexcept
 {
     auto& pulses = instance.knobs->pulses;

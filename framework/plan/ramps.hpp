@@ -3,15 +3,15 @@
 
 #include "instance.hpp"
 
-#include <framework/journal.hpp>
+#include "journal.hpp"
 
 #include <span>
 
 namespace tactus::plan
 {
 
-/// Moves the knobs of a plan's nodes towards their targets, in a straight line within ramp_s. A new target while one is
-/// on its way is headed for from where it stands. Choices, and nodes that have not ticked yet, go there at once.
+/// Moves the knobs of a plan's nodes to their targets, in a straight line that takes ramp_s. A new target during a ramp starts
+/// a new ramp from the current value. Choices, and nodes that have not ticked yet, change immediately.
 class Ramps
 {
 public:
@@ -19,10 +19,10 @@ public:
 
     void prepare (std::span<const Instance>, double rate_hz);   // [main thread]
 
-    void look (Journal* = nullptr) noexcept;   ///< heads for all targets that were set since it last looked, and hands on hits   [tick thread]
-    void goOn() noexcept;                      ///< with what is on its way from the plan before               [tick thread]
-    void step() noexcept;                      ///< one tick further                                           [tick thread]
-    void startAll() noexcept;                  ///< all nodes have ticked now                                  [tick thread]
+    void look (Journal* = nullptr) noexcept;   ///< starts ramps to all targets set since the last call, and passes hits on   [tick thread]
+    void goOn() noexcept;                      ///< continues the ramps of the previous plan                                     [tick thread]
+    void step() noexcept;                      ///< advances all ramps by one tick                                            [tick thread]
+    void startAll() noexcept;                  ///< from now on, new targets of all nodes start ramps                          [tick thread]
 
     void head (std::size_t instance, std::size_t knob, double to, bool at_once = false) noexcept;   // [tick thread]
 
@@ -30,8 +30,8 @@ private:
     static void strike (std::size_t instance, const Instance&, Journal*) noexcept;
 
     std::span<const Instance> instances;
-    std::vector<std::size_t> moving;   // instances; with room for all
-    int ticks = 1;                     // of a ramp
+    std::vector<std::size_t> moving;   // numbers of instances; its capacity holds all of them
+    int ticks = 1;                     // length of a ramp
 };
 
 }   // namespace tactus::plan

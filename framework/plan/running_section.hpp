@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// A section as it runs: one record of the section around it, with records of its own.
+/// A section at run time: one record of the enclosing section, with its own records inside.
 
 #include "plan.hpp"
 
@@ -12,37 +12,37 @@
 namespace tactus::plan
 {
 
-/// One component of a wire where it enters or leaves a section.
-struct Crossing
+/// Connects one component of a wire to the rate converter where it enters or leaves a section.
+struct ConversionLink
 {
     const double* from;
-    Passage* passage;
+    RateConverter* converter;
 
-    void latch() const noexcept { passage->out = *from; }
-    void silence() const noexcept { passage->out = 0.0; }
-    void gather() const noexcept { passage->gathered += *from; }
+    void latch() const noexcept { converter->out = *from; }
+    void silence() const noexcept { converter->out = 0.0; }
+    void gather() const noexcept { converter->gathered += *from; }
     void deliver() const noexcept
     {
-        passage->out = passage->gathered;
-        passage->gathered = 0.0;
+        converter->out = converter->gathered;
+        converter->gathered = 0.0;
     }
 
-    /// The line goes on from where it ended; the first has one end only.
+    /// Starts a new line where the last one ended. The first line has only one end.
     void head() const noexcept
     {
-        auto& p = *passage;
+        auto& p = *converter;
         p.before = p.begun ? p.newest : *from;
         p.newest = *from;
         p.begun = true;
     }
 
-    /// A part of the line, up to 1. Before it has begun, what stands there.
-    void follow (double part) const noexcept { passage->out = passage->begun ? std::lerp (passage->before, passage->newest, part) : *from; }
+    /// A point on the line, at a fraction from 0 to 1. Before the first line exists, the current input.
+    void follow (double part) const noexcept { converter->out = converter->begun ? std::lerp (converter->before, converter->newest, part) : *from; }
 };
 
 struct RunningSection
 {
-    /// A tap inside: all samples of a tick of the graph.
+    /// A tap inside the section: collects all samples of a tick of the graph.
     struct Samples
     {
         const double* from;
@@ -50,14 +50,30 @@ struct RunningSection
         std::uint64_t per_tick;
     };
 
-    const std::uint64_t* around = nullptr;   // number of the tick of the section around
-    std::uint64_t number = 0;                // of its own
+    const std::uint64_t* around = nullptr;   // tick number of the enclosing section
+    std::uint64_t number = 0;                // own tick number
     std::uint64_t factor = 1;
-    std::vector<Crossing> latches, gathers, lines, pulses;
+    std::vector<ConversionLink> latches, gathers, lines, pulses;
     std::vector<Record> records;
     std::vector<Samples> samples;
 
-    /// What enters is latched or gathered; what leaves goes in lines, stands still, or is a pulse.
+    std::vector<ConversionLink>& linksOf (Conversion::Kind kind) noexcept
+    {
+        switch (kind)
+        {
+        case Conversion::Kind::latch:
+            return latches;
+        case Conversion::Kind::gather:
+            return gathers;
+        case Conversion::Kind::line:
+            return lines;
+        case Conversion::Kind::pulse:
+            break;
+        }
+        return pulses;
+    }
+
+    /// Runs on every `factor`-th tick. Inputs are latched or gathered; outputs are lines, held values or pulses.
     static void every (void* self, const double* const*, void*) noexcept
     {
         auto& s = *static_cast<RunningSection*> (self);
@@ -82,7 +98,7 @@ struct RunningSection
             phase == 0 ? c.latch() : c.silence();
     }
 
-    /// What enters goes in lines, stands still, or is a pulse; what leaves is what stands at the end, or gathered.
+    /// Runs `factor` times per tick. Inputs are lines, held values or pulses; outputs are the last value, or gathered.
     static void times (void* self, const double* const*, void*) noexcept
     {
         auto& s = *static_cast<RunningSection*> (self);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "same_settings.hpp"
 
-#include <framework/surface.hpp>
+#include <framework/kit/surface.hpp>
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@ namespace tactus::plan
 
 namespace
 {
-/// What is made of several members is taken apart by bindings, so that none can be added and not compared.
+/// Structured bindings take types apart, so adding a member without comparing it does not compile.
 struct Same
 {
     template <typename T>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/setting.hpp>
+#include <framework/node/setting.hpp>
 
 namespace tactus::plan
 {
 
-/// True if all settings have the same content, also where files were read again.
+/// True if all settings have the same content. Files that were read again are compared by content too.
 bool same (const Values&, const Values&);
 
 }   // namespace tactus::plan

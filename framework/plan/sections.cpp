@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sections.hpp"
 
-#include <framework/number_text.hpp>
+#include <framework/text/number_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,14 +16,14 @@ namespace tactus::plan
 
 namespace
 {
-std::size_t at (int i) { return static_cast<std::size_t> (i); }
-
 int readFactor (const Json& value, const char* key, const std::string& path, Origin here, Flat& flat)
 {
     constexpr double most = 1e6;
     const double n = value.is_number() ? value.get<double>() : 0.0;
     if (n >= 1.0 && n <= most && n == std::floor (n)) return static_cast<int> (n);
-    flat.error ("rate/value", flat.at (here, key), "`" + std::string (key) + "` of '" + path + "' is " + value.dump() + ", and should be a whole number from 1 to 1000000", "write 2 or more, or leave it out");
+    flat.error ("rate/value", flat.at (here, key),
+                "`" + std::string (key) + "` of '" + path + "' is " + value.dump() + ", but it must be a whole number from 1 to 1000000",
+                "write 2 or more, or leave it out");
     return 1;
 }
 
@@ -34,7 +34,7 @@ bool isWithin (const Flat& flat, int section, int outer)
     return section == outer;
 }
 
-/// Who leads to something that acts on a hand, and how.
+/// Finds the nodes that have a path to a sink that acts on a hand.
 class Downstream
 {
 public:
@@ -54,7 +54,7 @@ public:
             leads[at (n)] = true;
             open.push_back (n);
         };
-        for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
+        for (int n = 0; n < flat.nodeCount(); ++n)
             if (acts (n)) reach (n);
         while (! open.empty())
         {
@@ -66,10 +66,10 @@ public:
 
     bool leadsToTheHand (int node) const { return leads[at (node)]; }
 
-    /// The shortest way there from a section that has one, in words.
-    std::string wayFrom (int section) const
+    /// Describes the shortest such path from a section. There must be one.
+    std::string pathFrom (int section) const
     {
-        std::vector<const FlatWire*> by (flat.nodes.size(), nullptr);   // how each node was reached; nothing within the section
+        std::vector<const FlatWire*> by (flat.nodes.size(), nullptr);   // by node: the wire that reached it; null inside the section
         std::vector<bool> seen (flat.nodes.size(), false);
         std::queue<int> open;
         const auto reach = [&] (int n, const FlatWire* w)
@@ -79,14 +79,14 @@ public:
             by[at (n)] = w;
             open.push (n);
         };
-        for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
-            if (isWithin (flat, flat.nodes[at (n)].section, section)) reach (n, nullptr);
+        for (int n = 0; n < flat.nodeCount(); ++n)
+            if (isWithin (flat, flat.node (n).section, section)) reach (n, nullptr);
         for (; ! acts (open.front()); open.pop())
             for (const auto* w : out[at (open.front())])
                 reach (w->to.node, w);
 
         const int sink = open.front();
-        if (by[at (sink)] == nullptr) return "'" + flat.nodes[at (sink)].path + "' is inside of it";
+        if (by[at (sink)] == nullptr) return "'" + flat.node (sink).path + "' is inside it";
         std::string text;
         for (int n = sink; by[at (n)] != nullptr; n = by[at (n)]->from->node)
             text = flat.nameOf (*by[at (n)]->from) + " -> " + flat.nameOf (by[at (n)]->to) + (text.empty() ? "" : ", then " + text);
@@ -98,7 +98,7 @@ private:
     std::vector<std::vector<const FlatWire*>> out;
     std::vector<bool> leads;
 
-    bool acts (int n) const { return flat.nodes[at (n)].type->effort != nullptr && flat.nodes[at (n)].runs(); }
+    bool acts (int n) const { return flat.node (n).type->effort != nullptr && flat.node (n).runs(); }
 };
 }   // namespace
 
@@ -106,25 +106,35 @@ int openSection (const graph::Node& node, int around, const std::string& path, O
 {
     const bool every = node.extra.contains ("every"), times = node.extra.contains ("times");
     if (node.extra.contains ("hold") && ! every)
-        flat.warn ("rate/hold_alone", flat.at (here, "hold"), "'" + path + "' has a `hold`, but no `every` that leaves ticks to hold anything over", "remove it, or add \"every\"");
+        flat.warn ("rate/hold_alone", flat.at (here, "hold"), "'" + path + "' has a `hold`, but no `every`, so there is nothing to hold",
+                   "remove it, or add \"every\"");
     if (const auto hold = node.extra.value ("hold", Json ("latch")); hold != "latch" && hold != "linear")
-        flat.error ("rate/value", flat.at (here, "hold"), "`hold` of '" + path + "' is " + hold.dump() + ", and should be \"latch\" or \"linear\"", "write \"latch\", or leave it out");
+        flat.error ("rate/value", flat.at (here, "hold"), "`hold` of '" + path + "' is " + hold.dump() + ", but it must be \"latch\" or \"linear\"",
+                    "write \"latch\", or leave it out");
     if (every && times)
-        flat.error ("rate/both", flat.at (here, "times"), "'" + path + "' has an `every` and a `times`, and can run either less often or more often", "remove one of them");
+        flat.error ("rate/both", flat.at (here, "times"), "'" + path + "' has both `every` and `times`, but it cannot run both less often and more often",
+                    "remove one of them");
     if (every == times) return around;
 
     const auto* key = every ? "every" : "times";
     const int factor = readFactor (node.extra.at (key), key, path, here, flat);
     if (factor == 1) return around;
-    flat.sections.push_back ({ .around = around, .kind = every ? Section::Kind::every : Section::Kind::times, .factor = factor, .linear = every && node.extra.value ("hold", Json()) == "linear", .path = path, .origin = flat.at (here, key) });
-    return static_cast<int> (flat.sections.size()) - 1;
+    flat.sections.push_back ({ .around = around,
+                               .kind = every ? Section::Kind::every : Section::Kind::times,
+                               .factor = factor,
+                               .linear = every && node.extra.value ("hold", Json()) == "linear",
+                               .path = path,
+                               .origin = flat.at (here, key) });
+    return flat.sectionCount() - 1;
 }
 
 void refuseSection (const graph::Node& node, const std::string& path, Origin here, Flat& flat)
 {
     for (const auto* key : { "every", "times", "hold" })
         if (node.extra.contains (key))
-            flat.error ("rate/no_subgraph", flat.at (here, key), "'" + path + "' (" + node.type + ") has a `" + key + "`, but only subgraphs run at a rate of their own", "collapse it into a subgraph, and say so there");
+            flat.error ("rate/no_subgraph", flat.at (here, key),
+                        "'" + path + "' (" + node.type + ") has a `" + key + "`, but only subgraphs run at their own rate",
+                        "collapse it into a subgraph, and set the rate there");
 }
 
 void checkSections (Flat& flat, double rate_hz)
@@ -132,13 +142,14 @@ void checkSections (Flat& flat, double rate_hz)
     if (flat.sections.size() == 1) return;
     constexpr double lowest = 1.0, highest = 1e6;
     constexpr int none = -1;
-    std::vector<int> fast (flat.sections.size(), none);   // the outermost `times` section around
-    for (int s = 1; s < static_cast<int> (flat.sections.size()); ++s)
+    std::vector<int> fast (flat.sections.size(), none);   // by section: the outermost `times` section that encloses it
+    for (int s = 1; s < flat.sectionCount(); ++s)
     {
         const auto section = flat.section (s);
         const double rate = rate_hz * flat.speed (s);
         if (rate < lowest || rate > highest)
-            flat.error ("rate/value", section.origin, "'" + section.path + "' would run at " + numberText (rate) + " Hz", "sections run at 1 Hz to 1 MHz; the graph runs at " + numberText (rate_hz) + " Hz");
+            flat.error ("rate/value", section.origin, "'" + section.path + "' would run at " + numberText (rate) + " Hz",
+                        "sections run at 1 Hz to 1 MHz; the graph runs at " + numberText (rate_hz) + " Hz");
 
         fast[at (s)] = fast[at (section.around)];
         if (fast[at (s)] == none && section.kind == Section::Kind::times) fast[at (s)] = s;
@@ -146,14 +157,16 @@ void checkSections (Flat& flat, double rate_hz)
     if (std::ranges::count (fast, none) == std::ssize (fast)) return;
 
     const Downstream downstream { flat };
-    std::set<int> told;
-    for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
+    std::set<int> reported;
+    for (int n = 0; n < flat.nodeCount(); ++n)
     {
-        const int s = fast[at (flat.nodes[at (n)].section)];
-        if (s == none || ! downstream.leadsToTheHand (n) || flat.isFull() || ! told.insert (s).second) continue;
+        const int s = fast[at (flat.node (n).section)];
+        if (s == none || ! downstream.leadsToTheHand (n) || flat.isFull() || ! reported.insert (s).second) continue;
         const auto section = flat.section (s);
-        flat.error ("rate/to_the_hand", section.origin, "'" + section.path + "' runs " + std::to_string (section.factor) + " times a tick, on inputs that lie between two ticks and so in the past, but returns to the hand: " + downstream.wayFrom (s),
-                    "leave out `times`; what the hand feels is computed once a tick, from where it is");
+        flat.error ("rate/to_the_hand", section.origin,
+                    "'" + section.path + "' runs " + std::to_string (section.factor)
+                        + " times a tick, on interpolated inputs that are already in the past, but its outputs return to the hand: " + downstream.pathFrom (s),
+                    "leave out `times`; compute what the hand feels once per tick, from its current position");
     }
 }
 

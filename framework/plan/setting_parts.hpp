@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What settings are made of. Each function returns what the JSON says or throws the first Problem, with `key`, the
-/// place of the JSON within the setting, extended to the culprit. Only readSetting catches it.
+/// Readers for the parts of settings. Each function returns the value that the JSON holds, or throws the first Problem it
+/// finds, with `key` (the place of the JSON within the setting) extended to the part at fault. Only readSetting catches it.
 
 #include "values.hpp"
 
-#include <framework/law.hpp>
+#include <framework/kit/law.hpp>
 
 namespace tactus::plan
 {
@@ -14,7 +14,7 @@ namespace tactus::plan
 struct Problem
 {
     std::string what;
-    std::string key;   ///< JSON pointer from the setting on
+    std::string key;   ///< JSON pointer within the setting
 };
 
 std::string under (const std::string& key, std::size_t index);
@@ -27,10 +27,10 @@ Vec3 vectorFrom (const Json&, const UnitRule&, const std::string& key);
 Curve curveFrom (const Json&, const UnitRule& x, const UnitRule& y, const std::string& key);
 Law lawFrom (const Json&, const UnitRule& x, const UnitRule& y, const std::string& key);
 
-/// An array, of `size` entries if that is not 0.
+/// An array; it must have `size` entries, unless `size` is 0.
 const Json& listFrom (const Json&, std::size_t size, const std::string& what, const std::string& key);
 
-/// An object with some of these members and no others; `what` names it.
+/// An object with only members from this list, not necessarily all; `what` names it in messages.
 const Json& objectFrom (const Json&, const std::vector<std::string>& members, const std::string& what, const std::string& key);
 
 }   // namespace tactus::plan

@@ -10,7 +10,7 @@ namespace
 {
 SettingValue valueFrom (const Json&, const SettingSheet&, const Files&, const std::string& key);
 
-/// A field that is not there keeps its default.
+/// A missing field keeps its default.
 Values recordFrom (const Json& json, const SettingSheet& sheet, const Files& files, const std::string& what, const std::string& key)
 {
     std::vector<std::string> ids;
@@ -56,7 +56,7 @@ SettingValue valueFrom (const Json& json, const SettingSheet& sheet, const Files
         inRange (numberFrom (json, sheet.unit, key), sheet.limits.hard, key);
         return wholeNumberFrom (json, sheet.unit, key);
     case Kind::text:
-        if (! json.is_string()) throw Problem { "it must be text", key };
+        if (! json.is_string()) throw Problem { "it must be a string", key };
         return json.get<std::string>();
     case Kind::vector:
         return vectorFrom (json, sheet.unit, key);
@@ -83,7 +83,7 @@ SettingValue valueFrom (const Json& json, const SettingSheet& sheet, const Files
 }
 }   // namespace
 
-std::variant<SettingValue, std::string> readSetting (const Json& json, const SettingSheet& sheet, const Files& files, std::string& where)
+Result<SettingValue> readSetting (const Json& json, const SettingSheet& sheet, const Files& files, std::string& where)
 {
     try
     {
@@ -92,7 +92,7 @@ std::variant<SettingValue, std::string> readSetting (const Json& json, const Set
     catch (const Problem& p)
     {
         where += p.key;
-        return p.what;
+        return Message::error ("setting/value", {}, p.what);
     }
 }
 

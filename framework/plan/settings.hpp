@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/json.hpp>
-#include <framework/setting.hpp>
+#include <framework/node/setting.hpp>
+#include <framework/text/json.hpp>
+#include <framework/text/result.hpp>
 
 #include <string>
-#include <variant>
 
 namespace tactus::plan
 {
 
-/// Where the files that settings name are found.
+/// How to load the files that settings name.
 struct Files
 {
-    Assets* assets = nullptr;   ///< none: a setting that names a file is refused
-    std::string folder;         ///< relative paths start here
+    Assets* assets = nullptr;   ///< null: a setting that names a file is refused
+    std::string folder;         ///< base of relative paths
 };
 
-/// Reads a setting of the given kind, with the units and ranges of its sheet checked; or says what is wrong.
-/// `where` is extended to the pointer of the culprit.
-std::variant<SettingValue, std::string> readSetting (const Json&, const SettingSheet&, const Files&, std::string& where);
+/// Reads a setting of the given kind, and checks it against the units and ranges of its sheet. On an error, only `text` is set
+/// in the message, and `where` is extended to the pointer of the part at fault.
+Result<SettingValue> readSetting (const Json&, const SettingSheet&, const Files&, std::string& where);
 
 }   // namespace tactus::plan

@@ -12,7 +12,7 @@ Slots::Slots (const Flat& f) : flat (&f)
     {
         inputs.push_back (next);
         for (const auto& row : n.type->inputs)
-            next += static_cast<std::size_t> (n.slots (row));
+            next += at (n.slots (row));
     }
     inputs.push_back (next);
 }
@@ -23,8 +23,8 @@ std::size_t Slots::operator() (const PortRef& r, int component) const noexcept
     const auto& rows = n.ports (r.role);
     auto slot = r.role == Role::input ? firstInput (r.node) : firstParam (r.node);
     for (int p = 0; p < r.port; ++p)
-        slot += static_cast<std::size_t> (n.slots (rows[static_cast<std::size_t> (p)]));
-    return slot + static_cast<std::size_t> (slotWithin (r, component, rows[static_cast<std::size_t> (r.port)].width));
+        slot += at (n.slots (rows[at (p)]));
+    return slot + at (slotWithin (r, component, rows[at (r.port)].width));
 }
 
 }   // namespace tactus::plan

@@ -7,16 +7,16 @@ namespace tactus::plan
 {
 
 /// Numbers everything that wires and feeds can drive: first the components of all inputs, node by node in the order of
-/// their datasheets, then those of all params, as they stand in Flat::values.
+/// their datasheets, then the components of all params, in the order of Flat::values.
 class Slots
 {
 public:
     explicit Slots (const Flat&);
 
-    std::size_t firstInput (int node) const noexcept { return inputs[static_cast<std::size_t> (node)]; }
-    std::size_t firstParam (int node) const noexcept { return inputs.back() + flat->nodes[static_cast<std::size_t> (node)].values; }
+    std::size_t firstInput (int node) const noexcept { return inputs[at (node)]; }
+    std::size_t firstParam (int node) const noexcept { return inputs.back() + flat->node (node).values; }
 
-    /// A component of an input or param; that of the reference, if it names one.
+    /// The slot of a component of an input or param. A component named by the reference takes precedence.
     std::size_t operator() (const PortRef&, int component) const noexcept;
 
     std::size_t inputCount() const noexcept { return inputs.back(); }
@@ -24,10 +24,10 @@ public:
 
 private:
     const Flat* flat;
-    std::vector<std::size_t> inputs;   // where those of each node begin, and the end
+    std::vector<std::size_t> inputs;   // first slot of each node, then the end
 };
 
-/// Where a component stands among the slots of its port.
+/// Number of a component among the slots of its port.
 inline int slotWithin (const PortRef& r, int component, int width) noexcept { return std::max (r.index, 0) * width + std::max (component, 0); }
 
 }   // namespace tactus::plan

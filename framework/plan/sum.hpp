@@ -7,8 +7,8 @@
 namespace tactus::plan
 {
 
-/// The sum of n values, with the same bits in whatever order they come: they are added in order of value. So a sum
-/// does not depend on the order in which wires were drawn, or nodes named. Sorts `values` in place.
+/// The sum of n values. They are added in order of value, so the sum is bit-identical regardless of the order of wires and the
+/// names of nodes. Sorts `values` in place.
 inline double sum (double* values, int n) noexcept
 {
     for (int i = 0; i < n; ++i)

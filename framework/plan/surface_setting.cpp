@@ -11,8 +11,8 @@ constexpr std::string_view axis_names = "a triple of laws: of u^x, u^y and u^z";
 
 const Json* member (const Json& json, const char* name)
 {
-    const auto at = json.find (name);
-    return at == json.end() ? nullptr : &*at;
+    const auto found = json.find (name);
+    return found == json.end() ? nullptr : &*found;
 }
 
 const Json& needed (const Json& json, const char* name, const std::string& key)
@@ -27,7 +27,7 @@ std::shared_ptr<const Mesh> meshFrom (const Json& json, const Files& files, cons
     if (const auto* path = member (json, "mesh"))
     {
         for (const auto* other : { "nodes", "triangles", "frames" })
-            if (json.contains (other)) throw Problem { std::string ("`mesh` and `") + other + "` exclude each other", under (key, other) };
+            if (json.contains (other)) throw Problem { std::string ("give either `mesh` or `") + other + "`, not both", under (key, other) };
         return load (&Assets::mesh, *path, files, key + "/mesh");
     }
 
@@ -42,7 +42,7 @@ std::shared_ptr<const Mesh> meshFrom (const Json& json, const Files& files, cons
     for (std::size_t i = 0; i < triangles.size(); ++i)
     {
         const auto here = under (key + "/triangles", i);
-        listFrom (triangles[i], 3, "three numbers of nodes, as in [0, 1, 2]", here);
+        listFrom (triangles[i], 3, "three node numbers, such as [0, 1, 2]", here);
         auto& corners = mesh.triangles.emplace_back();
         for (std::size_t c = 0; c < 3; ++c)
             corners[c] = static_cast<int> (inRange (wholeNumberFrom (triangles[i][c], unit::count, under (here, c)), index, under (here, c)));

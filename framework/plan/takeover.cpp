@@ -10,9 +10,9 @@ void Takeover::carryOut (std::span<const Instance> instances, Ramps& ramps, Jour
 {
     for (const auto& [line, old] : relays)
         line->adopt (*old);
-    for (const auto& [passage, old] : passings)
-        passage->adopt (*old);
-    for (const auto& [to, from, bytes] : standing)
+    for (const auto& [converter, old] : conversions)
+        converter->adopt (*old);
+    for (const auto& [to, from, bytes] : held)
         std::memcpy (to, from, bytes);
 
     for (const auto& [i, adopt, old] : successors)

@@ -11,50 +11,50 @@
 namespace tactus::plan
 {
 
-/// What is to be done when a plan takes over from another, worked out beforehand. Nodes that go on unchanged are the
-/// same in both plans and need nothing. What is old here lives in the plan before.
+/// The work to do when a plan takes over from another, computed beforehand. Both plans share the unchanged nodes, so these need
+/// no work. All old objects belong to the previous plan.
 struct Takeover
 {
-    /// A node made anew in the place of an old one of its type: takes over where the knobs stand and, if it ran and
-    /// has a way to, the state.
+    /// A new node that replaces an old one of the same type. It takes over the knob values and, if the old one ran and the type
+    /// supports it, the state.
     struct Successor
     {
         std::size_t instance;
-        void (*adopt) (void* node, const void* old) noexcept;   ///< null: it starts afresh
+        void (*adopt) (void* node, const void* old) noexcept;   ///< null: starts from its initial state
         const void* old;
     };
 
-    /// A value that is another one in the file. Who turned the parameter after that edit has the last word.
+    /// A parameter whose stored value was edited. If the knob was turned after the edit, the turned value takes precedence.
     struct Change
     {
         std::size_t instance, knob;
         double value;
         bool at_once;
-        std::uint32_t turns;   ///< of the knob, before the edit
+        std::uint32_t turns;   ///< Knob::turns before the edit
     };
 
-    /// A parameter that a wire drove, and none does now: goes back to its stored value.
+    /// A parameter that is no longer driven by a wire: it ramps back to its stored value.
     struct Release
     {
         std::size_t instance, knob;
     };
 
-    /// A wire with another delay.
+    /// A delayed wire whose delay has changed.
     struct Relay
     {
         Line* line;
         const Line* old;
     };
 
-    /// A wire that enters or leaves a section in another way.
-    struct Passing
+    /// A wire whose rate conversion has changed.
+    struct Conversion
     {
-        Passage* passage;
-        const Passage* old;
+        RateConverter* converter;
+        const RateConverter* old;
     };
 
-    /// What stands in a section that rests until its next tick.
-    struct Standing
+    /// A value to hold until its section next runs.
+    struct HeldValue
     {
         void* to;
         const void* from;
@@ -65,8 +65,8 @@ struct Takeover
     std::vector<Change> changes;
     std::vector<Release> releases;
     std::vector<Relay> relays;
-    std::vector<Passing> passings;
-    std::vector<Standing> standing;
+    std::vector<Conversion> conversions;
+    std::vector<HeldValue> held;
 
     void carryOut (std::span<const Instance>, Ramps&, Journal*) const noexcept;   // [tick thread]
 };

@@ -12,11 +12,12 @@ namespace tactus::plan
 
 namespace
 {
-/// Sets of ports joined by wires and `same as`. Each port carries its set's dimension times a factor of its own.
+/// Sets of ports joined by wires and `same as`. The dimension of each port is the dimension of its set times the port's own
+/// factor.
 class Joined
 {
 public:
-    explicit Joined (int size) : parent (static_cast<std::size_t> (size)), factor (static_cast<std::size_t> (size)), known (static_cast<std::size_t> (size))
+    explicit Joined (int size) : parent (at (size)), factor (at (size)), known (at (size))
     {
         std::iota (parent.begin(), parent.end(), 0);
     }
@@ -27,12 +28,12 @@ public:
         Dimension total;
         while (up (r) != r)
         {
-            total = total * factor[static_cast<std::size_t> (r)];
+            total = total * factor[at (r)];
             r = up (r);
         }
-        while (up (v) != r && v != r)   // shorten the path for the next time
+        while (up (v) != r && v != r)   // shortens the path for later calls
         {
-            const auto i = static_cast<std::size_t> (v);
+            const auto i = at (v);
             const int next = parent[i];
             const auto rest = total / factor[i];
             parent[i] = r;
@@ -45,51 +46,54 @@ public:
 
     std::optional<Dimension> dimension (int v)
     {
-        const auto& d = known[static_cast<std::size_t> (root (v))];
+        const auto& d = known[at (root (v))];
         if (! d) return {};
         return *d * factorOf (v);
     }
 
-    /// True, or false if v is known to carry another dimension.
+    /// Sets the dimension of v. Returns false if v is known to have another one.
     bool state (int v, Dimension d)
     {
-        auto& k = known[static_cast<std::size_t> (root (v))];
+        auto& k = known[at (root (v))];
         if (! k) k = d / factorOf (v);
         return *k == d / factorOf (v);
     }
 
-    /// States dimension (b) = dimension (a) times `times`. False if both are known and disagree.
+    /// Sets dimension (b) = dimension (a) times `times`. Returns false if both are known and disagree.
     bool join (int a, int b, Dimension times)
     {
         const int ra = root (a), rb = root (b);
-        const auto shift = factorOf (a) * times / factorOf (b);   // of rb's set over ra's
+        const auto shift = factorOf (a) * times / factorOf (b);   // ratio of the factors of the sets of rb and ra
         if (ra == rb) return shift == Dimension {};
-        auto& of_a = known[static_cast<std::size_t> (ra)];
-        const auto& of_b = known[static_cast<std::size_t> (rb)];
+        auto& of_a = known[at (ra)];
+        const auto& of_b = known[at (rb)];
         if (of_a && of_b && *of_b != *of_a * shift) return false;
         if (! of_a && of_b) of_a = *of_b / shift;
-        parent[static_cast<std::size_t> (rb)] = ra;
-        factor[static_cast<std::size_t> (rb)] = shift;
+        parent[at (rb)] = ra;
+        factor[at (rb)] = shift;
         return true;
     }
 
 private:
     std::vector<int> parent;
-    std::vector<Dimension> factor;                 // to the parent
-    std::vector<std::optional<Dimension>> known;   // of roots
+    std::vector<Dimension> factor;                 // relative to the parent
+    std::vector<std::optional<Dimension>> known;   // by root
 
-    int up (int v) const { return parent[static_cast<std::size_t> (v)]; }
-    Dimension factorOf (int v) const { return up (v) == v ? Dimension {} : factor[static_cast<std::size_t> (v)]; }   // after root (v)
+    int up (int v) const { return parent[at (v)]; }
+    Dimension factorOf (int v) const { return up (v) == v ? Dimension {} : factor[at (v)]; }   // call root (v) first
 };
 
 class UnitCheck
 {
 public:
-    explicit UnitCheck (Flat& f) : flat (f), variable (f), dimensions (variable.count()), quantity (static_cast<std::size_t> (variable.count()), Quantity::any), generic (static_cast<std::size_t> (variable.count()), false) {}
+    explicit UnitCheck (Flat& f)
+        : flat (f), variable (f), dimensions (variable.count()), quantity (at (variable.count()), Quantity::any), generic (at (variable.count()), false)
+    {
+    }
 
     PortUnits run()
     {
-        for (int n = 0; n < static_cast<int> (flat.nodes.size()); ++n)
+        for (int n = 0; n < flat.nodeCount(); ++n)
             stateDatasheet (n);
         for (const auto& w : flat.wires)
             wire (w);
@@ -105,7 +109,7 @@ private:
     PortNumbers variable;
     Joined dimensions;
     std::vector<Quantity> quantity;
-    std::vector<bool> generic;   // takes its quantity from what is wired
+    std::vector<bool> generic;   // takes its quantity from its wires
 
     /// Two ports that carry the same quantity: joined by a wire, or by a generic node.
     struct Link
@@ -126,7 +130,7 @@ private:
     {
         for (const auto role : { Role::input, Role::param, Role::output })
         {
-            const auto& rows = flat.nodes[static_cast<std::size_t> (node)].ports (role);
+            const auto& rows = flat.node (node).ports (role);
             const auto row = std::ranges::find (rows, id, &PortSheet::id);
             if (row != rows.end()) return PortRef { node, role, static_cast<int> (row - rows.begin()), -1, -1 };
         }
@@ -135,7 +139,7 @@ private:
 
     void stateDatasheet (int node)
     {
-        const auto& n = flat.nodes[static_cast<std::size_t> (node)];
+        const auto& n = flat.node (node);
         int next = variable.firstOf (node);
         for (const auto role : { Role::input, Role::param, Role::output })
             for (const auto& row : n.ports (role))
@@ -146,7 +150,7 @@ private:
                 if (row.unit.kind == UnitRule::Kind::fixed)
                 {
                     dimensions.state (v, row.unit.unit.dimension);
-                    quantity[static_cast<std::size_t> (v)] = row.unit.unit.quantity;
+                    quantity[at (v)] = row.unit.unit.quantity;
                 }
                 else if (row.unit.kind == UnitRule::Kind::same)
                 {
@@ -178,7 +182,9 @@ private:
             const auto have = dimensions.dimension (from), want = dimensions.dimension (to);
             const auto arrives = have.value_or (Dimension {}) * gain;
             const auto needed = want.value_or (Dimension {}) / have.value_or (Dimension {});
-            flat.error ("wire/unit", w.origin, "'" + flat.nameOf (*w.from) + "' carries " + symbolOf (arrives) + (w.gain_dimension ? " after the wire's gain" : "") + ", but '" + flat.nameOf (w.to) + "' takes " + symbolOf (want.value_or (Dimension {})),
+            flat.error ("wire/unit", w.origin,
+                        "'" + flat.nameOf (*w.from) + "' carries " + symbolOf (arrives) + (w.gain_dimension ? " after the wire's gain" : "") + ", but '"
+                            + flat.nameOf (w.to) + "' takes " + symbolOf (want.value_or (Dimension {})),
                         "wire something that fits, or give the wire a gain in " + symbolOf (needed));
             return;
         }
@@ -190,37 +196,41 @@ private:
         const auto& sheet = flat.sheet (a.to);
         if (! sheet.choices.empty()) return;
         const auto all = [&] (const Json& json)
-        { return json.is_array() ? std::ranges::all_of (json, [&] (const Json& part)
-                                                        { return fits (a, sheet, part); })
-                                 : fits (a, sheet, json); };
+        {
+            if (! json.is_array()) return fits (a, sheet, json);
+            return std::ranges::all_of (json, [&] (const Json& part)
+                                        { return fits (a, sheet, part); });
+        };
         if (all (*a.low) && a.high != a.low) all (*a.high);
     }
 
-    /// False, with a message, if a number has a unit that is not the param's.
+    /// Returns false, with a message, if a number has a unit that does not fit the param.
     bool fits (const Assignment& a, const PortSheet& sheet, const Json& json)
     {
         if (! json.is_string()) return true;
-        const auto read = readNumber (json);
-        const auto* number = std::get_if<Number> (&read);
-        if (number == nullptr || ! number->dimension) return true;
+        const auto number = readNumber (json);
+        if (! number || ! number->dimension) return true;
         const int v = variable (a.to);
         if (! dimensions.state (v, *number->dimension))
         {
-            flat.error ("param/unit", a.origin, "'" + flat.nameOf (a.to) + "' is in " + symbolOf (*dimensions.dimension (v)) + ", but " + shown (json) + " is in " + symbolOf (*number->dimension),
+            flat.error ("param/unit", a.origin,
+                        "'" + flat.nameOf (a.to) + "' is in " + symbolOf (*dimensions.dimension (v)) + ", but " + shown (json) + " is in "
+                            + symbolOf (*number->dimension),
                         "give it in " + symbolOf (*dimensions.dimension (v)) + ", or as a plain SI number");
             return false;
         }
         if (miscounts (*number, sheet.unit))
         {
-            flat.error ("param/unit", a.origin, "'" + flat.nameOf (a.to) + "': " + miscount (json, sheet.unit), "divide by that, and give it in " + std::string (sheet.unit.unit.symbol));
+            flat.error ("param/unit", a.origin, "'" + flat.nameOf (a.to) + "': " + miscount (json, sheet.unit),
+                        "divide by that, and give it in " + std::string (sheet.unit.unit.symbol));
             return false;
         }
         return true;
     }
 
-    /// Products carry dimensions forward, and backward where a single factor is unknown. Each pass that changes
-    /// something may let others go on; a pass without change ends it. Passes alternate in direction, so that a chain is
-    /// done in two, whichever way round it was written.
+    /// Products carry dimensions forward, and backward if a single factor is unknown. Each change may enable others, so passes
+    /// repeat until one changes nothing. They alternate in direction, so a chain takes two passes, regardless of the order in
+    /// which it was written.
     void multiply()
     {
         std::vector<bool> done (products.size(), false);
@@ -251,8 +261,10 @@ private:
                 {
                     if (! dimensions.state (p.out, known))
                     {
-                        const auto& n = flat.nodes[static_cast<std::size_t> (p.node)];
-                        flat.error ("node/unit", n.origin, "'" + n.path + "' multiplies to " + symbolOf (known) + ", but its output is used as " + symbolOf (*out), "check what is wired into it");
+                        const auto& n = flat.node (p.node);
+                        flat.error ("node/unit", n.origin,
+                                    "'" + n.path + "' has a product in " + symbolOf (known) + ", but its output is used in " + symbolOf (*out),
+                                    "check what is wired into it");
                     }
                     done[i] = changed = true;
                 }
@@ -265,12 +277,12 @@ private:
         }
     }
 
-    /// Generic ports that hang together carry the one quantity that is wired to them. If there are several, they carry
-    /// none, and each wire that brings another than the first (in the order of the enum) is a warning, as is a wire that
-    /// joins two by itself. Nothing here depends on the order of the wires.
+    /// Connected generic ports carry the one quantity that is wired to them. If there are several, the ports carry none, and
+    /// each wire whose quantity differs from the first one (in the order of the enum) is a warning. A wire that joins two
+    /// quantities directly is a warning too. None of this depends on the order of the wires.
     void nameQuantities()
     {
-        const Grouped<int> neighbours (static_cast<std::size_t> (variable.count()), [this] (auto visit)
+        const Grouped<int> neighbours (at (variable.count()), [this] (auto visit)
                                        {
                                            for (const auto& l : links)
                                            {
@@ -278,30 +290,30 @@ private:
                                                visit (l.b, l.a);
                                            } });
 
-        std::vector<Quantity> expected (static_cast<std::size_t> (variable.count()), Quantity::any);
+        std::vector<Quantity> expected (at (variable.count()), Quantity::any);
         std::vector<bool> seen = generic;
         seen.flip();
         std::vector<int> together;
         for (int start = 0; start < variable.count(); ++start)
         {
-            if (seen[static_cast<std::size_t> (start)]) continue;
-            seen[static_cast<std::size_t> (start)] = true;
+            if (seen[at (start)]) continue;
+            seen[at (start)] = true;
             together = { start };
-            unsigned found = 0;   // a bit each, in the order of the enum
+            unsigned found = 0;   // one bit per quantity, in the order of the enum
             for (std::size_t i = 0; i < together.size(); ++i)
-                for (const int n : neighbours[static_cast<std::size_t> (together[i])])
+                for (const int n : neighbours[at (together[i])])
                 {
-                    if (! generic[static_cast<std::size_t> (n)]) found |= 1u << static_cast<unsigned> (quantity[static_cast<std::size_t> (n)]);
-                    if (seen[static_cast<std::size_t> (n)]) continue;
-                    seen[static_cast<std::size_t> (n)] = true;
+                    if (! generic[at (n)]) found |= 1u << static_cast<unsigned> (quantity[at (n)]);
+                    if (seen[at (n)]) continue;
+                    seen[at (n)] = true;
                     together.push_back (n);
                 }
             found &= ~(1u << static_cast<unsigned> (Quantity::any));
             const auto first = found == 0 ? Quantity::any : static_cast<Quantity> (std::countr_zero (found));
             for (const int v : together)
             {
-                expected[static_cast<std::size_t> (v)] = first;
-                quantity[static_cast<std::size_t> (v)] = std::has_single_bit (found) ? first : Quantity::any;
+                expected[at (v)] = first;
+                quantity[at (v)] = std::has_single_bit (found) ? first : Quantity::any;
             }
         }
         for (const auto& l : links)
@@ -311,20 +323,22 @@ private:
     void compareQuantities (const Link& l, const std::vector<Quantity>& expected)
     {
         const auto of = [&] (int v)
-        { return generic[static_cast<std::size_t> (v)] ? expected[static_cast<std::size_t> (v)] : quantity[static_cast<std::size_t> (v)]; };
+        { return generic[at (v)] ? expected[at (v)] : quantity[at (v)]; };
         const auto a = of (l.a), b = of (l.b);
         if (a == Quantity::any || b == Quantity::any || a == b) return;
         const auto& w = *l.wire;
-        flat.warn ("wire/quantity", w.origin, "'" + flat.nameOf (*w.from) + "' carries a " + std::string (name (a)) + " and '" + flat.nameOf (w.to) + "' a " + std::string (name (b)) + "; both are in " + symbolOf (dimensions.dimension (l.a).value_or (Dimension {})),
-                   "fine if it is meant; else wire another port");
+        flat.warn ("wire/quantity", w.origin,
+                   "'" + flat.nameOf (*w.from) + "' carries a " + std::string (name (a)) + " and '" + flat.nameOf (w.to) + "' a " + std::string (name (b))
+                       + "; both are in " + symbolOf (dimensions.dimension (l.a).value_or (Dimension {})),
+                   "fine if intended; otherwise wire another port");
     }
 
     PortUnits result()
     {
         PortUnits units { variable, {} };
-        units.found.reserve (static_cast<std::size_t> (variable.count()));
+        units.found.reserve (at (variable.count()));
         for (int v = 0; v < variable.count(); ++v)
-            units.found.push_back ({ quantity[static_cast<std::size_t> (v)], dimensions.dimension (v) });
+            units.found.push_back ({ quantity[at (v)], dimensions.dimension (v) });
         return units;
     }
 };
@@ -352,11 +366,14 @@ int PortNumbers::entries (const FlatNode& n, const PortSheet& row) noexcept
 int PortNumbers::operator() (const PortRef& r) const noexcept
 {
     const auto& n = flat->node (r);
-    const auto [inputs, params, outputs] = std::tuple { static_cast<int> (n.type->inputs.size()), static_cast<int> (n.type->params.size()), static_cast<int> (n.type->outputs.size()) };
+    const auto inputs = static_cast<int> (n.type->inputs.size()), params = static_cast<int> (n.type->params.size()),
+               outputs = static_cast<int> (n.type->outputs.size());
     int number = firstOf (r.node);
-    if (firstOf (r.node + 1) - number == inputs + params + outputs)   // one a row
-        return number + r.port + (r.role == Role::input ? 0 : r.role == Role::param ? inputs
-                                                                                    : inputs + params);
+    if (firstOf (r.node + 1) - number == inputs + params + outputs)   // one per row
+    {
+        if (r.role == Role::input) return number + r.port;
+        return number + r.port + (r.role == Role::param ? inputs : inputs + params);
+    }
     for (const auto role : { Role::input, Role::param, Role::output })
         for (int i = 0; const auto& row : n.ports (role))
         {

@@ -2,8 +2,8 @@
 #include "values.hpp"
 #include "directory.hpp"
 
-#include <framework/near_miss.hpp>
-#include <framework/number_text.hpp>
+#include <framework/text/closest_match.hpp>
+#include <framework/text/number_text.hpp>
 
 namespace tactus::plan
 {
@@ -18,14 +18,14 @@ public:
     void read (const Assignment& a)
     {
         const auto& sheet = flat.sheet (a.to);
-        const auto values = flat.param (a.to.node, static_cast<std::size_t> (a.to.port));
+        const auto values = flat.param (a.to.node, at (a.to.port));
 
         if (! sheet.choices.empty())
             readChoice (a, sheet, values[0]);
         else if (a.to.index >= 0)
-            set (a, *a.low, *a.high, sheet, values[static_cast<std::size_t> (a.to.index)]);
+            set (a, *a.low, *a.high, sheet, values[at (a.to.index)]);
         else if (a.to.component >= 0)
-            set (a, *a.low, *a.high, sheet, values[static_cast<std::size_t> (a.to.component)]);
+            set (a, *a.low, *a.high, sheet, values[at (a.to.component)]);
         else if (sheet.list && ! a.low->is_array())
             for (auto& v : values)
                 set (a, *a.low, *a.high, sheet, v);
@@ -41,9 +41,11 @@ private:
     void readChoice (const Assignment& a, const PortSheet& sheet, double& value)
     {
         std::vector<std::string> names (sheet.choices.begin(), sheet.choices.end());
-        const auto chosen = a.low->is_string() ? std::ranges::find (names, a.low->get_ref<const std::string&>()) : names.end();
+        const auto chosen = a.low->is_string() ? std::ranges::find (names, a.low->asString()) : names.end();
         if (chosen == names.end())
-            flat.error ("param/unknown_choice", a.origin, "'" + flat.nameOf (a.to) + "' cannot be " + shown (*a.low) + (a.low->is_string() ? didYouMean (a.low->get<std::string>(), names) : ""), "one of: " + listed (names));
+            flat.error ("param/unknown_choice", a.origin,
+                        "'" + flat.nameOf (a.to) + "' cannot be " + shown (*a.low) + (a.low->is_string() ? didYouMean (a.low->get<std::string>(), names) : ""),
+                        "use one of: " + listed (names));
         else
             value = static_cast<double> (chosen - names.begin());
     }
@@ -54,7 +56,7 @@ private:
         if (! lists || a.low->size() != a.high->size() || (sheet.list ? a.low->size() > values.size() : a.low->size() != 3))
         {
             flat.error ("param/shape", a.origin, "'" + flat.nameOf (a.to) + "' cannot be " + shown (*a.low),
-                        sheet.list ? "a list of at most " + std::to_string (values.size()) + " numbers" : "three numbers, as in [0, 0, 1]");
+                        sheet.list ? "give a list of at most " + std::to_string (values.size()) + " numbers" : "give three numbers, such as [0, 0, 1]");
             return;
         }
         for (std::size_t i = 0; i < a.low->size(); ++i)
@@ -67,17 +69,18 @@ private:
         for (int i = 0; i < (&high == &low ? 1 : 2); ++i)
         {
             const auto read = readNumber (i == 0 ? low : high);
-            if (const auto* problem = std::get_if<std::string> (&read))
+            if (! read)
             {
                 const std::string symbol (sheet.unit.kind == UnitRule::Kind::fixed ? sheet.unit.unit.symbol : "1");
-                flat.error (a.low->is_string() ? "unit/syntax" : "param/value", a.origin, "'" + flat.nameOf (a.to) + "': " + *problem,
+                flat.error (a.low->is_string() ? "unit/syntax" : "param/value", a.origin, "'" + flat.nameOf (a.to) + "': " + read.error().text,
                             "give a plain number" + (symbol == "1" ? "" : " in " + symbol) + ", or text with a unit");
                 return;
             }
-            ends[i] = std::get<Number> (read).value;
+            ends[i] = read->value;
             if (! sheet.limits.hard.contains (ends[i]))
             {
-                flat.error ("param/out_of_range", a.origin, "'" + flat.nameOf (a.to) + "' is " + numberText (ends[i]) + ", where the model has no meaning", "it must be " + rangeText (sheet.limits.hard) + (sheet.unit.unit.symbol == "1" ? "" : " " + std::string (sheet.unit.unit.symbol)));
+                flat.error ("param/out_of_range", a.origin, "'" + flat.nameOf (a.to) + "' is " + numberText (ends[i]) + ", which is out of range for the model",
+                            "it must be " + rangeText (sheet.limits.hard) + (sheet.unit.unit.symbol == "1" ? "" : " " + std::string (sheet.unit.unit.symbol)));
                 return;
             }
         }
@@ -96,23 +99,24 @@ std::string rangeText (const Interval& i)
 std::string shown (const Json& json)
 {
     if (json.is_structured()) return json.is_array() ? "a list of " + std::to_string (json.size()) : "an object";
-    return json.dump (-1, ' ', false, Json::error_handler_t::replace).substr (0, 60);
+    return json.dump().substr (0, 60);
 }
 
-std::variant<Number, std::string> readNumber (const Json& json)
+Result<Number> readNumber (const Json& json)
 {
+    const auto problem = [] (std::string text)
+    { return Message::error ("param/value", {}, std::move (text)); };
     if (json.is_number())
     {
         const auto v = json.get<double>();
-        if (! isFinite (v)) return "it is not a finite number";
+        if (! isFinite (v)) return problem ("it is not a finite number");
         return Number { .value = v, .dimension = {} };
     }
-    if (! json.is_string()) return shown (json) + " is not a number, nor text with a unit";
+    if (! json.is_string()) return problem (shown (json) + " is neither a number nor text with a unit");
 
-    const auto parsed = parseMeasure (json.get_ref<const std::string&>());
-    if (const auto* problem = std::get_if<std::string> (&parsed)) return *problem;
-    const auto& m = std::get<Measure> (parsed);
-    return Number { m.value, m.dimension, m.angular };
+    const auto parsed = parseMeasure (json.asString());
+    if (! parsed) return problem (parsed.error().text);
+    return Number { parsed->value, parsed->dimension, parsed->angular };
 }
 
 bool miscounts (const Number& n, const UnitRule& unit) noexcept
@@ -123,7 +127,7 @@ bool miscounts (const Number& n, const UnitRule& unit) noexcept
 
 std::string miscount (const Json& json, const UnitRule& unit)
 {
-    return shown (json) + " counts radians or degrees, " + std::string (unit.unit.symbol) + " whole cycles: 2 pi rad, 360 deg";
+    return shown (json) + " counts radians or degrees, but " + std::string (unit.unit.symbol) + " counts whole cycles of 2 pi rad or 360 deg";
 }
 
 void readParams (Flat& flat)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Draws leather.png: the grain of a hide, 128 x 128 points of 8 bits, white high.
 
-Pebbles round the points of a disturbed grid, with creases where two of them meet, and a little
-unevenness from pebble to pebble. Nothing was measured: sizes are what leather looks like.
+Pebbles around the points of a perturbed grid, with creases where two of them meet, and heights that
+vary a little from pebble to pebble. Nothing was measured; the sizes are chosen to look like leather.
 
     python3 leather.py > leather.png
 """

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws liver.obj: a body of a liver's size and shape, in mm, its top at the origin.
+"""Draws liver.obj: a body with the size and shape of a liver, in mm, with its top at the origin.
 
-An icosahedron is divided three times, flattened to 220 x 140 x 63 mm, and made thin to
-one side as the left lobe is. No anatomy: dimensions are round numbers near those of an adult's organ.
+An icosahedron is subdivided three times, flattened to 220 x 140 x 63 mm, and thinned on one side like
+the left lobe. Not an anatomical model: the dimensions are round numbers near those of an adult's organ.
 
     python3 liver.py > liver.obj
 """

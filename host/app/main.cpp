@@ -5,8 +5,6 @@
 #include <host/platform/home_folder.hpp>
 #include <host/platform/signals.hpp>
 
-#include <CLI/CLI.hpp>
-
 #include <cstdio>
 
 namespace tactus::host
@@ -30,7 +28,7 @@ public:
         fitToScreen();
         setVisible (true);
         content->begin (how);
-        fitToScreen();   // everything may be of another size now
+        fitToScreen();   // the scale may have changed
         if (! content->asked().isOpen()) content->grabKeyboardFocus();
     }
 
@@ -76,36 +74,37 @@ public:
     }
 
 private:
-    /// False if there is nothing to open a window for: it is said what is wrong, or how the program is called.
+    /// Returns false if no window should open: after --help or --version, or if the arguments are wrong.
     bool readArguments (MainView::Start& how)
     {
-        CLI::App options { "Patches haptic effects, and shows what a hand feels.", "tactus-host" };
-        options.add_option ("files", how.files, "Graphs to open");
-        options.add_flag ("--safe", how.safe, "Nothing runs until START is pressed");
-        options.add_flag ("--light", how.light, "Light colours, whatever was chosen");
+        const Command options { "Patches haptic effects and shows the forces on the hand.", "tactus-host" };
+        std::vector<std::string> files;
+        options.addOption ("files", files, "Graphs to open");
+        options.addFlag ("--safe", how.safe, "Safe mode: nothing runs until START is pressed");
+        options.addFlag ("--light", how.light, "Light theme, whatever the settings say");
         std::string osc = std::to_string (OscPort::usual);
         std::string osc_answer;
-        auto* osc_given = options.add_option ("--osc", osc, "The UDP port to be reached by from this machine, see docs/osc.md; 0 for any that is free, off, or ADDRESS:PORT to be reached by others too")->check (oscCheck());
-        options.add_option ("--osc-answer", osc_answer, "The one other machine that gets answers, by its address: 192.168.1.7")->check (addressCheck());
-        options.add_option ("--places", places_file, "Keeps a JSON file with where things are on the screen, for scripts");
-        options.set_version_flag ("--version", TACTUS_VERSION);
+        const auto osc_given = options.addOption ("--osc", osc,
+                                                  "UDP port for OSC from this machine, see docs/osc.md; 0 for any free port, off for none, "
+                                                  "or ADDRESS:PORT to also accept other machines");
+        osc_given.check (oscCheck());
+        options.addOption ("--osc-answer", osc_answer, "Address of the one other machine that gets answers, such as 192.168.1.7").check (addressCheck());
+        options.addOption ("--places", places_file, "JSON file to keep updated with the screen positions of everything, for scripts");
+        options.version (TACTUS_VERSION);
         std::vector<std::string> arguments;
         for (const auto& a : getCommandLineParameterArray())
-            arguments.insert (arguments.begin(), a.unquoted().toStdString());   // CLI11 takes them from the back
-        try
+            arguments.push_back (a.unquoted().toStdString());
+        if (const auto status = options.parse (std::move (arguments)))
         {
-            options.parse (std::move (arguments));
-            const bool may_be_taken = osc_given->count() == 0;   // by another window
-            if (osc != "off" && ! (may_be_taken && OscPort::isTaken (OscPort::usual))) how.osc = readListen (osc);
-            if (how.osc) how.osc->answered = osc_answer;
-            if (const auto warning = how.osc ? warningOf (*how.osc) : std::string(); ! warning.empty()) std::fprintf (stderr, "warning: %s\n", warning.c_str());
-            return true;
-        }
-        catch (const CLI::ParseError& e)
-        {
-            setApplicationReturnValue (options.exit (e));
+            setApplicationReturnValue (*status);
             return false;
         }
+        how.files.assign (files.begin(), files.end());
+        const bool is_default = ! osc_given.isGiven();   // another window may already use the default port
+        if (osc != "off" && ! (is_default && OscPort::isTaken (OscPort::usual))) how.osc = readListen (osc);
+        if (how.osc) how.osc->answered = osc_answer;
+        if (const auto warning = how.osc ? warningOf (*how.osc) : std::string(); ! warning.empty()) std::fprintf (stderr, "warning: %s\n", warning.c_str());
+        return true;
     }
 
     void timerCallback() override
@@ -113,11 +112,11 @@ private:
         if (! places_file.empty()) writePlaces();
         if (! stopRequested()) return;
         stopTimer();
-        window->view().closeSuddenly();   // a signal does not wait for an answer
+        window->view().closeSuddenly();   // a signal cannot wait for an answer
         quit();
     }
 
-    /// Whole or not at all, and only when something has moved.
+    /// Writes the file atomically, and only if something has moved.
     void writePlaces()
     {
         auto now = placesOf (*window, window->view().canvas()).dump();

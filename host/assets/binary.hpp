@@ -11,7 +11,7 @@
 namespace tactus::host
 {
 
-/// Takes a number off the front of bytes, or nothing if there are too few.
+/// Removes a number from the front of the bytes; empty if there are too few bytes.
 template <typename T>
 std::optional<T> takeNumber (std::string_view& bytes, std::endian order) noexcept
 {

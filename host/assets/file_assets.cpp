@@ -18,43 +18,45 @@ namespace
 {
 namespace fs = std::filesystem;
 
-std::string sentence (const Error& e) { return e.where + ": " + e.what + "; " + e.remedy; }
-
-/// Why the file is not even opened; empty if it may be.
-std::string refusal (const std::string& path)
+/// Checks that the file exists, is a regular file and is not too large.
+Result<> checkFile (const std::string& path)
 {
+    const auto fail = [] (std::string where, std::string text, std::string remedy)
+    { return Message::error ("asset/unreadable", std::move (where), std::move (text), std::move (remedy)); };
     std::error_code problem;
-    if (path.find ('\0') != std::string::npos) return "a path has no NUL in it; check the path";
+    if (path.find ('\0') != std::string::npos) return fail ({}, "the path contains a NUL", "check the path");
     const auto status = fs::status (path, problem);
-    if (! fs::exists (status)) return path + ": there is no such file; check the path, which starts at the folder of the graph";
-    if (! fs::is_regular_file (status)) return path + ": it is a folder or a device, not a file; check the path, which starts at the folder of the graph";
+    if (! fs::exists (status)) return fail (path, "there is no such file", "check the path, which is relative to the folder of the graph");
+    if (! fs::is_regular_file (status))
+        return fail (path, "it is a folder or a device, not a file", "check the path, which is relative to the folder of the graph");
     if (const auto size = fs::file_size (path, problem); problem || size > most_bytes)
-        return path + ": it has more than " + std::to_string (most_bytes >> 20) + " MB; make it smaller, as by leaving out what cannot be felt";
+        return fail (path, "it is larger than " + std::to_string (most_bytes >> 20) + " MB",
+                     "make it smaller, for example by leaving out details that cannot be felt");
     return {};
 }
 
-/// The content of a file, from a function that takes bytes and a name.
+/// The content of a file, parsed by a function that takes the bytes and the file name.
 template <typename T>
-auto fromBytes (tl::expected<T, Error> (*read) (std::string_view, std::string_view))
+auto fromBytes (Result<T> (*read) (std::string_view, std::string_view))
 {
-    return [read] (const std::string& path) -> tl::expected<T, Error>
+    return [read] (const std::string& path) -> Result<T>
     {
         std::ifstream in (path, std::ios::binary);
         const std::string bytes { std::istreambuf_iterator<char> (in), {} };
-        if (! in) return tl::unexpected (Error { .id = "asset/unreadable", .where = path, .what = "it may not be read", .remedy = "check its permissions" });
+        if (! in) return Message { .id = "asset/unreadable", .where = path, .text = "it is not readable", .remedy = "check its permissions" };
         return read (bytes, path);
     };
 }
 
-tl::expected<Signal, Error> readSignal (const std::string& path)
+Result<Signal> readSignal (const std::string& path)
 {
     auto signal = readWav (path);
     const auto fail = [&] (std::string what)
-    { return tl::unexpected (Error { .id = "asset/signal", .where = path, .what = std::move (what), .remedy = "record or save it anew" }); };
+    { return Message { .id = "asset/signal", .where = path, .text = std::move (what), .remedy = "record or save it again" }; };
 
     if (! signal) return signal;
     if (! (signal->rate_hz > 0.0)) return fail ("it has no sample rate");
-    if (signal->channels.empty() || signal->channels.front().empty()) return fail ("there are no samples in it");
+    if (signal->channels.empty() || signal->channels.front().empty()) return fail ("it has no samples");
     for (const auto& channel : signal->channels)
         if (! std::ranges::all_of (channel, [] (double v)
                                    { return isFinite (v); }))
@@ -66,7 +68,7 @@ tl::expected<Signal, Error> readSignal (const std::string& path)
 template <typename T, typename Read>
 Assets::Loaded<T> FileAssets::load (Cache<T>& cache, const std::string& path, Read read)
 {
-    if (auto why = refusal (path); ! why.empty()) return why;
+    if (auto fine = checkFile (path); ! fine) return std::move (fine).error();
 
     std::error_code problem;
     const auto written = fs::last_write_time (path, problem);
@@ -75,7 +77,7 @@ Assets::Loaded<T> FileAssets::load (Cache<T>& cache, const std::string& path, Re
         if (auto content = kept->second.content.lock()) return content;
 
     auto fresh = read (path);
-    if (! fresh) return sentence (fresh.error());
+    if (! fresh) return std::move (fresh).error();
     auto content = std::make_shared<const T> (std::move (*fresh));
     std::erase_if (cache, [] (const auto& entry)
                    { return entry.second.content.expired(); });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/assets.hpp>
+#include <framework/kit/assets.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -10,10 +10,10 @@
 namespace tactus::host
 {
 
-/// Reads files, each once as long as somebody has its content and it does not change on disk. [main thread]
+/// Reads files. A file is not read again while its content is in use and it has not changed on disk. [main thread]
 ///
-/// Nodes may rely on it that all numbers are finite, that signals and grids are not empty, that all channels of a signal
-/// are of one length, and that the triangles of a mesh name points of it. No file is taken that is over 64 MB.
+/// Nodes may rely on this: all numbers are finite, signals and grids are not empty, all channels of a signal have the
+/// same length, and the triangles of a mesh refer to its points. Files over 64 MB are refused.
 class FileAssets final : public Assets
 {
 public:

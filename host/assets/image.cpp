@@ -15,24 +15,30 @@ namespace tactus::host
 
 namespace
 {
-using Read = tl::expected<Grid, Error>;
+using Read = Result<Grid>;
 
-tl::unexpected<Error> fail (std::string id, std::string_view name, std::string what, std::string remedy)
+Message fail (std::string id, std::string_view name, std::string what, std::string remedy)
 {
-    return tl::unexpected (Error { .id = std::move (id), .where = std::string (name), .what = std::move (what), .remedy = std::move (remedy) });
+    return Message { .id = std::move (id), .where = std::string (name), .text = std::move (what), .remedy = std::move (remedy) };
 }
 
-tl::unexpected<Error> broken (std::string_view name, const std::string& why)
+Message broken (std::string_view name, const std::string& why)
 {
-    return fail ("image/unreadable", name, "it cannot be decoded: " + why, "check that the file is whole, and save it again as PNG or JPEG");
+    return fail ("image/unreadable", name, "it cannot be decoded: " + why, "check that the file is complete, and save it again as PNG or JPEG");
 }
 
-tl::unexpected<Error> tooLarge (std::string_view name, std::size_t columns, std::size_t rows)
+Message tooLarge (std::string_view name, std::size_t columns, std::size_t rows)
 {
-    return fail ("image/too_large", name, "it has " + std::to_string (columns) + " times " + std::to_string (rows) + " pixels, and at most " + std::to_string (most_numbers) + " are taken", "make it smaller");
+    return fail ("image/too_large", name,
+                 "it has " + std::to_string (columns) + " times " + std::to_string (rows) + " pixels, but at most " + std::to_string (most_numbers)
+                     + " are allowed",
+                 "make it smaller");
 }
 
-Grid gridOf (std::size_t columns, std::size_t rows) { return { .rows = static_cast<int> (rows), .columns = static_cast<int> (columns), .values = std::vector<double> (rows * columns) }; }
+Grid gridOf (std::size_t columns, std::size_t rows)
+{
+    return { .rows = static_cast<int> (rows), .columns = static_cast<int> (columns), .values = std::vector<double> (rows * columns) };
+}
 
 Read readPng (std::string_view bytes, std::string_view name)
 {
@@ -43,14 +49,16 @@ Read readPng (std::string_view bytes, std::string_view name)
     if (const int problem = spng_get_ihdr (png.get(), &header); problem != 0) return broken (name, spng_strerror (problem));
     if (std::size_t { header.width } * header.height > most_numbers) return tooLarge (name, header.width, header.height);
 
-    // Deflate makes a thousandth of what it is given, at best.
+    // Deflate compresses to a thousandth at best.
     std::size_t unfolded = 0;
-    if (spng_decoded_image_size (png.get(), SPNG_FMT_RAW, &unfolded) != 0 || unfolded / 1032 > bytes.size()) return broken (name, "it has fewer pixels than it says");
+    if (spng_decoded_image_size (png.get(), SPNG_FMT_RAW, &unfolded) != 0 || unfolded / 1032 > bytes.size())
+        return broken (name, "it has fewer pixels than its header says");
 
-    // Colours with 16 bits each, which is what every kind of PNG can be made into.
+    // 16 bits per colour: every kind of PNG can be converted to this.
     constexpr std::size_t channels = 4;
     std::vector<std::uint16_t> row (channels * header.width);
-    if (const int problem = spng_decode_image (png.get(), nullptr, 0, SPNG_FMT_RGBA16, SPNG_DECODE_PROGRESSIVE); problem != 0) return broken (name, spng_strerror (problem));
+    if (const int problem = spng_decode_image (png.get(), nullptr, 0, SPNG_FMT_RGBA16, SPNG_DECODE_PROGRESSIVE); problem != 0)
+        return broken (name, spng_strerror (problem));
 
     constexpr double white = 65535.0;
     auto grid = gridOf (header.width, header.height);
@@ -80,7 +88,8 @@ Read readJpeg (std::string_view bytes, std::string_view name)
     const auto pixels = static_cast<std::size_t> (columns) * static_cast<std::size_t> (rows);
     if (pixels > most_numbers) return tooLarge (name, static_cast<std::size_t> (columns), static_cast<std::size_t> (rows));
     std::vector<unsigned char> greys (pixels);
-    if (tjDecompress2 (jpeg.get(), data, bytes.size(), greys.data(), columns, 0, rows, TJPF_GRAY, TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS | TJFLAG_ACCURATEDCT) != 0)
+    if (tjDecompress2 (jpeg.get(), data, bytes.size(), greys.data(), columns, 0, rows, TJPF_GRAY, TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS | TJFLAG_ACCURATEDCT)
+        != 0)
         return broken (name, tjGetErrorStr2 (jpeg.get()));
 
     constexpr double white = 255.0;
@@ -91,11 +100,11 @@ Read readJpeg (std::string_view bytes, std::string_view name)
 }
 }   // namespace
 
-tl::expected<Grid, Error> readImage (std::string_view bytes, std::string_view name)
+Result<Grid> readImage (std::string_view bytes, std::string_view name)
 {
     if (bytes.starts_with ("\x89PNG")) return readPng (bytes, name);
     if (bytes.starts_with ("\xff\xd8")) return readJpeg (bytes, name);
-    return fail ("image/unreadable", name, "it is neither a PNG nor a JPEG", "save it as PNG, with 16 bits a pixel if it is a height map");
+    return fail ("image/unreadable", name, "it is neither a PNG nor a JPEG", "save it as PNG, with 16 bits per pixel for a height map");
 }
 
 }   // namespace tactus::host

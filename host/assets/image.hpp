@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/assets.hpp>
-#include <host/io/error.hpp>
-
-#include <tl/expected.hpp>
+#include <framework/kit/assets.hpp>
+#include <framework/text/result.hpp>
 
 #include <string_view>
 
 namespace tactus::host
 {
 
-/// Reads the bytes of a PNG or JPEG: grey from 0, black, to 1, white, top row first, a PNG in all of its up to 16 bits.
-/// Of colours the luminance (ITU-R BT.601, as in JPEG) of the values as they stand in the file: no gamma is undone, so
-/// that a height map is what it was drawn as. Transparency is passed over.
+/// Reads the bytes of a PNG or JPEG as grey values from 0 (black) to 1 (white), top row first, at the full
+/// precision of a PNG (up to 16 bits). Colours become their luminance (ITU-R BT.601, as in JPEG) as stored in the file: gamma
+/// is not undone, so a height map keeps the values as drawn. Transparency is ignored.
 ///
-/// libspng and TurboJPEG, because both are made for files from strangers: stb_image 2.27, which Debian has, writes beyond
-/// an array on a damaged JPEG.
+/// Uses libspng and TurboJPEG because both are designed for untrusted files: stb_image 2.27, the version in Debian,
+/// writes past the end of an array on a damaged JPEG.
 ///
-/// Ids of errors: image/unreadable, image/too_large.
-[[nodiscard]] tl::expected<Grid, Error> readImage (std::string_view bytes, std::string_view name);
+/// Errors: image/unreadable, image/too_large.
+[[nodiscard]] Result<Grid> readImage (std::string_view bytes, std::string_view name);
 
 }   // namespace tactus::host

@@ -3,11 +3,11 @@
 
 #include <cstddef>
 
-/// What is more than this is refused before memory is asked for: a file may claim anything.
+/// Anything larger is refused before memory is allocated, since the header of a file may claim any size.
 namespace tactus::host
 {
 
-inline constexpr std::size_t most_bytes = 64u << 20;     ///< of a file
-inline constexpr std::size_t most_numbers = 32u << 20;   ///< of a picture or a table
+inline constexpr std::size_t most_bytes = 64u << 20;     ///< per file
+inline constexpr std::size_t most_numbers = 32u << 20;   ///< per image or table
 
 }   // namespace tactus::host

@@ -29,9 +29,9 @@ std::string endingOf (std::string_view name)
     return ending;
 }
 
-tl::unexpected<Error> fail (std::string id, std::string where, std::string what, std::string remedy)
+Message fail (std::string id, std::string where, std::string what, std::string remedy)
 {
-    return tl::unexpected (Error { .id = std::move (id), .where = std::move (where), .what = std::move (what), .remedy = std::move (remedy) });
+    return Message { .id = std::move (id), .where = std::move (where), .text = std::move (what), .remedy = std::move (remedy) };
 }
 }   // namespace
 
@@ -47,7 +47,7 @@ void MeshBuilder::face (std::span<const long long> corners, std::size_t line)
 {
     for (const auto corner : corners)
         if (corner < 0 || corner >= points())
-            throw MeshProblem { "mesh/no_such_point", "a face names a point that is not among the " + std::to_string (points()) + " before it", line };
+            throw MeshProblem { "mesh/no_such_point", "a face refers to a point that is not among the " + std::to_string (points()) + " before it", line };
 
     const auto at = [&] (std::size_t i)
     { return joined[static_cast<std::size_t> (corners[i])]; };
@@ -58,7 +58,7 @@ void MeshBuilder::face (std::span<const long long> corners, std::size_t line)
 
 namespace
 {
-/// For each point the first one that is nearer than the reach; itself, if there is none.
+/// For each point, the first point within the given distance, or the point itself if there is none.
 std::vector<int> firstNear (const std::vector<Vec3>& points, double reach)
 {
     std::vector<int> firsts;
@@ -94,7 +94,7 @@ Mesh MeshBuilder::take() const
         low = low.cwiseMin (p);
         high = high.cwiseMax (p);
     }
-    // Far from the origin the last digit is coarser than that, and cells are counted in whole numbers.
+    // Far from the origin, the last digit of a double is coarser than a millionth of the size, and cell indices must fit integers.
     const double reach = std::max (1e-6 * (high - low).norm(), 1e-15 * std::max (low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()));
     if (! (reach > 0.0) || ! std::isfinite (reach)) return made;
 
@@ -130,7 +130,7 @@ Vec3 takePoint (std::string_view& line, std::size_t number)
     {
         const auto word = takeWord (line);
         const auto value = numberIn<double> (word);
-        if (! value) throw MeshProblem { "mesh/syntax", "a point needs three numbers, but here is '" + std::string (word.substr (0, 40)) + "'", number };
+        if (! value) throw MeshProblem { "mesh/syntax", "a point needs three numbers; found '" + std::string (word.substr (0, 40)) + "'", number };
         coordinate = *value;
     }
     return at;
@@ -143,11 +143,11 @@ long long wholeNumber (std::string_view word, std::size_t line)
     return *value;
 }
 
-tl::expected<Mesh, Error> readMesh (std::string_view bytes, std::string_view name)
+Result<Mesh> readMesh (std::string_view bytes, std::string_view name)
 {
     const auto kind = std::ranges::find (kinds, endingOf (name), &Kind::ending);
     if (kind == std::end (kinds))
-        return fail ("mesh/unknown_kind", std::string (name), "its name does not end like that of a mesh", "save it as .obj, .off, .ply or .stl");
+        return fail ("mesh/unknown_kind", std::string (name), "its extension is not one of a mesh file", "save it as .obj, .off, .ply or .stl");
 
     MeshBuilder builder;
     try
@@ -156,12 +156,13 @@ tl::expected<Mesh, Error> readMesh (std::string_view bytes, std::string_view nam
     }
     catch (const MeshProblem& p)
     {
-        return fail (p.id, std::string (name) + (p.line > 0 ? ":" + std::to_string (p.line) : ""), p.what, "check that it is a whole " + std::string (kind->ending) + " file, and save it again where it was made");
+        return fail (p.id, std::string (name) + (p.line > 0 ? ":" + std::to_string (p.line) : ""), p.what,
+                     "check that it is a complete " + std::string (kind->ending) + " file, and export it again");
     }
 
     auto mesh = builder.take();
     if (mesh.triangles.empty())
-        return fail ("mesh/no_triangles", std::string (name), "there are no triangles in it", "save a surface, not only points or lines");
+        return fail ("mesh/no_triangles", std::string (name), "it has no triangles", "save a surface, not only points or lines");
     return mesh;
 }
 

@@ -1,27 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/assets.hpp>
-#include <host/io/error.hpp>
-
-#include <tl/expected.hpp>
+#include <framework/kit/assets.hpp>
+#include <framework/text/result.hpp>
 
 #include <string_view>
 
 namespace tactus::host
 {
 
-/// Reads the bytes of an OBJ, OFF, PLY or STL file; which of them, the ending of its name says.
+/// Parses the bytes of an OBJ, OFF, PLY or STL file; the file name's extension selects the format.
 ///
-/// All objects and groups of a file become one mesh. Points keep the order of the file; those nearer than a millionth of
-/// its size are one, the first, so that triangles share their edges. Polygons are taken as convex and cut into
-/// triangles; triangles without area are dropped. Materials, colours and normals are not read.
+/// All objects and groups of a file become one mesh. Points keep the order of the file; points closer than a millionth of
+/// the mesh's size are merged into the first one, so that triangles share edges. Polygons are assumed to be convex and
+/// split into triangles; triangles without area are dropped. Materials, colours and normals are ignored.
 ///
-/// These readers are our own because Assimp 5.2.5, which Debian has, asks for gigabytes or aborts on files that are
-/// cut off. No input crashes them.
+/// We use our own readers because Assimp 5.2.5 in Debian allocates gigabytes or aborts on truncated files. No input crashes
+/// them.
 ///
-/// Ids of errors: mesh/unknown_kind, mesh/syntax, mesh/truncated, mesh/no_such_point, mesh/no_triangles.
-/// Where: name:line in text, name in binary files.
-[[nodiscard]] tl::expected<Mesh, Error> readMesh (std::string_view bytes, std::string_view name);
+/// Error ids: mesh/unknown_kind, mesh/syntax, mesh/truncated, mesh/no_such_point, mesh/no_triangles.
+/// `where` is name:line for text, name for binary files.
+[[nodiscard]] Result<Mesh> readMesh (std::string_view bytes, std::string_view name);
 
 }   // namespace tactus::host

@@ -4,8 +4,8 @@
 namespace tactus::host
 {
 
-/// Points and faces; all else (normals, texture, groups, materials, curves) is passed over. A corner is written
-/// point/texture/normal, and counted from 1, or back from the last point if negative.
+/// Reads points and faces; everything else (normals, texture, groups, materials, curves) is ignored. A corner is
+/// written point/texture/normal, counted from 1, or backwards from the last point if negative.
 void readObj (std::string_view bytes, MeshBuilder& mesh)
 {
     Lines lines (bytes);

@@ -6,7 +6,7 @@ namespace tactus::host
 
 namespace
 {
-/// The next line that says something, without its comment.
+/// The next line that is not empty, without its comment.
 std::string_view nextLine (Lines& lines)
 {
     while (const auto line = lines.next())
@@ -14,22 +14,23 @@ std::string_view nextLine (Lines& lines)
         auto said = line->substr (0, line->find ('#')), first = said;
         if (! takeWord (first).empty()) return said;
     }
-    throw MeshProblem { "mesh/truncated", "it ends before the last of its points and faces", lines.number() };
+    throw MeshProblem { "mesh/truncated", "it ends before its last point or face", lines.number() };
 }
 }   // namespace
 
-/// OFF, also with the normals, colours and texture coordinates of NOFF, COFF and STOFF, which are passed over.
+/// Reads OFF; ignores the normals, colours and texture coordinates of NOFF, COFF and STOFF.
 void readOff (std::string_view bytes, MeshBuilder& mesh)
 {
     Lines lines (bytes);
     auto line = nextLine (lines), counts = line;
     if (const auto keyword = takeWord (line); keyword.ends_with ("OFF"))
     {
-        if (keyword.find_first_of ("4n") != std::string_view::npos) throw MeshProblem { "mesh/syntax", "its points have more than three dimensions", lines.number() };
+        if (keyword.find_first_of ("4n") != std::string_view::npos)
+            throw MeshProblem { "mesh/syntax", "its points have more than three coordinates", lines.number() };
         auto rest = line;
         counts = takeWord (rest).empty() ? nextLine (lines) : line;
     }
-    if (auto rest = counts; takeWord (rest) == "BINARY") throw MeshProblem { "mesh/syntax", "a binary OFF is not understood; text is", lines.number() };
+    if (auto rest = counts; takeWord (rest) == "BINARY") throw MeshProblem { "mesh/syntax", "a binary OFF is not supported, only text", lines.number() };
     const auto points = wholeNumber (takeWord (counts), lines.number());
     const auto faces = wholeNumber (takeWord (counts), lines.number());
 

@@ -3,7 +3,7 @@
 
 #include "text.hpp"
 
-#include <framework/assets.hpp>
+#include <framework/kit/assets.hpp>
 
 #include <map>
 #include <span>
@@ -12,36 +12,37 @@
 namespace tactus::host
 {
 
-/// Thrown by what is below, caught by readMesh.
+/// Thrown by the functions below and caught by readMesh.
 struct MeshProblem
 {
     std::string id, what;
-    std::size_t line = 0;   ///< 0: the file has no lines
+    std::size_t line = 0;   ///< line number; 0 for a binary file
 };
 
-/// A mesh as it is read. Points and faces come in the order of the file, and faces name points by their number there.
+/// Builds a mesh while the file is read. Points and faces are added in the order of the file, and faces refer to points by
+/// their number in the file.
 class MeshBuilder
 {
 public:
     void point (const Vec3&, std::size_t line = 0);
     void face (std::span<const long long> corners, std::size_t line = 0);
 
-    long long points() const noexcept { return static_cast<long long> (joined.size()); }   ///< so far
+    long long points() const noexcept { return static_cast<long long> (joined.size()); }   ///< added so far
 
-    /// What was read, with points welded that are nearer than a millionth of its size, as programs write the same corner
-    /// differently in its last digit; and without triangles that have no area.
+    /// The finished mesh. Points closer than a millionth of its size are merged, since programs write the same corner with
+    /// different last digits; triangles without area are dropped.
     Mesh take() const;
 
 private:
     Mesh made;
-    std::vector<int> joined;                      // number in the file to number in the mesh
-    std::map<std::array<double, 3>, int> known;   // points at the very same place are one
+    std::vector<int> joined;                      // maps the index in the file to the index in the mesh
+    std::map<std::array<double, 3>, int> known;   // identical points are merged
 };
 
-/// Three coordinates off the front of a line.
+/// Removes three coordinates from the front of a line.
 Vec3 takePoint (std::string_view& line, std::size_t number);
 
-/// A word that must be a whole number.
+/// Reads a word that must be a whole number.
 long long wholeNumber (std::string_view word, std::size_t line);
 
 void readObj (std::string_view bytes, MeshBuilder&);

@@ -40,7 +40,7 @@ constexpr Type types[] = {
 struct Property
 {
     std::string_view name;
-    Take length;   // of a list; null for a number
+    Take length;   // reads the length of a list; null for a single number
     Take value;
 };
 
@@ -62,7 +62,7 @@ Take typeNamed (std::string_view name, std::size_t line)
 {
     const auto found = std::ranges::find_if (types, [&] (const Type& t)
                                              { return t.names[0] == name || t.names[1] == name; });
-    if (found == std::end (types)) throw MeshProblem { "mesh/syntax", "'" + std::string (name.substr (0, 40)) + "' is no type of number", line };
+    if (found == std::end (types)) throw MeshProblem { "mesh/syntax", "'" + std::string (name.substr (0, 40)) + "' is not a number type", line };
     return found->take;
 }
 
@@ -70,7 +70,7 @@ Header readHeader (Lines& lines)
 {
     Header header;
     const auto first = lines.next();
-    if (! first || *first != "ply") throw MeshProblem { "mesh/syntax", "it does not begin with the word ply", 1 };
+    if (! first || *first != "ply") throw MeshProblem { "mesh/syntax", "it does not start with the word ply", 1 };
     while (auto line = lines.next())
     {
         const auto keyword = takeWord (*line);
@@ -80,7 +80,8 @@ Header readHeader (Lines& lines)
             const auto format = takeWord (*line);
             header.text = format == "ascii";
             header.order = format == "binary_big_endian" ? std::endian::big : std::endian::little;
-            if (! header.text && format != "binary_big_endian" && format != "binary_little_endian") throw MeshProblem { "mesh/syntax", "its format is unknown", lines.number() };
+            if (! header.text && format != "binary_big_endian" && format != "binary_little_endian")
+                throw MeshProblem { "mesh/syntax", "its format is unknown", lines.number() };
         }
         if (keyword == "element")
         {
@@ -89,7 +90,7 @@ Header readHeader (Lines& lines)
         }
         if (keyword == "property")
         {
-            if (header.elements.empty()) throw MeshProblem { "mesh/syntax", "a property belongs to no element", lines.number() };
+            if (header.elements.empty()) throw MeshProblem { "mesh/syntax", "a property does not belong to an element", lines.number() };
             Property p {};
             auto type = takeWord (*line);
             if (type == "list")
@@ -102,10 +103,10 @@ Header readHeader (Lines& lines)
             header.elements.back().properties.push_back (p);
         }
     }
-    throw MeshProblem { "mesh/truncated", "its header has no end", lines.number() };
+    throw MeshProblem { "mesh/truncated", "its header does not end", lines.number() };
 }
 
-/// The numbers below the header, one after another.
+/// The numbers after the header, in order.
 class Body
 {
 public:
@@ -114,14 +115,14 @@ public:
     double number (Take type)
     {
         const auto value = text ? numberIn<double> (nextWord()) : type (bytes, order);
-        if (! value) throw MeshProblem { "mesh/syntax", text ? "something is not a number" : "it ends before the last of its elements", line() };
+        if (! value) throw MeshProblem { "mesh/syntax", text ? "a value is not a number" : "it ends before its last element", line() };
         return *value;
     }
 
     long long wholeNumber (Take type)
     {
         const double value = number (type);
-        if (! (value >= 0.0 && value <= std::numeric_limits<int>::max())) throw MeshProblem { "mesh/syntax", "a count or a number of a point is out of range", line() };
+        if (! (value >= 0.0 && value <= std::numeric_limits<int>::max())) throw MeshProblem { "mesh/syntax", "a count or point index is out of range", line() };
         return static_cast<long long> (value);
     }
 
@@ -134,7 +135,7 @@ private:
         {
             if (const auto word = takeWord (bytes_of_line); ! word.empty()) return word;
             const auto next = lines.next();
-            if (! next) throw MeshProblem { "mesh/truncated", "it ends before the last of its elements", lines.number() };
+            if (! next) throw MeshProblem { "mesh/truncated", "it ends before its last element", lines.number() };
             bytes_of_line = *next;
         }
     }
@@ -178,7 +179,7 @@ void readFace (const Element& element, Body& body, MeshBuilder* mesh)
 }
 }   // namespace
 
-/// Text or binary. Of the points x, y and z are read, of the faces their list of points; all else is passed over.
+/// Reads text or binary PLY: x, y and z of the points, and the point list of the faces. Ignores the rest.
 void readPly (std::string_view bytes, MeshBuilder& mesh)
 {
     Lines lines (bytes);
@@ -186,7 +187,7 @@ void readPly (std::string_view bytes, MeshBuilder& mesh)
     Body body (header, lines);
     for (const auto& element : header.elements)
     {
-        if (element.properties.empty()) continue;   // there is nothing of it in the file, however many it says there are
+        if (element.properties.empty()) continue;   // no data in the file, however many elements the header claims
         for (long long i = 0; i < element.count; ++i)
             if (element.name == "vertex")
                 readPoint (element, body, mesh);

@@ -9,7 +9,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr std::size_t title = 80, header = title + 4;   // which ends with the number of triangles
+constexpr std::size_t title = 80, header = title + 4;   // ends with the number of triangles
 constexpr std::size_t facet = 4 * 3 * 4 + 2;            // normal, three corners, attributes
 
 std::size_t binarySize (std::string_view bytes)
@@ -34,12 +34,12 @@ void readText (std::string_view bytes, MeshBuilder& mesh)
         mesh.point (takePoint (*line, lines.number()), lines.number());
         if (mesh.points() % 3 == 0) addTriangle (mesh, lines.number());
     }
-    if (mesh.points() % 3 != 0) throw MeshProblem { "mesh/truncated", "its last triangle is not whole", lines.number() };
+    if (mesh.points() % 3 != 0) throw MeshProblem { "mesh/truncated", "its last triangle is incomplete", lines.number() };
 }
 
 void readBinary (std::string_view bytes, MeshBuilder& mesh)
 {
-    if (bytes.size() < header || bytes.size() < binarySize (bytes)) throw MeshProblem { "mesh/truncated", "it has fewer triangles than it says" };
+    if (bytes.size() < header || bytes.size() < binarySize (bytes)) throw MeshProblem { "mesh/truncated", "it has fewer triangles than its header says" };
     bytes = bytes.substr (header, binarySize (bytes) - header);
     while (! bytes.empty())
     {
@@ -57,7 +57,7 @@ void readBinary (std::string_view bytes, MeshBuilder& mesh)
 }
 }   // namespace
 
-/// Text or binary; a binary file, too, may begin with the word "solid".
+/// Reads text or binary STL; a binary file may also start with the word "solid".
 void readStl (std::string_view bytes, MeshBuilder& mesh)
 {
     const bool text = bytes.starts_with ("solid") && bytes.size() != binarySize (bytes);

@@ -13,10 +13,11 @@ namespace tactus::host
 
 namespace
 {
-/// Farther from the mesh than this many times its size, a float tells no triangle from another.
+/// Beyond this distance from the mesh, in multiples of its size, floats cannot tell one triangle from another.
 constexpr double farthest = 1e5;
 
-/// What rounding points to float and Embree's own sums may shift, of sizes around 1. A float has 6e-8.
+/// An upper bound on the error of rounding points to float and of Embree's own sums, for sizes around 1. A
+/// float is precise to 6e-8.
 constexpr double blur = 1e-6;
 
 struct Search
@@ -25,11 +26,11 @@ struct Search
     const Vec3& p;
     double scale;   // from metres to the units of the index
     double slack;
-    double least = std::numeric_limits<double>::infinity();   // squared, in m^2
+    double least = std::numeric_limits<double>::infinity();   // smallest squared distance so far, in m^2
     int best = 0;
 };
 
-/// Embree calls this for triangles whose box is within the radius.
+/// Embree calls this for each triangle whose bounding box is within the radius.
 bool compare (RTCPointQueryFunctionArguments* found)
 {
     auto& search = *static_cast<Search*> (found->userPtr);
@@ -39,7 +40,7 @@ bool compare (RTCPointQueryFunctionArguments* found)
     search.best = triangle;
     search.least = distance2;
 
-    // Wide enough for every triangle that is as near.
+    // Wide enough to include every triangle at this distance.
     const auto radius = static_cast<float> (std::sqrt (distance2) * search.scale * (1.0 + blur) + search.slack);
     if (radius >= found->query->radius) return false;
     found->query->radius = radius;
@@ -51,13 +52,15 @@ class ByEmbree final : public NearestTriangle
 public:
     explicit ByEmbree (std::shared_ptr<const Mesh> m) : mesh (std::move (m)), device (rtcNewDevice ("threads=1"), rtcReleaseDevice)
     {
-        if (! device) throw std::runtime_error ("Embree cannot be started");
+        if (! device) throw std::runtime_error ("cannot start Embree");
         scene.reset (rtcNewScene (device.get()));
         fit();
 
         auto* geometry = rtcNewGeometry (device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* at = static_cast<float*> (rtcSetNewGeometryBuffer (geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof (float), mesh->points.size()));
-        auto* corner = static_cast<unsigned*> (rtcSetNewGeometryBuffer (geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof (unsigned), mesh->triangles.size()));
+        auto* at =
+            static_cast<float*> (rtcSetNewGeometryBuffer (geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof (float), mesh->points.size()));
+        auto* corner = static_cast<unsigned*> (
+            rtcSetNewGeometryBuffer (geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof (unsigned), mesh->triangles.size()));
         if (at == nullptr || corner == nullptr) throw std::bad_alloc();
         for (const auto& point : mesh->points)
             for (const double coordinate : Vec3 ((point - centre) * scale))
@@ -81,7 +84,8 @@ public:
         if (! (away < farthest)) return nearestOfAll (*mesh, p);
 
         Search search { *mesh, p, scale, blur * (1.0 + away) };
-        RTCPointQuery query { static_cast<float> (at.x()), static_cast<float> (at.y()), static_cast<float> (at.z()), 0.0f, std::numeric_limits<float>::infinity() };
+        RTCPointQuery query { static_cast<float> (at.x()), static_cast<float> (at.y()), static_cast<float> (at.z()), 0.0f,
+                              std::numeric_limits<float>::infinity() };
         RTCPointQueryContext context;
         rtcInitPointQueryContext (&context);
         rtcPointQuery (scene.get(), &query, &context, compare, &search);
@@ -95,7 +99,7 @@ private:
     Vec3 centre = Vec3::Zero();
     double scale = 1.0;
 
-    /// Centre and size, so that a float is precise wherever the mesh lies and however small it is.
+    /// Finds the centre and size of the mesh, so that floats are precise wherever the mesh is and however small.
     void fit()
     {
         Vec3 low = mesh->points.front(), high = low;

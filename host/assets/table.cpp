@@ -3,7 +3,7 @@
 #include "limits.hpp"
 #include "text.hpp"
 
-#include <framework/number_text.hpp>
+#include <framework/text/number_text.hpp>
 
 #include <cmath>
 #include <string>
@@ -21,7 +21,7 @@ std::string_view trim (std::string_view text)
     return text.substr (0, text.find_last_not_of (spaces) + 1);
 }
 
-/// What stands between the numbers of a line: the first of these that is in it.
+/// The separator of a line: the first of these that occurs in it.
 char separatorOf (std::string_view line)
 {
     for (const char c : { ';', '\t', ',' })
@@ -29,7 +29,7 @@ char separatorOf (std::string_view line)
     return ' ';
 }
 
-/// Takes a field off the front of a line.
+/// Removes a field from the front of a line.
 std::string_view takeField (std::string_view& line, char separator)
 {
     if (separator == ' ') return takeWord (line);
@@ -44,33 +44,38 @@ class Reader
 public:
     Reader (std::string_view text, std::string_view name_) : lines (text), name (name_) {}
 
-    tl::expected<Grid, Error> read()
+    Result<Grid> read()
     {
         while (const auto line = lines.next())
         {
             if (line->find ('\0') != std::string_view::npos) return fail ("table/binary", "there is a NUL byte", "check that the file is text");
             const auto said = trim (*line);
             if (said.empty() || said[0] == '#' || said[0] == '%') continue;
-            if (auto taken = takeRow (said); ! taken) return tl::unexpected (std::move (taken.error()));
+            if (auto taken = takeRow (said); ! taken) return std::move (taken.error());
         }
-        if (grid.rows == 0) return fail ("table/empty", "no line of it begins with a number", "save it as text, with numbers in rows and columns");
-        if (auto checked = takeLine(); ! checked) return tl::unexpected (std::move (checked.error()));
+        if (grid.rows == 0) return fail ("table/empty", "no line starts with a number", "save it as text, with numbers in rows and columns");
+        if (auto checked = takeLine(); ! checked) return std::move (checked.error());
         return std::move (grid);
     }
 
 private:
-    using Checked = tl::expected<void, Error>;
+    using Checked = Result<>;
 
     Lines lines;
     std::string_view name;
     Grid grid;
-    std::size_t first_row = 0;   // its line
+    std::size_t first_row = 0;   // its line number
 
-    tl::unexpected<Error> fail (std::string id, std::string what, std::string remedy) const { return failAt (lines.number(), std::move (id), std::move (what), std::move (remedy)); }
-
-    tl::unexpected<Error> failAt (std::size_t line, std::string id, std::string what, std::string remedy) const
+    Message fail (std::string id, std::string what, std::string remedy) const
     {
-        return tl::unexpected (Error { .id = std::move (id), .where = std::string (name) + ":" + std::to_string (line), .what = std::move (what), .remedy = std::move (remedy) });
+        return failAt (lines.number(), std::move (id), std::move (what), std::move (remedy));
+    }
+
+    Message failAt (std::size_t line, std::string id, std::string what, std::string remedy) const
+    {
+        return Message {
+            .id = std::move (id), .where = std::string (name) + ":" + std::to_string (line), .text = std::move (what), .remedy = std::move (remedy)
+        };
     }
 
     Checked takeRow (std::string_view line)
@@ -84,28 +89,34 @@ private:
         {
             const auto field = takeField (line, separator);
             const auto value = numberIn<double> (field);
-            if (! value && columns == 0 && grid.rows == 0) return {};   // a line of the header
+            if (! value && columns == 0 && grid.rows == 0) return {};   // a header line
             if (! value || ! std::isfinite (*value))
-                return fail ("table/not_a_number", field.empty() ? "a number is missing" : "'" + std::string (field.substr (0, 40)) + "' is not a finite number",
-                             field.find (',') == std::string_view::npos ? "fill in what is missing, and remove what is no number" : "write decimal points instead of commas");
-            if (grid.values.size() == most_numbers) return fail ("table/too_large", "it has more than " + std::to_string (most_numbers) + " numbers", "save a part of it, or every other row and column");
+                return fail (
+                    "table/not_a_number", field.empty() ? "a number is missing" : "'" + std::string (field.substr (0, 40)) + "' is not a finite number",
+                    field.find (',') == std::string_view::npos ? "fill in missing numbers, and remove other text" : "write decimal points instead of commas");
+            if (grid.values.size() == most_numbers)
+                return fail ("table/too_large", "it has more than " + std::to_string (most_numbers) + " numbers",
+                             "save a part of it, or every second row and column");
             grid.values.push_back (*value);
             ++columns;
         }
 
-        if (columns == 0 && grid.rows == 0) return {};   // only separators
+        if (columns == 0 && grid.rows == 0) return {};   // the line has only separators
         if (grid.rows == 0)
         {
             grid.columns = columns;
             first_row = lines.number();
         }
         if (columns != grid.columns)
-            return fail ("table/ragged_row", "the row has " + std::to_string (columns) + " numbers, the first one (line " + std::to_string (first_row) + ") " + std::to_string (grid.columns), "give every row the same number of them");
+            return fail ("table/ragged_row",
+                         "the row has " + std::to_string (columns) + " numbers, but the first one (line " + std::to_string (first_row) + ") "
+                             + std::to_string (grid.columns),
+                         "give every row the same number of columns");
         ++grid.rows;
         return {};
     }
 
-    /// Positions and heights become heights.
+    /// Converts two columns, positions and heights, to one row of heights.
     Checked takeLine()
     {
         if (grid.columns != 2 || grid.rows < 3) return {};
@@ -117,7 +128,9 @@ private:
         for (int i = 0; i < grid.rows; ++i)
         {
             if (! (std::abs (grid (i, 0) - (start + i * step)) < step))
-                return failAt (first_row, "table/uneven", "it has positions and heights, but the positions are uneven: the " + std::to_string (i + 1) + "th is " + numberText (grid (i, 0)) + ", and " + numberText (start + i * step) + " would be even",
+                return failAt (first_row, "table/uneven",
+                               "it has positions and heights, but the positions are uneven: the " + std::to_string (i + 1) + "th is " + numberText (grid (i, 0))
+                                   + ", but " + numberText (start + i * step) + " would be even",
                                "interpolate the heights at even positions, and save these");
             heights.push_back (grid (i, 1));
         }
@@ -127,6 +140,6 @@ private:
 };
 }   // namespace
 
-tl::expected<Grid, Error> readGrid (std::string_view text, std::string_view name) { return Reader (text, name).read(); }
+Result<Grid> readGrid (std::string_view text, std::string_view name) { return Reader (text, name).read(); }
 
 }   // namespace tactus::host

@@ -1,26 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/assets.hpp>
-#include <host/io/error.hpp>
-
-#include <tl/expected.hpp>
+#include <framework/kit/assets.hpp>
+#include <framework/text/result.hpp>
 
 #include <string_view>
 
 namespace tactus::host
 {
 
-/// Reads numbers in rows and columns as instruments and programs write them: separated by commas, semicolons, tabs or
-/// spaces, with a decimal point, one row a line. Passed over: lines before the first that begins with a number, blank
-/// lines, lines that begin with # or %, separators at the end of a line. Unlike readTable (host/io/csv.hpp) it looks
-/// for no names of columns.
+/// Reads numbers in rows and columns, as instruments and programs write them: separated by commas, semicolons, tabs or
+/// spaces, with decimal points, one row per line. Skips lines before the first one that starts with a number, blank lines,
+/// lines that start with # or %, and separators at the end of a line. Unlike readTable (framework/file/csv.hpp) it does not
+/// look for column names.
 ///
-/// Two columns of which the first rises evenly are a line of a profilometer, positions and heights: it becomes one row
-/// of heights. Even means that no position is a whole step off its place, as instruments round positions.
+/// Two columns, the first of which rises evenly, are a profilometer scan (positions and heights) and become one row of
+/// heights. "Evenly" means that no position is off by a whole step, since instruments round positions.
 ///
-/// Ids of errors: table/empty, table/not_a_number, table/ragged_row, table/uneven, table/too_large, table/binary.
-/// Where: name:line.
-[[nodiscard]] tl::expected<Grid, Error> readGrid (std::string_view text, std::string_view name);
+/// Error ids: table/empty, table/not_a_number, table/ragged_row, table/uneven, table/too_large, table/binary.
+/// `where` is name:line.
+[[nodiscard]] Result<Grid> readGrid (std::string_view text, std::string_view name);
 
 }   // namespace tactus::host

@@ -10,25 +10,24 @@
 namespace tactus::host
 {
 
-/// Goes through a text line by line, whatever its line ends; a byte order mark is left out.
+/// Reads text line by line, with any line endings; skips a byte order mark.
 class Lines
 {
 public:
     explicit Lines (std::string_view text) noexcept : rest (text.starts_with ("\xef\xbb\xbf") ? text.substr (3) : text) {}
 
-    /// The next line, or nothing after the last.
+    /// The next line; empty after the last one.
     std::optional<std::string_view> next() noexcept
     {
         if (rest.empty()) return std::nullopt;
         const auto line = rest.substr (0, rest.find_first_of ("\r\n"));
         rest.remove_prefix (line.size());
-        rest.remove_prefix (rest.starts_with ("\r\n") ? 2 : rest.empty() ? 0
-                                                                         : 1);
+        rest.remove_prefix (rest.starts_with ("\r\n") ? 2 : std::min<std::size_t> (1, rest.size()));
         ++count;
         return line;
     }
 
-    std::size_t number() const noexcept { return count; }   ///< of the last line that was given, from 1
+    std::size_t number() const noexcept { return count; }   ///< number of the latest line, from 1
     std::string_view behind() const noexcept { return rest; }
 
 private:
@@ -36,7 +35,7 @@ private:
     std::size_t count = 0;
 };
 
-/// Takes the next word off the front of a line; empty if there is none.
+/// Removes the next word from the front of a line; empty if there is none.
 inline std::string_view takeWord (std::string_view& line) noexcept
 {
     constexpr std::string_view spaces = " \t\v\f";
@@ -46,11 +45,11 @@ inline std::string_view takeWord (std::string_view& line) noexcept
     return word;
 }
 
-/// The number that the whole text is, with a decimal point whatever the locale; T is double or a whole number.
+/// Parses an entire string as a number, with a decimal point in any locale; T is double or an integer type.
 template <typename T>
 std::optional<T> numberIn (std::string_view text) noexcept
 {
-    // from_chars knows no plus sign, but some programs write one.
+    // from_chars does not accept a plus sign, but some programs write one.
     if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+') text.remove_prefix (1);
     T value {};
     const auto [stop, problem] = std::from_chars (text.data(), text.data() + text.size(), value);

@@ -9,7 +9,10 @@ namespace tactus::host::audio
 {
 namespace
 {
-std::chrono::steady_clock::duration durationOf (double s) { return std::chrono::duration_cast<std::chrono::steady_clock::duration> (std::chrono::duration<double> (s)); }
+std::chrono::steady_clock::duration durationOf (double s)
+{
+    return std::chrono::duration_cast<std::chrono::steady_clock::duration> (std::chrono::duration<double> (s));
+}
 }   // namespace
 
 void AudioClock::block (int frames, double card_rate_hz) noexcept
@@ -19,16 +22,17 @@ void AudioClock::block (int frames, double card_rate_hz) noexcept
     if (! seize()) return;
     std::fenv_t before;
     std::feholdexcept (&before);
-    std::fesetenv (FE_DFL_ENV);   // whatever a sound system has set for itself
+    std::fesetenv (FE_DFL_ENV);   // the sound system may have changed it
     by_timer.store (false, std::memory_order_relaxed);
-    // A hair more than none is none: blocks of 64 at 48 kHz hold 1.333… ticks of 1 kHz, and three of them four.
-    constexpr double hair = 1e-6;
-    for (owed += frames * rate_hz / card_rate_hz; owed >= 1.0 - hair; owed -= 1.0)
+    // Rounding errors can leave almost a whole tick: a block of 64 frames at 48 kHz holds 1.333… ticks of 1 kHz, so three
+    // blocks hold four.
+    constexpr double rounding = 1e-6;
+    for (owed += frames * rate_hz / card_rate_hz; owed >= 1.0 - rounding; owed -= 1.0)
         if (! ticked->tick (0.0))
         {
             over.store (true, std::memory_order_release);
             std::fesetenv (&before);
-            return;   // and nobody ticks any more
+            return;   // keeps `ticking`: there are no further ticks
         }
     std::fesetenv (&before);
     release();
@@ -62,10 +66,10 @@ void AudioClock::drive (Ticked& what) noexcept
         {
             timed.fetch_add (1, std::memory_order_relaxed);
             goes_on = what.tick (std::max (0.0, std::chrono::duration<double> (Clock::now() - due).count()));
-            due = std::max (due + period, Clock::now());   // what was missed is not made up for
+            due = std::max (due + period, Clock::now());   // missed ticks are not made up
             std::this_thread::sleep_until (due);
         }
-        if (! goes_on) return;   // and nobody ticks any more
+        if (! goes_on) return;   // keeps `ticking`: there are no further ticks
         seen = blocks.load (std::memory_order_acquire);
         last = Clock::now();
         owed = 0.0;

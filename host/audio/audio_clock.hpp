@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/runtime/tick_clock.hpp>
+#include <framework/run/tick_clock.hpp>
 
 #include <atomic>
 #include <chrono>
@@ -10,13 +10,13 @@
 namespace tactus::host::audio
 {
 
-/// A sound card as the clock of a run: each block ticks as often as its length asks for, on the audio thread. So ticks and
-/// samples never drift apart. When no blocks come, a timer ticks instead with all forces held at zero; the next block drives
-/// again, and forces rise as the guards' ramps have it.
+/// A sound card as the clock of a run: each block triggers as many ticks as fit into its length, on the audio thread, so ticks
+/// and samples never drift apart. When no blocks arrive, a timer ticks instead with all forces held at zero. The next block
+/// takes over again, and forces rise along the guards' ramps.
 class AudioClock final : public TickClock
 {
 public:
-    /// Without a block for so long the timer steps in; and so long at least where blocks are long.
+    /// The timer steps in after this time without a block, or if blocks are long, after this many block lengths.
     static constexpr double longest_silence_s = 0.05;
     static constexpr double longest_silence_blocks = 4.0;
 
@@ -25,7 +25,7 @@ public:
     void drive (Ticked&) noexcept override;
     bool isReplaced() const noexcept override { return by_timer.load (std::memory_order_relaxed); }
 
-    /// The ticks of a block, of which there may be none. [audio thread]
+    /// Runs the ticks of a block, possibly none. [audio thread]
     void block (int frames, double card_rate_hz) noexcept;
 
     std::uint64_t ticksByTimer() const noexcept { return timed.load (std::memory_order_relaxed); }   // [any thread]
@@ -37,12 +37,12 @@ private:
     void release() noexcept { ticking.store (false, std::memory_order_release); }
 
     const double rate_hz;
-    std::atomic<bool> ticking = true;   // somebody has the ticks: at first, nobody may
+    std::atomic<bool> ticking = true;   // taken by the thread that ticks; initially no thread may tick
     std::atomic<std::uint64_t> blocks = 0, timed = 0;
     std::atomic<double> block_s = 0.0;
     std::atomic<bool> by_timer = false, over = false;
 
-    // Of whoever has the ticks.
+    // [the thread that ticks]
     Ticked* ticked = nullptr;
     double owed = 0.0;   // ticks
 };

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "audio_rig.hpp"
 
-#include <framework/in_quotes.hpp>
-#include <framework/number_text.hpp>
-#include <host/devices/problem.hpp>
-#include <host/runtime/probe_ring.hpp>
+#include <framework/run/probe_ring.hpp>
+#include <framework/text/message.hpp>
+#include <framework/text/number_text.hpp>
+#include <framework/text/quote.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ std::unique_ptr<AudioDevice> AudioRig::open (AudioRole role, Messages& messages)
 {
     if (has_begun)
     {
-        messages.push_back (problem ("audio/late", "", "the sound card is open, and takes no other role now", "start the run anew"));
+        messages.push_back (Message::error ("audio/late", "", "the sound card is already open and cannot take another role", "restart the run"));
         return nullptr;
     }
     auto device = std::make_unique<AudioDevice> (std::move (role), plays, [this] (const AudioDevice& gone)
@@ -37,7 +37,7 @@ std::unique_ptr<AudioDevice> AudioRig::open (AudioRole role, Messages& messages)
     return device;
 }
 
-std::optional<Message> AudioRig::nameCard (const std::string& name)
+Result<> AudioRig::nameCard (const std::string& name)
 {
     const auto named = parseCard (name, cards.types());
     auto& card = wanted.card;
@@ -45,13 +45,12 @@ std::optional<Message> AudioRig::nameCard (const std::string& name)
     {
         card.type = named.type;
         card.output = named.output;
-        return std::nullopt;
+        return {};
     }
-    if (card.type == named.type && card.output == named.output) return std::nullopt;
-    return problem ("audio/two_cards", "/card", inQuotes (name) + " is asked for, and " + inQuotes (card.type.empty() ? card.output : card.output.empty() ? card.type
-                                                                                                                                                          : card.type + ":" + card.output)
-                                                    + " as well: a run has one sound card",
-                    "name the same card everywhere, or only once");
+    if (card.type == named.type && card.output == named.output) return {};
+    const auto first = card.type + (card.type.empty() || card.output.empty() ? "" : ":") + card.output;
+    return Message::error ("audio/two_cards", "/card", "both " + quote (name) + " and " + quote (first) + " are requested, but a run has one sound card",
+                           "name the same card everywhere, or only once");
 }
 
 std::vector<std::string> AudioRig::ports() const
@@ -62,34 +61,59 @@ std::vector<std::string> AudioRig::ports() const
     return all;
 }
 
+bool AudioRig::isOptional (const std::string& port) const
+{
+    return lenient || std::ranges::any_of (wanted.routes, [&] (const Route& r)
+                                           { return r.port == port && r.if_there; });
+}
+
 Messages AudioRig::begin (const Plan& plan, double tick_rate_hz, const Engine* e)
 {
-    Messages messages;
     tick_hz = tick_rate_hz;
     engine = e;
     std::vector<int> per_tick;
     std::vector<Route> played;
+    auto messages = chooseRoutes (plan, played, per_tick);
+    if (hasErrors (messages)) return messages;
+
+    makeStreams (played, per_tick);
+    mixer = std::make_unique<PortMixer> (played, per_tick, tick_hz);
+    has_begun = true;
+    if (auto opened = openCard (played); ! opened) messages.push_back (std::move (opened).error());
+    return messages;
+}
+
+/// Finds the routes that this plan can play, each with its number of samples per tick. Returns what is wrong with the others.
+Messages AudioRig::chooseRoutes (const Plan& plan, std::vector<Route>& played, std::vector<int>& per_tick) const
+{
+    Messages messages;
     for (const auto& route : wanted.routes)
     {
         const auto samples = PortMixer::samplesOf (plan, route);
         const auto from = messages.size();
-        if (samples == 0) messages.push_back (problem ("audio/port", route.where, "there is no port " + inQuotes (route.port), "name an output of a node, as in mix.out or drag.force.x; `tactus nodes TYPE` lists them"));
-        for (const auto& tap : plan.taps)
+        if (samples == 0)
+            messages.push_back (Message::error ("audio/port", route.where, "there is no port " + quote (route.port),
+                                                "name an output of a node, as in mix.out or drag.force.x; `tactus nodes TYPE` lists them"));
+        for (const auto& tap : plan.taps())
             if (isPartOf (tap.name, route.port))
                 if (const auto wrong = unitProblem (route.full_scale, tap.unit); ! wrong.empty())
                 {
-                    messages.push_back (problem ("audio/unit", route.where, tap.name + ": " + wrong, "calibrate it in " + tap.unit + ", or leave the unit out"));
+                    messages.push_back (Message::error ("audio/unit", route.where, tap.name + ": " + wrong,
+                                                        "calibrate the channel in " + tap.unit + ", or leave the unit out"));
                     break;
                 }
         if (route.if_there)
             for (auto i = from; i < messages.size(); ++i)
                 messages[i].severity = Message::Severity::warning;
-        if (samples > 0 && messages.size() > from) continue;   // of another unit: not played
+        if (samples > 0 && messages.size() > from) continue;   // the unit is wrong, so the route is not played
         played.push_back (route);
         per_tick.push_back (std::max (1, samples));
     }
-    if (hasErrors (messages)) return messages;
+    return messages;
+}
 
+Result<> AudioRig::openCard (const std::vector<Route>& played)
+{
     int outs = 0, ins = 0;
     for (const auto& route : played)
         outs = std::max (outs, route.channel);
@@ -101,22 +125,17 @@ Messages AudioRig::begin (const Plan& plan, double tick_rate_hz, const Engine* e
             ins = std::max (ins, use.channel);
     }
     if (outs == 0 && ins == 0) outs = 1;   // a clock needs a channel
-    makeStreams (played, per_tick);
-    mixer = std::make_unique<PortMixer> (played, per_tick, tick_hz);
-    has_begun = true;
-    auto trouble = keeper.open (wanted.card, outs, ins);
-    if (! trouble && ! fits)
-    {
-        keeper.close();
-        trouble = problem ("audio/rate", "", numberText (tick_hz) + " ticks a second are too far from the " + numberText (format.rate_hz) + " Hz of the card", "take a rate of at least " + numberText (std::ceil (format.rate_hz / 256.0)) + " Hz");
-    }
-    if (trouble) messages.push_back (std::move (*trouble));
-    return messages;
+    auto opened = keeper.open (wanted.card, outs, ins);
+    if (! opened || fits) return opened;
+    keeper.close();
+    return Message::error ("audio/rate", "",
+                           "the tick rate of " + numberText (tick_hz) + " Hz is too far from the " + numberText (format.rate_hz) + " Hz of the card",
+                           "use a tick rate of at least " + numberText (std::ceil (format.rate_hz / 256.0)) + " Hz");
 }
 
 void AudioRig::makeStreams (const std::vector<Route>& routes, const std::vector<int>& per_tick)
 {
-    std::map<int, std::set<int>> used;   // channels by samples a tick
+    std::map<int, std::set<int>> used;   // channels, keyed by samples per tick
     for (std::size_t i = 0; i < routes.size(); ++i)
         used[per_tick[i]].insert (routes[i].channel - 1);
     std::set<int> in;
@@ -154,17 +173,18 @@ void AudioRig::begin (const OpenedFormat& opened)
     last_block = {};
     if (! capture || opened.rate_hz == capture_rate) return;
     captures = nullptr;
-    capture_ended = Error { "audio/capture_rate", format.name, "the card came back at " + numberText (opened.rate_hz) + " Hz", "what was written until then is kept" };
+    capture_result =
+        Message::error ("audio/capture_rate", format.name, "the card came back at " + numberText (opened.rate_hz) + " Hz", "what was recorded before is kept");
 }
 
-std::optional<Error> AudioRig::captureTo (const std::filesystem::path& path)
+Result<> AudioRig::captureTo (const std::filesystem::path& path)
 {
     auto made = CardCapture::create (path, format.rate_hz, std::max (1, format.outputs));
-    if (! made) return std::move (made.error());
+    if (! made) return std::move (made).error();
     capture = std::move (*made);
     capture_rate = format.rate_hz;
     captures.store (capture.get(), std::memory_order_release);
-    return std::nullopt;
+    return {};
 }
 
 //==============================================================================
@@ -198,7 +218,8 @@ void AudioRig::after (const Plan& plan, bool halts) noexcept
                 for (const auto* device : devices)
                     device->addTo (channels);
             for (std::size_t lane = 0; lane < l->channels.size(); ++lane)
-                l->frame[lane] = static_cast<float> (std::clamp (channels[static_cast<std::size_t> (l->channels[lane])], -PortMixer::most_sample, PortMixer::most_sample));
+                l->frame[lane] =
+                    static_cast<float> (std::clamp (channels[static_cast<std::size_t> (l->channels[lane])], -PortMixer::most_sample, PortMixer::most_sample));
             l->stream.push (l->frame);
         }
 }
@@ -208,7 +229,8 @@ void AudioRig::block (const float* const* in, int ins, float* const* out, int ou
 {
     const auto now = std::chrono::steady_clock::now();
     const double since = std::chrono::duration<double> (now - last_block).count();
-    if (last_block != std::chrono::steady_clock::time_point {} && since > 2.0 * frames / format.rate_hz + wanted.reserve_s) late_blocks.fetch_add (1, std::memory_order_relaxed);
+    if (last_block != std::chrono::steady_clock::time_point {} && since > 2.0 * frames / format.rate_hz + wanted.reserve_s)
+        late_blocks.fetch_add (1, std::memory_order_relaxed);
     last_block = now;
 
     for (int c = 0; c < outs; ++c)
@@ -263,16 +285,16 @@ void AudioRig::limit (float* samples, int frames) noexcept
 }
 
 //==============================================================================
-std::optional<Error> AudioRig::attend (CardKeeper::Clock::time_point now)
+Result<> AudioRig::attend (CardKeeper::Clock::time_point now)
 {
     keeper.attend (now);
-    if (! capture) return std::nullopt;
-    if (auto drained = capture->drain(); ! drained) return std::move (drained.error());
-    return std::exchange (capture_ended, std::nullopt);
+    if (! capture) return {};
+    if (auto drained = capture->drain(); ! drained) return drained;
+    return std::exchange (capture_result, {});
 }
 
-/// What the ticks gave last is still on its way: the end of it is played, and not cut off.
-void AudioRig::letDryOut() const
+/// Waits until the samples still in the streams have been played, so that the end of the sound is not cut off.
+void AudioRig::playRest() const
 {
     using namespace std::chrono_literals;
     auto last = std::chrono::steady_clock::now();
@@ -280,7 +302,7 @@ void AudioRig::letDryOut() const
     const auto flows = [&]
     { return std::ranges::any_of (lanes, [] (const auto& l)
                                   { return l->stream.report().flows != 0; }); };
-    const auto goes = [&]   // the card does
+    const auto goes = [&]   // blocks still arrive
     {
         const auto now = std::chrono::steady_clock::now();
         if (const auto n = keeper.blocks(); n != seen)
@@ -297,14 +319,13 @@ void AudioRig::letDryOut() const
         std::this_thread::sleep_for (1ms);
 }
 
-std::optional<Error> AudioRig::end()
+Result<> AudioRig::end()
 {
-    letDryOut();
+    playRest();
     keeper.close();
     captures = nullptr;
-    if (! capture) return std::nullopt;
-    auto committed = std::exchange (capture, nullptr)->commit();
-    return committed ? std::nullopt : std::optional (std::move (committed.error()));
+    if (! capture) return {};
+    return std::exchange (capture, nullptr)->commit();
 }
 
 AudioStatus AudioRig::status() const
@@ -330,7 +351,7 @@ AudioStatus AudioRig::status() const
     s.not_numbers = mixer ? mixer->notNumbers() : 0;
     s.by_timer = own_clock && own_clock->isReplaced();
     s.ticks_by_timer = own_clock ? own_clock->ticksByTimer() : 0;
-    if (keeper.trouble()) s.trouble = keeper.trouble()->text;
+    if (const auto& opened = keeper.lastAttempt(); ! opened) s.trouble = opened.error().text;
     return s;
 }
 

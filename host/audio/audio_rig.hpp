@@ -8,99 +8,107 @@
 #include "port_mixer.hpp"
 #include "stream.hpp"
 
-#include <framework/engine.hpp>
+#include <framework/run/run.hpp>
+#include <framework/text/result.hpp>
 
 #include <array>
 #include <atomic>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace tactus::host::audio
 {
 
-/// How the sound of a run is doing.
+/// State of a run's sound.
 struct AudioStatus
 {
     bool is_open = false;
-    OpenedFormat card {};         ///< the latest
-    StreamReport out {}, in {};   ///< the worst of all that are played; what is heard
-    double ratio = 1.0;           ///< of the card's clock to that of the ticks, as learned
+    OpenedFormat card {};         ///< the latest format
+    StreamReport out {}, in {};   ///< out: the worst of all output streams
+    double ratio = 1.0;           ///< card clock to tick clock, as estimated
     std::uint64_t blocks = 0, xruns = 0, late_blocks = 0, departures = 0;
     std::uint64_t clipped = 0;       ///< samples beyond full scale
-    std::uint64_t not_numbers = 0;   ///< samples of routes that were none
-    bool by_timer = false;           ///< the card was to tick, and a timer does
+    std::uint64_t not_numbers = 0;   ///< route samples that were not numbers
+    bool by_timer = false;           ///< the card should tick the run, but a timer does so
     std::uint64_t ticks_by_timer = 0;
-    std::string trouble {};   ///< why the card cannot be taken again
+    std::string trouble {};   ///< why the card cannot be reopened
 };
 
-/// All that a run plays and hears: the ports that are routed to channels, the roles with the driver "audio", one card, and what
-/// keeps their clocks together. Its life: made; roles are opened; begin; ticks with before and after around each; end.
-class AudioRig final : private CardUser
+/// Everything that a run plays and records: the ports routed to channels, the roles with the driver "audio", one card, and
+/// the streams that keep the clocks in step. Life cycle: construct; open roles; begin; on each tick before() and after();
+/// end.
+class AudioRig final : public RunListener, private CardUser
 {
 public:
-    /// The system outlives this. [main thread]
+    /// The card system must outlive this. [main thread]
     explicit AudioRig (AudioSettings, CardSystem& = soundCards());
-    ~AudioRig() override { end(); }
+    ~AudioRig() override { static_cast<void> (end()); }
 
-    /// Other settings, before any role is opened. [main thread]
+    /// Replaces the settings, before any role is opened. [main thread]
     void choose (AudioSettings s) { wanted = std::move (s); }
 
-    /// Blocks are to tick the run: before begin. Then it is the clock of the run. [main thread]
+    /// Makes the blocks tick the run. Call before begin(). Returns the clock of the run. [main thread]
     AudioClock& tickBy (double tick_rate_hz);
 
-    AudioClock* clock() noexcept { return own_clock.get(); }   ///< null if something else ticks [main thread]
+    AudioClock* clock() const noexcept { return own_clock.get(); }   ///< null if another clock ticks the run [main thread]
 
-    /// A device for a role, before begin; null with a message afterwards, until the next run (audio/late). It outlives the
-    /// ticks, and this outlives it. [main thread]
+    /// Opens the device of a role, before begin(). After begin() it returns null with a message (audio/late), until the next
+    /// run. The device must outlive the ticks, and this must outlive the device. [main thread]
     std::unique_ptr<AudioDevice> open (AudioRole, Messages&);
 
-    /// A card by name, as parseCard has it, unless one is named already: then it has to be the same (audio/two_cards). Before
-    /// begin. [main thread]
-    std::optional<Message> nameCard (const std::string&);
+    /// Selects a card by name (see parseCard). If one has already been selected, it must be the same one (audio/two_cards). Call
+    /// before begin(). [main thread]
+    Result<> nameCard (const std::string&);
 
     const AudioSettings& settings() const noexcept { return wanted; }
     bool isNeeded() const noexcept { return ! wanted.routes.empty() || ! devices.empty() || own_clock != nullptr; }
 
-    /// The ports to tap (CompileOptions::records). [main thread]
-    std::vector<std::string> ports() const;
+    /// The ports of all routes. [main thread]
+    std::vector<std::string> ports() const override;
 
-    /// Opens the card. The plan is compiled with those ports; an engine, if given, has the emergency stop. Says what is wrong:
-    /// audio/port, audio/unit, audio/rate, and those of CardSystem::open. Where only the card is at fault it is looked for
-    /// from now on, as one that went away. [main thread, before ticking]
+    /// True for a route marked `if_there`, and for all routes of a lenient rig. [main thread]
+    bool isOptional (const std::string& port) const override;
+    void setLenient (bool l) noexcept { lenient = l; }
+
+    /// Opens the card. The plan must be compiled with the ports of the routes. The engine, if given, provides the emergency stop. Ids:
+    /// audio/port, audio/unit, audio/rate, and those of CardSystem::open. If only opening the card fails, it is retried,
+    /// like a card that went away. [main thread, before ticking]
     Messages begin (const Plan&, double tick_rate_hz, const Engine* = nullptr);
 
-    /// In place of begin, where nothing is needed: no role is opened from now on. [main thread]
+    /// Call this instead of begin() if isNeeded() is false: no role can be opened from now on. [main thread]
     void seal() noexcept { has_begun = true; }
 
-    /// Of what the card is given, from now on to the end. After begin. Ids as of CardCapture. [main thread]
-    std::optional<Error> captureTo (const std::filesystem::path&);
+    /// Records the card's output to a file until the end. Call after begin(). Ids: see CardCapture. [main thread]
+    Result<> captureTo (const std::filesystem::path&);
 
-    void before() noexcept;                          // each tick, before the devices are read [tick thread]
-    void after (const Plan&, bool halts) noexcept;   // each tick, after they were written [tick thread]
+    void before() noexcept;                          // on each tick, before the devices are read [tick thread]
+    void after (const Plan&, bool halts) noexcept;   // on each tick, after the devices are written [tick thread]
+    void before (Plan&, std::uint64_t) noexcept override { before(); }
+    void after (const Plan& plan, std::uint64_t, bool halts) noexcept override { after (plan, halts); }
 
-    /// To be called many times a second. Returns what went wrong with the capture, once: also audio/capture_rate, where
-    /// the card came back at another rate. [main thread]
-    std::optional<Error> attend (CardKeeper::Clock::time_point now = CardKeeper::Clock::now());
+    /// Call this many times a second. Returns an error of the capture once, including audio/capture_rate if the card came
+    /// back at a different rate. [main thread]
+    Result<> attend (CardKeeper::Clock::time_point now = CardKeeper::Clock::now());
 
-    /// Closes the card, and the capture. Returns what went wrong with that. When nothing ticks any more. [main thread]
-    std::optional<Error> end();
+    /// Closes the card and the capture. Returns an error of the capture. Call this when the run no longer ticks. [main thread]
+    Result<> end();
 
     AudioStatus status() const;   // [main thread]
 
 private:
-    /// All that has so many samples a tick.
+    /// The stream that carries all channels with the same number of samples per tick.
     struct Lanes
     {
         Lanes (int n, std::vector<int> all, double tick_hz, double reserve_s)
-            : per_tick (n), channels (std::move (all)), stream ({ .lanes = static_cast<int> (channels.size()), .tick_side_hz = n * tick_hz, .reserve_s = reserve_s }), frame (channels.size())
+            : per_tick (n), channels (std::move (all)),
+              stream ({ .lanes = static_cast<int> (channels.size()), .tick_side_hz = n * tick_hz, .reserve_s = reserve_s }), frame (channels.size())
         {
         }
 
         int per_tick;
-        std::vector<int> channels;   // from 0, by lane
+        std::vector<int> channels;   // by lane, counted from 0
         OutStream stream;
         std::vector<float> frame, block;
     };
@@ -109,25 +117,27 @@ private:
     void block (const float* const* in, int ins, float* const* out, int outs, int frames) noexcept override;
     void play (const float* const* in, int ins, float* const* out, int outs, int from, int frames) noexcept;
     void limit (float* samples, int frames) noexcept;
-    void letDryOut() const;
+    void playRest() const;
+    Messages chooseRoutes (const Plan&, std::vector<Route>& played, std::vector<int>& per_tick) const;
     void makeStreams (const std::vector<Route>&, const std::vector<int>& per_tick);
+    Result<> openCard (const std::vector<Route>&);
 
     AudioSettings wanted;
     std::unique_ptr<AudioClock> own_clock;
     std::vector<AudioDevice*> devices;
     double tick_hz = 0.0;
     const Engine* engine = nullptr;
-    bool has_begun = false;
+    bool has_begun = false, lenient = false;
 
     std::unique_ptr<PortMixer> mixer;
     std::vector<std::unique_ptr<Lanes>> lanes;
-    std::vector<int> heard_channels;   // from 0, by lane
+    std::vector<int> heard_channels;   // by lane, counted from 0
     std::unique_ptr<InStream> heard;
     std::vector<float> heard_block;
     OpenedFormat format;
-    bool fits = false;   // the card's rate can be made of the ticks'
+    bool fits = false;   // the card's rate can be resampled from the tick rate
 
-    // Of the tick thread.
+    // [tick thread]
     std::array<double, most_channels> channels {};
     std::array<float, most_channels> inputs {};
     std::uint64_t blocks_seen = 0, ticks_without = 0;
@@ -135,19 +145,19 @@ private:
     std::atomic<bool> plays = false;
 
     std::atomic<std::uint64_t> clipped = 0, late_blocks = 0;
-    std::chrono::steady_clock::time_point last_block {};   // of the audio thread
+    std::chrono::steady_clock::time_point last_block {};   // [audio thread]
     std::unique_ptr<CardCapture> capture;
-    double capture_rate = 0.0;            // Hz
-    std::optional<Error> capture_ended;   // and nobody has been told
+    double capture_rate = 0.0;   // Hz
+    Result<> capture_result;     // result of a capture that has ended, until attend() returns it
     std::atomic<CardCapture*> captures = nullptr;
     CardSystem& cards;
-    CardKeeper keeper;   // last: its card calls this
+    CardKeeper keeper;   // last: its card calls back into this
 };
 
-/// For a status line: what is worth knowing now, "" if nothing runs.
+/// Text for a status line; "" if no card is open.
 std::string statusOf (const AudioStatus&);
 
-/// At the end: card, rates, clocks, and what went wrong.
+/// Summary at the end of a run: card, rates, clocks, errors.
 std::string accountOf (const AudioStatus&);
 
 }   // namespace tactus::host::audio

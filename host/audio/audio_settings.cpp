@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "audio_settings.hpp"
 
-#include <framework/device.hpp>
-#include <framework/in_quotes.hpp>
-#include <framework/number_text.hpp>
-#include <host/devices/fields.hpp>
-#include <host/devices/problem.hpp>
+#include <framework/node/device.hpp>
+#include <framework/text/message.hpp>
+#include <framework/text/number_text.hpp>
+#include <framework/text/object_reader.hpp>
+#include <framework/text/quote.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -20,21 +20,21 @@ constexpr double most_gain = 1000.0, most_high_pass_hz = 20'000.0, most_rate_hz 
 constexpr double least_reserve_s = 0.001, most_reserve_s = 0.5;
 constexpr int most_block = 8192;
 constexpr Unit acceleration { Quantity::any, { 1, 0, -2 }, "m/s2" };
-constexpr const char* how_full_scale = "write a force, an acceleration or a number that is more than 0, as in \"4 N\", \"20 m/s2\" or 1";
+constexpr const char* how_full_scale = "write a force, an acceleration or a number above 0, as in \"4 N\", \"20 m/s2\" or 1";
 
 bool isKnown (Dimension d) { return d == unit::newton.dimension || d == acceleration.dimension || d == Dimension {}; }
 
-/// "4 N"; nothing if it is no calibration.
+/// Reads a calibration such as "4 N".
 std::optional<FullScale> parseFullScale (std::string_view text)
 {
-    const auto read = parseMeasure (text);
-    const auto* measure = std::get_if<Measure> (&read);
-    if (measure == nullptr || measure->angular || ! isKnown (measure->dimension) || ! std::isfinite (measure->value) || measure->value <= 0.0) return std::nullopt;
+    const auto measure = parseMeasure (text);
+    if (! measure || measure->angular || ! isKnown (measure->dimension) || ! std::isfinite (measure->value) || measure->value <= 0.0)
+        return std::nullopt;
     const bool has_unit = measure->dimension != Dimension {};
     return FullScale { measure->value, has_unit ? std::optional (measure->dimension) : std::nullopt };
 }
 
-FullScale readFullScale (Fields& in)
+FullScale readFullScale (ObjectReader& in)
 {
     constexpr const char* key = "full_scale";
     if (! in.has (key)) return {};
@@ -42,12 +42,12 @@ FullScale readFullScale (Fields& in)
     if (json.is_number())
         if (const auto value = json.get<double>(); std::isfinite (value) && value > 0.0) return { value, {} };
     if (json.is_string())
-        if (const auto read = parseFullScale (json.get_ref<const std::string&>())) return *read;
-    in.error (key, "audio/full_scale", json.dump (-1, ' ', false, Json::error_handler_t::replace) + " is no calibration", how_full_scale);
+        if (const auto read = parseFullScale (json.asString())) return *read;
+    in.error (key, "audio/full_scale", json.dump() + " is not a calibration", how_full_scale);
     return {};
 }
 
-ChannelUse readChannel (Fields& in, bool is_played)
+ChannelUse readChannel (ObjectReader& in, bool is_played)
 {
     in.require ("channel", "write the channel of the card, from 1");
     ChannelUse use;
@@ -58,36 +58,37 @@ ChannelUse readChannel (Fields& in, bool is_played)
     return use;
 }
 
-const Json::array_t& listOf (Fields& in, const char* key)
+const Json::Array& listOf (ObjectReader& in, const char* key)
 {
-    static const Json::array_t none;
+    static const Json::Array none;
     if (! in.has (key)) return none;
     const auto& json = in.object (key);
-    if (json.is_array()) return json.get_ref<const Json::array_t&>();
+    if (json.is_array()) return json.asArray();
     in.error (key, "device/kind", "expected a list", "write [ … ]");
     return none;
 }
 
-/// What somebody else may know.
+/// Unknown keys are only warnings: another program may know them.
 void warnOfUnknownKeys (Messages& messages, std::size_t from)
 {
     for (auto i = from; i < messages.size(); ++i)
         if (messages[i].id == "device/unknown_key") messages[i].severity = Message::Severity::warning;
 }
 
-std::vector<ChannelUse> readChannels (Fields& in, const char* key, bool are_played, Messages& messages)
+std::vector<ChannelUse> readChannels (ObjectReader& in, const char* key, bool are_played, Messages& messages)
 {
     std::vector<ChannelUse> uses;
     const auto& list = listOf (in, key);
     for (std::size_t i = 0; i < list.size(); ++i)
     {
-        Fields one (list[i], "/" + std::string (key) + "/" + std::to_string (i), messages);
+        ObjectReader one (list[i], "/" + std::string (key) + "/" + std::to_string (i), messages);
         uses.push_back (readChannel (one, are_played));
         one.finish();
     }
     if (uses.size() > static_cast<std::size_t> (Channels::most))
     {
-        in.error (key, "device/out_of_range", "there are " + std::to_string (uses.size()) + " channels", "a role has at most " + std::to_string (Channels::most));
+        in.error (key, "device/out_of_range", "there are " + std::to_string (uses.size()) + " channels",
+                  "use at most " + std::to_string (Channels::most));
         uses.resize (static_cast<std::size_t> (Channels::most));
     }
     return uses;
@@ -104,7 +105,7 @@ AudioSettings readAudioSettings (const Json& json, const std::string& where, Mes
 {
     const auto first = messages.size();
     AudioSettings settings;
-    Fields in (json, where, messages);
+    ObjectReader in (json, where, messages);
     settings.card.type = in.text ("type");
     settings.card.output = in.text ("output");
     settings.card.input = in.text ("input");
@@ -117,8 +118,8 @@ AudioSettings readAudioSettings (const Json& json, const std::string& where, Mes
         Route route;
         route.where = where + "/routes/" + std::to_string (i);
         route.if_there = true;
-        Fields one (routes[i], route.where, messages);
-        one.require ("port", "write what is to be played, as in \"mix.out\" or \"drag.force.x\"");
+        ObjectReader one (routes[i], route.where, messages);
+        one.require ("port", "name the port to play, as in \"mix.out\" or \"drag.force.x\"");
         route.port = one.text ("port");
         static_cast<ChannelUse&> (route) = readChannel (one, true);
         one.finish();
@@ -139,7 +140,7 @@ bool isAudio (const Json& description)
 AudioRole readAudioRole (const Json& description, Messages& messages)
 {
     AudioRole role;
-    Fields in (description, "", messages);
+    ObjectReader in (description, "", messages);
     for (const auto* key : { "driver", "about", "ui", "guard" })
         in.ignore (key);
     in.text ("card");
@@ -149,10 +150,13 @@ AudioRole readAudioRole (const Json& description, Messages& messages)
     return role;
 }
 
-std::variant<Route, Message> parseRoute (std::string_view text)
+Result<Route> parseRoute (std::string_view text)
 {
     const auto wrong = [&] (std::string what)
-    { return problem ("audio/route", "--route " + std::string (text), std::move (what), "write PORT=CHANNEL or PORT=CHANNEL@FULLSCALE, as in mix.out=3@\"4 N\"; channels count from 1"); };
+    {
+        return Message::error ("audio/route", "--route " + std::string (text), std::move (what),
+                               "write PORT=CHANNEL or PORT=CHANNEL@FULLSCALE, as in mix.out=3@\"4 N\"; channels count from 1");
+    };
 
     const auto equals = text.rfind ('=');
     if (equals == text.npos || equals == 0) return wrong ("there is no PORT=");
@@ -163,13 +167,13 @@ std::variant<Route, Message> parseRoute (std::string_view text)
     if (const auto at = channel.find ('@'); at != channel.npos)
     {
         const auto full_scale = parseFullScale (channel.substr (at + 1));
-        if (! full_scale) return wrong (inQuotes (channel.substr (at + 1)) + " is no calibration: " + how_full_scale);
+        if (! full_scale) return wrong (quote (channel.substr (at + 1)) + " is not a calibration: " + how_full_scale);
         route.full_scale = *full_scale;
         channel = channel.substr (0, at);
     }
     const auto [end, error] = std::from_chars (channel.data(), channel.data() + channel.size(), route.channel);
     if (error != std::errc {} || end != channel.data() + channel.size() || route.channel < 1 || route.channel > most_channels)
-        return wrong (inQuotes (channel) + " is no channel from 1 to " + std::to_string (most_channels));
+        return wrong (quote (channel) + " is not a channel from 1 to " + std::to_string (most_channels));
     return route;
 }
 
@@ -195,10 +199,9 @@ CardWanted parseCard (std::string_view text, const std::vector<std::string>& typ
 std::string unitProblem (const FullScale& full_scale, std::string_view unit)
 {
     if (unit.empty() || ! full_scale.dimension) return {};
-    const auto read = parseMeasure ("1 " + std::string (unit));
-    const auto* measure = std::get_if<Measure> (&read);
-    if (measure == nullptr || measure->dimension == *full_scale.dimension) return {};
-    return "it is in " + std::string (unit) + ", and the channel is calibrated in " + symbolOf (*full_scale.dimension);
+    const auto measure = parseMeasure ("1 " + std::string (unit));
+    if (! measure || measure->dimension == *full_scale.dimension) return {};
+    return "its unit is " + std::string (unit) + ", but the channel is calibrated in " + symbolOf (*full_scale.dimension);
 }
 
 }   // namespace tactus::host::audio

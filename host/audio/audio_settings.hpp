@@ -1,51 +1,51 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/json.hpp>
-#include <framework/message.hpp>
-#include <framework/units.hpp>
+#include <framework/text/json.hpp>
+#include <framework/text/result.hpp>
+#include <framework/text/units.hpp>
 
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 namespace tactus::host::audio
 {
 
-/// What a sample of 1 means: so many N or m/s2, or a plain number. What a person measures, and not what is sent.
+/// The physical value of a sample of 1, in N or m/s2, or a plain number. You measure it at the actuator; it is not sent to
+/// the card.
 struct FullScale
 {
     double value = 1.0;                      ///< > 0
-    std::optional<Dimension> dimension {};   ///< nothing: whatever is sent there is in
+    std::optional<Dimension> dimension {};   ///< empty: any unit
 };
 
-/// One channel of a card and how it is calibrated. A sample is gain value/full_scale, and a value that is heard is
-/// gain full_scale sample.
+/// One channel of a card and its calibration. Output: sample = gain value/full_scale. Input: value = gain full_scale
+/// sample.
 struct ChannelUse
 {
     int channel = 1;   ///< of the card, from 1
     FullScale full_scale {};
-    double gain = 1.0;           ///< a negative one turns the polarity
-    double high_pass_hz = 0.0;   ///< 0: none. Only of what is played
+    double gain = 1.0;           ///< negative: inverted polarity
+    double high_pass_hz = 0.0;   ///< 0: none. Output only
 };
 
-/// A port that is played on a channel: what stands there after each tick, with all samples of the tick where there are
-/// several (`times`). Of a port with several components, or of several instances, their sum: name one where the direction
-/// matters. (The length would sound an octave too high.)
+/// A port that is played on a channel: its value after each tick, or all samples of the tick if it has several (`times`).
+/// The components or instances of a port are summed: name one component if the direction matters. (The length of a vector
+/// would sound an octave too high.)
 struct Route : ChannelUse
 {
     std::string port;        ///< "mix.out", "mix.level[0]", "drag.force.x"
     std::string where;       ///< for messages
-    bool if_there = false;   ///< a session's, which is for all graphs: where there is no such port, or one in another unit, it is silent
+    bool if_there = false;   ///< true for a route of a session, which serves all graphs: silent if the port is missing or has a different unit
 };
 
-/// Which card. Empty texts and zeros: any.
+/// Selects a card. Empty strings and zeros match any card.
 struct CardWanted
 {
     std::string type;            ///< "JACK", "ALSA", …
-    std::string output, input;   ///< names, or parts of them
+    std::string output, input;   ///< names, or parts of names
     double rate_hz = 0.0;
     int block = 0;   ///< frames
 
@@ -57,11 +57,11 @@ struct AudioSettings
     static constexpr double usual_reserve_s = 0.01;
 
     CardWanted card;
-    double reserve_s = usual_reserve_s;   ///< how late a tick or a block may be without a gap; adds to the delay
+    double reserve_s = usual_reserve_s;   ///< how late a tick or a block may be without a gap; adds to the latency
     std::vector<Route> routes;
 };
 
-/// What a role with the driver "audio" has of the card: its signal outputs and inputs, in order.
+/// The signal outputs and inputs of a role with the driver "audio", in order.
 struct AudioRole
 {
     std::vector<ChannelUse> outputs, inputs;
@@ -74,24 +74,25 @@ inline constexpr int most_channels = 64;
 ///     {"type": "JACK", "output": "system", "input": "system", "rate_hz": 48000, "block": 64, "reserve": "10 ms",
 ///      "routes": [{"port": "mix.out", "channel": 1, "full_scale": "4 N", "gain": 1, "high_pass": "20 Hz"}]}
 ///
-/// All may be left out but the port and the channel of a route. Ids as of Fields, and audio/full_scale; unknown keys are warnings.
+/// Everything but the port and channel of a route is optional. Ids: those of ObjectReader, and audio/full_scale. Unknown keys are
+/// warnings.
 AudioSettings readAudioSettings (const Json&, const std::string& where, Messages&);
 
-/// True of a description with the driver "audio".
+/// True for a description with the driver "audio".
 bool isAudio (const Json& description);
 
-/// {"driver": "audio", "outputs": [{"channel": 3, "full_scale": "4 N"}], "inputs": [{"channel": 1, "full_scale": "20 m/s2"}], "guard": {…}}
+/// Reads {"driver": "audio", "outputs": [{"channel": 3, "full_scale": "4 N"}], "inputs": [{"channel": 1, "full_scale": "20 m/s2"}], "guard": {…}}
 ///
-/// "card" names one, as --audio does (for a run without a session). Ids as of Fields, and audio/full_scale.
+/// "card" selects a card like --audio does (for a run without a session). Ids: those of ObjectReader, and audio/full_scale.
 AudioRole readAudioRole (const Json& description, Messages&);
 
-/// PORT=CHANNEL[@FULLSCALE], as in mix.out=3@"4 N". Id: audio/route.
-std::variant<Route, Message> parseRoute (std::string_view);
+/// Parses PORT=CHANNEL[@FULLSCALE], as in mix.out=3@"4 N". Id: audio/route.
+Result<Route> parseRoute (std::string_view);
 
-/// TYPE:NAME, NAME or TYPE, where TYPE is one of these.
+/// Parses TYPE:NAME, NAME or TYPE. `types` are the known types.
 CardWanted parseCard (std::string_view, const std::vector<std::string>& types);
 
-/// What is wrong with sending what is in this unit ("N", "" for unknown) to a channel so calibrated; "" if nothing.
+/// Why a port with this unit ("N"; "" if unknown) cannot be played on a channel with this calibration; "" if it can.
 std::string unitProblem (const FullScale&, std::string_view unit);
 
 }   // namespace tactus::host::audio

@@ -6,10 +6,10 @@
 namespace tactus::host::audio
 {
 
-tl::expected<std::unique_ptr<CardCapture>, Error> CardCapture::create (const std::filesystem::path& path, double rate_hz, int channels)
+Result<std::unique_ptr<CardCapture>> CardCapture::create (const std::filesystem::path& path, double rate_hz, int channels)
 {
     auto writer = WavWriter::create (path, rate_hz, static_cast<std::size_t> (channels));
-    if (! writer) return tl::unexpected (std::move (writer.error()));
+    if (! writer) return std::move (writer.error());
     return std::unique_ptr<CardCapture> (new CardCapture (std::move (*writer), rate_hz, channels));
 }
 
@@ -17,17 +17,16 @@ void CardCapture::note (const float* const* channels, int count, int frames) noe
 {
     for (int i = 0; i < frames; ++i)
     {
-        const auto frame = ring.next();
-        if (frame.empty()) continue;
-        for (int c = 0; c < width; ++c)
-            frame[static_cast<std::size_t> (c)] = c < count ? static_cast<double> (channels[c][i]) : 0.0;
-        ring.push();
+        const auto frame = ring.claim();
+        for (std::size_t c = 0; c < frame.size(); ++c)
+            frame[c] = c < static_cast<std::size_t> (count) ? static_cast<double> (channels[c][i]) : 0.0;
+        ring.commit();
     }
 }
 
-tl::expected<void, Error> CardCapture::drain()
+Result<> CardCapture::drain()
 {
-    tl::expected<void, Error> result;
+    Result<> result;
     ring.drain ([&] (std::span<const double> frame)
                 {
         if (has_failed) return;
@@ -36,7 +35,7 @@ tl::expected<void, Error> CardCapture::drain()
     return result;
 }
 
-tl::expected<void, Error> CardCapture::commit()
+Result<> CardCapture::commit()
 {
     auto result = drain();
     if (has_failed) return result;

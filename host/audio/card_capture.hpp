@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <framework/kit/spsc_ring.hpp>
 #include <host/io/wav.hpp>
-#include <host/runtime/frame_ring.hpp>
 
 #include <filesystem>
 #include <optional>
@@ -10,30 +10,33 @@
 namespace tactus::host::audio
 {
 
-/// What a card is given, as a WAV of 32-bit floats that appears when all is over. A run goes on where writing cannot.
+/// Records the output of a card as a WAV file of 32-bit floats, which appears when the recording is complete. If writing
+/// fails, the run continues.
 class CardCapture
 {
 public:
-    static constexpr double room_s = 2.0;   ///< of samples that wait to be written
+    static constexpr double room_s = 2.0;   ///< capacity for samples that wait to be written, in s
 
-    /// Ids as of WavWriter::create. [main thread]
-    static tl::expected<std::unique_ptr<CardCapture>, Error> create (const std::filesystem::path&, double rate_hz, int channels);
+    /// Ids: those of WavWriter::create. [main thread]
+    static Result<std::unique_ptr<CardCapture>> create (const std::filesystem::path&, double rate_hz, int channels);
 
     /// [audio thread]
     void note (const float* const* channels, int count, int frames) noexcept;
 
-    /// Writes down what there is: many times a second. The first error is told once, and then nothing more is written.
-    [[nodiscard]] tl::expected<void, Error> drain();    // [main thread]
-    [[nodiscard]] tl::expected<void, Error> commit();   // [main thread, when no block comes]
+    /// Writes the waiting samples; call it many times a second. Returns the first error once, then writes nothing more.
+    [[nodiscard]] Result<> drain();    // [main thread]
+    [[nodiscard]] Result<> commit();   // [main thread, when no block comes]
 
-    std::size_t lost() const noexcept { return ring.lost(); }   ///< frames there was no room for [any thread]
+    std::size_t lost() const noexcept { return ring.lost(); }   ///< frames dropped for lack of room [any thread]
 
 private:
-    CardCapture (WavWriter w, double rate_hz, int channels) : writer (std::move (w)), width (channels), ring (static_cast<std::size_t> (channels), static_cast<std::size_t> (room_s * rate_hz)) {}
+    CardCapture (WavWriter w, double rate_hz, int channels)
+        : writer (std::move (w)), ring (static_cast<std::size_t> (room_s * rate_hz), static_cast<std::size_t> (channels))
+    {
+    }
 
     WavWriter writer;
-    int width;
-    FrameRing ring;
+    SpscRing<double> ring;
     bool has_failed = false;
 };
 

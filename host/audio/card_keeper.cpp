@@ -7,15 +7,15 @@
 namespace tactus::host::audio
 {
 
-std::optional<Message> CardKeeper::open (const CardWanted& what, int outs, int ins)
+Result<> CardKeeper::open (const CardWanted& what, int outs, int ins)
 {
     close();
     wanted = what;
     outputs = outs;
     inputs = ins;
     is_wanted = true;
-    said = tryAgain (Clock::now());
-    return said;
+    last_attempt = tryAgain (Clock::now());
+    return last_attempt;
 }
 
 void CardKeeper::close()
@@ -25,16 +25,16 @@ void CardKeeper::close()
     card.reset();
 }
 
-std::optional<Message> CardKeeper::tryAgain (Clock::time_point now)
+Result<> CardKeeper::tryAgain (Clock::time_point now)
 {
     tried = last = now;
     const auto began = Clock::now();
     auto result = system.open (wanted, outputs, inputs, *this);
     pause = std::max<Clock::duration> (retry_after, rarity * (Clock::now() - began));
-    if (auto* message = std::get_if<Message> (&result)) return std::move (*message);
-    card = std::move (std::get<0> (result));
+    if (! result) return std::move (result).error();
+    card = std::move (*result);
     seen = blocks();
-    return std::nullopt;
+    return {};
 }
 
 void CardKeeper::attend (Clock::time_point now)
@@ -54,7 +54,7 @@ void CardKeeper::attend (Clock::time_point now)
         tried = now;
     }
     else if (now - tried >= pause)
-        said = tryAgain (now);
+        last_attempt = tryAgain (now);
 }
 
 void CardKeeper::begin (const OpenedFormat& format)

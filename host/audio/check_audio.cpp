@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "check_audio.hpp"
 
-#include <host/devices/guard_limits.hpp>
+#include <framework/run/device/guard_limits.hpp>
 
 #include <algorithm>
 
@@ -9,19 +9,18 @@ namespace tactus::host::audio
 {
 namespace
 {
-constexpr double usual_ramp = 0.2;   // s
+constexpr double default_ramp = 0.2;   // s
 
-/// A limit on signals may be in what the outputs are calibrated in.
+/// The limit on signals may be given in the unit that all outputs are calibrated in.
 Json withoutUnit (Json guard, const AudioRole& role)
 {
     if (! guard.is_object()) return guard;
     const auto limit = guard.find ("max_signal");
     if (limit == guard.end() || ! limit->is_string()) return guard;
-    const auto read = parseMeasure (limit->get_ref<const std::string&>());
-    const auto* measure = std::get_if<Measure> (&read);
+    const auto measure = parseMeasure (limit->asString());
     const auto fits = [&] (const ChannelUse& use)
     { return use.full_scale.dimension == measure->dimension; };
-    if (measure != nullptr && ! role.outputs.empty() && std::ranges::all_of (role.outputs, fits)) *limit = measure->value;
+    if (measure && ! role.outputs.empty() && std::ranges::all_of (role.outputs, fits)) *limit = measure->value;
     return guard;
 }
 }   // namespace
@@ -31,7 +30,7 @@ GuardLimits readGuard (const Json& description, const AudioRole& role, Messages&
     const auto guard = description.find ("guard");
     const DeviceLayout layout { .signal_inputs = static_cast<int> (role.inputs.size()), .signal_outputs = static_cast<int> (role.outputs.size()) };
     auto limits = guard == description.end() ? GuardLimits {} : readGuardLimits (withoutUnit (*guard, role), "/guard", messages, layout);
-    if (limits.ramp == 0.0) limits.ramp = usual_ramp;
+    if (limits.ramp == 0.0) limits.ramp = default_ramp;
     return limits;
 }
 

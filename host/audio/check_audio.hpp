@@ -3,16 +3,16 @@
 
 #include "audio_settings.hpp"
 
-#include <framework/guard.hpp>
+#include <framework/run/guard.hpp>
 
 namespace tactus::host::audio
 {
 
-/// The guard of a role that has these channels: with a ramp of 0.2 s where nobody says how long. Ids as of readGuardLimits.
+/// The guard limits of a role with these channels, with a default ramp of 0.2 s. Ids: those of readGuardLimits.
 GuardLimits readGuard (const Json& description, const AudioRole&, Messages&);
 
-/// What is wrong with a description with the driver "audio", as far as one can see without a card. One that names no channels
-/// gets those that its graph asks for. [main thread]
+/// Checks a description with the driver "audio", as far as that is possible without a card. A description without channels
+/// gets the channels that its graph uses. [main thread]
 Messages checkAudio (const Json& description);
 
 }   // namespace tactus::host::audio

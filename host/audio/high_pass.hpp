@@ -1,32 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <nodes/filter/biquad.hpp>
+#include <framework/kit/biquad.hpp>
 
+#include <numbers>
 #include <optional>
 
 namespace tactus::host::audio
 {
 
-/// Keeps away from a speaker what it cannot play and only pushes its cone: a Butterworth high-pass of second order, or
-/// nothing. [tick thread, once it is made]
+/// Removes frequencies that a speaker cannot play and that would only push its cone: a second-order Butterworth high-pass,
+/// the same as a filter.biquad of kind high. A cutoff of 0 turns it off. [tick thread, after construction]
 class HighPass
 {
 public:
     HighPass (double cutoff_hz, double rate_hz)
     {
         if (cutoff_hz <= 0.0) return;
-        filter.emplace();
-        filter->params.kind = nodes::BiquadFilter::Kind::high;
-        filter->params.cutoff = cutoff_hz;
-        filter->prepare ({ .rate_hz = rate_hz });
-        filter->update();
+        const double w = 2.0 * std::numbers::pi * usableCutoff (cutoff_hz, rate_hz) / rate_hz;
+        const double c = std::cos (w), alpha = std::sin (w) / (2.0 * 0.7071), a0 = 1.0 + alpha;
+        const double b0 = 0.5 * (1.0 + c), b1 = -(1.0 + c);
+        filter = Biquad { b0 / a0, b1 / a0, b0 / a0, -2.0 * c / a0, (1.0 - alpha) / a0 };
     }
 
-    double operator() (double in) noexcept { return filter ? filter->tick ({ .in = in }).out : in; }
+    double operator() (double in) noexcept { return filter ? state (*filter, in) : in; }
 
 private:
-    std::optional<nodes::BiquadFilter> filter;
+    std::optional<Biquad> filter;
+    BiquadState state;
 };
 
 }   // namespace tactus::host::audio

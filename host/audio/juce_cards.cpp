@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "card.hpp"
 
-#include <framework/in_quotes.hpp>
-#include <framework/number_text.hpp>
-#include <host/devices/fields.hpp>
-#include <host/devices/problem.hpp>
-#include <host/platform/jack_words.hpp>
+#include <framework/text/message.hpp>
+#include <framework/text/number_text.hpp>
+#include <framework/text/object_reader.hpp>
+#include <framework/text/quote.hpp>
+#include <host/platform/jack_messages.hpp>
 
 #include <juce_audio_devices/juce_audio_devices.h>
 
@@ -28,16 +28,19 @@ std::vector<std::string> textsOf (const juce::StringArray& all)
     return texts;
 }
 
-/// JACK (and PipeWire) first: with a server running, the cards are its own.
+/// The card types of this system. JACK (and PipeWire) comes first, because a running server owns the cards.
 std::vector<std::unique_ptr<Type>> makeTypes()
 {
     std::vector<std::unique_ptr<Type>> types;
-    for (auto* type : { Type::createAudioIODeviceType_JACK(), Type::createAudioIODeviceType_ALSA(), Type::createAudioIODeviceType_CoreAudio(), Type::createAudioIODeviceType_WASAPI (juce::WASAPIDeviceMode::exclusive), Type::createAudioIODeviceType_WASAPI (juce::WASAPIDeviceMode::shared), Type::createAudioIODeviceType_ASIO() })
+    for (auto* type : { Type::createAudioIODeviceType_JACK(), Type::createAudioIODeviceType_ALSA(), Type::createAudioIODeviceType_CoreAudio(),
+                        Type::createAudioIODeviceType_WASAPI (juce::WASAPIDeviceMode::exclusive),
+                        Type::createAudioIODeviceType_WASAPI (juce::WASAPIDeviceMode::shared), Type::createAudioIODeviceType_ASIO() })
         if (type != nullptr) types.emplace_back (type);
     return types;
 }
 
-/// A name, or else part of one; of several, `system`, which is what JACK calls the card. Empty if none is so called.
+/// Finds a name, or else the first name that contains the text. Without a text, prefers `system`, JACK's name for the card.
+/// Empty if nothing matches.
 juce::String nameLike (const std::string& wanted, const juce::StringArray& names)
 {
     const auto text = juce::String (wanted);
@@ -69,12 +72,16 @@ public:
     std::uint64_t xruns() const noexcept override { return static_cast<std::uint64_t> (std::max (0, device->getXRunCount())); }
 
 private:
-    void audioDeviceIOCallbackWithContext (const float* const* in, int ins, float* const* out, int outs, int frames, const juce::AudioIODeviceCallbackContext&) override { user.block (in, ins, out, outs, frames); }
+    void audioDeviceIOCallbackWithContext (const float* const* in, int ins, float* const* out, int outs, int frames,
+                                           const juce::AudioIODeviceCallbackContext&) override
+    {
+        user.block (in, ins, out, outs, frames);
+    }
     void audioDeviceAboutToStart (juce::AudioIODevice*) override {}
     void audioDeviceStopped() override {}
 
-    juce::ScopedJuceInitialiser_GUI juce_runs;   // so that this is the thread where JUCE's messages are handled, if they are
-    std::unique_ptr<Type> type;                  // which the device calls
+    juce::ScopedJuceInitialiser_GUI juce_runs;   // makes this thread JUCE's message thread, if there is none yet
+    std::unique_ptr<Type> type;                  // the device calls into it
     std::unique_ptr<juce::AudioIODevice> device;
     CardUser& user;
 };
@@ -112,7 +119,7 @@ public:
         return all;
     }
 
-    std::variant<std::unique_ptr<OpenCard>, Message> open (const CardWanted&, int outputs, int inputs, CardUser&) override;
+    Result<std::unique_ptr<OpenCard>> open (const CardWanted&, int outputs, int inputs, CardUser&) override;
 
 private:
     static ListedCard look (Type& type, const juce::String& output, const juce::String& input)
@@ -134,7 +141,10 @@ private:
     }
 };
 
-Message cannot (const char* id, std::string text, std::string remedy) { return problem (std::string ("audio/") + id, "", std::move (text), std::move (remedy)); }
+Message cannot (const char* id, std::string text, std::string remedy)
+{
+    return Message::error (std::string ("audio/") + id, "", std::move (text), std::move (remedy));
+}
 
 template <typename Numbers>
 std::string listOf (const Numbers& numbers)
@@ -156,10 +166,34 @@ std::string cardsThere (const std::vector<std::unique_ptr<Type>>& types)
         for (const auto& name : names)
             text += (text.empty() ? "" : ", ") + textOf (type->getTypeName()) + ":" + textOf (name);
     }
-    return text.empty() ? "there is none; start a JACK or PipeWire server, or plug one in" : "there are: " + text;
+    return text.empty() ? "no sound card was found; plug one in, or start a JACK or PipeWire server" : "available: " + text;
 }
 
-std::variant<std::unique_ptr<OpenCard>, Message> JuceCards::open (const CardWanted& wanted, int outputs, int inputs, CardUser& user)
+/// A card that matches a request. `type` is null if there is none.
+struct Chosen
+{
+    std::unique_ptr<Type> type;
+    juce::String output, input;
+
+    std::string name() const { return textOf (output.isNotEmpty() ? output : input); }
+};
+
+Chosen choose (std::vector<std::unique_ptr<Type>>& types, const CardWanted& wanted, int outputs, int inputs)
+{
+    for (auto& type : types)
+    {
+        if (! wanted.type.empty() && ! type->getTypeName().equalsIgnoreCase (juce::String (wanted.type))) continue;
+        const auto output = outputs > 0 ? nameLike (wanted.output, type->getDeviceNames (false)) : juce::String();
+        const auto ins = type->getDeviceNames (true);
+        auto input_name = wanted.input;
+        if (input_name.empty()) input_name = output.isNotEmpty() && ins.contains (output) ? textOf (output) : wanted.output;   // the same card
+        const auto input = inputs > 0 ? nameLike (input_name, ins) : juce::String();
+        if ((outputs == 0 || output.isNotEmpty()) && (inputs == 0 || input.isNotEmpty())) return { std::move (type), output, input };
+    }
+    return {};
+}
+
+Result<std::unique_ptr<OpenCard>> JuceCards::open (const CardWanted& wanted, int outputs, int inputs, CardUser& user)
 {
     const juce::ScopedJuceInitialiser_GUI juce_runs;
     hushJack();
@@ -168,37 +202,26 @@ std::variant<std::unique_ptr<OpenCard>, Message> JuceCards::open (const CardWant
         type->scanForDevices();
 
     const auto cards = cardsThere (types);
-    std::unique_ptr<Type> type;
-    juce::String output, input;
-    for (auto& t : types)
-    {
-        if (! wanted.type.empty() && ! t->getTypeName().equalsIgnoreCase (juce::String (wanted.type))) continue;
-        output = outputs > 0 ? nameLike (wanted.output, t->getDeviceNames (false)) : juce::String();
-        // Who says nothing of an input means the same card.
-        const auto ins = t->getDeviceNames (true);
-        input = inputs > 0 ? nameLike (! wanted.input.empty() ? wanted.input : output.isNotEmpty() && ins.contains (output) ? textOf (output)
-                                                                                                                            : wanted.output,
-                                       ins)
-                           : juce::String();
-        if ((outputs > 0 && output.isEmpty()) || (inputs > 0 && input.isEmpty())) continue;
-        type = std::move (t);
-        break;
-    }
-    if (! type)
+    auto chosen = choose (types, wanted, outputs, inputs);
+    if (! chosen.type)
     {
         std::string what = "there is no " + (wanted.type.empty() ? std::string ("sound card") : wanted.type + " card");
-        if (! wanted.output.empty()) what += " " + inQuotes (wanted.output);
-        if (inputs > 0 && ! wanted.input.empty()) what += " with an input " + inQuotes (wanted.input);
+        if (! wanted.output.empty()) what += " " + quote (wanted.output);
+        if (inputs > 0 && ! wanted.input.empty()) what += " with an input " + quote (wanted.input);
         return cannot ("no_card", what, cards);
     }
 
-    std::unique_ptr<juce::AudioIODevice> device (type->createDevice (output, input));
-    const auto name = textOf (type->getTypeName()) + ":" + textOf (output.isNotEmpty() ? output : input);
-    if (! device) return cannot ("cannot_open", name + " cannot be opened", "see that no other program has it to itself");
+    std::unique_ptr<juce::AudioIODevice> device (chosen.type->createDevice (chosen.output, chosen.input));
+    const auto type_name = textOf (chosen.type->getTypeName()), name = type_name + ":" + chosen.name();
+    if (! device) return cannot ("cannot_open", name + " cannot be opened", "check that no other program has exclusive access to it");
 
-    const int has_out = device->getOutputChannelNames().size(), has_in = device->getInputChannelNames().size();
-    if (outputs > has_out) return cannot ("channel", name + " has " + std::to_string (has_out) + " outputs, and channel " + std::to_string (outputs) + " is asked for", "take a channel that it has, or another card; " + cards);
-    if (inputs > has_in) return cannot ("channel", name + " has " + std::to_string (has_in) + " inputs, and channel " + std::to_string (inputs) + " is asked for", "take a channel that it has, or another card; " + cards);
+    const auto lacks = [&] (const juce::StringArray& channels, const char* kind, int needed)
+    {
+        return cannot ("channel", name + " has " + std::to_string (channels.size()) + kind + ", but channel " + std::to_string (needed) + " was requested",
+                       "use one of its channels, or another card; " + cards);
+    };
+    if (const auto has = device->getOutputChannelNames(); outputs > has.size()) return lacks (has, " outputs", outputs);
+    if (const auto has = device->getInputChannelNames(); inputs > has.size()) return lacks (has, " inputs", inputs);
 
     const auto rates = device->getAvailableSampleRates();
     const auto same = [] (double a, double b)
@@ -210,18 +233,21 @@ std::variant<std::unique_ptr<OpenCard>, Message> JuceCards::open (const CardWant
     if (rate == 0.0) rate = rates.isEmpty() || rates.contains (48000.0) ? 48000.0 : rates[0];
     int block = wanted.block > 0 ? wanted.block : device->getDefaultBufferSize();
     const auto blocks = device->getAvailableBufferSizes();
-    if (wanted.block > 0 && ! blocks.contains (block)) return cannot ("block", name + " does not run with blocks of " + std::to_string (block) + " frames", "its blocks: " + listOf (blocks));
+    if (wanted.block > 0 && ! blocks.contains (block))
+        return cannot ("block", name + " does not run with blocks of " + std::to_string (block) + " frames", "its blocks: " + listOf (blocks));
 
     if (const auto trouble = device->open (first (inputs), first (outputs), rate, block); trouble.isNotEmpty())
-        return cannot ("cannot_open", name + " cannot be opened: " + textOf (trouble), "see that no other program has it to itself, and that it runs at " + numberText (rate) + " Hz");
+        return cannot ("cannot_open", name + " cannot be opened: " + textOf (trouble),
+                       "check that no other program has exclusive access to it, and that it runs at " + numberText (rate) + " Hz");
     rate = device->getCurrentSampleRate();
     block = device->getCurrentBufferSizeSamples();
-    if (wanted.rate_hz > 0.0 && ! same (rate, wanted.rate_hz)) return cannot ("rate", name + " was asked for " + numberText (wanted.rate_hz) + " Hz and runs at " + numberText (rate) + " Hz", "leave out the rate, or set up the card or its server");
-    if (rate <= 0.0 || block <= 0) return cannot ("cannot_open", name + " says neither a rate nor a block", "see whether its server still runs");
+    if (wanted.rate_hz > 0.0 && ! same (rate, wanted.rate_hz))
+        return cannot ("rate", name + " was set to " + numberText (wanted.rate_hz) + " Hz but runs at " + numberText (rate) + " Hz",
+                       "leave out the rate, or configure the card or its server");
+    if (rate <= 0.0 || block <= 0) return cannot ("cannot_open", name + " reports no rate or no block size", "check that its server is running");
 
-    const double latency = device->getOutputLatencyInSamples() / rate;
-    user.begin ({ .type = textOf (type->getTypeName()), .name = textOf (output.isNotEmpty() ? output : input), .rate_hz = rate, .block = block, .outputs = outputs, .inputs = inputs, .latency_s = latency });
-    auto card = std::make_unique<JuceCard> (std::move (type), std::move (device), user);
+    user.begin ({ type_name, chosen.name(), rate, block, outputs, inputs, device->getOutputLatencyInSamples() / rate });
+    auto card = std::make_unique<JuceCard> (std::move (chosen.type), std::move (device), user);
     card->start();
     return std::unique_ptr<OpenCard> (std::move (card));
 }

@@ -2,7 +2,7 @@
 #include "open_audio.hpp"
 #include "check_audio.hpp"
 
-#include <host/devices/problem.hpp>
+#include <framework/text/message.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -11,11 +11,11 @@ namespace tactus::host::audio
 {
 namespace
 {
-/// The highest channel that nodes of this type and role are set to.
+/// The highest channel used by nodes of this type and role.
 int highestChannel (const Plan& plan, const std::string& type, const std::string& role)
 {
     int highest = 0;
-    for (const auto& node : plan.flat.nodes)
+    for (const auto& node : plan.flat().nodes)
     {
         if (node.type == nullptr || node.type->info.id != type || node.role != role) continue;
         for (const auto& setting : node.settings)
@@ -39,9 +39,10 @@ MadeDevice openAudio (const Json& description, AudioRig& rig)
     auto role = readAudioRole (description, made.messages);
     made.limits = readGuard (description, role, made.messages);
     if (role.outputs.empty() && role.inputs.empty() && ! hasErrors (made.messages))
-        made.messages.push_back (problem ("audio/no_channels", "", "it has neither outputs nor inputs", "write \"outputs\": [{\"channel\": 1, \"full_scale\": \"4 N\"}]"));
+        made.messages.push_back (Message::error ("audio/no_channels", "", "the role has neither outputs nor inputs",
+                                                 "write \"outputs\": [{\"channel\": 1, \"full_scale\": \"4 N\"}]"));
     if (const auto card = description.value ("card", Json()); card.is_string())
-        if (auto trouble = rig.nameCard (card.get<std::string>())) made.messages.push_back (std::move (*trouble));
+        if (auto named = rig.nameCard (card.get<std::string>()); ! named) made.messages.push_back (std::move (named).error());
     if (hasErrors (made.messages)) return made;
 
     made.about = std::to_string (role.outputs.size()) + " outputs and " + std::to_string (role.inputs.size()) + " inputs of a sound card.";

@@ -3,17 +3,17 @@
 
 #include "audio_rig.hpp"
 
-#include <host/devices/make_device.hpp>
+#include <framework/run/device/make_device.hpp>
 
 namespace tactus::host::audio
 {
 
-/// A device for a role with the driver "audio", in the run whose rig this is. Its guard
-/// is as readGuard has it. Ids of readAudioRole, AudioRig::open, audio/no_channels, audio/two_cards. [main thread]
+/// Opens the device of a role with the driver "audio" in the run of this rig. Its guard limits come from readGuard. Ids:
+/// those of readAudioRole and AudioRig::open, audio/no_channels, audio/two_cards. [main thread]
 MadeDevice openAudio (const Json& description, AudioRig&);
 
-/// The description with the channels that the nodes of the role ask for, each on the channel of the card with its number,
-/// where it names none. [main thread]
+/// If the description names no channels, adds the channels that the nodes of the role use, each on the card channel with the
+/// same number. [main thread]
 Json withChannels (const Json& description, const Plan&, const std::string& role);
 
 }   // namespace tactus::host::audio

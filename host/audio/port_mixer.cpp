@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "port_mixer.hpp"
 
-#include <host/runtime/probe_ring.hpp>
+#include <framework/run/probe_ring.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,23 +24,23 @@ PortMixer::PortMixer (std::vector<Route> routes, const std::vector<int>& samples
 int PortMixer::samplesOf (const Plan& plan, const Route& route)
 {
     int most = 0;
-    for (const auto& tap : plan.taps)
+    for (const auto& tap : plan.taps())
         if (isPartOf (tap.name, route.port)) most = std::max (most, tap.per_tick);
     return most;
 }
 
-/// By comparing names, and without a list that grows: some microseconds, once an edit.
+/// Compares names and allocates nothing. Takes a few microseconds, once per edit.
 void PortMixer::find (const Plan& p) noexcept
 {
     for (auto& sent : all)
     {
         sent.parts = 0;
-        for (std::size_t i = 0; i < p.taps.size() && sent.parts < most_parts; ++i)
+        for (std::size_t i = 0; i < p.taps().size() && sent.parts < most_parts; ++i)
         {
             const auto seen = std::span (sent.taps).first (sent.parts);
             const bool again = std::ranges::any_of (seen, [&] (std::uint32_t j)
-                                                    { return p.taps[j].name == p.taps[i].name; });
-            if (! again && isPartOf (p.taps[i].name, sent.route.port)) sent.taps[sent.parts++] = static_cast<std::uint32_t> (i);
+                                                    { return p.taps()[j].name == p.taps()[i].name; });
+            if (! again && isPartOf (p.taps()[i].name, sent.route.port)) sent.taps[sent.parts++] = static_cast<std::uint32_t> (i);
         }
     }
 }
@@ -48,9 +48,9 @@ void PortMixer::find (const Plan& p) noexcept
 void PortMixer::look (const Plan& p, bool shut) noexcept
 {
     plan = &p;
-    if (! knows || serial != p.serial) find (p);
+    if (! knows || serial != p.serial()) find (p);
     knows = true;
-    serial = p.serial;
+    serial = p.serial();
     gate_before = gate;
     gate = shut || std::exchange (has_broken, false) ? std::max (0.0, gate - shuts) : std::min (1.0, gate + opens);
 }
@@ -63,7 +63,7 @@ void PortMixer::addTo (std::span<double> channels, int i, int per_tick) noexcept
         if (sent.per_tick != per_tick) continue;
         double sum = 0.0;
         for (std::size_t part = 0; part < sent.parts; ++part)
-            sum += plan->taps[sent.taps[part]].sample (i, per_tick);
+            sum += plan->taps()[sent.taps[part]].sample (i, per_tick);
         const auto& use = sent.route;
         double sample = use.gain * sum / use.full_scale.value;
         if (! isFinite (sample))

@@ -15,30 +15,30 @@
 namespace tactus::host::audio
 {
 
-/// What routes make of the ports of a plan: samples for the channels of a card. Ports are found by name, so that routes go on
-/// through edits; one that is gone is silent until it is back.
+/// Turns the ports of a plan into samples for the channels of a card. Ports are found by name, so routes survive edits; a
+/// missing port is silent until it is back.
 ///
-/// Routes come after no guard. So they have a gate of their own: it shuts within 5 ms while the run halts, after an emergency
-/// stop, and where a port gives what is no number, and opens within 0.2 s.
+/// Routes do not pass through a guard, so they have their own gate. It shuts within 5 ms while the run halts, after an
+/// emergency stop, and when a port outputs a value that is not a number. It reopens within 0.2 s.
 class PortMixer
 {
 public:
     static constexpr double shut_s = 0.005, open_s = 0.2;
-    static constexpr double most_sample = 8.0;      ///< full scales; more would only ring in what follows
-    static constexpr std::size_t most_parts = 16;   ///< components of a port that are added up
+    static constexpr double most_sample = 8.0;      ///< in full scales; larger values would only ring in the filters that follow
+    static constexpr std::size_t most_parts = 16;   ///< components of a port that are summed
 
-    /// Each route with so many samples a tick. [main thread]
+    /// `samples_per_tick` has one entry per route. [main thread]
     PortMixer (std::vector<Route>, const std::vector<int>& samples_per_tick, double tick_rate_hz);
 
-    /// After a tick. [tick thread]
+    /// Call after each tick. [tick thread]
     void look (const Plan&, bool shut) noexcept;
 
-    /// Adds sample `i` of the tick of those routes that have `per_tick`, by channel. In order. [tick thread]
+    /// Adds sample `i` of the tick, for all routes with `per_tick` samples, by channel. Call this for each `i` in order. [tick thread]
     void addTo (std::span<double> channels, int i, int per_tick) noexcept;
 
-    std::uint64_t notNumbers() const noexcept { return broken.load (std::memory_order_relaxed); }   ///< samples that were none [any thread]
+    std::uint64_t notNumbers() const noexcept { return broken.load (std::memory_order_relaxed); }   ///< samples that were not numbers [any thread]
 
-    /// How many samples a tick a route's port has; the largest of its parts. 0 if it is not there. [main thread]
+    /// Samples per tick of a route's port: the largest of its parts. 0 if there is no such port. [main thread]
     static int samplesOf (const Plan&, const Route&);
 
 private:
@@ -54,11 +54,11 @@ private:
     void find (const Plan&) noexcept;
 
     std::vector<Sent> all;
-    const double shuts, opens;   // a tick
+    const double shuts, opens;   // per tick
     std::atomic<std::uint64_t> broken = 0;
 
-    // Of the tick thread.
-    const Plan* plan = nullptr;   // of this tick
+    // [tick thread]
+    const Plan* plan = nullptr;   // on this tick
     std::uint64_t serial = 0;
     bool knows = false;
     double gate = 0.0, gate_before = 0.0;

@@ -33,7 +33,7 @@ bool Resampler::canDo (double ratio) noexcept { return src_is_valid_ratio (ratio
 
 double Resampler::lookAhead (double ratio) noexcept
 {
-    constexpr double half_sinc = 2464.0 / 128.0;   // its length in frames of the lower rate: src/fastest_coeffs.h, libsamplerate 0.2.2
+    constexpr double half_sinc = 2464.0 / 128.0;   // half the length of the filter, in frames of the lower rate: src/fastest_coeffs.h, libsamplerate 0.2.2
     return std::ceil (half_sinc / std::min (1.0, ratio)) + 2.0;
 }
 

@@ -6,9 +6,9 @@
 namespace tactus::host::audio
 {
 
-/// From one sample rate to another, by a ratio that may change from block to block and is then moved smoothly: libsamplerate
-/// with its shortest sinc (flat to 80 % of the lower band, 97 dB of noise). Makes no sound earlier or later than it was:
-/// what it delays is what it has to see ahead. Several lanes at a time, their samples side by side.
+/// Converts from one sample rate to another by a ratio that may change from block to block; changes are smoothed. Uses
+/// libsamplerate with its shortest sinc (flat to 80 % of the lower band, 97 dB signal-to-noise ratio). Does not shift the
+/// sound in time: its latency is its look-ahead. Handles several interleaved lanes.
 class Resampler
 {
 public:
@@ -18,10 +18,10 @@ public:
     Resampler (Resampler&&) noexcept;
     Resampler& operator= (Resampler&&) noexcept;
 
-    /// Ratios of the rates, out to in, that it can do: 1/256 to 256.
+    /// True for the ratios (output to input) that it supports: 1/256 to 256.
     static bool canDo (double ratio) noexcept;
 
-    /// How many frames of the input it sees ahead of what it makes.
+    /// The number of input frames that it needs ahead of its output.
     static double lookAhead (double ratio) noexcept;
 
     struct Step
@@ -29,7 +29,7 @@ public:
         int used = 0, made = 0;   ///< frames
     };
 
-    // Allocate nothing. [one thread at a time]
+    // These allocate nothing. [one thread at a time]
     void reset() noexcept;
     Step process (const float* in, int in_frames, float* out, int out_frames, double ratio) noexcept;
 

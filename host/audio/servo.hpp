@@ -7,26 +7,26 @@
 namespace tactus::host::audio
 {
 
-/// How much faster a queue has to be emptied than its rate says, so that as much waits in it as should: what two clocks
-/// differ by, learned from the queue.
+/// Estimates how much faster than its nominal rate a queue must be emptied to hold its target level. This is the difference
+/// between two clocks, learned from the level of the queue.
 ///
-///     e' += (e - e') min (1, w T/r)      e: what waits beyond the aim (s), seen each T
-///     x  += w^2 e' T                      the difference of the clocks that is known
+///     e' += (e - e') min (1, w T/r)      e: level above the target (s), measured every T
+///     x  += w^2 e' T                      the learned difference between the clocks
 ///     correction = x + 2 w e'             critically damped
 ///
-/// w falls from 0.15 rad/s to 0.04 rad/s over the first 45 s: quick to find the other clock, then slow to be moved, since
-/// e jumps by a tick as ticks and blocks pass each other, and by what either is late, and the pitch should not: 2 ms make 600 ppm
-/// at first, and then 160. (A loop over time stamps jumps less,
-/// F. Adriaensen, "Using a DLL to filter time", 2005; the tick thread is not asked to read a clock.)
+/// w falls from 0.15 rad/s to 0.04 rad/s over the first 45 s: it finds the other clock quickly, then reacts slowly. The
+/// level e jumps by a tick as ticks and blocks pass each other, and by the lateness of either, but the pitch should not
+/// follow: a jump of 2 ms changes it by 600 ppm at first, and later by 160 ppm. (A loop over time stamps jumps less:
+/// F. Adriaensen, "Using a DLL to filter time", 2005. But it would need the tick thread to read a clock.)
 class Servo
 {
 public:
-    /// No two clocks of a computer are farther apart; what asks for more is a fault. Relative.
+    /// The largest correction, relative. No two clocks of a computer differ by more, so a larger correction is a fault.
     static constexpr double most = 0.005;
 
     void reset() noexcept { *this = {}; }
 
-    /// Keeps what is known of the clocks.
+    /// Forgets the level, but keeps the learned clock difference.
     void restart() noexcept { smooth = 0.0; }
 
     double operator() (double error_s, double dt_s) noexcept
@@ -43,8 +43,8 @@ public:
 
 private:
     static constexpr double quickest = 0.15, slowest = 0.04;   // rad/s
-    static constexpr double settled_s = 12.0;                  // s at the quickest
-    static constexpr double smoothing = 0.25;                  // of 1/w
+    static constexpr double settled_s = 12.0;                  // how long it stays at the quickest, in s
+    static constexpr double smoothing = 0.25;                  // as a fraction of 1/w
 
     double elapsed = 0.0, smooth = 0.0, known = 0.0;
 };

@@ -11,17 +11,20 @@ namespace tactus::host::audio
 namespace
 {
 constexpr double fade_in_s = 0.005, fade_out_s = OutStream::fade_out_s;
-constexpr double longest_backlog_s = 0.02;   // beyond the aim and the reserve; more is left out rather than heard late
+constexpr double longest_backlog_s = 0.02;   // beyond the target and the reserve, in s; anything more is skipped rather than played late
 constexpr double room_s = 0.5;
 constexpr std::size_t room_frames = 512;
 
 std::size_t roomOf (const StreamSetup& s) { return room_frames + static_cast<std::size_t> (s.tick_side_hz * (room_s + 2.0 * s.reserve_s)); }
 
-/// From 0 to 1 without a corner at either end.
+/// Rises from 0 to 1 without a corner at either end.
 float raised (double part) noexcept { return static_cast<float> (0.5 - 0.5 * std::cos (std::numbers::pi * std::clamp (part, 0.0, 1.0))); }
 }   // namespace
 
-OutStream::OutStream (const StreamSetup& s) : setup (s), fifo (s.lanes, roomOf (s)), resampler (s.lanes), last (static_cast<std::size_t> (s.lanes)) {}
+OutStream::OutStream (const StreamSetup& s)
+    : setup (s), fifo (roomOf (s), static_cast<std::size_t> (s.lanes)), resampler (s.lanes), last (static_cast<std::size_t> (s.lanes))
+{
+}
 
 void OutStream::prepare (const CardFormat& format) noexcept
 {
@@ -33,10 +36,10 @@ void OutStream::prepare (const CardFormat& format) noexcept
     aim = card.clocks == Clocks::one ? a_block + ahead + 1.0 : a_block + ahead + 1.0 + setup.reserve_s * setup.tick_side_hz;
     flows = false;
     std::ranges::fill (last, 0.0f);
-    fifo.take (fifo.size());   // of the time without a card; nobody else takes before its first block
+    fifo.take (fifo.size());   // drops frames from the time without a card; there is no other consumer before its first block
 }
 
-/// From the frame on that leaves as much waiting as should.
+/// Starts with the frame that leaves the target number of frames waiting.
 void OutStream::begin (double waiting) noexcept
 {
     fifo.take (static_cast<std::size_t> (waiting - aim));
@@ -50,7 +53,7 @@ void OutStream::begin (double waiting) noexcept
 
 int OutStream::pull (float* out, int wanted, double ratio) noexcept
 {
-    const int lanes = fifo.lanes();
+    const int lanes = setup.lanes;
     int made = 0;
     while (made < wanted)
     {
@@ -73,7 +76,7 @@ int OutStream::pull (float* out, int wanted, double ratio) noexcept
 
 void OutStream::render (std::span<float> frames) noexcept
 {
-    const int lanes = fifo.lanes(), wanted = static_cast<int> (frames.size()) / lanes;
+    const int lanes = setup.lanes, wanted = static_cast<int> (frames.size()) / lanes;
     const double hz = setup.tick_side_hz;
 
     if (! flows && faded >= fade_out_s * card.rate_hz)
@@ -113,21 +116,25 @@ void OutStream::fadeIn (float* out, int frames) noexcept
 {
     const double all = fade_in_s * card.rate_hz;
     for (int i = 0; i < frames && faded < all; ++i, ++faded)
-        for (int lane = 0; lane < fifo.lanes(); ++lane)
-            out[i * fifo.lanes() + lane] *= raised (faded / all);
+        for (int lane = 0; lane < setup.lanes; ++lane)
+            out[i * setup.lanes + lane] *= raised (faded / all);
 }
 
-/// From the last sample to nothing.
+/// Fades from the last sample to zero.
 void OutStream::fadeOut (float* out, int frames) noexcept
 {
     const double all = fade_out_s * card.rate_hz;
     for (int i = 0; i < frames; ++i, ++faded)
-        for (int lane = 0; lane < fifo.lanes(); ++lane)
-            out[i * fifo.lanes() + lane] = faded < all ? last[static_cast<std::size_t> (lane)] * raised (1.0 - (faded + 1) / all) : 0.0f;
+        for (int lane = 0; lane < setup.lanes; ++lane)
+            out[i * setup.lanes + lane] = faded < all ? last[static_cast<std::size_t> (lane)] * raised (1.0 - (faded + 1) / all) : 0.0f;
 }
 
 //==============================================================================
-InStream::InStream (const StreamSetup& s) : setup (s), fifo (s.lanes, roomOf (s)), resampler (s.lanes), frame (static_cast<std::size_t> (s.lanes)), last (static_cast<std::size_t> (s.lanes)) {}
+InStream::InStream (const StreamSetup& s)
+    : setup (s), fifo (roomOf (s), static_cast<std::size_t> (s.lanes)), resampler (s.lanes), frame (static_cast<std::size_t> (s.lanes)),
+      last (static_cast<std::size_t> (s.lanes))
+{
+}
 
 void InStream::prepare (const CardFormat& format)
 {
@@ -136,7 +143,7 @@ void InStream::prepare (const CardFormat& format)
     card = format;
     copies = card.clocks == Clocks::one && card.rate_hz == setup.tick_side_hz;
     const double a_block = card.block * setup.tick_side_hz / card.rate_hz;
-    made.resize (static_cast<std::size_t> (fifo.lanes()) * static_cast<std::size_t> (std::ceil (a_block * (1.0 + Servo::most)) + 2.0));
+    made.resize (static_cast<std::size_t> (setup.lanes) * static_cast<std::size_t> (std::ceil (a_block * (1.0 + Servo::most)) + 2.0));
     aim = a_block + 1.0 + (card.clocks == Clocks::one ? 0.0 : setup.reserve_s * setup.tick_side_hz);
     ahead = 0.0;
     heard = false;
@@ -145,7 +152,7 @@ void InStream::prepare (const CardFormat& format)
 
 void InStream::take (std::span<const float> frames) noexcept
 {
-    const int lanes = fifo.lanes(), count = static_cast<int> (frames.size()) / lanes;
+    const int lanes = setup.lanes, count = static_cast<int> (frames.size()) / lanes;
     const double hz = setup.tick_side_hz;
     const double waits = static_cast<double> (fifo.size()) + ahead;
     const double a_block = count * hz / card.rate_hz, error_s = (waits + a_block - aim.load (std::memory_order_relaxed)) / hz;
@@ -168,8 +175,8 @@ void InStream::take (std::span<const float> frames) noexcept
             used += step.used;
             if (step.used == 0 && step.made == 0) break;
         }
-    // What the resampler keeps back for now is there as well: it comes with the blocks that follow. While the fifo is full
-    // nobody takes, and there is nothing to count.
+    // Samples that the resampler still holds back are counted: they come with the next blocks. While the ring is full,
+    // nothing is taken, so there is nothing to count.
     ahead = heard.load (std::memory_order_relaxed) ? ahead + count * ratio - static_cast<double> (fifo.pushed() - before) : 0.0;
     now.difference = servo.difference();
     now.error_s = runs ? servo.error() : 0.0;

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "resampler.hpp"
-#include "sample_fifo.hpp"
 #include "servo.hpp"
 
-#include <host/runtime/snapshot.hpp>
+#include <framework/kit/snapshot.hpp>
+#include <framework/kit/spsc_ring.hpp>
 
 #include <atomic>
 #include <cstdint>
@@ -15,59 +15,60 @@
 namespace tactus::host::audio
 {
 
-/// How the ticks of a run and the blocks of a sound card stand to each other.
+/// How the ticks of a run and the blocks of a sound card are related.
 enum class Clocks
 {
-    apart,   ///< each has its own: the ratio is found and followed
-    one      ///< blocks tick the run, so nothing drifts
+    apart,   ///< independent clocks: the ratio is estimated and followed
+    one      ///< blocks tick the run: no drift
 };
 
-/// How a stream is doing.
+/// State of a stream.
 struct StreamReport
 {
-    double difference = 0.0;       ///< by how much the card is faster than the ticks, relative to what both say; what was learned
-    double error_s = 0.0;          ///< by how much more waits than should
-    double latency_s = 0.0;        ///< from tick to card, or back, without the card's own
-    std::uint64_t underruns = 0;   ///< times that nothing waited and it faded out; counted when it is back, for all things end
-    std::uint64_t overruns = 0;    ///< times that far too much did: some was left out
+    double difference = 0.0;       ///< relative difference of the card clock to the tick clock, as learned
+    double error_s = 0.0;          ///< deviation of the queue from its target
+    double latency_s = 0.0;        ///< from tick to card, or back, without the card's own latency
+    std::uint64_t underruns = 0;   ///< number of times the queue ran empty and the sound faded out; counted when the sound resumes,
+                                   ///< because the queue always runs empty at the end of a stream
+    std::uint64_t overruns = 0;    ///< number of times the queue was far too long and part of it was skipped
     std::uint64_t flows = 0;       ///< 1 while there is sound
 };
 
-/// What both directions have in common.
+/// Parameters of both directions.
 struct StreamSetup
 {
     int lanes = 1;
-    double tick_side_hz = 0.0;   ///< frames a second on the side of the ticks
+    double tick_side_hz = 0.0;   ///< frames per second on the tick side
     double reserve_s = 0.01;     ///< how late a tick or a block may be without a gap
 };
 
 struct CardFormat
 {
     double rate_hz = 0.0;
-    int block = 0;   ///< frames, at most
+    int block = 0;   ///< largest number of frames
     Clocks clocks = Clocks::apart;
 };
 
-/// Samples from the ticks to a sound card. Where none come in time it fades out, and in again once enough wait.
+/// Carries samples from the ticks to a sound card. If none arrive in time it fades out, and fades in again once enough are waiting.
 class OutStream
 {
 public:
     static constexpr double fade_out_s = 0.003;
 
-    /// There must be a Resampler::canDo from its rate to the card's.
+    /// Requires that Resampler::canDo is true for its rate and the card's.
     explicit OutStream (const StreamSetup&);
 
-    /// For a card that is about to begin. [main thread, while no block is asked for]
+    /// Prepares for a card that is about to start. [main thread, while no block is requested]
     void prepare (const CardFormat&) noexcept;
 
-    /// A frame. What comes while no card plays is lost. [tick thread]
+    /// Adds a frame; it is dropped while no card plays. [tick thread]
     void push (std::span<const float> frame) noexcept { fifo.push (frame); }
 
-    /// The next samples, side by side by lanes, at most a block. [audio thread]
+    /// Renders the next samples, interleaved; at most one block. [audio thread]
     void render (std::span<float> frames) noexcept;
 
     StreamReport report() const noexcept { return published.load(); }   // [any thread]
-    int lanes() const noexcept { return fifo.lanes(); }
+    int lanes() const noexcept { return setup.lanes; }
 
 private:
     void begin (double waiting) noexcept;
@@ -76,59 +77,59 @@ private:
     void fadeOut (float* out, int frames) noexcept;
 
     const StreamSetup setup;
-    SampleFifo fifo;
+    SpscRing<float> fifo;
     Resampler resampler;
     Servo servo;
     CardFormat card;
-    bool copies = false;   // both sides have the same clock and rate
-    double aim = 0.0;      // frames that should wait when a block is asked for
+    bool copies = false;   // both sides share clock and rate
+    double aim = 0.0;      // target number of waiting frames when a block is requested
 
-    // Of the audio thread.
-    double at = 0.0;   // which frame is next, counted as the fifo counts
+    // [audio thread]
+    double at = 0.0;   // position of the next frame, in the ring's count
     bool flows = false, is_dry = false;
-    int faded = 0;             // frames of the way in, or out
-    std::vector<float> last;   // a sample a lane
+    int faded = 0;             // frames into the fade in or out
+    std::vector<float> last;   // one sample per lane
     StreamReport now;
     Snapshot<StreamReport> published;
 };
 
-/// Samples from a sound card to the ticks, one frame a tick.
+/// Carries samples from a sound card to the ticks, one frame per tick.
 class InStream
 {
 public:
     explicit InStream (const StreamSetup&);
 
-    void prepare (const CardFormat&);   // [main thread, while no block comes]
+    void prepare (const CardFormat&);   // [main thread, while no block is delivered]
 
-    /// What was heard, side by side by lanes, at most a block. [audio thread]
+    /// Takes input samples, interleaved; at most one block. [audio thread]
     void take (std::span<const float> frames) noexcept;
 
-    /// The next frame. Where none waits the last one fades to zero, within 3 ms. [tick thread]
+    /// The next frame. If none is waiting, the last one fades to zero within 3 ms. [tick thread]
     std::span<const float> pop() noexcept;
 
     StreamReport report() const noexcept { return published.load(); }   // [any thread]
-    int lanes() const noexcept { return fifo.lanes(); }
+    int lanes() const noexcept { return setup.lanes; }
 
 private:
     const StreamSetup setup;
-    SampleFifo fifo;
+    SpscRing<float> fifo;
     Resampler resampler;
     Servo servo;
     CardFormat card;
     bool copies = false;
-    std::atomic<double> aim = 0.0;   // frames that should wait when a block has come
-    std::vector<float> made;         // room for those of a block
+    std::atomic<double> aim = 0.0;   // target number of waiting frames after a block has arrived
+    std::vector<float> made;         // room for the resampled frames of a block
 
-    // Of the audio thread.
-    double ahead = 0.0;   // made by the ratio, but not yet by the resampler: frames
+    // [audio thread]
+    double ahead = 0.0;   // frames that are due by the ratio but not yet output by the resampler
     StreamReport now;
     Snapshot<StreamReport> published;
 
-    // Of the tick thread.
+    // [tick thread]
     bool flows = false, is_dry = false;
     std::vector<float> frame;
     std::vector<float> last;
-    int faded = 0;   // ticks of the way in, or out
+    int faded = 0;   // ticks into the fade in or out
     std::atomic<std::uint64_t> dry = 0, skipped = 0;
     std::atomic<bool> heard = false;
 };

@@ -10,7 +10,7 @@ namespace tactus::bench
 
 namespace
 {
-constexpr int block = 200;   // ticks a round: some 100 us, shorter than a time slice
+constexpr int block = 200;   // ticks per round: about 100 us, which is shorter than a time slice
 
 std::function<void (int)> blocksOf (const Contest& contest, const Contest::Make& make)
 {
@@ -58,9 +58,8 @@ void time (Results& results, bool quick, bool quiet)
     for (const auto& [contest, found] : results.agreements)
         add ({ contest.key, blocksOf (contest, contest.make_first), blocksOf (contest, contest.make_second), block, block, quick ? 40 : 4000 });
 
-    const auto juce = std::make_shared<JuceOnePoles> (shuffled (treeOfOnePoles (1000)));
-    const auto rebuild = [juce] (int)
-    { juce->edit(); };
+    const auto rebuild = [edit = juceEdits (shuffled (treeOfOnePoles (1000)))] (int)
+    { edit(); };
     add ({ "juce_rebuild1000/compile1000", rebuild, compiling (1000, 20), 1.0, 20.0, quick ? 1 : 15 });
     add ({ "compile10000/compile1000", compiling (10000, 1), compiling (1000, 10), 1.0, 10.0, quick ? 2 : 60 });
 

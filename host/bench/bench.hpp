@@ -5,7 +5,8 @@
 #include "memory.hpp"
 #include "pair.hpp"
 
-#include <map>
+#include <memory>
+#include <vector>
 
 namespace tactus::bench
 {
@@ -25,10 +26,10 @@ struct Results
     bool agree() const;
 };
 
-/// Whether all variants agree; run before anything is timed. [message thread]
+/// Compares the outputs of all variants. Runs before anything is timed. [message thread]
 void agree (Results&);
 
-/// Times them (docs/bench.md). `quick` takes few rounds, enough to see that it works. [message thread]
+/// Times the variants (docs/bench.md). `quick` runs only a few rounds, enough to see that it works. [message thread]
 void time (Results&, bool quick, bool quiet);
 
 }   // namespace tactus::bench

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contest.hpp"
-#include "by_hand.hpp"
 #include "faust_chain.hpp"
+#include "handwritten.hpp"
 #include "juce_variants.hpp"
 #include "one_poles.hpp"
 #include "planned.hpp"
@@ -24,7 +24,7 @@ std::vector<Contest::Row> stroke()
     return rows;
 }
 
-/// A second of a tone that rises from rest to 1 kHz.
+/// One second of a tone that rises from 0 Hz to 1 kHz.
 std::vector<Contest::Row> chirp()
 {
     constexpr int ticks = 4000;
@@ -49,14 +49,10 @@ std::vector<Contest> contests()
     const auto tree = treeOfOnePoles (poles), chain = chainOfOnePoles (poles);
     const std::string juce = "JUCE AudioProcessorGraph", plan = "plan";
     return {
-        { "plan/hand", plan, "hand-written", "reference graph", planOf (reference()), []
-          { return std::make_unique<ByHand>(); },
-          stroke() },
-        { "juce/plan", juce, plan, "reference graph", []
-          { return std::make_unique<JuceReference>(); },
-          planOf (reference()), stroke() },
+        { "plan/hand", plan, "hand-written", "reference graph", planOf (reference()), handwritten, stroke() },
+        { "juce/plan", juce, plan, "reference graph", juceReference, planOf (reference()), stroke() },
         { "juce_tree100/plan", juce, plan, "tree of 100 one-poles", [tree]
-          { return std::make_unique<JuceOnePoles> (tree); },
+          { return juceOnePoles (tree); },
           planOf (tree), chirp() },
         { "plan/faust_chain100", plan, "Faust", "chain of 100 one-poles", planOf (chain), []
           { return std::make_unique<FaustVariant>(); },

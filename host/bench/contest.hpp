@@ -11,18 +11,18 @@
 namespace tactus::bench
 {
 
-/// Two ways to work out the same thing, of which the second is what the first is measured against.
+/// Two ways to compute the same thing. The second is the yardstick for the first.
 struct Contest
 {
     using Make = std::function<std::unique_ptr<Variant>()>;
-    using Row = std::vector<double>;   ///< what comes in on a tick
+    using Row = std::vector<double>;   ///< the inputs of one tick
 
     std::string key;             ///< as in the JSON: "juce/plan"
-    std::string first, second;   ///< in words
-    std::string about;           ///< what is worked out
+    std::string first, second;   ///< names that are shown to the user
+    std::string about;           ///< what both compute
     Make make_first, make_second;
     std::vector<Row> inputs;
-    double tolerance = 0.0;   ///< largest difference between outputs; 0: none, bit for bit
+    double tolerance = 0.0;   ///< largest allowed difference between outputs; 0 means bit for bit
 };
 
 /// The reference graph, the tree and the chain (docs/bench.md). [message thread]
@@ -31,8 +31,8 @@ std::vector<Contest> contests();
 struct Agreement
 {
     bool agree = false;
-    double worst = 0.0;       ///< largest difference
-    std::size_t values = 0;   ///< how many were compared
+    double worst = 0.0;       ///< largest difference found
+    std::size_t values = 0;   ///< number of values that were compared
 };
 
 Agreement compare (const Contest&);

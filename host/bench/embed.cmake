@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Writes a C++ file that returns the text of a graph: cmake -D input=FILE -D output=FILE.cpp -P embed.cmake
+# Writes a C++ file with the text of a graph: cmake -D input=FILE -D output=FILE.cpp -P embed.cmake
 file (READ ${input} bytes HEX)
 string (REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
 file (WRITE ${output}

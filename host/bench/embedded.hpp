@@ -6,7 +6,7 @@
 namespace tactus::bench
 {
 
-/// The text of graphs/padded_bench.json; made by the build.
+/// The text of graphs/padded_bench.json, which the build embeds.
 std::string_view referenceText() noexcept;
 
 }   // namespace tactus::bench

@@ -10,7 +10,7 @@ class FaustChain;
 namespace tactus::bench
 {
 
-/// The chain of a hundred one-poles in C++ that Faust has made of chain.dsp.
+/// The chain of a hundred one-poles, in C++ that Faust generated from chain.dsp.
 class FaustVariant : public Variant
 {
 public:

@@ -10,7 +10,7 @@
 
 extern "C"
 {
-    // Callgrind counts within `tactus_bench_counted` and dumps what it has after each `tactus_bench_dump`. Found by name.
+    // Callgrind finds these by name: it counts within `tactus_bench_counted` and dumps its counts after each `tactus_bench_dump`.
     [[gnu::noinline]] void tactus_bench_counted (tactus::bench::Variant& variant, const std::vector<tactus::bench::Contest::Row>& inputs) noexcept
     {
         for (const auto& row : inputs)
@@ -33,7 +33,7 @@ struct Folder
     juce::File path = juce::File::createTempFile ("");
 };
 
-/// The total of a dump of callgrind.
+/// The total of one callgrind dump.
 std::optional<double> totalOf (const juce::File& dump)
 {
     std::ifstream file (dump.getFullPathName().toStdString());
@@ -64,16 +64,18 @@ std::variant<std::map<std::string, Counted>, std::string> countInstructions()
     const Folder folder;
     const auto out = folder.path.getChildFile ("out");
     juce::ChildProcess valgrind;
-    const bool started = valgrind.start ({ "valgrind", "--tool=callgrind", "--toggle-collect=tactus_bench_counted", "--dump-after=tactus_bench_dump", "--callgrind-out-file=" + out.getFullPathName(),
-                                           juce::File::getSpecialLocation (juce::File::currentExecutableFile).getFullPathName(), "bench", counted_option });
-    const auto said = started ? valgrind.readAllProcessOutput() : juce::String();
+    const bool started = valgrind.start ({ "valgrind", "--tool=callgrind", "--toggle-collect=tactus_bench_counted", "--dump-after=tactus_bench_dump",
+                                           "--callgrind-out-file=" + out.getFullPathName(),
+                                           juce::File::getSpecialLocation (juce::File::currentExecutableFile).getFullPathName(), counted_option });
+    const auto printed = started ? valgrind.readAllProcessOutput() : juce::String();
 
     std::map<std::string, Counted> all;
     int dump = 0;
     for (const auto& contest : contests())
     {
-        const auto first = totalOf (folder.path.getChildFile ("out." + juce::String (++dump))), second = totalOf (folder.path.getChildFile ("out." + juce::String (++dump)));
-        if (! first || ! second) return said.isEmpty() ? "valgrind could not be run; is it installed?" : said.toStdString();
+        const auto first = totalOf (folder.path.getChildFile ("out." + juce::String (++dump)));
+        const auto second = totalOf (folder.path.getChildFile ("out." + juce::String (++dump)));
+        if (! first || ! second) return printed.isEmpty() ? "valgrind could not be run; is it installed?" : printed.toStdString();
         const auto ticks = static_cast<double> (contest.inputs.size());
         all[contest.key] = { *first / ticks, *second / ticks };
     }

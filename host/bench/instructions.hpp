@@ -8,20 +8,20 @@
 namespace tactus::bench
 {
 
-/// Instructions of a tick, of the first and the second of a contest.
+/// Instructions per tick, for the first and the second variant of a contest.
 struct Counted
 {
     double first = 0.0, second = 0.0;
 };
 
-/// Runs this program once more under valgrind and counts: no clock, so the same each time. Keys as of the contests; or a
-/// sentence that says what went wrong. [message thread]
+/// Runs this program again under valgrind and counts. No clock is involved, so the numbers are the same each time. Returns the
+/// counts by contest key, or a sentence that says what went wrong. [message thread]
 std::variant<std::map<std::string, Counted>, std::string> countInstructions();
 
-/// What is counted, in the program that valgrind runs. [message thread]
+/// The part that valgrind counts, in the program that it runs. [message thread]
 void runToBeCounted();
 
-/// The option under which the command line calls runToBeCounted.
+/// The option that makes the program call runToBeCounted.
 inline constexpr const char* counted_option = "--counted";
 
 }   // namespace tactus::bench

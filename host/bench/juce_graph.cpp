@@ -10,7 +10,7 @@ namespace tactus::bench
 namespace
 {
 using Apg = juce::AudioProcessorGraph;
-constexpr auto later = Apg::UpdateKind::async;   // until prepare
+constexpr auto later = Apg::UpdateKind::async;   // updates wait until prepare()
 
 class GainProcessor : public PlainProcessor
 {
@@ -27,7 +27,7 @@ private:
     double gain;
 };
 
-/// The channels that one end of a wire stands for: the first, and how many.
+/// The channels of one end of a wire.
 struct Channels
 {
     int first = 0, count = 0;

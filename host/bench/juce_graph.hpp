@@ -13,17 +13,17 @@
 namespace tactus::bench
 {
 
-/// A graph as JUCE's AudioProcessorGraph runs it: blocks of one sample, double precision, a processor for each node and
-/// one more for each wire with a gain, which its connections do not have. On the message thread only.
+/// A graph run by JUCE's AudioProcessorGraph: blocks of one sample, double precision, one processor for each node, and one more
+/// for each wire with a gain, because JUCE's connections have no gain. [message thread]
 class JuceGraph
 {
 public:
-    /// By the names of the nodes; a channel for each component of a port, in the order of the datasheet.
+    /// The processors by node name. Each has one channel for each component of a port, in the order of the datasheet.
     using Processors = std::map<std::string, std::unique_ptr<juce::AudioProcessor>>;
 
     JuceGraph (const graph::Graph&, Processors);
 
-    /// What comes in goes to the first channel of this node.
+    /// Sends the input to the first channel of this node.
     void feed (const std::string& node);
 
     void prepare();
@@ -34,7 +34,7 @@ public:
         processors.processBlock (block, midi);
     }
 
-    /// One edit, after which JUCE works out anew what it runs: takes the last wire out, or puts it back.
+    /// Makes one edit: removes the last wire, or restores it. JUCE then rebuilds what it runs.
     void edit();
 
 private:

@@ -1,11 +1,61 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "juce_variants.hpp"
+#include "juce_graph.hpp"
 #include "kernel_processor.hpp"
+#include "kernels.hpp"
 #include "one_poles.hpp"
 #include "reference.hpp"
 
+#include <nodes/filter/one_pole.hpp>
+
 namespace tactus::bench
 {
+
+namespace
+{
+class JuceReference final : public Variant
+{
+public:
+    JuceReference();
+
+    void tick (const double* in) noexcept override
+    {
+        device.reading.position = { in[0], in[1], in[2] };
+        graph->tick (0.0);
+    }
+
+    std::vector<double> outputs() const override
+    {
+        const Vec3 f = motor->effort().force;
+        return { f.x(), f.y(), f.z() };
+    }
+
+private:
+    DeviceState device;
+    const nodes::DeviceForce* motor = nullptr;
+    std::unique_ptr<JuceGraph> graph;
+};
+
+class JuceOnePoles final : public Variant
+{
+public:
+    explicit JuceOnePoles (const graph::Graph&);
+
+    void tick (const double* in) noexcept override { graph->tick (*in); }
+    void edit() { graph->edit(); }
+
+    std::vector<double> outputs() const override
+    {
+        std::vector<double> values;
+        for (const auto* end : ends)
+            values.push_back (end->last().out);
+        return values;
+    }
+
+private:
+    std::vector<const KernelProcessor<nodes::OnePole>*> ends;
+    std::unique_ptr<JuceGraph> graph;
+};
 
 JuceReference::JuceReference()
 {
@@ -24,18 +74,6 @@ JuceReference::JuceReference()
     add ("all", k.all), add ("calm", k.calm), add ("limit", k.limit), add ("motor", k.motor);
     graph = std::make_unique<JuceGraph> (reference(), std::move (made));
     graph->prepare();
-}
-
-void JuceReference::tick (const double* in) noexcept
-{
-    device.reading.position = { in[0], in[1], in[2] };
-    graph->tick (0.0);
-}
-
-std::vector<double> JuceReference::outputs() const
-{
-    const Vec3 f = motor->effort().force;
-    return { f.x(), f.y(), f.z() };
 }
 
 JuceOnePoles::JuceOnePoles (const graph::Graph& g)
@@ -60,13 +98,15 @@ JuceOnePoles::JuceOnePoles (const graph::Graph& g)
     graph->feed ("p0");
     graph->prepare();
 }
+}   // namespace
 
-std::vector<double> JuceOnePoles::outputs() const
+std::unique_ptr<Variant> juceReference() { return std::make_unique<JuceReference>(); }
+std::unique_ptr<Variant> juceOnePoles (const graph::Graph& g) { return std::make_unique<JuceOnePoles> (g); }
+
+std::function<void()> juceEdits (const graph::Graph& g)
 {
-    std::vector<double> values;
-    for (const auto* end : ends)
-        values.push_back (end->last().out);
-    return values;
+    return [edited = std::make_shared<JuceOnePoles> (g)]
+    { edited->edit(); };
 }
 
 }   // namespace tactus::bench

@@ -1,46 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "juce_graph.hpp"
-#include "kernels.hpp"
 #include "variant.hpp"
 
-#include <nodes/filter/one_pole.hpp>
+#include <framework/graph/graph.hpp>
+
+#include <functional>
+#include <memory>
 
 namespace tactus::bench
 {
 
-template <Node N>
-class KernelProcessor;
+// JUCE runs and edits graphs on the message thread only. [message thread]
 
 /// The reference graph in JUCE.
-class JuceReference : public Variant
-{
-public:
-    JuceReference();
-
-    void tick (const double* in) noexcept override;
-    std::vector<double> outputs() const override;
-
-private:
-    DeviceState device;
-    const nodes::DeviceForce* motor = nullptr;
-    std::unique_ptr<JuceGraph> graph;
-};
+std::unique_ptr<Variant> juceReference();
 
 /// A graph of one-poles (one_poles.hpp) in JUCE.
-class JuceOnePoles : public Variant
-{
-public:
-    explicit JuceOnePoles (const graph::Graph&);
+std::unique_ptr<Variant> juceOnePoles (const graph::Graph&);
 
-    void tick (const double* in) noexcept override { graph->tick (*in); }
-    std::vector<double> outputs() const override;
-    void edit() { graph->edit(); }
-
-private:
-    std::vector<const KernelProcessor<nodes::OnePole>*> ends;
-    std::unique_ptr<JuceGraph> graph;
-};
+/// The same, to be edited: each call makes one edit, after which JUCE rebuilds what it runs.
+std::function<void()> juceEdits (const graph::Graph&);
 
 }   // namespace tactus::bench

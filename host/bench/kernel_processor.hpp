@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/catalogue.hpp>
+#include <framework/node/catalogue.hpp>
 
 #include <juce_audio_processors/juce_audio_processors.h>
 
@@ -10,7 +10,7 @@
 namespace tactus::bench
 {
 
-/// What an AudioProcessor must say that has nothing to say: no MIDI, no programs, no editor, no state.
+/// The boilerplate of an AudioProcessor: no MIDI, no programs, no editor, no state.
 class PlainProcessor : public juce::AudioProcessor
 {
 public:
@@ -44,7 +44,7 @@ private:
     }
 };
 
-/// A node as an AudioProcessor: a channel for each component of its ports, in the order of its datasheet.
+/// A node as an AudioProcessor, with one channel for each component of its ports, in the order of its datasheet.
 template <Node N>
 class KernelProcessor : public PlainProcessor
 {

@@ -12,7 +12,7 @@ namespace
 constexpr Setup setup { .rate_hz = 4000.0 };
 constexpr double degree = std::numbers::pi / 180.0;
 
-/// A cushion of 8 by 8 nodes, 10 mm apart, firmer towards its seams.
+/// A cushion of 8 by 8 points, 10 mm apart, firmer towards its seams.
 std::shared_ptr<const Surface> cushion()
 {
     constexpr int side = 8;
@@ -33,7 +33,8 @@ std::shared_ptr<const Surface> cushion()
             mesh.triangles.push_back ({ a, b, d });
             mesh.triangles.push_back ({ a, d, c });
         }
-    return std::make_shared<Surface> (Surface { .mesh = std::make_shared<Mesh> (std::move (mesh)), .frames = {}, .curves = { curves }, .mu = { { .number = 2.0 } } });
+    auto shared = std::make_shared<Mesh> (std::move (mesh));
+    return std::make_shared<Surface> (Surface { .mesh = std::move (shared), .frames = {}, .curves = { curves }, .mu = { { .number = 2.0 } } });
 }
 
 std::vector<nodes::TextureNoise::Model> weave()
@@ -70,7 +71,16 @@ Kernels::Kernels (const DeviceState& device)
     thud.params.mass = 0.02;
     thud.settings.stiffness = { .kind = Law::Kind::power, .a = 1e5, .b = 1.5 };
     thud.settings.damping.a = 0.5;
-    wood.settings.modes = { { 220.0, 40.0, 6.0 }, { 350.0, 48.0, 4.5 }, { 520.0, 60.0, 3.5 }, { 610.0, 70.0, 2.5 }, { 840.0, 85.0, 2.0 }, { 1020.0, 100.0, 1.5 }, { 1310.0, 120.0, 1.0 }, { 1660.0, 150.0, 0.75 } };
+    wood.settings.modes = {
+        { 220.0, 40.0, 6.0 },
+        { 350.0, 48.0, 4.5 },
+        { 520.0, 60.0, 3.5 },
+        { 610.0, 70.0, 2.5 },
+        { 840.0, 85.0, 2.0 },
+        { 1020.0, 100.0, 1.5 },
+        { 1310.0, 120.0, 1.0 },
+        { 1660.0, 150.0, 0.75 },
+    };
     bump.settings.inputs = 3;
     all.settings.inputs = 4;
     calm.params.mass = 0.05;

@@ -21,8 +21,8 @@
 namespace tactus::bench
 {
 
-/// The twenty nodes of graphs/padded_bench.json under their names there, set in code as the file sets them: for those
-/// who do without the framework.
+/// The twenty nodes of graphs/padded_bench.json, under the same names and with the same settings as in the file, for the variants
+/// that do not use the framework.
 struct Kernels
 {
     explicit Kernels (const DeviceState&);

@@ -28,11 +28,9 @@ Memory memoryPerNode()
     const double before = inUse();
     const auto plan = compile (g, catalogue()).plan;
     const double whole = inUse();
-    for (const auto& instance : plan->instances)
-        nodes.push_back (instance.node);   // they stay
-    plan->flat = plan::Flat();
-    plan->instances = std::vector<plan::Instance>();   // {} would keep its room
-    plan->ramps = plan::Ramps();
+    for (const auto& instance : plan->instances())
+        nodes.push_back (instance.node);   // keeps the nodes alive
+    plan->forgetGraph();
     const double ticked = inUse();
     return { .to_tick = (ticked - before) / n - sizeof (nodes::OnePole), .to_edit = (whole - ticked) / n };
 }

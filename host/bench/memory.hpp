@@ -4,15 +4,14 @@
 namespace tactus::bench
 {
 
-/// What a plan takes of the heap for each of its nodes beyond the node's own struct, in bytes, the allocator's part
-/// included.
+/// The heap memory, in bytes, that a plan uses for each node in addition to the node's own struct. Includes the allocator's overhead.
 struct Memory
 {
-    double to_tick = 0.0;   ///< outputs, records, pointers: what the tick reads and writes
-    double to_edit = 0.0;   ///< the graph as it was compiled, and knobs: for turning them, and for the plan after this one
+    double to_tick = 0.0;   ///< memory that a tick reads and writes: outputs, records, pointers
+    double to_edit = 0.0;   ///< memory for turning knobs and for compiling the next plan: the compiled graph, and the knobs
 };
 
-/// Of a chain of ten thousand one-poles.
+/// Measured on a chain of ten thousand one-poles.
 Memory memoryPerNode();
 
 }   // namespace tactus::bench

@@ -2,7 +2,7 @@
 #include "one_poles.hpp"
 
 #include <framework/graph/text.hpp>
-#include <framework/random.hpp>
+#include <framework/kit/random.hpp>
 
 #include <algorithm>
 
@@ -23,7 +23,7 @@ graph::Graph onePoles (int n, int (*feederOf) (int pole))
         node.type = "filter.one_pole";
         node.params["cutoff"] = cutoffOf (i);
         g.root.nodes.push_back (std::move (node));
-        if (i > 0) g.root.wires.push_back (std::get<graph::Wire> (graph::parseWire (nameOf (feederOf (i)) + ".out -> " + nameOf (i) + ".in")));
+        if (i > 0) g.root.wires.push_back (*graph::parseWire (nameOf (feederOf (i)) + ".out -> " + nameOf (i) + ".in"));
     }
     return g;
 }

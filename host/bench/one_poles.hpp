@@ -7,16 +7,16 @@
 namespace tactus::bench
 {
 
-/// Graphs of n nodes filter.one_pole, called p0, p1, …, with cutoffs of 200, 210, … Hz that start again after a hundred.
-graph::Graph chainOfOnePoles (int n);   ///< each fed by the one before
-graph::Graph treeOfOnePoles (int n);    ///< each feeds two, p0 all
+/// Graphs of n filter.one_pole nodes called p0, p1, …, with cutoffs of 200, 210, … Hz that repeat after a hundred nodes.
+graph::Graph chainOfOnePoles (int n);   ///< each one feeds the next
+graph::Graph treeOfOnePoles (int n);    ///< each one feeds two others; p0 is the root
 
-/// The same graph with its nodes in no order, as one that was edited for long; the same each time.
+/// The same graph with its nodes in a random order, as after many edits. The order is the same every time.
 graph::Graph shuffled (graph::Graph);
 
 double cutoffOf (int pole);
 
-/// What feeds a graph of one-poles, and which of them are its outputs: those that feed no other.
+/// Feeds p0 of a graph of one-poles, and records the nodes that do not feed another node.
 CompileOptions endsOf (const graph::Graph&);
 
 }   // namespace tactus::bench

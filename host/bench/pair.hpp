@@ -11,20 +11,21 @@
 namespace tactus::bench
 {
 
-/// Two that are timed against each other: in each round both work right after one another, and who begins alternates. So what else the machine does meets both alike, and their ratio holds where their times do not.
+/// Two functions timed against each other. In each round one runs right after the other, and they take turns going first. Other
+/// load on the machine then affects both equally, so their ratio is reliable even if their times are not.
 struct Pair
 {
     std::string name;   ///< "plan/hand": the first over the second
     std::function<void (int round)> first, second;
-    double first_work = 1.0, second_work = 1.0;   ///< in a round: what its time is divided by
+    double first_work = 1.0, second_work = 1.0;   ///< work done in one round; the time is divided by it
     int rounds = 1;
 
-    std::vector<double> first_s {}, second_s {};   ///< of each round, once measured
+    std::vector<double> first_s {}, second_s {};   ///< time of each round in s, filled by measure()
 
     Ratio ratio() const;
 };
 
-/// Through Google Benchmark, which prints what it times unless it is told to be quiet.
+/// Runs the pairs through Google Benchmark, which prints the times unless `quiet` is set.
 void measure (std::vector<std::unique_ptr<Pair>>&, bool quiet);
 
 }   // namespace tactus::bench

@@ -9,7 +9,7 @@
 namespace tactus::bench
 {
 
-/// A graph as Tactus runs it. What comes in is the position of the tool if the graph has a device, else a feed.
+/// A graph run by Tactus. The input is the tool position if the graph has a device, otherwise a feed.
 class Planned : public Variant
 {
 public:
@@ -17,7 +17,7 @@ public:
     explicit Planned (const graph::Graph&, const CompileOptions& = {});
 
     void tick (const double* in) noexcept override;
-    std::vector<double> outputs() const override;   ///< the force on the device; without one, what was recorded
+    std::vector<double> outputs() const override;   ///< the force on the device, or the recorded ports if there is no device
 
 private:
     std::shared_ptr<Plan> plan;

@@ -7,14 +7,14 @@
 namespace tactus::bench
 {
 
-/// How many times as much one takes as another, over many rounds.
+/// How many times as long the first takes as the second, over many rounds.
 struct Ratio
 {
-    double median = 0.0, low = 0.0, high = 0.0;   ///< low to high: where the true median is, with 95 % certainty
+    double median = 0.0, low = 0.0, high = 0.0;   ///< low to high: the 95 % confidence interval of the median
 };
 
-/// By order statistics, so nothing is asked of the distribution. With fewer than six rounds the smallest and the largest,
-/// which is less than 95 %.
+/// Uses order statistics, so it assumes nothing about the distribution. With fewer than six rounds, low and high are the smallest
+/// and the largest ratio, which covers less than 95 %.
 Ratio ratioOf (std::vector<double> rounds);
 
 double medianOf (std::vector<double> values);

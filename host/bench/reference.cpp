@@ -2,10 +2,10 @@
 #include "reference.hpp"
 #include "embedded.hpp"
 
-#include <framework/engine.hpp>
 #include <framework/file/graph_file.hpp>
 #include <framework/plan/compile.hpp>
-#include <host/devices/make_device.hpp>
+#include <framework/run/device/make_device.hpp>
+#include <framework/run/engine.hpp>
 
 #include <string_view>
 
@@ -22,14 +22,14 @@ std::vector<Vec3> strokeOver (const graph::Graph& g)
 {
     Engine engine { compile (g, catalogue()).plan };
     const auto& [role, description] = g.devices.front();
-    const auto hand = host::makeDevice (description, {});
+    const auto hand = makeDevice (description, {});
     engine.attach (role, *hand.device, hand.limits);
 
     std::vector<Vec3> positions (static_cast<std::size_t> (hand.device->duration() * g.rate_hz));
     for (auto& p : positions)
     {
         engine.tick();
-        p = engine.plan().roles.front().state->reading.position;
+        p = engine.plan().roles().front().state->reading.position;
     }
     return positions;
 }

@@ -2,17 +2,17 @@
 #pragma once
 
 #include <framework/graph/graph.hpp>
-#include <framework/list.hpp>
+#include <framework/kit/vec3.hpp>
 
 #include <vector>
 
 namespace tactus::bench
 {
 
-/// The preset graphs/padded_bench.json, as it was when this program was built.
+/// The preset graphs/padded_bench.json, as it was at build time.
 const graph::Graph& reference();
 
-/// Where the tool is on each tick while the preset's simulated hand strokes: the same way for all who are compared.
+/// The tool position on each tick while the preset's simulated hand strokes. All variants get the same path.
 std::vector<Vec3> strokeOver (const graph::Graph&);
 
 }   // namespace tactus::bench

@@ -6,7 +6,7 @@
 namespace tactus::bench
 {
 
-/// One of several ways to work out the same thing.
+/// One of several ways to compute the same thing.
 class Variant
 {
 public:
@@ -14,7 +14,7 @@ public:
 
     virtual void tick (const double* in) noexcept = 0;
 
-    /// What the last tick gave.
+    /// The outputs of the last tick.
     virtual std::vector<double> outputs() const = 0;
 };
 

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <host/command_line/command.hpp>
 
 namespace tactus::host
 {
 
-/// Each adds its subcommand, with its options and examples, to the program.
-void addNodes (CLI::App&);
-void addValidate (CLI::App&);
-void addRender (CLI::App&);
-void addPlay (CLI::App&);
-void addSet (CLI::App&);
-void addHit (CLI::App&);
-void addProbe (CLI::App&);
-void addDevices (CLI::App&);
-void addSession (CLI::App&);
-void addBench (CLI::App&);
+/// Each of these adds a command, with options and examples, to the program.
+void addNodes (const Command&);
+void addValidate (const Command&);
+void addRender (const Command&);
+void addPlay (const Command&);
+void addSet (const Command&);
+void addHit (const Command&);
+void addProbe (const Command&);
+void addDevices (const Command&);
+void addSession (const Command&);
+void addBench (const Command&);
 
 }   // namespace tactus::host

@@ -2,13 +2,13 @@
 #include "commands.hpp"
 #include "report.hpp"
 
-#include <framework/json.hpp>
-#include <framework/number_text.hpp>
+#include <framework/text/json.hpp>
+#include <framework/text/number_text.hpp>
 #include <host/audio/card.hpp>
-#include <host/hid_link/describe_counts.hpp>
 #include <host/hid_link/force_feedback.hpp>
+#include <host/hid_link/hid_device.hpp>
 #include <host/hid_link/open_device.hpp>
-#include <host/hid_link/profile_shelf.hpp>
+#include <host/hid_link/profile_library.hpp>
 #include <host/hid_link/udev_rule.hpp>
 #include <host/platform/signals.hpp>
 #include <host/platform/terminal.hpp>
@@ -40,9 +40,9 @@ struct Options
 struct Listed
 {
     ConnectedDevice device;
-    std::vector<std::shared_ptr<const Profile>> profiles;   // the one that says most first
+    std::vector<std::shared_ptr<const Profile>> profiles;   // best match first
     bool may_open = true;
-    Messages unable;   // why a device that has force feedback cannot be driven
+    Messages unable;   // why a device with force feedback cannot be driven
 };
 
 std::string hex4 (unsigned n)
@@ -52,18 +52,28 @@ std::string hex4 (unsigned n)
     return text;
 }
 
-std::string_view nameOf (Bus bus) { return bus == Bus::usb ? "usb" : bus == Bus::bluetooth ? "bluetooth"
-                                                                                           : "unknown"; }
+std::string_view nameOf (Bus bus)
+{
+    switch (bus)
+    {
+    case Bus::usb:
+        return "usb";
+    case Bus::bluetooth:
+        return "bluetooth";
+    default:
+        return "unknown";
+    }
+}
 
-/// How much of a profile was seen to be right on a real device.
+/// How much of a profile has been verified on a real device.
 std::string_view verifiedOf (const Profile& p)
 {
     const auto seen = [] (const auto& report)
     { return report.verified; };
     const auto all = std::ranges::all_of (p.inputs, seen) && std::ranges::all_of (p.outputs, seen);
     const auto any = std::ranges::any_of (p.inputs, seen) || std::ranges::any_of (p.outputs, seen);
-    return all ? "verified" : any ? "verified in part"
-                                  : "not verified";
+    if (all) return "verified";
+    return any ? "partly verified" : "not verified";
 }
 
 std::vector<Listed> listAll (const LoadedProfiles& profiles)
@@ -90,7 +100,18 @@ Json jsonOf (const Listed& l)
     Json profiles = Json::array();
     for (const auto& p : l.profiles)
         profiles.push_back ({ { "id", p->id }, { "name", p->name }, { "verified", verifiedOf (*p) } });
-    Json json { { "path", d.path }, { "vid", hex4 (d.vid) }, { "pid", hex4 (d.pid) }, { "usage_page", hex4 (d.usage_page) }, { "usage", hex4 (d.usage) }, { "interface", d.interface_number }, { "bus", nameOf (d.bus) }, { "product", d.product }, { "manufacturer", d.manufacturer }, { "serial", d.serial }, { "profiles", std::move (profiles) }, { "may_open", l.may_open } };
+    Json json { { "path", d.path },
+                { "vid", hex4 (d.vid) },
+                { "pid", hex4 (d.pid) },
+                { "usage_page", hex4 (d.usage_page) },
+                { "usage", hex4 (d.usage) },
+                { "interface", d.interface_number },
+                { "bus", nameOf (d.bus) },
+                { "product", d.product },
+                { "manufacturer", d.manufacturer },
+                { "serial", d.serial },
+                { "profiles", std::move (profiles) },
+                { "may_open", l.may_open } };
     if (! l.may_open) json["udev_rule"] = udevRule (d);
     return json;
 }
@@ -98,7 +119,7 @@ Json jsonOf (const Listed& l)
 std::string textOf (const Listed& l)
 {
     const auto& d = l.device;
-    std::string text = d.path + "   " + hex4 (d.vid) + ":" + hex4 (d.pid) + "   " + (d.product.empty() ? "without a name" : d.product);
+    std::string text = d.path + "   " + hex4 (d.vid) + ":" + hex4 (d.pid) + "   " + (d.product.empty() ? "unnamed" : d.product);
     if (! d.serial.empty()) text += ", serial " + d.serial;
     if (d.bus != Bus::unknown) text += ", " + std::string (nameOf (d.bus));
     text += "\n    ";
@@ -132,23 +153,31 @@ std::string textOf (const audio::ListedCard& c)
 {
     auto text = "sound card " + c.type + ":" + c.name + "\n    ";
     if (! c.trouble.empty()) return text + c.trouble + "\n";
-    text += std::to_string (c.outputs.size()) + " outputs, " + std::to_string (c.inputs.size()) + " inputs; " + inARow (c.rates) + " Hz; blocks of " + inARow (c.blocks) + "\n    ";
+    text += std::to_string (c.outputs.size()) + " outputs, " + std::to_string (c.inputs.size()) + " inputs; ";
+    text += inARow (c.rates) + " Hz; blocks of " + inARow (c.blocks) + "\n    ";
     return text + "--audio \"" + c.type + ":" + c.name + "\" --route PORT=CHANNEL, or --device ROLE=audio\n";
 }
 
 Json jsonOf (const audio::ListedCard& c)
 {
-    return { { "driver", "audio" }, { "type", c.type }, { "name", c.name }, { "outputs", c.outputs }, { "inputs", c.inputs }, { "rates_hz", c.rates }, { "blocks", c.blocks }, { "trouble", c.trouble } };
+    return { { "driver", "audio" },
+             { "type", c.type },
+             { "name", c.name },
+             { "outputs", c.outputs },
+             { "inputs", c.inputs },
+             { "rates_hz", c.rates },
+             { "blocks", c.blocks },
+             { "trouble", c.trouble } };
 }
 
 //==============================================================================
-/// A device that is looked at.
+/// A device being probed.
 class Probed
 {
 public:
     explicit Probed (std::unique_ptr<HidPort> port) : device (std::move (port)) { device.prepare (1e-3 * static_cast<double> (period.count())); }
 
-    static constexpr auto period = 5ms;   // of look(): far less than what the port keeps
+    static constexpr auto period = 5ms;   // period of look(); far shorter than the port's buffer lasts
 
     void look() { latest = device.read(); }
 
@@ -158,10 +187,17 @@ public:
         const auto& m = device.model();
         const auto counts = port.counts();
         std::ostringstream out;
-        out << port.device().path << " (" << port.profile()->id << "): " << (port.isConnected() ? latest.valid || counts.reports > 0 ? "" : "nothing has come; " : "unplugged; ")
-            << counts.reports << " reports, " << numberText (std::round (static_cast<double> (counts.reports) / seconds)) << " per second, " << describe (device.counts(), counts) << '\n';
+        out << port.device().path << " (" << port.profile()->id << "): ";
+        if (! port.isConnected())
+            out << "unplugged; ";
+        else if (! latest.valid && counts.reports == 0)
+            out << "nothing received yet; ";
+        const double rate_hz = static_cast<double> (counts.reports) / seconds;
+        out << counts.reports << " reports, " << numberText (std::round (rate_hz)) << " per second, " << describe (device.counts(), counts) << '\n';
         if (m.hasPosition()) out << "    position " << vector (latest.position, 1e3) << " mm\n";
-        if (! port.profile()->rotation[0].empty() || ! port.profile()->rotation[1].empty() || ! port.profile()->rotation[2].empty()) out << "    rotation " << vector (latest.rotation, 1.0) << " rad\n";
+        const bool rotates = ! std::ranges::all_of (port.profile()->rotation, [] (const auto& terms)
+                                                    { return terms.empty(); });
+        if (rotates) out << "    rotation " << vector (latest.rotation, 1.0) << " rad\n";
         if (! port.profile()->pressure.empty()) out << "    pressure " << rounded (latest.pressure) << " N\n";
         out << "   ";
         for (std::size_t i = 0; i < m.axisNames().size(); ++i)
@@ -174,7 +210,7 @@ public:
                 out << ' ' << name;
             out << '\n';
         }
-        if (const auto trouble = port.trouble(); ! trouble.empty()) out << "    last trouble: " << trouble << '\n';
+        if (const auto trouble = port.trouble(); ! trouble.empty()) out << "    last problem: " << trouble << '\n';
         return out.str();
     }
 
@@ -191,7 +227,20 @@ public:
             if (read.refused[i] > 0) refused[std::string (describe (static_cast<Refusal> (i)))] = read.refused[i];
         const auto list = [] (const Vec3& v)
         { return Json { v.x(), v.y(), v.z() }; };
-        return { { "profile", port.profile()->id }, { "connected", port.isConnected() }, { "valid", latest.valid }, { "reports", counts.reports }, { "taken", read.taken }, { "lost", read.lost }, { "restarts", read.restarts }, { "refused", std::move (refused) }, { "departures", counts.departures }, { "position", list (latest.position) }, { "rotation", list (latest.rotation) }, { "pressure", latest.pressure }, { "axes", std::move (axes) }, { "pressed", pressed() } };
+        return { { "profile", port.profile()->id },
+                 { "connected", port.isConnected() },
+                 { "valid", latest.valid },
+                 { "reports", counts.reports },
+                 { "taken", read.taken },
+                 { "lost", read.lost },
+                 { "restarts", read.restarts },
+                 { "refused", std::move (refused) },
+                 { "departures", counts.departures },
+                 { "position", list (latest.position) },
+                 { "rotation", list (latest.rotation) },
+                 { "pressure", latest.pressure },
+                 { "axes", std::move (axes) },
+                 { "pressed", pressed() } };
     }
 
     const std::string& path() const { return device.port().device().path; }
@@ -224,7 +273,7 @@ private:
     Reading latest;
 };
 
-/// Opens what a profile fits and may be opened; says of the others why not.
+/// Opens every device that has a profile and may be opened. Prints why the other devices are left out.
 std::vector<std::unique_ptr<Probed>> openAll (const std::vector<Listed>& all)
 {
     std::vector<std::unique_ptr<Probed>> probed;
@@ -232,10 +281,10 @@ std::vector<std::unique_ptr<Probed>> openAll (const std::vector<Listed>& all)
     {
         if (l.profiles.empty()) continue;
         auto opened = HidPort::open (thisComputer(), l.device, l.profiles.front());
-        if (const auto* m = std::get_if<Message> (&opened))
-            std::cerr << m->where << ": error: " << m->text << "\n    " << m->remedy << " [" << m->id << "]\n";
+        if (opened)
+            probed.push_back (std::make_unique<Probed> (std::move (*opened)));
         else
-            probed.push_back (std::make_unique<Probed> (std::move (std::get<0> (opened))));
+            std::cerr << opened.error().where << ": error: " << opened.error().text << "\n    " << opened.error().remedy << " [" << opened.error().id << "]\n";
     }
     return probed;
 }
@@ -248,7 +297,7 @@ void probe (const std::vector<Listed>& all, const Options& options, Json& json)
     {
         const bool any_fits = std::ranges::any_of (all, [] (const Listed& l)
                                                    { return ! l.profiles.empty(); });
-        if (any_fits) throw Stop {};   // and why has been said
+        if (any_fits) throw Stop {};   // the reason has already been printed
         return;
     }
 
@@ -292,7 +341,7 @@ void probe (const std::vector<Listed>& all, const Options& options, Json& json)
 
 void run (const Options& options)
 {
-    const auto profiles = profilesAtHand();
+    const auto profiles = loadProfileLibrary();
     for (const auto& m : profiles.messages)
         std::cerr << m.file << m.where << ": warning: " << m.text << "\n    " << m.remedy << " [" << m.id << "]\n";
 
@@ -316,27 +365,29 @@ void run (const Options& options)
     {
         if (! options.json && std::ranges::all_of (all, [] (const Listed& l)
                                                    { return l.profiles.empty(); }))
-            std::cout << "None of the HID devices that are connected has a profile; `tactus devices` lists them.\n";
+            std::cout << "None of the connected HID devices has a profile; `tactus devices` lists them.\n";
         probe (all, options, json);
     }
     if (options.json) std::cout << json.dump (2) << '\n';
 }
 }   // namespace
 
-void addDevices (CLI::App& app)
+void addDevices (const Command& app)
 {
     const auto options = std::make_shared<Options>();
-    auto* command = app.add_subcommand ("devices", "What is connected, which profile fits it, and what it says");
-    auto* probe = command->add_flag ("--probe", options->probe, "Open all that have a profile and show what they say, until Ctrl-C; they are woken up as their profiles have it, and not driven");
-    command->add_option ("--duration", options->duration_s, "How long to look, in s")->check (CLI::Range (1e-3, 1e9))->needs (probe);
-    command->add_flag ("--json", options->json, "As JSON; with --probe, what they said last");
-    command->footer ("Profiles come with Tactus; your own may lie in the folder TACTUS_PROFILES, or in ~/.config/tactus/profiles.\n\n"
-                     "Examples:\n"
-                     "  tactus devices\n"
-                     "  tactus devices --probe\n"
-                     "  tactus devices --probe --duration 2 --json");
-    command->callback ([options]
-                       { run (*options); });
+    const auto command = app.add ("devices", "List connected devices, their profiles and their readings");
+    const auto probe = command.addFlag ("--probe", options->probe,
+                                        "Open all devices that have a profile and show their readings until Ctrl-C; "
+                                        "they are initialised as their profiles specify, but not driven");
+    command.addOption ("--duration", options->duration_s, "How long to probe, in s").check (within (1e-3, 1e9)).needs (probe);
+    command.addFlag ("--json", options->json, "Print JSON; with --probe, the last readings of the devices");
+    command.footer ("Profiles come with Tactus; your own go into the folder TACTUS_PROFILES, or ~/.config/tactus/profiles.\n\n"
+                    "Examples:\n"
+                    "  tactus devices\n"
+                    "  tactus devices --probe\n"
+                    "  tactus devices --probe --duration 2 --json");
+    command.callback ([options]
+                      { run (*options); });
 }
 
 }   // namespace tactus::host

@@ -3,34 +3,65 @@
 
 #include <host/platform/signals.hpp>
 
-#include <atomic>
+#include <chrono>
+#include <limits>
 
 namespace tactus::host
 {
 
 namespace
 {
-std::atomic<Engine*> under_signals { nullptr };   // which know of no other
-}
+std::atomic<Emergency*> under_signals { nullptr };   // the only one that the signal handlers know
+std::atomic<bool> asked_by_signal { false };         // SIGUSR2
 
-Emergency::Emergency (Engine& e) : engine (e)
+double now() noexcept { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
+}   // namespace
+
+Emergency::Emergency (Engine& e) : engine (e), pressed_at (-std::numeric_limits<double>::infinity())
 {
-    under_signals = &e;
+    static_assert (std::atomic<double>::is_always_lock_free, "a signal handler writes it");
+    under_signals = this;
+    asked_by_signal = false;
     watchForEmergency ([]() noexcept
-                       { under_signals.load()->emergencyStop(); },
+                       { under_signals.load()->press(); },
                        []() noexcept
-                       { under_signals.load()->rearm(); });
+                       { asked_by_signal = true; });
+    if (hasKeys())
+        reading = std::jthread ([this] (const std::stop_token& stop)
+                                { readKeys (stop); });
 }
 
 Emergency::~Emergency() { watchForEmergency (nullptr, nullptr); }
 
-void Emergency::attend()
+void Emergency::press() noexcept
 {
-    while (const char key = keys.next())
-        if (key == ' ')
-            engine.emergencyStop();
-        else if (key == 'r' || key == 'R')
-            engine.rearm();
+    engine.emergencyStop();
+    pressed_at = now();
+}
+
+Result<> Emergency::rearm()
+{
+    if (now() < pressed_at + pause_s)
+        return Message::error ("run/rearm_too_early", {}, "the emergency stop was pressed less than a second ago", "rearm once it is safe");
+    engine.rearm();
+    return {};
+}
+
+void Emergency::readKeys (const std::stop_token& stop)
+{
+    while (! stop.stop_requested())
+        if (const char key = keys.next (std::chrono::milliseconds (20)); key == ' ')
+            press();
+        else if ((key == 'r' || key == 'R') && ! rearm())
+            came_too_early = true;
+}
+
+std::string Emergency::takeNotes()
+{
+    std::string notes;
+    if (came_too_early.exchange (false)) notes += "R does nothing within a second of an emergency stop: press it again once it is safe\n";
+    if (asked_by_signal.exchange (false)) notes += "SIGUSR2 does not rearm: press R in this terminal once it is safe\n";
+    return notes;
 }
 
 }   // namespace tactus::host

@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/engine.hpp>
+#include <framework/run/engine.hpp>
+#include <framework/text/result.hpp>
 #include <host/platform/terminal.hpp>
+
+#include <atomic>
+#include <string>
+#include <thread>
 
 namespace tactus::host
 {
 
-/// The emergency stop of a run, within reach while this lives: the space bar presses it and R ends it, in a terminal; SIGUSR1
-/// and SIGUSR2 do from anywhere. One at a time. [main thread]
+/// The emergency stop of a run, while this object exists: the space bar in a terminal, SIGUSR1 from anywhere, and press(). A
+/// thread of its own reads the keys, so a stop takes effect however long the main thread compiles, prints or waits. R rearms,
+/// but not within a second of the stop: two quick keys must not undo it. Only one may exist at a time. [main thread]
 class Emergency
 {
 public:
-    /// The engine outlives it.
+    static constexpr double pause_s = 1.0;   ///< between a stop and a rearm
+
+    /// The engine must outlive this.
     explicit Emergency (Engine&);
     ~Emergency();
     Emergency (const Emergency&) = delete;
@@ -20,12 +28,23 @@ public:
 
     bool hasKeys() const noexcept { return keys.areThere(); }
 
-    /// Heeds the keys that were pressed. To be called many times a second.
-    void attend();
+    /// Stops at once. [any thread, also in a signal handler]
+    void press() noexcept;
+
+    /// Lets forces rise again. Refuses within `pause_s` of a stop. [any thread]
+    Result<> rearm();
+
+    /// What the user needs to be told since the last call, in lines; "" if nothing. [main thread]
+    std::string takeNotes();
 
 private:
+    void readKeys (const std::stop_token&);
+
     Engine& engine;
     Keys keys;
+    std::atomic<double> pressed_at;   // s, of the steady clock
+    std::atomic<bool> came_too_early { false };
+    std::jthread reading;   // last: it uses the other members
 };
 
 }   // namespace tactus::host

@@ -8,7 +8,7 @@
 namespace tactus::host
 {
 
-/// The shortest text that reads back to the same float, which is what OSC has for numbers.
+/// The shortest text that reads back as the same float, the number type of OSC.
 inline std::string floatText (float v)
 {
     char text[32];

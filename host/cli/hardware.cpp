@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hardware.hpp"
 
-#include <host/hid_link/describe_counts.hpp>
-#include <host/hid_link/profile_shelf.hpp>
+#include <host/hid_link/hid_device.hpp>
+#include <host/hid_link/profile_library.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ std::string milliseconds (double s)
     return text;
 }
 
-/// "    1000.31 reports/s; its clock goes 12.3 +- 0.4 ppm faster than the run's; readings up to 3.00 ms old"
+/// As in "    1000.31 reports/s; its clock runs 12.3 +- 0.4 ppm faster than the run's; readings up to 3.00 ms old".
 std::string clockOf (const DeviceHealth& h)
 {
     char text[160];
@@ -31,7 +31,8 @@ std::string clockOf (const DeviceHealth& h)
     }
     if (h.drift_ppm)
     {
-        std::snprintf (text, sizeof text, "; its clock goes %.1f +- %.1f ppm %s than the run's", std::abs (*h.drift_ppm), h.drift_error_ppm, *h.drift_ppm < 0.0 ? "slower" : "faster");
+        const auto* way = *h.drift_ppm < 0.0 ? "slower" : "faster";
+        std::snprintf (text, sizeof text, "; its clock runs %.1f +- %.1f ppm %s than the run's", std::abs (*h.drift_ppm), h.drift_error_ppm, way);
         line += text;
     }
     if (h.ticks) line += (line.empty() ? "" : ", ") + std::string ("which tick the run");
@@ -41,7 +42,7 @@ std::string clockOf (const DeviceHealth& h)
 
 const hid::LoadedProfiles& Hardware::profiles()
 {
-    if (! loaded) loaded = hid::profilesAtHand();
+    if (! loaded) loaded = hid::loadProfileLibrary();
     return *loaded;
 }
 
@@ -54,7 +55,7 @@ MadeDevice Hardware::open (const Json& description, const std::filesystem::path&
 
 std::optional<double> Hardware::tickRate (const Json& description, bool may_wait)
 {
-    if (! hid::isHid (description)) return std::nullopt;   // so that profiles are read only where they are needed
+    if (! hid::isHid (description)) return std::nullopt;   // so that profiles are read only if needed
     return tickRateOf (description, hid::thisComputer(), profiles(), may_wait);
 }
 
@@ -63,7 +64,9 @@ std::string statusOf (std::span<const DeviceHealth> devices, const RunClock* clo
     std::string text;
     for (const auto& h : devices)
         text += "   " + h.role + " " + describe (h);
-    if (clock != nullptr && clock->isByTimer()) text += "   ticked by the timer, as no reports come" + std::string (clock->isReplaced() ? "; forces are held at zero" : "");
+    if (clock == nullptr || ! clock->isByTimer()) return text;
+    text += "   ticked by the timer because no reports arrive";
+    if (clock->isReplaced()) text += "; forces are held at zero";
     return text;
 }
 
@@ -84,13 +87,22 @@ std::string accountOf (std::span<const RealDevice> devices, std::span<const Devi
         text += real.role + " (" + real.profile().id + "): " + std::to_string (port.reports) + " reports, " + hid::describe (read, port) + "\n";
         if (const auto h = std::ranges::find (health, real.role, &DeviceHealth::role); h != health.end()) text += clockOf (*h);
         if (port.writes > 0)
-            text += "    sent " + std::to_string (port.writes) + ", " + std::to_string (port.write_errors) + " failed, " + std::to_string (port.dropped) + " overwritten before; "
-                    + "from report to answer " + milliseconds (port.latency_min) + " to " + milliseconds (port.latency_max) + " ms, mean " + milliseconds (port.latency_mean) + " ms\n";
-        if (port.silences > 0) text += "    the ticks stood still " + std::to_string (port.silences) + " times for longer than its watchdog, and it was let go\n";
-        if (port.departures > 0) text += "    it was unplugged " + std::to_string (port.departures) + " times" + (device->port().isConnected() ? "" : ", and is still away") + "\n";
-        if (const auto trouble = device->port().trouble(); ! trouble.empty()) text += "    last trouble: " + trouble + "\n";
+        {
+            text += "    sent " + std::to_string (port.writes) + ", " + std::to_string (port.write_errors) + " failed, ";
+            text += std::to_string (port.dropped) + " replaced by newer ones; from report to answer: " + milliseconds (port.latency_min);
+            text += " to " + milliseconds (port.latency_max) + " ms, mean " + milliseconds (port.latency_mean) + " ms\n";
+        }
+        if (port.silences > 0)
+            text += "    the ticks paused " + std::to_string (port.silences) + " times for longer than its watchdog, so its force was released\n";
+        if (port.departures > 0)
+        {
+            text += "    it was unplugged " + std::to_string (port.departures) + " times";
+            text += device->port().isConnected() ? "\n" : ", and is still unplugged\n";
+        }
+        if (const auto trouble = device->port().trouble(); ! trouble.empty()) text += "    last problem: " + trouble + "\n";
     }
-    if (clock != nullptr && clock->ticksByTimer() > 0) text += "    " + std::to_string (clock->ticksByTimer()) + " ticks came from the timer, as no reports came\n";
+    if (clock != nullptr && clock->ticksByTimer() > 0)
+        text += "    " + std::to_string (clock->ticksByTimer()) + " ticks came from the timer because no reports arrived\n";
     return text;
 }
 

@@ -15,17 +15,17 @@
 namespace tactus::host
 {
 
-/// Opens the devices of a run, those that are really there, too.
+/// Opens the devices of a run, including real ones.
 class Hardware
 {
 public:
-    /// Sound cards are opened by the rig, which outlives this.
+    /// Sound cards are opened by the rig, which must outlive this.
     Hardware (bool allow, audio::AudioRig& a) : allowed (allow), rig (a) {}
 
-    /// As hid::openDevice, and audio::openAudio; offline it refuses real devices (device/real).
+    /// Like hid::openDevice and audio::openAudio. Refuses real devices in an offline run (device/real).
     MadeDevice open (const Json& description, const std::filesystem::path& folder);
 
-    /// As host::tickRateOf.
+    /// See host::tickRateOf.
     std::optional<double> tickRate (const Json& description, bool may_wait);
 
     const hid::LoadedProfiles& profiles();
@@ -36,10 +36,10 @@ private:
     std::optional<hid::LoadedProfiles> loaded;
 };
 
-/// For the status line: how the devices are doing, and what ticks if it is not what was chosen.
+/// Text for the status line: the state of the devices, and the clock if it is not the chosen one.
 std::string statusOf (std::span<const DeviceHealth>, const RunClock*);
 
-/// At the end: a line or some for each device, of what went in and out.
+/// Text for the end of a run: a few lines for each device about its traffic.
 std::string accountOf (std::span<const RealDevice>, std::span<const DeviceHealth>, const RunClock*);
 
 }   // namespace tactus::host

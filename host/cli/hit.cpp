@@ -3,7 +3,7 @@
 #include "osc_client.hpp"
 #include "report.hpp"
 
-#include <framework/in_quotes.hpp>
+#include <framework/text/quote.hpp>
 
 #include <charconv>
 #include <utility>
@@ -21,7 +21,7 @@ struct Options
 
 constexpr float usual_speed = 1.0f;   // m/s
 
-/// NODE.PORT[=SPEED]
+/// Parses NODE.PORT[=SPEED].
 std::pair<std::string, float> readHit (const std::string& text)
 {
     const auto equals = text.find ('=');
@@ -34,7 +34,7 @@ std::pair<std::string, float> readHit (const std::string& text)
         const auto [read_to, error] = std::from_chars (text.data() + equals + 1, end, speed);
         right = right && error == std::errc {} && read_to == end;
     }
-    if (! right) throw CLI::ValidationError ("NODE.PORT[=SPEED]", inQuotes (text) + " is not that, as in ring.hit or ring.hit=0.4 (m/s)");
+    if (! right) throw UsageError ("NODE.PORT[=SPEED]", quote (text) + " has the wrong form; write ring.hit or ring.hit=0.4 (m/s)");
     return { name, speed };
 }
 
@@ -53,18 +53,18 @@ void run (const Options& options)
 }
 }   // namespace
 
-void addHit (CLI::App& app)
+void addHit (const Command& app)
 {
     const auto options = std::make_shared<Options>();
-    auto* command = app.add_subcommand ("hit", "Strike what takes hits in a graph that `tactus play` runs");
-    command->add_option ("hits", options->hits, "NODE.PORT, or NODE.PORT=SPEED in m/s; 1 m/s if nothing is said")->required();
-    options->osc.addTo (*command);
-    command->footer ("A hit is there on one tick, and comes to what the wires bring.\n\n"
-                     "Examples:\n"
-                     "  tactus hit ring.hit\n"
-                     "  tactus hit ring.hit=0.4 click.hit=2");
-    command->callback ([options]
-                       { run (*options); });
+    const auto command = app.add ("hit", "Trigger hits in a graph that `tactus play` is running");
+    command.addOption ("hits", options->hits, "NODE.PORT, or NODE.PORT=SPEED in m/s; default: 1 m/s").required();
+    options->osc.addTo (command);
+    command.footer ("A hit lasts one tick and is added to the value from the wires.\n\n"
+                    "Examples:\n"
+                    "  tactus hit ring.hit\n"
+                    "  tactus hit ring.hit=0.4 click.hit=2");
+    command.callback ([options]
+                      { run (*options); });
 }
 
 }   // namespace tactus::host

@@ -9,30 +9,31 @@ namespace tactus::host
 
 namespace
 {
-constexpr double room_s = 1.0;   // of frames that wait to be written
+constexpr double room_s = 1.0;   // capacity for frames that wait to be written, in s
 }   // namespace
 
-LiveRecording::LiveRecording (Session& s, const std::vector<std::string>& files)
-    : session (s), recorder (files, s.recorded(), s.rate(), false), ring (recorder.width() + 1, static_cast<std::size_t> (room_s * s.rate()) + 1)
+LiveRecording::LiveRecording (Run& run, const std::vector<std::string>& files)
+    : recorder (files, run.recorded(), run.rate(), false), ring (static_cast<std::size_t> (room_s * run.rate()) + 1, recorder.width() + 1)
 {
 }
 
-void LiveRecording::after (std::uint64_t tick, bool halts) noexcept
+void LiveRecording::after (const Plan& plan, std::uint64_t tick, bool halts) noexcept
 {
-    session.after (tick, halts);
     if (halts) return;
-    const auto frame = ring.next();
-    if (frame.empty()) return;
-    frame[0] = static_cast<double> (tick);
-    recorder.note (session.engine().plan().taps, frame.subspan (1));
-    ring.push();
+    if (const auto frame = ring.claim(); ! frame.empty())
+    {
+        frame[0] = static_cast<double> (tick);
+        recorder.note (plan.taps(), frame.subspan (1));
+    }
+    ring.commit();
 }
 
-void LiveRecording::giveUp (std::vector<Error> failed)
+void LiveRecording::giveUp (std::vector<Message> failed)
 {
     for (auto& error : failed)
     {
-        std::fprintf (stderr, "%s: warning: %s; it is not recorded, and the run goes on [%s]\n", error.where.c_str(), error.what.c_str(), error.id.c_str());
+        std::fprintf (stderr, "%s: warning: %s; it is no longer recorded, and the run continues [%s]\n",
+                      error.where.c_str(), error.text.c_str(), error.id.c_str());
         if (! failure) failure = std::move (error);
     }
 }
@@ -43,10 +44,10 @@ void LiveRecording::drain()
                 { giveUp (recorder.frame (static_cast<std::uint64_t> (frame[0]), frame.subspan (1))); });
 }
 
-std::optional<Error> LiveRecording::commit()
+std::optional<Message> LiveRecording::commit()
 {
     drain();
-    if (ring.lost() > 0) std::fprintf (stderr, "warning: %zu ticks were not recorded, because writing could not keep up\n", ring.lost());
+    if (ring.lost() > 0) std::fprintf (stderr, "warning: %zu ticks were not recorded because writing could not keep up\n", ring.lost());
     giveUp (recorder.commit());
     return failure;
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "command_run.hpp"
 #include "recorder.hpp"
-#include "session.hpp"
 
-#include <host/runtime/frame_ring.hpp>
-#include <host/runtime/runner.hpp>
+#include <framework/kit/spsc_ring.hpp>
+#include <framework/run/runner.hpp>
 
 #include <string>
 #include <vector>
@@ -13,31 +13,30 @@
 namespace tactus::host
 {
 
-/// A session that is recorded while it runs: all of its ticks but those of the halt. The tick thread never waits for the
-/// files, and a disk that is full ends a recording, but not the run.
-class LiveRecording final : public TickHooks
+/// Records a run while it ticks, leaving out the ticks of the halt. The tick thread never waits for the files, and a full
+/// disk ends the recording but not the run.
+class LiveRecording final : public RunListener
 {
 public:
-    /// The files are created, and none is there before commit(). [main thread]
-    LiveRecording (Session&, const std::vector<std::string>& files);
+    /// Creates the files; they appear under their final names at commit(). [main thread]
+    LiveRecording (Run&, const std::vector<std::string>& files);
 
-    void before (std::uint64_t tick) noexcept override { session.before (tick); }   // [tick thread]
-    void after (std::uint64_t tick, bool halts) noexcept override;                  // [tick thread]
+    void after (const Plan&, std::uint64_t tick, bool halts) noexcept override;   // [tick thread]
 
-    /// Writes down what there is; to be called many times a second. Says on stderr which files it gives up. [main thread]
+    /// Writes the frames that have arrived; call this many times a second. Prints to stderr which files it gives up.
+    /// [main thread]
     void drain();
 
-    /// What is left, and then the files. Says on stderr if ticks are missing. Returns why the first of the files is missing that
-    /// is, if one is. [main thread, after the run]
-    std::optional<Error> commit();
+    /// Writes the remaining frames and completes the files. Prints a warning to stderr if ticks are missing. If a
+    /// file could not be written, returns the reason for the first one. [main thread, after the run]
+    std::optional<Message> commit();
 
 private:
-    void giveUp (std::vector<Error>);
+    void giveUp (std::vector<Message>);
 
-    Session& session;
     Recorder recorder;
-    std::optional<Error> failure;
-    FrameRing ring;   // a tick, and what was noted then
+    std::optional<Message> failure;
+    SpscRing<double> ring;   // a tick and its values
 };
 
 }   // namespace tactus::host

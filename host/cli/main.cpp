@@ -10,22 +10,22 @@ int main (int argc, char** argv)
 {
     using namespace tactus::host;
 
-    CLI::App app { "Tactus: haptic effects, patched like a modular synthesiser.", "tactus" };
+    const Command app { "Tactus: haptic effects, patched like a modular synthesiser.", "tactus" };
     app.footer ("Examples:\n"
-                "  tactus nodes                                   every node there is\n"
+                "  tactus nodes                                   all node types\n"
                 "  tactus nodes friction.elasto_plastic           one datasheet\n"
-                "  tactus validate graphs/*.json                  everything wrong with them, at once\n"
+                "  tactus validate graphs/*.json                  all problems in all files\n"
                 "  tactus render graphs/dry_wood.json --out wood.csv --plot wood.png\n"
                 "  tactus play graphs/dry_wood.json --duration 4  in real time\n"
                 "  tactus set roughness=0.7                       while it plays\n"
-                "  tactus hit ring.hit=0.4                        likewise\n"
-                "  tactus probe drag.force                        likewise\n"
-                "  tactus devices                                 what is plugged in, and whether it fits\n"
-                "  tactus session graphs/dry_wood.json            which devices stand behind its roles\n"
-                "  tactus render --replay run.jsonl               once more what `play --log run.jsonl` wrote down\n"
+                "  tactus hit ring.hit=0.4                        while it plays\n"
+                "  tactus probe drag.force                        while it plays\n"
+                "  tactus devices                                 connected devices and their profiles\n"
+                "  tactus session graphs/dry_wood.json            the devices bound to its roles\n"
+                "  tactus render --replay run.jsonl               repeat a run logged by `play --log run.jsonl`\n"
                 "\n`tactus COMMAND --help` shows the options and more examples.");
-    app.set_version_flag ("--version", TACTUS_VERSION);
-    app.require_subcommand (1);
+    app.version (TACTUS_VERSION);
+    app.requireCommand();
     addNodes (app);
     addValidate (app);
     addRender (app);
@@ -39,13 +39,7 @@ int main (int argc, char** argv)
 
     try
     {
-        app.parse (argc, argv);
-    }
-    catch (const CLI::ParseError& e)
-    {
-        const bool asked_for_help = e.get_exit_code() == static_cast<int> (CLI::ExitCodes::Success);
-        app.exit (e);
-        return asked_for_help ? fine : wrong_usage;
+        if (const auto status = app.parse (argc, argv)) return *status == 0 ? fine : wrong_usage;
     }
     catch (const Stop&)
     {
@@ -58,7 +52,8 @@ int main (int argc, char** argv)
     }
     if (! std::cout.flush())
     {
-        std::fprintf (stderr, "tactus: error: the standard output could not be written\n    check the disk, or the program it is piped into [output/unwritable]\n");
+        std::fprintf (stderr, "tactus: error: the standard output could not be written\n"
+                              "    check the disk, or the program it is piped into [output/unwritable]\n");
         return fault_of_input;
     }
     return fine;

@@ -2,10 +2,10 @@
 #include "commands.hpp"
 #include "report.hpp"
 
-#include <framework/catalogue.hpp>
-#include <framework/json.hpp>
-#include <framework/near_miss.hpp>
-#include <framework/number_text.hpp>
+#include <framework/node/catalogue.hpp>
+#include <framework/text/closest_match.hpp>
+#include <framework/text/json.hpp>
+#include <framework/text/number_text.hpp>
 
 #include <algorithm>
 #include <iostream>
@@ -100,7 +100,8 @@ void printDatasheet (const NodeType& t)
             if (const auto usual = rangeText (p.limits.usual); ! usual.empty()) about += "; usually " + usual;
             if (! (p.limits.hard == p.limits.usual) && ! rangeText (p.limits.hard).empty()) about += "; only " + rangeText (p.limits.hard);
             if (p.limits.latch) about += "; latched at onset";
-            rows.push_back ({ std::string (p.id) + (p.list ? "[…]" : "") + (p.width == 3 ? " (x, y, z)" : ""), p.choices.empty() ? unitText (p.unit) : "choice" });
+            const auto shape = std::string (p.list ? "[…]" : "") + (p.width == 3 ? " (x, y, z)" : "");
+            rows.push_back ({ std::string (p.id) + shape, p.choices.empty() ? unitText (p.unit) : "choice" });
             if (with_default) rows.back().push_back (initialText (p));
             rows.back().push_back (about);
         }
@@ -115,13 +116,16 @@ void printDatasheet (const NodeType& t)
         for (const auto& s : t.settings)
         {
             std::string about (s.about);
+            const auto* lead = s.kind == SettingSheet::Kind::record ? "; with " : "; each with ";
             for (const auto& f : s.fields)
-                about += (&f != &s.fields.front() ? ", " : s.kind == SettingSheet::Kind::record ? "; with "
-                                                                                                : "; each with ")
-                         + std::string (f.id) + " (" + (f.kind == SettingSheet::Kind::number ? unitText (f.unit) : std::string (name (f.kind))) + ")";
+            {
+                const auto kind = f.kind == SettingSheet::Kind::number ? unitText (f.unit) : std::string (name (f.kind));
+                about += (&f == &s.fields.front() ? lead : ", ") + std::string (f.id) + " (" + kind + ")";
+            }
             if (const auto hard = rangeText (s.limits.hard); ! hard.empty()) about += "; only " + hard;
             const bool has_unit = s.kind == SettingSheet::Kind::number || s.kind == SettingSheet::Kind::vector;
-            rows.push_back ({ std::string (s.id), std::string (name (s.kind)) + (has_unit && unitText (s.unit) != "1" ? ", " + unitText (s.unit) : ""), initialText (s.initial), about });
+            const auto unit = has_unit && unitText (s.unit) != "1" ? ", " + unitText (s.unit) : "";
+            rows.push_back ({ std::string (s.id), std::string (name (s.kind)) + unit, initialText (s.initial), about });
         }
         print (rows);
         std::cout << "  How each kind is written: docs/graph_file.md, Settings\n";
@@ -145,6 +149,13 @@ void add (Json& j, const Limits& l)
     if (l.latch) j["latch"] = true;
 }
 
+Json initialOf (const PortSheet& p)
+{
+    if (! p.choices.empty()) return initialText (p);
+    if (p.width == 1) return number (p.initial[0]);
+    return { p.initial[0], p.initial[1], p.initial[2] };
+}
+
 Json toJson (const PortSheet& p)
 {
     Json j = { { "id", p.id } };
@@ -154,7 +165,7 @@ Json toJson (const PortSheet& p)
         j["choices"] = std::vector<std::string> (p.choices.begin(), p.choices.end());
     if (p.width == 3) j["components"] = { "x", "y", "z" };
     if (p.list) j["array"] = true;
-    if (p.role != Role::output) j["default"] = p.choices.empty() ? (p.width == 1 ? number (p.initial[0]) : Json { p.initial[0], p.initial[1], p.initial[2] }) : Json (initialText (p));
+    if (p.role != Role::output) j["default"] = initialOf (p);
     add (j, p.limits);
     j["about"] = p.about;
     return j;
@@ -238,7 +249,7 @@ void run (const std::string& wanted, bool json)
 }
 }   // namespace
 
-void addNodes (CLI::App& app)
+void addNodes (const Command& app)
 {
     struct Options
     {
@@ -246,15 +257,15 @@ void addNodes (CLI::App& app)
         bool json = false;
     };
     const auto options = std::make_shared<Options>();
-    auto* command = app.add_subcommand ("nodes", "List the node types, or show the datasheet of one");
-    command->add_option ("type", options->type, "Id of a node type, as in friction.elasto_plastic");
-    command->add_flag ("--json", options->json, "As JSON, for programs");
-    command->footer ("Examples:\n"
-                     "  tactus nodes\n"
-                     "  tactus nodes deform.plane\n"
-                     "  tactus nodes --json | jq '.[].id'");
-    command->callback ([options]
-                       { run (options->type, options->json); });
+    const auto command = app.add ("nodes", "List the node types, or show the datasheet of one");
+    command.addOption ("type", options->type, "The id of a node type, such as friction.elasto_plastic");
+    command.addFlag ("--json", options->json, "Print JSON, for use by programs");
+    command.footer ("Examples:\n"
+                    "  tactus nodes\n"
+                    "  tactus nodes deform.plane\n"
+                    "  tactus nodes --json | jq '.[].id'");
+    command.callback ([options]
+                      { run (options->type, options->json); });
 }
 
 }   // namespace tactus::host

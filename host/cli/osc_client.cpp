@@ -5,15 +5,17 @@
 namespace tactus::host
 {
 
-void OscOption::addTo (CLI::App& app)
+void OscOption::addTo (const Command& app)
 {
-    app.add_option ("--osc", number, "The UDP port that it listens on, on this machine; " + std::to_string (OscPort::usual) + " if nothing is said")->check (CLI::Range (1, 65535));
+    const auto about = "The UDP port of the running program on this machine; default: " + std::to_string (OscPort::usual);
+    app.addOption ("--osc", number, about).check (within (1, 65535));
 }
 
 OscClient::OscClient (int number) : to (number)
 {
     if (! OscPort::isTaken (number))
-        fail ({ "osc/nothing_runs", "127.0.0.1:" + std::to_string (number), "no program listens there", "start one with `tactus play GRAPH`; its first line says where it listens" });
+        fail (Message::error ("osc/nothing_runs", "127.0.0.1:" + std::to_string (number), "no program is listening on this port",
+                              "start one with `tactus play GRAPH`; its first line shows the port"));
     answers = orFail (OscPort::open (0));
 }
 
@@ -21,7 +23,8 @@ juce::OSCMessage OscClient::answer()
 {
     using namespace std::chrono_literals;
     if (auto message = answers->next (10s)) return std::move (*message);
-    fail ({ "osc/no_answer", "127.0.0.1:" + std::to_string (to), "what listens there does not answer", "is it `tactus play`? Its first line says where it listens; give that as --osc PORT" });
+    fail (Message::error ("osc/no_answer", "127.0.0.1:" + std::to_string (to), "the program listening on this port does not answer",
+                          "is it `tactus play`? Its first line shows the port; give it as --osc PORT"));
 }
 
 void OscClient::check (const juce::OSCMessage& m)
@@ -29,7 +32,14 @@ void OscClient::check (const juce::OSCMessage& m)
     if (m.getAddressPattern().toString() != "/tactus/error") return;
     const auto text = [&] (int i)
     { return m.size() > i && m[i].isString() ? m[i].getString().toStdString() : std::string(); };
-    fail ({ text (2), text (1), text (3), text (4) });
+    fail (Message::error (text (2), text (1), text (3), text (4)));
+}
+
+void OscClient::failSilent (const std::string& where, bool has_answered)
+{
+    const std::string remedy = "check whether `tactus play` is still running";
+    if (has_answered) fail (Message::error ("osc/gone", where, "nothing has arrived from this port for 10 s", remedy));
+    fail (Message::error ("osc/no_answer", where, "the program listening on this port does not answer", remedy));
 }
 
 }   // namespace tactus::host

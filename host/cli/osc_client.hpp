@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <host/command_line/command.hpp>
 #include <host/osc/osc_port.hpp>
-
-#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <string>
@@ -11,19 +10,19 @@
 namespace tactus::host
 {
 
-/// `--osc PORT` of the commands that talk to a program that runs.
+/// The option `--osc PORT` of the commands that talk to a running program.
 struct OscOption
 {
     int number = OscPort::usual;
 
-    void addTo (CLI::App&);
+    void addTo (const Command&);
 };
 
-/// Our end of a conversation with a program that runs on this machine.
+/// The client's end of a conversation with a program that is running on this machine.
 class OscClient
 {
 public:
-    /// Fails the command if nothing listens there. Ids: osc/nothing_runs.
+    /// Fails the command if no program is listening on the port. Ids: osc/nothing_runs.
     explicit OscClient (int number);
 
     /// The port for answers.
@@ -34,11 +33,14 @@ public:
     /// The next answer; fails the command if none comes within some seconds. Ids: osc/no_answer.
     juce::OSCMessage answer();
 
-    /// The next answer if one is there in time.
+    /// The next answer, if it arrives in time.
     std::optional<juce::OSCMessage> next (std::chrono::milliseconds patience) { return answers->next (patience); }
 
-    /// Fails the command if this is an error.
+    /// Fails the command if the answer is an error.
     static void check (const juce::OSCMessage&);
+
+    /// Fails the command because nothing has arrived for a long time. Ids: osc/no_answer, or osc/gone if the program has answered before.
+    [[noreturn]] static void failSilent (const std::string& where, bool has_answered);
 
 private:
     int to;

@@ -9,7 +9,7 @@ namespace tactus::host
 
 namespace
 {
-/// By name, or as the file system knows it, under whatever name.
+/// True for the same name, or for two names that the file system resolves to the same file.
 bool isSame (const std::filesystem::path& a, const std::filesystem::path& b)
 {
     std::error_code failed;
@@ -23,8 +23,9 @@ void refuseOverwriting (const std::vector<std::string>& outputs, const std::vect
     {
         const auto is_it = [&] (const std::filesystem::path& other)
         { return isSame (*out, other); };
-        if (std::ranges::any_of (inputs, is_it)) fail ({ "output/is_input", *out, "is read by this run, and would be written over", "name another file" });
-        if (std::any_of (outputs.begin(), out, is_it)) fail ({ "output/twice", *out, "is to be written twice", "name two files" });
+        if (std::ranges::any_of (inputs, is_it))
+            fail (Message::error ("output/is_input", *out, "this file is read by the run and would be overwritten", "name another file"));
+        if (std::any_of (outputs.begin(), out, is_it)) fail (Message::error ("output/twice", *out, "this file would be written twice", "name two files"));
     }
 }
 

@@ -8,7 +8,8 @@
 namespace tactus::host
 {
 
-/// Ends the command if an output would replace a file that is read, or two outputs are one file: what was in it would be lost.
+/// Ends the command if an output would replace a file that is read, or if two outputs are the same file: data would be
+/// lost.
 void refuseOverwriting (const std::vector<std::string>& outputs, const std::vector<std::filesystem::path>& inputs);
 
 }   // namespace tactus::host

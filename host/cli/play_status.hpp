@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/runtime/runner.hpp>
+#include <framework/run/runner.hpp>
 
 namespace tactus::host
 {
 
-/// How a run stands, on one line of stderr; on a terminal over the line before. [main thread]
+/// Prints the state of a run as one line on stderr; on a terminal, it replaces the previous line. [main thread]
 void printStatus (const Runner&, double rate_hz, bool over_the_last, const char* end);
 
-/// What the costliest nodes take of a tick, a line each. [main thread]
+/// Prints the shares of the most expensive nodes, one line each. [main thread]
 void printCosts (Runner&);
 
 }   // namespace tactus::host

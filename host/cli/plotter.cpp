@@ -11,7 +11,7 @@ namespace tactus::host
 
 namespace
 {
-/// What an axis is called: the quantity, or the tap itself where nothing says what it carries.
+/// The label of an axis: the quantity, or the tap's name if its quantity is unknown.
 Quantity axisOf (const Tap& tap)
 {
     return { tap.quantity == tactus::Quantity::any ? tap.name : std::string (name (tap.quantity)), tap.unit };
@@ -24,12 +24,13 @@ bool isSilent (const Axes& panel)
 }
 }   // namespace
 
-Plotter::Plotter (std::string f, const std::vector<Tap>& t, const std::string& over_name, double rate, bool silent) : file (std::move (f)), taps (t), rate_hz (rate), leave_out_silent (silent), columns (t.size())
+Plotter::Plotter (std::string f, const std::vector<Tap>& t, const std::string& over_name, double rate, bool silent)
+    : file (std::move (f)), taps (t), rate_hz (rate), leave_out_silent (silent), columns (t.size())
 {
     if (taps.empty()) fail ("record/nothing", "there is nothing to plot: the graph has no sink", "name ports with --record, as in --record drag.force");
     if (over_name.empty()) return;
     const auto found = std::ranges::find (taps, over_name, &Tap::name);
-    if (found == taps.end()) fail ("plot/not_recorded", "'" + over_name + "' is not among what is recorded", "add it to --record");
+    if (found == taps.end()) fail ("plot/not_recorded", "'" + over_name + "' is not recorded", "add it to --record");
     over = found - taps.begin();
 }
 
@@ -46,7 +47,8 @@ void Plotter::draw (const std::string& title)
     for (std::size_t k = 0; k < times.size(); ++k)
         times[k] = static_cast<double> (k) / rate_hz;
     const auto& x = over < 0 ? times : columns[static_cast<std::size_t> (over)];
-    const Quantity x_axis = over < 0 ? Quantity { "time", "s" } : Quantity { taps[static_cast<std::size_t> (over)].name, taps[static_cast<std::size_t> (over)].unit };
+    Quantity x_axis { "time", "s" };
+    if (over >= 0) x_axis = { taps[static_cast<std::size_t> (over)].name, taps[static_cast<std::size_t> (over)].unit };
 
     for (std::size_t i = 0; i < taps.size(); ++i)
     {

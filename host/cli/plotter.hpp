@@ -10,12 +10,12 @@
 namespace tactus::host
 {
 
-/// Keeps what a run records and draws it: one panel a quantity, over time or over one of the taps.
+/// Collects the recording of a run and draws it: one panel per quantity, over time or over one of the taps.
 class Plotter
 {
 public:
-    /// `over` names the tap for the x axis; empty is time. A name that is not recorded ends the command. Quantities that
-    /// stay 0 throughout may be left out: a sink's torque that nothing is wired to.
+    /// `over` names the tap for the x axis; empty: time. The command ends if that tap is not recorded. Quantities that
+    /// are 0 throughout, such as the torque of a sink without a wire, may be left out.
     Plotter (std::string file, const std::vector<Tap>&, const std::string& over, double rate_hz, bool leave_out_silent);
 
     void frame (std::span<const double> values);
@@ -24,7 +24,7 @@ public:
 private:
     std::string file;
     const std::vector<Tap>& taps;
-    std::ptrdiff_t over = -1;   // index of the tap, or time
+    std::ptrdiff_t over = -1;   // index of the tap; -1: time
     double rate_hz;
     bool leave_out_silent;
     std::vector<std::vector<double>> columns;

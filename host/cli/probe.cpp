@@ -5,7 +5,7 @@
 #include "report.hpp"
 #include "triggered_probe.hpp"
 
-#include <framework/number_text.hpp>
+#include <framework/text/number_text.hpp>
 #include <host/platform/signals.hpp>
 
 #include <chrono>
@@ -40,7 +40,10 @@ void run (const Options& options)
         return probeTriggered (client, options.port, trigger);
     }
     const auto subscribe = [&]
-    { client.send (juce::OSCMessage ("/tactus/probe", juce::String::fromUTF8 (options.port.c_str()), client.own(), static_cast<float> (options.rate_hz), 5.0f)); };
+    {
+        const auto port = juce::String::fromUTF8 (options.port.c_str());
+        client.send (juce::OSCMessage ("/tactus/probe", port, client.own(), static_cast<float> (options.rate_hz), 5.0f));
+    };
 
     subscribe();
     auto renewed = Clock::now(), heard = renewed;
@@ -55,7 +58,7 @@ void run (const Options& options)
             renewed = now;
         }
         if (now - heard > 10s)
-            fail ({ rate_hz == 0.0 ? "osc/no_answer" : "osc/gone", "127.0.0.1:" + std::to_string (options.osc.number), rate_hz == 0.0 ? "what listens there does not answer" : "nothing has come from there for 10 s", "see whether `tactus play` still runs" });
+            OscClient::failSilent ("127.0.0.1:" + std::to_string (options.osc.number), rate_hz > 0.0);
         const auto m = client.next (100ms);
         if (! m) continue;
         OscClient::check (*m);
@@ -79,36 +82,38 @@ void run (const Options& options)
         std::cout << numberText (tick / rate_hz);
         for (int i = 2; i < m->size(); ++i)
             if ((*m)[i].isFloat32()) std::cout << ',' << floatText ((*m)[i].getFloat32());
-        std::cout << std::endl;   // somebody watches, or waits at the other end of a pipe
+        std::cout << std::endl;   // flushes: a person, or a program at the other end of a pipe, may be watching
     }
 }
 }   // namespace
 
-void addProbe (CLI::App& app)
+void addProbe (const Command& app)
 {
     const auto options = std::make_shared<Options>();
-    auto* command = app.add_subcommand ("probe", "Watch a port of a graph that `tactus play` runs, as CSV");
-    command->add_option ("port", options->port, "node.port, or one component of it")->required();
-    auto* rate = command->add_option ("--rate", options->rate_hz, "How often, in Hz")->check (CLI::Range (0.01, 1000.0));
-    command->add_option ("--duration", options->duration_s, "How long, in s of the run; else until Ctrl-C")->check (CLI::Range (1e-3, 1e9));
-    auto* trigger = command->add_option ("--trigger", options->trigger.watched, "Print only one window, every tick of it, around an edge of this port")->excludes (rate);
-    const auto with_trigger = [&] (CLI::Option* option)
-    { option->needs (trigger); };
-    auto* level = command->add_option ("--level", options->trigger.level, "The level that makes the edge, in the unit of that port");
-    trigger->needs (level);
+    const auto command = app.add ("probe", "Watch a port of a graph that `tactus play` is running, as CSV");
+    command.addOption ("port", options->port, "node.port, or one component of it").required();
+    const auto rate = command.addOption ("--rate", options->rate_hz, "Rows per second").check (within (0.01, 1000.0));
+    command.addOption ("--duration", options->duration_s, "How long to watch, in s of the run; default: until Ctrl-C").check (within (1e-3, 1e9));
+    const auto trigger = command.addOption ("--trigger", options->trigger.watched, "Print only one window, every tick of it, around an edge of this port");
+    trigger.excludes (rate);
+    const auto with_trigger = [&] (Option option)
+    { option.needs (trigger); };
+    const auto level = command.addOption ("--level", options->trigger.level, "The level that defines the edge, in the unit of that port");
+    trigger.needs (level);
     with_trigger (level);
-    with_trigger (command->add_option ("--edge", options->trigger.edge, "rising (from below to the level or above), falling, or either")->check (CLI::IsMember ({ "rising", "falling", "either" })));
-    with_trigger (command->add_option ("--before", options->trigger.before, "Ticks to print before the edge; 100 if nothing is said")->check (CLI::Range (0, 65535)));
-    with_trigger (command->add_option ("--after", options->trigger.after, "Ticks to print after it; 400 if nothing is said")->check (CLI::Range (0, 65535)));
-    options->osc.addTo (*command);
-    command->footer ("Values come in single precision, now and then one is missing; `tactus play --record` keeps all, to the bit.\n"
-                     "With --trigger, t is 0 at the edge.\n\n"
-                     "Examples:\n"
-                     "  tactus probe drag.force\n"
-                     "  tactus probe drag.deflection.x --rate 200 --duration 5 > deflection.csv\n"
-                     "  tactus probe drag.force --trigger drag.state --level 1.5 --before 50 --after 200");
-    command->callback ([options]
-                       { run (*options); });
+    const auto edge = command.addOption ("--edge", options->trigger.edge, "rising (from below to the level or above), falling, or either");
+    with_trigger (edge.check (oneOf ({ "rising", "falling", "either" })));
+    with_trigger (command.addOption ("--before", options->trigger.before, "Ticks to print before the edge; default: 100").check (within (0, 65535)));
+    with_trigger (command.addOption ("--after", options->trigger.after, "Ticks to print after it; default: 400").check (within (0, 65535)));
+    options->osc.addTo (command);
+    command.footer ("Values have single precision, and some may be missing; `tactus play --record` keeps every value at full precision.\n"
+                    "With --trigger, t is 0 at the edge.\n\n"
+                    "Examples:\n"
+                    "  tactus probe drag.force\n"
+                    "  tactus probe drag.deflection.x --rate 200 --duration 5 > deflection.csv\n"
+                    "  tactus probe drag.force --trigger drag.state --level 1.5 --before 50 --after 200");
+    command.callback ([options]
+                      { run (*options); });
 }
 
 }   // namespace tactus::host

@@ -7,8 +7,7 @@
 namespace tactus::host
 {
 
-/// A line on the terminal that says how far a long run has come. Silent where stderr is no terminal, and for the first
-/// half second.
+/// A progress line for long runs. Prints nothing during the first half second, or if stderr is not a terminal.
 class Progress
 {
 public:

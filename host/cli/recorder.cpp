@@ -2,7 +2,7 @@
 #include "recorder.hpp"
 #include "report.hpp"
 
-#include <framework/number_text.hpp>
+#include <framework/text/number_text.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -25,9 +25,9 @@ void printRow (std::span<const double> values)
     std::cout << line << '\n';
 }
 
-/// Does this with each of the files; those with which it fails are closed, and their parts that are there are removed.
+/// Calls f with each file. If it fails, the file is closed and its incomplete content is removed.
 template <typename File, typename Do>
-void giveUpWhere (std::vector<File>& files, std::vector<Error>& failed, Do&& work)
+void giveUpWhere (std::vector<File>& files, std::vector<Message>& failed, Do&& work)
 {
     for (std::size_t i = 0; i < files.size();)
         if (auto done = work (files[i]); done)
@@ -42,7 +42,8 @@ void giveUpWhere (std::vector<File>& files, std::vector<Error>& failed, Do&& wor
 bool isWave (const std::string& file) { return std::filesystem::path (file).extension() == ".wav"; }
 }   // namespace
 
-Recorder::Recorder (const std::vector<std::string>& files, const std::vector<Tap>& all, double rate, bool to_standard_output) : rate_hz (rate), taps (all.size()), print (to_standard_output && files.empty())
+Recorder::Recorder (const std::vector<std::string>& files, const std::vector<Tap>& all, double rate, bool to_standard_output)
+    : rate_hz (rate), taps (all.size()), print (to_standard_output && files.empty())
 {
     if (all.empty() && (print || ! files.empty()))
         fail ("record/nothing", "there is nothing to record: the graph has no sink", "name ports with --record, as in --record drag.force");
@@ -63,7 +64,7 @@ Recorder::Recorder (const std::vector<std::string>& files, const std::vector<Tap
         else if (isWave (file))
             waves.push_back (orFail (WavWriter::create (file, rate_hz * static_cast<double> (per_tick), taps)));
         else
-            fail ({ "output/kind", file, "the ending says neither CSV nor WAV", "name it .csv or .wav" });
+            fail (Message::error ("output/kind", file, "the file name does not end in .csv or .wav", "name it .csv or .wav"));
     }
     if (! print) return;
     for (std::size_t i = 0; i < columns.size(); ++i)
@@ -77,11 +78,11 @@ void Recorder::note (const std::vector<Tap>& all, std::span<double> values) cons
         values[i] = all[i % taps].sample (static_cast<int> (i / taps), static_cast<int> (per_tick));
 }
 
-std::vector<Error> Recorder::frame (std::uint64_t tick, std::span<const double> values)
+std::vector<Message> Recorder::frame (std::uint64_t tick, std::span<const double> values)
 {
     row[0] = static_cast<double> (tick) / rate_hz;
     std::ranges::copy (values.last (taps), row.begin() + 1);
-    std::vector<Error> failed;
+    std::vector<Message> failed;
     giveUpWhere (tables, failed, [&] (TableWriter& table)
                  { return table.row (row); });
     giveUpWhere (waves, failed, [&] (WavWriter& wave)
@@ -92,7 +93,7 @@ std::vector<Error> Recorder::frame (std::uint64_t tick, std::span<const double> 
     return failed;
 }
 
-tl::expected<void, Error> Recorder::add (WavWriter& wave, std::uint64_t tick, std::span<const double> values)
+Result<> Recorder::add (WavWriter& wave, std::uint64_t tick, std::span<const double> values)
 {
     for (auto missing = (tick - next) * per_tick; missing > 0; --missing)
         if (auto written = wave.frame (held); ! written) return written;
@@ -101,14 +102,16 @@ tl::expected<void, Error> Recorder::add (WavWriter& wave, std::uint64_t tick, st
     return {};
 }
 
-std::vector<Error> Recorder::commit()
+std::vector<Message> Recorder::commit()
 {
-    std::vector<Error> failed;
+    std::vector<Message> failed;
     const auto commitOne = [] (auto& file)
     { return file.commit(); };
     giveUpWhere (tables, failed, commitOne);
     giveUpWhere (waves, failed, commitOne);
-    if (print && ! std::cout.flush()) failed.push_back ({ "output/unwritable", "the standard output", "it could not be written", "check the disk, or the program it is piped into" });
+    if (print && ! std::cout.flush())
+        failed.push_back (Message::error ("output/unwritable", "the standard output", "it could not be written",
+                                          "check the disk, or the program it is piped into"));
     return failed;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <framework/file/csv.hpp>
 #include <framework/plan/plan.hpp>
-#include <host/io/csv.hpp>
 #include <host/io/wav.hpp>
 
 #include <cstddef>
@@ -15,33 +15,33 @@
 namespace tactus::host
 {
 
-/// Writes what a run records: a row or frame per tick into each file, or CSV to the standard output if there is none.
-/// Of taps that have several samples a tick, a CSV has the last; a WAV has all, if all taps have as many.
-/// Files appear on commit() or not at all. What is wrong from the start ends the command with a message; a file that cannot
-/// be written on is given up, and the others go on.
+/// Writes the recording of a run: one row or frame per tick into each file, or CSV to the standard output if there is no
+/// file. If taps have several samples per tick, a CSV gets the last one; a WAV gets all of them if all taps have the same
+/// number. Files appear on commit(), or not at all. Problems at the start end the command with a message. A file that
+/// cannot be written is given up, and writing of the other files continues.
 class Recorder
 {
 public:
     Recorder (const std::vector<std::string>& files, const std::vector<Tap>&, double rate_hz, bool to_standard_output);
 
-    /// How many numbers there are to a tick.
+    /// The number of values per tick.
     std::size_t width() const noexcept { return taps * per_tick; }
 
-    /// Takes down what stands on the taps, those of the first plan or of one that followed, after a tick. [tick thread]
+    /// Samples the taps after a tick; they belong to the first plan or to a later one. [tick thread]
     void note (const std::vector<Tap>&, std::span<double> values) const noexcept;
 
-    /// What was noted at a tick. If some before it are missing, a WAV holds the last values until then, so that it keeps time.
-    /// Returns why files are given up: mostly nothing.
-    std::vector<Error> frame (std::uint64_t tick, std::span<const double> values);
-    std::vector<Error> commit();
+    /// Writes the values of a tick. If earlier ticks are missing, a WAV repeats the last values, so that it keeps
+    /// time. Returns the reasons why files were given up; usually none.
+    std::vector<Message> frame (std::uint64_t tick, std::span<const double> values);
+    std::vector<Message> commit();
 
 private:
-    tl::expected<void, Error> add (WavWriter&, std::uint64_t tick, std::span<const double> values);
+    Result<> add (WavWriter&, std::uint64_t tick, std::span<const double> values);
 
     double rate_hz;
-    std::size_t taps, per_tick = 1;   // samples of each
-    std::uint64_t next = 0;           // tick
-    std::vector<double> held;         // what came last
+    std::size_t taps, per_tick = 1;   // per_tick: samples of each tap
+    std::uint64_t next = 0;           // the next tick
+    std::vector<double> held;         // the last values
     bool print = false;
     std::vector<TableWriter> tables;
     std::vector<WavWriter> waves;

@@ -1,46 +1,55 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "session.hpp"
+#include "command_run.hpp"
+#include "emergency.hpp"
 
-#include <framework/refused.hpp>
-#include <framework/turn.hpp>
+#include <framework/run/runner.hpp>
+#include <framework/run/turn.hpp>
+#include <framework/text/message.hpp>
 #include <host/osc/remote_control.hpp>
-#include <host/runtime/runner.hpp>
 
 namespace tactus::host
 {
 
-/// A session that runs, for those who reach it by OSC. [main thread]
+/// A run that OSC controls. [main thread]
 class Remote final : public Controlled
 {
 public:
-    Remote (Session& s, Runner& r) : session (s), running (r) {}
+    Remote (CommandRun& r, Emergency& e) : command (r), emergency (e) {}
 
-    std::optional<Message> setParam (const std::string& name, const Json& value) override { return turnParam (session.engine(), name, value); }
-    std::optional<Message> turnControl (const std::string& id, double value) override { return tactus::turnControl (session.engine(), session.graph(), id, value); }
-    std::optional<Message> strike (const std::string& input, double speed) override { return tactus::strike (session.engine(), input, speed); }
-    std::variant<std::vector<std::string>, Message> probe (const std::vector<std::string>& ports) override { return session.probe (ports); }
-    std::variant<std::vector<std::string>, Message> capture (const std::string& port, const std::string& watched, const Trigger& trigger) override { return session.capture (port, watched, trigger); }
-    const TriggeredCapture* captured() override { return session.captured(); }
-    void endCapture() override { session.endCapture(); }
-    std::vector<NodeCost> costs() override { return running.costs(); }
-    std::optional<Message> transport (const Transport&) override { return refused ("osc/transport", "what a play from the command line follows is not stopped or sought", "open the graph in tactus-host"); }
-    std::optional<Message> start() override { return refused ("osc/start", "it runs already", "/tactus/stop ends it"); }
-    void stop() override { running.stop(); }
-    void emergencyStop() override { session.engine().emergencyStop(); }
-    void rearm() override { session.engine().rearm(); }
-    std::vector<Role> roles() override { return rolesOf (running.status()); }
+    Result<> setParam (const std::string& name, const Json& value) override { return turnParam (command.engine(), name, value); }
+    Result<> turnControl (const std::string& id, double value) override { return tactus::turnControl (command.engine(), command.graph(), id, value); }
+    Result<> strike (const std::string& input, double speed) override { return tactus::strike (command.engine(), input, speed); }
+    Result<std::vector<std::string>> probe (const std::vector<std::string>& ports) override { return command.probe (ports); }
+    Result<std::vector<std::string>> capture (const std::string& port, const std::string& watched, const Trigger& trigger) override
+    {
+        return command.capture (port, watched, trigger);
+    }
+    const TriggeredCapture* captured() override { return command.run().captured(); }
+    void endCapture() override { command.run().endCapture(); }
+    std::vector<NodeCost> costs() override { return command.run().live().costs(); }
+    Result<> transport (const Transport&) override
+    {
+        return Message::error ("osc/transport", {}, "the input of a run from the command line cannot be paused or moved",
+                               "open the graph in tactus-host");
+    }
+    Result<> start() override { return Message::error ("osc/start", {}, "the run has already started", "/tactus/stop ends it"); }
+    void stop() override { command.run().live().stop(); }
+    void emergencyStop() override { emergency.press(); }
+    void emergencyNow() noexcept override { emergency.press(); }
+    Result<> rearm() override { return emergency.rearm(); }
+    std::vector<Role> roles() override { return rolesOf (command.run().live().status()); }
 
     Status status() override
     {
-        const auto now = running.status();
-        return { session.name(), session.rate(), static_cast<double> (now.ticks) / session.rate(), now.force, now.peak, now.ticks, now.misses };
+        const auto now = command.run().live().status();
+        return { command.name(), command.rate(), static_cast<double> (now.ticks) / command.rate(), now.force, now.peak, now.ticks, now.misses };
     }
 
 private:
-    Session& session;
-    Runner& running;
+    CommandRun& command;
+    Emergency& emergency;
 };
 
 }   // namespace tactus::host

@@ -32,12 +32,14 @@ int report (const Messages& messages, const LoadedGraph& loaded, const std::stri
     return errors;
 }
 
-void fail (const Error& e)
+void warn (const std::string& file, const Message& m) { std::cerr << file << ": warning: " << m.text << " [" << m.id << "]\n"; }
+
+void fail (const Message& e)
 {
-    std::cerr << e.where << (e.where.empty() ? "" : ": ") << "error: " << e.what << "\n    " << e.remedy << " [" << e.id << "]\n";
+    std::cerr << e.where << (e.where.empty() ? "" : ": ") << "error: " << e.text << "\n    " << e.remedy << " [" << e.id << "]\n";
     throw Stop {};
 }
 
-void fail (const std::string& id, const std::string& what, const std::string& remedy) { fail (Error { id, "", what, remedy }); }
+void fail (const std::string& id, const std::string& what, const std::string& remedy) { fail (Message::error (id, "", what, remedy)); }
 
 }   // namespace tactus::host

@@ -2,8 +2,7 @@
 #pragma once
 
 #include <framework/file/graph_file.hpp>
-#include <framework/message.hpp>
-#include <host/io/error.hpp>
+#include <framework/text/message.hpp>
 
 #include <string>
 
@@ -18,19 +17,22 @@ enum ExitStatus
     wrong_usage = 2
 };
 
-/// Ends a command whose input is at fault; what is wrong has been said on stderr.
+/// Ends a command whose input is wrong; the problem has already been printed to stderr.
 struct Stop
 {
 };
 
-/// Prints each message on stderr: where it stands, what is wrong, what would be right. Returns the number of errors.
+/// Prints each message to stderr: the place, the problem, the remedy. Returns the number of errors.
 int report (const Messages&, const LoadedGraph&, const std::string& file);
 
+/// Prints a warning about this file.
+void warn (const std::string& file, const Message&);
+
 /// Prints the error and throws Stop.
-[[noreturn]] void fail (const Error&);
+[[noreturn]] void fail (const Message&);
 [[noreturn]] void fail (const std::string& id, const std::string& what, const std::string& remedy);
 
-/// The value of a result, or the end of the command.
+/// Returns the value of a result, or ends the command.
 template <typename Expected>
 auto orFail (Expected&& result)
 {

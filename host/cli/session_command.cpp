@@ -2,13 +2,13 @@
 #include "commands.hpp"
 #include "report.hpp"
 
-#include <framework/catalogue.hpp>
 #include <framework/graph/text.hpp>
-#include <framework/number_text.hpp>
+#include <framework/node/catalogue.hpp>
 #include <framework/plan/compile.hpp>
+#include <framework/text/number_text.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
-#include <host/hid_link/profile_shelf.hpp>
+#include <host/hid_link/profile_library.hpp>
 #include <host/platform/home_folder.hpp>
 #include <host/sessions/choose_clock.hpp>
 #include <host/sessions/role_fits.hpp>
@@ -32,18 +32,19 @@ struct Options
     bool clock_given = false, json = false;
 };
 
-/// Files that an option names are sought from where it was written, and later from where the session lies.
+/// Files named by an option are relative to the current folder; later they are relative to the folder of the session.
 void makeAbsolute (Json& description, const fs::path& folder)
 {
     for (const auto* at : { "/path", "/hand/path" })
-        if (const Json::json_pointer where (at); description.contains (where) && description.at (where).is_string())
+        if (const JsonPointer where (at); description.contains (where) && description.at (where).is_string())
         {
             auto& path = description.at (where);
-            if (const auto text = path.get<std::string>(); text.find_first_of ("./\\") != text.npos) path = fs::absolute (folder / text).lexically_normal().string();
+            if (const auto text = path.get<std::string>(); text.find_first_of ("./\\") != text.npos)
+                path = fs::absolute (folder / text).lexically_normal().string();
         }
 }
 
-/// "auto" becomes the profile of what is plugged in now, so that the role can be waited for later.
+/// "auto" is replaced by the profile of the connected device, so that the role can wait for it later.
 void nameProfile (Json& description, const hid::LoadedProfiles& profiles)
 {
     if (! hid::isHid (description) || description.value ("profile", Json ("auto")) != "auto") return;
@@ -54,13 +55,14 @@ Json read (const std::string& option, std::string& role, const std::optional<Loa
 {
     const auto folder = graph ? fs::path (graph->graph.folder) : fs::path();
     auto parsed = parseDeviceOption (option, graph ? graph->graph.devices : std::vector<Described> {}, folder);
-    if (const auto* m = std::get_if<Message> (&parsed)) fail ({ m->id, "--bind " + option, m->text, m->remedy });
-    auto& [name, description, from] = std::get<DeviceOption> (parsed);
+    if (! parsed) fail (Message::error (parsed.error().id, "--bind " + option, parsed.error().text, parsed.error().remedy));
+    auto& [name, description, from] = *parsed;
     role = name;
     makeAbsolute (description, from);
     nameProfile (description, profiles);
     for (const auto& m : checkBinding (description, {}, profiles))
-        if (m.severity == Message::Severity::error) fail ({ m.id, "--bind " + option + (m.where.empty() ? "" : ", " + m.where), m.text, m.remedy });
+        if (m.severity == Message::Severity::error)
+            fail (Message::error (m.id, "--bind " + option + (m.where.empty() ? "" : ", " + m.where), m.text, m.remedy));
     return description;
 }
 
@@ -94,23 +96,24 @@ void printTable (const std::vector<std::vector<std::string>>& rows)
 std::string describe (const Workspace& w)
 {
     if (w.isPlain()) return {};
-    return "workspace x" + numberText (w.scale) + " + (" + numberText (w.offset.x()) + ", " + numberText (w.offset.y()) + ", " + numberText (w.offset.z()) + ") m";
+    const auto offset = numberText (w.offset.x()) + ", " + numberText (w.offset.y()) + ", " + numberText (w.offset.z());
+    return "workspace x" + numberText (w.scale) + " + (" + offset + ") m";
 }
 
 void printSession (const LoadedSession& s, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& profiles)
 {
     std::error_code unseen;
-    std::cout << s.file.string() << (fs::exists (s.file, unseen) ? "\n" : " (not there yet)\n");
+    std::cout << s.file.string() << (fs::exists (s.file, unseen) ? "\n" : " (does not exist yet)\n");
     const auto clock = s.session.clock();
     std::cout << "clock: " << (clock.empty() ? "the first device that can" : clock) << '\n';
     const auto roles = s.session.roles();
-    if (roles.empty()) std::cout << "no role is bound: each graph has the devices that it describes; --bind ROLE=hid:auto binds one\n";
+    if (roles.empty()) std::cout << "no role is bound: each graph uses the devices that it describes; --bind ROLE=hid:auto binds one\n";
     std::vector<std::vector<std::string>> rows;
     for (const auto& role : roles)
     {
         const auto b = bindingOf (s, role);
-        const auto state = ! hid::isHid (b->description) ? std::string() : isAmong (b->description, connected, profiles) ? "connected"
-                                                                                                                         : "not connected";
+        std::string state;
+        if (hid::isHid (b->description)) state = isAmong (b->description, connected, profiles) ? "connected" : "not connected";
         rows.push_back ({ role, nameOf (b->description), state, describe (b->workspace) });
     }
     printTable (rows);
@@ -125,14 +128,14 @@ std::string verdict (const RoleFit& fit)
     for (const auto& l : fit.lacking)
         text += (text.empty() ? "" : "; ") + l;
     if (! text.empty()) return "no: " + text;
-    if (! fit.there) return "nobody knows before it is connected";
+    if (! fit.there) return "unknown until it is connected";
     return fit.connected == false ? "yes, once it is connected" : "yes";
 }
 
 constexpr std::string_view whose (RoleFit::From from)
 {
-    return from == RoleFit::From::session ? " (session)" : from == RoleFit::From::graph ? " (graph)"
-                                                                                        : " (nobody says)";
+    if (from == RoleFit::From::session) return " (session)";
+    return from == RoleFit::From::graph ? " (graph)" : " (default)";
 }
 
 Json jsonOf (const RoleFit& fit)
@@ -142,20 +145,57 @@ Json jsonOf (const RoleFit& fit)
         lacking.push_back (l);
     for (const auto& m : fit.messages)
         lacking.push_back (m.where + ": " + m.text);
-    Json json { { "role", fit.role }, { "needs", describe (fit.needs) }, { "bound_to", nameOf (fit.description) }, { "by", fit.from == RoleFit::From::session ? "session" : fit.from == RoleFit::From::graph ? "graph"
-                                                                                                                                                                                                             : "nobody" } };
+    Json json { { "role", fit.role }, { "needs", describe (fit.needs) }, { "bound_to", nameOf (fit.description) }, { "by", "nobody" } };
+    if (fit.from == RoleFit::From::session) json["by"] = "session";
+    if (fit.from == RoleFit::From::graph) json["by"] = "graph";
     json["fits"] = fit.fits();
     json["lacking"] = std::move (lacking);
     if (fit.connected) json["connected"] = *fit.connected;
     return json;
 }
 
-std::vector<RoleFit> fitsOf (const LoadedGraph& graph, const std::string& file, const LoadedSession& s, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& profiles)
+std::vector<RoleFit> fitsOf (const LoadedGraph& graph, const std::string& file, const LoadedSession& s,
+                             std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& profiles)
 {
     FileAssets assets;
     const auto compiled = compile (graph.graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } });
     if (report (compiled.messages, graph, file) > 0 || ! compiled.plan) throw Stop {};
     return host::fitsOf (needsOf (*compiled.plan), graph.graph, s, profiles, connected);
+}
+
+bool edits (const Options& options) { return ! options.bind.empty() || ! options.unbind.empty() || options.clock_given; }
+
+/// The session of the options. A new file is empty until it is edited.
+LoadedSession openSession (const Options& options)
+{
+    if (options.file.empty()) return loadDefaultSession (homeFolder());
+    std::error_code unseen;
+    if (! edits (options) || fs::exists (options.file, unseen)) return loadSession (options.file);
+    LoadedSession fresh;
+    fresh.file = options.file;
+    return fresh;
+}
+
+LoadedSession edited (LoadedSession session, const Options& options, const std::optional<LoadedGraph>& graph, const hid::LoadedProfiles& profiles)
+{
+    std::vector<Described> bound;
+    for (const auto& option : options.bind)
+    {
+        std::string role;
+        auto description = read (option, role, graph, profiles);
+        bound.emplace_back (std::move (role), std::move (description));
+    }
+    for (const auto& role : options.unbind)
+        if (session.session.binding (role) == nullptr)
+            fail (Message::error ("session/not_bound", "--unbind " + role, "the session does not bind this role",
+                                  "`tactus session` lists the roles that it binds"));
+    return editSession (std::move (session), [&] (DeviceSession& s)
+                        {
+        for (const auto& role : options.unbind)
+            s.unbind (role);
+        for (auto& [role, description] : bound)
+            s.bind (role, rebound (s.binding (role), std::move (description)));
+        if (options.clock_given) s.setClock (options.clock == "first" ? "" : options.clock); });
 }
 
 void run (const Options& options)
@@ -166,37 +206,12 @@ void run (const Options& options)
         graph = loadGraph (options.graph);
         if (report (graph->messages, *graph, options.graph) > 0) throw Stop {};
     }
-    const auto profiles = hid::profilesAtHand();
-    const bool edits = ! options.bind.empty() || ! options.unbind.empty() || options.clock_given;
-
-    LoadedSession session;
-    std::error_code unseen;
-    if (options.file.empty())
-        session = loadUsualSession (homeFolder());
-    else if (edits && ! fs::exists (options.file, unseen))
-        session.file = options.file;
-    else
-        session = loadSession (options.file);
+    const auto profiles = hid::loadProfileLibrary();
+    auto session = openSession (options);
     stopIfWrong (session);
-
-    if (edits)
+    if (edits (options))
     {
-        std::vector<Described> bound;
-        for (const auto& option : options.bind)
-        {
-            std::string role;
-            auto description = read (option, role, graph, profiles);
-            bound.emplace_back (std::move (role), std::move (description));
-        }
-        for (const auto& role : options.unbind)
-            if (session.session.binding (role) == nullptr) fail ({ "session/not_bound", "--unbind " + role, "the session binds no such role", "see which it binds: tactus session" });
-        session = editSession (std::move (session), [&] (DeviceSession& s)
-                               {
-            for (const auto& role : options.unbind)
-                s.unbind (role);
-            for (auto& [role, description] : bound)
-                s.bind (role, boundAnew (s.binding (role), std::move (description)));
-            if (options.clock_given) s.setClock (options.clock == "first" ? "" : options.clock); });
+        session = edited (std::move (session), options, graph, profiles);
         stopIfWrong (session);
     }
 
@@ -211,7 +226,7 @@ void run (const Options& options)
             for (const auto& fit : fits)
                 json["roles"].push_back (jsonOf (fit));
         }
-        std::cout << json.dump (2, ' ', false, Json::error_handler_t::replace) << '\n';
+        std::cout << json.dump (2) << '\n';
         return;
     }
     printSession (session, connected, profiles);
@@ -223,29 +238,38 @@ void run (const Options& options)
         rows.push_back ({ fit.role, describe (fit.needs), nameOf (fit.description) + std::string (whose (fit.from)), verdict (fit) });
     printTable (rows);
 }
+
+Check clockCheck()
+{
+    return { [] (const std::string& text)
+             { return graph::isId (text) ? std::string() : "'" + text + "' is not a role name: use lower-case letters, digits and _, starting with a letter"; },
+             "ROLE|timer|audio|first" };
+}
 }   // namespace
 
-void addSession (CLI::App& app)
+void addSession (const Command& app)
 {
     const auto options = std::make_shared<Options>();
-    auto* command = app.add_subcommand ("session", "Which devices the roles of graphs are bound to here, and whether they fit a graph");
-    command->add_option ("graph", options->graph, "A graph, to see what it needs");
-    command->add_option ("--bind", options->bind, "ROLE=hid:PROFILE (hid:auto), ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv or ROLE=gesture:NAME; may be given more than once")->allow_extra_args (false);
-    command->add_option ("--unbind", options->unbind, "A role that is again what each graph says; may be given more than once")->allow_extra_args (false);
-    auto* clock = command->add_option ("--clock", options->clock, "What ticks runs: a role, timer, audio, or first, for the first device that can")->check (CLI::Validator ([] (std::string& text)
-                                                                                                                                                                            { return graph::isId (text) ? std::string() : "'" + text + "' is no role: lower case letters, digits and _, a letter first"; },
-                                                                                                                                                                            "ROLE|timer|audio|first"));
-    command->add_option ("--file", options->file, "Another session than the user's");
-    command->add_flag ("--json", options->json, "As JSON");
-    command->footer ("`tactus play` and tactus-host use the session; `tactus render` never does. See docs/sessions.md.\n\n"
-                     "Examples:\n"
-                     "  tactus session\n"
-                     "  tactus session graphs/dry_wood.json\n"
-                     "  tactus session --bind stylus=hid:auto --clock stylus\n"
-                     "  tactus session --unbind stylus --clock first");
-    command->callback ([options, clock]
-                       {
-        options->clock_given = clock->count() > 0;
+    const auto command = app.add ("session", "Show or change which devices the roles of graphs are bound to, and show whether they fit a graph");
+    command.addOption ("graph", options->graph, "Check that the session meets the needs of this graph");
+    const auto bind = command.addOption ("--bind", options->bind,
+                                         "ROLE=hid:PROFILE (hid:auto), ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv or ROLE=gesture:NAME; "
+                                         "may be given more than once");
+    bind.oneValueEach();
+    command.addOption ("--unbind", options->unbind, "A role to unbind: each graph uses its own device again; may be given more than once").oneValueEach();
+    const auto clock = command.addOption ("--clock", options->clock, "The clock of runs: a role, timer, audio, or first (the first device that can)");
+    clock.check (clockCheck());
+    command.addOption ("--file", options->file, "A session file other than the user's");
+    command.addFlag ("--json", options->json, "As JSON");
+    command.footer ("`tactus play` and tactus-host use the session; `tactus render` never does. See docs/sessions.md.\n\n"
+                    "Examples:\n"
+                    "  tactus session\n"
+                    "  tactus session graphs/dry_wood.json\n"
+                    "  tactus session --bind stylus=hid:auto --clock stylus\n"
+                    "  tactus session --unbind stylus --clock first");
+    command.callback ([options, clock]
+                      {
+        options->clock_given = clock.isGiven();
         run (*options); });
 }
 

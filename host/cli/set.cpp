@@ -18,7 +18,7 @@ void run (const Options& options)
 {
     for (const auto& set : options.sets)
         if (const auto equals = set.find ('='); equals == std::string::npos || equals == 0)
-            throw CLI::ValidationError ("NODE.PARAM=VALUE", "'" + set + "' is not that, as in drag.mu=0.3, board.stiffness=\"2 N/mm\" or roughness=0.7");
+            throw UsageError ("NODE.PARAM=VALUE", "'" + set + "' has the wrong form; write drag.mu=0.3, board.stiffness=\"2 N/mm\" or roughness=0.7");
 
     OscClient client { options.osc.number };
     const auto text = [] (const std::string& s)
@@ -35,26 +35,26 @@ void run (const Options& options)
         }
         catch (const Stop&)
         {
-            all_fine = false;   // and the others are set all the same
+            all_fine = false;   // the remaining values are still set
         }
     }
     if (! all_fine) throw Stop {};
 }
 }   // namespace
 
-void addSet (CLI::App& app)
+void addSet (const Command& app)
 {
     const auto options = std::make_shared<Options>();
-    auto* command = app.add_subcommand ("set", "Turn parameters and controls of a graph that `tactus play` runs");
-    command->add_option ("values", options->sets, "NODE.PARAM=VALUE, or CONTROL=0…1")->required();
-    options->osc.addTo (*command);
-    command->footer ("Takes what --set takes. A value is headed for within 20 ms; the file stays as it is.\n\n"
-                     "Examples:\n"
-                     "  tactus set drag.mu=0.3\n"
-                     "  tactus set drag.d_max=\"20 um\" drag.adhesion=dahl board.normal=[0.1,0,1]\n"
-                     "  tactus set roughness=0.7");
-    command->callback ([options]
-                       { run (*options); });
+    const auto command = app.add ("set", "Set parameters and controls of a graph that `tactus play` is running");
+    command.addOption ("values", options->sets, "NODE.PARAM=VALUE, or CONTROL=0…1").required();
+    options->osc.addTo (command);
+    command.footer ("Takes the same values as --set. A value is reached within 20 ms; the file does not change.\n\n"
+                    "Examples:\n"
+                    "  tactus set drag.mu=0.3\n"
+                    "  tactus set drag.d_max=\"20 um\" drag.adhesion=dahl board.normal=[0.1,0,1]\n"
+                    "  tactus set roughness=0.7");
+    command.callback ([options]
+                      { run (*options); });
 }
 
 }   // namespace tactus::host

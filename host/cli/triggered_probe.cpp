@@ -3,7 +3,7 @@
 #include "float_text.hpp"
 #include "report.hpp"
 
-#include <framework/number_text.hpp>
+#include <framework/text/number_text.hpp>
 #include <host/platform/signals.hpp>
 
 #include <chrono>
@@ -21,10 +21,10 @@ namespace
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-/// A window, put together from the messages it comes in.
+/// A window, assembled from several messages.
 struct Window
 {
-    /// Takes the rows of a message; those of another edge begin it anew, as after an edit of the graph.
+    /// Adds the rows of a message. Rows that belong to a different edge restart the window; this happens after the graph is edited.
     void add (const juce::OSCMessage& m, std::size_t components)
     {
         constexpr int fixed = 4;
@@ -47,7 +47,7 @@ struct Window
     bool isWhole() const { return ! rows.empty() && rows.size() == static_cast<std::size_t> (ticks); }
 
     int tick = 0, ticks = 0;
-    std::map<int, std::vector<float>> rows;   // by tick from the edge
+    std::map<int, std::vector<float>> rows;   // keyed by the tick relative to the edge
 };
 
 void print (const Window& window, const juce::OSCMessage& done, double rate_hz)
@@ -73,7 +73,10 @@ void probeTriggered (OscClient& client, const std::string& port, const TriggerOp
     { return juce::String::fromUTF8 (s.c_str()); };
     constexpr float patience_s = 5.0f, at_once_s = 1e-3f;
     const auto ask = [&] (float wait_s)
-    { client.send (juce::OSCMessage ("/tactus/trigger", text (port), client.own(), text (options.watched), static_cast<float> (options.level), text (options.edge), options.before, options.after, wait_s)); };
+    {
+        client.send (juce::OSCMessage ("/tactus/trigger", text (port), client.own(), text (options.watched), static_cast<float> (options.level),
+                                       text (options.edge), options.before, options.after, wait_s));
+    };
 
     ask (patience_s);
     std::optional<juce::OSCMessage> done;
@@ -85,14 +88,16 @@ void probeTriggered (OscClient& client, const std::string& port, const TriggerOp
     {
         if (since (asked) > 2.0 && window.rows.empty())
         {
-            ask (patience_s);   // which is answered
+            ask (patience_s);   // the program answers this request
             asked = Clock::now();
         }
-        if (since (heard) > 10.0) fail ({ done ? "osc/gone" : "osc/no_answer", port, done ? "nothing has come from there for 10 s" : "what listens there does not answer", "see whether `tactus play` still runs" });
+        if (since (heard) > 10.0) OscClient::failSilent (port, done.has_value());
         if (options.duration_s > 0.0 && since (begin) > options.duration_s && window.rows.empty())
         {
-            ask (at_once_s);   // so that others may wait
-            fail ({ "probe/no_edge", options.watched, "there was no edge at " + numberText (options.level) + " within " + numberText (options.duration_s) + " s", "choose another --level or --edge, or wait longer; `tactus probe " + options.watched + "` shows what stands there" });
+            ask (at_once_s);   // releases the trigger, so that other clients may use it
+            fail (Message::error ("probe/no_edge", options.watched,
+                                  "there was no edge at " + numberText (options.level) + " within " + numberText (options.duration_s) + " s",
+                                  "choose another --level or --edge, or wait longer; `tactus probe " + options.watched + "` shows its values"));
         }
 
         const auto m = client.next (100ms);

@@ -8,7 +8,7 @@
 namespace tactus::host
 {
 
-/// What `tactus probe --trigger` is told.
+/// The options of `tactus probe --trigger`.
 struct TriggerOptions
 {
     std::string watched, edge = "rising";
@@ -17,7 +17,7 @@ struct TriggerOptions
     double duration_s = 0.0;         // how long to wait; 0: until Ctrl-C
 };
 
-/// Waits for the edge and prints the window around it as CSV, whose t is 0 at the edge.
+/// Waits for the edge and prints the window around it as CSV, with t = 0 at the edge.
 void probeTriggered (OscClient&, const std::string& port, const TriggerOptions&);
 
 }   // namespace tactus::host

@@ -2,12 +2,12 @@
 #include "commands.hpp"
 #include "report.hpp"
 
-#include <framework/catalogue.hpp>
+#include <framework/node/catalogue.hpp>
 #include <framework/plan/compile.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/hid_link/open_device.hpp>
-#include <host/hid_link/profile_shelf.hpp>
+#include <host/hid_link/profile_library.hpp>
 #include <host/sessions/role_fits.hpp>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ int checkDevices (const LoadedGraph& loaded, const std::string& file)
     int errors = 0;
     const auto& devices = loaded.graph.devices;
     const bool any_real = std::ranges::any_of (devices, hid::isHid, &std::pair<std::string, Json>::second);
-    const auto profiles = any_real ? hid::profilesAtHand() : hid::LoadedProfiles {};
+    const auto profiles = any_real ? hid::loadProfileLibrary() : hid::LoadedProfiles {};
     for (const auto& [role, description] : devices)
     {
         auto messages = checkDescription (description, std::filesystem::path (file).parent_path(), profiles);
@@ -44,40 +44,41 @@ std::string describe (const plan::PathDelay& d)
     return text + (d.recirculates ? ", with echoes\n" : "\n");
 }
 
-/// Reports all that is wrong with a file; true if nothing is.
+/// Reports all problems of a file. Returns true if there are none.
 bool check (const std::string& file)
 {
     const auto loaded = loadGraph (file);
     int errors = report (loaded.messages, loaded, file);
-    if (errors > 0 && loaded.graph.root.nodes.empty()) return false;   // what could not be read at all has no more to say
+    if (errors > 0 && loaded.graph.root.nodes.empty()) return false;   // a file that could not be read has no further problems to report
 
     FileAssets assets;
     const auto compiled = compile (loaded.graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } });
     errors += report (compiled.messages, loaded, file) + checkDevices (loaded, file);
     if (errors > 0) return false;
 
-    for (const auto& role : compiled.plan->roles)
+    for (const auto& role : compiled.plan->roles())
         if (std::ranges::count (loaded.graph.devices, role.name, &std::pair<std::string, Json>::first) == 0)
-            std::cerr << file << ": warning: no device is described for the role '" << role.name << "'\n    describe it under `devices`, or give --device when it runs [device/undescribed]\n";
+            std::cerr << file << ": warning: no device is described for the role '" << role.name
+                      << "'\n    describe it under `devices`, or give --device when it runs [device/undescribed]\n";
     std::cout << file << ": ok\n";
-    for (const auto& d : compiled.plan->delays)
+    for (const auto& d : compiled.plan->delays())
         std::cout << describe (d);
     return true;
 }
 }   // namespace
 
-void addValidate (CLI::App& app)
+void addValidate (const Command& app)
 {
     const auto files = std::make_shared<std::vector<std::string>>();
-    auto* command = app.add_subcommand ("validate", "Check graph files: every problem of every file at once");
-    command->add_option ("graphs", *files, "Graph files")->required();
-    command->footer ("For each file without errors, the delay of every path from a device back to it is printed: each tick costs\n"
-                     "stiffness that the hand can feel.\n\n"
-                     "Examples:\n"
-                     "  tactus validate graphs/dry_wood.json\n"
-                     "  tactus validate graphs/*.json && echo fine");
-    command->callback ([files]
-                       {
+    const auto command = app.add ("validate", "Check graph files and report all problems in all of them");
+    command.addOption ("graphs", *files, "Graph files").required();
+    command.footer ("For each file without errors, the delay of every path from a device back to it is printed: each tick costs\n"
+                    "stiffness that the hand can feel.\n\n"
+                    "Examples:\n"
+                    "  tactus validate graphs/dry_wood.json\n"
+                    "  tactus validate graphs/*.json && echo fine");
+    command.callback ([files]
+                      {
         bool all_fine = true;
         for (const auto& file : *files) all_fine = check (file) && all_fine;
         if (! all_fine) throw Stop {}; });

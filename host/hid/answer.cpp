@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/hid/answer.hpp>
-#include <host/hid/bits.hpp>
+#include "answer.hpp"
+#include "bits.hpp"
 
 namespace tactus::host::hid
 {
@@ -13,11 +13,11 @@ std::optional<std::uint32_t> read (const Bits& bits, std::span<const std::uint8_
 }
 }   // namespace
 
-tl::expected<std::optional<std::uint32_t>, Message> numberIn (const Answer& answer, std::span<const std::uint8_t> report)
+Result<std::optional<std::uint32_t>> numberIn (const Answer& answer, std::span<const std::uint8_t> report)
 {
     if (answer.id && (report.empty() || report.front() != *answer.id)) return std::nullopt;
     for (const auto& refusal : answer.refusals)
-        if (read (refusal.bits, report) == refusal.raw) return tl::unexpected (refusal.means);
+        if (read (refusal.bits, report) == refusal.raw) return refusal.means;
     if (answer.success && read (answer.success->bits, report) != answer.success->raw) return std::nullopt;
     const auto number = read (answer.number, report);
     return number == 0u ? std::nullopt : number;

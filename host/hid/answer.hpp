@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/hid/profile.hpp>
+#include "profile.hpp"
 
-#include <tl/expected.hpp>
+#include <framework/text/result.hpp>
 
 #include <optional>
 #include <span>
@@ -11,7 +11,7 @@
 namespace tactus::host::hid
 {
 
-/// The number in an answer, whatever its bytes are; nothing if there is none, or none yet; or why there will be none.
-tl::expected<std::optional<std::uint32_t>, Message> numberIn (const Answer&, std::span<const std::uint8_t> report);
+/// The number in an answer. Empty if there is none, or none yet; an error if none will come. Accepts any bytes.
+Result<std::optional<std::uint32_t>> numberIn (const Answer&, std::span<const std::uint8_t> report);
 
 }   // namespace tactus::host::hid

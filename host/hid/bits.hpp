@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/hid/profile.hpp>
+#include "profile.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -11,11 +11,11 @@
 namespace tactus::host::hid
 {
 
-/// All bits of a number set; it is as large as it can be.
+/// A mask as wide as the number.
 inline std::uint64_t maskOf (const Bits& b) noexcept { return (std::uint64_t { 1 } << b.size) - 1; }
 
-/// The bytes that a number touches, five at most, as one: the lowest first, or the last one first where it is
-/// big-endian. Calls back with each byte and how far it is shifted.
+/// Visits the bytes that a number touches, at most five: first byte first, or last byte first if it is big-endian. Calls
+/// back with the index of each byte and its shift.
 template <typename Byte>
 void eachByte (const Bits& b, Byte&& byte) noexcept
 {
@@ -24,7 +24,7 @@ void eachByte (const Bits& b, Byte&& byte) noexcept
         byte (b.big_endian ? first + last - i : i, 8 * (i - first));
 }
 
-/// The raw bits, the lowest first; the field has to lie within the report.
+/// The raw bits, lowest first. The field must lie within the report.
 inline std::uint32_t bitsAt (const Bits& b, std::span<const std::uint8_t> report) noexcept
 {
     std::uint64_t all = 0;
@@ -40,7 +40,7 @@ inline void putBits (const Bits& b, std::uint32_t raw, std::span<std::uint8_t> r
               { report[i] = static_cast<std::uint8_t> ((report[i] & ~(mask >> shift)) | value >> shift); });
 }
 
-/// The number that the raw bits stand for.
+/// The number that the raw bits encode.
 inline double numberOf (const Bits& b, std::uint32_t raw) noexcept
 {
     if (b.is_float) return static_cast<double> (std::bit_cast<float> (raw));
@@ -48,7 +48,7 @@ inline double numberOf (const Bits& b, std::uint32_t raw) noexcept
     return static_cast<double> (raw) - (negative ? static_cast<double> (std::uint64_t { 1 } << b.size) : 0.0);
 }
 
-/// What the bits can hold.
+/// The smallest and the largest number that the bits can hold.
 inline double smallest (const Bits& b) noexcept
 {
     if (b.is_float) return static_cast<double> (std::numeric_limits<float>::lowest());
@@ -61,7 +61,7 @@ inline double largest (const Bits& b) noexcept
     return static_cast<double> (std::uint64_t { 1 } << (b.is_signed ? b.size - 1 : b.size)) - 1.0;
 }
 
-/// The bits of a number: rounded, and clamped to what they can hold. The number is finite.
+/// Encodes a finite number: rounded, and clamped to what the bits can hold.
 inline std::uint32_t rawOf (const Bits& b, double number) noexcept
 {
     const double held = std::clamp (number, smallest (b), largest (b));

@@ -7,8 +7,8 @@
 namespace tactus::host::hid
 {
 
-/// CRC-32 as of IEEE 802.3 (reflected, polynomial 0x04C11DB7): of "123456789" it is 0xCBF43926. What follows goes on
-/// from what came before.
+/// CRC-32 of IEEE 802.3 (reflected, polynomial 0x04C11DB7): the CRC of "123456789" is 0xCBF43926. `before` is the CRC of the
+/// preceding bytes.
 inline std::uint32_t crc32 (std::span<const std::uint8_t> bytes, std::uint32_t before = 0) noexcept
 {
     std::uint32_t crc = ~before;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/hid/hex.hpp>
+#include "hex.hpp"
 
 #include <charconv>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/hid/profile.hpp>
+#include "profile.hpp"
 
 #include <optional>
 #include <span>
@@ -11,8 +11,8 @@
 namespace tactus::host::hid
 {
 
-/// "02 00 ff", spaces wherever one likes between bytes; "00*20" are twenty bytes of 00, twenty counted in decimals.
-/// Nothing if it is anything else, or longer than a report may be.
+/// Parses "02 00 ff", with any spaces between bytes; "00*20" means twenty (decimal) bytes of 00. Empty for anything else,
+/// or if it is longer than a report may be.
 std::optional<Bytes> bytesOf (std::string_view hex);
 
 /// "02 00 ff"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/hid/hid_model.hpp>
+#include "hid_model.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace tactus::host::hid
@@ -15,6 +16,14 @@ HidModel::HidModel (std::shared_ptr<const Profile> p)
         rotation[i] = decoder.axis (description->rotation[i]);
         force[i] = encoder.effort (description->force[i]);
         torque[i] = encoder.effort (description->torque[i]);
+    }
+    for (std::size_t i = 0; i < effortNames().size(); ++i)
+    {
+        const auto is_i = [i] (int effort)
+        { return effort == static_cast<int> (i); };
+        if (std::ranges::any_of (force, is_i) || std::ranges::any_of (torque, is_i)) continue;
+        own.push_back (i);
+        own_names.push_back (effortNames()[i]);
     }
     pressure = decoder.axis (description->pressure);
     valid = decoder.axis (description->valid);
@@ -69,6 +78,12 @@ Reading HidModel::reading() const noexcept
     r.buttons = last.buttons;
     r.valid = last.valid;
     return r;
+}
+
+void HidModel::take (const Channels& axes, HidEffort& effort) const noexcept
+{
+    for (std::size_t i = 0; i < own.size(); ++i)
+        if (const double asked = axes[static_cast<int> (i)]; asked != 0.0) effort.efforts[own[i]] = asked;
 }
 
 std::array<double, most_efforts> HidModel::asked (const HidEffort& effort) const noexcept

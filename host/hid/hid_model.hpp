@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/hid/kinematics.hpp>
-#include <host/hid/report_decoder.hpp>
-#include <host/hid/report_encoder.hpp>
+#include "kinematics.hpp"
+#include "report_decoder.hpp"
+#include "report_encoder.hpp"
 
-#include <framework/device.hpp>
+#include <framework/node/device.hpp>
 
 #include <memory>
 #include <span>
@@ -15,31 +15,31 @@
 namespace tactus::host::hid
 {
 
-/// What a device said last, in SI and in Tactus' axes.
+/// The latest values of a device, in SI units and Tactus axes.
 struct HidSample
 {
     Vec3 position = Vec3::Zero();              ///< m
     Vec3 rotation = Vec3::Zero();              ///< rotation vector, rad
     double pressure = 0.0;                     ///< N
     std::uint32_t buttons = 0;                 ///< bit i: buttonNames()[i] is down
-    std::array<double, most_axes> axes {};     ///< as axisNames()
-    double time = 0.0;                         ///< s by the device's clock since its first report, if hasTime
-    std::uint32_t lost = 0;                    ///< reports that were lost just before this one
-    bool valid = false;                        ///< the device says so, and kinematics have an answer
+    std::array<double, most_axes> axes {};     ///< in the order of axisNames()
+    double time = 0.0;                         ///< time since the device's first report, on its own clock, in s; if hasTime
+    std::uint32_t lost = 0;                    ///< reports lost just before this one
+    bool valid = false;                        ///< true if the device reports them as valid and the kinematics have a solution
     Refusal refusal = Refusal::none;           ///< why the last report changed nothing
-    PoseProblem problem = PoseProblem::none;   ///< of the pose
+    PoseProblem problem = PoseProblem::none;   ///< why the pose cannot be used, if it cannot
 };
 
-/// What is asked of a device; Tactus' axes.
+/// The effort requested from a device, in Tactus axes.
 struct HidEffort
 {
-    Vec3 force = Vec3::Zero();                     ///< N on the tool
+    Vec3 force = Vec3::Zero();                     ///< force on the tool, in N
     Vec3 torque = Vec3::Zero();                    ///< N m
-    std::array<double, most_efforts> efforts {};   ///< as effortNames(); restEfforts() at first
+    std::array<double, most_efforts> efforts {};   ///< in the order of effortNames(); initially restEfforts()
 };
 
-/// A profile at work: bytes in, values out, and back. After construction nothing is allocated, and nothing throws,
-/// whatever the bytes and values are. For one thread at a time.
+/// Runs a profile: report bytes to values, and back. Allocates nothing after construction and never throws, for any bytes
+/// and values. For one thread at a time.
 class HidModel
 {
 public:
@@ -47,23 +47,29 @@ public:
 
     const Profile& profile() const noexcept { return *description; }
 
-    /// A report as hid_read gives it. A report that is refused leaves all values as they were.
+    /// Decodes a report in the form that hid_read returns it. A refused report leaves all values unchanged.
     const HidSample& decode (std::span<const std::uint8_t> report) noexcept;
     const HidSample& sample() const noexcept { return last; }
 
-    /// As framework nodes want it; age is for the caller to say, who knows when it came.
+    /// The reading for the framework. The caller adds its age, since it knows when the report arrived.
     Reading reading() const noexcept;
 
-    /// The n-th output report of the profile, ready for hid_write (or hid_send_feature_report): one that has no id
-    /// begins with a 0. Force and torque go through kinematics at the pose decoded last; until a place was told there is
-    /// no force. A value that is not finite
-    /// leaves its field neutral, and so does a pose without an answer. The span is good until the next call.
+    /// The efforts that neither the force nor the torque drives. A graph can ask only for these by name: if a motor could be
+    /// reached both ways, the guard would limit each way, but not their sum.
+    const std::vector<std::string>& ownEffortNames() const noexcept { return own_names; }
+
+    /// Takes over values in the order of ownEffortNames(). A value of 0 leaves the one of the neutral report.
+    void take (const Channels& axes, HidEffort&) const noexcept;
+
+    /// The n-th output report of the profile, ready for hid_write (or hid_send_feature_report): without an id it begins
+    /// with 0. Force and torque are converted by the kinematics at the latest decoded pose; without a pose there is no force.
+    /// A field stays neutral if its value is not finite or if the pose has no solution. The span is valid until the next call.
     std::span<const std::uint8_t> encode (std::size_t report, const HidEffort&) noexcept;
 
-    /// The same for a report with a stream: frames after each other, one sample a channel, -1…1; missing ones are 0.
+    /// The same for a report with a stream: the samples are interleaved frames, -1…1; missing samples are 0.
     std::span<const std::uint8_t> encode (std::size_t report, const HidEffort&, std::span<const float> samples) noexcept;
 
-    /// The report that makes the device do nothing, with counters and checksum as the device wants them.
+    /// The report that makes the device do nothing, with the counters and the checksum that it requires.
     std::span<const std::uint8_t> neutral (std::size_t report) noexcept;
 
     std::size_t outputs() const noexcept { return description->outputs.size(); }
@@ -77,18 +83,18 @@ public:
     const std::vector<std::string>& effortUnits() const noexcept { return encoder.effortUnits(); }
     const std::array<double, most_efforts>& restEfforts() const noexcept { return encoder.restEfforts(); }
 
-    /// Of the n-th output report's stream; empty if it has none.
+    /// Channels of the n-th output report's stream; empty if it has none.
     std::span<const std::string> channelNames (std::size_t report) const noexcept;
 
     const std::vector<Step>& init() const noexcept { return description->init; }
 
-    /// To be sent after the neutral reports.
+    /// The steps to perform after the neutral reports.
     const std::vector<Step>& exit() const noexcept { return description->exit; }
     const GuardLimits& limits() const noexcept { return description->limits.guard; }
 
     const ReportDecoder::Counts& counts() const noexcept { return decoder.counts(); }
 
-    /// Forgets counters, clocks and sequence numbers: after the device was opened again. [main thread]
+    /// Resets counters, clocks and sequence numbers; for a device that has been opened again. [main thread]
     void reset();
 
 private:
@@ -102,7 +108,9 @@ private:
     Kinematics kinematics;
     Kinematics::Pose pose;
     HidSample last;
-    std::array<int, 3> position {}, rotation {}, force {}, torque {};   // indices among axes and efforts; -1: none
+    std::array<int, 3> position {}, rotation {}, force {}, torque {};   // indices of axes and efforts; -1: none
+    std::vector<std::size_t> own;                                       // indices of efforts
+    std::vector<std::string> own_names;
     int pressure = -1, valid = -1;
 };
 

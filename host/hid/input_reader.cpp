@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/hid/number_reader.hpp>
-#include <host/hid/report_reader.hpp>
+#include "number_reader.hpp"
+#include "report_reader.hpp"
 
 #include <framework/graph/text.hpp>
-#include <framework/in_quotes.hpp>
+#include <framework/text/closest_match.hpp>
+#include <framework/text/quote.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -30,12 +31,14 @@ InputField readInputField (ProfileFields& in)
     field.scale = readScale (in, field.unit);
     field.offset = readOffset (in, field.unit);
 
-    if (field.unwrap && field.bits.is_float) in.error ("unwrap", "profile/type", "a floating-point number does not begin again", "leave \"unwrap\" out");
+    if (field.unwrap && field.bits.is_float) in.error ("unwrap", "profile/type", "a floating-point number does not wrap around", "leave \"unwrap\" out");
     if (field.is_hat && field.buttons.size() != 4) in.error ("hat", "profile/kind", "a hat has four buttons", "name up, right, down and left");
-    if (field.buttons.size() > field.bits.size) in.error (field.is_hat ? "hat" : "buttons", "profile/beyond", "there are more buttons than bits", "take a larger type");
+    if (field.buttons.size() > field.bits.size)
+        in.error (field.is_hat ? "hat" : "buttons", "profile/beyond", "there are more buttons than bits", "use a larger type");
     for (const auto& button : field.buttons)
         if (! button.empty() && ! graph::isId (button))
-            in.error (field.is_hat ? "hat" : "buttons", "profile/name", inQuotes (button) + " is not a name", "write lower case letters, digits and _, a letter first, or \"\" for a bit without a button");
+            in.error (field.is_hat ? "hat" : "buttons", "profile/name", quote (button) + " is not a name",
+                      "write lower case letters, digits and _, a letter first, or \"\" for a bit without a button");
     return field;
 }
 
@@ -44,14 +47,19 @@ InputReport readInput (ProfileFields& in)
     InputReport report;
     in.ignore ("about");
     if (const auto id = in.id ("id", 255)) report.id = static_cast<std::uint8_t> (*id);
-    in.require ("length", "write \"length\": the bytes of the report, its id included");
+    in.require ("length", "write \"length\": the number of bytes of the report, including its id");
     report.length = static_cast<std::size_t> (in.whole ("length", 1, most_bytes, 1));
     report.longest = static_cast<std::size_t> (in.whole ("longest", static_cast<int> (report.length), most_bytes, static_cast<int> (report.length)));
-    in.each ("fields", [&] (ProfileFields& f)
+    in.each ("fields",
+             [&] (ProfileFields& f)
              {
-        report.fields.push_back (readInputField (f));
-        if (report.fields.back().bits.end() > 8 * report.length)
-            f.error ("at", "profile/beyond", "the field ends at byte " + std::to_string ((report.fields.back().bits.end() + 7) / 8) + " of a report of " + std::to_string (report.length), "make the report longer, or begin earlier"); });
+                 report.fields.push_back (readInputField (f));
+                 if (report.fields.back().bits.end() > 8 * report.length)
+                     f.error ("at", "profile/beyond",
+                              "the field ends at byte " + std::to_string ((report.fields.back().bits.end() + 7) / 8) + " of a report of "
+                                  + std::to_string (report.length),
+                              "make the report longer, or start the field earlier");
+             });
     if (in.has ("timestamp")) report.timestamp = in.name ("timestamp");
     if (in.has ("sequence")) report.sequence = in.name ("sequence");
     readVerified (in, report.verified, report.why_not);
@@ -61,7 +69,7 @@ InputReport readInput (ProfileFields& in)
     {
         const auto& name = report.fields[i].name;
         if (name.empty()) continue;
-        if (std::ranges::find (names, name) != names.end()) in.error ("fields", "profile/duplicate", "there are two fields " + inQuotes (name), "name one otherwise");
+        if (std::ranges::find (names, name) != names.end()) in.error ("fields", "profile/duplicate", "there are two fields " + quote (name), "rename one");
         names.push_back (name);
     }
 
@@ -69,14 +77,16 @@ InputReport readInput (ProfileFields& in)
     {
         const auto it = std::ranges::find (report.fields, name, &InputField::name);
         if (it != report.fields.end() && it->isAxis() && ! it->bits.is_float) return &*it;
-        if (! name.empty()) in.error (key, "profile/unknown_name", "there is no whole number called " + inQuotes (name) + " in this report", suggestion (name, names));
+        if (! name.empty())
+            in.error (key, "profile/unknown_name", "there is no whole number called " + quote (name) + " in this report", suggestion (name, names));
         return nullptr;
     };
     if (! report.sequence.empty()) named ("sequence", report.sequence);
     if (auto* time = report.timestamp.empty() ? nullptr : named ("timestamp", report.timestamp))
     {
         time->unwrap = true;
-        if (time->unit != "s") in.error ("timestamp", "profile/unit", "a time stamp is in s, this is in " + time->unit, "give the field a scale such as \"1 us\"");
+        if (time->unit != "s")
+            in.error ("timestamp", "profile/unit", "a time stamp must be in s; this one is in " + time->unit, "give the field a scale such as \"1 us\"");
     }
     return report;
 }
@@ -91,7 +101,7 @@ std::vector<InputReport> readInputs (ProfileFields& profile)
         const auto& id = reports.back().id;
         for (std::size_t i = 0; i + 1 < reports.size(); ++i)
             if (! id || ! reports[i].id || *id == *reports[i].id)
-                return in.error ("id", "profile/duplicate", "this report cannot be told from another", "a device with several input reports gives each an id of its own"); });
+                return in.error ("id", "profile/duplicate", "this report cannot be distinguished from another", "give each input report its own id"); });
     return reports;
 }
 

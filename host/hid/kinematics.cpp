@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/hid/kinematics.hpp>
-
-#include <Eigen/LU>
+#include "kinematics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +13,8 @@ namespace
 {
 using Pose = Kinematics::Pose;
 
-/// How far from singular a pose is, 0…1, becomes how much of a force is rendered: all from `firm` on, nothing below
-/// `weak`, so that a hand that crosses the place feels the force fade and not break off.
+/// Maps the distance from singularity, 0…1, to the part of a force that is rendered: all of it above `firm`, none below
+/// `weak`, so that the force fades instead of breaking off when the hand crosses a singular pose.
 constexpr double weak = 0.02, firm = 0.1;
 
 void fade (Pose& pose, double regularity) noexcept
@@ -44,7 +42,7 @@ std::span<const Drive> drivesOf (const KinematicsModel& model) noexcept
     return {};
 }
 
-// What differs from one mechanism to the next: pose, and its inverse.
+// The pose of each mechanism.
 
 Pose poseOf (const Direct&, const Vec3& q) noexcept
 {
@@ -75,7 +73,7 @@ Pose poseOf (const SerialArm& arm, const Vec3& q) noexcept
         ca * reach, sa * lb * cb, sa * lc * cc,
         0.0, -lb * sb, lc * sc;
 
-    // Singular where the links are in line (the tool cannot be pushed along them), and above or below the column.
+    // Singular if the links are in line (the tool cannot be pushed along them), or if the tool is above or below the column.
     const double in_line = std::abs (sb * cc + cb * sc);
     const double over_column = std::abs (reach) / (lb + lc);
     fade (pose, std::min (in_line, over_column));
@@ -89,7 +87,7 @@ Pose poseOf (const FiveBar& bar, const Vec3& q) noexcept
     const Vec2 right = bar.links[0] * right_way;
     const Vec2 left = Vec2 { -bar.base, 0.0 } + bar.links[3] * left_way;
 
-    // The tool is where circles about the two elbows meet, on the side away from the pivots.
+    // The tool is at the intersection of two circles around the elbows, on the side away from the pivots.
     const Vec2 between = left - right;
     const double far = between.norm(), r = bar.links[1], l = bar.links[2];
     if (! (far > 0.0) || far > r + l || far < std::abs (r - l)) return problem (PoseProblem::unreachable);
@@ -117,45 +115,6 @@ Pose poseOf (const FiveBar& bar, const Vec3& q) noexcept
     return pose;
 }
 
-std::optional<Vec3> inverse (const Direct&, const Vec3& p) noexcept { return p; }
-
-std::optional<Vec3> inverse (const LinearMap& map, const Vec3& p) noexcept
-{
-    const Eigen::FullPivLU<Mat3> lu (map.matrix);
-    if (! lu.isInvertible()) return {};
-    return lu.solve (p - map.origin);
-}
-
-/// The angle between a link of length a and the line to a point at a distance, from where a link of length b meets it.
-std::optional<double> cornerOf (double a, double b, double distance) noexcept
-{
-    const double cosine = (a * a + distance * distance - b * b) / (2.0 * a * distance);
-    if (! (std::abs (cosine) <= 1.0)) return {};
-    return std::acos (cosine);
-}
-
-std::optional<Vec3> inverse (const SerialArm& arm, const Vec3& p) noexcept
-{
-    // In the plane of the links, from the shoulder, angles from the vertical; the lower link points at pi - c.
-    const Vec3 at = p + arm.origin;
-    const double across = std::hypot (at.x(), at.y()), up = at.z() - arm.links[0];
-    const auto corner = cornerOf (arm.links[1], arm.links[2], std::hypot (across, up));
-    if (! corner) return {};
-
-    const double b = std::atan2 (across, up) - *corner;
-    const double c = std::numbers::pi - std::atan2 (across - arm.links[1] * std::sin (b), up - arm.links[1] * std::cos (b));
-    return Vec3 { std::atan2 (at.y(), at.x()), b, c };
-}
-
-std::optional<Vec3> inverse (const FiveBar& bar, const Vec3& p) noexcept
-{
-    // Elbows outwards.
-    const Vec3 at = p + bar.origin;
-    const auto right = cornerOf (bar.links[0], bar.links[1], std::hypot (at.x(), at.y()));
-    const auto left = cornerOf (bar.links[3], bar.links[2], std::hypot (at.x() + bar.base, at.y()));
-    if (! right || ! left) return {};
-    return Vec3 { std::atan2 (at.y(), at.x()) - *right, std::atan2 (at.y(), at.x() + bar.base) + *left, 0.0 };
-}
 }   // namespace
 
 std::string_view describe (PoseProblem problem) noexcept
@@ -201,14 +160,6 @@ Kinematics::Pose Kinematics::pose (const Vec3& q) const noexcept
                                   model);
     const bool finite = isFinite (pose.position) && isFinite (pose.jacobian.sum());
     return finite ? pose : problem (PoseProblem::not_finite);
-}
-
-std::optional<Vec3> Kinematics::jointsAt (const Vec3& position) const noexcept
-{
-    if (! isFinite (position)) return {};
-    return std::visit ([&] (const auto& m)
-                       { return inverse (m, position); },
-                       model);
 }
 
 Vec3 Kinematics::torques (const Pose& pose, const Vec3& force) noexcept

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/hid/kinematics_reader.hpp>
+#include "kinematics_reader.hpp"
 
 #include <Eigen/LU>
 
@@ -9,7 +9,7 @@ namespace tactus::host::hid
 {
 namespace
 {
-/// "-x" as a row; zero if it is none.
+/// An axis such as "-x" as a row of a matrix; zero if it is not an axis.
 Vec3 directionOf (std::string_view text)
 {
     const bool back = text.starts_with ('-');
@@ -19,7 +19,7 @@ Vec3 directionOf (std::string_view text)
     return row;
 }
 
-/// Three rows of three numbers, or what stands for one; nothing if it is anything else.
+/// Reads three rows of three numbers, or three entries that `row` accepts. Empty for anything else.
 std::optional<Mat3> matrixOf (const Json& json)
 {
     if (! json.is_array() || json.size() != 3) return {};
@@ -47,17 +47,19 @@ Drive readDrive (ProfileFields& in)
 {
     constexpr double none = std::numeric_limits<double>::infinity();
     Drive d;
-    in.require ("counts_per_turn", "write \"counts_per_turn\" of the motor's encoder, negative where it counts against the motor");
+    in.require ("counts_per_turn", "write \"counts_per_turn\" of the motor's encoder, negative if it counts against the motor");
     d.counts_per_turn = in.number ("counts_per_turn", unit::count, {}, 1.0);
     const double capstan = in.number ("capstan", unit::metre, Bounds::positive(), 1.0);
     const double body = in.number ("body", unit::metre, Bounds::positive(), 1.0);
-    if (in.has ("capstan") != in.has ("body")) in.error ("capstan", "profile/missing", "capstan and body stand together", "write the diameters of both, or neither for a joint right on the motor");
+    if (in.has ("capstan") != in.has ("body"))
+        in.error ("capstan", "profile/missing", "capstan and body must be given together",
+                  "write the diameters of both, or neither if the joint is directly on the motor");
     d.ratio = (in.flag ("reversed") ? -1.0 : 1.0) * capstan / body;
     d.offset = in.number ("offset", unit::radian, {}, 0.0);
     d.torque_constant = in.number ("torque_constant", unit::count, {}, 1.0);   // N m/A
     d.max_current = in.number ("max_current", unit::count, Bounds::positive(), none);
-    if (d.counts_per_turn == 0.0) in.error ("counts_per_turn", "profile/out_of_range", "an encoder without counts", "write its counts for a turn");
-    if (d.torque_constant == 0.0) in.error ("torque_constant", "profile/out_of_range", "a motor without torque", "write N m for each A");
+    if (d.counts_per_turn == 0.0) in.error ("counts_per_turn", "profile/out_of_range", "the encoder has 0 counts per turn", "write its counts per turn");
+    if (d.torque_constant == 0.0) in.error ("torque_constant", "profile/out_of_range", "the torque constant is 0", "write N m per A");
     return d;
 }
 
@@ -73,7 +75,7 @@ void readDrives (ProfileFields& in, std::array<Drive, n>& drives)
     if (read != n) in.error ("drives", "profile/kinematics", "there are " + std::to_string (read) + " drives", "write " + std::to_string (n));
 }
 
-/// Lengths of links, all of them more than 0.
+/// Reads link lengths, all above 0.
 template <std::size_t n>
 std::array<double, n> readLinks (ProfileFields& in, std::string_view remedy)
 {
@@ -86,7 +88,7 @@ std::array<double, n> readLinks (ProfileFields& in, std::string_view remedy)
         links[i] = numbers[i];
         good = links[i] > 0.0;
     }
-    if (! good) in.error ("links", "profile/kinematics", "the links have to be " + std::to_string (n) + " lengths in m, more than 0", std::string (remedy));
+    if (! good) in.error ("links", "profile/kinematics", "the links must be " + std::to_string (n) + " lengths in m, above 0", std::string (remedy));
     return links;
 }
 
@@ -118,7 +120,7 @@ LinearMap readLinear (ProfileFields& in)
     if (matrix)
         map.matrix = *matrix;
     else if (in.has ("matrix"))
-        in.error ("matrix", "profile/kinematics", "the matrix has to be three rows of three numbers", "write [[1, 0, 0], [0, 1, 0], [0, 0, 1]]");
+        in.error ("matrix", "profile/kinematics", "the matrix must be three rows of three numbers", "write [[1, 0, 0], [0, 1, 0], [0, 0, 1]]");
     map.origin = in.vector ("origin", unit::metre, map.origin);
     return map;
 }
@@ -130,29 +132,35 @@ Mat3 readAxes (ProfileFields& in)
     if (! in.has ("axes")) return Mat3::Identity();
 
     const auto m = matrixOf (json);
-    const auto remedy = "write what lies to the right, away and up, such as [\"y\", \"-x\", \"z\"]; turn a left-handed device with the scale of one field";
+    const auto remedy = "write which axis points right, away and up, such as [\"y\", \"-x\", \"z\"]; for a left-handed device negate the scale of one field";
     if (m && (*m * m->transpose() - Mat3::Identity()).norm() < 1e-9 && m->determinant() > 0.0) return *m;
-    in.error ("axes", "profile/axes", m ? "the axes are not right-handed, of length 1 and at right angles" : "axes has to be three axes or rows", remedy);
+    in.error ("axes", "profile/axes", m ? "the axes are not right-handed, of length 1 and perpendicular" : "axes must be three axes or rows", remedy);
     return Mat3::Identity();
 }
 
 KinematicsModel readKinematics (ProfileFields& profile)
 {
     KinematicsModel model;
-    profile.within ("kinematics", [&] (ProfileFields& in)
+    profile.within ("kinematics",
+                    [&] (ProfileFields& in)
                     {
-        int kinds = 0;
-        const auto take = [&] (std::string_view kind, auto read)
-        {
-            in.within (kind, [&] (ProfileFields& k)
-                       {
-                ++kinds;
-                model = read (k); });
-        };
-        take ("linear", readLinear);
-        take ("serial", readSerial);
-        take ("five_bar", readFiveBar);
-        if (kinds != 1) profile.error ("kinematics", "profile/kinematics", "kinematics is one of linear, serial and five_bar", "write {\"serial\": { … }}"); });
+                        int kinds = 0;
+                        const auto take = [&] (std::string_view kind, auto read)
+                        {
+                            in.within (kind,
+                                       [&] (ProfileFields& k)
+                                       {
+                                           ++kinds;
+                                           model = read (k);
+                                       });
+                        };
+                        take ("linear", readLinear);
+                        take ("serial", readSerial);
+                        take ("five_bar", readFiveBar);
+                        if (kinds != 1)
+                            profile.error ("kinematics", "profile/kinematics", "kinematics must be one of linear, serial and five_bar",
+                                           "write {\"serial\": { … }}");
+                    });
     return model;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/hid/match.hpp>
+#include "match.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -16,8 +16,8 @@ bool containsInAnyCase (std::string_view text, std::string_view part) noexcept
     return std::search (text.begin(), text.end(), part.begin(), part.end(), same) != text.end() || part.empty();
 }
 
-/// What an entry of a rule counts: nothing if it says nothing or the platform does not tell, its weight if it fits, and
-/// far less than nothing if it does not.
+/// The score of one entry of a rule: 0 if the entry is absent or the platform does not provide the data, its weight if it
+/// fits, and far below 0 if it does not.
 int worth (bool said_and_known, bool fits, int weight) noexcept
 {
     if (! said_and_known) return 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/hid/profile.hpp>
+#include "profile.hpp"
 
 #include <memory>
 #include <span>
@@ -11,20 +11,20 @@
 namespace tactus::host::hid
 {
 
-/// What is known of a device before it is opened.
+/// The data about a device that are known before it is opened.
 struct DeviceInfo
 {
     std::uint16_t vid = 0, pid = 0;
-    std::uint16_t usage_page = 0, usage = 0;   ///< 0 where the platform does not tell
-    int interface_number = -1;                 ///< -1 where it is not known
+    std::uint16_t usage_page = 0, usage = 0;   ///< 0 if the platform does not provide it
+    int interface_number = -1;                 ///< -1 if unknown
     Bus bus = Bus::unknown;
     std::string product;
 };
 
-/// How well a profile fits: 0 not at all, else the more the more it says about the device.
+/// How well a profile fits: 0 not at all; more specific rules score higher.
 int fit (const Profile&, const DeviceInfo&) noexcept;
 
-/// The profiles that fit, the one that says most first; among equals, by id.
+/// The profiles that fit, most specific first; profiles with the same score are sorted by id.
 std::vector<std::shared_ptr<const Profile>> matching (std::span<const std::shared_ptr<const Profile>>, const DeviceInfo&);
 
 }   // namespace tactus::host::hid

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/hid/number_reader.hpp>
+#include "number_reader.hpp"
 
-#include <framework/in_quotes.hpp>
+#include <framework/text/quote.hpp>
 
 #include <charconv>
 #include <cmath>
@@ -10,9 +10,9 @@ namespace tactus::host::hid
 {
 namespace
 {
-constexpr double largest_scale = 1e15;   // SI; whatever a counter counts stays finite
+constexpr double largest_scale = 1e15;   // in SI units; small enough that no count overflows
 
-/// "u8", "s16le", "u32be", "f32le", and "u3" … "s31" for as many bits from the lowest on.
+/// Parses "u8", "s16le", "u32be", "f32le", and "u3" … "s31" for bit fields that start at the lowest bit.
 bool readType (std::string_view type, Bits& bits)
 {
     if (type.empty()) return false;
@@ -30,12 +30,12 @@ bool readType (std::string_view type, Bits& bits)
            && (! bits.is_float || (bits.size == 32 && ! order.empty()));
 }
 
-/// The unit of a scale, or the one that is written where the scale is a bare number.
+/// The unit of a scale, or the key "unit" if the scale is a bare number.
 std::string readUnit (ProfileFields& in, const std::string& of_scale)
 {
-    const auto written = in.has ("unit") ? in.text ("unit") : std::string();
+    const auto written = in.text ("unit");
     if (! of_scale.empty() && ! written.empty())
-        in.error ("unit", "profile/unit", "the unit is said twice", "leave \"unit\" out: it is " + of_scale);
+        in.error ("unit", "profile/unit", "the unit is given twice", "leave \"unit\" out: it is " + of_scale);
     if (! of_scale.empty()) return of_scale;
     return written.empty() ? "1" : written;
 }
@@ -44,27 +44,29 @@ std::string readUnit (ProfileFields& in, const std::string& of_scale)
 Bits readBits (ProfileFields& in)
 {
     Bits bits;
-    in.require ("at", "write \"at\": the byte it begins in");
+    in.require ("at", "write \"at\": its first byte");
     in.require ("type", "write \"type\": \"s16le\"");
     const auto byte = in.whole ("at", 0, most_bytes - 1, 0);
     const auto bit = in.whole ("bit", 0, 7, 0);
     const auto type = in.text ("type");
     if (! type.empty() && ! readType (type, bits))
     {
-        in.error ("type", "profile/type", inQuotes (type) + " is not a type", "write u8, s8, u16le, s16be, u32le, f32le …, or u1 … u32 and s1 … s32 for bits");
+        in.error ("type", "profile/type", quote (type) + " is not a type",
+                  "write u8, s8, u16le, s16be, u32le, f32le …, or u1 … u32 and s1 … s32 for bits");
         bits = {};
     }
     bits.at = static_cast<std::size_t> (8 * byte + bit);
-    if (bits.big_endian && bit != 0) in.error ("bit", "profile/type", "a big-endian number begins with a byte", "leave \"bit\" out");
+    if (bits.big_endian && bit != 0) in.error ("bit", "profile/type", "a big-endian number must start at a byte", "leave \"bit\" out");
     return bits;
 }
 
 double readOffset (ProfileFields& in, const std::string& unit)
 {
     const auto offset = in.scale ("offset", 0.0);
-    if (! (std::abs (offset.value) <= largest_scale)) in.error ("offset", "profile/out_of_range", "the offset is too large", "write what a count of 0 means, in SI");
+    if (! (std::abs (offset.value) <= largest_scale))
+        in.error ("offset", "profile/out_of_range", "the offset is too large", "write the value of count 0, in SI");
     if (! offset.unit.empty() && offset.unit != unit)
-        in.error ("offset", "profile/unit", "the offset is in " + offset.unit + ", the scale in " + unit, "write both in one unit");
+        in.error ("offset", "profile/unit", "the offset is in " + offset.unit + ", but the scale is in " + unit, "write both in the same unit");
     return offset.value;
 }
 
@@ -72,7 +74,7 @@ double readScale (ProfileFields& in, std::string& unit)
 {
     const auto scale = in.scale ("scale", 1.0);
     if (! (std::abs (scale.value) >= 1.0 / largest_scale && std::abs (scale.value) <= largest_scale))
-        in.error ("scale", "profile/out_of_range", "no count is as much as that", "write what one count is, in SI");
+        in.error ("scale", "profile/out_of_range", "the scale is out of range", "write the value of one count, in SI");
     unit = readUnit (in, scale.unit);
     return scale.value;
 }
@@ -81,8 +83,9 @@ void readVerified (ProfileFields& in, bool& verified, std::string& why_not)
 {
     in.require ("verified", "write \"verified\": true if a report of a real device was decoded with it, else false");
     verified = in.flag ("verified");
-    why_not = in.has ("why_not") ? in.text ("why_not") : std::string();
-    if (! verified && why_not.empty()) in.error ("why_not", "profile/missing", "a report that is not verified has to say why", "write \"why_not\": \"…\"");
+    why_not = in.text ("why_not");
+    if (! verified && why_not.empty())
+        in.error ("why_not", "profile/missing", "a report that is not verified must say why", "write \"why_not\": \"…\"");
 }
 
 }   // namespace tactus::host::hid

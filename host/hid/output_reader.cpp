@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/hid/number_reader.hpp>
-#include <host/hid/report_reader.hpp>
+#include "number_reader.hpp"
+#include "report_reader.hpp"
 
 #include <framework/graph/text.hpp>
-#include <framework/in_quotes.hpp>
+#include <framework/text/quote.hpp>
 
 #include <algorithm>
 #include <functional>
@@ -20,13 +20,13 @@ Encoding readEncoding (ProfileFields& in, const Tables& tables, std::string& uni
     e.scale = readScale (in, unit);
     e.offset = readOffset (in, unit);
 
-    if (in.has ("log2") && in.has ("table")) in.error ("table", "profile/kind", "a field has one law", "leave log2 or table out");
+    if (in.has ("log2") && in.has ("table")) in.error ("table", "profile/kind", "a field can have only one law", "use either log2 or table");
     in.within ("log2", [&] (ProfileFields& law)
                {
         e.law = Encoding::Law::log2;
         e.steps = law.number ("steps", unit::count, {}, 1.0);
         e.reference = law.number ("reference", unit::count, Bounds::positive(), 1.0);
-        if (e.steps == 0.0) law.error ("steps", "profile/out_of_range", "steps is 0", "write how many numbers an octave has"); });
+        if (e.steps == 0.0) law.error ("steps", "profile/out_of_range", "steps is 0", "give the number of steps per octave"); });
     if (in.has ("table"))
     {
         const auto name = in.name ("table");
@@ -36,7 +36,7 @@ Encoding readEncoding (ProfileFields& in, const Tables& tables, std::string& uni
             std::tie (e.x, e.y) = it->second;
         }
         else if (! name.empty())
-            in.error ("table", "profile/unknown_name", "there is no table " + inQuotes (name), "add it under \"tables\"");
+            in.error ("table", "profile/unknown_name", "there is no table " + quote (name), "add it under \"tables\"");
     }
     return e;
 }
@@ -53,7 +53,7 @@ OutputField readOutputField (ProfileFields& in, const Tables& tables)
     else if (source == "echo")
         field.source = OutputField::Source::echo;
     else if (source != "effort")
-        in.error ("source", "profile/kind", inQuotes (source) + " is not a source", "write effort, enable or echo");
+        in.error ("source", "profile/kind", quote (source) + " is not a source", "write effort, enable or echo");
 
     if (field.source != OutputField::Source::enable) field.name = in.name ("name");
     if (field.source == OutputField::Source::effort)
@@ -75,33 +75,38 @@ Stream readStream (ProfileFields& in)
     s.frames = static_cast<std::size_t> (in.whole ("frames", 1, most_bytes, 1));
     s.rate = in.number ("rate", unit::hertz, Bounds::positive(), 1.0);
     s.channels = in.texts ("channels");
-    if (s.channels.empty() || s.channels.size() > most_channels) in.error ("channels", "profile/too_many", "there are " + std::to_string (s.channels.size()) + " channels", "name 1 to " + std::to_string (most_channels));
+    if (s.channels.empty() || s.channels.size() > most_channels)
+        in.error ("channels", "profile/too_many", "there are " + std::to_string (s.channels.size()) + " channels",
+                  "name 1 to " + std::to_string (most_channels));
     for (const auto& channel : s.channels)
-        if (! graph::isId (channel)) in.error ("channels", "profile/name", inQuotes (channel) + " is not a name", "write lower case letters, digits and _, a letter first");
+        if (! graph::isId (channel))
+            in.error ("channels", "profile/name", quote (channel) + " is not a name", "write lower case letters, digits and _, a letter first");
 
     const auto type = in.has ("type") ? in.text ("type") : std::string ("s8");
     s.is_signed = type != "u8";
     s.bits = type == "s16le" ? 16 : 8;
-    if (type != "u8" && type != "s8" && type != "s16le") in.error ("type", "profile/type", inQuotes (type) + " is not a type of samples", "write s8, u8 or s16le");
+    if (type != "u8" && type != "s8" && type != "s16le") in.error ("type", "profile/type", quote (type) + " is not a sample type", "write s8, u8 or s16le");
     return s;
 }
 
-/// Marks bits of an output report as written by one thing, and complains where another writes them, too.
-class Plan
+/// Marks bits of an output report as written by an item, and reports an error if another item writes them too.
+class BitMap
 {
 public:
-    Plan (ProfileFields& r, std::size_t bytes) : report (r), taken (8 * bytes) {}
+    BitMap (ProfileFields& r, std::size_t bytes) : report (r), taken (8 * bytes) {}
 
     void take (std::size_t at, std::size_t size, const std::string& by)
     {
         if (at + size > taken.size())
         {
-            report.error ("fields", "profile/beyond", by + " ends at byte " + std::to_string ((at + size + 7) / 8) + " of a report of " + std::to_string (taken.size() / 8), "make the report longer, or begin earlier");
+            report.error ("fields", "profile/beyond",
+                          by + " ends at byte " + std::to_string ((at + size + 7) / 8) + " of a report of " + std::to_string (taken.size() / 8),
+                          "make the report longer, or start the field earlier");
             return;
         }
         const auto from = taken.begin() + static_cast<std::ptrdiff_t> (at), to = from + static_cast<std::ptrdiff_t> (size);
         if (std::any_of (from, to, std::identity()))
-            report.error ("fields", "profile/overlap", by + " lies over something else", "move one of them");
+            report.error ("fields", "profile/overlap", by + " overlaps another field", "move one of them");
         std::fill (from, to, true);
     }
 
@@ -109,6 +114,22 @@ private:
     ProfileFields& report;
     std::vector<bool> taken;
 };
+
+SequenceNibble readSequence (ProfileFields& s, BitMap& used)
+{
+    SequenceNibble n;
+    s.require ("byte", "write \"byte\": the byte that contains it");
+    n.byte = static_cast<std::size_t> (s.whole ("byte", 0, most_bytes - 1, 0));
+    n.shift = s.whole ("shift", 0, 7, 0);
+    n.modulo = s.whole ("modulo", 2, 256, 16);
+    std::size_t bits = 1;
+    while (1 << bits < n.modulo)
+        ++bits;
+    if (1 << bits != n.modulo) s.error ("modulo", "profile/out_of_range", "modulo is not a power of two", "write 2, 4, 8, 16 … 256");
+    if (static_cast<std::size_t> (n.shift) + bits > 8) s.error ("shift", "profile/beyond", "the counter goes beyond its byte", "use a smaller shift or modulo");
+    used.take (8 * n.byte + static_cast<std::size_t> (n.shift), bits, "the sequence number");
+    return n;
+}
 
 OutputReport readOutput (ProfileFields& in, const Tables& tables)
 {
@@ -119,47 +140,44 @@ OutputReport readOutput (ProfileFields& in, const Tables& tables)
 
     const auto kind = in.has ("kind") ? in.text ("kind") : std::string ("output");
     report.is_feature = kind == "feature";
-    if (kind != "output" && kind != "feature") in.error ("kind", "profile/kind", inQuotes (kind) + " is not a kind of report", "write output or feature");
+    if (kind != "output" && kind != "feature") in.error ("kind", "profile/kind", quote (kind) + " is not a kind of report", "write output or feature");
 
-    if (! in.has ("neutral")) in.error ("neutral", "profile/no_neutral", "there is no report that makes the device do nothing", "write \"neutral\": the bytes of the whole report");
+    if (! in.has ("neutral"))
+        in.error ("neutral", "profile/no_neutral", "there is no report that makes the device do nothing", "write \"neutral\": the bytes of the whole report");
     report.neutral = in.has ("neutral") ? in.hex ("neutral") : Bytes {};
     report.body = in.has ("body") ? in.hex ("body") : report.neutral;
     if (report.body.size() != report.neutral.size())
-        in.error ("body", "profile/beyond", "body has " + std::to_string (report.body.size()) + " bytes, neutral " + std::to_string (report.neutral.size()), "write reports of one length");
+        in.error ("body", "profile/beyond",
+                  "body has " + std::to_string (report.body.size()) + " bytes, but neutral has " + std::to_string (report.neutral.size()),
+                  "give both the same length");
     if (report.id && ! report.neutral.empty() && (report.neutral.front() != *report.id || report.body.empty() || report.body.front() != *report.id))
         in.error ("neutral", "profile/format", "the report does not begin with its id", "the first byte is the id");
 
     const auto bytes = std::min (report.body.size(), report.neutral.size());
-    Plan plan (in, bytes);
-    if (report.id) plan.take (0, std::min<std::size_t> (8, 8 * bytes), "the id");
+    BitMap used (in, bytes);
+    if (report.id) used.take (0, std::min<std::size_t> (8, 8 * bytes), "the id");
     in.each ("fields", [&] (ProfileFields& f)
              {
         report.fields.push_back (readOutputField (f, tables));
         const auto& field = report.fields.back();
-        plan.take (field.bits.at, field.bits.size, field.name.empty() ? "a field" : inQuotes (field.name)); });
+        used.take (field.bits.at, field.bits.size, field.name.empty() ? "a field" : quote (field.name)); });
     in.each ("sequences", [&] (ProfileFields& s)
-             {
-        SequenceNibble n;
-        s.require ("byte", "write \"byte\": the byte it stands in");
-        n.byte = static_cast<std::size_t> (s.whole ("byte", 0, most_bytes - 1, 0));
-        n.shift = s.whole ("shift", 0, 7, 0);
-        n.modulo = s.whole ("modulo", 2, 256, 16);
-        std::size_t bits = 1;
-        while (1 << bits < n.modulo)
-            ++bits;
-        if (1 << bits != n.modulo) s.error ("modulo", "profile/out_of_range", "modulo is not a power of two", "write 2, 4, 8, 16 … 256");
-        if (static_cast<std::size_t> (n.shift) + bits > 8) s.error ("shift", "profile/beyond", "the counter goes beyond its byte", "take a smaller shift or modulo");
-        plan.take (8 * n.byte + static_cast<std::size_t> (n.shift), bits, "the sequence number");
-        report.sequences.push_back (n); });
-    in.within ("stream", [&] (ProfileFields& s)
+             { report.sequences.push_back (readSequence (s, used)); });
+    in.within ("stream",
+               [&] (ProfileFields& s)
                {
-        report.stream = readStream (s);
-        plan.take (8 * report.stream->at, report.stream->frames * report.stream->channels.size() * static_cast<std::size_t> (report.stream->bits), "the stream"); });
-    in.within ("crc32", [&] (ProfileFields& c)
+                   report.stream = readStream (s);
+                   used.take (8 * report.stream->at, report.stream->frames * report.stream->channels.size() * static_cast<std::size_t> (report.stream->bits),
+                              "the stream");
+               });
+    in.within ("crc32",
+               [&] (ProfileFields& c)
                {
-        report.checksum = Checksum { .prefix = c.has ("prefix") ? c.hex ("prefix") : Bytes {}, .at = static_cast<std::size_t> (c.whole ("at", 0, most_bytes - 1, 0)) };
-        c.require ("at", "write \"at\": the byte it begins in");
-        plan.take (8 * report.checksum->at, 32, "the checksum"); });
+                   report.checksum = Checksum { .prefix = c.has ("prefix") ? c.hex ("prefix") : Bytes {},
+                                                .at = static_cast<std::size_t> (c.whole ("at", 0, most_bytes - 1, 0)) };
+                   c.require ("at", "write \"at\": its first byte");
+                   used.take (8 * report.checksum->at, 32, "the checksum");
+               });
 
     report.max_rate = in.number ("max_rate", unit::hertz, Bounds::positive(), report.max_rate);
     report.keepalive = in.number ("keepalive", unit::second, Bounds::notNegative(), 0.0);
@@ -181,7 +199,7 @@ Tables readTables (ProfileFields& profile)
                 const auto x = table.numbers ("x"), y = table.numbers ("y");
                 const bool rising = std::ranges::adjacent_find (x, std::greater_equal()) == x.end();
                 if (x.empty() || x.size() != y.size() || ! rising)
-                    table.error ("x", "profile/kind", "a table has as many x as y, and its x rise", "write {\"x\": [0, 1], \"y\": [0, 100]}");
+                    table.error ("x", "profile/kind", "a table needs as many x as y, and x must rise", "write {\"x\": [0, 1], \"y\": [0, 100]}");
                 else
                     tables[n] = { x, y }; }); });
     return tables;
@@ -195,7 +213,7 @@ std::vector<OutputReport> readOutputs (ProfileFields& profile, const Tables& tab
         reports.push_back (readOutput (in, tables));
         for (std::size_t i = 0; i + 1 < reports.size(); ++i)
             if (reports[i].name == reports.back().name)
-                in.error ("name", "profile/duplicate", "there are two output reports of this name", "name one otherwise"); });
+                in.error ("name", "profile/duplicate", "there are two output reports with this name", "rename one"); });
     return reports;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/devices/problem.hpp>
-#include <host/hid/bits.hpp>
-#include <host/hid/pid_device.hpp>
+#include "pid_device.hpp"
+#include "bits.hpp"
+
+#include <framework/text/message.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,33 +17,39 @@ using Kind = DescribedField::Kind;
 
 constexpr Usage pid (unsigned id) noexcept { return usageOf (0x0f, id); }
 
-// Reports, then what stands in them.
-constexpr Usage set_effect = pid (0x21), set_constant_force = pid (0x73), effect_operation = pid (0x77), device_gain_report = pid (0x7d), device_control = pid (0x96),
-                create_new_effect = pid (0xab), block_load = pid (0x89), block_free = pid (0x90);
-constexpr Usage block_index = pid (0x22), constant_force = pid (0x26), duration = pid (0x50), gain = pid (0x52), direction_enable = pid (0x56), direction = pid (0x57),
-                magnitude = pid (0x70), start = pid (0x79), stop = pid (0x7b), loop_count = pid (0x7c), device_gain = pid (0x7e), load_success = pid (0x8c),
-                load_full = pid (0x8d), load_error = pid (0x8e), enable_actuators = pid (0x97), stop_all = pid (0x99), device_reset = pid (0x9a);
+// First the reports, then their fields.
+constexpr Usage set_effect = pid (0x21), set_constant_force = pid (0x73), effect_operation = pid (0x77), device_gain_report = pid (0x7d),
+                device_control = pid (0x96), create_new_effect = pid (0xab), block_load = pid (0x89), block_free = pid (0x90);
+constexpr Usage block_index = pid (0x22), constant_force = pid (0x26), duration = pid (0x50), gain = pid (0x52), direction_enable = pid (0x56),
+                direction = pid (0x57), magnitude = pid (0x70), start = pid (0x79), stop = pid (0x7b), loop_count = pid (0x7c), device_gain = pid (0x7e),
+                load_success = pid (0x8c), load_full = pid (0x8d), load_error = pid (0x8e), enable_actuators = pid (0x97), stop_all = pid (0x99),
+                device_reset = pid (0x9a);
 
-// A device has no watchdog, so the effect is a short one that is started again and again: if the host dies, it ends.
+// The device has no watchdog, so the effect is short and restarted repeatedly: if the host dies, it ends.
 constexpr double lasts = 0.5, started_each = 0.2;   // s
 
-// What a device takes to forget its effects: it says nothing when it is done.
+// The time that a device needs to clear its effects; it does not report when it has finished.
 constexpr double reset_takes = 0.05;   // s
 
-// In profiles, until the device says which one it is.
+constexpr const char* from_descriptor = "read from the device's report descriptor";
+
+// A placeholder in profiles until the device has assigned a block.
 constexpr int any_block = 1;
 
-/// A number in a report: its field, and which of several.
+/// A number in a report: its field, and its index in it.
 struct Place
 {
     const DescribedField* field = nullptr;
     std::size_t n = 0;
 
     /// The bits, counted from the start of the report with its id.
-    Bits bits (bool has_ids) const noexcept { return { .at = (has_ids ? 8 : 0) + field->bit + n * field->size, .size = field->size, .is_signed = field->logical_min < 0 }; }
+    Bits bits (bool has_ids) const noexcept
+    {
+        return { .at = (has_ids ? 8 : 0) + field->bit + n * field->size, .size = field->size, .is_signed = field->logical_min < 0 };
+    }
 };
 
-/// The id under which the first numbers of such a report are sent. A broken descriptor may spread it over several.
+/// The id of the first report with numbers of this kind. A broken descriptor may spread them over several reports.
 std::optional<std::uint8_t> idOf (const ReportDescriptor& d, Kind kind, Usage report)
 {
     const auto first = std::ranges::find_if (d.fields, [&] (const DescribedField& f)
@@ -51,7 +58,7 @@ std::optional<std::uint8_t> idOf (const ReportDescriptor& d, Kind kind, Usage re
     return first->report;
 }
 
-/// Where a usage stands within a report of this kind. Of an array, where the number of the usage would.
+/// The place of a usage within a report of this kind. For an array, this is the place of its index.
 std::optional<Place> find (const ReportDescriptor& d, Kind kind, Usage report, Usage what)
 {
     const auto id = idOf (d, kind, report);
@@ -65,7 +72,7 @@ std::optional<Place> find (const ReportDescriptor& d, Kind kind, Usage report, U
     return {};
 }
 
-/// A report being written, by usages.
+/// Writes a report, usage by usage.
 class Writer
 {
 public:
@@ -77,7 +84,7 @@ public:
         if (d.has_ids) bytes[0] = *id;
     }
 
-    /// A value, held within the logical range.
+    /// Writes a value, clamped to the logical range.
     Writer& put (Usage what, std::int64_t value)
     {
         if (const auto place = find (descriptor, kind, report, what))
@@ -85,14 +92,14 @@ public:
         return *this;
     }
 
-    /// As much as the field says it takes.
+    /// Sets a field to its largest value.
     Writer& most (Usage what)
     {
         if (const auto place = find (descriptor, kind, report, what)) write (*place, place->field->logical_max);
         return *this;
     }
 
-    /// One of several things that can be chosen: its number in an array, or a bit of its own.
+    /// Chooses one of several usages: its index in an array, or its own bit.
     Writer& choose (Usage what)
     {
         if (const auto place = find (descriptor, kind, report, what))
@@ -100,7 +107,7 @@ public:
         return *this;
     }
 
-    /// A time in s, as the unit of the field wants it: ms where it says nothing else.
+    /// Writes a time given in s, converted to the unit of the field, or to ms if it has none.
     Writer& time (Usage what, double seconds)
     {
         const auto place = find (descriptor, kind, report, what);
@@ -109,10 +116,12 @@ public:
         const double exponent = f.unit == 0 ? -3.0 : static_cast<double> (f.unit_exponent);
         const bool scaled = f.physical_max > f.physical_min;
         const double counts = scaled ? static_cast<double> (f.logical_max - f.logical_min) / static_cast<double> (f.physical_max - f.physical_min) : 1.0;
-        return put (what, f.logical_min + static_cast<std::int64_t> ((seconds / std::pow (10.0, exponent) - (scaled ? static_cast<double> (f.physical_min) : 0.0)) * counts + 0.5));
+        return put (what, f.logical_min
+                              + static_cast<std::int64_t> (
+                                  (seconds / std::pow (10.0, exponent) - (scaled ? static_cast<double> (f.physical_min) : 0.0)) * counts + 0.5));
     }
 
-    /// The first number of a collection within the report, as a share of its range.
+    /// Writes the first number of a collection, as a fraction of its range.
     Writer& first (Usage collection, double share)
     {
         for (const auto& f : descriptor.fields)
@@ -139,7 +148,7 @@ private:
     Bytes bytes;
 };
 
-/// "x", "rx", "slider" … of the generic desktop page; nothing for what is no axis.
+/// "x", "rx", "slider" … of the generic desktop page; empty for other usages.
 std::string_view axisName (Usage usage) noexcept
 {
     constexpr std::string_view names[] { "x", "y", "z", "rx", "ry", "rz", "slider", "dial", "wheel" };
@@ -157,7 +166,13 @@ void addInput (std::vector<InputReport>& inputs, const ReportDescriptor& d, cons
     if (report == inputs.end())
     {
         const auto length = d.length (Kind::input, f.report) + (d.has_ids ? 1 : 0);
-        inputs.push_back ({ .id = d.has_ids ? std::optional (f.report) : std::nullopt, .length = length, .longest = length, .fields = {}, .timestamp = {}, .sequence = {}, .why_not = "read from the device's report descriptor" });
+        inputs.push_back ({ .id = d.has_ids ? std::optional (f.report) : std::nullopt,
+                            .length = length,
+                            .longest = length,
+                            .fields = {},
+                            .timestamp = {},
+                            .sequence = {},
+                            .why_not = from_descriptor });
         report = inputs.end() - 1;
     }
 
@@ -176,7 +191,7 @@ void addInput (std::vector<InputReport>& inputs, const ReportDescriptor& d, cons
             field.buttons = { "button" + std::to_string (usage - usageOf (0x09, 0)) };
         else
             continue;
-        // A device with several sticks of one name keeps the first.
+        // If several axes have the same name, keep the first.
         const auto same = [&] (const InputField& other)
         { return other.name == field.name && other.buttons == field.buttons; };
         const bool known = std::ranges::any_of (inputs, [&] (const InputReport& r)
@@ -185,7 +200,7 @@ void addInput (std::vector<InputReport>& inputs, const ReportDescriptor& d, cons
     }
 }
 
-/// Axes in m or rad where their travel is known, and what of them and of the force is the tool's.
+/// Scales axes to m or rad if their travel is known, and assigns axes and force to the tool.
 void calibrate (Profile& p, const PidCalibration& calibration)
 {
     std::vector<std::string> scaled;
@@ -206,13 +221,112 @@ void calibrate (Profile& p, const PidCalibration& calibration)
     else
     {
         p.position = { known ("x"), known ("y"), known ("z") };
-        p.axes = Vec3 (1.0, -1.0, -1.0).asDiagonal();   // a stick's y grows towards the person, its z downwards
+        p.axes = Vec3 (1.0, -1.0, -1.0).asDiagonal();   // a stick's y increases towards the user, its z downwards
     }
 
     if (calibration.full_force <= 0.0) return;
     auto& limits = p.limits.guard;
     (calibration.turns ? p.torque[1] : p.force[0]) = "force";
     (calibration.turns ? limits.max_torque : limits.max_force) = calibration.full_force * calibration.usable;
+}
+
+/// The place of the block index in a report of this kind.
+std::optional<Bits> blockOf (const ReportDescriptor& d, Usage report)
+{
+    const auto place = find (d, Kind::output, report, block_index);
+    if (! place) return {};
+    auto bits = place->bits (d.has_ids);
+    bits.is_signed = false;
+    return bits;
+}
+
+Step step (const char* about, Bytes bytes, std::optional<Bits> given = {})
+{
+    Step s { .bytes = std::move (bytes), .about = about };
+    s.given = given;
+    return s;
+}
+
+Step zeroForce (const ReportDescriptor& d)
+{
+    return step ("the report that sets zero force", Writer (d, Kind::output, set_constant_force).put (block_index, any_block).take(),
+                 blockOf (d, set_constant_force));
+}
+
+std::vector<Step> initSteps (const PidDevice& device, const ReportDescriptor& d)
+{
+    const auto output = [&] (Usage report)
+    { return Writer (d, Kind::output, report); };
+
+    // Full gain, no trigger button, and a direction a quarter turn from "away". Wheels have no other direction, and
+    // the drivers of other devices use this one too (linux, hid-pidff.c).
+    auto effect = output (set_effect);
+    effect.put (block_index, any_block).choose (constant_force).time (duration, lasts).most (gain).put (direction_enable, 1).first (direction, 0.25);
+
+    std::vector<Step> init;
+    if (find (d, Kind::output, device_control, device_reset))
+    {
+        init.push_back (step ("the report that clears all effects", output (device_control).choose (device_reset).take()));
+        init.back().delay = reset_takes;
+    }
+    init.push_back (step ("the report that creates a constant force", device.createEffect()));
+    init.back().kind = Step::Kind::feature;
+    init.push_back (step ("the report with the block of the constant force", device.blockLoad()));
+    init.back().kind = Step::Kind::get_feature;
+    init.back().answer = device.answer();
+    init.push_back (step ("the report that switches its motors on", output (device_control).choose (enable_actuators).take()));
+    if (find (d, Kind::output, device_gain_report, device_gain))
+        init.push_back (step ("the report that sets full gain", output (device_gain_report).most (device_gain).take()));
+    init.push_back (step ("the report that sets up the effect", effect.take(), blockOf (d, set_effect)));
+    init.push_back (zeroForce (d));   // the `start` report then starts the effect
+    return init;
+}
+
+std::vector<Step> exitSteps (const ReportDescriptor& d)
+{
+    std::vector<Step> exit { zeroForce (d), step ("the report that stops all effects", Writer (d, Kind::output, device_control).choose (stop_all).take()) };
+    if (const auto freed = blockOf (d, block_free))
+        exit.push_back (step ("the report that frees the effect", Writer (d, Kind::output, block_free).put (block_index, any_block).take(), freed));
+    return exit;
+}
+
+OutputReport forceReport (const ReportDescriptor& d, const PidCalibration& calibration, double full_force)
+{
+    // The direction of an effect is where it comes from (DirectX, Effect Direction): from the right means a push to the left.
+    const auto force = find (d, Kind::output, set_constant_force, magnitude);
+    const double counts = static_cast<double> (std::min (force->field->logical_max, -force->field->logical_min));
+    OutputField field;
+    field.name = "force";
+    field.bits = force->bits (d.has_ids);
+    field.encoding.scale = (calibration.is_reversed ? 1.0 : -1.0) * full_force / counts;
+    field.min = -full_force * calibration.usable;
+    field.max = full_force * calibration.usable;
+    if (calibration.full_force > 0.0) field.unit = calibration.turns ? "N*m" : "N";
+
+    OutputReport report;
+    report.name = "constant_force";
+    if (d.has_ids) report.id = force->field->report;
+    report.body = report.neutral = Writer (d, Kind::output, set_constant_force).put (block_index, any_block).take();
+    report.fields = { std::move (field) };
+    report.given = blockOf (d, set_constant_force);
+    report.why_not = from_descriptor;
+    return report;
+}
+
+OutputReport startReport (const ReportDescriptor& d)
+{
+    const auto operation = [&]
+    { return Writer (d, Kind::output, effect_operation).put (block_index, any_block); };
+    OutputReport report;
+    report.name = "start";
+    if (d.has_ids) report.id = find (d, Kind::output, effect_operation, start)->field->report;
+    report.body = operation().choose (start).put (loop_count, 1).take();
+    report.neutral = operation().choose (stop).take();
+    report.given = blockOf (d, effect_operation);
+    report.max_rate = 1.0 / started_each;
+    report.keepalive = started_each;
+    report.why_not = from_descriptor;
+    return report;
 }
 }   // namespace
 
@@ -238,13 +352,15 @@ std::optional<PidDevice> PidDevice::from (const ReportDescriptor& d, Messages& m
     for (const auto& need : needs)
         if (! find (d, need.kind, need.report, need.what))
         {
-            messages.push_back (problem ("pid/missing", "the report descriptor", "the device has no " + std::string (need.name), "it cannot be driven as a force feedback device; a profile of its own may help"));
+            messages.push_back (Message::error ("pid/missing", "the report descriptor", "the device has no " + std::string (need.name),
+                                                "it cannot be driven as a standard force feedback device; a profile for it may help"));
             whole = false;
         }
     const auto force = find (d, Kind::output, set_constant_force, magnitude);
     if (whole && (force->field->logical_min >= 0 || force->field->logical_max <= 0))
     {
-        messages.push_back (problem ("pid/missing", "the report descriptor", "the magnitude of a constant force has no sign", "it cannot be driven as a force feedback device; a profile of its own may help"));
+        messages.push_back (Message::error ("pid/missing", "the report descriptor", "the magnitude of a constant force has no sign",
+                                            "it cannot be driven as a standard force feedback device; a profile for it may help"));
         whole = false;
     }
     if (! whole) return {};
@@ -274,17 +390,20 @@ Answer PidDevice::answer() const
         const auto place = find (d, Kind::feature, block_load, status);
         if (! place) return {};
         const auto raw = place->field->variable ? 1 : place->field->logical_min + static_cast<std::int64_t> (*place->field->placeOf (status));
-        return Answer::Mark { .bits = place->bits (d.has_ids), .raw = static_cast<std::uint32_t> (static_cast<std::uint64_t> (raw) & maskOf (place->bits (d.has_ids))) };
+        return Answer::Mark { .bits = place->bits (d.has_ids),
+                              .raw = static_cast<std::uint32_t> (static_cast<std::uint64_t> (raw) & maskOf (place->bits (d.has_ids))) };
     };
     a.success = mark (load_success);
     if (auto full = mark (load_full))
     {
-        full->means = problem ("pid/full", "", "the device has no room for another effect", "end the other programs that use its force feedback, or unplug it and plug it in again");
+        full->means = Message::error ("pid/full", "", "the device has no room for another effect",
+                                      "close other programs that use its force feedback, or unplug it and plug it in again");
         a.refusals.push_back (std::move (*full));
     }
     if (auto refused = mark (load_error))
     {
-        refused->means = problem ("pid/refused", "", "the device could not make a constant force", "see that it has power and that its motor is switched on, and plug it in again");
+        refused->means = Message::error ("pid/refused", "", "the device could not create a constant force",
+                                         "check that it has power and its motor is switched on, and plug it in again");
         a.refusals.push_back (std::move (*refused));
     }
     return a;
@@ -302,91 +421,21 @@ std::vector<std::string> PidDevice::axisNames() const
 Profile PidDevice::profile (const PidCalibration& calibration) const
 {
     const auto& d = descriptor;
-    const auto output = [&] (Usage report)
-    { return Writer (d, Kind::output, report); };
-    const auto blockOf = [&] (Usage report) -> std::optional<Bits>
-    {
-        const auto place = find (d, Kind::output, report, block_index);
-        if (! place) return {};
-        auto bits = place->bits (d.has_ids);
-        bits.is_signed = false;
-        return bits;
-    };
-
+    const double full_force = calibration.full_force > 0.0 ? calibration.full_force : 1.0;
     Profile p;
     p.id = "pid";
     p.name = calibration.turns ? "Force feedback wheel" : "Force feedback device";
     p.sources = { "the device's own report descriptor", "Device Class Definition for Physical Interface Devices 1.0" };
     for (const auto& f : d.fields)
         if (f.kind == Kind::input && ! f.constant && f.variable && f.size <= 32) addInput (p.inputs, d, f);
-
-    // At full gain, triggered by no button, and with the direction of a quarter of a turn from away: that is what a wheel, which
-    // has no other, and the drivers of others take (linux, hid-pidff.c).
-    auto effect = output (set_effect);
-    effect.put (block_index, any_block).choose (constant_force).time (duration, lasts).most (gain).put (direction_enable, 1).first (direction, 0.25);
-
-    const auto step = [] (const char* about, Bytes bytes, std::optional<Bits> given = {})
-    {
-        Step s { .bytes = std::move (bytes), .about = about };
-        s.given = given;
-        return s;
-    };
-    const auto none = [&]
-    { return step ("the report of no force", output (set_constant_force).put (block_index, any_block).take(), blockOf (set_constant_force)); };
-
-    if (find (d, Kind::output, device_control, device_reset))
-    {
-        p.init.push_back (step ("the report that makes it forget all effects", output (device_control).choose (device_reset).take()));
-        p.init.back().delay = reset_takes;
-    }
-    p.init.push_back (step ("the report that makes a constant force", createEffect()));
-    p.init.back().kind = Step::Kind::feature;
-    p.init.push_back (step ("the report that tells where the constant force was put", blockLoad()));
-    p.init.back().kind = Step::Kind::get_feature;
-    p.init.back().answer = answer();
-    p.init.push_back (step ("the report that switches its motors on", output (device_control).choose (enable_actuators).take()));
-    if (find (d, Kind::output, device_gain_report, device_gain)) p.init.push_back (step ("the report of full gain", output (device_gain_report).most (device_gain).take()));
-    p.init.push_back (step ("the report that says what the effect is", effect.take(), blockOf (set_effect)));
-    p.init.push_back (none());   // the report `start` starts it
-    p.exit = { none(), step ("the report that stops all effects", output (device_control).choose (stop_all).take()) };
-    if (const auto freed = blockOf (block_free)) p.exit.push_back (step ("the report that frees the effect", output (block_free).put (block_index, any_block).take(), freed));
-
-    // The direction of an effect is where it comes from (DirectX, Effect Direction): one from the right pushes to the left.
-    const auto force = find (d, Kind::output, set_constant_force, magnitude);
-    const double counts = static_cast<double> (std::min (force->field->logical_max, -force->field->logical_min));
-    const double full = calibration.full_force > 0.0 ? calibration.full_force : 1.0;
-    OutputField field;
-    field.name = "force";
-    field.bits = force->bits (d.has_ids);
-    field.encoding.scale = (calibration.is_reversed ? 1.0 : -1.0) * full / counts;
-    field.min = -full * calibration.usable;
-    field.max = full * calibration.usable;
-    if (calibration.full_force > 0.0) field.unit = calibration.turns ? "N*m" : "N";
-
-    OutputReport report;
-    report.name = "constant_force";
-    if (d.has_ids) report.id = force->field->report;
-    report.body = report.neutral = output (set_constant_force).put (block_index, any_block).take();
-    report.fields = { std::move (field) };
-    report.given = blockOf (set_constant_force);
-    report.why_not = "read from the device's report descriptor";
-
-    OutputReport again;
-    again.name = "start";
-    if (d.has_ids) again.id = find (d, Kind::output, effect_operation, start)->field->report;
-    again.body = output (effect_operation).put (block_index, any_block).choose (start).put (loop_count, 1).take();
-    again.neutral = output (effect_operation).put (block_index, any_block).choose (stop).take();
-    again.given = blockOf (effect_operation);
-    again.max_rate = 1.0 / started_each;
-    again.keepalive = started_each;
-    again.why_not = report.why_not;
-
-    p.outputs = { std::move (report), std::move (again) };
+    p.init = initSteps (*this, d);
+    p.exit = exitSteps (d);
+    p.outputs = { forceReport (d, calibration, full_force), startReport (d) };
     p.limits.device_watchdog = find (d, Kind::output, set_effect, duration) ? lasts : 0.0;
     p.limits.guard.watchdog = 0.05;
     p.limits.guard.ramp = 0.2;
-    p.limits.guard.max_axis_effort = full * calibration.usable;
-    p.quirks = { "only_changes" };   // USB's HID devices send when something moves, unless they like to send more
+    p.limits.guard.max_axis_effort = full_force * calibration.usable;
+    p.quirks = { "only_changes" };   // USB HID devices may send only when something moves
     calibrate (p, calibration);
     return p;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/hid/profile.hpp>
-#include <host/hid/report_descriptor.hpp>
+#include "profile.hpp"
+#include "report_descriptor.hpp"
 
-#include <framework/message.hpp>
+#include <framework/text/message.hpp>
 
 #include <functional>
 #include <map>
@@ -15,48 +15,48 @@
 namespace tactus::host::hid
 {
 
-/// What a descriptor does not tell of a force feedback device. Without it, forces and axes are shares, -1…1.
+/// Properties of a force feedback device that are not in its descriptor. Without them, forces and axes are fractions, -1…1.
 struct PidCalibration
 {
-    double full_force = 0.0;                                ///< N, or N m where it turns, at the largest magnitude; 0: not known
-    bool turns = false;                                     ///< a wheel: full_force is a torque, travels are angles
-    bool is_reversed = false;                               ///< it pushes to the left where the standard has it push to the right
-    double usable = 1.0;                                    ///< share of the full force that may be asked for
-    std::map<std::string, double, std::less<>> travel {};   ///< m or rad from end to end, by axis
+    double full_force = 0.0;                                ///< force at the largest magnitude, in N, or in N m for a wheel; 0: unknown
+    bool turns = false;                                     ///< true for a wheel: full_force is a torque, and travels are angles
+    bool is_reversed = false;                               ///< true if it pushes left where the standard says right
+    double usable = 1.0;                                    ///< the fraction of the full force that may be used
+    std::map<std::string, double, std::less<>> travel {};   ///< travel of each axis from end to end, in m or rad
 };
 
-/// A joystick or wheel with force feedback, as its report descriptor tells it (Device Class Definition for Physical
-/// Interface Devices 1.0). One constant force is created on it and changed at the rate of the loop, which is all that
-/// a model of ours needs.
+/// A joystick or wheel with force feedback, as described by its report descriptor (Device Class Definition for Physical
+/// Interface Devices 1.0). It creates one constant force effect on the device and updates it on every tick; our models
+/// need nothing else.
 ///
-/// On waking up, the device forgets what effects it had, is asked for a constant force and for the block where it put it,
-/// and gets the effect, of no force yet; letting go stops all effects and frees the block. Outputs are the force, and
-/// `start`, which starts the effect again each 0.2 s: it lasts 0.5 s, so that the force ends by itself where the host does.
+/// The init steps clear all effects, create a constant force effect, read the block assigned to it, and set up the effect
+/// with zero force. The exit steps stop all effects and free the block. The outputs are the force and `start`, which
+/// restarts the effect every 0.2 s. The effect lasts 0.5 s, so the force ends on its own if the host dies.
 ///
-/// There is one effort, `force`, to the right, and axes by the names of their usages: x, y, z, rx … With a calibration x, y
-/// and z are the place of the tool and `force` is the force on it along x; of a wheel, `steering` (else x) is its rotation
-/// about y, clockwise positive as the person sees it, and `force` the torque. [main thread]
+/// There is one effort, `force`, to the right, and axes named after their usages: x, y, z, rx … With a calibration, x, y
+/// and z are the position of the tool and `force` is the force on it along x. For a wheel, `steering` (else x) is its
+/// rotation about y, clockwise positive as the user sees it, and `force` is the torque. [main thread]
 class PidDevice
 {
 public:
-    /// Nothing, and why, if the descriptor lacks what one constant force needs. Ids: pid/missing.
+    /// Empty, with a message, if the descriptor lacks something that a constant force needs. Ids: pid/missing.
     static std::optional<PidDevice> from (const ReportDescriptor&, Messages&);
 
-    /// True if the descriptor has anything of force feedback, if perhaps not enough.
+    /// True if the descriptor contains any force feedback, even if it is not enough for a constant force.
     static bool isMeantBy (const ReportDescriptor&) noexcept;
 
-    /// A feature report that asks for a constant force.
+    /// The feature report that creates a constant force.
     Bytes createEffect() const;
 
-    /// An empty feature report of the id and length to ask with, and what the device has to answer: where it put the effect.
+    /// The feature report that requests the block of the effect, with the right id and length, and the expected answer.
     /// Ids: pid/full, pid/refused.
     Bytes blockLoad() const;
     Answer answer() const;
 
-    /// How to drive the effect. The profile has no rule to match: who has it, has opened the device.
+    /// How to drive the effect. The profile has no match rules; the caller adds them.
     Profile profile (const PidCalibration& = {}) const;
 
-    /// The axes that the device tells.
+    /// The axes that the device reports.
     std::vector<std::string> axisNames() const;
 
 private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/guard.hpp>
-#include <framework/message.hpp>
-#include <framework/rotation.hpp>
+#include <framework/kit/rotation.hpp>
+#include <framework/run/guard.hpp>
+#include <framework/text/message.hpp>
 
 #include <array>
 #include <cstddef>
@@ -14,14 +14,14 @@
 #include <variant>
 #include <vector>
 
-/// What a device profile (host/profiles/*.json) says, as plain data; docs/devices.md tells how one is written.
-/// Reports are counted from their first byte: the report id where they have one, else the first byte of data.
+/// The content of a device profile (host/profiles/*.json) as plain data; docs/devices.md explains how to write one. Bytes
+/// of reports are counted from the first byte: the report id if there is one, else the first data byte.
 namespace tactus::host::hid
 {
 
-inline constexpr std::size_t most_axes = 32;      ///< values that a device tells, all its reports together
-inline constexpr std::size_t most_efforts = 16;   ///< values that it takes
-inline constexpr std::size_t most_channels = 4;   ///< of a stream of samples
+inline constexpr std::size_t most_axes = 32;      ///< input values of a device, in all reports together
+inline constexpr std::size_t most_efforts = 16;   ///< output values of a device
+inline constexpr std::size_t most_channels = 4;   ///< channels of a stream of samples
 inline constexpr std::size_t longest_report = 1024;
 
 using Bytes = std::vector<std::uint8_t>;
@@ -33,75 +33,75 @@ enum class Bus
     bluetooth
 };
 
-/// Which devices a profile is for; what is not said fits all. Texts are compared without regard to case.
+/// Selects devices. Missing entries match everything. Strings are compared case-insensitively.
 struct MatchRule
 {
     std::vector<std::uint16_t> vid, pid;
     std::optional<std::uint16_t> usage_page, usage;
     std::optional<int> interface_number;
     std::optional<Bus> bus;
-    std::string product;   ///< a part of the product's name
+    std::string product;   ///< a part of the product name
 };
 
-/// Where a number lies within a report.
+/// The place of a number within a report.
 struct Bits
 {
-    std::size_t at = 0;     ///< in bits from the start of the report; the lowest bit of a byte comes first
+    std::size_t at = 0;     ///< offset from the start of the report in bits; the lowest bit of a byte comes first
     std::size_t size = 8;   ///< 1…32
     bool is_signed = false;
-    bool big_endian = false;   ///< whole bytes only
+    bool big_endian = false;   ///< for whole bytes only
     bool is_float = false;     ///< IEEE 754, 32 bits
 
     std::size_t end() const noexcept { return at + size; }
 };
 
-/// What a device has to answer to a feature report that asks for a number of its own, such as that of an effect it made.
+/// The expected answer to a feature report that requests a number from the device, such as the block of a new effect.
 struct Answer
 {
-    /// A value that may stand in the answer, and what is wrong then.
+    /// A value that may occur in the answer, and the error that it stands for.
     struct Mark
     {
         Bits bits;
         std::uint32_t raw = 1;
-        Message means {};   ///< without a place
+        Message means {};   ///< `where` is empty
     };
 
-    std::optional<std::uint8_t> id;        ///< of the report
-    Bits number;                           ///< 0 is none
-    std::optional<Mark> success;           ///< has to stand there, if anything has to
-    std::vector<Mark> refusals;            ///< no use to ask again
-    double patience = 0.5, pause = 0.01;   ///< s, how long and how often it is asked
+    std::optional<std::uint8_t> id;        ///< report id
+    Bits number;                           ///< 0: none
+    std::optional<Mark> success;           ///< required value, if any
+    std::vector<Mark> refusals;            ///< values after which asking again is pointless
+    double patience = 0.5, pause = 0.01;   ///< how long to keep asking, and the pause between requests, in s
 };
 
-/// One step of waking a device up or of letting it go.
+/// One init or exit step of a device.
 struct Step
 {
     enum class Kind
     {
         output,
         feature,
-        get_feature   ///< reads the feature report of the id in the first byte; some devices want to be asked
+        get_feature   ///< reads the feature report whose id is the first byte; some devices require such a read
     };
 
     Kind kind = Kind::output;
     Bytes bytes;
-    double delay = 0.0;                ///< s, after it
-    std::string about {};              ///< what it is for: "the report that makes an effect"; may be empty
-    std::optional<Answer> answer {};   ///< of a get_feature, if it matters; its number is put where `given` says from then on
+    double delay = 0.0;                ///< pause after the step, in s
+    std::string about {};              ///< its purpose, as in "the report that creates an effect"; may be empty
+    std::optional<Answer> answer {};   ///< expected answer to a get_feature, if it matters; its number is inserted at `given` of later reports
     std::optional<Bits> given {};
 };
 
-/// A number that a device tells: value = raw scale + offset.
+/// An input value: value = raw scale + offset.
 struct InputField
 {
     std::string name;
     Bits bits;
     double scale = 1.0, offset = 0.0;
     std::string unit = "1";
-    bool unwrap = false;                ///< a counter that begins again: it goes on beyond its size
-    std::optional<double> expect;       ///< raw: a report with another value here is refused
-    std::vector<std::string> buttons;   ///< of each bit, the lowest first; empty names are bits without one
-    bool is_hat = false;                ///< the value is 0 (up) … 7 (up and left), clockwise: buttons are up, right, down, left
+    bool unwrap = false;                ///< for a counter that wraps around: its value continues past the wrap
+    std::optional<double> expect;       ///< required raw value: a report with any other value is refused
+    std::vector<std::string> buttons;   ///< one per bit, lowest first; "" for bits without a button
+    bool is_hat = false;                ///< true if the value is 0 (up) … 7 (up and left), clockwise; the buttons are up, right, down, left
 
     bool isAxis() const noexcept { return buttons.empty() && ! expect; }
 };
@@ -109,51 +109,51 @@ struct InputField
 struct InputReport
 {
     std::optional<std::uint8_t> id;
-    std::size_t length = 0;    ///< bytes; a shorter report is refused
-    std::size_t longest = 0;   ///< bytes; a longer one, too
+    std::size_t length = 0;    ///< in bytes; a shorter report is refused
+    std::size_t longest = 0;   ///< in bytes; a longer report is refused
     std::vector<InputField> fields;
-    std::string timestamp;   ///< the field (in s) that tells when, by the device's clock; may be empty
+    std::string timestamp;   ///< the field with the device's time in s; may be empty
     std::string sequence;    ///< the field that counts reports; may be empty
-    bool verified = false;   ///< against a report that a real device sent
-    std::string why_not;     ///< where it was not
+    bool verified = false;   ///< checked against a report from a real device
+    std::string why_not;     ///< why it was not verified, if it was not
 };
 
-/// raw = round (value/scale - offset/scale), after the value went through a law.
+/// raw = round (value/scale - offset/scale), after the value has passed through a law.
 struct Encoding
 {
     enum class Law
     {
         linear,
-        log2,   ///< steps log2 (value/reference); 0 and less give the smallest raw value
-        table   ///< linear between the points, the ends held
+        log2,   ///< steps log2 (value/reference); values up to 0 give the smallest raw value
+        table   ///< linear interpolation, clamped at the ends
     };
 
     Law law = Law::linear;
     double steps = 1.0, reference = 1.0;
     std::vector<double> x, y;
-    double scale = 1.0, offset = 0.0;   ///< of what the law gave: raw = round ((law - offset)/scale)
+    double scale = 1.0, offset = 0.0;   ///< applied to the law's result: raw = round ((law - offset)/scale)
 };
 
-/// Something that is written into a report.
+/// A field of an output report.
 struct OutputField
 {
     enum class Source
     {
-        effort,   ///< what is asked for under this name
-        enable,   ///< 1 while the device is driven, else as in the neutral report
-        echo      ///< the raw value of the input field of this name, as read last
+        effort,   ///< the effort of this name
+        enable,   ///< 1 while the device is driven, else the value in the neutral report
+        echo      ///< the latest raw value of the input field of this name
     };
 
     std::string name;
     Source source = Source::effort;
     Bits bits;
     Encoding encoding;
-    double min = -std::numeric_limits<double>::infinity();   ///< of the value; also what the bits can hold
+    double min = -std::numeric_limits<double>::infinity();   ///< lower limit of the value; the bits limit it too
     double max = std::numeric_limits<double>::infinity();
     std::string unit = "1";
 };
 
-/// A counter that the device wants in each report.
+/// A counter that the device requires in each report.
 struct SequenceNibble
 {
     std::size_t byte = 0;
@@ -161,17 +161,17 @@ struct SequenceNibble
     int modulo = 16;
 };
 
-/// CRC-32 (IEEE 802.3) over some bytes that are not sent and the report up to where the sum is put, little-endian.
+/// CRC-32 (IEEE 802.3) over a prefix that is not sent, followed by the report up to the checksum. Little-endian.
 struct Checksum
 {
     Bytes prefix;
     std::size_t at = 0;
 };
 
-/// Samples, frame by frame, within a report.
+/// Interleaved samples within a report.
 struct Stream
 {
-    std::size_t at = 0;   ///< byte
+    std::size_t at = 0;   ///< first byte
     std::size_t frames = 0;
     double rate = 0.0;   ///< Hz
     std::vector<std::string> channels;
@@ -184,113 +184,113 @@ struct OutputReport
     std::string name;
     std::optional<std::uint8_t> id;
     bool is_feature = false;   ///< sent as a feature report
-    Bytes body;                ///< the whole report, with its constants, while the device is driven
+    Bytes body;                ///< the whole report with its constants, for while the device is driven
     Bytes neutral;             ///< the whole report that makes the device do nothing
     std::vector<OutputField> fields;
-    std::vector<SequenceNibble> sequences;   ///< all count the reports
+    std::vector<SequenceNibble> sequences;   ///< each counts the reports
     std::optional<Checksum> checksum;
-    std::optional<Bits> given;   ///< where the number goes that the device gave (Answer); not together with a checksum
+    std::optional<Bits> given;   ///< place of the number that the device returned (Answer); not allowed together with a checksum
     std::optional<Stream> stream;
     double max_rate = 1000.0;   ///< Hz
-    double keepalive = 0.0;     ///< s after which it is sent again though nothing changed; 0: on each tick
+    double keepalive = 0.0;     ///< time after which an unchanged report is sent again, in s; 0: sent on each tick
     bool verified = false;
     std::string why_not;
 };
 
-/// Position and force as they are.
+/// A device whose position and force need no conversion.
 struct Direct
 {
 };
 
-/// A signal output whose motor takes no samples, but how strong it is to shake, and perhaps how fast: names of efforts.
+/// A signal output for a motor that takes an amplitude, and perhaps a frequency, instead of samples. Both are names of efforts.
 struct SignalEffort
 {
-    std::string amplitude;   ///< gets the signal's amplitude
-    std::string frequency;   ///< gets its frequency in Hz; empty: the motor has one of its own
+    std::string amplitude;   ///< the effort that is set to the signal's amplitude
+    std::string frequency;   ///< the effort that is set to its frequency in Hz; empty: the motor has a fixed frequency
 };
 
-/// p = M q + p0; effort = transpose (M) F.
+/// A linear map: p = M q + p0; effort = transpose (M) F.
 struct LinearMap
 {
     Mat3 matrix = Mat3::Identity();
     Vec3 origin = Vec3::Zero();
 };
 
-/// A motor with an encoder, and how it moves a joint. Signs say which way each turns.
+/// A motor with an encoder that drives a joint. The signs give the directions of rotation.
 struct Drive
 {
-    double counts_per_turn = 1.0;                                   ///< of the motor
-    double ratio = 1.0;                                             ///< the joint turns so much for a turn of the motor: capstan over body diameter
-    double offset = 0.0;                                            ///< rad, the joint at count 0
-    double torque_constant = 1.0;                                   ///< N m/A of the motor
+    double counts_per_turn = 1.0;                                   ///< encoder counts per turn of the motor
+    double ratio = 1.0;                                             ///< joint turns per motor turn: capstan diameter over body diameter
+    double offset = 0.0;                                            ///< joint angle at count 0, in rad
+    double torque_constant = 1.0;                                   ///< of the motor, in N m/A
     double max_current = std::numeric_limits<double>::infinity();   ///< A
 };
 
-/// A column that turns (a), an upper link (b) and a lower one (c) moved in parallel, as of WoodenHaptics:
-/// x = cos a (Lb sin b + Lc sin c), y = sin a (…), z = La + Lb cos b - Lc cos c.
+/// A rotating column (a), with an upper link (b) and a lower link (c) moved in parallel, as in WoodenHaptics: x = cos a (Lb
+/// sin b + Lc sin c), y = sin a (…), z = La + Lb cos b - Lc cos c.
 struct SerialArm
 {
     std::array<Drive, 3> drives;
-    Vec3 links = Vec3::Ones();    ///< m: La, Lb, Lc
-    Vec3 origin = Vec3::Zero();   ///< m, which becomes 0
+    Vec3 links = Vec3::Ones();    ///< La, Lb, Lc in m
+    Vec3 origin = Vec3::Zero();   ///< the point that becomes 0, in m
 };
 
-/// Two driven links whose ends meet over two passive ones, in the plane z = 0. The left pivot is at (-base, 0), the
-/// right one at 0; angles from the x axis. (Campion, Wang, Hayward: The Pantograph Mk-II, IROS 2005.)
+/// Two driven links whose ends are joined by two passive links, in the plane z = 0. The left pivot is at (-base, 0), the
+/// right pivot at 0; angles from the x axis. (Campion, Wang, Hayward: The Pantograph Mk-II, IROS 2005.)
 struct FiveBar
 {
     std::array<Drive, 2> drives;                          ///< right, left
-    double base = 0.0;                                    ///< m, between the pivots
-    std::array<double, 4> links { 1.0, 1.0, 1.0, 1.0 };   ///< m: right driven, right passive, left passive, left driven
-    Vec3 origin = Vec3::Zero();                           ///< m, which becomes 0
+    double base = 0.0;                                    ///< distance between the pivots, in m
+    std::array<double, 4> links { 1.0, 1.0, 1.0, 1.0 };   ///< lengths in m: right driven, right passive, left passive, left driven
+    Vec3 origin = Vec3::Zero();                           ///< the point that becomes 0, in m
 };
 
 using KinematicsModel = std::variant<Direct, LinearMap, SerialArm, FiveBar>;
 
-/// What the device stands and does; inf and 0 where nobody knows.
+/// Limits and properties of the device; infinity or 0 if unknown.
 struct Limits
 {
-    GuardLimits guard;                          ///< watchdog: on the host's side, how old an input may be
+    GuardLimits guard;                          ///< its watchdog: how old an input may be on the host
     double max_stiffness = GuardLimits::none;   ///< N/m
     double max_damping = GuardLimits::none;     ///< N s/m
-    double device_damping = 0.0;                ///< N s/m, of the device itself
+    double device_damping = 0.0;                ///< damping of the device itself, in N s/m
     double first_mode = 0.0;                    ///< Hz
     double position_quantum = 0.0;              ///< m
     double force_quantum = 0.0;                 ///< N
-    double device_watchdog = 0.0;               ///< s after which the device itself lets go; 0: never
+    double device_watchdog = 0.0;               ///< time after which the device itself switches its force off, in s; 0: never
 };
 
-/// A report and what it says: how a profile is tested without the device.
+/// A report and its values, for testing a profile without the device.
 struct GoldenSample
 {
     std::string about, source;
-    bool captured = false;                                ///< of a real device; else computed from the layout
-    std::vector<Bytes> input;                             ///< decoded first, one after the other
-    std::vector<std::pair<std::string, double>> values;   ///< afterwards: axes, position.x …, rotation.x …, pressure, buttons
-    std::vector<std::string> pressed;                     ///< all buttons that are down
-    std::string output;                                   ///< of an output report; `values` are what is asked for: efforts, force.x …, torque.x …
-    std::vector<float> samples;                           ///< of its stream, frame by frame
-    Bytes expected;                                       ///< as sent
+    bool captured = false;                                ///< true if recorded from a real device; else computed from the layout
+    std::vector<Bytes> input;                             ///< input reports, decoded first and in order
+    std::vector<std::pair<std::string, double>> values;   ///< values after decoding: axes, position.x …, rotation.x …, pressure, buttons
+    std::vector<std::string> pressed;                     ///< all buttons that are pressed
+    std::string output;                                   ///< name of an output report; `values` are then the requested efforts, force.x …, torque.x …
+    std::vector<float> samples;                           ///< samples of its stream, interleaved
+    Bytes expected;                                       ///< the bytes that must be sent
 };
 
 struct Profile
 {
     std::string id, name, about;
-    std::string file;   ///< where it was read
+    std::string file;   ///< the file that it was read from
     std::vector<MatchRule> match;
     std::vector<Step> init, exit;
     std::vector<InputReport> inputs;
     std::vector<OutputReport> outputs;
 
-    std::array<std::string, 3> position, rotation;   ///< axes that kinematics takes, or that are it; empty: none
-    std::string pressure, valid;                     ///< axes; `valid` is not 0 while the reading is
-    std::array<std::string, 3> force, torque;        ///< efforts; with kinematics, `force` are its motors
-    std::vector<SignalEffort> signals;               ///< signal outputs that follow those of the streams
+    std::array<std::string, 3> position, rotation;   ///< input axes of the kinematics, or the pose itself; empty: none
+    std::string pressure, valid;                     ///< axes; `valid` is nonzero while the reading is valid
+    std::array<std::string, 3> force, torque;        ///< efforts; with kinematics, `force` are the motors
+    std::vector<SignalEffort> signals;               ///< signal outputs after those of the streams
     Mat3 axes = Mat3::Identity();                    ///< Tactus (x right, y away, z up) = axes · device
 
     KinematicsModel kinematics;
     Limits limits;
-    double rate = 0.0;   ///< Hz, of input reports; 0: not known
+    double rate = 0.0;   ///< rate of input reports, in Hz; 0: unknown
     std::vector<std::string> quirks;
     std::vector<std::string> sources;
     std::vector<GoldenSample> samples;

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/hid/profile_check.hpp>
+#include "profile_check.hpp"
+#include "bits.hpp"
 
-#include <framework/device.hpp>
-#include <framework/in_quotes.hpp>
+#include <framework/node/device.hpp>
+#include <framework/text/closest_match.hpp>
+#include <framework/text/number_text.hpp>
+#include <framework/text/quote.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace tactus::host::hid
 {
 namespace
 {
-/// Names with their units; the first unit that a name has is its unit.
+/// Names with their units; the first occurrence of a name sets its unit.
 class Names
 {
 public:
@@ -55,7 +59,7 @@ public:
 
     void all()
     {
-        if (p.inputs.empty() && p.outputs.empty()) in.error ("inputs", "profile/missing", "the profile has no report", "add \"inputs\" or \"outputs\"");
+        if (p.inputs.empty() && p.outputs.empty()) in.error ("inputs", "profile/missing", "the profile has no reports", "add \"inputs\" or \"outputs\"");
         count ("inputs", "axes", axes, most_axes);
         count ("inputs", "buttons", buttons, 32);
         count ("outputs", "efforts", efforts, most_efforts);
@@ -69,6 +73,7 @@ public:
         known ("valid", p.valid, axes, "");
         signals();
         joints();
+        neutrals();
         echoes();
         steps();
         for (const auto& sample : p.samples)
@@ -78,16 +83,18 @@ public:
 private:
     void count (std::string_view key, const std::string& what, const Names& names, std::size_t most)
     {
-        if (names.list.size() > most) in.error (key, "profile/too_many", "there are " + std::to_string (names.list.size()) + " " + what, "leave all but " + std::to_string (most) + " out");
-        if (! names.conflict.empty()) in.error (key, "profile/unit", inQuotes (names.conflict) + " has two units", "give it one scale in all reports");
+        if (names.list.size() > most)
+            in.error (key, "profile/too_many", "there are " + std::to_string (names.list.size()) + " " + what, "keep at most " + std::to_string (most));
+        if (! names.conflict.empty()) in.error (key, "profile/unit", quote (names.conflict) + " has two units", "give it one scale in all reports");
     }
 
     void known (std::string_view key, const std::string& name, const Names& names, const std::string& unit)
     {
         if (name.empty()) return;
-        if (! names.has (name)) return in.error (key, "profile/unknown_name", "no field is called " + inQuotes (name), suggestion (name, names.list));
+        if (! names.has (name)) return in.error (key, "profile/unknown_name", "there is no field " + quote (name), suggestion (name, names.list));
         if (! unit.empty() && names.unitOf (name) != unit)
-            in.error (key, "profile/unit", inQuotes (name) + " is in " + names.unitOf (name) + ", but this is in " + unit, "give the field a scale such as \"1e-6 " + unit + "\"");
+            in.error (key, "profile/unit", quote (name) + " is in " + names.unitOf (name) + ", but must be in " + unit,
+                      "give the field a scale such as \"1e-6 " + unit + "\"");
     }
 
     void three (std::string_view key, const std::array<std::string, 3>& names, const Names& among, const std::string& unit)
@@ -101,26 +108,53 @@ private:
         auto channels = p.signals.size();
         for (const auto& report : p.outputs)
             if (report.stream) channels += report.stream->channels.size();
-        if (channels > static_cast<std::size_t> (Channels::most)) in.error ("signals", "profile/too_many", "there are " + std::to_string (channels) + " signal outputs", "leave all but " + std::to_string (Channels::most) + " out");
+        if (channels > static_cast<std::size_t> (Channels::most))
+            in.error ("signals", "profile/too_many", "there are " + std::to_string (channels) + " signal outputs",
+                      "keep at most " + std::to_string (Channels::most));
         for (const auto& signal : p.signals)
         {
             known ("signals", signal.amplitude, efforts, "");
             known ("signals", signal.frequency, efforts, "Hz");
+            if (! signal.amplitude.empty() && (std::ranges::count (p.force, signal.amplitude) > 0 || std::ranges::count (p.torque, signal.amplitude) > 0))
+                in.error ("signals", "profile/signal_on_force", "the amplitude of a signal drives " + quote (signal.amplitude) + ", which renders the force",
+                          "give the signal an effort of its own, because the guard limits forces and signals separately");
         }
     }
 
-    /// Each drive has a counter, and a motor where the device pushes at all.
+    /// Each drive needs a counter, and a motor if the device has force output.
     void joints()
     {
-        const std::size_t drives = std::holds_alternative<SerialArm> (p.kinematics) ? 3 : std::holds_alternative<FiveBar> (p.kinematics) ? 2
-                                                                                                                                         : 0;
+        std::size_t drives = 0;
+        if (std::holds_alternative<SerialArm> (p.kinematics)) drives = 3;
+        if (std::holds_alternative<FiveBar> (p.kinematics)) drives = 2;
         const bool pushes = std::ranges::any_of (p.force, [] (const auto& name)
                                                  { return ! name.empty(); });
         for (std::size_t i = 0; i < drives; ++i)
         {
-            if (p.position[i].empty()) in.error ("position", "profile/kinematics", "a drive has no counter", "name " + std::to_string (drives) + " fields that count");
-            if (pushes && p.force[i].empty()) in.error ("force", "profile/kinematics", "a drive has no motor", "name " + std::to_string (drives) + " efforts, or none");
+            if (p.position[i].empty())
+                in.error ("position", "profile/kinematics", "a drive has no counter", "name " + std::to_string (drives) + " fields that count");
+            if (pushes && p.force[i].empty())
+                in.error ("force", "profile/kinematics", "a drive has no motor", "name " + std::to_string (drives) + " efforts, or none");
         }
+    }
+
+    /// The neutral report asks for no force, and its enable bits are 0.
+    void neutrals()
+    {
+        for (const auto& report : p.outputs)
+            for (const auto& field : report.fields)
+            {
+                if (report.neutral.empty() || field.bits.end() > 8 * report.neutral.size()) continue;   // reported elsewhere
+                const auto raw = bitsAt (field.bits, report.neutral);
+                if (field.source == OutputField::Source::enable && raw != 0)
+                    in.error ("outputs", "profile/neutral", "the neutral report of " + quote (report.name) + " enables the motors with " + quote (field.name),
+                              "write 0 there");
+                const bool pushes = std::ranges::count (p.force, field.name) > 0 || std::ranges::count (p.torque, field.name) > 0;
+                if (field.source != OutputField::Source::effort || ! pushes || field.encoding.law != Encoding::Law::linear) continue;
+                const double rest = numberOf (field.bits, raw) * field.encoding.scale + field.encoding.offset;
+                if (std::abs (rest) > std::abs (field.encoding.scale))
+                    in.error ("outputs", "profile/neutral", "the neutral report of " + quote (report.name) + " asks for " + numberText (rest) + " " + field.unit + " in " + quote (field.name), "write the number that means no force there");
+            }
     }
 
     void echoes()
@@ -134,19 +168,25 @@ private:
     {
         for (const auto* list : { &p.init, &p.exit })
             for (const auto& step : *list)
-                if (step.bytes.empty()) in.error (list == &p.init ? "init" : "exit", "profile/missing", "a step without bytes", "write \"bytes\": the whole report, beginning with its id, or with 00 where there is none");
+                if (step.bytes.empty())
+                    in.error (list == &p.init ? "init" : "exit", "profile/missing", "the step has no bytes",
+                              "write \"bytes\": the whole report, starting with its id, or with 00 if it has none");
     }
 
     void golden (const GoldenSample& sample)
     {
         const auto vector = [] (const std::string& name, std::string_view of)
-        { return name.size() == of.size() + 2 && name.starts_with (of) && name[of.size()] == '.' && std::string_view ("xyz").find (name.back()) != std::string_view::npos; };
+        {
+            return name.size() == of.size() + 2 && name.starts_with (of) && name[of.size()] == '.'
+                   && std::string_view ("xyz").find (name.back()) != std::string_view::npos;
+        };
 
         known ("samples", sample.output, outputs, "");
         for (const auto& [name, value] : sample.values)
             if (sample.output.empty())
             {
-                if (name != "pressure" && name != "time" && name != "lost" && ! vector (name, "position") && ! vector (name, "rotation")) known ("samples", name, axes, "");
+                if (name != "pressure" && name != "time" && name != "lost" && ! vector (name, "position") && ! vector (name, "rotation"))
+                    known ("samples", name, axes, "");
             }
             else if (! vector (name, "force") && ! vector (name, "torque"))
                 known ("samples", name, efforts, "");

@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/hid/hex.hpp>
-#include <host/hid/profile_fields.hpp>
+#include "profile_fields.hpp"
+#include "hex.hpp"
 
-#include <framework/file/json_text.hpp>
 #include <framework/graph/text.hpp>
-#include <framework/in_quotes.hpp>
-#include <framework/units.hpp>
+#include <framework/text/quote.hpp>
+#include <framework/text/units.hpp>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <utility>
-#include <variant>
 
 namespace tactus::host::hid
 {
 namespace
 {
-constexpr std::size_t most_entries = 256;   // of any list of objects: more is a broken file
+constexpr std::size_t most_entries = 256;   // entries per list of objects; a file with more is broken
 
-/// "0x0ce6" or 3302.
+/// Parses "0x0ce6" or 3302.
 std::optional<int> idOf (const Json& json, int max)
 {
     double value = -1.0;
@@ -40,29 +38,18 @@ std::optional<int> idOf (const Json& json, int max)
 std::string unitOf (const Measure& measure)
 {
     if (measure.angular) return measure.dimension == Dimension { 0, 0, -1 } ? "rad/s" : "rad";
-    return measure.dimension == unit::torque.dimension ? "N*m" : symbolOf (measure.dimension);   // not J: devices twist
+    return measure.dimension == unit::torque.dimension ? "N*m" : symbolOf (measure.dimension);   // not J: devices apply torques
 }
 
-std::string idRemedy (int max) { return "write a number from 0 to " + std::to_string (max) + ", or a text such as \"0x1f\""; }
+std::string idRemedy (int max) { return "write a number from 0 to " + std::to_string (max) + ", or a string such as \"0x1f\""; }
 }   // namespace
-
-ProfileFields::ProfileFields (const Json& what, std::string where, Messages& list) : Fields (what, where, list), self (what), place (std::move (where)), all (list) {}
-
-bool ProfileFields::flag (std::string_view key, bool otherwise)
-{
-    const Json& json = object (key);
-    if (! has (key)) return otherwise;
-    if (json.is_boolean()) return json.get<bool>();
-    error (key, "profile/kind", std::string (key) + " has to be true or false", "write true or false");
-    return otherwise;
-}
 
 std::optional<int> ProfileFields::id (std::string_view key, int max)
 {
     const Json& json = object (key);
     if (! has (key)) return {};
     const auto value = idOf (json, max);
-    if (! value) error (key, "profile/kind", std::string (key) + " is not such a number", idRemedy (max));
+    if (! value) error (key, "profile/kind", std::string (key) + " is not a number in range", idRemedy (max));
     return value;
 }
 
@@ -78,7 +65,7 @@ std::vector<std::uint16_t> ProfileFields::ids (std::string_view key)
         if (value)
             values.push_back (static_cast<std::uint16_t> (*value));
         else
-            error (key, "profile/kind", std::string (key) + " is not such a number", idRemedy (0xffff));
+            error (key, "profile/kind", std::string (key) + " is not a number in range", idRemedy (0xffff));
     };
     if (json.is_array())
         for (const auto& entry : json)
@@ -92,43 +79,9 @@ Bytes ProfileFields::hex (std::string_view key)
 {
     const auto written = text (key);
     const auto bytes = bytesOf (written);
-    if (! bytes) error (key, "profile/hex", inQuotes (written) + " are not bytes, or too many", "write two hexadecimal digits a byte, as in \"02 ff 00*4\"");
+    if (! bytes)
+        error (key, "profile/hex", quote (written) + " is not a list of bytes, or is too long", "write two hexadecimal digits per byte, as in \"02 ff 00*4\"");
     return bytes.value_or (Bytes {});
-}
-
-const Json* ProfileFields::listOf (std::string_view key, std::string_view what)
-{
-    const Json& json = object (key);
-    if (! has (key)) return nullptr;
-    if (json.is_array()) return &json;
-    error (key, "profile/kind", std::string (key) + " has to be a list of " + std::string (what), "write [ … ]");
-    return nullptr;
-}
-
-std::vector<std::string> ProfileFields::texts (std::string_view key)
-{
-    std::vector<std::string> read;
-    const Json* list = listOf (key, "texts");
-    if (list == nullptr) return read;
-    for (const auto& entry : *list)
-        if (entry.is_string())
-            read.push_back (entry.get<std::string>());
-        else
-            error (key, "profile/kind", std::string (key) + " has to be a list of texts", "write [\"…\"]");
-    return read;
-}
-
-std::vector<double> ProfileFields::numbers (std::string_view key)
-{
-    std::vector<double> read;
-    const Json* list = listOf (key, "numbers");
-    if (list == nullptr) return read;
-    for (const auto& entry : *list)
-        if (entry.is_number() && isFinite (entry.get<double>()))
-            read.push_back (entry.get<double>());
-        else
-            error (key, "profile/kind", std::string (key) + " has to be a list of numbers", "write [1, 2]");
-    return read;
 }
 
 std::string ProfileFields::name (std::string_view key)
@@ -140,23 +93,23 @@ std::string ProfileFields::name (std::string_view key)
     }
     auto read = text (key);
     if (graph::isId (read)) return read;
-    if (! read.empty()) error (key, "profile/name", inQuotes (read) + " is not a name", "write lower case letters, digits and _, a letter first");
+    if (! read.empty()) error (key, "profile/name", quote (read) + " is not a name", "write lower case letters, digits and _, a letter first");
     return {};
 }
 
 std::array<std::string, 3> ProfileFields::threeNames (std::string_view key)
 {
     std::array<std::string, 3> names;
-    const Json* list = listOf (key, "three names");
-    if (list == nullptr) return names;
+    const Json* entries = list (key, "three names");
+    if (entries == nullptr) return names;
 
-    bool good = list->size() == 3;
+    bool good = entries->size() == 3;
     for (std::size_t i = 0; i < 3 && good; ++i)
-        if ((*list)[i].is_string())
-            names[i] = (*list)[i].get<std::string>();
+        if ((*entries)[i].is_string())
+            names[i] = (*entries)[i].get<std::string>();
         else
-            good = (*list)[i].is_null();
-    if (! good) error (key, "profile/kind", std::string (key) + " has to be a list of three names", "write [\"x\", \"y\", null], null for what there is not");
+            good = (*entries)[i].is_null();
+    if (! good) error (key, "profile/kind", std::string (key) + " must be a list of three names", "write [\"x\", \"y\", null], with null for a missing one");
     return names;
 }
 
@@ -171,16 +124,16 @@ ProfileFields::Scale ProfileFields::scale (std::string_view key, double otherwis
     else if (json.is_string())
     {
         const auto read = parseMeasure (json.get<std::string>());
-        if (const auto* sentence = std::get_if<std::string> (&read))
+        if (! read)
         {
-            error (key, "profile/unit", *sentence, "write a number, or a text such as \"0.1 mm\"");
+            error (key, "profile/unit", read.error().text, "write a number, or a string such as \"0.1 mm\"");
             return { otherwise, {} };
         }
-        scale = { std::get<Measure> (read).value, unitOf (std::get<Measure> (read)) };
+        scale = { read->value, unitOf (*read) };
     }
     else
     {
-        error (key, "profile/kind", std::string (key) + " has to be a number", "write a number, or a text such as \"0.1 mm\"");
+        error (key, "profile/kind", std::string (key) + " must be a number", "write a number, or a string such as \"0.1 mm\"");
         return { otherwise, {} };
     }
     if (isFinite (scale.value)) return scale;
@@ -190,12 +143,13 @@ ProfileFields::Scale ProfileFields::scale (std::string_view key, double otherwis
 
 void ProfileFields::each (std::string_view key, const std::function<void (ProfileFields&)>& read)
 {
-    const Json* list = listOf (key, "objects");
-    if (list == nullptr) return;
-    if (list->size() > most_entries) error (key, "profile/too_many", "there are " + std::to_string (list->size()) + " entries", "write " + std::to_string (most_entries) + " at most");
-    for (std::size_t i = 0; i < std::min (list->size(), most_entries); ++i)
+    const Json* entries = list (key, "objects");
+    if (entries == nullptr) return;
+    if (entries->size() > most_entries)
+        error (key, "profile/too_many", "there are " + std::to_string (entries->size()) + " entries", "write at most " + std::to_string (most_entries));
+    for (std::size_t i = 0; i < std::min (entries->size(), most_entries); ++i)
     {
-        ProfileFields entry ((*list)[i], place + "/" + pointerPart (key) + "/" + std::to_string (i), all);
+        ProfileFields entry ((*entries)[i], pointer (key) + "/" + std::to_string (i), messages());
         read (entry);
         entry.finish();
     }
@@ -205,7 +159,7 @@ void ProfileFields::within (std::string_view key, const std::function<void (Prof
 {
     const Json& json = object (key);
     if (! has (key)) return;
-    ProfileFields inner (json, place + "/" + pointerPart (key), all);
+    ProfileFields inner (json, pointer (key), messages());
     read (inner);
     inner.finish();
 }

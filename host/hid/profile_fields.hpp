@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/devices/fields.hpp>
-#include <host/hid/profile.hpp>
+#include "profile.hpp"
+
+#include <framework/text/object_reader.hpp>
 
 #include <functional>
 #include <optional>
@@ -13,27 +14,23 @@
 namespace tactus::host::hid
 {
 
-/// Fields, with the kinds of values that only profiles have. What is wrong gets a message and the value of nothing.
-class ProfileFields : public Fields
+/// An ObjectReader with the kinds of values that only profiles have. For a bad value it adds a message and returns a default.
+class ProfileFields : public ObjectReader
 {
 public:
-    ProfileFields (const Json& what, std::string where, Messages&);
+    ProfileFields (const Json& what, std::string where, Messages& list) : ObjectReader (what, std::move (where), list, "profile/") {}
 
-    bool flag (std::string_view key, bool otherwise = false);
-
-    /// "0x0ce6", or a number.
+    /// A number, written as "0x0ce6" or as a JSON number.
     std::optional<int> id (std::string_view key, int max);
-    std::vector<std::uint16_t> ids (std::string_view key);   ///< one, or a list
+    std::vector<std::uint16_t> ids (std::string_view key);   ///< one number, or a list of them
 
     Bytes hex (std::string_view key);
-    std::vector<std::string> texts (std::string_view key);
-    std::vector<double> numbers (std::string_view key);
 
-    /// A name of a field, button, effort or report: lower case letters, digits and _, a letter first.
+    /// The name of a field, button, effort or report: lower-case letters, digits and _, starting with a letter.
     std::string name (std::string_view key);
-    std::array<std::string, 3> threeNames (std::string_view key);   ///< null is none
+    std::array<std::string, 3> threeNames (std::string_view key);   ///< null means that there is none
 
-    /// A number with any unit: its value in SI, and the unit if it has one.
+    /// A number with any unit. Returns its SI value, and its unit if it has one.
     struct Scale
     {
         double value = 0.0;
@@ -41,22 +38,11 @@ public:
     };
     Scale scale (std::string_view key, double otherwise);
 
-    /// Each entry of a list of objects.
+    /// Calls back for each entry of a list of objects.
     void each (std::string_view key, const std::function<void (ProfileFields&)>&);
 
-    /// An object within; nothing is called if it is not there.
+    /// Calls back for an object within this one, if it exists.
     void within (std::string_view key, const std::function<void (ProfileFields&)>&);
-
-    const Json& json() const noexcept { return self; }
-    const std::string& where() const noexcept { return place; }
-    Messages& list() noexcept { return all; }
-
-private:
-    const Json* listOf (std::string_view key, std::string_view what);
-
-    const Json& self;
-    std::string place;
-    Messages& all;
 };
 
 }   // namespace tactus::host::hid

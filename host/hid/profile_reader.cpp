@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/devices/problem.hpp>
-#include <host/hid/hex.hpp>
-#include <host/hid/kinematics_reader.hpp>
-#include <host/hid/profile_check.hpp>
-#include <host/hid/profile_reader.hpp>
-#include <host/hid/report_reader.hpp>
+#include "profile_reader.hpp"
+#include "hex.hpp"
+#include "kinematics_reader.hpp"
+#include "profile_check.hpp"
+#include "report_reader.hpp"
 
-#include <framework/file/json_text.hpp>
-#include <framework/in_quotes.hpp>
+#include <framework/file/text_file.hpp>
+#include <framework/text/json_text.hpp>
+#include <framework/text/quote.hpp>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -35,14 +33,14 @@ std::vector<MatchRule> readMatch (ProfileFields& profile)
         if (const auto page = in.id ("usage_page", 0xffff)) rule.usage_page = static_cast<std::uint16_t> (*page);
         if (const auto usage = in.id ("usage", 0xffff)) rule.usage = static_cast<std::uint16_t> (*usage);
         rule.interface_number = in.id ("interface", 255);
-        if (in.has ("product")) rule.product = in.text ("product");
+        rule.product = in.text ("product");
 
-        const auto bus = in.has ("bus") ? in.text ("bus") : std::string();
+        const auto bus = in.text ("bus");
         if (bus == "usb") rule.bus = Bus::usb;
         if (bus == "bluetooth") rule.bus = Bus::bluetooth;
-        if (! bus.empty() && ! rule.bus) in.error ("bus", "profile/kind", inQuotes (bus) + " is not a bus", "write usb or bluetooth");
+        if (! bus.empty() && ! rule.bus) in.error ("bus", "profile/kind", quote (bus) + " is not a bus", "write usb or bluetooth");
         if (rule.vid.empty() && rule.product.empty() && ! rule.usage_page)
-            in.error ("vid", "profile/missing", "this rule would fit almost any device", "say a vid, a product or a usage page");
+            in.error ("vid", "profile/missing", "this rule would fit almost any device", "add a vid, a product or a usage page");
         rules.push_back (std::move (rule)); });
     return rules;
 }
@@ -57,7 +55,7 @@ std::vector<Step> readSteps (ProfileFields& profile, std::string_view key)
         const auto kind = in.has ("kind") ? in.text ("kind") : std::string ("output");
         if (kind == "feature") step.kind = Step::Kind::feature;
         else if (kind == "get_feature") step.kind = Step::Kind::get_feature;
-        else if (kind != "output") in.error ("kind", "profile/kind", inQuotes (kind) + " is not a kind of report", "write output, feature or get_feature");
+        else if (kind != "output") in.error ("kind", "profile/kind", quote (kind) + " is not a kind of report", "write output, feature or get_feature");
         step.bytes = in.has ("bytes") ? in.hex ("bytes") : Bytes {};
         step.delay = in.number ("delay", unit::second, { .min = 0.0, .max = 10.0 }, 0.0);
         steps.push_back (std::move (step)); });
@@ -87,7 +85,7 @@ Limits readLimits (ProfileFields& profile)
     return l;
 }
 
-/// {"x": 1.5, …}, units allowed as everywhere.
+/// Reads {"x": 1.5, …}. Units are allowed, as everywhere.
 std::vector<std::pair<std::string, double>> readValues (ProfileFields& in, std::string_view key)
 {
     std::vector<std::pair<std::string, double>> values;
@@ -105,14 +103,14 @@ std::vector<GoldenSample> readSamples (ProfileFields& profile)
     profile.each ("samples", [&] (ProfileFields& in)
                   {
         GoldenSample s;
-        if (in.has ("about")) s.about = in.text ("about");
-        if (in.has ("source")) s.source = in.text ("source");
+        s.about = in.text ("about");
+        s.source = in.text ("source");
         s.captured = in.flag ("captured");
         for (const auto& text : in.texts ("input"))
             if (const auto bytes = bytesOf (text))
                 s.input.push_back (*bytes);
             else
-                in.error ("input", "profile/hex", inQuotes (text) + " are not bytes", "write two hexadecimal digits a byte");
+                in.error ("input", "profile/hex", quote (text) + " is not a list of bytes", "write two hexadecimal digits per byte");
         if (in.has ("output"))
         {
             s.output = in.text ("output");
@@ -120,13 +118,14 @@ std::vector<GoldenSample> readSamples (ProfileFields& profile)
             for (const double sample : in.numbers ("stream"))
                 s.samples.push_back (static_cast<float> (sample));
             s.expected = in.has ("report") ? in.hex ("report") : Bytes {};
-            if (s.expected.empty()) in.error ("report", "profile/missing", "the sample does not say what is sent", "write \"report\": the bytes");
+            if (s.expected.empty()) in.error ("report", "profile/missing", "the sample has no expected report", "write \"report\": the bytes");
         }
         else
         {
             s.values = readValues (in, "gives");
             s.pressed = in.texts ("pressed");
-            if (s.input.empty()) in.error ("input", "profile/missing", "the sample has no report", "write \"input\": [\"01 00 ff\"], or \"output\": the name of a report");
+            if (s.input.empty())
+                in.error ("input", "profile/missing", "the sample has no report", "write \"input\": [\"01 00 ff\"], or \"output\": the name of a report");
         }
         samples.push_back (std::move (s)); });
     return samples;
@@ -138,11 +137,12 @@ Profile read (ProfileFields& in)
     in.ignore ("$schema");
     in.ignore ("ui");
     if (in.text ("format") != "tactus-profile") in.error ("format", "profile/format", "this is not a device profile", "write \"format\": \"tactus-profile\"");
-    if (in.whole ("version", 1, 1000, 1) != 1) in.error ("version", "profile/format", "the profile is of a newer version", "update Tactus, or write \"version\": 1");
+    if (in.whole ("version", 1, 1000, 1) != 1)
+        in.error ("version", "profile/format", "the profile has a newer version", "update Tactus, or write \"version\": 1");
     p.id = in.name ("id");
-    in.require ("name", "write \"name\": what people call the device");
-    if (in.has ("name")) p.name = in.text ("name");
-    if (in.has ("about")) p.about = in.text ("about");
+    in.require ("name", "write \"name\": the usual name of the device");
+    p.name = in.text ("name");
+    p.about = in.text ("about");
 
     p.match = readMatch (in);
     p.init = readSteps (in, "init");
@@ -158,27 +158,24 @@ Profile read (ProfileFields& in)
     if (in.has ("valid")) p.valid = in.name ("valid");
     in.each ("signals", [&] (ProfileFields& s)
              {
-        s.require ("amplitude", "name the effort that says how strong it shakes");
-        p.signals.push_back ({ .amplitude = s.has ("amplitude") ? s.name ("amplitude") : std::string(), .frequency = s.has ("frequency") ? s.name ("frequency") : std::string() }); });
+        s.require ("amplitude", "name the effort that sets the amplitude");
+        auto& signal = p.signals.emplace_back();
+        if (s.has ("amplitude")) signal.amplitude = s.name ("amplitude");
+        if (s.has ("frequency")) signal.frequency = s.name ("frequency"); });
     p.axes = readAxes (in);
     p.kinematics = readKinematics (in);
     p.limits = readLimits (in);
     p.rate = in.number ("rate", unit::hertz, Bounds::positive(), 0.0);
     p.quirks = in.texts ("quirks");
     p.sources = in.texts ("sources");
-    if (p.sources.empty()) in.error ("sources", "profile/missing", "the profile does not say where it comes from", "write \"sources\": [\"…\"]: a document, a repository, or your own firmware");
+    if (p.sources.empty())
+        in.error ("sources", "profile/missing", "the profile names no sources", "write \"sources\": [\"…\"]: a document, a repository, or your own firmware");
     p.samples = readSamples (in);
     checkProfile (p, in);
     in.finish();
     return p;
 }
 
-/// Fields speak of devices; these are profiles.
-void rename (Messages& messages)
-{
-    for (auto& m : messages)
-        if (m.id.starts_with ("device/")) m.id = "profile/" + m.id.substr (7);
-}
 }   // namespace
 
 LoadedProfile readProfile (const Json& json)
@@ -186,7 +183,6 @@ LoadedProfile readProfile (const Json& json)
     LoadedProfile loaded;
     ProfileFields in (json, "", loaded.messages);
     auto profile = read (in);
-    rename (loaded.messages);
     if (! hasErrors (loaded.messages)) loaded.profile = std::make_shared<const Profile> (std::move (profile));
     return loaded;
 }
@@ -208,9 +204,8 @@ LoadedProfile readProfileText (std::string_view text)
 LoadedProfiles loadProfiles (const std::filesystem::path& folder)
 {
     LoadedProfiles loaded;
-    const auto complain = [&] (const std::filesystem::path& file, std::string text, std::string remedy)
+    const auto complain = [&] (const std::filesystem::path& file, Message message)
     {
-        auto message = problem ("profile/unreadable", "", std::move (text), std::move (remedy));
         message.file = file.string();
         loaded.messages.push_back (std::move (message));
     };
@@ -219,20 +214,22 @@ LoadedProfiles loadProfiles (const std::filesystem::path& folder)
     std::error_code failed;
     for (std::filesystem::directory_iterator it (folder, failed), end; ! failed && it != end; it.increment (failed))
         if (it->path().extension() == ".json" && ! it->path().stem().string().ends_with (".schema")) files.push_back (it->path());
-    if (failed) complain (folder, "the folder of device profiles cannot be read: " + failed.message(), "make it, or name another");
+    if (failed)
+        complain (folder, Message::error ("profile/unreadable", "", "the folder of device profiles cannot be read: " + failed.message(),
+                                          "create it, or name another one"));
     std::ranges::sort (files);
 
     for (const auto& file : files)
     {
-        std::ifstream stream (file, std::ios::binary);
-        std::ostringstream text;
-        if (! stream || ! (text << stream.rdbuf()))
+        const auto text = readTextFile (file);
+        if (! text || text->empty())
         {
-            complain (file, "the profile cannot be read", "check that the file is there, not empty, and may be read");
+            complain (file,
+                      Message::error ("profile/unreadable", "", "the profile cannot be read", "check that the file exists, is not empty, and is readable"));
             continue;
         }
 
-        auto one = readProfileText (text.str());
+        auto one = readProfileText (*text);
         for (auto& m : one.messages)
             m.file = file.string();
         loaded.messages.insert (loaded.messages.end(), std::make_move_iterator (one.messages.begin()), std::make_move_iterator (one.messages.end()));
@@ -242,9 +239,8 @@ LoadedProfiles loadProfiles (const std::filesystem::path& folder)
         { return other->id == one.profile->id; };
         if (const auto other = std::ranges::find_if (loaded.profiles, same); other != loaded.profiles.end())
         {
-            auto message = problem ("profile/duplicate", "/id", inQuotes (one.profile->id) + " is the id of " + (*other)->file + ", too", "give the profile another id");
-            message.file = file.string();
-            loaded.messages.push_back (std::move (message));
+            complain (file, Message::error ("profile/duplicate", "/id", quote (one.profile->id) + " is already the id of " + (*other)->file,
+                                            "give the profile another id"));
             continue;
         }
         auto profile = *one.profile;
@@ -252,6 +248,13 @@ LoadedProfiles loadProfiles (const std::filesystem::path& folder)
         loaded.profiles.push_back (std::make_shared<const Profile> (std::move (profile)));
     }
     return loaded;
+}
+
+std::shared_ptr<const Profile> profileNamed (const LoadedProfiles& all, std::string_view id)
+{
+    const auto at = std::ranges::find_if (all.profiles, [&] (const auto& p)
+                                          { return p->id == id; });
+    return at == all.profiles.end() ? nullptr : *at;
 }
 
 }   // namespace tactus::host::hid

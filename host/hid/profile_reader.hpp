@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/hid/profile.hpp>
+#include "profile.hpp"
 
-#include <framework/json.hpp>
-#include <framework/message.hpp>
+#include <framework/text/json.hpp>
+#include <framework/text/message.hpp>
 
 #include <filesystem>
 #include <memory>
@@ -20,8 +20,8 @@ struct LoadedProfile
     Messages messages;
 };
 
-/// Reads a profile and tells everything that is wrong with it. `where` is a JSON pointer; from a text, line and column
-/// are told as well. [main thread]
+/// Reads a profile and reports all problems. `where` is a JSON pointer; if the profile was read from text, line and column are
+/// set too. [main thread]
 ///
 /// Ids: profile/kind, profile/unit, profile/out_of_range, profile/missing, profile/unknown_key, profile/format,
 /// profile/hex, profile/type, profile/beyond, profile/overlap, profile/name, profile/duplicate, profile/unknown_name,
@@ -31,12 +31,15 @@ LoadedProfile readProfileText (std::string_view text);
 
 struct LoadedProfiles
 {
-    std::vector<std::shared_ptr<const Profile>> profiles;   ///< by file name
-    Messages messages;                                      ///< `file` says of which; a bad profile does not keep the others away
+    std::vector<std::shared_ptr<const Profile>> profiles;   ///< sorted by file name
+    Messages messages;                                      ///< `file` names the profile; a bad profile does not affect the others
 };
 
-/// All *.json of a folder but the schema. profile/unreadable if there is no such folder or a file cannot be read;
-/// profile/duplicate for the second of two with one id. [main thread]
+/// The profile with this id; null if there is none.
+std::shared_ptr<const Profile> profileNamed (const LoadedProfiles&, std::string_view id);
+
+/// Loads all *.json files of a folder except schemas. Ids: profile/unreadable if the folder or a file cannot be read;
+/// profile/duplicate for a second profile with the same id. [main thread]
 LoadedProfiles loadProfiles (const std::filesystem::path& folder);
 
 }   // namespace tactus::host::hid

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/hid/bits.hpp>
-#include <host/hid/report_decoder.hpp>
+#include "report_decoder.hpp"
+#include "bits.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -11,7 +11,7 @@ namespace
 {
 std::uint32_t rangeOf (std::size_t bits) noexcept { return bits >= 32 ? ~0u : (1u << bits) - 1u; }
 
-/// The place of a name in a list, which it joins if it is new.
+/// The index of a name in a list; a new name is appended.
 int indexIn (std::vector<std::string>& list, const std::string& name)
 {
     const auto it = std::ranges::find (list, name);
@@ -86,8 +86,8 @@ Refusal ReportDecoder::check (const Report& r, std::span<const std::uint8_t> byt
 Refusal ReportDecoder::decode (std::span<const std::uint8_t> bytes) noexcept
 {
     Report* const r = find (bytes);
-    const Refusal refusal = r != nullptr ? check (*r, bytes) : bytes.empty() ? Refusal::too_short
-                                                                             : Refusal::unknown_id;
+    auto refusal = bytes.empty() ? Refusal::too_short : Refusal::unknown_id;
+    if (r != nullptr) refusal = check (*r, bytes);
     gap = 0;
     if (refusal != Refusal::none)
     {
@@ -121,7 +121,7 @@ void ReportDecoder::takeAxis (Field& f, std::uint32_t raw) noexcept
     double number = numberOf (field.bits, raw);
     if (field.unwrap)
     {
-        // It moved by the way that is the shorter one around the range of the counter.
+        // Assume that the counter went the shorter way around its range.
         auto& c = f.counter;
         const auto range = rangeOf (field.bits.size);
         const auto on = (raw - c.raw) & range;
@@ -148,7 +148,7 @@ void ReportDecoder::takeButtons (const Field& f, std::uint32_t raw) noexcept
         return;
     }
 
-    // 0 is up, 1 up and right, 2 right …, 8 and more are nowhere.
+    // 0 is up, 1 up and right, 2 right …; 8 and above are neutral.
     if (raw > 7) return;
     pressed |= f.masks[(raw / 2) % 4];
     if (raw % 2 == 1) pressed |= f.masks[(raw / 2 + 1) % 4];
@@ -158,7 +158,7 @@ void ReportDecoder::follow (Report& r, std::uint32_t raw, std::size_t bits) noex
 {
     const auto range = rangeOf (bits);
     const auto on = (raw - r.count) & range;
-    if (r.counted && on != 0)   // the same number again is the same report again
+    if (r.counted && on != 0)   // the same number means that the same report was sent again
     {
         if (on > range / 2)
             ++tally.restarts;

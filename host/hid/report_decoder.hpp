@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/hid/profile.hpp>
+#include "profile.hpp"
 
 #include <array>
 #include <memory>
@@ -13,33 +13,33 @@
 namespace tactus::host::hid
 {
 
-/// Why a report was not taken.
+/// Why a report was refused.
 enum class Refusal
 {
     none,
     too_short,
     too_long,
     unknown_id,
-    wrong_mark,   ///< a field that has to have one value has another
+    wrong_mark,   ///< a field with a required value has a different value
     not_finite
 };
 
 inline constexpr std::size_t refusals = 6;
 
-/// "too short"
+/// Describes a refusal, as in "too short".
 std::string_view describe (Refusal) noexcept;
 
-/// Bytes into values. Counters are unwrapped, lost reports counted, and device clocks turned into seconds since the
-/// first report. A refused report changes no value. Nothing allocates or throws after construction.
+/// Decodes bytes into values. Unwraps counters, counts lost reports, and converts device clocks to seconds since the first
+/// report. A refused report changes no value. Never allocates or throws after construction.
 class ReportDecoder
 {
 public:
     struct Counts
     {
         std::uint64_t taken = 0;
-        std::uint64_t lost = 0;                           ///< by sequence numbers
-        std::uint64_t restarts = 0;                       ///< sequence numbers that went back, or on by half their range
-        std::array<std::uint64_t, refusals> refused {};   ///< by Refusal
+        std::uint64_t lost = 0;                           ///< lost reports, by sequence numbers
+        std::uint64_t restarts = 0;                       ///< sequence numbers that went backwards, or forwards by half their range
+        std::array<std::uint64_t, refusals> refused {};   ///< refused reports, indexed by Refusal
     };
 
     explicit ReportDecoder (std::shared_ptr<const Profile>);
@@ -53,14 +53,14 @@ public:
     const Counts& counts() const noexcept { return tally; }
     bool hasTime() const noexcept { return has_time; }
 
-    /// The raw value an axis had in the last report that has it.
+    /// The raw value of an axis in the latest report that contains it.
     std::uint32_t raw (std::size_t axis) const noexcept { return raws[axis]; }
 
     const std::vector<std::string>& axisNames() const noexcept { return names; }
     const std::vector<std::string>& axisUnits() const noexcept { return units; }
     const std::vector<std::string>& buttonNames() const noexcept { return button_names; }
 
-    /// -1 if there is no such axis.
+    /// The index of an axis; -1 if there is none.
     int axis (std::string_view name) const noexcept;
 
     void reset();
@@ -70,15 +70,15 @@ private:
     {
         bool started = false;
         std::uint32_t raw = 0;
-        double total = 0.0;   // in raw units, beyond what the field holds
+        double total = 0.0;   // in raw units, beyond the range of the field
     };
 
     struct Field
     {
         const InputField* field = nullptr;
         int axis = -1;
-        std::vector<std::uint32_t> masks;   // of the buttons, by bit; for a hat by direction
-        std::uint32_t all = 0;              // of them
+        std::vector<std::uint32_t> masks;   // one per bit of the buttons; for a hat, one per direction
+        std::uint32_t all = 0;              // all masks combined
         Counter counter;
     };
 
@@ -86,8 +86,8 @@ private:
     {
         const InputReport* report = nullptr;
         std::vector<Field> fields;
-        int timestamp = -1, sequence = -1;     // of fields
-        bool counted = false, timed = false;   // once there was a first one
+        int timestamp = -1, sequence = -1;     // indices of fields
+        bool counted = false, timed = false;   // true after the first report
         std::uint32_t count = 0;
         double first_time = 0.0;
     };

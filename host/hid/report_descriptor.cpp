@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/devices/problem.hpp>
-#include <host/hid/report_descriptor.hpp>
+#include "report_descriptor.hpp"
+
+#include <framework/text/message.hpp>
 
 #include <algorithm>
 #include <map>
@@ -10,13 +11,13 @@ namespace tactus::host::hid
 {
 namespace
 {
-constexpr std::size_t longest = 65535;   // bytes: what a HID class descriptor can say of its length
+constexpr std::size_t longest = 65535;   // in bytes: the largest length that a HID class descriptor can give
 constexpr std::size_t most_fields = 4096;
 constexpr std::size_t most_collections = 1024;
-constexpr std::size_t most_usages = 256;           // ranges of one field
-constexpr std::size_t deepest = 32;                // of collections, and of pushed states
-constexpr std::size_t largest_field = 256;         // bits; vendors declare blobs
-constexpr std::size_t largest_report = 8 * 8192;   // bits
+constexpr std::size_t most_usages = 256;           // usage ranges of one field
+constexpr std::size_t deepest = 32;                // levels of nested collections, and of pushed states
+constexpr std::size_t largest_field = 256;         // in bits; vendors declare blobs
+constexpr std::size_t largest_report = 8 * 8192;   // in bits
 
 struct Globals
 {
@@ -28,7 +29,7 @@ struct Globals
     std::uint8_t report = 0;
 };
 
-/// A usage as it was written: with its page or without.
+/// A usage as written, with or without its page.
 struct WrittenUsage
 {
     std::uint32_t value = 0;
@@ -38,14 +39,14 @@ struct WrittenUsage
 struct Locals
 {
     std::vector<std::pair<WrittenUsage, WrittenUsage>> usages;
-    std::optional<WrittenUsage> first;   // of a range that waits for its end
+    std::optional<WrittenUsage> first;   // start of a range whose end has not been read yet
     bool delimited = false, chosen = false;
 };
 
 struct Item
 {
     unsigned type = 0, tag = 0;
-    std::size_t size = 0;   // bytes of the value
+    std::size_t size = 0;   // size of the value in bytes
     std::uint32_t value = 0;
 
     std::int64_t asSigned() const noexcept
@@ -63,7 +64,9 @@ public:
 
     ReadDescriptor read()
     {
-        if (bytes.size() > longest) fail ("descriptor/too_long", "the descriptor has " + std::to_string (bytes.size()) + " bytes", "at most " + std::to_string (longest) + " can be");
+        if (bytes.size() > longest)
+            fail ("descriptor/too_long", "the descriptor has " + std::to_string (bytes.size()) + " bytes",
+                  "at most " + std::to_string (longest) + " are allowed");
         while (good && at < bytes.size())
         {
             start = at;
@@ -77,17 +80,17 @@ private:
     void fail (std::string id, std::string text, std::string remedy)
     {
         good = false;
-        result.messages.push_back (problem (std::move (id), "byte " + std::to_string (start), std::move (text), std::move (remedy)));
+        result.messages.push_back (Message::error (std::move (id), "byte " + std::to_string (start), std::move (text), std::move (remedy)));
     }
 
     std::optional<Item> next()
     {
         const auto prefix = bytes[at++];
-        if (prefix == 0xfe)   // a long item: nobody has defined any
+        if (prefix == 0xfe)   // a long item; the standard defines none
         {
             const std::size_t size = at < bytes.size() ? bytes[at] + 2u : 0u;
             if (size == 0 || bytes.size() - at < size)
-                fail ("descriptor/truncated", "a long item goes beyond the end", "the descriptor was cut off");
+                fail ("descriptor/truncated", "a long item exceeds the descriptor", "the descriptor was cut off");
             else
                 at += size;
             return {};
@@ -97,7 +100,7 @@ private:
         if (item.size == 3) item.size = 4;
         if (bytes.size() - at < item.size)
         {
-            fail ("descriptor/truncated", "an item goes beyond the end", "the descriptor was cut off");
+            fail ("descriptor/truncated", "an item exceeds the descriptor", "the descriptor was cut off");
             return {};
         }
         for (std::size_t i = 0; i < item.size; ++i)
@@ -122,7 +125,7 @@ private:
         case 0x1:
             globals.logical_min = item.asSigned();
             break;
-        case 0x2:   // a maximum below a minimum that is not negative was meant without a sign
+        case 0x2:   // a maximum below a non-negative minimum is meant as unsigned
             globals.logical_max = item.asSigned();
             if (globals.logical_min >= 0 && globals.logical_max < 0) globals.logical_max = item.value;
             break;
@@ -135,12 +138,14 @@ private:
             break;
         case 0x5:
             globals.unit_exponent = static_cast<int> ((item.value & 15u) ^ 8u) - 8;
-            break;   // four bits with a sign
+            break;   // a signed 4-bit number
         case 0x6:
             globals.unit = item.value;
             break;
         case 0x7:
-            if (item.value > largest_field) return fail ("descriptor/too_large", "a field of " + std::to_string (item.value) + " bits", "at most " + std::to_string (largest_field) + " can be");
+            if (item.value > largest_field)
+                return fail ("descriptor/too_large", "a field of " + std::to_string (item.value) + " bits",
+                             "at most " + std::to_string (largest_field) + " are allowed");
             globals.size = item.value;
             break;
         case 0x8:
@@ -149,15 +154,18 @@ private:
             result.descriptor.has_ids = true;
             break;
         case 0x9:
-            if (item.value > largest_report) return fail ("descriptor/too_large", std::to_string (item.value) + " fields side by side", "at most " + std::to_string (largest_report) + " can be");
+            if (item.value > largest_report)
+                return fail ("descriptor/too_large", std::to_string (item.value) + " adjacent fields",
+                             "at most " + std::to_string (largest_report) + " are allowed");
             globals.count = item.value;
             break;
         case 0xa:
-            if (pushed.size() >= deepest) return fail ("descriptor/too_deep", "too many states are pushed", "at most " + std::to_string (deepest) + " can be");
+            if (pushed.size() >= deepest)
+                return fail ("descriptor/too_deep", "too many states are pushed", "at most " + std::to_string (deepest) + " are allowed");
             pushed.push_back (globals);
             break;
         case 0xb:
-            if (pushed.empty()) return fail ("descriptor/unbalanced", "a state is popped that was not pushed", "Push (0xA4) is missing");
+            if (pushed.empty()) return fail ("descriptor/unbalanced", "a state is popped but none was pushed", "Push (0xA4) is missing");
             globals = pushed.back();
             pushed.pop_back();
             break;
@@ -168,7 +176,7 @@ private:
 
     void local (const Item& item)
     {
-        if (item.tag == 0xa)   // of a set of alternatives the first is preferred
+        if (item.tag == 0xa)   // the first of a set of alternative usages is the preferred one
         {
             locals.delimited = item.value == 1;
             locals.chosen = false;
@@ -180,7 +188,7 @@ private:
         if (item.tag == 0x1)
             locals.first = usage;
         else if (locals.usages.size() >= most_usages)
-            return fail ("descriptor/too_many", "a field has too many usages", "at most " + std::to_string (most_usages) + " can be");
+            return fail ("descriptor/too_many", "a field has too many usages", "at most " + std::to_string (most_usages) + " are allowed");
         else
         {
             locals.usages.emplace_back (item.tag == 0x2 ? locals.first.value_or (usage) : usage, usage);
@@ -198,7 +206,7 @@ private:
         if (item.tag == 0xa) collection (item);
         if (item.tag == 0xc)
         {
-            if (open.empty()) return fail ("descriptor/unbalanced", "a collection ends that did not begin", "Collection (0xA1) is missing");
+            if (open.empty()) return fail ("descriptor/unbalanced", "a collection ends but none is open", "Collection (0xA1) is missing");
             open.pop_back();
         }
         locals = {};
@@ -207,8 +215,10 @@ private:
     void collection (const Item& item)
     {
         auto& all = result.descriptor.collections;
-        if (open.size() >= deepest) return fail ("descriptor/too_deep", "collections lie in each other too deep", "at most " + std::to_string (deepest) + " can be");
-        if (all.size() >= most_collections) return fail ("descriptor/too_many", "there are too many collections", "at most " + std::to_string (most_collections) + " can be");
+        if (open.size() >= deepest)
+            return fail ("descriptor/too_deep", "collections are nested too deeply", "at most " + std::to_string (deepest) + " are allowed");
+        if (all.size() >= most_collections)
+            return fail ("descriptor/too_many", "there are too many collections", "at most " + std::to_string (most_collections) + " are allowed");
         all.push_back ({ .usage = locals.usages.empty() ? 0 : whole (locals.usages.front().first),
                          .kind = static_cast<int> (item.value & 0xffu),
                          .parent = open.empty() ? -1 : open.back() });
@@ -219,11 +229,13 @@ private:
     {
         auto& all = result.descriptor.fields;
         if (globals.size == 0 || globals.count == 0) return;
-        if (all.size() >= most_fields) return fail ("descriptor/too_many", "there are too many fields", "at most " + std::to_string (most_fields) + " can be");
+        if (all.size() >= most_fields)
+            return fail ("descriptor/too_many", "there are too many fields", "at most " + std::to_string (most_fields) + " are allowed");
 
         auto& end = ends[{ kind, globals.report }];
         const auto bits = globals.size * globals.count;
-        if (end + bits > largest_report) return fail ("descriptor/too_large", "a report is longer than " + std::to_string (largest_report / 8) + " bytes", "at most that can be");
+        if (end + bits > largest_report)
+            return fail ("descriptor/too_large", "a report is longer than " + std::to_string (largest_report / 8) + " bytes", "shorten it");
 
         DescribedField f;
         f.kind = kind;
@@ -255,7 +267,7 @@ private:
     Locals locals;
     std::vector<Globals> pushed;
     std::vector<int> open;
-    std::map<std::pair<DescribedField::Kind, std::uint8_t>, std::size_t> ends;   // bits so far, of each report
+    std::map<std::pair<DescribedField::Kind, std::uint8_t>, std::size_t> ends;   // the bits used so far, per report
 };
 }   // namespace
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/message.hpp>
+#include <framework/text/message.hpp>
 
 #include <array>
 #include <cstddef>
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-/// What a HID device says about its own reports (Device Class Definition for HID 1.11, section 6.2.2).
+/// The report descriptor of a HID device (Device Class Definition for HID 1.11, section 6.2.2).
 namespace tactus::host::hid
 {
 
@@ -24,10 +24,10 @@ struct DescribedCollection
 {
     Usage usage = 0;
     int kind = 0;      ///< 0 physical, 1 application, 2 logical …
-    int parent = -1;   ///< index, -1 for the outermost
+    int parent = -1;   ///< index of the enclosing collection; -1 for the outermost
 };
 
-/// One or several numbers of the same size, side by side in a report.
+/// One or more numbers of the same size, adjacent in a report.
 struct DescribedField
 {
     enum class Kind
@@ -38,18 +38,18 @@ struct DescribedField
     };
 
     Kind kind = Kind::input;
-    std::uint8_t report = 0;   ///< id; 0 where the device has none
-    std::size_t bit = 0;       ///< within the data of the report, the id not counted
-    std::size_t size = 0;      ///< bits of each
+    std::uint8_t report = 0;   ///< id of the report; 0 if the device uses no ids
+    std::size_t bit = 0;       ///< offset within the data of the report, without the id
+    std::size_t size = 0;      ///< size of each number in bits
     std::size_t count = 0;
     bool constant = false;   ///< padding
-    bool variable = false;   ///< each number has a usage of its own; else each number is the index of a usage
+    bool variable = false;   ///< each number has its own usage; else each number is the index of a usage
     bool relative = false;
     std::int64_t logical_min = 0, logical_max = 0;
-    std::int64_t physical_min = 0, physical_max = 0;   ///< both 0: as the logical ones
+    std::int64_t physical_min = 0, physical_max = 0;   ///< both 0: the same as the logical limits
     std::uint32_t unit = 0;
-    int unit_exponent = 0;   ///< of 10
-    int collection = -1;     ///< index
+    int unit_exponent = 0;   ///< power of 10
+    int collection = -1;     ///< index of the collection
 
     struct Range
     {
@@ -57,10 +57,10 @@ struct DescribedField
     };
     std::vector<Range> usages;
 
-    /// The n-th usage; the last one holds for all that follow. Nothing if there is none.
+    /// The usage of the n-th number; the last usage applies to all further numbers. Empty if there is none.
     std::optional<Usage> usage (std::size_t n) const noexcept;
 
-    /// At which place a usage stands.
+    /// The index of a usage.
     std::optional<std::size_t> placeOf (Usage) const noexcept;
 };
 
@@ -70,21 +70,20 @@ struct ReportDescriptor
     std::vector<DescribedField> fields;
     bool has_ids = false;
 
-    /// Bytes of the data of a report, the id not counted; 0 if there is no such report.
+    /// The size of a report in bytes, without the id; 0 if there is no such report.
     std::size_t length (DescribedField::Kind, std::uint8_t report) const noexcept;
 
-    /// True if a collection has this usage or lies within one that has.
+    /// True if a collection has this usage or is inside one that has it.
     bool lies (int collection, Usage within) const noexcept;
 };
 
 struct ReadDescriptor
 {
-    ReportDescriptor descriptor;   ///< what was understood; only to be trusted without errors
+    ReportDescriptor descriptor;   ///< what could be read; reliable only if there are no errors
     Messages messages;             ///< `where` is the byte, as "byte 17"
 };
 
-/// Reads a descriptor, whatever the bytes are: nothing in them makes it use more memory than some kilobytes for each
-/// item. [main thread]
+/// Reads a descriptor. Accepts any bytes: each item needs at most some kilobytes of memory. [main thread]
 ///
 /// Ids: descriptor/truncated, descriptor/too_long, descriptor/unbalanced, descriptor/too_deep, descriptor/too_many,
 /// descriptor/too_large, descriptor/report_id.

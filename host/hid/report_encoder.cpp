@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/hid/bits.hpp>
-#include <host/hid/crc32.hpp>
-#include <host/hid/report_decoder.hpp>
-#include <host/hid/report_encoder.hpp>
+#include "report_encoder.hpp"
+#include "bits.hpp"
+#include "crc32.hpp"
+#include "report_decoder.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ double interpolated (const std::vector<double>& x, const std::vector<double>& y,
     return y[i - 1] + (y[i] - y[i - 1]) * (at - x[i - 1]) / (x[i] - x[i - 1]);
 }
 
-/// The number that stands for a value; -inf where a logarithm has none.
+/// The encoded number of a value; -inf if the logarithm does not exist.
 double lawOf (const Encoding& e, double value) noexcept
 {
     switch (e.law)
@@ -36,7 +36,7 @@ double lawOf (const Encoding& e, double value) noexcept
     }
 }
 
-/// The value that a number stands for, so that one knows what rests in a neutral report.
+/// The value of an encoded number; used to find the rest values in a neutral report.
 double valueOf (const Encoding& e, double number) noexcept
 {
     const double law = number * e.scale + e.offset;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/hid/profile.hpp>
+#include "profile.hpp"
 
 #include <array>
 #include <memory>
@@ -15,16 +15,16 @@ namespace tactus::host::hid
 
 class ReportDecoder;
 
-/// Values into bytes: clamped to what a field may hold, with counters and checksums. Nothing allocates or throws after
-/// construction.
+/// Encodes values into bytes: clamped to the range of each field, with counters and checksums. Never allocates or throws
+/// after construction.
 class ReportEncoder
 {
 public:
-    /// The decoder gives what output reports echo; it has to live as long.
+    /// The decoder provides the values that output reports echo; it must outlive this.
     ReportEncoder (std::shared_ptr<const Profile>, const ReportDecoder&);
 
-    /// The n-th output report as the device sees it, with a leading 0 where it has no id. A value that is not finite
-    /// leaves its field as it is in the neutral report. Samples are frame by frame, -1…1.
+    /// The n-th output report as it is sent to the device, with a leading 0 if it has no id. A field stays neutral if its
+    /// value is not finite. Samples are interleaved, -1…1.
     std::span<const std::uint8_t> encode (std::size_t report, const std::array<double, most_efforts>& values, std::span<const float> samples,
                                           const ReportDecoder&) noexcept;
     std::span<const std::uint8_t> neutral (std::size_t report) noexcept;
@@ -32,10 +32,10 @@ public:
     const std::vector<std::string>& effortNames() const noexcept { return names; }
     const std::vector<std::string>& effortUnits() const noexcept { return units; }
 
-    /// What each effort is in the neutral report.
+    /// The value of each effort in the neutral report.
     const std::array<double, most_efforts>& restEfforts() const noexcept { return rest; }
 
-    /// -1 if there is no such effort.
+    /// The index of an effort; -1 if there is none.
     int effort (std::string_view name) const noexcept;
 
     void reset();
@@ -44,7 +44,7 @@ private:
     struct Field
     {
         const OutputField* field = nullptr;
-        int index = -1;   // of the effort, or of the axis that is echoed
+        int index = -1;   // index of the effort, or of the echoed axis
         std::uint32_t neutral = 0;
     };
 
@@ -52,7 +52,7 @@ private:
     {
         const OutputReport* report = nullptr;
         std::vector<Field> fields;
-        Bytes wire;   // what was made last
+        Bytes wire;   // the latest encoded report
         unsigned count = 0;
     };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/hid/profile_fields.hpp>
+#include "profile_fields.hpp"
 
 #include <map>
 #include <string>
@@ -10,10 +10,10 @@
 namespace tactus::host::hid
 {
 
-/// Laws that several fields share, by name: x and y.
+/// Laws that several fields share, by name: the x and y of a table.
 using Tables = std::map<std::string, std::pair<std::vector<double>, std::vector<double>>>;
 
-/// The reports of a profile; what is wrong within each gets a message. [main thread]
+/// Reads the reports of a profile, and adds a message for each problem. [main thread]
 Tables readTables (ProfileFields& profile);
 std::vector<InputReport> readInputs (ProfileFields& profile);
 std::vector<OutputReport> readOutputs (ProfileFields& profile, const Tables&);

@@ -1,38 +1,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/devices/fields.hpp>
-#include <host/devices/problem.hpp>
+#include "force_feedback.hpp"
+#include <framework/text/closest_match.hpp>
+#include <framework/text/message.hpp>
+#include <framework/text/object_reader.hpp>
 #include <host/hid/report_descriptor.hpp>
-#include <host/hid_link/force_feedback.hpp>
 
-#include <framework/in_quotes.hpp>
-#include <framework/number_text.hpp>
-#include <framework/units.hpp>
+#include <framework/text/number_text.hpp>
+#include <framework/text/quote.hpp>
+#include <framework/text/units.hpp>
 
 #include <algorithm>
 #include <utility>
-#include <variant>
 
 namespace tactus::host::hid
 {
 namespace
 {
-// Of a device that nobody has measured: weaker than what is asked for rather than stronger.
+// Assumptions about an uncalibrated device. The force may turn out weaker than requested, but not stronger.
 constexpr double assumed_force = 10.0;   // N
 constexpr double assumed_travel = 0.1;   // m
-constexpr double assumed_usable = 0.1;   // of the force that it has
+constexpr double assumed_usable = 0.1;   // fraction of the full force
 
 PidCalibration assumed()
 {
     return { .full_force = assumed_force, .usable = assumed_usable, .travel = { { "x", assumed_travel }, { "y", assumed_travel }, { "z", assumed_travel } } };
 }
 
-/// Says of a text with a unit whether it is a torque.
+/// True for a string with a unit of torque.
 bool isTorque (const Json& json)
 {
     if (! json.is_string()) return false;
-    const auto read = parseMeasure (json.get<std::string>());
-    const auto* measure = std::get_if<Measure> (&read);
-    return measure != nullptr && measure->dimension == unit::torque.dimension;
+    const auto measure = parseMeasure (json.get<std::string>());
+    return measure && measure->dimension == unit::torque.dimension;
 }
 }   // namespace
 
@@ -47,9 +46,9 @@ std::optional<PidCalibration> readCalibration (const Json& description, Messages
     const auto written = description.find ("calibration");
     if (written == description.end()) return {};
 
-    Fields in (*written, "/calibration", messages);
+    ObjectReader in (*written, "/calibration", messages);
     PidCalibration c;
-    in.require ("full_force", "write what it gives at the most: \"full_force\": \"4 N\", or \"2.5 N*m\" of a wheel");
+    in.require ("full_force", "write its largest force: \"full_force\": \"4 N\", or \"2.5 N*m\" for a wheel");
     c.turns = in.has ("full_force") && isTorque (written->at ("full_force"));
     c.full_force = in.number ("full_force", c.turns ? unit::torque : unit::newton, Bounds::positive(), 1.0);
     in.ignore ("reversed");
@@ -57,12 +56,12 @@ std::optional<PidCalibration> readCalibration (const Json& description, Messages
     {
         const auto& reversed = written->at ("reversed");
         c.is_reversed = reversed.is_boolean() && reversed.get<bool>();
-        if (! reversed.is_boolean()) in.error ("reversed", "device/kind", "expected true or false", "write true where it pushes to the left instead of to the right");
+        if (! reversed.is_boolean()) in.error ("reversed", "device/kind", "expected true or false", "write true if it pushes left instead of right");
     }
     if (in.has ("travel"))
     {
         const auto& travel = in.object ("travel");
-        Fields each (travel, "/calibration/travel", messages);
+        ObjectReader each (travel, "/calibration/travel", messages);
         if (travel.is_object())
             for (const auto& [axis, length] : travel.items())
                 c.travel[axis] = each.number (axis, c.turns ? unit::radian : unit::metre, Bounds::positive(), 1.0);
@@ -71,7 +70,8 @@ std::optional<PidCalibration> readCalibration (const Json& description, Messages
     return c;
 }
 
-std::shared_ptr<const Profile> profileOf (HidSystem& system, const ConnectedDevice& device, const std::optional<PidCalibration>& told, Messages& messages)
+std::shared_ptr<const Profile> profileOf (HidSystem& system, const ConnectedDevice& device, const std::optional<PidCalibration>& calibration,
+                                          Messages& messages)
 {
     const auto begin = messages.size();
     auto read = readDescriptor (system.reportDescriptor (device));
@@ -84,21 +84,24 @@ std::shared_ptr<const Profile> profileOf (HidSystem& system, const ConnectedDevi
     }
     if (! pid) return nullptr;
 
-    if (told)
-        for (const auto& [axis, length] : told->travel)
+    if (calibration)
+        for (const auto& [axis, length] : calibration->travel)
             if (const auto names = pid->axisNames(); std::ranges::count (names, axis) == 0)
-                messages.push_back (problem ("pid/no_axis", "/calibration/travel/" + axis, device.product + " has no axis " + inQuotes (axis), suggestion (axis, names)));
+                messages.push_back (
+                    Message::error ("pid/no_axis", "/calibration/travel/" + axis, device.product + " has no axis " + quote (axis), suggestion (axis, names)));
     if (hasErrors (messages)) return nullptr;
 
-    if (! told)
+    if (! calibration)
     {
-        auto m = problem ("pid/uncalibrated", "", device.product + " does not tell how strong it is: it is taken for a stick of " + numberText (100.0 * assumed_travel) + " cm and " + numberText (assumed_force) + " N, and gives at most " + numberText (100.0 * assumed_usable) + " % of what it can",
-                          "measure it, and write \"calibration\": {\"full_force\": \"4 N\", \"travel\": {\"x\": \"12 cm\"}}");
-        m.severity = Message::Severity::warning;
-        messages.push_back (std::move (m));
+        messages.push_back (Message::warning ("pid/uncalibrated", "",
+                                              device.product + " does not report its strength, so it is treated as a stick with "
+                                                  + numberText (100.0 * assumed_travel) + " cm of travel and " + numberText (assumed_force)
+                                                  + " N of force, of which at most "
+                                                  + numberText (100.0 * assumed_usable) + " % is used",
+                                              "measure it, and write \"calibration\": {\"full_force\": \"4 N\", \"travel\": {\"x\": \"12 cm\"}}"));
     }
 
-    auto profile = pid->profile (told.value_or (assumed()));
+    auto profile = pid->profile (calibration.value_or (assumed()));
     MatchRule rule;
     rule.vid = { device.vid };
     rule.pid = { device.pid };

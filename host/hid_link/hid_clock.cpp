@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/hid_link/hid_clock.hpp>
+#include "hid_clock.hpp"
 
 #include <algorithm>
 
@@ -9,18 +9,13 @@ namespace
 {
 using Clock = HidPort::Clock;
 
-constexpr double usual_watchdog = 0.1;   // s, where a profile has none
-
 Clock::duration durationOf (double s) { return std::chrono::duration_cast<Clock::duration> (std::chrono::duration<double> (s)); }
-
-double watchdogOf (const Profile& p)
-{
-    const double s = p.limits.guard.watchdog;
-    return s < GuardLimits::none ? s : usual_watchdog;
-}
 }   // namespace
 
-HidClock::HidClock (HidPort& p, double rate_hz) : port (p), period (durationOf (1.0 / rate_hz)), silence (durationOf (longest_silence / rate_hz)), loss (durationOf (watchdogOf (*p.profile()))) {}
+HidClock::HidClock (HidPort& p, double rate_hz)
+    : port (p), period (durationOf (1.0 / rate_hz)), silence (durationOf (longest_silence / rate_hz)), loss (p.watchdog())
+{
+}
 
 void HidClock::drive (Ticked& ticked) noexcept
 {
@@ -37,10 +32,8 @@ void HidClock::drive (Ticked& ticked) noexcept
 
         const auto since = came ? now.time_since_epoch() - std::chrono::nanoseconds (port.lastArrival()) : now - due;
         if (! ticked.tick (std::max (0.0, std::chrono::duration<double> (since).count()))) break;
-        port.kick();
-        due = came ? now + silence : std::max (due + period, now);   // what was missed is not made up for
+        due = came ? now + silence : std::max (due + period, now);   // missed ticks are not made up
     }
-    port.kick();
 }
 
 }   // namespace tactus::host::hid

@@ -1,26 +1,44 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/hid_link/hid_device.hpp>
+#include "hid_device.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace tactus::host::hid
 {
+
+std::string describe (const ReadingCounts& read, const PortCounts& port)
+{
+    const auto number = [] (auto n)
+    { return std::to_string (n); };
+    auto text = number (read.taken) + " taken, " + number (read.lost) + " lost, "
+                + number (std::accumulate (read.refused.begin(), read.refused.end(), std::uint64_t { 0 })) + " refused";
+    std::string reasons;
+    for (std::size_t i = 0; i < read.refused.size(); ++i)
+        if (read.refused[i] > 0) reasons += (reasons.empty() ? "" : ", ") + number (read.refused[i]) + " " + std::string (describe (static_cast<Refusal> (i)));
+    if (! reasons.empty()) text += " (" + reasons + ")";
+    if (read.restarts > 0) text += ", " + number (read.restarts) + " out of order";
+    if (read.skipped > 0) text += ", " + number (read.skipped) + " skipped for newer ones";
+    if (port.overflown > 0) text += ", " + number (port.overflown) + " without room";
+    return text;
+}
 
 DeviceLayout layoutOf (const HidModel& model)
 {
     auto signals = model.profile().signals.size();
     for (std::size_t i = 0; i < model.outputs(); ++i)
         signals += model.channelNames (i).size();
-    return { .axes = model.axisNames(), .efforts = model.effortNames(), .buttons = model.buttonNames(), .signal_outputs = static_cast<int> (signals) };
+    return { .axes = model.axisNames(), .efforts = model.ownEffortNames(), .buttons = model.buttonNames(), .signal_outputs = static_cast<int> (signals) };
 }
 
 namespace
 {
-// Half a period of the slowest that such motors are asked for: else the amplitude would be felt to come and go with the signal.
+// Half a period of the lowest frequency that such motors are asked for; if it were shorter, the amplitude would
+// noticeably follow the signal.
 constexpr double least_hold = 12.5e-3;   // s
 
-/// How often the report is sent that has this effort.
+/// The period of the report that contains this effort, in s.
 double periodOf (const Profile& profile, const std::string& effort)
 {
     for (const auto& report : profile.outputs)
@@ -41,7 +59,8 @@ HidDevice::HidDevice (std::unique_ptr<HidPort> port)
         }
     const auto& names = values.effortNames();
     for (const auto& signal : values.profile().signals)
-        shaken.push_back ({ indexOf (names, signal.amplitude), indexOf (names, signal.frequency), static_cast<int> (channel++), std::max (least_hold, periodOf (values.profile(), signal.amplitude)) });
+        motors.push_back ({ indexOf (names, signal.amplitude), indexOf (names, signal.frequency), static_cast<int> (channel++),
+                            std::max (least_hold, periodOf (values.profile(), signal.amplitude)) });
 }
 
 void HidDevice::prepare (double dt_s)
@@ -49,8 +68,8 @@ void HidDevice::prepare (double dt_s)
     dt = dt_s;
     for (auto& s : streams)
         s.feed.prepare (dt);
-    for (auto& s : shaken)
-        s.shaking.prepare (dt, s.hold);
+    for (auto& m : motors)
+        m.tracker.prepare (dt, m.hold);
     ticks_without = 0;
     has_to_rest = true;
 }
@@ -59,7 +78,7 @@ void HidDevice::take (const ArrivedReport& report) noexcept
 {
     if (report.connection != connection)
     {
-        values.reset();   // its clocks and counters begin anew
+        values.reset();   // its clocks and counters start again
         if (connection != 0) owed = 0;
         connection = report.connection;
         has_one = false;
@@ -97,7 +116,7 @@ Reading HidDevice::read() noexcept
     link->drain ([this] (const ArrivedReport& report)
                  { take (report); });
 
-    // Where reports found no room, what there was to take is old, whatever it says.
+    // If some reports did not fit, the ones in the ring are old, whatever they contain.
     const bool fresh = came_now.any() && no_room == overflown;
     overflown = no_room;
     ticks_without = fresh ? 0 : ticks_without + 1;
@@ -121,13 +140,13 @@ Reading HidDevice::read() noexcept
     return reading;
 }
 
-void HidDevice::shake (const Channels& signals, HidEffort& effort) noexcept
+void HidDevice::vibrate (const Channels& signals, HidEffort& effort) noexcept
 {
-    for (auto& [amplitude, frequency, channel, hold, shaking] : shaken)
+    for (auto& [amplitude, frequency, channel, hold, tracker] : motors)
     {
-        shaking.tick (signals[channel]);
-        if (amplitude >= 0) effort.efforts[static_cast<std::size_t> (amplitude)] += shaking.amplitude();
-        if (frequency >= 0 && shaking.frequency() > 0.0) effort.efforts[static_cast<std::size_t> (frequency)] = shaking.frequency();
+        tracker.tick (signals[channel]);
+        if (amplitude >= 0) effort.efforts[static_cast<std::size_t> (amplitude)] += tracker.amplitude();
+        if (frequency >= 0 && tracker.frequency() > 0.0) effort.efforts[static_cast<std::size_t> (frequency)] = tracker.frequency();
     }
 }
 
@@ -135,19 +154,20 @@ void HidDevice::write (const Effort& guarded) noexcept
 {
     const auto isZero = [] (double v)
     { return v == 0.0; };
-    const bool rests = guarded.force.isZero (0.0) && guarded.torque.isZero (0.0) && std::ranges::all_of (guarded.axes, isZero) && std::ranges::all_of (guarded.signals, isZero);
+    const bool rests = guarded.force.isZero (0.0) && guarded.torque.isZero (0.0) && std::ranges::all_of (guarded.axes, isZero)
+                       && std::ranges::all_of (guarded.signals, isZero);
     has_to_rest = has_to_rest && ! rests;
 
     HidEffort effort { guarded.force, guarded.torque, values.restEfforts() };
-    for (std::size_t i = 0; i < values.effortNames().size(); ++i)
-        if (const double asked = guarded.axes[static_cast<int> (i)]; asked != 0.0) effort.efforts[i] = asked;
-    shake (guarded.signals, effort);
+    values.take (guarded.axes, effort);
+    vibrate (guarded.signals, effort);
 
     for (std::size_t i = 0; i < values.outputs(); ++i)
         if (values.channelNames (i).empty()) link->offer (i, has_to_rest ? values.neutral (i) : values.encode (i, effort), episode, latest);
     for (auto& [report, feed] : streams)
         feed.tick (guarded.signals, [&, i = report] (std::span<const float> samples)
                    { link->offer (i, has_to_rest ? values.neutral (i) : values.encode (i, effort, samples), episode, latest); });
+    link->sendNow();
 }
 
 void HidDevice::publish() noexcept { published.store (tally); }

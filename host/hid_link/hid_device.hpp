@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/device.hpp>
+#include "hid_port.hpp"
+#include "stream_feed.hpp"
+#include "vibration_tracker.hpp"
+
+#include <framework/kit/snapshot.hpp>
+#include <framework/node/device.hpp>
 #include <host/hid/hid_model.hpp>
-#include <host/hid_link/hid_port.hpp>
-#include <host/hid_link/shaking.hpp>
-#include <host/hid_link/stream_feed.hpp>
-#include <host/runtime/snapshot.hpp>
 
 #include <array>
 #include <bitset>
@@ -17,35 +18,39 @@
 namespace tactus::host::hid
 {
 
-/// What a device told a run.
+/// The readings of a device during a run.
 struct ReadingCounts
 {
-    std::uint64_t taken = 0;                          ///< reports that were understood
-    std::uint64_t lost = 0;                           ///< by the sequence numbers that did not come, without those that the port had no room for
-    std::uint64_t restarts = 0;                       ///< sequence numbers that went back
-    std::uint64_t skipped = 0;                        ///< understood, but another one was there before a tick looked
+    std::uint64_t taken = 0;                          ///< reports that were decoded
+    std::uint64_t lost = 0;                           ///< missing sequence numbers, not counting reports that the port had no room for
+    std::uint64_t restarts = 0;                       ///< sequence numbers that went backwards
+    std::uint64_t skipped = 0;                        ///< decoded, but superseded before a tick read them
     std::array<std::uint64_t, refusals> refused {};   ///< by Refusal
-    double age = 0.0, oldest = 0.0;                   ///< s, of the reading: now, and the most it was once there had been one
+    double age = 0.0, oldest = 0.0;                   ///< age of the reading, in s: now, and the maximum since the first reading
 };
 
-/// What nodes find of it by name: all of its axes, efforts and buttons; and its signal outputs, first the channels of its
-/// streams, then those that its profile makes of efforts.
+/// Describes the counts, as in "5000 taken, 12 lost, 3 refused (2 too short, 1 wrong mark), 5 skipped".
+std::string describe (const ReadingCounts&, const PortCounts&);
+
+/// What nodes can address by name: all axes, efforts and buttons, and the signal outputs. Of these, the channels of the
+/// streams come first, then the signals that the profile turns into efforts.
 DeviceLayout layoutOf (const HidModel&);
 
-/// A HID device in a run. What came is decoded, and what is to be sent is encoded, at the tick: so an answer has the pose
-/// and the sequence number of the very report it answers. Neither calls the system, locks or allocates.
+/// A HID device in a run. Reports are decoded and encoded on the tick thread, so an answer carries the pose and the sequence
+/// number of the very report that it answers. Neither step allocates or locks. At its end, write() wakes the port's writing
+/// thread, so every device gets its effort right away, whichever clock drives the run; this is the only call into the system.
 ///
-/// A reading is the newest report; its age is the ticks since then. It is not valid before the first one, while the device
-/// is away, and after a report that was refused, until a good one comes. (Reports of ids that the profile does not know
-/// are counted and left out: many devices send some.)
+/// A reading is the newest report; its age is the time since the report arrived, counted in ticks. It is not valid before the first report,
+/// while the device is away, and after a refused report until a good one arrives. (Reports whose ids the profile does not
+/// know are counted and ignored: many devices send some.)
 ///
-/// An effort of an axis that is 0 leaves it as it is in the neutral report: a frequency of 0 would be none.
+/// An axis effort of 0 leaves the value of the neutral report: a frequency of 0, for example, would be meaningless.
 ///
-/// A signal for a stream goes into blocks of samples at the stream's rate, each sent when it is full; one for a motor that
-/// takes an amplitude becomes that.
+/// A signal for a stream is collected into blocks of samples at the stream's rate, each sent when it is full. A signal for
+/// a motor that takes an amplitude is converted to an amplitude.
 ///
-/// After the device was away, or the ticks stood still so long that the port let it go, nothing is sent to it until the
-/// guard has gone to zero once: then efforts rise as the guard's ramp has it.
+/// After the device was away, or the ticks paused for so long that the port sent the neutral reports, only neutral reports
+/// are sent until the guard has been at zero once. Then efforts rise along the guard's ramp.
 class HidDevice final : public Device
 {
 public:
@@ -60,7 +65,7 @@ public:
     HidPort& port() noexcept { return *link; }
     const HidPort& port() const noexcept { return *link; }
 
-    /// What was decoded last, with names and units. [tick thread]
+    /// The latest decoded values, with names and units. [tick thread]
     const HidModel& model() const noexcept { return values; }
 
     ReadingCounts counts() const noexcept { return published.load(); }   // [any thread]
@@ -68,40 +73,40 @@ public:
 private:
     void take (const ArrivedReport&) noexcept;
     void publish() noexcept;
-    void shake (const Channels& signals, HidEffort&) noexcept;
+    void vibrate (const Channels& signals, HidEffort&) noexcept;
 
-    /// A report of samples; of an output without, there is none.
+    /// An output report that carries samples.
     struct Streamed
     {
         std::size_t report;
         StreamFeed feed;
     };
 
-    /// A motor that is told how to shake, by the numbers of its efforts; -1: none.
-    struct Shaken
+    /// A motor that takes amplitude and frequency, given as indices of efforts; -1: none.
+    struct VibrationMotor
     {
         int amplitude, frequency, channel;
-        double hold;   // s
-        Shaking shaking {};
+        double hold;   // in s
+        VibrationTracker tracker {};
     };
 
     std::unique_ptr<HidPort> link;
     HidModel values;
-    const bool only_changes;   // it is silent while nothing moves, and not old for that
+    const bool only_changes;   // true if it sends only when something moves, so its reading does not age while it is silent
     double dt = 1e-3;
 
-    // Of the tick thread.
+    // [tick thread]
     ReadingCounts tally;
     std::uint64_t episode = 0, connection = 0, overflown = 0, ticks_without = 0;
-    std::bitset<256> came_now;   // ids of the reports that were taken at this tick
-    std::uint64_t owed = 0;      // reports without room that no sequence number has told of yet
-    Nanoseconds latest = 0;      // when the one came that this tick answers; 0: none did
-    bool has_one = false;        // of this connection
-    bool refused = false;        // the newest one
-    bool has_to_rest = true;     // until the guard has been at zero
+    std::bitset<256> came_now;   // ids of the reports decoded on this tick
+    std::uint64_t owed = 0;      // reports that did not fit and have not shown up as a gap in the sequence numbers yet
+    Nanoseconds latest = 0;      // arrival of the report that this tick answers; 0: none
+    bool has_one = false;        // a report has been decoded since the device was connected
+    bool refused = false;        // the newest report was refused
+    bool has_to_rest = true;     // true until the guard has been at zero once
 
     std::vector<Streamed> streams;
-    std::vector<Shaken> shaken;
+    std::vector<VibrationMotor> motors;
 
     Snapshot<ReadingCounts> published;
 };

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/devices/problem.hpp>
+#include "hid_port.hpp"
+#include "udev_rule.hpp"
+
+#include <framework/run/realtime.hpp>
 #include <host/hid/answer.hpp>
 #include <host/hid/bits.hpp>
-#include <host/hid_link/hid_port.hpp>
-#include <host/hid_link/udev_rule.hpp>
-#include <host/platform/realtime.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,13 +18,9 @@ namespace
 using namespace std::chrono_literals;
 using Clock = HidPort::Clock;
 
-constexpr std::size_t reports_waiting = 1024;   // a second of a fast device: a run begins a while after its devices are open
-constexpr auto usual_watchdog = 100ms;          // where a profile has none
-constexpr auto longest_read = 20ms;             // so that a request to stop is heard
-
-// A device that says 1000 Hz may send 1001 reports a second, each of which is answered; several may come at once.
-constexpr double more_than_the_rate = 1.05;
-constexpr double burst = 4.0;
+constexpr std::size_t reports_waiting = 1024;   // one second of a fast device, since a run starts a while after its devices are opened
+constexpr auto longest_read = 20ms;             // short enough that a request to stop is noticed
+constexpr const char* check_device = "check that it is this device, and plug it in again";
 
 Clock::duration durationOf (double s) { return std::chrono::duration_cast<Clock::duration> (std::chrono::duration<double> (s)); }
 double secondsOf (Clock::duration d) { return std::chrono::duration<double> (d).count(); }
@@ -49,31 +45,48 @@ bool usesIds (const Profile& p)
 Clock::duration watchdogOf (const Profile& p)
 {
     const double s = p.limits.guard.watchdog;
-    return isFinite (s) && s > 0.0 ? durationOf (s) : Clock::duration (usual_watchdog);
+    return durationOf (isFinite (s) && s > 0.0 ? s : GuardLimits::default_watchdog);
+}
+
+Result<> transfer (Transport& t, Step::Kind kind, std::span<std::uint8_t> bytes)
+{
+    switch (kind)
+    {
+    case Step::Kind::output:
+        return t.write (bytes);
+    case Step::Kind::feature:
+        return t.sendFeature (bytes);
+    case Step::Kind::get_feature:
+        return t.getFeature (bytes);
+    }
+    return {};
 }
 }   // namespace
 
 HidPort::HidPort (HidSystem& s, ConnectedDevice d, std::shared_ptr<const Profile> p, Options o)
-    : system (s), wanted (std::move (d)), description (std::move (p)), options (o), watchdog (watchdogOf (*description)), has_ids (usesIds (*description)),
-      ring (longestInput (*description), reports_waiting), quiet (description)
+    : system (s), wanted (std::move (d)), description (std::move (p)), options (o), longest_silence (watchdogOf (*description)),
+      has_ids (usesIds (*description)), ring (reports_waiting, 1, { .bytes = Bytes (longestInput (*description) + 1) }), quiet (description)
 {
     for (std::size_t i = 0; i < description->outputs.size(); ++i)
         outputs.push_back (std::make_unique<Output>());
 }
 
-std::variant<std::unique_ptr<HidPort>, Message> HidPort::open (HidSystem& system, const ConnectedDevice& device, std::shared_ptr<const Profile> profile, Options options)
+Result<std::unique_ptr<HidPort>> HidPort::open (HidSystem& system, const ConnectedDevice& device, std::shared_ptr<const Profile> profile, Options options)
 {
     auto opened = system.open (device);
     if (! opened)
     {
-        const auto& [not_permitted, why] = opened.error();
-        if (not_permitted) return problem ("hid/not_permitted", device.path, "this user may not open " + device.path + " (" + device.product + ")", howToPermit (device));
-        return problem ("hid/not_opened", device.path, device.path + " (" + device.product + ") does not open: " + why, "see that no other program holds it, and plug it in again");
+        const auto& why = opened.error();
+        const auto named = device.path + " (" + device.product + ")";
+        if (why.id == "hid/not_permitted") return Message::error (why.id, device.path, "this user may not open " + named, howToPermit (device));
+        return Message::error (why.id, device.path, "cannot open " + named + ": " + why.text, "check that no other program is using it, and plug it in again");
     }
 
     std::unique_ptr<HidPort> port (new HidPort (system, device, std::move (profile), options));
-    if (auto failed = port->wake (**opened))
-        return problem (failed->id, device.path, device.path + " (" + device.product + ") does not wake up as its profile " + port->profile()->id + " says: " + failed->text, failed->remedy);
+    if (const auto woken = port->wake (**opened); ! woken)
+        return Message::error (woken.error().id, device.path,
+                               device.path + " (" + device.product + ") fails the init steps of its profile " + port->profile()->id + ": " + woken.error().text,
+                               woken.error().remedy);
     port->become (std::move (*opened));
     port->reader = std::jthread ([p = port.get()]
                                  { p->readOn(); });
@@ -90,14 +103,14 @@ HidPort::~HidPort()
     }
     stopped.notify_all();
     something.ring();
-    if (writer.joinable()) writer.join();   // leaves the device alone, and well
+    if (writer.joinable()) writer.join();   // sends the neutral reports and the exit steps
     if (reader.joinable()) reader.join();
 }
 
 //==============================================================================
 // Both threads
 
-/// As it goes over the wire, with the number that the device gave.
+/// The bytes as they are sent, including the number that the device returned.
 Bytes HidPort::addressed (std::span<const std::uint8_t> wire, const std::optional<Bits>& place) const
 {
     Bytes bytes (wire.begin(), wire.end());
@@ -113,57 +126,56 @@ Bytes HidPort::wireOf (const Step& step) const
     return addressed (bytes, step.given);
 }
 
-/// Nothing, or why nobody tells the device to rest if this program dies.
-std::string HidPort::leaveWill (Transport& t)
+/// Returns why there is no failsafe; empty if there is one.
+std::string HidPort::armFailsafe (Transport& t)
 {
-    const auto left = t.leaveWill (farewell());
-    return left ? "if this program dies, nobody tells the device: " + *left : std::string();
+    const auto armed = t.armFailsafe (neutralReports());
+    return armed ? std::string() : "if this program dies, nothing brings the device to rest: " + armed.error().text;
 }
 
-/// The init steps. Returns what failed, if something did.
-std::optional<Message> HidPort::wake (Transport& t)
+/// Performs the init steps.
+Result<> HidPort::wake (Transport& t)
 {
     const std::lock_guard lock (writing);
     quiet.reset();
     assigned = 0;
-    auto unwilling = leaveWill (t);
+    auto no_failsafe = armFailsafe (t);
     for (const auto& step : description->init)
-        if (auto failed = perform (t, step)) return failed;
-    if (assigned != 0) unwilling = leaveWill (t);
-    if (! unwilling.empty()) note (unwilling);
-    return std::nullopt;
+        if (auto done = perform (t, step); ! done) return done;
+    if (assigned != 0) no_failsafe = armFailsafe (t);
+    if (! no_failsafe.empty()) note (no_failsafe);
+    return {};
 }
 
-std::optional<Message> HidPort::perform (Transport& t, const Step& step)
+Result<> HidPort::perform (Transport& t, const Step& step)
 {
     if (step.answer) return ask (t, step);
     auto bytes = wireOf (step);
-    const auto failed = step.kind == Step::Kind::output ? t.write (bytes) : step.kind == Step::Kind::feature ? t.sendFeature (bytes)
-                                                                                                             : t.getFeature (bytes);
-    if (failed) return problem ("hid/init", "", step.about.empty() ? *failed : step.about + " was refused: " + *failed, "see that it is this device, and plug it in again");
+    if (const auto done = transfer (t, step.kind, bytes); ! done)
+        return Message::error ("hid/init", "", step.about.empty() ? done.error().text : step.about + " was refused: " + done.error().text, check_device);
     if (step.delay > 0.0) std::this_thread::sleep_for (durationOf (step.delay));
-    return std::nullopt;
+    return {};
 }
 
-/// Asks until the device has an answer, and keeps the number in it.
-std::optional<Message> HidPort::ask (Transport& t, const Step& step)
+/// Repeats the request until the device answers, and keeps the number in the answer.
+Result<> HidPort::ask (Transport& t, const Step& step)
 {
-    const auto again = [&] (std::string text)
-    { return problem ("hid/init", "", step.about + " " + std::move (text), "see that it is this device, and plug it in again"); };
+    const auto refused = [&] (std::string text)
+    { return Message::error ("hid/init", "", step.about + " " + std::move (text), check_device); };
 
     const auto end = Clock::now() + durationOf (step.answer->patience);
     for (;;)
     {
         auto bytes = wireOf (step);
-        if (const auto failed = t.getFeature (bytes)) return again ("was refused: " + *failed);
+        if (const auto done = t.getFeature (bytes); ! done) return refused ("was refused: " + done.error().text);
         const auto number = numberIn (*step.answer, std::span<const std::uint8_t> (bytes).subspan (has_ids ? 0 : 1));
         if (! number) return number.error();
         if (*number)
         {
             assigned = **number;
-            return std::nullopt;
+            return {};
         }
-        if (Clock::now() >= end || isStopping()) return again ("has no answer in it");
+        if (Clock::now() >= end || isStopping()) return refused ("contained no answer");
         std::this_thread::sleep_for (durationOf (step.answer->pause));
     }
 }
@@ -214,7 +226,7 @@ PortCounts HidPort::counts() const noexcept
 
 void HidPort::readOn()
 {
-    if (options.real_time) becomeRealTime (std::nullopt);   // what is not granted, the run says of its own thread
+    if (options.real_time) becomeRealTime (std::nullopt);   // if it is not granted, the run reports it
     std::vector<std::uint8_t> buffer (longest_report + 1);
     while (! isStopping())
     {
@@ -226,19 +238,32 @@ void HidPort::readOn()
         }
         const auto got = t->read (buffer, longest_read);
         if (! got)
-            lose (*t, got.error());
+            lose (*t, got.error().text);
         else if (*got > 0)
         {
             const auto now = nanosecondsOf (Clock::now());
             reports.fetch_add (1, std::memory_order_relaxed);
-            ring.push (std::span (buffer).first (*got), now, connections);
+            push (std::span (buffer).first (*got), now);
             last_arrival.store (now, std::memory_order_release);
             arrived.ring();
         }
     }
 }
 
-/// It may still hear that it is to do nothing.
+void HidPort::push (std::span<const std::uint8_t> report, Nanoseconds at)
+{
+    if (const auto slot = ring.claim(); ! slot.empty())
+    {
+        auto& [bytes, arrived_at, connection] = slot.front();
+        const auto kept = report.first (std::min (report.size(), bytes.capacity()));
+        bytes.assign (kept.begin(), kept.end());   // within its capacity
+        arrived_at = at;
+        connection = connections;
+    }
+    ring.commit();
+}
+
+/// Handles a lost device. The device may still be able to receive the neutral reports.
 void HidPort::lose (Transport& t, const std::string& why)
 {
     departures.fetch_add (1, std::memory_order_relaxed);
@@ -277,8 +302,8 @@ void HidPort::lookAgain()
     const auto* same = sameAmong (devices);
     if (same == nullptr) return;
     auto opened = system.open (*same);
-    if (! opened) return note (opened.error().why);
-    if (const auto failed = wake (**opened)) return note (failed->text + "; " + failed->remedy);
+    if (! opened) return note (opened.error().text);
+    if (const auto woken = wake (**opened); ! woken) return note (woken.error().text + "; " + woken.error().remedy);
     become (std::move (*opened));
 }
 
@@ -304,7 +329,7 @@ void HidPort::offer (std::size_t report, std::span<const std::uint8_t> bytes, st
 
 Clock::time_point HidPort::nextLook (Clock::time_point now) const
 {
-    double wait = secondsOf (watchdog) / 4.0;
+    double wait = secondsOf (longest_silence) / 4.0;
     for (const auto& o : description->outputs)
         wait = std::min (wait, 0.5 / o.max_rate);
     return now + durationOf (std::max (wait, 250e-6));
@@ -321,13 +346,13 @@ void HidPort::writeOn()
         if (! t)
         {
             for (const auto& o : outputs)
-                o->seen = o->offered.load().number;   // nobody is there to miss it
+                o->seen = o->offered.load().number;   // the device is away, so these offers do not count as dropped
             continue;
         }
         const auto now = Clock::now();
         for (std::size_t i = 0; i < outputs.size(); ++i)
             attend (*t, *outputs[i], i, now);
-        if (driven && now - given > watchdog)
+        if (driven && now - given > longest_silence)
         {
             silences.fetch_add (1, std::memory_order_relaxed);
             current_episode.fetch_add (1, std::memory_order_acq_rel);
@@ -364,14 +389,14 @@ void HidPort::attend (Transport& t, Output& o, std::size_t report, Clock::time_p
     }
     if (o.credit < 1.0) return;
 
-    // What came between was never sent, and what is not sent for being the same is not missed.
+    // Offers in between were never sent, so they count as dropped. With a keepalive, an unchanged offer is neither sent nor counted.
     if (is_new && how.keepalive == 0.0) dropped.fetch_add (latest.number - o.seen - 1, std::memory_order_relaxed);
     o.seen = latest.number;
     o.credit -= 1.0;
     o.sent = now;
     o.latest.assign (bytes.begin(), bytes.end());
     driven = true;
-    if (! send (t, report, bytes) && is_new) count (latest.answers, Clock::now());
+    if (send (t, report, bytes) && is_new) count (latest.answers, Clock::now());
 }
 
 void HidPort::count (Nanoseconds answers, Clock::time_point sent_at) noexcept
@@ -385,29 +410,29 @@ void HidPort::count (Nanoseconds answers, Clock::time_point sent_at) noexcept
     answers_sent.store (n + 1, std::memory_order_relaxed);
 }
 
-std::optional<std::string> HidPort::send (Transport& t, std::size_t report, std::span<const std::uint8_t> bytes)
+Result<> HidPort::send (Transport& t, std::size_t report, std::span<const std::uint8_t> bytes)
 {
     const auto& how = description->outputs[report];
     const auto put = [&] (std::span<const std::uint8_t> b)
     { return how.is_feature ? t.sendFeature (b) : t.write (b); };
-    const auto failed = how.given ? put (addressed (bytes, how.given)) : put (bytes);
+    auto sent = how.given ? put (addressed (bytes, how.given)) : put (bytes);
     writes.fetch_add (1, std::memory_order_relaxed);
-    if (failed)
+    if (! sent)
     {
         write_errors.fetch_add (1, std::memory_order_relaxed);
-        note (*failed);
+        note (sent.error().text);
     }
-    return failed;
+    return sent;
 }
 
-/// The neutral reports, whatever was offered. [with `writing` held]
+/// Sends the neutral reports, regardless of what was offered. [with `writing` held]
 void HidPort::quieten (Transport& t)
 {
     for (std::size_t i = 0; i < outputs.size(); ++i)
     {
         const auto bytes = quiet.neutral (i);
         outputs[i]->latest.assign (bytes.begin(), bytes.end());
-        send (t, i, bytes);
+        static_cast<void> (send (t, i, bytes));   // counts and records its own failures
     }
     driven = false;
 }
@@ -417,12 +442,12 @@ void HidPort::leave (Transport& t)
 {
     quieten (t);
     for (const auto& step : description->exit)
-        if (const auto failed = perform (t, step)) note (failed->text);
+        if (const auto done = perform (t, step); ! done) note (done.error().text);
 }
 
-/// What is left to be said if nobody can say it any more; before the device has given its number, what needs none.
-/// [with `writing` held]
-std::vector<OutgoingReport> HidPort::farewell()
+/// The neutral reports and exit steps, for the failsafe. Before the device has returned its number, only the ones that do
+/// not need it. [with `writing` held]
+std::vector<OutgoingReport> HidPort::neutralReports()
 {
     std::vector<OutgoingReport> last;
     for (std::size_t i = 0; i < outputs.size(); ++i)

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/hid/hid_model.hpp>
-#include <host/hid_link/doorbell.hpp>
-#include <host/hid_link/report_ring.hpp>
-#include <host/hid_link/transport.hpp>
-#include <host/runtime/snapshot.hpp>
+#include "transport.hpp"
 
-#include <framework/message.hpp>
+#include <framework/kit/snapshot.hpp>
+#include <framework/kit/spsc_ring.hpp>
+#include <framework/text/result.hpp>
+#include <host/hid/hid_model.hpp>
+#include <host/platform/doorbell.hpp>
 
 #include <array>
 #include <atomic>
@@ -16,75 +16,99 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <thread>
-#include <variant>
 #include <vector>
 
 namespace tactus::host::hid
 {
 
-/// What went through a port since it was opened.
-struct PortCounts
+/// A time on the steady clock, in ns.
+using Nanoseconds = std::int64_t;
+
+/// A report as it arrived. A report longer than the profile's longest one is cut to one byte more than that, so that it is
+/// still recognised as too long.
+struct ArrivedReport
 {
-    std::uint64_t reports = 0;                                         ///< that came in, whatever was in them
-    std::uint64_t overflown = 0;                                       ///< that found nobody to take them for a long time
-    std::uint64_t writes = 0;                                          ///< that were sent, the neutral ones too
-    std::uint64_t write_errors = 0;                                    ///< that the system did not take
-    std::uint64_t dropped = 0;                                         ///< that were overwritten by later ones before they were sent
-    std::uint64_t silences = 0;                                        ///< times that nobody gave an effort for too long, so that the neutral reports were sent
-    std::uint64_t departures = 0;                                      ///< times that the device went away
-    double latency_min = 0.0, latency_mean = 0.0, latency_max = 0.0;   ///< s from the arrival of a report until its answer was sent
+    std::vector<std::uint8_t> bytes;
+    Nanoseconds at = 0;
+    std::uint64_t connection = 0;   ///< counted from 1; increases each time the device comes back
 };
 
-/// An open HID device with a thread that reads it and one that writes to it. Reports wait for whoever takes them; of what
-/// is to be sent only the latest is kept, so that nothing ever queues up.
+/// The traffic through a port since it was opened.
+struct PortCounts
+{
+    std::uint64_t reports = 0;                                         ///< received, valid or not
+    std::uint64_t overflown = 0;                                       ///< dropped because no tick had taken any reports for a long time
+    std::uint64_t writes = 0;                                          ///< sent, including neutral reports
+    std::uint64_t write_errors = 0;                                    ///< rejected by the system
+    std::uint64_t dropped = 0;                                         ///< replaced by a later report before they were sent
+    std::uint64_t silences = 0;                                        ///< number of times neutral reports were sent because no effort was offered for too long
+    std::uint64_t departures = 0;                                      ///< number of times the device went away
+    double latency_min = 0.0, latency_mean = 0.0, latency_max = 0.0;   ///< from the arrival of a report until its answer was sent, in s
+};
+
+/// An open HID device with a reading thread and a writing thread. Incoming reports queue up until a tick takes them. Only the
+/// latest of each outgoing report is kept, so nothing ever queues up on the way out.
 ///
-///  - On opening, also after the device was away, the profile's init steps are done; on closing, the neutral reports and
-///    the exit steps. A number that the device gives in a step (Answer) is put into what is sent from then on.
-///  - A device that goes away is looked for every half second, by its serial number, else by its path, else by its ids.
-///  - If nobody gives an effort for longer than the watchdog, the neutral reports are sent.
-///  - If the process dies, they are too (Transport::leaveWill).
+///  - On opening, and when the device comes back, the port performs the profile's init steps; on closing, it sends the
+///    neutral reports and performs the exit steps. A number that the device returns in a step (Answer) is inserted into
+///    everything sent afterwards.
+///  - If the device goes away, the port looks for it every half second, by serial number, else by path, else by ids.
+///  - If no effort is offered for longer than the watchdog, the port sends the neutral reports.
+///  - If the process dies, the neutral reports are sent too (Transport::armFailsafe).
 ///
-/// After the device was away, and after a silence, there is another `episode`. Efforts that were given for an earlier one
-/// are not sent: whoever gives them has to begin at zero (HidDevice does).
+/// Each return of the device and each silence starts a new `episode`. Efforts offered for an earlier episode are not sent:
+/// the caller must start from zero again, as HidDevice does.
 class HidPort
 {
 public:
     struct Options
     {
-        std::chrono::milliseconds look_again { 500 };   ///< for a device that is away
-        bool real_time = true;                          ///< priorities for the threads, if the system grants them
+        std::chrono::milliseconds look_again { 500 };   ///< interval between looks for a device that is away
+        bool real_time = true;                          ///< real-time priority for the threads, if the system grants it
     };
 
     using Clock = std::chrono::steady_clock;
 
-    /// Opens it, or says why not. The system outlives the port. [main thread]
-    /// Ids: hid/not_permitted, hid/not_opened, hid/init, and those that an Answer of the profile means.
-    static std::variant<std::unique_ptr<HidPort>, Message> open (HidSystem&, const ConnectedDevice&, std::shared_ptr<const Profile>, Options);
-    static std::variant<std::unique_ptr<HidPort>, Message> open (HidSystem& s, const ConnectedDevice& d, std::shared_ptr<const Profile> p) { return open (s, d, std::move (p), Options {}); }
+    /// Opens the device. The system must outlive the port. [main thread]
+    /// Ids: hid/not_permitted, hid/not_opened, hid/init, and those of the profile's Answer steps.
+    static Result<std::unique_ptr<HidPort>> open (HidSystem&, const ConnectedDevice&, std::shared_ptr<const Profile>, Options);
+    static Result<std::unique_ptr<HidPort>> open (HidSystem& s, const ConnectedDevice& d, std::shared_ptr<const Profile> p)
+    {
+        return open (s, d, std::move (p), Options {});
+    }
 
-    ~HidPort();   ///< neutral and exit first   [main thread]
+    ~HidPort();   ///< sends the neutral reports and performs the exit steps first   [main thread]
     HidPort (const HidPort&) = delete;
     HidPort& operator= (const HidPort&) = delete;
 
     const std::shared_ptr<const Profile>& profile() const noexcept { return description; }
-    bool hasIds() const noexcept { return has_ids; }   ///< reports begin with an id
+    bool hasIds() const noexcept { return has_ids; }   ///< true if reports begin with an id
     const ConnectedDevice& device() const noexcept { return wanted; }
 
-    //==========================================================================
-    // Efforts and readings. No system call, no lock, no allocation. [one thread, the tick thread of a run]
+    /// How long a device may be silent: the profile's watchdog, or GuardLimits::default_watchdog.
+    Clock::duration watchdog() const noexcept { return longest_silence; }
 
-    /// Hands over all reports that came since the last time, in order.
+    //==========================================================================
+    // Readings and efforts. Nothing here allocates or locks. [one thread, the tick thread of a run]
+
+    /// Passes on all reports that arrived since the last call, in order.
     template <typename F>
     void drain (F&& f)
     {
-        ring.drain (std::forward<F> (f));
+        ring.drain ([&] (std::span<const ArrivedReport> report)
+                    { f (report.front()); });
     }
 
-    /// What this report is to be from now on, in answer to a report that came then (0: to none).
+    /// Replaces the content of an output report. `answers` is the arrival time of the report that this one answers; 0 if
+    /// it answers none.
     void offer (std::size_t report, std::span<const std::uint8_t> bytes, std::uint64_t episode, Nanoseconds answers) noexcept;
+
+    /// Wakes the writing thread, which sends what was offered. Without this call, sending may be delayed by half a report period.
+    void sendNow() noexcept { something.ring(); }
 
     std::uint64_t episode() const noexcept { return current_episode.load (std::memory_order_acquire); }
     std::uint64_t overflown() const noexcept { return ring.lost(); }
@@ -92,22 +116,19 @@ public:
     //==========================================================================
     // For a clock. [tick thread]
 
-    /// True as soon as a report has come that was not waited for before.
+    /// True as soon as a report has arrived since the last wait; false on timeout.
     bool waitForReport (Clock::time_point until) noexcept { return arrived.wait (until); }
     Nanoseconds lastArrival() const noexcept { return last_arrival.load (std::memory_order_acquire); }
-
-    /// Has what was offered sent now; else it takes up to half a period.
-    void kick() noexcept { something.ring(); }
 
     //==========================================================================
     bool isConnected() const noexcept { return connected.load (std::memory_order_acquire); }   ///< [any thread]
     PortCounts counts() const noexcept;                                                        ///< [any thread]
-    std::string trouble() const;                                                               ///< what failed last, in words; else empty [any thread]
+    std::string trouble() const;                                                               ///< the latest failure; empty if there was none [any thread]
 
 private:
     HidPort (HidSystem&, ConnectedDevice, std::shared_ptr<const Profile>, Options);
 
-    /// What is to be sent, as the two threads share it: words.
+    /// Outgoing content, shared by the tick thread and the writing thread.
     struct Offer
     {
         std::uint64_t number = 0, episode = 0, size = 0;
@@ -115,25 +136,29 @@ private:
         std::array<std::uint8_t, longest_report + 8> bytes {};
     };
 
+    // A device specified at 1000 Hz may send 1001 reports a second, each of which gets an answer, and several may arrive together.
+    static constexpr double more_than_the_rate = 1.05;
+    static constexpr double burst = 4.0;   // reports
+
     struct Output
     {
         Snapshot<Offer> offered;
-        Offer draft;   // of the tick thread
+        Offer draft;   // [tick thread]
 
-        // Of the writing thread.
-        std::uint64_t seen = 0;             // number of the offer that was dealt with
-        double credit = 0.0;                // reports that may be sent at once
-        Clock::time_point earned;           // until when credit was given
-        Clock::time_point sent;             // the last time
-        std::vector<std::uint8_t> latest;   // what was sent
+        // [writing thread]
+        std::uint64_t seen = 0;             // number of the last offer handled
+        double credit = burst;              // reports that may be sent right now
+        Clock::time_point earned;           // the time up to which credit has been earned
+        Clock::time_point sent;             // when the last report was sent
+        std::vector<std::uint8_t> latest;   // its content
     };
 
     using Opened = std::shared_ptr<Transport>;
 
-    std::optional<Message> wake (Transport&);
-    std::optional<Message> perform (Transport&, const Step&);
-    std::optional<Message> ask (Transport&, const Step&);
-    std::string leaveWill (Transport&);
+    Result<> wake (Transport&);
+    Result<> perform (Transport&, const Step&);
+    Result<> ask (Transport&, const Step&);
+    std::string armFailsafe (Transport&);
     Bytes addressed (std::span<const std::uint8_t> wire, const std::optional<Bits>& place) const;
     Bytes wireOf (const Step&) const;
     void become (Opened);
@@ -142,6 +167,7 @@ private:
     bool isStopping() const noexcept { return stopping.load (std::memory_order_acquire); }
 
     void readOn();
+    void push (std::span<const std::uint8_t> report, Nanoseconds at);
     void lookAgain();
     void lose (Transport&, const std::string& why);
     const ConnectedDevice* sameAmong (const std::vector<ConnectedDevice>&) const;
@@ -149,43 +175,43 @@ private:
     void writeOn();
     void attend (Transport&, Output&, std::size_t report, Clock::time_point now);
     Clock::time_point nextLook (Clock::time_point now) const;
-    std::optional<std::string> send (Transport&, std::size_t report, std::span<const std::uint8_t>);
+    Result<> send (Transport&, std::size_t report, std::span<const std::uint8_t>);
     void quieten (Transport&);
     void leave (Transport&);
-    std::vector<OutgoingReport> farewell();
+    std::vector<OutgoingReport> neutralReports();
     void count (Nanoseconds answers, Clock::time_point sent_at) noexcept;
 
     HidSystem& system;
     const ConnectedDevice wanted;
     const std::shared_ptr<const Profile> description;
     const Options options;
-    const Clock::duration watchdog;
+    const Clock::duration longest_silence;
     const bool has_ids;
 
-    ReportRing ring;
-    Doorbell arrived, something;
+    SpscRing<ArrivedReport> ring;
+    Doorbell arrived, something;   // rung by the reading thread for the tick thread; rung by any thread for the writing thread
     std::atomic<Nanoseconds> last_arrival = 0;
     std::atomic<std::uint64_t> current_episode = 1;
     std::atomic<bool> connected = false, stopping = false;
     std::vector<std::unique_ptr<Output>> outputs;
 
-    mutable std::mutex opening;   // of `link` and `last_trouble`
+    mutable std::mutex opening;   // protects `link` and `last_trouble`; never taken on the tick thread
     Opened link;
     std::string last_trouble;
     std::condition_variable stopped;
 
-    std::mutex writing;              // of all that is written, and of what is below
-    HidModel quiet;                  // makes the neutral reports
-    std::uint32_t assigned = 0;      // the number that the device gave, to be sent along; 0: none
-    std::uint64_t connections = 0;   // of the reading thread
-    bool driven = false;             // something else than neutral was sent last
-    Clock::time_point given;         // when there was a new offer last
+    std::mutex writing;              // protects all writing and the members below; never taken on the tick thread
+    HidModel quiet;                  // encodes the neutral reports
+    std::uint32_t assigned = 0;      // the number that the device returned and expects back; 0: none
+    std::uint64_t connections = 0;   // [reading thread]
+    bool driven = false;             // true if the last report sent was not neutral
+    Clock::time_point given;         // time of the latest new offer
 
     std::atomic<std::uint64_t> reports = 0, writes = 0, write_errors = 0, dropped = 0, silences = 0, departures = 0;
     std::atomic<std::uint64_t> answers_sent = 0;
     std::atomic<double> latency_sum = 0.0, latency_min = 0.0, latency_max = 0.0;
 
-    std::jthread reader, writer;   // last: they use the others
+    std::jthread reader, writer;   // last: they use the other members
 };
 
 }   // namespace tactus::host::hid

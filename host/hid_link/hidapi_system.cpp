@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/hid_link/transport.hpp>
+#include "transport.hpp"
 
 #include <host/platform/device_file.hpp>
+#include <host/platform/failsafe.hpp>
 #include <host/platform/file_lock.hpp>
-#include <host/platform/last_will.hpp>
 
 #include <hidapi.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -23,7 +24,7 @@ struct Close
 };
 using Handle = std::unique_ptr<hid_device, Close>;
 
-/// hidapi keeps one text of what went wrong for all of its calls that have no device.
+/// hidapi keeps one global error string for all of its calls without a device.
 std::mutex& oneAtATime()
 {
     static std::mutex mutex;
@@ -51,7 +52,7 @@ std::string narrow (const wchar_t* wide)
 std::string errorOf (hid_device* device)
 {
     const auto text = narrow (hid_error (device));
-    return text.empty() ? "the system does not say why" : text;
+    return text.empty() ? "the system gives no reason" : text;
 }
 
 Bus busOf (hid_bus_type type)
@@ -61,58 +62,61 @@ Bus busOf (hid_bus_type type)
     return Bus::unknown;
 }
 
-/// A device is opened twice, to be read and to be written: hidapi keeps a text of the last failure in each handle, without
-/// a lock, so that two threads must not use the same.
+/// Opens the device twice, once for reading and once for writing: hidapi stores the last error string in the handle without
+/// a lock, so two threads must not share a handle.
 class HidapiTransport final : public Transport
 {
 public:
-    HidapiTransport (std::string where, std::optional<FileLock> l, Handle in, Handle out) : path (std::move (where)), lock (std::move (l)), reading (std::move (in)), writing (std::move (out)) {}
+    HidapiTransport (std::string where, std::optional<FileLock> l, Handle in, Handle out)
+        : path (std::move (where)), lock (std::move (l)), reading (std::move (in)), writing (std::move (out))
+    {
+    }
 
-    tl::expected<std::size_t, std::string> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override
+    Result<std::size_t> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override
     {
         const int got = hid_read_timeout (reading.get(), into.data(), into.size(), static_cast<int> (timeout.count()));
-        if (got < 0) return tl::unexpected (errorOf (reading.get()));
+        if (got < 0) return transferError (errorOf (reading.get()));
         return static_cast<std::size_t> (got);
     }
 
-    std::optional<std::string> write (std::span<const std::uint8_t> report) override
+    Result<> write (std::span<const std::uint8_t> report) override
     {
         return outcome (hid_write (writing.get(), report.data(), report.size()));
     }
 
-    std::optional<std::string> sendFeature (std::span<const std::uint8_t> report) override
+    Result<> sendFeature (std::span<const std::uint8_t> report) override
     {
         return outcome (hid_send_feature_report (writing.get(), report.data(), report.size()));
     }
 
-    std::optional<std::string> getFeature (std::span<std::uint8_t> report) override
+    Result<> getFeature (std::span<std::uint8_t> report) override
     {
         return outcome (hid_get_feature_report (writing.get(), report.data(), report.size()));
     }
 
-    std::optional<std::string> leaveWill (const std::vector<OutgoingReport>& reports) override
+    Result<> armFailsafe (const std::vector<OutgoingReport>& reports) override
     {
-        std::vector<LastWill::Report> last;
+        std::vector<Failsafe::Report> last;
         for (const auto& r : reports)
             last.push_back ({ r.bytes, r.is_feature });
-        will.reset();
-        auto left = LastWill::leave (path, last);
-        if (! left) return left.error();
-        will.emplace (std::move (*left));
-        return std::nullopt;
+        failsafe.reset();
+        auto armed = Failsafe::arm (path, last);
+        if (! armed) return std::move (armed).error();
+        failsafe.emplace (std::move (*armed));
+        return {};
     }
 
 private:
-    std::optional<std::string> outcome (int result)
+    Result<> outcome (int result)
     {
-        if (result >= 0) return std::nullopt;
-        return errorOf (writing.get());
+        if (result >= 0) return {};
+        return transferError (errorOf (writing.get()));
     }
 
     std::string path;
-    std::optional<FileLock> lock;   // so that no two drive it, where devices are files
+    std::optional<FileLock> lock;   // ensures that only one driver uses the device, on systems where devices are files
     Handle reading, writing;
-    std::optional<LastWill> will;
+    std::optional<Failsafe> failsafe;
 };
 
 class Hidapi final : public HidSystem
@@ -143,20 +147,20 @@ public:
         return found;
     }
 
-    tl::expected<std::unique_ptr<Transport>, OpenFailure> open (const ConnectedDevice& device) override
+    Result<std::unique_ptr<Transport>> open (const ConnectedDevice& device) override
     {
         const std::lock_guard lock (oneAtATime());
         auto alone = FileLock::takeExisting (device.path);
         std::error_code unseen;
         if (! alone && std::filesystem::exists (device.path, unseen) && ! isForbidden (device.path))
-            return tl::unexpected (OpenFailure { false, "another role, or another program that is Tactus, has it" });
+            return Message::error ("hid/not_opened", device.path, "another role or another instance of Tactus is using it");
         Handle in (hid_open_path (device.path.c_str()));
         Handle out (in ? hid_open_path (device.path.c_str()) : nullptr);
-        if (! in || ! out) return tl::unexpected (OpenFailure { isForbidden (device.path), errorOf (nullptr) });
+        if (! in || ! out) return Message::error (isForbidden (device.path) ? "hid/not_permitted" : "hid/not_opened", device.path, errorOf (nullptr));
         return std::make_unique<HidapiTransport> (device.path, std::move (alone), std::move (in), std::move (out));
     }
 
-    Bytes reportDescriptor (const ConnectedDevice& device) override   // hidapi tells it from 0.14 on
+    Bytes reportDescriptor (const ConnectedDevice& device) override   // not through hidapi, which provides it only since 0.14
     {
         const auto text = reportDescriptorOf (device.path);
         return { text.begin(), text.end() };

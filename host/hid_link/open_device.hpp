@@ -1,43 +1,44 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/devices/make_device.hpp>
+#include "hid_port.hpp"
+
+#include <framework/run/device/make_device.hpp>
 #include <host/hid/profile_reader.hpp>
-#include <host/hid_link/hid_port.hpp>
 
 namespace tactus::host::hid
 {
 
-/// True of a description that means a real device.
+/// True if the description selects a real device (driver "hid").
 bool isHid (const Json& description);
 
-/// Systems list a device once for each of its collections; this leaves the entry of each that a profile fits best.
+/// Some systems list a device once per HID collection. Keeps one entry per device: the one that a profile fits best.
 std::vector<ConnectedDevice> eachOnce (const std::vector<ConnectedDevice>&, const LoadedProfiles&);
 
-/// A HID device that a description asks for, found but not opened.
+/// The HID device that a description selects, found but not opened.
 struct FoundDevice
 {
     ConnectedDevice device;
     std::shared_ptr<const Profile> profile;   ///< null if there are errors
-    Messages messages;                        ///< `where` relative to the description
+    Messages messages;                        ///< `where` is relative to the description
 };
 
-/// `{"driver": "hid", "profile": "tactus_board", "serial": "B7", "guard": {…}}`: without a profile, or with "auto", the one
-/// that says most about what is connected; the serial number is only needed where several would do. The profile "pid", and
-/// where no profile fits also "auto", is any device with force feedback by the USB standard, with a "calibration"
-/// (readCalibration). [main thread]
+/// Finds the device of a description such as `{"driver": "hid", "profile": "tactus_board", "serial": "B7", "guard": {…}}`.
+/// Without a profile, or with "auto", the most specific profile that fits a connected device is used. The serial number is
+/// needed only if several devices fit. The profile "pid" means any device with force feedback according to the USB
+/// standard, with a "calibration" (readCalibration); so does "auto" if no profile fits. [main thread]
 ///
-/// Ids: hid/unknown_profile, hid/not_connected, hid/several, hid/calibration, those of Fields and profileOf, and warnings of
-/// profiles.
+/// Ids: hid/unknown_profile, hid/not_connected, hid/several, hid/calibration, those of ObjectReader and profileOf, and the warnings
+/// of profiles.
 FoundDevice findDevice (const Json& description, HidSystem&, const LoadedProfiles&);
 
-/// What a device's profile allows and a description tightens. A device that takes efforts always has a ramp and a watchdog.
+/// The limits from a device's profile, tightened by a description. A device that takes efforts always has a ramp and a watchdog.
 GuardLimits limitsOf (const Profile&, const GuardLimits& session);
 
-/// makeDevice, and the driver "hid" beside its others. Ids as well of findDevice and HidPort::open. [main thread]
+/// Like makeDevice, but also supports the driver "hid". Ids: those of makeDevice, findDevice and HidPort::open. [main thread]
 MadeDevice openDevice (const Json& description, const std::filesystem::path& folder, HidSystem&, const LoadedProfiles&);
 
-/// What is wrong with a description, as far as one can see without the device. [main thread]
+/// Checks a description, as far as that is possible without the device. [main thread]
 Messages checkDevice (const Json& description, const std::filesystem::path& folder, const LoadedProfiles&);
 
 }   // namespace tactus::host::hid

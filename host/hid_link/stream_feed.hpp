@@ -3,7 +3,7 @@
 
 #include <host/hid/profile.hpp>
 
-#include <framework/device.hpp>
+#include <framework/node/device.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -13,14 +13,17 @@
 namespace tactus::host::hid
 {
 
-/// Turns signals that have a value each tick into blocks of frames at the rate of a stream: in straight lines from tick to
-/// tick, so that there is no delay beyond the block's. What is above half the lower of the two rates folds back. After
-/// construction nothing is allocated.
+/// Turns signals with one value per tick into blocks of frames at the rate of a stream. Interpolates linearly between ticks, so
+/// there is no delay beyond the block's. Frequencies above half the lower of the two rates fold back. Allocates nothing
+/// after construction.
 class StreamFeed
 {
 public:
-    /// Its channels are the device's signals from this one on.
-    StreamFeed (const Stream& s, std::size_t first_channel) : frames (s.frames), channels (s.channels.size()), first (first_channel), rate_hz (s.rate), before (channels), block (frames * channels) {}
+    /// Its channels are the device's signals from `first_channel` onwards.
+    StreamFeed (const Stream& s, std::size_t first_channel)
+        : frames (s.frames), channels (s.channels.size()), first (first_channel), rate_hz (s.rate), before (channels), block (frames * channels)
+    {
+    }
 
     void prepare (double dt_s) noexcept   // [main thread]
     {
@@ -30,7 +33,7 @@ public:
         std::ranges::fill (before, 0.0);
     }
 
-    /// One tick. Calls back with each block that is full: frames after each other, one sample a channel.
+    /// Processes one tick. Calls `full` with each full block: frame by frame, one sample per channel.
     template <typename F>
     void tick (const Channels& signals, F&& full) noexcept
     {
@@ -51,7 +54,7 @@ private:
     double at (const Channels& signals, std::size_t c) const noexcept { return signals[static_cast<int> (first + c)]; }
 
     std::size_t frames, channels, first;
-    double rate_hz, step = 1.0, next = 1.0;   // ticks from frame to frame, and from the last tick to the next frame
+    double rate_hz, step = 1.0, next = 1.0;   // in ticks: from frame to frame, and from the last tick to the next frame
     std::size_t filled = 0;
     std::vector<double> before;
     std::vector<float> block;

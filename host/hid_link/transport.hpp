@@ -1,84 +1,80 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <framework/text/result.hpp>
 #include <host/hid/match.hpp>
-
-#include <tl/expected.hpp>
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tactus::host::hid
 {
 
-/// A report that is on its way to a device: with its id, or a 0 where it has none, in front.
+/// A report on its way to a device. Its first byte is the report id, or 0 if the device uses no ids.
 struct OutgoingReport
 {
     Bytes bytes;
     bool is_feature = false;
 };
 
-/// An open device. One thread may read while another one does the rest. The destructor closes it. Failures are told in
-/// words, as the system says them.
+/// A failed transfer, with the system's own message.
+inline Message transferError (std::string why) { return Message::error ("hid/transfer", {}, std::move (why)); }
+
+/// An open device. One thread may read while another one does the rest. The destructor closes it. Id: hid/transfer.
 class Transport
 {
 public:
     virtual ~Transport() = default;
 
-    /// Waits for an input report and returns its size, which may be 0; 0 as well if none came in time. After a failure the
-    /// device is gone. A report that is longer than there is room for is cut.
-    virtual tl::expected<std::size_t, std::string> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) = 0;
+    /// Waits for an input report and returns its size, which may be 0. Also returns 0 on timeout. A failure
+    /// means that the device is gone. A report longer than the buffer is truncated.
+    virtual Result<std::size_t> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) = 0;
 
-    /// Nothing, or why it was not written. May take as long as the device likes.
-    virtual std::optional<std::string> write (std::span<const std::uint8_t> report) = 0;
-    virtual std::optional<std::string> sendFeature (std::span<const std::uint8_t> report) = 0;
+    /// Blocks for as long as the device needs.
+    virtual Result<> write (std::span<const std::uint8_t> report) = 0;
+    virtual Result<> sendFeature (std::span<const std::uint8_t> report) = 0;
 
-    /// Asks for the feature report whose id is the first byte, and leaves it there.
-    virtual std::optional<std::string> getFeature (std::span<std::uint8_t> report) = 0;
+    /// Requests the feature report whose id is the first byte, and stores it in place.
+    virtual Result<> getFeature (std::span<std::uint8_t> report) = 0;
 
-    /// Has these written, in this order, if the process dies without having closed the device; what was left before is
-    /// forgotten. Returns why it cannot be, if so.
-    virtual std::optional<std::string> leaveWill (const std::vector<OutgoingReport>&) { return std::nullopt; }
+    /// Arranges for these reports to be written, in this order, if the process dies without closing the device. Replaces
+    /// the reports of the previous call.
+    virtual Result<> armFailsafe (const std::vector<OutgoingReport>&) { return {}; }
 };
 
-/// A device that is connected, open or not.
+/// A connected device, whether open or not.
 struct ConnectedDevice : DeviceInfo
 {
-    std::string path;           ///< as the system names it: /dev/hidraw3
-    std::string serial;         ///< empty where it has none
-    std::string manufacturer;   ///< likewise
+    std::string path;           ///< the system's name for it, such as /dev/hidraw3
+    std::string serial;         ///< empty if the device has none
+    std::string manufacturer;   ///< empty if the device has none
 };
 
-/// Why a device did not open.
-struct OpenFailure
-{
-    bool not_permitted = false;
-    std::string why;
-};
-
-/// What is connected, and the way to it. [any thread]
+/// Lists the connected devices and opens them. [any thread]
 class HidSystem
 {
 public:
     virtual ~HidSystem() = default;
 
     virtual std::vector<ConnectedDevice> connected() = 0;
-    virtual tl::expected<std::unique_ptr<Transport>, OpenFailure> open (const ConnectedDevice&) = 0;
 
-    /// What a device says about its own reports, without opening it; empty where the system does not tell.
+    /// Ids: hid/not_permitted, hid/not_opened; the text is the reason.
+    virtual Result<std::unique_ptr<Transport>> open (const ConnectedDevice&) = 0;
+
+    /// The report descriptor, read without opening the device. Empty if the system does not provide it.
     virtual Bytes reportDescriptor (const ConnectedDevice&) { return {}; }
 
-    /// Whether open() would be let, without trying.
+    /// True if this user may open the device; checked without opening it.
     virtual bool mayOpen (const ConnectedDevice&) { return true; }
 };
 
-/// The devices of this computer, through hidapi.
+/// The devices of this computer, accessed through hidapi.
 HidSystem& thisComputer();
 
 }   // namespace tactus::host::hid

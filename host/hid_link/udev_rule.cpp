@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/hid_link/udev_rule.hpp>
+#include "udev_rule.hpp"
 
 #include <cstdio>
 
@@ -8,7 +8,7 @@ namespace tactus::host::hid
 
 std::string udevRule (const DeviceInfo& d)
 {
-    // Over Bluetooth no parent has idVendor; the kernel's name of the HID device tells bus, vendor and product.
+    // Over Bluetooth, no parent has idVendor, but the kernel's name for the HID device contains bus, vendor and product.
     char rule[160];
     if (d.bus == Bus::bluetooth)
         std::snprintf (rule, sizeof rule, "KERNEL==\"hidraw*\", KERNELS==\"0005:%04X:%04X.*\", TAG+=\"uaccess\"", d.vid, d.pid);
@@ -19,7 +19,8 @@ std::string udevRule (const DeviceInfo& d)
 
 std::string howToPermit (const DeviceInfo& d)
 {
-    return "write this line into /etc/udev/rules.d/70-tactus.rules:\n        " + udevRule (d) + "\n    then run `sudo udevadm control --reload && sudo udevadm trigger`, and plug the device in again";
+    return "write this line to /etc/udev/rules.d/70-tactus.rules:\n        " + udevRule (d)
+           + "\n    then run `sudo udevadm control --reload && sudo udevadm trigger`, and plug the device in again";
 }
 
 }   // namespace tactus::host::hid

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/hid_link/transport.hpp>
+#include "transport.hpp"
 
 #include <string>
 
 namespace tactus::host::hid
 {
 
-/// The rule that lets whoever sits at the computer open the device.
+/// The udev rule that allows the user who is logged in at the computer to open the device.
 std::string udevRule (const DeviceInfo&);
 
-/// How to install it, in one sentence with the commands.
+/// Instructions for installing the rule, with the commands.
 std::string howToPermit (const DeviceInfo&);
 
 }   // namespace tactus::host::hid

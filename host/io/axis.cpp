@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/io/axis.hpp>
+#include "axis.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@ namespace tactus::host
 namespace
 {
 constexpr double largest = 1e300;
-constexpr double smallest = 1e-300;   // below, nothing but zero is meant
+constexpr double smallest = 1e-300;   // smaller values are treated as zero
 
 struct Prefix
 {
@@ -30,7 +30,7 @@ constexpr std::array prefixes {
     Prefix { "n", 1e-9 },
 };
 
-/// The unit an SI prefix is put before, and how often its value goes into the SI unit.
+/// A unit that takes an SI prefix, and the number of these units in the SI unit.
 struct Base
 {
     std::string unit;
@@ -38,7 +38,7 @@ struct Base
     double largest_factor;
 };
 
-/// None for units that take no prefix: 1/m, m2 (mm2 is no thousandth of it), ratios.
+/// Empty for units that take no prefix: 1/m, m2 (a mm2 is not a thousandth of a m2), ratios.
 std::optional<Base> baseOf (std::string_view unit)
 {
     const auto first = unit.substr (0, unit.find_first_of ("*/"));
@@ -48,7 +48,7 @@ std::optional<Base> baseOf (std::string_view unit)
     if (is ("kg"))
         return Base { std::string (unit.substr (1)), 1e3, 1e3 };
     if (is ("m") || is ("s") || is ("rad"))
-        return Base { std::string (unit), 1.0, 1.0 };   // nobody reads ks or krad
+        return Base { std::string (unit), 1.0, 1.0 };   // ks and krad are unusual
     if (is ("N") || is ("Hz") || is ("J") || is ("W") || is ("Pa") || is ("V") || is ("A"))
         return Base { std::string (unit), 1.0, 1e9 };
     return std::nullopt;
@@ -64,7 +64,7 @@ std::string superscript (std::string_view digits)
     return text;
 }
 
-/// As printed: N*s/m2 becomes N·s/m².
+/// Formatted for print: N*s/m2 becomes N·s/m².
 std::string typeset (std::string_view unit)
 {
     std::string text;
@@ -111,7 +111,7 @@ struct ScaledUnit
     std::string text;
 };
 
-/// The unit in which a value of this size is a short number.
+/// The unit that makes a value of this size a short number.
 ScaledUnit unitFor (double size, std::string_view unit)
 {
     constexpr double too_long = 1e5, too_short = 1e-2;
@@ -137,7 +137,7 @@ ScaledUnit unitFor (double size, std::string_view unit)
     return { std::pow (10.0, exponent), plain.empty() ? power : power + " " + plain };
 }
 
-/// The finest of 1, 2, 5, 10, … that gives no more ticks than asked for.
+/// The finest of the steps 1, 2, 5, 10, … that gives no more ticks than requested.
 double stepFor (const Extent& extent, int at_most) noexcept
 {
     const double wanted = extent.size() / std::max (1, at_most);
@@ -179,7 +179,7 @@ Extent widened (const Extent& extent, double fraction) noexcept
 
 Extent roundedOutwards (const Extent& extent, int ticks) noexcept
 {
-    constexpr double near = 0.02;   // of the extent
+    constexpr double near = 0.02;   // fraction of the extent
 
     const double step = stepFor (extent, ticks);
     const Extent beyond { std::floor (extent.low / step) * step, std::ceil (extent.high / step) * step };
@@ -195,7 +195,7 @@ AxisScale axisScale (const Extent& values, std::string_view name, std::string_vi
 
     if (! isConstant (values) && values.size() < 1e-4 * size)
     {
-        // Ticks like 1.200003, 1.200004 say little. The round number below is taken off.
+        // Ticks such as 1.200003 and 1.200004 are hard to read, so the next lower round number is subtracted.
         const double step = std::pow (10.0, std::ceil (std::log10 (values.size())));
         scale.origin = std::floor (values.low / step) * step;
         size = std::max (std::abs (values.low - scale.origin), std::abs (values.high - scale.origin));
@@ -217,7 +217,7 @@ std::vector<Tick> ticksWithin (const Extent& extent, int at_most)
 {
     const double step = stepFor (extent, at_most);
     const int decimals = std::max (0, -static_cast<int> (std::floor (std::log10 (step) + 1e-9)));
-    constexpr double slack = 1e-9;   // a tick at the very end counts as within
+    constexpr double slack = 1e-9;   // a tick at the very end counts as inside
 
     std::vector<Tick> ticks;
     const auto first = static_cast<long long> (std::ceil (extent.low / step - slack));

@@ -9,10 +9,10 @@
 namespace tactus::host
 {
 
-/// What a plot can show. nan and inf are gaps; so is what would overflow while a range is widened.
+/// True for values that a plot can show. Gaps are nan, inf, and values that would overflow when a range is widened.
 bool isPlottable (double value) noexcept;
 
-/// From the lowest to the highest of some values.
+/// The range from the lowest to the highest of some values.
 struct Extent
 {
     double low = std::numeric_limits<double>::infinity();
@@ -24,17 +24,17 @@ struct Extent
     void include (const Extent& other) noexcept;
 };
 
-/// The extent with some air on both sides. Never of size zero: a constant gets a tenth of itself, zero gets -1…1.
-/// What differs in the tenth digit only is constant, too; its noise is not magnified.
+/// The extent with a margin on both sides. Its size is never zero: a constant gets a tenth of its value, zero gets -1…1. Values
+/// that differ only in the tenth digit count as constant, so that noise is not magnified.
 Extent widened (const Extent& extent, double fraction) noexcept;
 
-/// The extent up to the ticks just beyond its ends, where those are near: 0 to 1.999 s ends at 2 s.
+/// The extent, enlarged to the next ticks if they are near its ends: 0 to 1.999 s ends at 2 s.
 Extent roundedOutwards (const Extent& extent, int ticks) noexcept;
 
-/// How values are shown along an axis: shown = (value - origin) / unit.
+/// How an axis shows values: shown = (value - origin) / unit.
 struct AxisScale
 {
-    double origin = 0.0;   // not 0 where values differ little beside their size
+    double origin = 0.0;   // nonzero if the values differ little relative to their size
     double unit = 1.0;
     std::string label;   // "position (mm)", "gain (×10⁻⁶)", "position − 1.2 m (µm)"
 
@@ -42,16 +42,16 @@ struct AxisScale
     Extent shown (const Extent& extent) const noexcept { return { shown (extent.low), shown (extent.high) }; }
 };
 
-/// Picks the SI prefix, or the power of ten where the unit takes none, with which numbers are short.
+/// Picks the SI prefix that gives short numbers, or a power of ten for units without prefixes.
 AxisScale axisScale (const Extent& values, std::string_view name, std::string_view unit);
 
 struct Tick
 {
     double at = 0.0;
-    std::string text;   // equally many decimals along an axis, and a true minus sign
+    std::string text;   // the same number of decimals along an axis, and a true minus sign
 };
 
-/// At most so many ticks at multiples of 1, 2 or 5 times a power of ten within the extent.
+/// At most this many ticks within the extent, at multiples of 1, 2 or 5 times a power of ten.
 std::vector<Tick> ticksWithin (const Extent& extent, int at_most);
 
 }   // namespace tactus::host

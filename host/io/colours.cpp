@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/io/colours.hpp>
+#include "colours.hpp"
 
 #include <algorithm>
 #include <array>
@@ -49,7 +49,7 @@ constexpr std::array<std::pair<std::string_view, Colour>, 25> quantities { {
     { "velocity", blue },
 } };
 
-/// Dark and light in turn, so that neighbours differ in a grey copy too. Yellow is left out: it is for hits.
+/// Dark and light alternate, so that neighbours also differ in greyscale. Yellow is left out: it is for hits.
 constexpr std::array cycle { vermilion, blue, orange, green, purple, sky, grey };
 
 std::optional<Colour> ownColour (std::string_view quantity) noexcept

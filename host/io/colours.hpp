@@ -15,15 +15,15 @@ struct Colour
     bool operator== (const Colour&) const = default;
 };
 
-/// The colour of a quantity, the same on ports, wires, traces and in print (Okabe and Ito's palette, which colour-blind
-/// eyes tell apart). Grey for what has none of its own.
+/// The colour of a quantity, the same on ports, wires and traces and in print (Okabe and Ito's colour-blind-safe palette).
+/// Grey for quantities without their own colour.
 Colour colourFor (std::string_view quantity) noexcept;
 
-/// The colour of the n-th of several traces of one quantity: its own first (blue, where it has none), then the others
-/// of the palette, round and round.
+/// The colour of the n-th of several traces of one quantity: first its own colour (blue if it has none), then the rest
+/// of the palette, repeating.
 Colour colourFor (std::string_view quantity, std::size_t nth) noexcept;
 
-/// The colour, darkened if it is too faint on white paper; of the palette, the yellow is.
+/// The colour, darkened if it is too faint on white paper. In the palette, this applies only to yellow.
 Colour onPaper (Colour colour) noexcept;
 
 }   // namespace tactus::host

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/io/figure_layout.hpp>
+#include "figure_layout.hpp"
 
-#include <host/io/typeface.hpp>
+#include "typeface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +42,7 @@ bool shareX (const Panel& a, const Panel& b)
     return a.axes->x.name == b.axes->x.name && a.axes->x.unit == b.axes->x.unit;
 }
 
-/// Gives neighbours that show the same quantity along x one range.
+/// Gives neighbours with the same quantity along x the same range.
 void alignX (std::vector<Panel>& panels)
 {
     for (auto first = panels.begin(); first != panels.end();)
@@ -94,10 +94,10 @@ FigureLayout::FigureLayout (const Figure& figure_to_arrange)
 
 bool FigureLayout::arrange()
 {
-    constexpr float lowest_plot = 40, highest_figure = 8192;   // at a width of 800
+    constexpr float lowest_plot = 40, highest_figure = 8192;   // in pixels, at a width of 800
     const auto n = static_cast<float> (panels.size());
 
-    // Heights depend on widths (legends wrap) and widths on heights (ticks differ): twice is enough.
+    // Heights depend on widths (legends wrap) and widths on heights (ticks differ): two passes are enough.
     left = style.px (70);
     for (int pass = 0; pass < 2; ++pass)
     {
@@ -141,11 +141,11 @@ float FigureLayout::naturalPlotHeight() const noexcept
 void FigureLayout::arrangeX()
 {
     const float plot_width = right - left;
-    float overhang = 0.0f;   // of the last number beyond the axis it stands under
+    float overhang = 0.0f;   // how far the last number extends beyond the end of its axis
 
     for (auto& panel : panels)
     {
-        // As many ticks as leave air between their numbers.
+        // Uses as many ticks as possible with space between their numbers.
         auto at_most = std::max (2, static_cast<int> (plot_width / style.px (60)));
         panel.x_ticks = ticksWithin (panel.x_range, at_most);
         while (at_most > 2 && static_cast<float> (at_most) * (widestOf (panel.x_ticks) + style.px (18)) > plot_width)
@@ -172,7 +172,7 @@ void FigureLayout::arrangeY()
     tick_numbers = 0.0f;
     for (auto& panel : panels)
     {
-        // Two ticks at least, else one cannot tell the scale.
+        // There are at least two ticks, because a single one would not show the scale.
         auto at_most = std::max (2, static_cast<int> (panel.plot.getHeight() / style.px (34)));
         panel.y_ticks = ticksWithin (panel.y_range, at_most);
         while (panel.y_ticks.size() < 2 && at_most < 10)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/io/axis.hpp>
-#include <host/io/lettering.hpp>
-#include <host/io/plot.hpp>
+#include "axis.hpp"
+#include "lettering.hpp"
+#include "plot.hpp"
 
 #include <juce_graphics/juce_graphics.h>
 
@@ -12,7 +12,7 @@
 namespace tactus::host
 {
 
-/// The sizes of a figure's parts in pixels. All grow with its width; they are given for one 800 wide.
+/// The sizes of a figure's parts in pixels. They scale with the width; the values are for a width of 800.
 struct FigureStyle
 {
     explicit FigureStyle (int width);
@@ -23,7 +23,7 @@ struct FigureStyle
     float dot() const noexcept { return px (4.4f); }
     float swatch() const noexcept { return px (20); }
     float tickLength() const noexcept { return px (4); }
-    float tickGap() const noexcept { return px (8); }   // from an axis to the numbers at it
+    float tickGap() const noexcept { return px (8); }   // from an axis to its numbers
     float headerRow() const noexcept { return px (20); }
     float titleRow() const noexcept { return px (22); }
 
@@ -36,20 +36,20 @@ struct LegendEntry
     juce::String label;
     Colour colour;
     Series::Style style = Series::Style::line;
-    float width = 0.0f;   // with the gap to the next
+    float width = 0.0f;   // in pixels, including the gap to the next entry
 };
 
 struct Panel
 {
     const Axes* axes = nullptr;
     bool has_data = false;
-    bool is_function = true;   // x never goes back, as time does; then the range of x needs no air
+    bool is_function = true;   // true if x never decreases, like time; then the range of x needs no margin
     Extent x_values, y_values;
     AxisScale x_scale, y_scale;
-    Extent x_range, y_range;   // as shown
+    Extent x_range, y_range;   // in the units shown
     std::vector<Tick> x_ticks, y_ticks;
-    bool has_x = false;    // ticks along x, perhaps from the neighbours it shares them with
-    bool shows_x = true;   // their numbers
+    bool has_x = false;    // true if it has ticks along x, perhaps shared with neighbours
+    bool shows_x = true;   // true if it shows numbers at the ticks
     std::vector<juce::String> y_label;
     std::vector<std::vector<LegendEntry>> legend;   // rows
     std::size_t not_in_legend = 0;
@@ -58,13 +58,13 @@ struct Panel
     juce::Rectangle<float> plot;
 };
 
-/// Where everything in a figure goes. Plots are aligned left and right; legends stand above them, where they cover no data.
+/// The layout of a figure. Plots are aligned left and right. Legends are above the plots, where they cover no data.
 class FigureLayout
 {
 public:
     explicit FigureLayout (const Figure& figure);
 
-    /// False if there is no room for the panels.
+    /// Returns false if the panels do not fit.
     bool arrange();
 
     FigureStyle style;
@@ -72,7 +72,7 @@ public:
     std::vector<Panel> panels;
     int width = 0;
     float height = 0.0f;
-    float tick_numbers = 0.0f;   // width of the widest along y
+    float tick_numbers = 0.0f;   // width of the widest number along y
 
 private:
     void arrangeX();
@@ -83,7 +83,7 @@ private:
     float widestOf (const std::vector<Tick>& ticks) const;
 
     const Figure& figure;
-    float left = 0.0f, right = 0.0f;   // of the plots
+    float left = 0.0f, right = 0.0f;   // edges of the plots
 };
 
 }   // namespace tactus::host

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/io/lettering.hpp>
+#include "lettering.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -21,7 +21,7 @@ juce::String textOf (std::string_view utf8)
     if (juce::CharPointer_UTF8::isValidString (utf8.data(), bytes))
         return juce::String::fromUTF8 (utf8.data(), bytes);
 
-    juce::String text;   // not UTF-8: as Latin-1, which has a character for every byte
+    juce::String text;   // if it is not UTF-8, it is read as Latin-1, which has a character for every byte
     for (const char c : utf8)
         text += static_cast<juce::juce_wchar> (static_cast<unsigned char> (c));
     return text;
@@ -33,7 +33,7 @@ Lettering::Lettering (juce::Typeface::Ptr typeface, float height_px) : face (std
         figure_width = std::max (figure_width, face->getStringWidth (juce::String::charToString (figure)));
 }
 
-/// The width of the text at a height of 1, and its outline on a baseline at 0 where asked for.
+/// The width of the text at a height of 1 and, on request, its outline on a baseline at 0.
 float Lettering::layOut (const juce::String& text, juce::Path* outline) const
 {
     juce::Array<int> glyphs;
@@ -93,7 +93,7 @@ juce::String Lettering::shortened (const juce::String& text, float width_px) con
 
 std::vector<juce::String> Lettering::wrapped (const juce::String& text, float width_px, std::size_t most_lines) const
 {
-    // Longer than any line could show, a text need not be measured letter by letter.
+    // Text longer than any line can show need not be measured letter by letter.
     constexpr int longest = 500;
     const auto words = juce::StringArray::fromTokens (text.substring (0, longest), " \t\r\n", "");
 

@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-/// Text from a file, whatever bytes it holds.
+/// Text from a file, which may contain any bytes.
 juce::String textOf (std::string_view utf8);
 
 enum class Align
@@ -19,8 +19,8 @@ enum class Align
     right
 };
 
-/// A typeface at one height, drawn as outlines. Figures are tabular, so that columns of numbers line up: Inter has such
-/// figures, but JUCE 7 cannot ask a font for them.
+/// A typeface at one height, drawn as outlines. Digits are tabular, so that columns of numbers line up: Inter has such
+/// digits, but JUCE 7 cannot select them.
 class Lettering
 {
 public:
@@ -29,13 +29,13 @@ public:
     float height() const noexcept { return size; }
     float width (const juce::String& text) const;
 
-    /// Broken at spaces; what does not fit into so many lines ends in an ellipsis.
+    /// Wraps the text at spaces. If it does not fit into this many lines, it ends in an ellipsis.
     std::vector<juce::String> wrapped (const juce::String& text, float width_px, std::size_t most_lines) const;
 
-    /// y is the middle of the line.
+    /// Draws a line of text; `at.y` is the middle of the line.
     void draw (juce::Graphics& graphics, const juce::String& text, juce::Point<float> at, Align align) const;
 
-    /// Read from below to above; at is the middle of the text.
+    /// Draws text that runs from bottom to top; `at` is the middle of the text.
     void drawUpwards (juce::Graphics& graphics, const juce::String& text, juce::Point<float> at) const;
 
 private:
@@ -44,7 +44,7 @@ private:
 
     juce::Typeface::Ptr face;
     float size;
-    float figure_width = 0.0f;   // of a height of 1
+    float figure_width = 0.0f;   // at a height of 1
 };
 
 }   // namespace tactus::host

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/io/plot.hpp>
+#include "plot.hpp"
 
-#include <host/io/atomic_file.hpp>
-#include <host/io/figure_layout.hpp>
-#include <host/io/polyline.hpp>
+#include "figure_layout.hpp"
+#include "polyline.hpp"
+#include <framework/file/atomic_file.hpp>
 
 #include <juce_events/juce_events.h>
 #include <juce_graphics/juce_graphics.h>
@@ -74,7 +74,7 @@ private:
         return { panel.y_range.low, panel.y_range.high, panel.plot.getBottom(), panel.plot.getY() };
     }
 
-    /// Along pixels, so that hairlines are sharp.
+    /// Fills a rectangle that is aligned to pixels, so that hairlines are sharp.
     static void fill (juce::Graphics& graphics, float x, float y, float width, float height)
     {
         graphics.fillRect (juce::Rectangle<float> (std::floor (x), std::floor (y), width, height).toNearestInt());
@@ -102,7 +102,7 @@ private:
             float x = panel.plot.getX();
             if (panel.title_in_legend_row)
             {
-                x = panel.plot.getRight() + style.px (18);   // the gap behind the last entry
+                x = panel.plot.getRight() + style.px (18);   // plus the gap after the last entry
                 for (const auto& entry : row)
                     x -= entry.width;
             }
@@ -134,7 +134,7 @@ private:
     {
         const auto& plot = panel.plot;
 
-        // Not beside the axes, which would look twice as thick.
+        // No grid line next to an axis, which would look twice as thick.
         if (panel.has_x)
             for (const auto& tick : panel.x_ticks)
                 if (const float x = mapX (panel) (tick.at); x > plot.getX() + 1.0f)
@@ -215,7 +215,7 @@ private:
         const juce::Graphics::ScopedSaveState restore (graphics);
         graphics.reduceClipRegion (panel.plot.expanded (style.dot()).toNearestInt());
 
-        // From data to pixels in one step, without a copy in shown units.
+        // Converts data to pixels in one step, without a copy in the displayed units.
         const auto fromData = [] (PixelMap map, const AxisScale& axis)
         {
             map.low = map.low * axis.unit + axis.origin;
@@ -248,11 +248,11 @@ private:
     {
         if (line.size() == 1)
         {
-            drawDot (graphics, { line[0].x, line[0].y });   // alone between gaps, a line through it would be invisible
+            drawDot (graphics, { line[0].x, line[0].y });   // a single point between gaps: a line through it would be invisible
             return;
         }
 
-        // In pieces: the time to fill a path grows faster than its length.
+        // Drawn in pieces, because the time to fill a path grows faster than its length.
         constexpr std::size_t piece = 256;
         for (std::size_t begin = 0; begin + 1 < line.size(); begin += piece)
         {
@@ -268,15 +268,15 @@ private:
     const FigureStyle& style;
 };
 
-tl::unexpected<Error> fail (std::string id, const std::filesystem::path& path, std::string what, std::string remedy)
+Message fail (std::string id, const std::filesystem::path& path, std::string what, std::string remedy)
 {
-    return tl::unexpected (Error { .id = std::move (id),
-                                   .where = path.string(),
-                                   .what = std::move (what),
-                                   .remedy = std::move (remedy) });
+    return Message { .id = std::move (id),
+                     .where = path.string(),
+                     .text = std::move (what),
+                     .remedy = std::move (remedy) };
 }
 
-tl::expected<void, Error> check (const Figure& figure, const std::filesystem::path& path)
+Result<> check (const Figure& figure, const std::filesystem::path& path)
 {
     constexpr int smallest = 200, largest = 16'384;
 
@@ -293,33 +293,33 @@ tl::expected<void, Error> check (const Figure& figure, const std::filesystem::pa
             if (x.size() != y.size())
                 return fail ("plot/ragged_series", path,
                              "series '" + label + "' has " + std::to_string (x.size()) + " x and " + std::to_string (y.size()) + " y",
-                             "give one y for each x");
+                             "give one y per x");
     return {};
 }
 }   // namespace
 
-tl::expected<void, Error> writePng (const Figure& figure, const std::filesystem::path& path)
+Result<> writePng (const Figure& figure, const std::filesystem::path& path)
 {
     if (const auto checked = check (figure, path); ! checked)
         return checked;
 
-    // JUCE's fonts live between its start and its end; nested in a program that has started it, this does nothing.
+    // JUCE's fonts exist only while JUCE is initialised; if the program has already initialised it, this does nothing.
     const juce::ScopedJuceInitialiser_GUI juce_is_up;
 
     FigureLayout layout (figure);
     if (! layout.arrange())
-        return fail ("plot/size", path, "its size does not fit " + std::to_string (figure.panels.size()) + " panels",
-                     "plot fewer, make the figure higher, or leave its height out");
+        return fail ("plot/size", path, "the figure is too small for " + std::to_string (figure.panels.size()) + " panels",
+                     "plot fewer panels, make the figure higher, or leave out its height");
 
     juce::MemoryOutputStream png;
     juce::PNGImageFormat().writeImageToStream (Painter (layout).paint(), png);
 
-    auto file = createFile (path);
+    auto file = AtomicFile::create (path);
     if (! file)
-        return tl::unexpected (file.error());
+        return file.error();
     if (! file->stream().write (static_cast<const char*> (png.getData()), static_cast<std::streamsize> (png.getDataSize())))
-        return tl::unexpected (writeFailed (*file));
-    return commitFile (*file);
+        return file->writeError();
+    return file->commit();
 }
 
 }   // namespace tactus::host

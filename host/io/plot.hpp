@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/io/colours.hpp>
-#include <host/io/error.hpp>
-
-#include <tl/expected.hpp>
+#include "colours.hpp"
+#include <framework/text/result.hpp>
 
 #include <filesystem>
 #include <optional>
@@ -14,9 +12,9 @@
 namespace tactus::host
 {
 
-// Members have initialisers, empty ones too, so that a designated initialiser may leave them out without a warning.
+// All members have default initialisers, so that designated initialisers may leave them out without a warning.
 
-/// What an axis shows. Data are in the SI unit; the plot picks the prefix: "position", "m" may become "position (mm)".
+/// The quantity of an axis. The data are in the SI unit, and the plot picks the prefix: "position", "m" may become "position (mm)".
 struct Quantity
 {
     std::string name {};
@@ -31,13 +29,14 @@ struct Series
         points
     };
 
-    std::string label {};             // for the legend; empty: none
-    std::vector<double> x {}, y {};   // of one length; nan and inf are gaps
+    std::string label {};             // in the legend; empty: not listed
+    std::vector<double> x {}, y {};   // of equal length; nan and inf are gaps
     std::optional<Colour> colour {};
     Style style = Style::line;
 };
 
-/// One panel. A series without a colour gets that of the quantity on the y axis, further ones the next of the palette.
+/// One panel. The first series without a colour gets the colour of the quantity on the y axis; each further one gets the next
+/// colour of the palette.
 struct Axes
 {
     std::string title {};
@@ -45,19 +44,19 @@ struct Axes
     std::vector<Series> series {};
 };
 
-/// Panels from top to bottom. Neighbours with the same x quantity share its range, and its labels under the last of them.
+/// Panels from top to bottom. Neighbours with the same x quantity share its range, with labels only under the last one.
 struct Figure
 {
     std::string title {};
     std::vector<Axes> panels {};
-    int width = 1600;   // pixels; text and lines grow with it, as if printed 800 points wide
-    int height = 0;     // 0: as the number of panels wants
+    int width = 1600;   // pixels; text and lines scale with it, as if printed 800 points wide
+    int height = 0;     // 0: depends on the number of panels
 };
 
-/// Draws the figure as a paper could print it, on white, and writes it as PNG; the file appears whole or not at all.
-/// Needs no display. [main thread], or any thread while a juce::ScopedJuceInitialiser_GUI lives.
+/// Draws the figure in print quality on white and writes it as PNG, completely or not at all. Needs no display. [main
+/// thread], or any thread while a juce::ScopedJuceInitialiser_GUI exists.
 ///
-/// Ids of errors: plot/no_panels, plot/ragged_series, plot/size, output/unwritable.
-[[nodiscard]] tl::expected<void, Error> writePng (const Figure& figure, const std::filesystem::path& path);
+/// Error ids: plot/no_panels, plot/ragged_series, plot/size, output/unwritable.
+[[nodiscard]] Result<> writePng (const Figure& figure, const std::filesystem::path& path);
 
 }   // namespace tactus::host

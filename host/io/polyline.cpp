@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/io/polyline.hpp>
+#include "polyline.hpp"
 
-#include <host/io/axis.hpp>
+#include "axis.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@ namespace tactus::host
 
 namespace
 {
-/// A place to half a pixel, as one number.
+/// A position rounded to half a pixel, as one number.
 std::uint32_t cellOf (PixelPoint point) noexcept
 {
     const auto half_pixels = [] (float at)
@@ -22,7 +22,7 @@ std::uint32_t cellOf (PixelPoint point) noexcept
     return half_pixels (point.x) << 16 | half_pixels (point.y);
 }
 
-/// A run of points within one column of pixels, of which at most four are kept.
+/// A run of points within one column of pixels; at most four of them are kept.
 class Column
 {
 public:
@@ -63,7 +63,7 @@ private:
     std::size_t count = 0;
 };
 
-/// Cuts a line where it retraces segments in `drawn`, to which it adds its own.
+/// Cuts a line where it retraces segments in `drawn`, and adds its own segments to `drawn`.
 void keepWhatIsNew (const Polyline& line, std::unordered_set<std::uint64_t>& drawn, std::vector<Polyline>& lines)
 {
     Polyline fresh;
@@ -91,7 +91,7 @@ void keepWhatIsNew (const Polyline& line, std::unordered_set<std::uint64_t>& dra
 
 std::vector<Polyline> withoutRetracing (const std::vector<Polyline>& lines)
 {
-    constexpr std::size_t worth_it = 20'000;   // points; fewer are drawn sooner than compared
+    constexpr std::size_t worth_it = 20'000;   // number of points; with fewer, drawing is faster than comparing
 
     std::size_t points = 0;
     for (const auto& line : lines)

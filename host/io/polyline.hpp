@@ -7,7 +7,7 @@
 namespace tactus::host
 {
 
-/// From data to pixels: low lies at first, high at last.
+/// Maps data to pixels: `low` to `first`, `high` to `last`.
 struct PixelMap
 {
     double low = 0.0, high = 1.0;
@@ -28,14 +28,13 @@ struct PixelPoint
 
 using Polyline = std::vector<PixelPoint>;
 
-/// The lines to draw through the points, broken where a coordinate cannot be plotted.
+/// The lines through the points, broken where a coordinate cannot be plotted.
 ///
-/// Of the points that follow each other within one column of pixels only the first, lowest, highest and last are kept,
-/// in their order: what is drawn covers the same pixels, and no peak is lost. Where the curve runs through the same
-/// pixels again and again, as a loop does, what has been drawn is not drawn again.
+/// Of consecutive points within one column of pixels, only the first, lowest, highest and last are kept, in order. The
+/// drawing still covers the same pixels, and no peak is lost. Pixels that the curve retraces, as in a loop, are drawn once.
 std::vector<Polyline> linesThrough (std::span<const double> x, std::span<const double> y, const PixelMap& to_x, const PixelMap& to_y);
 
-/// The dots to draw, at most one each half pixel.
+/// The dots to draw, at most one per half pixel.
 std::vector<PixelPoint> dotsAt (std::span<const double> x, std::span<const double> y, const PixelMap& to_x, const PixelMap& to_y);
 
 }   // namespace tactus::host

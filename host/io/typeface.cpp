@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/io/typeface.hpp>
+#include "typeface.hpp"
 
-#include <host/io/typeface_data.hpp>
+#include "typeface_data.hpp"
 
 namespace tactus::host
 {

@@ -6,7 +6,7 @@
 namespace tactus::host
 {
 
-/// The typeface that is built in. [main thread], while a juce::ScopedJuceInitialiser_GUI lives; let go of it before.
+/// The built-in typeface. [main thread] Use it only while a juce::ScopedJuceInitialiser_GUI exists, and release it before that ends.
 juce::Typeface::Ptr regularTypeface();
 juce::Typeface::Ptr boldTypeface();
 

@@ -6,7 +6,7 @@
 namespace tactus::host
 {
 
-/// The font files built in by embed.cmake: Inter, or DejaVu Sans where Inter was not installed.
+/// The font files embedded by embed.cmake: Inter, or DejaVu Sans if Inter is not installed.
 std::span<const unsigned char> regularTypefaceData() noexcept;
 std::span<const unsigned char> boldTypefaceData() noexcept;
 

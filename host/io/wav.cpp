@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/io/wav.hpp>
+#include "wav.hpp"
 
-#include <host/io/atomic_file.hpp>
+#include <framework/file/atomic_file.hpp>
 
 #include <juce_audio_formats/juce_audio_formats.h>
 
@@ -18,13 +18,13 @@ namespace tactus::host
 
 namespace
 {
-/// JUCE's reader takes frames from a buffer of this size, and a frame that does not fit is read for ever.
+/// JUCE's reader takes frames from a buffer of this size; if a frame is larger, reading never ends.
 constexpr std::size_t largest_frame_bytes = 480 * 3 * 4;
 constexpr std::size_t most_channels = largest_frame_bytes / sizeof (float);
 
 constexpr std::size_t frames_per_block = 1024;
 
-/// Lets JUCE write to a standard stream, which it neither owns nor closes.
+/// Lets JUCE write to a standard stream that it neither owns nor closes.
 class StandardOutput final : public juce::OutputStream
 {
 public:
@@ -33,7 +33,7 @@ public:
     void flush() override { out.flush(); }
     bool setPosition (juce::int64 position) override
     {
-        // JUCE wants to fill in the header even of a file that it could not write; that one is given up.
+        // JUCE fills in the header even if it could not write the file; such a file is discarded.
         const bool is_given_up = ! out;
         return is_given_up || out.seekp (position);
     }
@@ -47,12 +47,12 @@ private:
     std::ostream& out;
 };
 
-tl::unexpected<Error> fail (std::string id, const std::filesystem::path& path, std::string what, std::string remedy)
+Message fail (std::string id, const std::filesystem::path& path, std::string what, std::string remedy)
 {
-    return tl::unexpected (Error { .id = std::move (id),
-                                   .where = path.string(),
-                                   .what = std::move (what),
-                                   .remedy = std::move (remedy) });
+    return Message { .id = std::move (id),
+                     .where = path.string(),
+                     .text = std::move (what),
+                     .remedy = std::move (remedy) };
 }
 
 std::string inWords (double number)
@@ -68,37 +68,37 @@ bool isKnown (const juce::AudioFormatReader& reader)
     return bits == 32 || (! reader.usesFloatingPointData && (bits == 8 || bits == 16 || bits == 24));
 }
 
-/// The reader hands out the bits of a float, or an integer of 32 bits whatever their number in the file.
+/// Converts a sample. The reader returns the bits of a float, or a 32-bit integer regardless of the integer size in the file.
 double sampleFrom (int raw, const juce::AudioFormatReader& reader)
 {
     return reader.usesFloatingPointData ? double { std::bit_cast<float> (raw) } : std::ldexp (raw, -31);
 }
 }   // namespace
 
-tl::expected<Signal, Error> readWav (const std::filesystem::path& path)
+Result<Signal> readWav (const std::filesystem::path& path)
 {
     const auto full_path = std::filesystem::absolute (path).string();
     auto stream = juce::File (juce::String::fromUTF8 (full_path.c_str())).createInputStream();
     if (stream == nullptr)
-        return fail ("wav/unreadable", path, "there is no such file, or it may not be read",
+        return fail ("wav/unreadable", path, "there is no such file, or it is not readable",
                      "check the path and the permissions");
 
     const auto bytes_in_file = stream->getTotalLength();
     const std::unique_ptr<juce::AudioFormatReader> reader (juce::WavAudioFormat().createReaderFor (stream.release(), true));
 
     if (reader == nullptr || ! isKnown (*reader))
-        return fail ("wav/not_a_wav", path, "it is not a WAV file of a kind that is understood",
+        return fail ("wav/not_a_wav", path, "it is not a supported WAV file",
                      "save it as WAV, 32-bit float or 8-, 16-, 24- or 32-bit integer");
 
     const std::size_t bytes_per_frame = reader->numChannels * reader->bitsPerSample / 8;
     if (bytes_per_frame > largest_frame_bytes)
         return fail ("wav/too_many_channels", path, "it has " + std::to_string (reader->numChannels) + " channels",
-                     "save fewer channels in it");
+                     "save it with fewer channels");
 
-    // Checked before memory is asked for: a header may claim anything.
+    // Checked before memory is allocated, because a header may claim any size.
     if (reader->lengthInSamples < 0 || reader->lengthInSamples > bytes_in_file / static_cast<juce::int64> (bytes_per_frame))
-        return fail ("wav/truncated", path, "its header promises more samples than there are in it",
-                     "make the file again; whatever wrote it stopped half way");
+        return fail ("wav/truncated", path, "its header declares more samples than the file contains",
+                     "create the file again; writing it was interrupted");
 
     const auto frames = static_cast<std::size_t> (reader->lengthInSamples);
     const std::size_t channels = reader->numChannels;
@@ -114,7 +114,7 @@ tl::expected<Signal, Error> readWav (const std::filesystem::path& path)
         const auto now = std::min (frames_per_block, frames - done);
         if (! reader->read (pointers.data(), static_cast<int> (channels), static_cast<juce::int64> (done),
                             static_cast<int> (now), false))
-            return fail ("wav/unreadable", path, "reading stopped half way", "check the disk it is on");
+            return fail ("wav/unreadable", path, "reading stopped midway", "check the disk");
 
         for (std::size_t channel = 0; channel < channels; ++channel)
             for (std::size_t i = 0; i < now; ++i)
@@ -131,11 +131,11 @@ struct WavWriter::Impl
     }
 
     AtomicFile file;
-    std::unique_ptr<juce::AudioFormatWriter> writer;   // after the file it writes to
-    std::vector<std::vector<float>> block;             // a vector a channel
+    std::unique_ptr<juce::AudioFormatWriter> writer;   // declared after the file it writes to
+    std::vector<std::vector<float>> block;             // one vector per channel
     std::size_t filled = 0;
 
-    tl::expected<void, Error> writeBlock()
+    Result<> writeBlock()
     {
         std::vector<const float*> pointers;
         for (const auto& channel : block)
@@ -144,35 +144,36 @@ struct WavWriter::Impl
         const bool written = writer->writeFromFloatArrays (pointers.data(), static_cast<int> (block.size()), static_cast<int> (filled));
         filled = 0;
         if (! written)
-            return tl::unexpected (writeFailed (file));
+            return file.writeError();
         return {};
     }
 };
 
-tl::expected<WavWriter, Error> WavWriter::create (const std::filesystem::path& path, double sample_rate_hz, std::size_t channels)
+Result<WavWriter> WavWriter::create (const std::filesystem::path& path, double sample_rate_hz, std::size_t channels)
 {
     if (channels == 0 || channels > most_channels)
         return fail ("wav/channels", path, "a WAV cannot have " + std::to_string (channels) + " channels",
                      "record 1 to " + std::to_string (most_channels) + " components, or write a CSV");
 
-    // The header holds the rate and the bytes a second as whole numbers of 32 bits.
+    // The header stores the sample rate and the bytes per second as 32-bit integers.
     const auto highest = std::floor (std::numeric_limits<int>::max() / static_cast<double> (channels * sizeof (float)));
     if (! (sample_rate_hz >= 1.0 && sample_rate_hz <= highest) || std::floor (sample_rate_hz) != sample_rate_hz)
         return fail ("wav/sample_rate", path, "a WAV cannot have a sample rate of " + inWords (sample_rate_hz) + " Hz",
                      "choose a rate in whole Hz, or write a CSV");
 
-    auto file = createFile (path);
+    auto file = AtomicFile::create (path);
     if (! file)
-        return tl::unexpected (file.error());
+        return file.error();
     if (file->stream().tellp() < 0)
         return fail ("output/unwritable", path,
-                     "cannot be written: a WAV's header is filled in at the end, and in a pipe there is no way back",
+                     "cannot be written: the header of a WAV is completed at the end, which a pipe does not allow",
                      "write to a file");
 
     auto impl = std::make_unique<Impl> (std::move (*file), channels);
 
-    // Discrete channels: components of forces are not loudspeakers, and beyond stereo the layout would make them such.
-    // From the 129th on JUCE counts beyond its enum, which is harmless, but which UBSan's `enum` check reports.
+    // Discrete channels: the components of a force are not loudspeakers, but beyond stereo any other layout would label
+    // them as such. Beyond the 128th channel, JUCE counts past the end of its enum; this is harmless, but UBSan's `enum`
+    // check reports it.
     auto output = std::make_unique<StandardOutput> (impl->file.stream());
     const auto layout = juce::AudioChannelSet::discreteChannels (static_cast<int> (channels));
     impl->writer.reset (juce::WavAudioFormat().createWriterFor (output.release(), sample_rate_hz, layout, 32, {}, 0));
@@ -186,12 +187,12 @@ WavWriter::WavWriter (WavWriter&&) noexcept = default;
 WavWriter& WavWriter::operator= (WavWriter&&) noexcept = default;
 WavWriter::~WavWriter() = default;
 
-tl::expected<void, Error> WavWriter::frame (std::span<const double> samples)
+Result<> WavWriter::frame (std::span<const double> samples)
 {
     if (samples.size() != impl->block.size())
         return fail ("wav/channels", "the frame to write",
                      "it has " + std::to_string (samples.size()) + " samples for " + std::to_string (impl->block.size()) + " channels",
-                     "give one sample a channel");
+                     "give one sample per channel");
 
     for (std::size_t channel = 0; channel < samples.size(); ++channel)
         impl->block[channel][impl->filled] = static_cast<float> (samples[channel]);
@@ -201,13 +202,13 @@ tl::expected<void, Error> WavWriter::frame (std::span<const double> samples)
     return {};
 }
 
-tl::expected<void, Error> WavWriter::commit()
+Result<> WavWriter::commit()
 {
     if (auto written = impl->writeBlock(); ! written)
         return written;
 
     impl->writer.reset();   // fills in the header
-    return commitFile (impl->file);
+    return impl->file.commit();
 }
 
 }   // namespace tactus::host

@@ -8,7 +8,7 @@ namespace tactus::host
 
 namespace
 {
-/// All of a text as a number without sign.
+/// Parses an entire string as an unsigned number.
 std::optional<int> wholeNumber (std::string_view text, int most) noexcept
 {
     int n = 0;
@@ -48,8 +48,8 @@ std::optional<OscListen> readListen (std::string_view text) noexcept
 std::string warningOf (const OscListen& listen)
 {
     if (listen.isLoopback()) return {};
-    return "whoever reaches " + listen.address + " may turn parameters, hit and stop; guards cannot be reached. "
-           + (listen.answered.empty() ? "Nobody but this machine gets answers" : "Beside this machine, " + listen.answered + " gets answers");
+    return "any machine that reaches " + listen.address + " may set parameters, trigger hits and stop the run, but cannot change guards. "
+           + (listen.answered.empty() ? "Only this machine gets answers" : "This machine and " + listen.answered + " get answers");
 }
 
 }   // namespace tactus::host

@@ -8,26 +8,26 @@
 namespace tactus::host
 {
 
-/// Where OSC messages are listened for, and who beside the programs of this machine gets answers.
+/// Where to listen for OSC messages, and which other machine gets answers.
 struct OscListen
 {
     static constexpr const char* loopback = "127.0.0.1";
 
-    std::string address = loopback;   ///< of a network card; 0.0.0.0: all of them
-    int port = 0;                     ///< 0: any that is free
-    std::string answered {};          ///< the one other machine that gets answers; "": none
+    std::string address = loopback;   ///< address of a network interface; 0.0.0.0: all of them
+    int port = 0;                     ///< 0: any free port
+    std::string answered {};          ///< the only other machine that gets answers; "": none
 
-    /// True if nobody but the programs of this machine gets through.
+    /// True if only programs on this machine can send.
     bool isLoopback() const noexcept { return address.starts_with ("127."); }
 };
 
-/// True of four numbers from 0 to 255 with dots between them. (IPv6 is not spoken.)
+/// True for four numbers from 0 to 255 separated by dots. (IPv6 is not supported.)
 bool isAddress (std::string_view) noexcept;
 
-/// "7770" or "192.168.1.5:7770"; nothing if it is neither.
+/// Parses "7770" or "192.168.1.5:7770". Empty for anything else.
 std::optional<OscListen> readListen (std::string_view) noexcept;
 
-/// What is to be said where others are let in: empty on loopback.
+/// A warning if other machines can send; empty on loopback.
 std::string warningOf (const OscListen&);
 
 }   // namespace tactus::host

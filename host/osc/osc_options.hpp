@@ -3,24 +3,27 @@
 
 #include "osc_address.hpp"
 
-#include <CLI/CLI.hpp>
+#include <host/command_line/command.hpp>
 
 namespace tactus::host
 {
 
-/// For `--osc PORT|ADDRESS:PORT|off`.
-inline CLI::Validator oscCheck()
+/// Checks the value of `--osc PORT|ADDRESS:PORT|off`.
+inline Check oscCheck()
 {
-    return { [] (std::string& text)
-             { return text == "off" || readListen (text) ? std::string() : "'" + text + "' is neither a UDP port (0 to 65535) nor ADDRESS:PORT, as in 192.168.1.5:7770, nor off"; },
+    return { [] (const std::string& text)
+             {
+                 if (text == "off" || readListen (text)) return std::string();
+                 return "'" + text + "' is not a UDP port (0 to 65535), an ADDRESS:PORT such as 192.168.1.5:7770, or off";
+             },
              "PORT|ADDRESS:PORT|off" };
 }
 
-/// For `--osc-answer ADDRESS`.
-inline CLI::Validator addressCheck()
+/// Checks the value of `--osc-answer ADDRESS`.
+inline Check addressCheck()
 {
-    return { [] (std::string& text)
-             { return isAddress (text) ? std::string() : "'" + text + "' is no address, as in 192.168.1.7"; },
+    return { [] (const std::string& text)
+             { return isAddress (text) ? std::string() : "'" + text + "' is not an IPv4 address such as 192.168.1.7"; },
              "ADDRESS" };
 }
 

@@ -14,7 +14,7 @@ constexpr std::size_t largest_packet = 65536;
 
 bool OscPort::bind (juce::DatagramSocket& s, const OscListen& where)
 {
-    s.setEnablePortReuse (false);   // else two programs share a port, and one of them hears nothing
+    s.setEnablePortReuse (false);   // otherwise two programs could share a port, and one of them would receive nothing
     return s.bindToPort (where.port, where.address);
 }
 
@@ -24,7 +24,7 @@ bool OscPort::isTaken (int number)
     return ! bind (s, { .port = number });
 }
 
-tl::expected<std::unique_ptr<OscPort>, Error> OscPort::open (const OscListen& where)
+Result<std::unique_ptr<OscPort>> OscPort::open (const OscListen& where)
 {
     std::unique_ptr<OscPort> port { new OscPort };
     if (! bind (port->socket, where) || ! port->sender.connect (OscListen::loopback, where.port == 0 ? usual : where.port))
@@ -32,14 +32,22 @@ tl::expected<std::unique_ptr<OscPort>, Error> OscPort::open (const OscListen& wh
         const auto place = where.address + ":" + std::to_string (where.port);
         juce::DatagramSocket any;
         if (! where.isLoopback() && ! bind (any, { .address = where.address, .port = 0 }))
-            return tl::unexpected (Error { "osc/no_address", place, "this machine has no such address, or does not let it be listened to", "give that of a network card, 0.0.0.0 for all of them, or leave it out" });
-        return tl::unexpected (Error { "osc/port_taken", place, "another program listens on this UDP port already", "give another one, as in --osc " + std::to_string (where.port == usual ? usual + 1 : usual) + ", or --osc 0 for any that is free" });
+            return Message::error ("osc/no_address", place, "this machine has no such address, or does not allow listening on it",
+                                   "give the address of a network interface, 0.0.0.0 for all, or leave it out");
+        return Message::error ("osc/port_taken", place, "another program is already listening on this UDP port",
+                               "give another port, as in --osc " + std::to_string (where.port == usual ? usual + 1 : usual) + ", or --osc 0 for any free port");
     }
     port->where = where;
     port->bound = port->socket.getBoundPort();
     port->listening = std::jthread ([raw = port.get()] (const std::stop_token& stop)
                                     { raw->listen (stop); });
     return port;
+}
+
+void OscPort::onArrival (std::function<void (const juce::OSCMessage&)> see)
+{
+    const std::lock_guard lock (guard);
+    first_look = std::move (see);
 }
 
 std::optional<OscPort::Received> OscPort::receive (std::chrono::milliseconds patience)
@@ -67,7 +75,7 @@ void OscPort::send (const OscReturn& to, const juce::OSCMessage& message)
     if (to.port != 0 && ! to.host.empty()) sender.sendToIPAddress (to.host, to.port, message);
 }
 
-/// Whoever has an address of this machine's loopback is on this machine.
+/// Maps every loopback address to this machine.
 std::string OscPort::answersTo (const std::string& from) const
 {
     if (from.starts_with ("127.")) return OscListen::loopback;
@@ -98,6 +106,9 @@ void OscPort::take (std::string_view bytes, const std::string& answers_to)
     auto packet = readPacket (bytes);
     const std::lock_guard lock (guard);
     lost += ! packet.right;
+    if (first_look)
+        for (const auto& message : packet.messages)
+            first_look (message);
     for (auto& message : packet.messages)
         if (waiting.size() < most_waiting)
             waiting.push_back ({ std::move (message), answers_to });

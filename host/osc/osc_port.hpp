@@ -3,15 +3,15 @@
 
 #include "osc_address.hpp"
 
-#include <host/io/error.hpp>
+#include <framework/text/result.hpp>
 
 #include <juce_osc/juce_osc.h>
-#include <tl/expected.hpp>
 
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -23,49 +23,54 @@
 namespace tactus::host
 {
 
-/// Whom an answer goes to.
+/// Where an answer goes.
 struct OscReturn
 {
     std::string host;
-    int port = 0;   ///< 0: nobody
+    int port = 0;   ///< 0: no answer
 
     bool operator== (const OscReturn&) const = default;
 };
 
-/// Where the programs of this machine, and unless asked for nobody else, send OSC messages to. They wait in a queue of bounded
-/// length; what does not fit, and what is no OSC, is dropped and counted. Bundles are taken apart, their times are not heeded.
+/// A port that receives OSC messages from programs on this machine and, only on request, from other machines. Messages wait
+/// in a queue of limited length; messages that do not fit, and packets that are not OSC, are dropped and counted. Bundles are unpacked;
+/// their time tags are ignored.
 ///
-/// Answers go to this machine, and to the one other that is named, but nowhere else: who sends under a false address makes us
-/// send nothing to a third. [main thread]
+/// Answers go only to this machine and to the named one, so a sender with a forged address cannot make us send to a third
+/// machine. [main thread]
 class OscPort
 {
 public:
-    static constexpr int usual = 7770;   ///< where `tactus play` listens
+    static constexpr int usual = 7770;   ///< the port of `tactus play`
 
     struct Received
     {
         juce::OSCMessage message;
-        std::string host;   ///< where answers to its sender go; "": it gets none
+        std::string host;   ///< where to send answers; "": the sender gets none
     };
 
-    /// Port 0 is any free one. Ids: osc/port_taken, osc/no_address.
-    static tl::expected<std::unique_ptr<OscPort>, Error> open (const OscListen&);
-    static tl::expected<std::unique_ptr<OscPort>, Error> open (int number) { return open (OscListen { .port = number }); }
+    /// Port 0: any free port. Ids: osc/port_taken, osc/no_address.
+    static Result<std::unique_ptr<OscPort>> open (const OscListen&);
+    static Result<std::unique_ptr<OscPort>> open (int number) { return open (OscListen { .port = number }); }
 
     int number() const noexcept { return bound; }
     const OscListen& listensTo() const noexcept { return where; }
 
-    /// The oldest message that waits, if there is one or comes one in that time.
+    /// Calls `see` with every message as soon as it arrives, before it waits in the queue, and even if it does not fit there.
+    /// Empty: nothing. It must not wait. [main thread; `see` on the thread of the port]
+    void onArrival (std::function<void (const juce::OSCMessage&)> see);
+
+    /// The oldest waiting message, or the first one that arrives within `patience`.
     std::optional<Received> receive (std::chrono::milliseconds patience = {});
     std::optional<juce::OSCMessage> next (std::chrono::milliseconds patience = {});
 
-    /// To a port of this machine; to whoever wants an answer.
+    /// Sends to a port on this machine, or sends an answer.
     void send (int to, const juce::OSCMessage&);
     void send (const OscReturn&, const juce::OSCMessage&);
 
     std::size_t dropped() const;
 
-    /// True if a program on this machine listens there.
+    /// True if a program on this machine listens on this port.
     static bool isTaken (int number);
 
 private:
@@ -82,11 +87,12 @@ private:
     juce::OSCSender sender;
     OscListen where;
     int bound = 0;
-    mutable std::mutex guard;   // of what follows
+    mutable std::mutex guard;   // protects the members below
     std::condition_variable arrived;
     std::deque<Received> waiting;
+    std::function<void (const juce::OSCMessage&)> first_look;
     std::size_t lost = 0;
-    std::jthread listening;   // last: it uses the others
+    std::jthread listening;   // last: it uses the other members
 };
 
 }   // namespace tactus::host

@@ -12,10 +12,10 @@ namespace
 {
 using juce::OSCMessage;
 
-constexpr std::size_t deepest = 8;   // bundles in bundles
+constexpr std::size_t deepest = 8;   // nested bundles
 constexpr std::size_t most_arguments = 64;
 
-/// Bytes still to be read. Nothing is taken that is not there.
+/// The bytes that have not been read yet. Never reads past the end.
 struct Bytes
 {
     std::string_view left;
@@ -38,7 +38,7 @@ struct Bytes
         return n;
     }
 
-    /// UTF-8 up to a zero, which is followed by as many as make it a multiple of four.
+    /// Reads UTF-8 up to a zero, padded with zeros to a multiple of four.
     std::optional<std::string_view> text()
     {
         const auto length = left.find ('\0');
@@ -97,8 +97,8 @@ std::optional<OSCMessage> readMessage (Bytes from)
 Packet readPacket (std::string_view bytes)
 {
     Packet packet;
-    std::vector<Bytes> open { { bytes } };   // what is left of each bundle around, the innermost last
-    bool element = true;                     // the innermost is one that has not been looked at yet
+    std::vector<Bytes> open { { bytes } };   // the rest of each enclosing bundle, innermost last
+    bool element = true;                     // true while the innermost one is an element that has not been read yet
     while (! open.empty())
     {
         auto& inner = open.back();

@@ -9,16 +9,16 @@
 namespace tactus::host
 {
 
-/// The messages of an OSC packet (OSC 1.0), those of bundles among them, in order: as many as are right before the first
-/// that is not. Of arguments it knows int, float and string, and passes over blobs.
+/// The messages of an OSC packet (OSC 1.0), including those in bundles, in order, up to the first malformed one. Supports
+/// int, float and string arguments, and skips blobs.
 ///
-/// Not left to juce::OSCReceiver, since anybody may send anything: that one calls itself for each bundle in a bundle, so
-/// that 3000 of them in one datagram take more than 1 MB of stack and some tenths of a second, and adds to the sizes of
-/// blobs without a look at them.
+/// We do not use juce::OSCReceiver, because anyone may send anything: it recurses for each nested bundle, so 3000 of
+/// them in one datagram take more than 1 MB of stack and some tenths of a second, and it adds up blob sizes without
+/// checking them.
 struct Packet
 {
     std::vector<juce::OSCMessage> messages;
-    bool right = false;   ///< to its end
+    bool right = false;   ///< true if the packet is well-formed to its end
 };
 
 Packet readPacket (std::string_view bytes);

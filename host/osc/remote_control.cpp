@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "remote_control.hpp"
 
-#include <framework/in_quotes.hpp>
-#include <framework/refused.hpp>
-#include <framework/turn.hpp>
-#include <host/runtime/probe_ring.hpp>
+#include <framework/run/probe_ring.hpp>
+#include <framework/run/turn.hpp>
+#include <framework/text/message.hpp>
+#include <framework/text/quote.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace tactus::host
 {
@@ -24,12 +25,14 @@ constexpr double longest = 60.0, usual_length = 5.0;         // s
 constexpr int usual_before = 100, usual_after = 400;         // ticks
 constexpr int most_at_a_time = 512;                          // messages
 constexpr double most_costs = 100, usual_costs = 10;         // nodes
-constexpr int most_rows_at_a_time = 32;                      // messages with rows of a capture, so that none is lost on the way
-constexpr std::size_t most_numbers = 60;                     // in such a message, since readPacket takes 64 arguments
+constexpr int most_rows_at_a_time = 32;                      // messages with rows of a capture; few enough that none is lost in transit
+constexpr std::size_t most_numbers = 60;                     // values per message, since readPacket accepts 64 arguments
 
 std::string textOf (const juce::String& s) { return s.toStdString(); }
 
-/// A number, whichever kind it came as.
+juce::String juceText (const std::string& s) { return juce::String::fromUTF8 (s.c_str()); }
+
+/// A number, float or int.
 std::optional<double> numberOf (const OSCArgument& a)
 {
     if (a.isFloat32()) return a.getFloat32();
@@ -37,7 +40,7 @@ std::optional<double> numberOf (const OSCArgument& a)
     return std::nullopt;
 }
 
-/// Of a value: text is read as --set reads it.
+/// A value; a string is parsed as in --set.
 std::optional<Json> valueOf (const OSCArgument& a)
 {
     if (a.isString()) return readValue (textOf (a.getString()));
@@ -47,10 +50,13 @@ std::optional<Json> valueOf (const OSCArgument& a)
 
 bool isPort (const OSCArgument& a) { return a.isInt32() && a.getInt32() > 0 && a.getInt32() < 65536; }
 
-/// The last argument, if it stands where a port may stand; 0: nobody is to be answered.
+/// The port for the answer, if the argument at this index is the last one and is a port; 0: no answer.
 int answerPort (const OSCMessage& m, int place) { return m.size() == place + 1 && isPort (m[place]) ? m[place].getInt32() : 0; }
 
-RemoteControl::Clock::duration durationOf (double seconds) { return std::chrono::duration_cast<RemoteControl::Clock::duration> (std::chrono::duration<double> (std::min (seconds, longest))); }
+RemoteControl::Clock::duration durationOf (double seconds)
+{
+    return std::chrono::duration_cast<RemoteControl::Clock::duration> (std::chrono::duration<double> (std::min (seconds, longest)));
+}
 
 std::optional<Trigger::Edge> edgeOf (const OSCArgument& a)
 {
@@ -61,16 +67,40 @@ std::optional<Trigger::Edge> edgeOf (const OSCArgument& a)
     return std::nullopt;
 }
 
-Message badArguments (const std::string& remedy) { return refused ("osc/arguments", "the arguments are not what belongs here", remedy); }
+// Forces may rise only if someone at the device can see that nobody will be hurt.
+constexpr const char* from_elsewhere = "other machines may send this too, but cannot see whether someone could be hurt";
+
+Message badArguments (const std::string& remedy) { return Message::error ("osc/arguments", {}, "the arguments do not fit the address", remedy); }
 }   // namespace
 
 std::vector<Controlled::Role> rolesOf (const RunStatus& status)
 {
     std::vector<Controlled::Role> roles;
     for (const auto& r : status.shown())
-        roles.push_back ({ .name = std::string (r.name), .withholds = r.stop != Guard::Stop::none, .force = r.force, .torque = r.torque, .last_stop = r.latest == Guard::Stop::none ? std::string() : describe (r.latestEvent()) });
+        roles.push_back ({ .name = std::string (r.name),
+                           .withholds = r.stop != Guard::Stop::none,
+                           .force = r.force,
+                           .torque = r.torque,
+                           .last_stop = r.latest == Guard::Stop::none ? std::string() : describe (r.latestEvent()) });
     return roles;
 }
+
+std::string randomToken()
+{
+    std::random_device dice;
+    std::string token;
+    for (int i = 0; i < 6; ++i)
+        token += "0123456789abcdefghijkmnpqrstuvwxyz"[dice() % 34];   // without l and o, which look like digits
+    return token;
+}
+
+RemoteControl::RemoteControl (OscPort& p, Controlled& c, std::string t) : port (p), controlled (c), token (std::move (t))
+{
+    port.onArrival ([&c] (const OSCMessage& m)
+                    { if (m.getAddressPattern().toString() == "/tactus/emergency") c.emergencyNow(); });
+}
+
+RemoteControl::~RemoteControl() { port.onArrival ({}); }
 
 void RemoteControl::attend (Clock::time_point now)
 {
@@ -82,7 +112,7 @@ void RemoteControl::attend (Clock::time_point now)
 
     const auto left = std::erase_if (probes, [&] (const Probe& p)
                                      { return now >= p.end; });
-    if (left > 0 && probes.empty()) look ({});
+    if (left > 0 && probes.empty()) static_cast<void> (look ({}));
 
     sendCapture();
     if (capture && capture->sent == 0 && now >= capture->end)
@@ -96,74 +126,79 @@ void RemoteControl::carryOut (const OSCMessage& m, const std::string& host, Cloc
 {
     const auto address = textOf (m.getAddressPattern().toString());
     const auto subject = m.size() > 0 && m[0].isString() ? textOf (m[0].getString()) : std::string();
-
     const auto last = [&] (int place)
     { return OscReturn { host, answerPort (m, place) }; };
-    const auto at = [&] (int i)
-    { return OscReturn { host, m[i].getInt32() }; };
-    const auto hasPort = [&] (int i)
-    { return m.size() > i && isPort (m[i]) && ! host.empty(); };
 
     if (address == "/tactus/param" || address == "/tactus/control")
-    {
-        const bool control = address == "/tactus/control";
-        const auto value = m.size() >= 2 ? valueOf (m[1]) : std::nullopt;
-        std::optional<Message> problem;
-        if (subject.empty() || ! value || m.size() > 3)
-            problem = badArguments ("a name, a value (float, int, or text with a unit), and perhaps the port for the answer");
-        else if (control)
-            problem = controlled.turnControl (subject, value->is_number() ? value->get<double>() : std::nan (""));
-        else
-            problem = controlled.setParam (subject, *value);
-        answer (last (2), address, subject, problem);
-    }
+        answer (last (2), address, subject, turn (address, subject, m));
     else if (address == "/tactus/hit")
     {
         const auto speed = m.size() >= 2 ? numberOf (m[1]) : std::nullopt;
         const bool right = ! subject.empty() && speed && m.size() <= 3;
-        answer (last (2), address, subject, right ? controlled.strike (subject, *speed) : badArguments ("an input for hits, a speed in m/s (float or int), and perhaps the port for the answer"));
+        answer (last (2), address, subject,
+                right ? controlled.strike (subject, *speed)
+                      : badArguments ("a hit input, a speed in m/s (float or int), and optionally the port for the answer"));
     }
-    else if (host.empty() && (address == "/tactus/probe" || address == "/tactus/trigger"))
-        return;   // whoever gets no answers has no use for them
-    else if (address == "/tactus/probe")
-    {
-        if (auto problem = subscribe (m, host, now); problem && hasPort (1)) answer (at (1), address, subject, problem);
-    }
-    else if (address == "/tactus/trigger")
-    {
-        if (auto problem = subscribeCapture (m, host, now); problem && hasPort (1)) answer (at (1), address, subject, problem);
-    }
-    else if (address == "/tactus/status" && m.size() == 1 && hasPort (0))
-    {
-        const auto s = controlled.status();
-        const auto whole = [] (std::uint64_t n)
-        { return static_cast<juce::int32> (n & 0x7fffffffu); };
-        port.send (at (0), OSCMessage ("/tactus/status", juce::String::fromUTF8 (s.name.c_str()), static_cast<float> (s.rate_hz), static_cast<float> (s.time_s), static_cast<float> (s.force), static_cast<float> (s.peak), whole (s.ticks), whole (s.misses)));
-    }
-    else if (address == "/tactus/costs" && m.size() >= 1 && m.size() <= 2 && hasPort (0))
-    {
-        const auto wanted = m.size() > 1 ? numberOf (m[1]) : std::optional (usual_costs);
-        if (wanted && *wanted >= 1.0)
-            sendCosts (at (0), static_cast<std::size_t> (std::min (*wanted, most_costs)));
-        else
-            answer (at (0), address, "", badArguments ("the port for the answer, and perhaps how many nodes"));
-    }
-    else if (address == "/tactus/guard" && m.size() == 1 && hasPort (0))
-        sendRoles (at (0));
     else if (address.starts_with (transport_addresses))
         answer (last (1), address, "", transport (address.substr (transport_addresses.size()), m));
     else if (address == "/tactus/start")
         answer (last (0), address, "", start());
     else if (address == "/tactus/rearm")
-        answer (last (0), address, "", rearm());
+        answer (last (subject.empty() ? 0 : 1), address, "", rearm (subject));
     else if (address == "/tactus/stop" || address == "/tactus/emergency")
     {
         if (address == "/tactus/stop")
             controlled.stop();
         else
             controlled.emergencyStop();
-        answer (last (0), address, "", std::nullopt);
+        answer (last (0), address, "", {});
     }
+    else if (! host.empty())   // the rest is useful only to a sender that gets answers
+        report (address, subject, m, host, now);
+}
+
+/// Sets a parameter or moves a control.
+Result<> RemoteControl::turn (const std::string& address, const std::string& name, const OSCMessage& m)
+{
+    const auto value = m.size() >= 2 ? valueOf (m[1]) : std::nullopt;
+    if (name.empty() || ! value || m.size() > 3)
+        return badArguments ("a name, a value (float, int, or a string with a unit), and optionally the port for the answer");
+    if (address == "/tactus/param") return controlled.setParam (name, *value);
+    return controlled.turnControl (name, value->is_number() ? value->get<double>() : std::nan (""));
+}
+
+/// Handles requests for data. Does nothing without a valid port for the answer.
+void RemoteControl::report (const std::string& address, const std::string& subject, const OSCMessage& m, const std::string& host, Clock::time_point now)
+{
+    const bool subscribes = address == "/tactus/probe" || address == "/tactus/trigger";
+    const int place = subscribes ? 1 : 0;
+    const bool has_port = m.size() > place && isPort (m[place]);
+    const OscReturn to { host, has_port ? m[place].getInt32() : 0 };
+
+    if (subscribes)
+    {
+        if (auto done = address == "/tactus/probe" ? subscribe (m, host, now) : subscribeCapture (m, host, now); ! done) answer (to, address, subject, done);
+    }
+    else if (! has_port)
+        return;
+    else if (address == "/tactus/status" && m.size() == 1)
+    {
+        const auto s = controlled.status();
+        const auto whole = [] (std::uint64_t n)
+        { return static_cast<juce::int32> (n & 0x7fffffffu); };
+        port.send (to, OSCMessage ("/tactus/status", juceText (s.name), static_cast<float> (s.rate_hz), static_cast<float> (s.time_s),
+                                   static_cast<float> (s.force), static_cast<float> (s.peak), whole (s.ticks), whole (s.misses)));
+    }
+    else if (address == "/tactus/costs" && m.size() <= 2)
+    {
+        const auto wanted = m.size() > 1 ? numberOf (m[1]) : std::optional (usual_costs);
+        if (wanted && *wanted >= 1.0)
+            sendCosts (to, static_cast<std::size_t> (std::min (*wanted, most_costs)));
+        else
+            answer (to, address, "", badArguments ("the port for the answer, and optionally the number of nodes"));
+    }
+    else if (address == "/tactus/guard" && m.size() == 1)
+        sendRoles (to);
 }
 
 void RemoteControl::sendCosts (const OscReturn& to, std::size_t most)
@@ -171,49 +206,54 @@ void RemoteControl::sendCosts (const OscReturn& to, std::size_t most)
     auto costs = controlled.costs();
     costs.resize (std::min (costs.size(), most));
     for (const auto& c : costs)
-        port.send (to, OSCMessage ("/tactus/cost", juce::String::fromUTF8 (c.node.c_str()), juce::String::fromUTF8 (c.type.c_str()), static_cast<float> (c.mean_s), static_cast<float> (c.share)));
-    answer (to, "/tactus/costs", "", std::nullopt);
+        port.send (to, OSCMessage ("/tactus/cost", juceText (c.node), juceText (c.type), static_cast<float> (c.mean_s), static_cast<float> (c.share)));
+    answer (to, "/tactus/costs", "", {});
 }
 
 void RemoteControl::sendRoles (const OscReturn& to)
 {
     for (const auto& r : controlled.roles())
-        port.send (to, OSCMessage ("/tactus/guard", juce::String::fromUTF8 (r.name.c_str()), static_cast<juce::int32> (r.withholds), static_cast<float> (r.force), static_cast<float> (r.torque), juce::String::fromUTF8 (r.last_stop.c_str())));
-    answer (to, "/tactus/guard", "", std::nullopt);
+        port.send (to, OSCMessage ("/tactus/guard", juceText (r.name), static_cast<juce::int32> (r.withholds), static_cast<float> (r.force),
+                                   static_cast<float> (r.torque), juceText (r.last_stop)));
+    answer (to, "/tactus/guard", "", {});
 }
 
-/// Whoever has forces rise has to see that nobody can be hurt.
-std::optional<Message> RemoteControl::start()
+Result<> RemoteControl::start()
 {
-    if (! port.listensTo().isLoopback()) return refused ("osc/start", "other machines may send this too, and cannot see whether somebody would be hurt", "start it where the device is");
+    if (! port.listensTo().isLoopback()) return Message::error ("osc/start", {}, from_elsewhere, "start it where the device is");
     return controlled.start();
 }
 
-std::optional<Message> RemoteControl::rearm()
+Result<> RemoteControl::rearm (const std::string& given)
 {
-    if (! port.listensTo().isLoopback()) return refused ("osc/rearm", "other machines may send this too, and cannot see whether somebody would be hurt", "rearm where the device is: with R in the terminal of play, with REARM in the window");
-    controlled.rearm();
-    return std::nullopt;
+    if (! port.listensTo().isLoopback())
+        return Message::error ("osc/rearm", {}, from_elsewhere, "rearm where the device is: with R in the terminal of play, or with REARM in the window");
+    if (token.empty() || given != token)
+        return Message::error ("osc/rearm", {}, given.empty() ? "a rearm over OSC needs a token" : "this is not the token",
+                               token.empty() ? "press REARM in the window" : "give the token that play printed, or press R in its terminal");
+    return controlled.rearm();
 }
 
-std::optional<Message> RemoteControl::transport (const std::string& what, const OSCMessage& m)
+Result<> RemoteControl::transport (const std::string& what, const OSCMessage& m)
 {
     const auto value = m.size() >= 1 && m.size() <= 2 ? numberOf (m[0]) : std::nullopt;
     if (what == "play" && value) return controlled.transport ({ .plays = *value != 0.0 });
     if (what == "seek" && value && *value >= 0.0) return controlled.transport ({ .seek = value });
     if (what == "speed" && value && *value > 0.0) return controlled.transport ({ .speed = value });
-    return badArguments ("/tactus/transport/play 0 or 1, /tactus/transport/seek s, or /tactus/transport/speed factor; and perhaps the port for the answer");
+    return badArguments ("/tactus/transport/play 0 or 1, /tactus/transport/seek s, or /tactus/transport/speed factor; and optionally the port for the answer");
 }
 
-std::optional<Message> RemoteControl::subscribe (const OSCMessage& m, const std::string& host, Clock::time_point now)
+Result<> RemoteControl::subscribe (const OSCMessage& m, const std::string& host, Clock::time_point now)
 {
     const auto number = [&] (int i, double otherwise)
     { return m.size() > i ? numberOf (m[i]) : std::optional (otherwise); };
     const auto rate = number (2, usual_rate), length = number (3, usual_length);
     if (m.size() < 2 || m.size() > 4 || ! m[0].isString() || ! isPort (m[1]) || ! rate || ! length || ! (*rate > 0.0) || ! (*length > 0.0))
-        return badArguments ("a port of the graph, the port for the answers, and perhaps how often (Hz) and how long (s)");
+        return badArguments ("a port of the graph, the port for the answers, and optionally the rate (Hz) and the duration (s)");
 
-    Probe probe { .name = textOf (m[0].getString()), .to = { host, m[1].getInt32() }, .rate = std::min (*rate, highest_rate), .end = now + durationOf (*length) };
+    Probe probe {
+        .name = textOf (m[0].getString()), .to = { host, m[1].getInt32() }, .rate = std::min (*rate, highest_rate), .end = now + durationOf (*length)
+    };
     const auto same = std::ranges::find_if (probes, [&] (const Probe& p)
                                             { return p.name == probe.name && p.to == probe.to; });
     if (same != probes.end())
@@ -223,57 +263,68 @@ std::optional<Message> RemoteControl::subscribe (const OSCMessage& m, const std:
     }
     else
     {
-        if (probes.size() >= most_probes) return refused ("probe/too_many", "there are " + std::to_string (most_probes) + " probes already", "wait until one of them is over");
+        if (probes.size() >= most_probes)
+            return Message::error ("probe/too_many", {}, "there are already " + std::to_string (most_probes) + " probes", "wait until one of them ends");
         auto more = probes;
         more.push_back (probe);
-        if (auto problem = look (more)) return problem;
+        if (auto looked = look (more); ! looked) return looked;
     }
 
     const auto& now_probed = *std::ranges::find_if (probes, [&] (const Probe& p)
                                                     { return p.name == probe.name && p.to == probe.to; });
-    OSCMessage done ("/tactus/done", juce::String ("/tactus/probe"), juce::String::fromUTF8 (probe.name.c_str()), static_cast<float> (rate_hz));
+    OSCMessage done ("/tactus/done", juce::String ("/tactus/probe"), juceText (probe.name), static_cast<float> (rate_hz));
     for (const auto c : now_probed.components)
-        done.addString (juce::String::fromUTF8 (components[c].c_str()));
+        done.addString (juceText (components[c]));
     port.send (probe.to, done);
-    return std::nullopt;
+    return {};
 }
 
-std::optional<Message> RemoteControl::subscribeCapture (const OSCMessage& m, const std::string& host, Clock::time_point now)
+Result<> RemoteControl::subscribeCapture (const OSCMessage& m, const std::string& host, Clock::time_point now)
 {
     const auto whole = [&] (int i, int otherwise)
-    { return m.size() <= i ? otherwise : m[i].isInt32() ? m[i].getInt32()
-                                                        : -1; };
+    {
+        if (m.size() <= i) return otherwise;
+        return m[i].isInt32() ? m[i].getInt32() : -1;
+    };
     const auto number = [&] (int i, double otherwise)
     { return m.size() <= i ? otherwise : numberOf (m[i]).value_or (std::nan ("")); };
     const double level = number (3, std::nan ("")), length = number (7, usual_length);
     const auto edge = m.size() > 4 ? edgeOf (m[4]) : std::optional (Trigger::Edge::rising);
     const int before = whole (5, usual_before), after = whole (6, usual_after);
-    if (m.size() < 4 || m.size() > 8 || ! m[0].isString() || ! isPort (m[1]) || ! m[2].isString() || ! std::isfinite (level) || ! edge || before < 0 || after < 0 || ! (length > 0.0))
-        return badArguments ("a port of the graph, the port for the answers, the port of the graph that triggers, its level, and perhaps rising, falling or either, ticks before, ticks after, and for how long (s)");
+    if (m.size() < 4 || m.size() > 8 || ! m[0].isString() || ! isPort (m[1]) || ! m[2].isString() || ! std::isfinite (level) || ! edge || before < 0
+        || after < 0 || ! (length > 0.0))
+        return badArguments (
+            "a port of the graph, the port for the answers, the port of the graph that triggers, its level, and optionally "
+            "rising, falling or either, ticks before, ticks after, and the longest wait (s)");
 
-    Capture wanted { .name = textOf (m[0].getString()), .watched = textOf (m[2].getString()), .to = { host, m[1].getInt32() }, .trigger = { level, *edge, static_cast<std::size_t> (before), static_cast<std::size_t> (after) }, .end = now + durationOf (length) };
+    Capture wanted { .name = textOf (m[0].getString()),
+                     .watched = textOf (m[2].getString()),
+                     .to = { host, m[1].getInt32() },
+                     .trigger = { level, *edge, static_cast<std::size_t> (before), static_cast<std::size_t> (after) },
+                     .end = now + durationOf (length) };
     if (! capture) return arm (std::move (wanted));
-    if (capture->to != wanted.to || capture->name != wanted.name) return refused ("probe/busy", "somebody else waits for a trigger", "wait until that is over");
+    if (capture->to != wanted.to || capture->name != wanted.name)
+        return Message::error ("probe/busy", {}, "another client is waiting for a trigger", "wait until that ends");
     capture->end = wanted.end;
     confirmCapture();
-    return std::nullopt;
+    return {};
 }
 
-std::optional<Message> RemoteControl::arm (Capture wanted)
+Result<> RemoteControl::arm (Capture wanted)
 {
     auto armed = controlled.capture (wanted.name, wanted.watched, wanted.trigger);
-    if (auto* problem = std::get_if<Message> (&armed)) return std::move (*problem);
-    wanted.components = std::move (std::get<std::vector<std::string>> (armed));
+    if (! armed) return armed.error();
+    wanted.components = std::move (*armed);
     capture = std::move (wanted);
     confirmCapture();
-    return std::nullopt;
+    return {};
 }
 
 void RemoteControl::confirmCapture()
 {
-    OSCMessage done ("/tactus/done", juce::String ("/tactus/trigger"), juce::String::fromUTF8 (capture->name.c_str()), static_cast<float> (controlled.status().rate_hz));
+    OSCMessage done ("/tactus/done", juce::String ("/tactus/trigger"), juceText (capture->name), static_cast<float> (controlled.status().rate_hz));
     for (const auto& name : capture->components)
-        done.addString (juce::String::fromUTF8 (name.c_str()));
+        done.addString (juceText (name));
     port.send (capture->to, done);
 }
 
@@ -284,7 +335,8 @@ void RemoteControl::sendCapture()
     const auto ticks = whole->window().ticks(), at_a_time = std::max<std::size_t> (1, most_numbers / std::max<std::size_t> (1, capture->components.size()));
     for (int i = 0; i < most_rows_at_a_time && capture->sent < ticks; ++i)
     {
-        OSCMessage rows ("/tactus/capture", juce::String::fromUTF8 (capture->name.c_str()), static_cast<juce::int32> (whole->triggeredAt() & 0x7fffffffu), static_cast<juce::int32> (ticks), static_cast<juce::int32> (capture->sent) - static_cast<juce::int32> (whole->window().before));
+        OSCMessage rows ("/tactus/capture", juceText (capture->name), static_cast<juce::int32> (whole->triggeredAt() & 0x7fffffffu),
+                         static_cast<juce::int32> (ticks), static_cast<juce::int32> (capture->sent) - static_cast<juce::int32> (whole->window().before));
         for (const auto end = std::min (ticks, capture->sent + at_a_time); capture->sent < end; ++capture->sent)
             for (const double value : whole->frame (capture->sent))
                 rows.addFloat32 (static_cast<float> (value));
@@ -295,16 +347,16 @@ void RemoteControl::sendCapture()
     controlled.endCapture();
 }
 
-/// Takes these probes for the ones there are, if all their ports can be looked at together.
-std::optional<Message> RemoteControl::look (const std::vector<Probe>& wanted)
+/// Replaces all probes by these, if all their ports can be probed together.
+Result<> RemoteControl::look (const std::vector<Probe>& wanted)
 {
     std::vector<std::string> ports;
     for (const auto& p : wanted)
         if (std::ranges::find (ports, p.name) == ports.end()) ports.push_back (p.name);
     auto looked_at = controlled.probe (ports);
-    if (auto* problem = std::get_if<Message> (&looked_at)) return std::move (*problem);
+    if (! looked_at) return looked_at.error();
 
-    components = std::move (std::get<std::vector<std::string>> (looked_at));
+    components = std::move (*looked_at);
     rate_hz = controlled.status().rate_hz;
     probes = wanted;
     for (auto& p : probes)
@@ -313,7 +365,7 @@ std::optional<Message> RemoteControl::look (const std::vector<Probe>& wanted)
         for (std::size_t c = 0; c < components.size(); ++c)
             if (isPartOf (components[c], p.name)) p.components.push_back (c);
     }
-    return std::nullopt;
+    return {};
 }
 
 void RemoteControl::graphChanged()
@@ -323,16 +375,16 @@ void RemoteControl::graphChanged()
         const auto to = again->to;
         const auto name = again->name;
         again->sent = 0;
-        if (const auto problem = arm (std::move (*again))) answer (to, "/tactus/trigger", name, problem);
+        if (const auto armed = arm (std::move (*again)); ! armed) answer (to, "/tactus/trigger", name, armed);
     }
     if (probes.empty()) return;
     auto before = std::exchange (probes, {});
-    look ({});
+    static_cast<void> (look ({}));
     for (auto& p : before)
     {
         auto more = probes;
         more.push_back (p);
-        if (const auto problem = look (more)) answer (p.to, "/tactus/probe", p.name, problem);
+        if (const auto looked = look (more); ! looked) answer (p.to, "/tactus/probe", p.name, looked);
     }
 }
 
@@ -343,22 +395,19 @@ void RemoteControl::values (std::uint64_t tick, std::span<const double> now)
         if (static_cast<double> (tick) < p.due) continue;
         const double interval = rate_hz / p.rate;
         p.due = p.due + interval > static_cast<double> (tick) ? p.due + interval : static_cast<double> (tick) + interval;
-        OSCMessage message ("/tactus/value", juce::String::fromUTF8 (p.name.c_str()), static_cast<juce::int32> (tick & 0x7fffffffu));
+        OSCMessage message ("/tactus/value", juceText (p.name), static_cast<juce::int32> (tick & 0x7fffffffu));
         for (const auto c : p.components)
             if (c < now.size()) message.addFloat32 (static_cast<float> (now[c]));
         port.send (p.to, message);
     }
 }
 
-void RemoteControl::answer (const OscReturn& to, const std::string& address, const std::string& subject, const std::optional<Message>& problem)
+void RemoteControl::answer (const OscReturn& to, const std::string& address, const std::string& subject, const Result<>& done)
 {
     if (to.port == 0) return;
-    const auto text = [] (const std::string& s)
-    { return juce::String::fromUTF8 (s.c_str()); };
-    if (problem)
-        port.send (to, OSCMessage ("/tactus/error", text (address), text (subject), text (problem->id), text (problem->text), text (problem->remedy)));
-    else
-        port.send (to, OSCMessage ("/tactus/done", text (address), text (subject)));
+    if (done) return port.send (to, OSCMessage ("/tactus/done", juceText (address), juceText (subject)));
+    const auto& why = done.error();
+    port.send (to, OSCMessage ("/tactus/error", juceText (address), juceText (subject), juceText (why.id), juceText (why.text), juceText (why.remedy)));
 }
 
 }   // namespace tactus::host

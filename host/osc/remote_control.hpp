@@ -3,24 +3,23 @@
 
 #include "osc_port.hpp"
 
-#include <framework/json.hpp>
-#include <framework/message.hpp>
-#include <host/runtime/node_costs.hpp>
-#include <host/runtime/run_status.hpp>
-#include <host/runtime/triggered_capture.hpp>
+#include <framework/run/node_costs.hpp>
+#include <framework/run/run_status.hpp>
+#include <framework/run/triggered_capture.hpp>
+#include <framework/text/json.hpp>
+#include <framework/text/message.hpp>
 
 #include <chrono>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace tactus::host
 {
 
-/// What runs, as others may see it and act on it. [main thread]
+/// A run that OSC clients may watch and control. [main thread]
 class Controlled
 {
 public:
@@ -31,71 +30,82 @@ public:
         std::uint64_t ticks = 0, misses = 0;
     };
 
-    /// What a guard lets through, and why it last did not.
+    /// The state of a guard, and why it last stopped.
     struct Role
     {
         std::string name;
         bool withholds = false;
         double force = 0.0, torque = 0.0;   ///< N, N m
-        std::string last_stop;              ///< in words, with the values that caused it; "" if there was none
+        std::string last_stop;              ///< the reason in words, with the values that caused the stop; "" if there was no stop
     };
 
-    /// How a gesture or a recording that the hand follows goes on; what is not said stays as it is.
+    /// Playback of the gesture or recording that the tool follows. Empty entries stay unchanged.
     struct Transport
     {
         std::optional<bool> plays {};
         std::optional<double> seek {};    ///< s
-        std::optional<double> speed {};   ///< times as fast as recorded
+        std::optional<double> speed {};   ///< relative to the recording
     };
 
     virtual ~Controlled() = default;
 
-    virtual std::optional<Message> setParam (const std::string& name, const Json& value) = 0;
-    virtual std::optional<Message> turnControl (const std::string& id, double value) = 0;
+    virtual Result<> setParam (const std::string& name, const Json& value) = 0;
+    virtual Result<> turnControl (const std::string& id, double value) = 0;
 
-    /// One hit on an input for hits, in m/s.
-    virtual std::optional<Message> strike (const std::string& input, double speed) = 0;
+    /// Triggers a hit on a hit input, at a speed in m/s.
+    virtual Result<> strike (const std::string& input, double speed) = 0;
 
-    /// From now on these ports are looked at, and no others. Returns the names of their components, each once, or why
-    /// not; then all is as it was.
-    virtual std::variant<std::vector<std::string>, Message> probe (const std::vector<std::string>& ports) = 0;
+    /// From now on, probes exactly these ports. Returns the names of their components, each of them once. If this fails,
+    /// nothing changes.
+    virtual Result<std::vector<std::string>> probe (const std::vector<std::string>& ports) = 0;
 
-    /// One window of a port around an edge of another port, in place of what was asked for before. Returns as probe() does.
-    virtual std::variant<std::vector<std::string>, Message> capture (const std::string& port, const std::string& watched, const Trigger&) = 0;
-    virtual const TriggeredCapture* captured() = 0;   ///< null until there was the edge, and what comes after it
+    /// Captures one window of a port around an edge of another port. Replaces the previous capture. Returns the same as probe().
+    virtual Result<std::vector<std::string>> capture (const std::string& port, const std::string& watched, const Trigger&) = 0;
+    virtual const TriggeredCapture* captured() = 0;   ///< null until the window is complete
     virtual void endCapture() = 0;
 
     virtual Status status() = 0;
 
-    /// What the nodes cost, the costliest first; of those that were measured.
+    /// Costs of the nodes measured so far, highest first.
     virtual std::vector<NodeCost> costs() = 0;
 
     virtual std::vector<Role> roles() = 0;
-    virtual std::optional<Message> transport (const Transport&) = 0;
-    virtual std::optional<Message> start() = 0;
+    virtual Result<> transport (const Transport&) = 0;
+    virtual Result<> start() = 0;
     virtual void stop() = 0;
     virtual void emergencyStop() = 0;
-    virtual void rearm() = 0;
+    virtual Result<> rearm() = 0;
+
+    /// The emergency stop, as soon as its message arrives and before the messages that wait. emergencyStop() follows on the main
+    /// thread. [thread of the port]
+    virtual void emergencyNow() noexcept {}
 };
 
-/// As a run tells of its roles.
+/// The roles in the status of a run.
 std::vector<Controlled::Role> rolesOf (const RunStatus&);
 
-/// Carries out what comes in at an OSC port, as docs/osc.md has it, and answers. [main thread]
+/// Six random digits and letters.
+std::string randomToken();
+
+/// Handles the messages at an OSC port and answers them: docs/osc.md. [main thread]
 class RemoteControl
 {
 public:
     using Clock = std::chrono::steady_clock;
 
-    RemoteControl (OscPort& p, Controlled& c) : port (p), controlled (c) {}
+    /// A rearm needs the token, which only a person at the device can read. Without one, there is no rearm over OSC.
+    RemoteControl (OscPort&, Controlled&, std::string token = {});
+    ~RemoteControl();
+    RemoteControl (const RemoteControl&) = delete;
+    RemoteControl& operator= (const RemoteControl&) = delete;
 
-    /// Carries out what has come in, and ends probes whose time is over. To be called many times a second.
+    /// Handles the waiting messages and ends expired probes. Call this many times a second.
     void attend (Clock::time_point now = Clock::now());
 
-    /// Values of the components that are probed, in the order of their names.
+    /// Passes on values of the probed components, in the order of their names.
     void values (std::uint64_t tick, std::span<const double>);
 
-    /// The graph is another one: probes go on as far as their ports are still there.
+    /// Call this after the graph has changed: probes continue if their ports still exist.
     void graphChanged();
 
     bool isProbing() const noexcept { return ! probes.empty(); }
@@ -111,7 +121,7 @@ private:
         std::vector<std::size_t> components {};
     };
 
-    /// A window that is waited for, or on its way to who asked for it.
+    /// A window that is awaited or being sent.
     struct Capture
     {
         std::string name, watched;
@@ -123,21 +133,24 @@ private:
     };
 
     void carryOut (const juce::OSCMessage&, const std::string& host, Clock::time_point);
+    Result<> turn (const std::string& address, const std::string& name, const juce::OSCMessage&);
+    void report (const std::string& address, const std::string& subject, const juce::OSCMessage&, const std::string& host, Clock::time_point);
     void sendCosts (const OscReturn& to, std::size_t most);
     void sendRoles (const OscReturn& to);
-    std::optional<Message> start();
-    std::optional<Message> rearm();
-    std::optional<Message> transport (const std::string& what, const juce::OSCMessage&);
-    std::optional<Message> subscribe (const juce::OSCMessage&, const std::string& host, Clock::time_point);
-    std::optional<Message> subscribeCapture (const juce::OSCMessage&, const std::string& host, Clock::time_point);
-    std::optional<Message> arm (Capture);
+    Result<> start();
+    Result<> rearm (const std::string& token_given);
+    Result<> transport (const std::string& what, const juce::OSCMessage&);
+    Result<> subscribe (const juce::OSCMessage&, const std::string& host, Clock::time_point);
+    Result<> subscribeCapture (const juce::OSCMessage&, const std::string& host, Clock::time_point);
+    Result<> arm (Capture);
     void confirmCapture();
     void sendCapture();
-    std::optional<Message> look (const std::vector<Probe>&);
-    void answer (const OscReturn& to, const std::string& address, const std::string& subject, const std::optional<Message>&);
+    Result<> look (const std::vector<Probe>&);
+    void answer (const OscReturn& to, const std::string& address, const std::string& subject, const Result<>&);
 
     OscPort& port;
     Controlled& controlled;
+    const std::string token;
     std::vector<Probe> probes;
     std::optional<Capture> capture;
     std::vector<std::string> components;

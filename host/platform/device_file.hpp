@@ -7,14 +7,14 @@
 namespace tactus::host
 {
 
-/// True if the system has such a device file and does not let this user read and write it. [any thread]
+/// True if the device file exists, but the system does not let this user read and write it. [any thread]
 bool isForbidden (const std::string& path) noexcept;
 
-/// The report descriptor of a HID device file such as /dev/hidraw3, byte for byte; empty where the system does not tell.
-/// Nobody needs a permission for it. [any thread]
+/// The report descriptor of a HID device file such as /dev/hidraw3, byte for byte; empty if the system does not provide
+/// it. Reading it needs no permission. [any thread]
 std::string reportDescriptorOf (const std::string& path);
 
-/// Where the running program is; empty where the system does not tell. [any thread]
+/// The folder of the running program; empty if the system does not provide it. [any thread]
 std::filesystem::path programFolder();
 
 }   // namespace tactus::host

@@ -20,7 +20,8 @@ std::optional<FileLock> FileLock::takeExisting (const std::filesystem::path& pat
 std::optional<FileLock> FileLock::takeOpened (const std::filesystem::path& path, bool make)
 {
 #if defined(_WIN32)
-    const auto opened = CreateFileW (path.c_str(), GENERIC_READ | GENERIC_WRITE, FILE_SHARE_DELETE, nullptr, make ? OPEN_ALWAYS : OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, nullptr);
+    const auto opened = CreateFileW (path.c_str(), GENERIC_READ | GENERIC_WRITE, FILE_SHARE_DELETE, nullptr, make ? OPEN_ALWAYS : OPEN_EXISTING,
+                                     FILE_ATTRIBUTE_NORMAL, nullptr);
     if (opened == INVALID_HANDLE_VALUE) return std::nullopt;
     return FileLock (reinterpret_cast<std::intptr_t> (opened));
 #else

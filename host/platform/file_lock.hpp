@@ -8,15 +8,15 @@
 namespace tactus::host
 {
 
-/// A file that one at a time may hold, here or in another process. The system lets go of it when the process ends, however
-/// it ends: whoever gets the lock knows that nobody is left. [main thread]
+/// A file that only one holder may lock, in this process or another. The system releases it when the process ends,
+/// for whatever reason, so a process that gets the lock knows that there is no other holder. [main thread]
 class FileLock
 {
 public:
-    /// Makes the file if need be; nothing if somebody holds it, or it cannot be made.
+    /// Creates the file if necessary. Empty if it is locked or cannot be created.
     static std::optional<FileLock> take (const std::filesystem::path&);
 
-    /// The same of a file that is there, such as a device; it is never made.
+    /// The same for an existing file, such as a device file; never creates it.
     static std::optional<FileLock> takeExisting (const std::filesystem::path&);
 
     FileLock (FileLock&&) noexcept;

@@ -6,9 +6,9 @@
 namespace tactus::host
 {
 
-/// Where settings, sessions and what is kept for a crash are: TACTUS_HOME in the environment, or where the system has such
-/// things (~/.config/Tactus, ~/Library/Tactus, %APPDATA%\Tactus). It need not be there. Empty if nobody says where a user's
-/// files are. [main thread]
+/// The folder for settings, sessions and crash recovery: TACTUS_HOME in the environment, or the system's usual place
+/// (~/.config/Tactus, ~/Library/Tactus, %APPDATA%\Tactus). It may not exist. Empty if the user's home is unknown.
+/// [main thread]
 std::filesystem::path homeFolder();
 
 }   // namespace tactus::host

@@ -29,10 +29,10 @@ void watchForStop() noexcept
     std::signal (SIGINT, note);
     std::signal (SIGTERM, note);
 #ifdef SIGXFSZ
-    std::signal (SIGXFSZ, SIG_IGN);   // a file that may grow no further is an error of that file
+    std::signal (SIGXFSZ, SIG_IGN);   // reaching the file size limit is reported as an error of that file
 #endif
 #ifdef SIGTSTP
-    std::signal (SIGTSTP, note);   // Ctrl-Z would leave the force on a device as it is
+    std::signal (SIGTSTP, note);   // suspending with Ctrl-Z would leave the force on a device
 #endif
 #ifdef SIGHUP
     std::signal (SIGHUP, note);
@@ -44,7 +44,7 @@ void watchForEmergency (Act stop, Act rearm) noexcept
     emergency = stop;
     rearming = rearm;
 #if defined(SIGUSR1) && defined(SIGUSR2)
-    // Once there has been somebody who knows what to do, none of the two ends the program.
+    // Once a handler is set, neither signal ends the program, even with null actions.
     std::signal (SIGUSR1, [] (int)
                  { call (emergency); });
     std::signal (SIGUSR2, [] (int)

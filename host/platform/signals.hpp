@@ -4,18 +4,18 @@
 namespace tactus::host
 {
 
-/// From now on a request to stop (Ctrl-C, Ctrl-Z, a closed terminal, kill) is noted instead of ending the program at once, so
-/// that forces go to zero and files are left whole or not at all. [main thread]
+/// From now on, a stop request (Ctrl-C, Ctrl-Z, a closed terminal, kill) is recorded instead of ending the program
+/// immediately, so that forces can go to zero and files are either complete or absent. [main thread]
 void watchForStop() noexcept;
 
-/// True once somebody asked. [any thread]
+/// True once a stop was requested. [any thread]
 bool stopRequested() noexcept;
 
-/// Asks as a signal would. [any thread]
+/// Requests a stop, as a signal does. [any thread]
 void requestStop() noexcept;
 
-/// What the emergency stop does from now on, and what ends it: SIGUSR1 and SIGUSR2 call them, on whichever thread they meet
-/// and in the midst of whatever it does, where there are such signals. null: nothing, any more. [main thread]
-void watchForEmergency (void (*stop)() noexcept, void (*rearm)() noexcept) noexcept;
+/// Sets the action for the emergency stop, and the one for SIGUSR2, which used to rearm. On systems that have these signals,
+/// SIGUSR1 and SIGUSR2 call them, on any thread and at any point of its work. Null: no action. [main thread]
+void watchForEmergency (void (*stop)() noexcept, void (*asked_to_rearm)() noexcept) noexcept;
 
 }   // namespace tactus::host

@@ -27,7 +27,7 @@ struct Keys::Before
 };
 Keys::Keys() = default;
 Keys::~Keys() = default;
-char Keys::next() noexcept { return 0; }
+char Keys::next (std::chrono::milliseconds) noexcept { return 0; }
 #else
 struct Keys::Before
 {
@@ -48,12 +48,16 @@ Keys::~Keys()
     if (before && tcgetpgrp (STDIN_FILENO) == getpgrp()) tcsetattr (STDIN_FILENO, TCSANOW, &before->mode);
 }
 
-char Keys::next() noexcept
+char Keys::next (std::chrono::milliseconds patience) noexcept
 {
-    if (! before || tcgetpgrp (STDIN_FILENO) != getpgrp()) return 0;   // to read in the background would stop the program
+    const auto ours = []
+    { return tcgetpgrp (STDIN_FILENO) == getpgrp(); };   // reading in the background would stop the program
     pollfd waiting { STDIN_FILENO, POLLIN, 0 };
+    const bool any = before && poll (&waiting, 1, static_cast<int> (patience.count())) == 1;
     char key = 0;
-    return poll (&waiting, 1, 0) == 1 && read (STDIN_FILENO, &key, 1) == 1 ? key : '\0';
+    if (any && ours() && read (STDIN_FILENO, &key, 1) == 1) return key;
+    if (any) poll (nullptr, 0, static_cast<int> (patience.count()));   // a closed terminal, or somebody else's: do not spin
+    return '\0';
 }
 #endif
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <chrono>
 #include <memory>
 
 namespace tactus::host
 {
 
-/// True if a person reads what is written to stderr.
+/// True if stderr is a terminal.
 bool stderrIsTerminal() noexcept;
 
-/// What a person types, key by key, while this lives; Ctrl-C is still what it is. The terminal is as before afterwards, unless
-/// the program crashes. There are no keys where stdin is no terminal, or belongs to another program now, or on a system
-/// without termios. [main thread]
+/// Reads single key presses while it exists; Ctrl-C still works. The destructor restores the terminal (not after a crash).
+/// There are no keys if stdin is not a terminal, if it belongs to another program, or without termios. [main thread]
 class Keys
 {
 public:
@@ -22,8 +22,8 @@ public:
 
     bool areThere() const noexcept { return before != nullptr; }
 
-    /// The next one that was pressed; 0 if none was. Does not wait.
-    char next() noexcept;
+    /// The next key that is pressed within `patience`; 0 if none is. [any one thread]
+    char next (std::chrono::milliseconds patience = {}) noexcept;
 
 private:
     struct Before;

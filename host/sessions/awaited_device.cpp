@@ -20,7 +20,7 @@ AwaitedDevice::~AwaitedDevice()
     stopped.notify_all();
 }
 
-/// It is looked for from here on: who only asks what a device has does not want it opened.
+/// The search starts here and not in the constructor, because a caller that only asks for the layout must not open the device.
 void AwaitedDevice::prepare (double dt_s)
 {
     dt = dt_s;

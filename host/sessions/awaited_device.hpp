@@ -15,15 +15,15 @@
 namespace tactus::host
 {
 
-/// A HID device that is not there yet, or that another program has: looked for until it opens, and from then on as it is.
-/// Until then there is no valid reading, so that its guard holds the efforts at zero; then they rise by its ramp. What it
-/// has, nodes know from the start, by its profile.
+/// A HID device that is not connected yet, or is in use by another program. Keeps trying to open the device; once it is open,
+/// passes everything through. Until then no reading is valid, so the guard holds the efforts at zero; then they ramp up. The
+/// parts of the device are known from the start, from its profile.
 class AwaitedDevice final : public Device
 {
 public:
-    static constexpr std::chrono::milliseconds usual_pause { 500 };   ///< between two looks
+    static constexpr std::chrono::milliseconds usual_pause { 500 };   ///< between two attempts
 
-    /// What hid::openDevice takes, with a profile that is known by name. The system outlives the device.
+    /// `description` is the same as for hid::openDevice. The system must outlive the device.
     AwaitedDevice (Json description, std::shared_ptr<const hid::Profile>, hid::HidSystem&, std::chrono::milliseconds pause = usual_pause);
     ~AwaitedDevice() override;
 
@@ -32,12 +32,12 @@ public:
     void write (const Effort& guarded) noexcept override;   // [tick thread]
     DeviceLayout layout() const override;                   // [main thread]
 
-    /// The device once it is there, as long as this lives; until then null. [any thread]
+    /// The device, once it is open; null until then. Valid as long as this object. [any thread]
     hid::HidDevice* device() const noexcept { return there.load (std::memory_order_acquire); }
 
     const std::shared_ptr<const hid::Profile>& profile() const noexcept { return wanted; }
 
-    /// Why it does not open, in words. [any thread]
+    /// Why the device has not opened. [any thread]
     std::string trouble() const;
 
 private:
@@ -50,16 +50,16 @@ private:
     const std::chrono::milliseconds pause;
     double dt = 1e-3;
 
-    double age = 0.0;   // s without a reading, while there is none   [tick thread]
+    double age = 0.0;   // time without a reading before it is open, in s   [tick thread]
 
-    mutable std::mutex mutex;   // of `last_trouble` and `stopping`
+    mutable std::mutex mutex;   // protects `last_trouble` and `stopping`
     std::condition_variable stopped;
     bool stopping = false;
     std::string last_trouble;
 
-    std::unique_ptr<Device> opened;   // of the looking thread; never let go
+    std::unique_ptr<Device> opened;   // set by the searching thread; never closed
     std::atomic<hid::HidDevice*> there = nullptr;
-    std::jthread looking;   // last: it uses the others
+    std::jthread looking;   // last: it uses the other members
 };
 
 }   // namespace tactus::host

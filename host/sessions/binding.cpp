@@ -2,8 +2,8 @@
 #include "binding.hpp"
 #include "awaited_device.hpp"
 
+#include <framework/run/device/guard_limits.hpp>
 #include <host/audio/audio_settings.hpp>
-#include <host/devices/guard_limits.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -14,7 +14,7 @@ namespace tactus::host
 
 namespace
 {
-/// What goes away once somebody plugs something in, ends the other program, installs the rule.
+/// Errors that go away when the user plugs in the device, closes the other program or installs the udev rule.
 bool isOfTheMoment (const Message& m)
 {
     constexpr std::string_view ids[] { "hid/not_connected", "hid/several", "hid/not_permitted", "hid/not_opened", "hid/init" };
@@ -24,13 +24,10 @@ bool isOfTheMoment (const Message& m)
 std::shared_ptr<const hid::Profile> profileOf (const Json& description, const hid::LoadedProfiles& all)
 {
     const auto name = description.find ("profile");
-    if (name == description.end() || ! name->is_string()) return nullptr;
-    const auto at = std::ranges::find (all.profiles, name->get_ref<const std::string&>(), [] (const auto& p)
-                                       { return p->id; });
-    return at == all.profiles.end() ? nullptr : *at;
+    return name != description.end() && name->is_string() ? hid::profileNamed (all, name->asString()) : nullptr;
 }
 
-/// The device in its absence, if it can be waited for.
+/// Makes a device that waits for the real one, if that is possible.
 std::unique_ptr<AwaitedDevice> await (const Json& description, hid::HidSystem& system, const hid::LoadedProfiles& all, MadeDevice& made)
 {
     const auto isError = [] (const Message& m)
@@ -45,14 +42,14 @@ std::unique_ptr<AwaitedDevice> await (const Json& description, hid::HidSystem& s
         if (isError (m))
         {
             m.severity = Message::Severity::warning;
-            m.text += ", so no force is let through to it until it is there";
+            m.text += ", so it gets no force until it is available";
         }
     GuardLimits session;
     if (const auto guard = description.find ("guard"); guard != description.end())
         session = readGuardLimits (*guard, "/guard", made.messages, hid::layoutOf (hid::HidModel (profile)));
     made.limits = hid::limitsOf (*profile, session);
     if (hasErrors (made.messages)) return nullptr;
-    made.about = profile->name + ", once it is there.";
+    made.about = profile->name + ", once it is available.";
     return std::make_unique<AwaitedDevice> (description, std::move (profile), system);
 }
 }   // namespace
@@ -70,7 +67,7 @@ std::optional<RoleBinding> bindingOf (const LoadedSession& s, std::string_view r
     return b;
 }
 
-Json boundAnew (const Json* before, Json description)
+Json rebound (const Json* before, Json description)
 {
     if (before == nullptr || ! before->is_object() || audio::isAudio (*before) || audio::isAudio (description)) return description;
     for (const auto* key : { "guard", "workspace" })
@@ -78,7 +75,8 @@ Json boundAnew (const Json* before, Json description)
     return description;
 }
 
-BoundDevice openBound (const LoadedSession& s, std::string_view role, const RoleBinding& b, const OpenDevice& open, hid::HidSystem& system, const hid::LoadedProfiles& all, Absence absence)
+BoundDevice openBound (const LoadedSession& s, std::string_view role, const RoleBinding& b, const OpenDevice& open, hid::HidSystem& system,
+                       const hid::LoadedProfiles& all, Absence absence)
 {
     BoundDevice bound;
     const bool may_open = ! hasErrors (b.messages);

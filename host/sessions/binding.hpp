@@ -4,7 +4,7 @@
 #include "session_file.hpp"
 #include "workspace.hpp"
 
-#include <host/devices/make_device.hpp>
+#include <framework/run/device/make_device.hpp>
 #include <host/hid_link/open_device.hpp>
 
 #include <functional>
@@ -13,44 +13,45 @@
 namespace tactus::host
 {
 
-/// What a session binds a role to.
+/// The binding of a role in a session.
 struct RoleBinding
 {
-    Json description;   ///< as a graph has it
+    Json description;   ///< as in a graph
     Workspace workspace;
-    std::filesystem::path folder;   ///< where paths in the description start: that of the session
+    std::filesystem::path folder;   ///< the folder of the session, which paths in the description are relative to
     Messages messages;
 };
 
-/// Nothing if the session does not name the role. [main thread]
+/// The binding of a role. Empty if the session does not bind it. [main thread]
 std::optional<RoleBinding> bindingOf (const LoadedSession&, std::string_view role);
 
-/// A device for a role, in the graph's workspace.
+/// An open device for a role, with positions in the workspace of the graph.
 struct BoundDevice
 {
     std::unique_ptr<Device> device;   ///< null if there are errors
-    Device* driver = nullptr;         ///< the same, without the workspace around it
+    Device* driver = nullptr;         ///< the same, without the workspace wrapper
     GuardLimits limits;
     std::string about;
-    Messages messages;   ///< `where` and lines as of the session
+    Messages messages;   ///< `where` and lines refer to the session
 };
 
-/// What becomes of a role whose device does not open.
+/// What happens if the device of a role does not open.
 enum class Absence
 {
-    waits,     ///< its guard holds the efforts at zero until it comes; that is a warning
-    refuses,   ///< it is an error
+    waits,     ///< a warning; the guard holds the efforts at zero until the device is available
+    refuses,   ///< an error
 };
 
-/// A role that gets another device keeps what a person has said of it: its guard and its workspace, unless the new description
-/// has its own, or one of the two is a sound card, which has another kind of both.
-Json boundAnew (const Json* before, Json description);
+/// Gives a role another device and keeps its guard and workspace, unless the new description has its own, or one of the two
+/// devices is a sound card, which has a different kind of each.
+Json rebound (const Json* before, Json description);
 
-/// What opens a device without regard to sessions.
+/// Opens a device, independently of sessions.
 using OpenDevice = std::function<MadeDevice (const Json& description, const std::filesystem::path& folder)>;
 
-/// Opens what a session binds a role to. Only a HID device with a profile that is named can be waited for: of others nobody
-/// knows what they will have. [main thread] Ids: those of what opens it.
-BoundDevice openBound (const LoadedSession&, std::string_view role, const RoleBinding&, const OpenDevice&, hid::HidSystem&, const hid::LoadedProfiles&, Absence);
+/// Opens the device that a session binds a role to. Only a HID device with a named profile can be waited for: the parts of
+/// other devices are unknown. [main thread] Ids: those of `OpenDevice`.
+BoundDevice openBound (const LoadedSession&, std::string_view role, const RoleBinding&, const OpenDevice&, hid::HidSystem&, const hid::LoadedProfiles&,
+                       Absence);
 
 }   // namespace tactus::host

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "choose_clock.hpp"
 
-#include <framework/in_quotes.hpp>
-#include <framework/number_text.hpp>
-#include <host/devices/problem.hpp>
+#include <framework/text/message.hpp>
+#include <framework/text/number_text.hpp>
+#include <framework/text/quote.hpp>
 
 #include <algorithm>
 #include <set>
@@ -15,12 +15,7 @@ namespace
 {
 constexpr std::string_view timer = "timer", sound_card = "audio";
 
-Message warning (std::string text, std::string remedy)
-{
-    auto m = problem ("session/clock", "/clock", std::move (text), std::move (remedy));
-    m.severity = Message::Severity::warning;
-    return m;
-}
+Message warning (std::string text, std::string remedy) { return Message::warning ("session/clock", "/clock", std::move (text), std::move (remedy)); }
 
 void addNames (const Json& mapped, std::set<std::string>& names)
 {
@@ -53,15 +48,19 @@ ClockChoice byOption (const ClockWish& wish, const std::vector<Described>& devic
     const auto device = std::ranges::find (devices, wish.option, &Described::first);
     const auto rate = device != devices.end() ? rateOf (*device, true) : std::nullopt;
     if (! rate)
-        choice.messages.push_back (problem ("run/no_clock", "--clock " + wish.option, "no device that is connected ticks for " + inQuotes (wish.option), "name a role whose device is a HID device with a rate in its profile, or write --clock timer or --clock audio"));
+        choice.messages.push_back (
+            Message::error ("run/no_clock", "--clock " + wish.option, "no connected device can tick for the role " + quote (wish.option),
+                            "name a role whose device is a HID device with a rate in its profile, or write --clock timer or --clock audio"));
     else if (wish.rate_hz && *wish.rate_hz != *rate)
-        choice.messages.push_back (problem ("run/two_rates", "--clock " + wish.option, "its device ticks at " + numberText (*rate) + " Hz, and the run is to have " + numberText (*wish.rate_hz) + " Hz", "leave out --rate, or write --clock timer"));
+        choice.messages.push_back (Message::error ("run/two_rates", "--clock " + wish.option,
+                                                   "its device ticks at " + numberText (*rate) + " Hz, but the run needs " + numberText (*wish.rate_hz) + " Hz",
+                                                   "leave out --rate, or write --clock timer"));
     else
         return { wish.option, *rate, {} };
     return choice;
 }
 
-ClockChoice byNobody (const ClockWish& wish, const std::vector<Described>& devices, const TickRate& rateOf)
+ClockChoice automatic (const ClockWish& wish, const std::vector<Described>& devices, const TickRate& rateOf)
 {
     if (wish.rate_hz) return {};
     for (const auto& device : devices)
@@ -74,16 +73,22 @@ ClockChoice bySession (const ClockWish& wish, const std::vector<Described>& devi
     const auto device = std::ranges::find (devices, wish.session, &Described::first);
     if (device == devices.end())
     {
-        auto choice = byNobody (wish, devices, rateOf);
-        choice.messages.push_back (warning ("the session has " + inQuotes (wish.session) + " tick the run, and this graph has no such role", (choice.role.empty() ? "a timer" : inQuotes (choice.role)) + " ticks it; choose with --clock ROLE, or in the session: tactus session --clock ROLE"));
+        auto choice = automatic (wish, devices, rateOf);
+        choice.messages.push_back (warning ("the session names the role " + quote (wish.session) + " as the clock, but this graph has no such role",
+                                            (choice.role.empty() ? "a timer" : quote (choice.role))
+                                                + " ticks the run; choose with --clock ROLE, or in the session: tactus session --clock ROLE"));
         return choice;
     }
     const auto rate = rateOf (*device, true);
     ClockChoice choice;
     if (! rate)
-        choice.messages.push_back (warning ("the session has " + inQuotes (wish.session) + " tick the run, and its device has no clock", "a timer ticks it; bind the role to a HID device with a rate in its profile, or choose a timer: tactus session --clock timer"));
+        choice.messages.push_back (
+            warning ("the session names the role " + quote (wish.session) + " as the clock, but its device has no clock",
+                     "a timer ticks the run; bind the role to a HID device with a rate in its profile, or choose a timer: tactus session --clock timer"));
     else if (wish.rate_hz && *wish.rate_hz != *rate)
-        choice.messages.push_back (warning ("the session has " + inQuotes (wish.session) + " tick the run at " + numberText (*rate) + " Hz, and the run is to have " + numberText (*wish.rate_hz) + " Hz", "a timer ticks it; leave out --rate and --feed to have the device do it"));
+        choice.messages.push_back (warning ("the session names the role " + quote (wish.session) + " as the clock, at " + numberText (*rate)
+                                                + " Hz, but the run needs " + numberText (*wish.rate_hz) + " Hz",
+                                            "a timer ticks the run; leave out --rate and --feed to let the device tick it"));
     else
         return { wish.session, *rate, {} };
     return choice;
@@ -101,13 +106,8 @@ std::optional<double> tickRateOf (const Json& description, hid::HidSystem& syste
 {
     if (! hid::isHid (description)) return std::nullopt;
     auto profile = hid::findDevice (description, system, all).profile;
-    if (! profile && may_wait)
-    {
-        const auto name = description.value ("profile", Json());
-        const auto at = std::ranges::find_if (all.profiles, [&] (const auto& p)
-                                              { return name == p->id; });
-        if (at != all.profiles.end()) profile = *at;
-    }
+    if (const auto name = description.value ("profile", Json()); ! profile && may_wait && name.is_string())
+        profile = hid::profileNamed (all, name.asString());
     const bool ticks = profile && profile->rate > 0.0 && std::ranges::count (profile->quirks, "only_changes") == 0;
     return ticks ? std::optional (profile->rate) : std::nullopt;
 }
@@ -117,7 +117,7 @@ ClockChoice chooseClock (const ClockWish& wish, const std::vector<Described>& de
     const auto& said = wish.option.empty() ? wish.session : wish.option;
     if (said == timer || said == sound_card) return { .by_sound_card = said == sound_card };
     if (! wish.option.empty()) return byOption (wish, devices, rateOf);
-    return wish.session.empty() ? byNobody (wish, devices, rateOf) : bySession (wish, devices, rateOf);
+    return wish.session.empty() ? automatic (wish, devices, rateOf) : bySession (wish, devices, rateOf);
 }
 
 }   // namespace tactus::host

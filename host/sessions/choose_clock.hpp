@@ -2,8 +2,8 @@
 #pragma once
 
 #include <framework/graph/graph.hpp>
-#include <framework/json.hpp>
-#include <framework/message.hpp>
+#include <framework/text/json.hpp>
+#include <framework/text/message.hpp>
 #include <host/hid_link/open_device.hpp>
 
 #include <functional>
@@ -18,36 +18,36 @@ namespace tactus::host
 /// A role and the description of its device.
 using Described = std::pair<std::string, Json>;
 
-/// All roles that the nodes of a graph name, inside its subgraphs too; some may never be used. [main thread]
+/// All roles named by the nodes of a graph, including its subgraphs; some may be unused. [main thread]
 std::vector<std::string> rolesNamed (const graph::Graph&);
 
-/// What is said about the clock of a run, and by whom.
+/// The requested clock of a run, by source.
 struct ClockWish
 {
-    std::string option;                 ///< of the command line: a role, "timer" or "audio"; "": nothing
-    std::string session;                ///< likewise, of the session
-    std::optional<double> rate_hz {};   ///< that the run is to have whatever ticks it
+    std::string option;                 ///< from the command line: a role, "timer" or "audio"; "": none
+    std::string session;                ///< the same choice, from the session
+    std::optional<double> rate_hz {};   ///< fixed rate of the run, whichever clock drives it
 };
 
-/// Who ticks a run.
+/// The clock that ticks a run.
 struct ClockChoice
 {
-    std::string role {};          ///< whose device; "": none
-    double rate_hz = 0.0;         ///< of that device
-    Messages messages {};         ///< an error for an option that cannot be had, a warning for a session's
-    bool by_sound_card = false;   ///< where no device does; else it is the timer
+    std::string role {};          ///< the role whose device ticks; "": none
+    double rate_hz = 0.0;         ///< rate of that device
+    Messages messages {};         ///< an error if the option cannot be met, a warning for the session
+    bool by_sound_card = false;   ///< if no device ticks: true for the sound card, false for a timer
 };
 
-/// The rate at which a device would tick, in Hz; nothing if it would not. One that is only awaited can be chosen by name, and
-/// is not taken where nobody says.
+/// The rate in Hz at which a device would tick; empty if it would not. A device that is not available yet counts only with
+/// `may_wait`: it must be chosen by name, and is never chosen automatically.
 using TickRate = std::function<std::optional<double> (const Described&, bool may_wait)>;
 
-/// The rate of a HID device that is connected, or that may be waited for and has a profile that is named; nothing if it has
-/// no clock, as one that only speaks when something moves. [main thread]
+/// The rate of a HID device that is connected, or of one with a named profile if it may be waited for. Empty if the device
+/// has no clock, because it sends only when something moves, for example. [main thread]
 std::optional<double> tickRateOf (const Json& description, hid::HidSystem&, const hid::LoadedProfiles&, bool may_wait);
 
-/// The option outranks the session. Without both, the first device that can ticks, unless there is a rate. [main thread]
-/// Ids: run/no_clock, run/two_rates, session/clock.
+/// The option takes precedence over the session. If neither names a clock, the first device that can tick is used, unless
+/// there is a fixed rate. [main thread]
 ClockChoice chooseClock (const ClockWish&, const std::vector<Described>&, const TickRate&);
 
 }   // namespace tactus::host

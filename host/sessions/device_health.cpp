@@ -10,11 +10,11 @@ namespace tactus::host
 
 namespace
 {
-/// A device that says nothing while nothing moves has no clock to be compared.
+/// A device that sends only when something moves has no clock to compare.
 bool hasClock (const hid::Profile& p) { return p.rate > 0.0 && std::ranges::count (p.quirks, "only_changes") == 0; }
 
-/// The time of the latest report, and how many there had been. The two are stored one after the other: a pair that does not
-/// belong together is one report off, on one look in a thousand.
+/// The time of the latest report, and the number of reports. The two are stored one after the other, so about one look in a
+/// thousand sees an inconsistent pair, which is off by one report.
 struct Latest
 {
     double at_s = 0.0;
@@ -51,7 +51,7 @@ std::optional<RealDevice> realDevice (const std::string& role, Device& device)
 
 std::string describe (const DeviceHealth& h)
 {
-    if (! h.has_come) return "not there yet" + (h.trouble.empty() ? std::string() : ": " + h.trouble);
+    if (! h.has_come) return "not available yet" + (h.trouble.empty() ? std::string() : ": " + h.trouble);
     if (! h.connected) return "unplugged";
     auto text = h.rate_hz ? printed ("%.1f reports/s, ", *h.rate_hz) : std::string();
     text += printed ("%.1f ms old", 1e3 * h.age);
@@ -99,7 +99,7 @@ void HealthWatch::look (std::span<const RealDevice> devices)
         if (const auto rate = meter.rate.rate()) h.rate_hz = rate->hz;
     }
 
-    // Nominal rates apart, how fast each clock goes.
+    // The speed of each clock relative to its nominal rate.
     const auto speed = [&] (const std::string& role) -> std::optional<RateMeter::Rate>
     {
         const auto real = std::ranges::find (devices, role, &RealDevice::role);

@@ -12,54 +12,54 @@
 namespace tactus::host
 {
 
-/// A device of a run that is really there, or will be.
+/// A real device of a run, either present or awaited.
 struct RealDevice
 {
     std::string role;
     hid::HidDevice* present = nullptr;
-    const AwaitedDevice* awaited = nullptr;   ///< if it was not there when the run began
+    const AwaitedDevice* awaited = nullptr;   ///< if it was missing when the run began
 
-    hid::HidDevice* device() const noexcept { return present != nullptr ? present : awaited->device(); }   ///< null until it has come
+    hid::HidDevice* device() const noexcept { return present != nullptr ? present : awaited->device(); }   ///< null until it is available
     const hid::Profile& profile() const noexcept { return present != nullptr ? *present->port().profile() : *awaited->profile(); }
 };
 
-/// The same of a device that a role has (BoundDevice::driver); nothing if it is not a real one.
+/// The real device behind a driver (BoundDevice::driver); empty for a simulated one.
 std::optional<RealDevice> realDevice (const std::string& role, Device&);
 
-/// How a device is doing.
+/// The state of a device.
 struct DeviceHealth
 {
     std::string role, profile;   ///< id of the profile
-    bool has_come = false;       ///< it was there once
+    bool has_come = false;       ///< true if it has been connected at some time
     bool connected = false;
-    bool ticks = false;               ///< the run goes by its clock
-    double age = 0.0, oldest = 0.0;   ///< s, of its readings: now, and the most
+    bool ticks = false;               ///< true if its clock drives the run
+    double age = 0.0, oldest = 0.0;   ///< age of its readings, in s: current and maximum
     std::uint64_t reports = 0, lost = 0, departures = 0;
-    std::optional<double> rate_hz {};     ///< of its reports
-    std::optional<double> drift_ppm {};   ///< how much faster its clock goes than the one that ticks; not of the one that ticks
-    double drift_error_ppm = 0.0;         ///< standard error
-    std::string trouble;                  ///< what failed last
+    std::optional<double> rate_hz {};     ///< rate of its reports
+    std::optional<double> drift_ppm {};   ///< drift of its clock relative to the clock that drives the run; empty for that clock itself
+    double drift_error_ppm = 0.0;         ///< standard error of the drift
+    std::string trouble;                  ///< the latest failure
 };
 
-/// "1000.3 reports/s, 0 ms old, +12 ppm": in short, for a line that stands. [any thread]
+/// Describes the state for a status line, as in "1000.3 reports/s, 0 ms old, +12 ppm". [any thread]
 std::string describe (const DeviceHealth&);
 
-/// Keeps account of the devices of a run, from a thread that looks now and then. A device's reports are timed as they come in
-/// (HidPort), so that nothing is asked of the tick thread; the reference is the device that ticks, or else the clock of the
-/// computer, which the timer goes by. Reports that were lost are counted too, as their numbers tell, so that they do not
-/// look like a slow clock; when a device was away the measurement begins anew. [one thread]
+/// Monitors the devices of a run, from a thread that looks now and then. Reports are timed on arrival (HidPort), so the
+/// tick thread is not involved. The reference is the device that ticks the run, or else the computer's clock, which also
+/// drives the timer. Lost reports, known from sequence numbers, are counted too, so they do not look like a slow clock. When
+/// a device that was away is back, its measurement starts again. [one thread]
 class HealthWatch
 {
 public:
-    /// Before this a drift would be a guess, s.
+    /// The shortest span for an estimate of the drift, in s.
     static constexpr double usual_span = 2.0;
 
-    /// `clock_role`: whose device ticks; empty: none of them.
+    /// `clock_role`: the role whose device ticks; empty: none.
     explicit HealthWatch (std::string clock_role = {}, double shortest_span_s = usual_span) : clock (std::move (clock_role)), shortest_span (shortest_span_s) {}
 
-    void look (std::span<const RealDevice>);   ///< some ten times a second
+    void look (std::span<const RealDevice>);   ///< call about ten times a second
 
-    const std::vector<DeviceHealth>& health() const noexcept { return known; }   ///< as it was at the last look
+    const std::vector<DeviceHealth>& health() const noexcept { return known; }   ///< as of the last look
 
 private:
     struct Meter

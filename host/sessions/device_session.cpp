@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "device_session.hpp"
 
-#include <framework/file/json_text.hpp>
 #include <framework/graph/text.hpp>
-#include <framework/in_quotes.hpp>
-#include <framework/number_text.hpp>
-#include <host/devices/problem.hpp>
+#include <framework/text/json_text.hpp>
+#include <framework/text/message.hpp>
+#include <framework/text/number_text.hpp>
+#include <framework/text/quote.hpp>
 
 #include <utility>
 
@@ -16,7 +16,7 @@ namespace
 {
 constexpr std::string_view format = "tactus-session";
 
-/// The member of an object; null if there is none.
+/// A member of an object; null if there is none.
 const Json* at (const Json& object, std::string_view key)
 {
     const auto found = object.find (key);
@@ -81,35 +81,40 @@ ReadSession readSession (std::string_view text)
     auto& messages = parsed.messages;
     const auto refuse = [&] (std::string id, const std::string& where, std::string what, std::string remedy)
     {
-        messages.push_back (problem (std::move (id), where, std::move (what), std::move (remedy)));
+        messages.push_back (Message::error (std::move (id), where, std::move (what), std::move (remedy)));
     };
 
     read.damaged = hasErrors (messages);
     if (! read.damaged && (! json.is_object() || json.value ("format", Json()) != format))
     {
-        refuse ("session/format", "", "this is no session", R"(a session begins with {"format": "tactus-session", "version": 1)");
+        refuse ("session/format", "", "this is not a session", R"(a session begins with {"format": "tactus-session", "version": 1)");
         read.damaged = true;
     }
     else if (! read.damaged)
     {
         const auto* version = at (json, "version");
-        if (version == nullptr || ! version->is_number_integer() || *version < 1)
-            refuse ("session/version", "/version", "there is no version", "write \"version\": " + std::to_string (DeviceSession::version));
-        else if (*version > DeviceSession::version)
-            refuse ("session/version", "/version", "this session is of version " + version->dump() + ", and this Tactus reads version " + std::to_string (DeviceSession::version), "use a newer Tactus; nothing in the file was changed");
+        if (version == nullptr || ! version->is_number_integer() || version->get<std::int64_t>() < 1)
+            refuse ("session/version", "/version", "the version is missing", "write \"version\": " + std::to_string (DeviceSession::version));
+        else if (version->get<std::int64_t>() > DeviceSession::version)
+            refuse ("session/version", "/version",
+                    "this session has version " + version->dump() + ", but this Tactus reads only version " + std::to_string (DeviceSession::version),
+                    "use a newer Tactus; nothing in the file was changed");
 
-        if (const auto* clock = at (json, "clock"); clock != nullptr && (! clock->is_string() || ! graph::isId (clock->get_ref<const std::string&>())))
-            refuse ("session/kind", "/clock", "the clock is the name of a role, \"timer\" or \"audio\"", "write such a name, or leave the clock out");
+        if (const auto* clock = at (json, "clock"); clock != nullptr && (! clock->is_string() || ! graph::isId (clock->asString())))
+            refuse ("session/kind", "/clock", "the clock must be the name of a role, \"timer\" or \"audio\"", "write such a name, or leave the clock out");
         if (const auto* audio = at (json, "audio"); audio != nullptr && ! audio->is_object())
-            refuse ("session/kind", "/audio", "what is said of audio is an object", R"(write "audio": {}, or leave it out)");
+            refuse ("session/kind", "/audio", "the audio settings must be an object", R"(write "audio": {}, or leave it out)");
         if (const auto* roles = at (json, "roles"); roles != nullptr && ! roles->is_object())
-            refuse ("session/kind", "/roles", "the roles are an object", R"(write "roles": {"stylus": {"driver": "hid", "profile": "tactus_board"}})");
+            refuse ("session/kind", "/roles", "the roles must be an object", R"(write "roles": {"stylus": {"driver": "hid", "profile": "tactus_board"}})");
         else if (roles != nullptr)
             for (const auto& [name, description] : roles->items())
             {
                 const auto where = "/roles/" + pointerPart (name);
-                if (! graph::isId (name)) refuse ("session/name", where, inQuotes (name) + " is not the name of a role", "take lower case letters, digits and _, a letter first");
-                if (! description.is_object()) refuse ("session/kind", where, "what a role is bound to is an object", R"(write {"driver": "hid", "profile": "tactus_board"}, or leave the role out)");
+                if (! graph::isId (name))
+                    refuse ("session/name", where, quote (name) + " is not the name of a role", "use lower-case letters, digits and _, starting with a letter");
+                if (! description.is_object())
+                    refuse ("session/kind", where, "the binding of a role must be an object",
+                            R"(write {"driver": "hid", "profile": "tactus_board"}, or leave the role out)");
             }
     }
 
@@ -126,6 +131,6 @@ ReadSession readSession (std::string_view text)
     return read;
 }
 
-std::string writeSession (const DeviceSession& s) { return s.all.dump (2, ' ', false, Json::error_handler_t::replace) + '\n'; }
+std::string writeSession (const DeviceSession& s) { return s.all.dump (2) + '\n'; }
 
 }   // namespace tactus::host

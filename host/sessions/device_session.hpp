@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/file/text_position.hpp>
-#include <framework/json.hpp>
-#include <framework/message.hpp>
+#include <framework/text/json.hpp>
+#include <framework/text/message.hpp>
+#include <framework/text/text_position.hpp>
 
 #include <string>
 #include <string_view>
@@ -12,8 +12,8 @@
 namespace tactus::host
 {
 
-/// What devices somebody has on the desk: which one a role of a graph means, whatever the graph, and what ticks a run.
-/// docs/sessions.md has the file. What this version of Tactus does not know is kept as it is.
+/// The user's devices: which device each role refers to, in all graphs, and which clock ticks a run. docs/sessions.md
+/// describes the file. Entries that this version of Tactus does not know are kept.
 class DeviceSession
 {
 public:
@@ -21,19 +21,19 @@ public:
 
     DeviceSession();
 
-    /// A role, "timer" or "audio"; empty: the first device that can. [main thread, as all of it]
+    /// A role, "timer" or "audio"; empty: the first device that can tick. [main thread, like all members]
     std::string clock() const;
     void setClock (std::string_view);
 
-    /// The roles that are bound, in the order of the file.
+    /// The bound roles, in the order of the file.
     std::vector<std::string> roles() const;
 
-    /// The description of a role's device, as in a graph's `devices`, beside "workspace"; null if the role is not bound.
+    /// The description of a role's device, as in a graph's `devices`, plus "workspace"; null if the role is not bound.
     const Json* binding (std::string_view role) const;
     void bind (std::string_view role, Json description);
     void unbind (std::string_view role);
 
-    /// How sound cards are used: for host/audio to read; null if nothing is said.
+    /// Settings of sound cards, read by host/audio; null if there are none.
     const Json* audio() const;
     void setAudio (Json);
 
@@ -43,21 +43,22 @@ private:
     friend struct ReadSession readSession (std::string_view);
     friend std::string writeSession (const DeviceSession&);
 
-    Json all;   // an object as of the file, with these members of the right kinds, or without them
+    Json all;   // the object in the file; its known members have the right kind or are missing
 };
 
 struct ReadSession
 {
-    DeviceSession session;   ///< what could be read
+    DeviceSession session;   ///< the content
     TextPositions positions;
-    Messages messages;      ///< with errors it is to be used for nothing, and not written over; `where` is a JSON pointer
-    bool damaged = false;   ///< no session at all, as a file that was cut off; else it is a person's to mend
+    Messages messages;      ///< if there are errors, the session must not be used or overwritten; `where` is a JSON pointer
+    bool damaged = false;   ///< true for a file that is not a session at all, such as a truncated one; false if the user can fix it
 };
 
-/// Reads a session. Takes any text. Ids: session/format, session/version, session/kind, session/name, and file/… of readJson.
+/// Reads a session. Accepts any text. Ids: session/format, session/version, session/kind, session/name, and file/… of
+/// readJson.
 ReadSession readSession (std::string_view text);
 
-/// The same text for the same session; what is read from it is the same session.
+/// Writes a session as text. Equal sessions give equal text, and reading it back gives an equal session.
 std::string writeSession (const DeviceSession&);
 
 }   // namespace tactus::host

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "needs.hpp"
 
-#include <framework/device_parts.hpp>
-#include <framework/in_quotes.hpp>
+#include <framework/node/device_parts.hpp>
+#include <framework/run/device/make_device.hpp>
+#include <framework/text/quote.hpp>
 #include <host/audio/audio_settings.hpp>
-#include <host/devices/make_device.hpp>
 #include <host/hid/hid_model.hpp>
 #include <host/hid_link/hid_device.hpp>
 #include <host/hid_link/open_device.hpp>
@@ -17,7 +17,7 @@ namespace tactus::host
 
 namespace
 {
-/// A setting of a node; null if its type has none of this name.
+/// A setting of a node; null if its type has none with this name.
 const SettingValue* setting (const plan::FlatNode& node, std::string_view id)
 {
     const auto at = std::ranges::find (node.type->settings, id, &SettingSheet::id);
@@ -51,8 +51,9 @@ void add (DeviceParts& parts, const plan::Flat& flat, int index)
     {
         return std::ranges::any_of (flat.wires, [&] (const plan::FlatWire& w)
                                     {
-            const auto* end = role == Role::output ? (w.from ? &*w.from : nullptr) : &w.to;
-            return end != nullptr && end->node == index && end->role == role && flat.sheet (*end).id == port; });
+            if (role == Role::output && ! w.from) return false;
+            const auto& end = role == Role::output ? *w.from : w.to;
+            return end.node == index && end.role == role && flat.sheet (end).id == port; });
     };
     const auto id = node.type->info.id;
     if (id == "device.position")
@@ -87,7 +88,7 @@ int entriesOf (const Json& description, const char* key)
     return list != description.end() && list->is_array() ? static_cast<int> (std::min<std::size_t> (list->size(), Channels::most)) : 0;
 }
 
-/// Buttons are also known by number.
+/// True if the device has this button. Buttons can also be addressed by number.
 bool hasButton (const DeviceLayout& there, const std::string& name)
 {
     int number = -1;
@@ -100,11 +101,13 @@ bool hasButton (const DeviceLayout& there, const std::string& name)
 std::vector<RoleNeeds> needsOf (const Plan& plan)
 {
     std::vector<RoleNeeds> all;
-    for (const auto& role : plan.roles)
+    for (const auto& role : plan.roles())
         all.push_back ({ role.name, {} });
-    const auto& flat = plan.flat;
+    const auto& flat = plan.flat();
     for (std::size_t i = 0; i < flat.nodes.size(); ++i)
-        if (const auto at = std::ranges::find (all, flat.nodes[i].role, &RoleNeeds::role); at != all.end() && flat.nodes[i].type != nullptr && flat.nodes[i].runs()) add (at->parts, flat, static_cast<int> (i));
+        if (const auto at = std::ranges::find (all, flat.nodes[i].role, &RoleNeeds::role);
+            at != all.end() && flat.nodes[i].type != nullptr && flat.nodes[i].runs())
+            add (at->parts, flat, static_cast<int> (i));
     return all;
 }
 
@@ -113,7 +116,12 @@ DeviceParts partsOf (const hid::Profile& p)
     const auto any = [] (const std::array<std::string, 3>& names)
     { return std::ranges::any_of (names, [] (const std::string& n)
                                   { return ! n.empty(); }); };
-    return { .position = any (p.position), .rotation = any (p.rotation), .pressure = ! p.pressure.empty(), .force = any (p.force), .torque = any (p.torque), .others = hid::layoutOf (hid::HidModel (std::make_shared<const hid::Profile> (p))) };
+    return { .position = any (p.position),
+             .rotation = any (p.rotation),
+             .pressure = ! p.pressure.empty(),
+             .force = any (p.force),
+             .torque = any (p.torque),
+             .others = hid::layoutOf (hid::HidModel (std::make_shared<const hid::Profile> (p))) };
 }
 
 std::optional<DeviceParts> partsOf (const Json& description, const std::filesystem::path& folder, const hid::LoadedProfiles& profiles)
@@ -122,13 +130,12 @@ std::optional<DeviceParts> partsOf (const Json& description, const std::filesyst
     if (hid::isHid (description))
     {
         const auto name = description.value ("profile", Json());
-        const auto at = std::ranges::find_if (profiles.profiles, [&] (const auto& p)
-                                              { return name == p->id; });
-        return at == profiles.profiles.end() ? std::nullopt : std::optional (partsOf (**at));
+        const auto profile = name.is_string() ? hid::profileNamed (profiles, name.asString()) : nullptr;
+        return profile ? std::optional (partsOf (*profile)) : std::nullopt;
     }
     if (audio::isAudio (description))
     {
-        if (! description.contains ("outputs") && ! description.contains ("inputs")) return std::nullopt;   // it gets what is asked for
+        if (! description.contains ("outputs") && ! description.contains ("inputs")) return std::nullopt;   // it gets the channels that the graph uses
         DeviceParts parts;
         parts.others.signal_outputs = entriesOf (description, "outputs");
         parts.others.signal_inputs = entriesOf (description, "inputs");
@@ -147,7 +154,7 @@ std::string describe (const DeviceParts& p)
     const auto named = [&] (const char* kind, const std::vector<std::string>& names)
     {
         for (const auto& n : names)
-            if (! n.empty()) say (std::string (kind) + " " + inQuotes (n));
+            if (! n.empty()) say (std::string (kind) + " " + quote (n));
     };
     const auto channels = [&] (const char* kind, int n)
     {
@@ -183,15 +190,17 @@ std::vector<std::string> lackingOf (const DeviceParts& needed, const DeviceParts
     tool (needed.pressure, there.pressure, "pressure");
     tool (needed.force, there.force, "force");
     tool (needed.torque, there.torque, "torque");
-    tool (needed.truth, there.truth, "truth: only a simulated device knows it");
+    tool (needed.truth, there.truth, "ground truth: only a simulated device has it");
     for (const auto& name : needed.others.axes)
         say (lacking ("axis", "axes", name, there.others.axes));
     for (const auto& name : needed.others.efforts)
         say (lacking ("axis to push called", "axes to push", name, there.others.efforts));
     for (const auto& name : needed.others.buttons)
         if (! hasButton (there.others, name)) say (lacking ("button", "buttons", name, there.others.buttons));
-    if (needed.others.signal_outputs > there.others.signal_outputs) say (lackingChannel ("signal output", needed.others.signal_outputs, there.others.signal_outputs));
-    if (needed.others.signal_inputs > there.others.signal_inputs) say (lackingChannel ("signal input", needed.others.signal_inputs, there.others.signal_inputs));
+    if (needed.others.signal_outputs > there.others.signal_outputs)
+        say (lackingChannel ("signal output", needed.others.signal_outputs, there.others.signal_outputs));
+    if (needed.others.signal_inputs > there.others.signal_inputs)
+        say (lackingChannel ("signal input", needed.others.signal_inputs, there.others.signal_inputs));
     return all;
 }
 
@@ -204,8 +213,8 @@ Messages missingTools (const RoleNeeds& needs, const DeviceParts& there)
         messages.push_back ({ .severity = Message::Severity::warning,
                               .id = "device/missing_tool",
                               .where = "/devices/" + needs.role,
-                              .text = "the device of the role " + inQuotes (needs.role) + " has " + what,
-                              .remedy = "what the graph makes of it is 0, or acts on nothing: bind another device, as `tactus session GRAPH` shows" });
+                              .text = "the device of the role " + quote (needs.role) + " has " + what,
+                              .remedy = "an input reads 0, and an output has no effect; bind another device: `tactus session GRAPH` shows how" });
     return messages;
 }
 

@@ -16,9 +16,9 @@ void RateMeter::look (double time_s, std::uint64_t count) noexcept
     }
     const double t = time_s - first_time;
     const double n = static_cast<double> (static_cast<std::int64_t> (count - first_count));
-    if (! (t >= newest)) return;   // no clock of ours goes back
+    if (! (t >= newest)) return;   // the clocks that we use never go backwards
 
-    // One more point, by the sums' recurrences (Welford 1962), which lose no digits over a long run.
+    // Updates the sums by recurrence (Welford 1962), so that no digits are lost over a long run.
     ++looks;
     newest = t;
     const double share = 1.0 / static_cast<double> (looks);

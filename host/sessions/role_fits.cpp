@@ -18,14 +18,7 @@ std::string textAt (const Json& object, const char* key)
     return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-std::shared_ptr<const hid::Profile> profileNamed (const std::string& id, const hid::LoadedProfiles& all)
-{
-    const auto at = std::ranges::find (all.profiles, id, [] (const auto& p)
-                                       { return p->id; });
-    return at == all.profiles.end() ? nullptr : *at;
-}
-
-/// The profile that a device goes by, if it is the one that is asked for; else null.
+/// The profile of a device, if the device is the requested one; else null.
 std::shared_ptr<const hid::Profile> profileFor (const Json& description, const hid::ConnectedDevice& device, const hid::LoadedProfiles& all)
 {
     const auto serial = textAt (description, "serial"), wanted = textAt (description, "profile");
@@ -35,7 +28,7 @@ std::shared_ptr<const hid::Profile> profileFor (const Json& description, const h
         const auto fitting = hid::matching (all.profiles, device);
         return fitting.empty() ? nullptr : fitting.front();
     }
-    const auto profile = profileNamed (wanted, all);
+    const auto profile = hid::profileNamed (all, wanted);
     return profile && hid::fit (*profile, device) > 0 ? profile : nullptr;
 }
 }   // namespace
@@ -46,7 +39,7 @@ std::string nameOf (const Json& description)
     for (const auto* key : { "profile", "path" })
         if (const auto text = textAt (description, key); ! text.empty()) name += " " + text;
     if (description.is_object() && name == "sim" && description.contains ("hand"))
-        if (const auto path = textAt (description["hand"], "path"); ! path.empty()) name += " in a hand that follows " + path;
+        if (const auto path = textAt (description["hand"], "path"); ! path.empty()) name += " with a hand that follows " + path;
     if (const auto serial = textAt (description, "serial"); ! serial.empty()) name += ", serial " + serial;
     return name.empty() ? "nothing" : name;
 }
@@ -77,7 +70,8 @@ Messages checkBinding (const Json& binding, const std::filesystem::path& folder,
     return messages;
 }
 
-std::vector<RoleFit> fitsOf (const std::vector<RoleNeeds>& all_needs, const graph::Graph& g, const LoadedSession& session, const hid::LoadedProfiles& all, std::span<const hid::ConnectedDevice> connected)
+std::vector<RoleFit> fitsOf (const std::vector<RoleNeeds>& all_needs, const graph::Graph& g, const LoadedSession& session, const hid::LoadedProfiles& all,
+                             std::span<const hid::ConnectedDevice> connected)
 {
     std::vector<RoleFit> fits;
     for (const auto& [role, needs] : all_needs)

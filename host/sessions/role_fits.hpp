@@ -11,42 +11,43 @@
 namespace tactus::host
 {
 
-/// A role of a graph, what it needs, and what stands behind it.
+/// A role of a graph, its needs, and the device bound to it.
 struct RoleFit
 {
     enum class From
     {
         session,
         graph,
-        nobody   ///< a simulated tool at rest stands in
+        none   ///< replaced by a simulated tool at rest
     };
 
     std::string role;
     DeviceParts needs;
-    From from = From::nobody;
-    Json description {};   ///< of the device, without "workspace"
+    From from = From::none;
+    Json description {};   ///< description of the device, without "workspace"
     Workspace workspace {};
-    std::optional<DeviceParts> there {};   ///< as of partsOf
-    std::optional<bool> connected {};      ///< of a HID device
-    std::vector<std::string> lacking {};   ///< as of lackingOf
-    Messages messages {};                  ///< what is wrong with the description; `where` within it
+    std::optional<DeviceParts> there {};   ///< from partsOf
+    std::optional<bool> connected {};      ///< only for a HID device
+    std::vector<std::string> lacking {};   ///< from lackingOf
+    Messages messages {};                  ///< problems of the description; `where` is relative to it
 
     bool fits() const { return lacking.empty() && ! hasErrors (messages); }
 };
 
-/// In the order of the needs. `connected` are the devices that are plugged in. [main thread]
-std::vector<RoleFit> fitsOf (const std::vector<RoleNeeds>&, const graph::Graph&, const LoadedSession&, const hid::LoadedProfiles&, std::span<const hid::ConnectedDevice> connected);
+/// One entry for each role, in the order of the needs. `connected`: the devices that are plugged in. [main thread]
+std::vector<RoleFit> fitsOf (const std::vector<RoleNeeds>&, const graph::Graph&, const LoadedSession&, const hid::LoadedProfiles&,
+                             std::span<const hid::ConnectedDevice> connected);
 
-/// "hid tactus_board, serial B7", "gesture stroke", "sim".
+/// A short name for a description, such as "hid tactus_board, serial B7", "gesture stroke" or "sim".
 std::string nameOf (const Json& description);
 
-/// Whether a HID device that is plugged in is what a description asks for.
+/// True if a connected HID device matches the description.
 bool isAmong (const Json& description, std::span<const hid::ConnectedDevice>, const hid::LoadedProfiles&);
 
-/// What is wrong with the description of a device, whatever its driver, as far as one can see without the device.
+/// Checks the description of a device with any driver, as far as that is possible without the device.
 Messages checkDescription (const Json& description, const std::filesystem::path& folder, const hid::LoadedProfiles&);
 
-/// What is wrong with the description of a binding, "workspace" and all.
+/// Checks the description of a binding, including its workspace.
 Messages checkBinding (const Json& binding, const std::filesystem::path& folder, const hid::LoadedProfiles&);
 
 }   // namespace tactus::host

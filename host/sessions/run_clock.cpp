@@ -4,7 +4,7 @@
 namespace tactus::host
 {
 
-/// Has the timer tick until the device has come.
+/// Ticks by a timer until the device is available.
 class RunClock::Waiting final : public Ticked
 {
 public:

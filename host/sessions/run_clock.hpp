@@ -10,19 +10,19 @@
 namespace tactus::host
 {
 
-/// The clock of a run that a device ticks, there already or awaited. Until it is there a timer ticks in its place, at its
-/// rate; then its reports do, as HidClock has it.
+/// The clock of a run that is ticked by a device, present or awaited. Until the device is available, a timer ticks at its
+/// rate; then its reports tick the run (HidClock).
 class RunClock final : public TickClock
 {
 public:
-    /// The device outlives the clock. [main thread]
+    /// The device must outlive the clock. [main thread]
     RunClock (hid::HidDevice&, double rate_hz);
     RunClock (const AwaitedDevice&, double rate_hz);
 
     void drive (Ticked&) noexcept override;
 
-    bool isReplaced() const noexcept override;     ///< it is not there, away or silent
-    bool isByTimer() const noexcept;               ///< now [any thread]
+    bool isReplaced() const noexcept override;     ///< true if the device is missing, away or silent
+    bool isByTimer() const noexcept;               ///< [any thread]
     std::uint64_t ticksByTimer() const noexcept;   ///< [any thread]
 
 private:
@@ -30,7 +30,7 @@ private:
 
     const double rate;
     const AwaitedDevice* awaited = nullptr;
-    std::optional<hid::HidClock> by_reports;   // made once the device is there
+    std::optional<hid::HidClock> by_reports;   // constructed once the device is available
     std::atomic<bool> is_there = false;
     std::atomic<std::uint64_t> waited = 0;   // ticks
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "session_file.hpp"
 
-#include <framework/file/json_text.hpp>
-#include <host/devices/problem.hpp>
-#include <host/io/text_file.hpp>
+#include <framework/file/text_file.hpp>
+#include <framework/text/json_text.hpp>
+#include <framework/text/message.hpp>
 
 #include <system_error>
 #include <utility>
@@ -25,12 +25,13 @@ ReadSession readAt (const fs::path& file, const std::string& text)
 
 Message unreadable (const fs::path& file)
 {
-    auto m = problem ("session/unreadable", "", "there is no session that can be read", "name a file that is there, or make one: tactus session --file FILE --bind ROLE=hid:PROFILE");
+    auto m = Message::error ("session/unreadable", "", "there is no readable session file",
+                             "name an existing file, or create one: tactus session --file FILE --bind ROLE=hid:PROFILE");
     m.file = file.string();
     return m;
 }
 
-/// The first name that is free, so that what was set aside before stays too.
+/// The first free name, so that files that were set aside earlier are kept.
 fs::path besides (const fs::path& file)
 {
     std::error_code failed;
@@ -57,7 +58,7 @@ void place (Message& m, const LoadedSession& s)
     m.column = position.column;
 }
 
-fs::path usualSessionFile (const fs::path& home) { return home / "session.json"; }
+fs::path defaultSessionFile (const fs::path& home) { return home / "session.json"; }
 
 LoadedSession loadSession (const fs::path& file)
 {
@@ -67,9 +68,9 @@ LoadedSession loadSession (const fs::path& file)
     return { std::move (read.session), file, std::move (read.messages), std::move (read.positions) };
 }
 
-LoadedSession loadUsualSession (const fs::path& home)
+LoadedSession loadDefaultSession (const fs::path& home)
 {
-    const auto file = usualSessionFile (home);
+    const auto file = defaultSessionFile (home);
     if (home.empty() || ! isThere (file)) return { {}, file, {} };
     const auto text = readTextFile (file);
     if (! text) return { {}, file, { unreadable (file) } };
@@ -80,19 +81,19 @@ LoadedSession loadUsualSession (const fs::path& home)
     std::error_code failed;
     fs::rename (file, aside, failed);
     if (failed) return { {}, file, std::move (read.messages) };
-    auto said = read.messages.front();
-    said.severity = Message::Severity::warning;
-    said.id = "session/set_aside";
-    said.text = "the session is damaged (" + said.text + "), and no role is bound";
-    said.remedy = "it is kept as " + aside.string() + ": mend it and put it back, or bind the roles anew";
-    return { {}, file, { std::move (said) } };
+    auto note = read.messages.front();
+    note.severity = Message::Severity::warning;
+    note.id = "session/set_aside";
+    note.text = "the session is damaged (" + note.text + "), and no role is bound";
+    note.remedy = "the file is kept as " + aside.string() + ": repair it and rename it back, or bind the roles again";
+    return { {}, file, { std::move (note) } };
 }
 
-std::optional<Message> saveSession (const LoadedSession& s)
+Result<> saveSession (const LoadedSession& s)
 {
-    const auto why = writeTextFile (fs::absolute (s.file), writeSession (s.session));   // whose folder has a name
-    if (! why) return std::nullopt;
-    auto m = problem ("session/unwritable", "", "the session cannot be written: " + *why, "make the folder writable, or set TACTUS_HOME to one that is");
+    const auto done = writeTextFile (fs::absolute (s.file), writeSession (s.session));   // absolute, so that it has a folder
+    if (done) return {};
+    auto m = Message::error ("session/unwritable", "", "the session " + done.error().text, "make the folder writable, or set TACTUS_HOME to one that is");
     m.file = s.file.string();
     return m;
 }
@@ -102,7 +103,7 @@ LoadedSession editSession (LoadedSession before, const std::function<void (Devic
     auto now = isThere (before.file) ? loadSession (before.file) : LoadedSession { {}, before.file, {} };
     if (! now.isGood()) return now;
     edit (now.session);
-    if (auto failed = saveSession (now)) now.messages.push_back (std::move (*failed));
+    if (auto saved = saveSession (now); ! saved) now.messages.push_back (std::move (saved).error());
     return now;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "workspace.hpp"
 
-#include <framework/units.hpp>
-#include <host/devices/fields.hpp>
+#include <framework/text/object_reader.hpp>
+#include <framework/text/units.hpp>
 
 #include <utility>
 
@@ -11,12 +11,12 @@ namespace tactus::host
 
 namespace
 {
-constexpr double least = 1e-3, most = 1e3;   // beyond, it is a mistake
+constexpr double least = 1e-3, most = 1e3;   // values beyond these limits are mistakes
 }
 
 Workspace readWorkspace (const Json& json, std::string where, Messages& messages)
 {
-    Fields in (json, std::move (where), messages);
+    ObjectReader in (json, std::move (where), messages);
     Workspace w;
     w.scale = in.number ("scale", unit::gain, { .min = least, .max = most }, w.scale);
     w.offset = in.vector ("offset", unit::metre, w.offset);

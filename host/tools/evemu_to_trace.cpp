@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Turns a recording of a pen tablet into a trace: evemu_to_trace pen.events --out pen.csv
-#include <host/devices/evemu.hpp>
-#include <host/devices/fields.hpp>
-#include <host/io/csv.hpp>
-#include <host/tools/measure_option.hpp>
-
-#include <CLI/CLI.hpp>
+// Converts a recording of a pen tablet to a trace: evemu_to_trace pen.events --out pen.csv
+#include "evemu.hpp"
+#include "measure_option.hpp"
+#include <framework/file/csv.hpp>
+#include <framework/text/number_text.hpp>
+#include <framework/text/object_reader.hpp>
 
 #include <fstream>
 #include <iostream>
@@ -39,10 +38,10 @@ bool print (const TraceData& trace)
     return static_cast<bool> (std::cout);
 }
 
-tl::expected<void, Error> write (const TraceData& trace, const std::string& path)
+Result<> write (const TraceData& trace, const std::string& path)
 {
     auto writer = TableWriter::create (path, columns);
-    if (! writer) return tl::unexpected (writer.error());
+    if (! writer) return writer.error();
 
     for (const auto& row : trace.rows)
         if (auto done = writer->row (valuesOf (row)); ! done) return done;
@@ -52,27 +51,20 @@ tl::expected<void, Error> write (const TraceData& trace, const std::string& path
 
 int main (int argc, char** argv)
 {
-    CLI::App app { "Turns a recording of a pen tablet (evemu) into a trace (t,x,y,z,pressure; SI)." };
+    const Command app { "Converts a recording of a pen tablet (evemu) to a trace (t,x,y,z,pressure; SI)." };
     EvemuOptions options;
     std::string in, out;
 
-    app.add_option ("RECORDING", in, "lines E: sec.usec type code value; - for standard input")->required();
-    app.add_option ("--out", out, "the trace; standard output without it");
-    addMeasure (app, "--pitch", options.pitch, unit::metre, "of a unit of the tablet; otherwise as the recording says, or 0.005 mm");
-    addMeasure (app, "--force", options.full_force, unit::newton, "at full pressure, otherwise 3 N");
-    addMeasure (app, "--depth", options.full_depth, unit::metre, "under the surface at full pressure, otherwise 2 mm");
-    addMeasure (app, "--lift", options.lift, unit::metre, "above the surface while the pen is up, otherwise 5 mm");
-    addMeasure (app, "--rate", options.rate_hz, unit::hertz, "of the rows, otherwise 1 kHz");
-    app.add_option ("--full-pressure", options.full_pressure, "units at full pressure; otherwise as the recording says, or 2047")->check (CLI::PositiveNumber);
+    app.addOption ("RECORDING", in, "Lines E: sec.usec type code value; - for standard input").required();
+    app.addOption ("--out", out, "Trace file; default: standard output");
+    addMeasure (app, "--pitch", options.pitch, unit::metre, "Length of one tablet unit; default: from the recording, else 0.005 mm");
+    addMeasure (app, "--force", options.full_force, unit::newton, "Force at full pressure; default: 3 N");
+    addMeasure (app, "--depth", options.full_depth, unit::metre, "Depth below the surface at full pressure; default: 2 mm");
+    addMeasure (app, "--lift", options.lift, unit::metre, "Height above the surface while the pen is up; default: 5 mm");
+    addMeasure (app, "--rate", options.rate_hz, unit::hertz, "Row rate; default: 1 kHz");
+    app.addOption ("--full-pressure", options.full_pressure, "Units at full pressure; default: from the recording, else 2047").check (positive());
 
-    try
-    {
-        app.parse (argc, argv);
-    }
-    catch (const CLI::ParseError& error)
-    {
-        return app.exit (error) == 0 ? 0 : usage;
-    }
+    if (const auto status = app.parse (argc, argv)) return *status == 0 ? 0 : usage;
 
     std::ifstream file;
     if (in != "-") file.open (in, std::ios::binary);

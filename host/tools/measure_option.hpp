@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/node.hpp>
-#include <framework/units.hpp>
+#include <framework/node/node.hpp>
+#include <framework/text/units.hpp>
 
-#include <CLI/CLI.hpp>
+#include <host/command_line/command.hpp>
 
 #include <string>
 #include <variant>
@@ -12,25 +12,26 @@
 namespace tactus::host
 {
 
-/// An option in SI, or with a unit.
-inline void addMeasure (CLI::App& app, const char* option, double& value, const Unit& unit, const std::string& about, bool zero_allowed = false)
+/// Adds an option whose value is in the SI unit or has its own unit.
+inline void addMeasure (const Command& app, const char* option, double& value, const Unit& unit, const std::string& about, bool zero_allowed = false)
 {
-    app.add_option_function<std::string> (
+    app.addOption (
            option,
            [&value, unit, option, zero_allowed] (const std::string& text)
            {
                const auto read = parseMeasure (text);
-               const auto* measure = std::get_if<Measure> (&read);
-               if (measure == nullptr) throw CLI::ValidationError (option, std::get<std::string> (read));
+               if (! read) throw UsageError (option, read.error().text);
+               const auto& measure = *read;
 
-               const bool bare = measure->dimension == Dimension {};
-               if (! bare && measure->dimension != unit.dimension) throw CLI::ValidationError (option, text + " is in " + symbolOf (measure->dimension) + ", not in " + std::string (unit.symbol));
-               if (! isFinite (measure->value) || measure->value < 0.0 || (measure->value == 0.0 && ! zero_allowed))
-                   throw CLI::ValidationError (option, text + (zero_allowed ? " is less than 0" : " is not more than 0"));
-               value = measure->value;
+               const bool bare = measure.dimension == Dimension {};
+               if (! bare && measure.dimension != unit.dimension)
+                   throw UsageError (option, text + " is in " + symbolOf (measure.dimension) + ", not in " + std::string (unit.symbol));
+               if (! isFinite (measure.value) || measure.value < 0.0 || (measure.value == 0.0 && ! zero_allowed))
+                   throw UsageError (option, text + (zero_allowed ? " must not be less than 0" : " must be more than 0"));
+               value = measure.value;
            },
            about)
-        ->type_name (std::string (unit.symbol));
+        .type (std::string (unit.symbol));
 }
 
 }   // namespace tactus::host

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <host/tools/switch_loop.hpp>
+#include "switch_loop.hpp"
 
 #include <framework/file/graph_file.hpp>
-#include <framework/in_quotes.hpp>
-#include <framework/law.hpp>
-#include <framework/number_text.hpp>
-#include <framework/units.hpp>
+#include <framework/kit/law.hpp>
+#include <framework/text/number_text.hpp>
+#include <framework/text/quote.hpp>
+#include <framework/text/units.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -23,10 +23,10 @@ constexpr double gram_force = 9.80665e-3;   // N
 struct Column
 {
     std::size_t index;
-    double factor;   // to SI
+    double factor;   // converts to SI
 };
 
-tl::expected<Column, Error> findColumn (const Table& table, const std::string& file, const std::string& prefix, const Unit& unit, const std::string& example)
+Result<Column> findColumn (const Table& table, const std::string& file, const std::string& prefix, const Unit& unit, const std::string& example)
 {
     for (std::size_t i = 0; i < table.columns.size(); ++i)
     {
@@ -35,16 +35,16 @@ tl::expected<Column, Error> findColumn (const Table& table, const std::string& f
         const auto symbol = table.columns[i].substr (prefix.size());
         if (symbol == "gf" && unit == unit::newton) return Column { i, gram_force };
 
-        const auto read = parseMeasure ("1 " + symbol);
-        const auto* measure = std::get_if<Measure> (&read);
-        if (measure == nullptr || measure->dimension != unit.dimension)
-            return tl::unexpected (Error { "switch/unknown_unit", file, inQuotes (table.columns[i]) + " does not end in a unit of " + std::string (name (unit.quantity)), "call it " + example });
+        const auto measure = parseMeasure ("1 " + symbol);
+        if (! measure || measure->dimension != unit.dimension)
+            return Message::error ("switch/unknown_unit", file, quote (table.columns[i]) + " does not end in a unit of " + std::string (name (unit.quantity)),
+                                   "call it " + example);
         return Column { i, measure->value };
     }
-    return tl::unexpected (Error { "switch/missing_column", file, "no column " + prefix + "…", "call it " + example });
+    return Message::error ("switch/missing_column", file, "no column " + prefix + "…", "call it " + example);
 }
 
-/// Readings in any order as a curve, those at one place averaged.
+/// Sorts readings into a curve; averages readings at the same position.
 class Readings
 {
 public:
@@ -72,8 +72,8 @@ private:
 
 double rounded (double value, double steps_per_unit) { return std::round (value * steps_per_unit) / steps_per_unit; }
 
-/// The point between two others that lies furthest off the straight lines from one to the other; `from` if none is further
-/// off than the tolerance.
+/// The point between two others that deviates most from the straight lines between them; `from` if no deviation exceeds the
+/// tolerance.
 std::size_t worstBetween (const SwitchLoop& loop, std::size_t from, std::size_t to, double tolerance)
 {
     double most = tolerance;
@@ -90,7 +90,7 @@ std::size_t worstBetween (const SwitchLoop& loop, std::size_t from, std::size_t 
     return worst;
 }
 
-/// The law of the plane; it ends in a point beyond the loop, from where its last slope goes on.
+/// The law of the plane. It ends in a point beyond the loop, from which its last slope continues.
 Curve meanOf (const SwitchLoop& loop)
 {
     Curve mean;
@@ -119,21 +119,21 @@ Curve boundOf (const SwitchLoop& loop)
 Json asJson (const Curve& curve) { return { curve.x, curve.y }; }
 }   // namespace
 
-tl::expected<SwitchLoop, Error> switchFrom (const Table& table, const std::string& file, double backlash)
+Result<SwitchLoop> switchFrom (const Table& table, const std::string& file, double backlash)
 {
     const auto x = findColumn (table, file, "x_", unit::metre, "x_um or x_mm");
-    if (! x) return tl::unexpected (x.error());
+    if (! x) return x.error();
     const auto force = findColumn (table, file, "force_", unit::newton, "force_gf or force_mN");
-    if (! force) return tl::unexpected (force.error());
+    if (! force) return force.error();
 
     std::vector<double> travel;
     for (std::size_t r = 0; r < table.rows(); ++r)
     {
         travel.push_back (x->factor * table.at (r, x->index));
         if (! std::isfinite (travel.back()) || ! std::isfinite (table.at (r, force->index)))
-            return tl::unexpected (Error { "switch/not_finite", file, "row " + std::to_string (r + 1) + " is not finite", "leave out what was not measured" });
+            return Message::error ("switch/not_finite", file, "row " + std::to_string (r + 1) + " is not finite", "leave out rows without a measurement");
     }
-    const auto one_way = tl::unexpected (Error { "switch/one_way", file, "there are not both a way down and a way up", "record down to the stop and back up" });
+    const auto one_way = Message::error ("switch/one_way", file, "the recording lacks the way down or the way up", "record down to the stop and back up");
     if (travel.empty()) return one_way;
 
     const double top = travel.front(), bottom = *std::ranges::max_element (travel);
@@ -151,8 +151,9 @@ tl::expected<SwitchLoop, Error> switchFrom (const Table& table, const std::strin
     if (pressed.x.size() < 2 || released.x.size() < 2) return one_way;
     const double most = *std::ranges::max_element (pressed.y), start = pressed.y.front(), end = released.y.front();
     if (std::max (start, end) > 0.05 * most)
-        return tl::unexpected (Error { "switch/not_released", file, "at the top the force is " + numberText (start) + " N before and " + numberText (end) + " N after the stroke, not 0",
-                                       "record from above the key, and up until it is free" });
+        return Message::error ("switch/not_released", file,
+                               "at the top the force is " + numberText (start) + " N before and " + numberText (end) + " N after the stroke, not 0",
+                               "start above the key, and end after it is released");
 
     std::set<double> places { 0.0 };
     for (const auto* way : { &pressed, &released })
@@ -165,7 +166,7 @@ tl::expected<SwitchLoop, Error> switchFrom (const Table& table, const std::strin
         loop.press.push_back (place == 0.0 ? 0.0 : pressed (place));
         loop.release.push_back (place == 0.0 ? 0.0 : released (place));
     }
-    if (loss (loop) < 0.0) return tl::unexpected (Error { "switch/no_loss", file, "the key gives back more than it takes", "the way down comes first" });
+    if (loss (loop) < 0.0) return Message::error ("switch/no_loss", file, "the key returns more energy than it takes", "record the way down first");
     return loop;
 }
 
@@ -218,10 +219,16 @@ graph::Graph keyFrom (const SwitchLoop& loop, const std::string& name, double st
         { "format", "tactus-graph" },
         { "version", 1 },
         { "name", name },
-        { "about", "A key as it was measured. A stroke down and up loses " + numberText (rounded (1e3 * loss (loop), 1e4)) + " mJ." },
+        { "about", "A measured key. A stroke down and up loses " + numberText (rounded (1e3 * loss (loop), 1e4)) + " mJ." },
         { "tags", { "key", "press", "measured" } },
         { "rate_hz", 4000 },
-        { "devices", { { "finger", { { "driver", "sim" }, { "mass", "50 g" }, { "damping", "3 N*s/m" }, { "hand", { { "stiffness", "800 N/m" }, { "damping", "6 N*s/m" }, { "path", "press" }, { "scale", 1.3 } } }, { "guard", { { "max_force", "6 N" } } } } } } },
+        { "devices",
+          { { "finger",
+              { { "driver", "sim" },
+                { "mass", "50 g" },
+                { "damping", "3 N*s/m" },
+                { "hand", { { "stiffness", "800 N/m" }, { "damping", "6 N*s/m" }, { "path", "press" }, { "scale", 1.3 } } },
+                { "guard", { { "max_force", "6 N" } } } } } } },
         { "nodes",
           { { "hand", { { "type", "device.position" }, { "role", "finger" } } },
             { "key", { { "type", "deform.plane" }, { "settings", { { "law", { { "table", asJson (meanOf (loop)) } } } } } } },

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Turns a measured force curve of a key switch into a graph: switch_to_graph switch.csv --out key.json
-#include <host/tools/measure_option.hpp>
-#include <host/tools/switch_loop.hpp>
+// Converts a measured force curve of a key switch to a graph: switch_to_graph switch.csv --out key.json
+#include "measure_option.hpp"
+#include "switch_loop.hpp"
 
 #include <framework/file/graph_file.hpp>
-#include <framework/number_text.hpp>
-
-#include <CLI/CLI.hpp>
+#include <framework/text/number_text.hpp>
 
 #include <cmath>
 #include <filesystem>
@@ -24,27 +22,21 @@ std::string millijoule (double joule) { return numberText (std::round (1e7 * jou
 
 int main (int argc, char** argv)
 {
-    CLI::App app { "Turns a force curve of a key switch, pressed and released, into a passive graph." };
+    const Command app { "Converts a force curve of a key switch, pressed and released, to a passive graph." };
     double tolerance = 10e-3, stiffness = 1e4, backlash = 0.0;
     std::string in, out;
 
-    app.add_option ("CURVE", in, "CSV with columns such as x_um and force_gf: down to the stop and back up")->required();
-    app.add_option ("--out", out, "the graph; standard output without it");
-    addMeasure (app, "--tolerance", tolerance, unit::newton, "between the curve and the straight lines drawn for it, otherwise 10 mN");
-    addMeasure (app, "--stiffness", stiffness, unit::stiffness, "with which the key changes from one way to the other, otherwise 10 N/mm");
-    addMeasure (app, "--backlash", backlash, unit::metre, "of the meter: on the way up the key is that much deeper than it says, otherwise 0", true);
+    app.addOption ("CURVE", in, "CSV with columns such as x_um and force_gf: down to the stop and back up").required();
+    app.addOption ("--out", out, "Graph file; default: standard output");
+    addMeasure (app, "--tolerance", tolerance, unit::newton, "Largest distance between the curve and the straight lines that replace it; default: 10 mN");
+    addMeasure (app, "--stiffness", stiffness, unit::stiffness,
+                "Stiffness with which the force changes between the two curves when the finger reverses; default: 10 N/mm");
+    addMeasure (app, "--backlash", backlash, unit::metre, "Backlash of the meter: on the way up, the key is this much deeper than measured; default: 0", true);
 
-    try
-    {
-        app.parse (argc, argv);
-    }
-    catch (const CLI::ParseError& error)
-    {
-        return app.exit (error) == 0 ? 0 : usage;
-    }
+    if (const auto status = app.parse (argc, argv)) return *status == 0 ? 0 : usage;
 
     const auto table = readTable (std::filesystem::path (in));
-    const auto measured = table ? switchFrom (*table, in, backlash) : tl::unexpected (table.error());
+    const auto measured = table ? switchFrom (*table, in, backlash) : table.error();
     if (! measured)
     {
         std::cerr << describe (measured.error()) << '\n';
@@ -53,17 +45,17 @@ int main (int argc, char** argv)
 
     const auto loop = simplified (withoutGain (*measured), tolerance);
     const auto key = keyFrom (loop, std::filesystem::path (in).stem().string(), stiffness);
-    std::cerr << in << ": measured to lose " << millijoule (loss (*measured)) << " a stroke, made to lose " << millijoule (loss (loop)) << ", with " << loop.travel.size() << " points\n";
+    std::cerr << in << ": measured loss " << millijoule (loss (*measured)) << " per stroke, loss of the graph " << millijoule (loss (loop)) << ", with "
+              << loop.travel.size() << " points\n";
     if (const double gain = loss (withoutGain (*measured)) - loss (*measured); gain > 0.0)
-        std::cerr << in << ": where it was measured to give " << millijoule (gain) << " back, it is made to give none\n";
+        std::cerr << in << ": the measured curve returns " << millijoule (gain) << " in places; the graph returns none\n";
 
     if (out.empty())
     {
         std::cout << writeGraph (key) << std::flush;
         return std::cout ? 0 : input_at_fault;
     }
-    const auto messages = saveGraph (key, out);
-    for (const auto& message : messages)
-        std::cerr << message.where << ": " << message.text << "; " << message.remedy << " [" << message.id << "]\n";
-    return hasErrors (messages) ? input_at_fault : 0;
+    const auto done = saveGraph (key, out);
+    if (! done) std::cerr << describe (done.error()) << '\n';
+    return done ? 0 : input_at_fault;
 }

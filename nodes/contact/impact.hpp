@@ -1,33 +1,32 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/node.hpp>
 
 #include <array>
 #include <cmath>
-#include <cstddef>
 
 namespace tactus::nodes
 {
 
-/// Tells when the tool strikes, once per contact, and how fast: the trigger of vibrations and shocks.
+/// One hit per contact, with the speed of the approach: the trigger of vibrations and shocks.
 ///
-/// Contact begins when depth goes above 0 and ends when it is `release` below. On the first tick of a contact
+/// Contact begins when depth rises above 0 and ends when depth falls to `release` below 0. On the first tick of a contact
 ///
-///     hit = rate of depth over the last samples before and at contact
+///     hit = rate of depth over the last samples up to the contact
 ///
-/// How many samples is decided by their noise, for which `release` stands: as many as lie within it of the straight
-/// line from the first to the last, at least three where there are three, at most seventeen. So a slow approach in
-/// steps of an encoder's quantum is averaged, one that brakes is not, and a steady one is exact either way.
+/// The number of samples depends on their noise, taken to be `release`: as many as lie within `release` of the straight
+/// line from the first to the last, at least three if there are three, at most seventeen. So a slow approach in steps of an
+/// encoder's quantum is averaged, a braking one is not, and a steady one is exact either way.
 ///
-/// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 6 ("initial value of d^z" reads its rate);
-/// the window is that of Janabi-Sharifi, Hayward & Chen 2000.
+/// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 6 (where "initial value of d^z" means its rate);
+/// the window is from Janabi-Sharifi, Hayward & Chen 2000.
 ///
 /// Good to know
 ///  - `release` should be at least the resolution of the position, or one touch may count as several and the speed is noisy.
-///  - Of a position in quanta q the speed is within 2 q / (n T) of the truth, n the ticks the window spans.
-///  - A tool that is inside on the first sample, or after a fault, is in contact but has not struck. A contact that
-///    begins within `refractory` of a hit, or slower than `min_speed`, makes none, also not later.
+///  - With a position in quanta q, the speed is within 2 q / (n T) of the true speed, where n is the number of ticks in the window.
+///  - A tool that is inside on the first sample, or after a fault, is in contact but triggers no hit. A contact that begins
+///    within `refractory` of a hit, or slower than `min_speed`, never triggers one.
 struct Impact
 {
     struct Inputs
@@ -56,10 +55,11 @@ struct Impact
     };
 
     static constexpr std::tuple ports {
-        input (&Inputs::depth, "depth", unit::metre, "of the tool in the object, negative while apart"),
-        param (&Params::release, "release", unit::metre, "how far apart a contact ends; at least the noise of depth", { .hard = { 0, inf }, .usual = { 0, 1e-3 } }),
-        param (&Params::min_speed, "min_speed", unit::speed, "a softer touch makes no hit", { .hard = { 0, inf }, .usual = { 0, 0.5 } }),
-        param (&Params::refractory, "refractory", unit::second, "for so long after a hit there is no other", { .hard = { 0, inf }, .usual = { 0, 0.2 } }),
+        input (&Inputs::depth, "depth", unit::metre, "depth of the tool in the object; negative while apart"),
+        param (&Params::release, "release", unit::metre, "distance at which a contact ends; at least the noise of depth",
+               { .hard = { 0, inf }, .usual = { 0, 1e-3 } }),
+        param (&Params::min_speed, "min_speed", unit::speed, "slowest touch that triggers a hit", { .hard = { 0, inf }, .usual = { 0, 0.5 } }),
+        param (&Params::refractory, "refractory", unit::second, "time after a hit in which no other is triggered", { .hard = { 0, inf }, .usual = { 0, 0.2 } }),
         output (&Outputs::hit, "hit", unit::hit, "impact speed on the first tick of a contact, else 0"),
         output (&Outputs::contact, "contact", unit::state, "1 in contact, 0 apart"),
     };
@@ -87,7 +87,7 @@ struct Impact
         if (touching && in.depth <= -params.release)
         {
             touching = false;
-            known = 0;   // what was inside is no approach
+            known = 0;   // samples from inside are not part of an approach
         }
         remember (in.depth);
         if (touching || in.depth <= 0.0) return { .contact = touching ? 1.0 : 0.0 };
@@ -107,13 +107,13 @@ private:
     void remember (double depth) noexcept
     {
         newest = (newest + 1) % capacity;
-        depths[static_cast<std::size_t> (newest)] = depth;
+        depths[at (newest)] = depth;
         if (known < capacity) ++known;
     }
 
-    double ago (int ticks) const noexcept { return depths[static_cast<std::size_t> ((newest + capacity - ticks) % capacity)]; }
+    double ago (int ticks) const noexcept { return depths[at ((newest + capacity - ticks) % capacity)]; }
 
-    /// Rate of depth up to now, m/s; 0 if there is no sample before.
+    /// Rate of depth up to now, m/s; 0 without an earlier sample.
     double approach() const noexcept
     {
         if (known < 2) return 0.0;
@@ -121,11 +121,11 @@ private:
         int n = 1;
         while (n + 1 < known && (n == 1 || straight (n + 1)))
             ++n;
-        if (n == 2 && ago (0) <= ago (2)) n = 1;   // it turned back only just now
+        if (n == 2 && ago (0) <= ago (2)) n = 1;   // it has only just turned back
         return (ago (0) - ago (n)) / (n * dt);
     }
 
-    /// True if all samples since lie within the noise of the line from n ticks ago to now.
+    /// True if all samples in between are within the noise of the line from n ticks ago to now.
     bool straight (int n) const noexcept
     {
         const double slope = (ago (0) - ago (n)) / n;
@@ -134,7 +134,7 @@ private:
         return true;
     }
 
-    std::array<double, capacity> depths {};   // ring of the last depths, m
+    std::array<double, capacity> depths {};   // ring of the last depths, in m
     int newest = 0, known = 0;
     bool touching = false;
     double since_hit = inf;               // ticks

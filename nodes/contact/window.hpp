@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/node.hpp>
 
 #include <algorithm>
 
 namespace tactus::nodes
 {
 
-/// Fades a texture in over the first fraction of a millimetre, so that touching it does not step the force.
+/// Fades a texture in over the first fraction of a millimetre, so that a touch does not step the force.
 ///
 ///     gain = clamp (depth / window, 0, 1)
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 5, superposition on a nominal force.
 ///
-/// Beware: times a force that depends on lateral position this is no potential any more. What it gives on a loop that
-/// goes in here and out there is at most the work of the bare texture over the way between; a thin window keeps it
-/// small against the friction of any real contact.
+/// Beware: its product with a force that depends on lateral position has no potential. A loop that goes in at one
+/// place and out at another can gain at most the work of the bare texture over the distance between. A thin window keeps this
+/// small compared with the friction of any real contact.
 struct ContactWindow
 {
     struct Inputs
@@ -42,9 +42,9 @@ struct ContactWindow
     };
 
     static constexpr std::tuple ports {
-        input (&Inputs::depth, "depth", unit::metre, "of the tool in the object"),
+        input (&Inputs::depth, "depth", unit::metre, "depth of the tool in the object"),
         param (&Params::window, "window", unit::metre, "depth at which the gain is 1", { .hard = { 1e-9, inf }, .usual = { 1e-5, 5e-3 } }),
-        output (&Outputs::gain, "gain", unit::gain, "0 apart to 1 deep inside"),
+        output (&Outputs::gain, "gain", unit::gain, "from 0 while apart to 1 deep inside"),
     };
 
     Params params;

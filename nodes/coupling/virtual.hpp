@@ -1,37 +1,37 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/node.hpp>
 
 namespace tactus::nodes
 {
 
-/// A wall as hard as you like, felt through a spring and a damper that the device can bear.
+/// A wall of any hardness, felt through a spring and a damper that the device can handle.
 ///
-/// A massless proxy goes where the tool goes, but not into the wall. The tool hangs on it by the coupling, and the
-/// coupling is all the hand ever feels: however hard the wall, the device sees no more than kc and bc.
+/// A massless proxy follows the tool, but not into the wall. The coupling ties the tool to the proxy, and the hand only ever
+/// feels the coupling: however hard the wall, the device sees no more than kc and bc.
 ///
-///     x = offset - n . p                                 depth of the tool; x_v that of the proxy, e = x - x_v
+///     x = offset - n . p                                 depth of the tool; x_v is the depth of the proxy, e = x - x_v
 ///     kc e + bc (e - e^-) / T = sigma x_v                in the wall; = 0 outside. Solved with
 ///     g = kc + bc / T,  x_f = x - (bc / T) e^- / g       where the proxy would be without a wall:
 ///     x_f <= 0: x_v = x_f, f = 0                         it is outside
 ///     x_f > 0:  x_v = x_f g / (g + sigma), f = sigma x_v n
 ///
-/// Implicit: e is that of this sample, so a wall of 1e8 N/m is as calm as one of 1e3. f is the force on the tool.
+/// The rule is implicit: e belongs to this sample, so a wall of 1e8 N/m is as calm as one of 1e3. f is the force on the tool.
 ///
 /// Source: Adams & Hannaford 1999; Colgate, Stanley & Brown 1995; Hayward, "Physically-Based Haptic Synthesis" (2007),
 /// section 1, for the limit on kc.
 ///
-/// Departures: Adams and Hannaford's proxy has no mass here, and the wall no damping of its own.
+/// Departures: here Adams and Hannaford's proxy has no mass, and the wall has no damping.
 ///
 /// Good to know
-///  - Held between samples, kc needs what any spring needs: stiffness T / 2 at most the damping of the device. The wall
-///    settles up to kc = 0.8 times 2 B / T and buzzes at 1.3 times, whatever sigma (see the test).
-///  - Do not turn damping up to calm a buzz: as Colgate has it B > kc T / 2 + |bc|.
-///  - On the first sample the proxy is at the tool, in the wall or not: no force. A tool that is inside from the start
-///    feels the wall on the next sample, in one step, and is given energy. Other than that it is passive.
-///  - It does not pull. After leaving, the proxy catches up with time constant bc / kc.
-///  - `proxy` is where the tool seems to be: show this, not the tool. `depth` is the tool's, as with deform.plane.
+///  - Held between samples, kc needs what any spring needs: the damping of the device must be at least stiffness T / 2. The
+///    wall settles up to kc = 0.8 times 2 B / T and buzzes at 1.3 times, whatever sigma (see the test).
+///  - Do not raise damping to calm a buzz: Colgate's condition is B > kc T / 2 + |bc|.
+///  - On the first sample the proxy is at the tool, in the wall or not: no force. A tool that is inside from the start feels
+///    the wall on the next sample, in one step, and gains energy. Otherwise the node is passive.
+///  - It does not pull. After the tool leaves, the proxy catches up with time constant bc / kc.
+///  - `proxy` is where the tool seems to be: draw this, not the tool. `depth` is the depth of the tool, as in deform.plane.
 ///  - A wall that is moved by a wire or a knob does work, as a moving wall does.
 struct VirtualCoupling
 {
@@ -60,20 +60,22 @@ struct VirtualCoupling
     static constexpr Info info {
         .id = "coupling.virtual",
         .name = "Virtual coupling",
-        .summary = "A wall of any hardness, felt through a spring and damper that the device can bear.",
+        .summary = "A wall of any hardness, felt through a spring and damper that the device can handle.",
         .source = "Adams & Hannaford 1999",
     };
 
     static constexpr std::tuple ports {
         input (&Inputs::position, "position", unit::metre, "tool position p"),
-        param (&Params::stiffness, "stiffness", unit::stiffness, "of the coupling kc; at most 0.8 times 2 B / T", { .hard = { 0, inf }, .usual = { 0, 1e4 } }),
-        param (&Params::damping, "damping", unit::damping, "of the coupling bc", { .hard = { 0, inf }, .usual = { 0, 20 } }),
-        param (&Params::normal, "normal", unit::gain, "out of the wall; any length but 0"),
-        param (&Params::offset, "offset", unit::metre, "where the wall is, along the unit normal", { .usual = { -0.1, 0.1 } }),
-        param (&Params::wall_stiffness, "wall_stiffness", unit::stiffness, "of the wall behind the coupling sigma", { .hard = { 0, inf }, .usual = { 0, 1e8 } }),
-        output (&Outputs::proxy, "proxy", unit::metre, "where the tool seems to be: hardly in the wall"),
+        param (&Params::stiffness, "stiffness", unit::stiffness, "stiffness kc of the coupling; at most 0.8 times 2 B / T",
+               { .hard = { 0, inf }, .usual = { 0, 1e4 } }),
+        param (&Params::damping, "damping", unit::damping, "damping bc of the coupling", { .hard = { 0, inf }, .usual = { 0, 20 } }),
+        param (&Params::normal, "normal", unit::gain, "direction out of the wall; any length but 0"),
+        param (&Params::offset, "offset", unit::metre, "position of the wall along the unit normal", { .usual = { -0.1, 0.1 } }),
+        param (&Params::wall_stiffness, "wall_stiffness", unit::stiffness, "stiffness sigma of the wall behind the coupling",
+               { .hard = { 0, inf }, .usual = { 0, 1e8 } }),
+        output (&Outputs::proxy, "proxy", unit::metre, "where the tool seems to be; in contact, this is barely inside the wall"),
         output (&Outputs::force, "force", unit::newton, "force on the tool"),
-        output (&Outputs::depth, "depth", unit::metre, "of the tool behind the surface; negative while apart"),
+        output (&Outputs::depth, "depth", unit::metre, "depth of the tool behind the surface; negative while apart"),
         output (&Outputs::state, "state", unit::state, "-1 fault, 0 open, 1 the proxy is in the wall"),
     };
 
@@ -89,7 +91,7 @@ struct VirtualCoupling
 
     void adopt (const VirtualCoupling& old) noexcept { last = old.last; }
 
-    /// Not passive: a tool that is inside from the start is given what it takes to come out.
+    /// Not passive: a tool that is inside from the start gains the energy to come out.
     Claims claims() const
     {
         const double kc = params.stiffness, sigma = params.wall_stiffness;
@@ -124,7 +126,7 @@ struct VirtualCoupling
 private:
     struct Stretch
     {
-        double e = 0.0;       // of the coupling along the normal, m
+        double e = 0.0;       // deflection of the coupling along the normal, in m
         bool known = false;   // false until the first finite sample
     };
 

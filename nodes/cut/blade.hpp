@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/node.hpp>
 
 #include <algorithm>
 #include <sstream>
@@ -10,39 +10,41 @@
 namespace tactus::nodes
 {
 
-/// A blade pushed into a sample: it gives, gives more, bursts open, and is cut.
+/// A blade pushed into a sample, which yields, bursts open, and is cut.
 ///
-/// The blade is delta deep below the undeformed surface, the crack it has opened is c long. A sample stores energy in
-/// what is not yet cut, and a crack grows when that sets free what new surface costs, J_c for each square metre:
+/// The blade is delta deep below the undeformed surface; the crack it has opened is c long. The uncut part of the sample stores
+/// energy. A crack grows when this releases the energy of the new surface, J_c per square metre:
 ///
 ///     virgin     f = g0 (delta)                                   reversible, up to rupture_force           branch 1
 ///     rupture    at delta = d_r = g0^-1 (rupture_force) the crack jumps from 0 to c1, the largest root of   branch 2
 ///                G0 (d_r) = G1 (d_r - c1) + J_c w c1              G0, G1 the energies of g0, g1
-///     elastic    f = g1 (e), e = delta - c; 0 for e <= 0          reversible, the crack as it is            branches 3, 5, 6
+///     elastic    f = g1 (e), e = delta - c; 0 for e <= 0          reversible, the crack stays as it is      branches 3, 5, 6
 ///     cutting    e > e_c = g1^-1 (J_c w): c = delta - e_c         at the force J_c w                        branch 4
 ///
-/// g0 is `law`, g1 `cracked_law` (none: the same), w `width`, J_c `toughness`. Rupture costs less than was stored: the
-/// force falls below J_c w, must be reloaded to it, and stays there. This dip is what a knife through a skin feels like.
-/// The force of cutting knows nothing of stiffness. With g0 = g1 = k e the crack jumps by 2 (d_r - e_c).
+/// g0 is `law`, g1 `cracked_law` (none: the same), w `width`, J_c `toughness`. Rupture costs less than the stored energy: the
+/// force falls below J_c w, must be loaded up to it again, and stays there. This dip is the feel of a knife through a skin.
+/// The cutting force does not depend on stiffness. With g0 = g1 = k e the crack jumps by 2 (d_r - e_c).
 ///
-/// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 3 and Fig. 6, 7, which prints no equation but
+/// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 3 and Fig. 6, 7, which only prints the equation
 /// J_c a (Ds); Mahvash & Hayward 2001. The balance at rupture is Griffith's.
 ///
 /// Departures from the printed chapter
-///  - Where even a crack through all that is pressed in, c1 = d_r, leaves energy over, it is lost; none comes back.
-///  - A crack longer than `thickness` is a sample in two pieces: no force from there on, for ever, and what was stored is lost.
+///  - If even a crack through the whole indentation, c1 = d_r, leaves energy over, that energy is lost.
+///  - A crack longer than `thickness` leaves the sample in two pieces: from then on there is no force, and the stored energy
+///    is lost.
 ///  - Cutting by branch 4 ends exactly on the branch point e = e_c. It begins beyond the relative guard 1e-9.
 ///
 /// Good to know
-///  - Time-free. A blade that leaves and returns finds its crack, and no force down to where it ended.
-///  - One sample may lead from the surface through rupture and far into the sample: it ends where a slow blade would,
-///    and dissipated_energy counts the same. Its state is 2 whatever else happened.
-///  - dissipated_energy is J_c w c and what was lost at rupture and at the end. The work of a slow hand is the growth of
-///    stored plus dissipated energy.
-///  - Params are read when the blade touches. If they then say what `problem` would refuse, a rupture_force below J_c w
-///    counts as J_c w, and a sample that would have to gain energy to crack does not.
-///  - Friction on the flanks of the blade is not in it: patch a friction node with a normal force proportional to w c.
-///  - While it holds, a spring of slope K leaks K dp^2 / 2 per sample: the device must damp K T / 2 (section 1).
+///  - Time-free. A blade that leaves and returns finds its crack, and no force down to its tip.
+///  - One tick may lead from the surface through rupture and far into the sample. It ends where a slow blade would, and
+///    dissipated_energy is the same. The state is then 2, whatever else happened.
+///  - dissipated_energy is J_c w c plus the losses at rupture and at the end. The work of a slow hand is the growth of stored
+///    plus dissipated energy.
+///  - Params are read when the blade touches. If wires then give values that `problem` would refuse: a rupture_force below J_c w
+///    counts as J_c w, and a sample that would have to gain energy to crack does not crack.
+///  - Friction on the flanks of the blade is not included: patch a friction node with a normal force proportional to w c.
+///  - While it is held between samples, a spring of slope K leaks K dp^2 / 2 per sample: the device must damp K T / 2
+///    (section 1).
 struct Blade
 {
     struct Inputs
@@ -76,22 +78,25 @@ struct Blade
     static constexpr Info info {
         .id = "cut.blade",
         .name = "Blade",
-        .summary = "A blade pressed into a sample that bursts open and is cut.",
+        .summary = "A blade pressed into a sample, which bursts open and is cut.",
         .source = "Hayward 2007, section 3; Mahvash & Hayward 2001",
     };
 
     static constexpr std::tuple ports {
-        input (&Inputs::depth, "depth", unit::metre, "of the blade below the undeformed surface"),
-        param (&Params::width, "width", unit::metre, "of the cut, along the edge of the blade", { .hard = { 0, inf }, .usual = { 0, 0.1 }, .latch = true }),
-        param (&Params::toughness, "toughness", unit::toughness, "J_c, what new surface costs", { .hard = { 0, inf }, .usual = { 0, 5000 }, .latch = true }),
-        param (&Params::rupture_force, "rupture_force", unit::newton, "at which the sample bursts open; at least width times toughness", { .hard = { 0, inf }, .usual = { 0, 50 }, .latch = true }),
-        param (&Params::thickness, "thickness", unit::metre, "how long a crack leaves two pieces; 0: never", { .hard = { 0, inf }, .usual = { 0, 0.2 }, .latch = true }),
-        setting (&Settings::law, "law", unit::metre, unit::newton, "force over depth while there is no crack"),
-        setting (&Settings::cracked_law, "cracked_law", unit::metre, unit::newton, "force over the depth beyond the crack; none: the same"),
+        input (&Inputs::depth, "depth", unit::metre, "depth of the blade below the undeformed surface"),
+        param (&Params::width, "width", unit::metre, "width of the cut, along the edge of the blade",
+               { .hard = { 0, inf }, .usual = { 0, 0.1 }, .latch = true }),
+        param (&Params::toughness, "toughness", unit::toughness, "J_c, energy of new surface", { .hard = { 0, inf }, .usual = { 0, 5000 }, .latch = true }),
+        param (&Params::rupture_force, "rupture_force", unit::newton, "force that bursts the sample open; at least width times toughness",
+               { .hard = { 0, inf }, .usual = { 0, 50 }, .latch = true }),
+        param (&Params::thickness, "thickness", unit::metre, "length of a crack that leaves two pieces; 0: never",
+               { .hard = { 0, inf }, .usual = { 0, 0.2 }, .latch = true }),
+        setting (&Settings::law, "law", unit::metre, unit::newton, "force against depth while there is no crack"),
+        setting (&Settings::cracked_law, "cracked_law", unit::metre, unit::newton, "force against depth beyond the crack; if not given, the same as law"),
         output (&Outputs::resistance, "resistance", unit::newton, "force against the blade"),
         output (&Outputs::crack, "crack", unit::metre, "length of the crack"),
         output (&Outputs::stored_energy, "stored_energy", unit::joule, "elastic energy"),
-        output (&Outputs::dissipated_energy, "dissipated_energy", unit::joule, "energy that cracks have cost since the start"),
+        output (&Outputs::dissipated_energy, "dissipated_energy", unit::joule, "energy spent on cracks since the start"),
         output (&Outputs::state, "state", unit::state, "-1 fault, 0 open, 1 virgin, 2 rupture, 3 elastic with crack, 4 cutting, 5 cut through"),
     };
 
@@ -106,7 +111,7 @@ struct Blade
         if (sample.touching) sample.material = read (old.sample.material.params);
     }
 
-    /// The laws are felt no further than to rupture and to cutting.
+    /// The laws are only felt up to rupture and up to cutting.
     Claims claims() const
     {
         const Material m = read (params);
@@ -118,16 +123,16 @@ struct Blade
 private:
     static constexpr double eps_cut = 1e-9;   // keeps steady cutting off the branch point
 
-    /// What follows from the params that were read when the blade touched.
+    /// Derived from the params that were read when the blade touched.
     struct Material
     {
         Params params;
-        double cost = 0.0;        // J_c w of a metre of crack, N
+        double cost = 0.0;        // J_c w per metre of crack, N
         double last = inf;        // crack that leaves two pieces, m
-        double e_cut = inf;       // depth beyond the crack at which it grows, m
+        double e_cut = inf;       // the crack grows when the blade is this far beyond it, m
         double d_rupture = inf;   // depth at which a virgin sample bursts, m
         double burst = 0.0;       // crack after that, m
-        double loss = 0.0;        // energy it takes, J
+        double loss = 0.0;        // energy lost in it, J
     };
 
     struct Sample
@@ -141,6 +146,7 @@ private:
 
     Material read (const Params&) const noexcept;
     double burstLength (const Material&) const noexcept;
+    static double stateOf (const Sample&, double depth) noexcept;
     bool burst (Sample&, double depth) const noexcept;
     bool cut (Sample&, double depth) const noexcept;
     Outputs answer (const Sample&, double depth, double state) const noexcept;
@@ -163,7 +169,8 @@ inline std::string Blade::problem() const
     else if (params.rupture_force < cost * (1.0 - eps_cut))
         text << "rupture_force is " << params.rupture_force << " N; it must be at least width times toughness, which is " << cost << " N";
     else if (isFinite (d) && cracked().energy (d) > settings.law.energy (d) * (1.0 + eps_cut))
-        text << "at rupture, " << d << " m deep, cracked_law stores " << cracked().energy (d) << " J; it must not be more than law does, " << settings.law.energy (d) << " J";
+        text << "at rupture, " << d << " m deep, cracked_law stores " << cracked().energy (d)
+             << " J; it must not store more than law does, " << settings.law.energy (d) << " J";
     return text.str();
 }
 
@@ -187,16 +194,23 @@ inline Blade::Outputs Blade::tick (const Inputs& in) noexcept
         bursts = burst (now, depth);
         cuts = cut (now, depth);
     }
-    const double state = bursts ? 2.0 : now.in_two          ? 5.0
-                                    : cuts                  ? 4.0
-                                    : ! (depth > now.crack) ? 0.0
-                                    : now.virgin            ? 1.0
-                                                            : 3.0;
+    double state = stateOf (now, depth);
+    if (bursts)
+        state = 2.0;
+    else if (cuts && ! now.in_two)
+        state = 4.0;
 
     const Outputs out = answer (now, depth, state);
     if (! isFinite (out.resistance, out.crack, out.stored_energy, out.dissipated_energy)) return fault();
     sample = now;
     return out;
+}
+
+inline double Blade::stateOf (const Sample& s, double depth) noexcept
+{
+    if (s.in_two) return 5.0;
+    if (! (depth > s.crack)) return 0.0;
+    return s.virgin ? 1.0 : 3.0;
 }
 
 /// Branches 1, 3, 5 and 6; and 4, whose force is g1 (e_c).
@@ -225,7 +239,7 @@ inline bool Blade::burst (Sample& s, double depth) const noexcept
     return true;
 }
 
-/// Branch 4. The crack stops where the sample does; then the pieces spring back.
+/// Branch 4. The crack ends at the end of the sample; then the pieces spring back.
 inline bool Blade::cut (Sample& s, double depth) const noexcept
 {
     const Material& m = s.material;
@@ -251,8 +265,8 @@ inline Blade::Material Blade::read (const Params& p) const noexcept
     return m;
 }
 
-/// The largest root c of h (c) = G0 (d_r) - G1 (d_r - c) - J_c w c, at most d_r. As g1 rises h is concave, with its top
-/// at d_r - e_c, so that Newton's steps from beyond the root come down to it and never pass it.
+/// The largest root c of h (c) = G0 (d_r) - G1 (d_r - c) - J_c w c, at most d_r. Because g1 rises, h is concave with its maximum
+/// at d_r - e_c, so Newton's steps from beyond the root come down to it and never pass it.
 inline double Blade::burstLength (const Material& m) const noexcept
 {
     const double stored = settings.law.energy (m.d_rupture);

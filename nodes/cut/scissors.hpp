@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/node.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,36 +10,36 @@
 namespace tactus::nodes
 {
 
-/// Scissors that close on a plate: it gives a little, then opens along the blades as fast as they close.
+/// Scissors that close on a plate. The plate yields a little, then opens along the blades as fast as they close.
 ///
-/// Two straight blades meet at a pivot, opened by theta; a plate h thick lies between them, cut open up to the crack
-/// front, x from the pivot. What it is squeezed at the front is stored, and the crack grows when a step of it sets free
-/// what new surface costs, J_c h for each metre:
+/// Two straight blades meet at a pivot, opened by theta. A plate of thickness h lies between them, cut up to the crack front at
+/// x from the pivot. The squeeze at the front stores energy, and the crack grows when a step of it releases the energy of the
+/// new surface, J_c h per metre:
 ///
 ///     t = tan (theta / 2),   delta = h / 2 - x t          squeeze; contact while delta > 0
 ///     U = k delta^2 / 2                                   stored energy
 ///     T = k delta x / (2 cos^2 (theta / 2))               torque against closing
 ///     cutting: k delta t > J_c h   ->   x such that k delta t = J_c h, where T = J_c h x / sin (theta)
 ///
-/// So the torque of cutting follows from the toughness of the plate and the shape of the scissors, and knows nothing
-/// of its stiffness; it rises as the front moves out and the blades get parallel. The force at a handle is T over its length.
+/// So the cutting torque depends on the toughness of the plate and the shape of the scissors, not on stiffness. It rises as the
+/// front moves out and the blades become parallel. The force at a handle is T over its length.
 ///
-/// Source: Mahvash & Okamura 2005, whose abstract says that the force of fracture is one of toughness and geometry;
-/// Hayward, "Physically-Based Haptic Synthesis" (2007), section 3, for the balance of energies. The formulas are derived
-/// here from that balance for straight blades; neither source prints them so.
+/// Source: Mahvash & Okamura 2005, whose abstract states that the fracture force depends on toughness and geometry;
+/// Hayward, "Physically-Based Haptic Synthesis" (2007), section 3, for the energy balance. The formulas are derived here from
+/// that balance for straight blades; neither source prints them in this form.
 ///
 /// Departures
 ///  - Cutting ends exactly on its criterion. It begins beyond the relative guard 1e-9.
 ///
 /// Good to know
-///  - Time-free: a step of the angle, however large, is cut as the blades close over it. Blades that open and close
-///    again feel nothing down to the front.
+///  - Time-free: a step of the angle, however large, cuts as the blades close over it. Blades that open and close again feel
+///    nothing down to the front.
 ///  - Below t = 4 J_c / k the blades are too parallel to cut: the front stops at k h / (16 J_c), and the rest is squeeze.
-///  - The work of a slow hand is the growth of stored_energy plus dissipated_energy, and dissipated_energy is J_c h times
-///    the way of the front.
-///  - At theta <= 0 or >= pi there is no force and nothing stored: closing through 0 lets the squeeze go all at once.
-///  - Params are read when the blades touch, pivot_distance until the first cut.
-///  - The plate has no end, and the blades no friction and no length.
+///  - The work of a slow hand is the growth of stored_energy plus dissipated_energy; dissipated_energy is J_c h times the
+///    distance the front has moved.
+///  - At theta <= 0 or >= pi there is no force and no stored energy: closing through 0 releases the squeeze in one step.
+///  - Params are read when the blades touch; pivot_distance is read until the first cut.
+///  - The plate has no end. The blades have no friction and unlimited length.
 struct Scissors
 {
     struct Inputs
@@ -67,20 +67,22 @@ struct Scissors
     static constexpr Info info {
         .id = "cut.scissors",
         .name = "Scissors",
-        .summary = "Scissors that cut a plate, with a torque of toughness and shape.",
+        .summary = "Scissors that cut a plate; the torque depends on toughness and shape.",
         .source = "after Mahvash & Okamura 2005; Hayward 2007, section 3",
     };
 
     static constexpr std::tuple ports {
-        input (&Inputs::angle, "angle", unit::radian, "opening of the blades theta"),
-        param (&Params::thickness, "thickness", unit::metre, "of the plate h", { .hard = { 0, inf }, .usual = { 0, 0.01 }, .latch = true }),
-        param (&Params::toughness, "toughness", unit::toughness, "J_c, what new surface costs", { .hard = { 0, inf }, .usual = { 0, 5000 }, .latch = true }),
-        param (&Params::stiffness, "stiffness", unit::stiffness, "of the plate at the crack front k", { .hard = { 0, inf }, .usual = { 1e4, 1e7 }, .latch = true }),
-        param (&Params::pivot_distance, "pivot_distance", unit::metre, "where the plate is first touched, from the pivot", { .hard = { 0, inf }, .usual = { 0, 0.1 }, .latch = true }),
-        output (&Outputs::torque, "torque", unit::torque, "against closing"),
-        output (&Outputs::crack_front, "crack_front", unit::metre, "where the plate is cut up to, from the pivot"),
+        input (&Inputs::angle, "angle", unit::radian, "opening angle theta of the blades"),
+        param (&Params::thickness, "thickness", unit::metre, "thickness h of the plate", { .hard = { 0, inf }, .usual = { 0, 0.01 }, .latch = true }),
+        param (&Params::toughness, "toughness", unit::toughness, "J_c, energy of new surface", { .hard = { 0, inf }, .usual = { 0, 5000 }, .latch = true }),
+        param (&Params::stiffness, "stiffness", unit::stiffness, "stiffness k of the plate at the crack front",
+               { .hard = { 0, inf }, .usual = { 1e4, 1e7 }, .latch = true }),
+        param (&Params::pivot_distance, "pivot_distance", unit::metre, "distance from the pivot to the first touch of the plate",
+               { .hard = { 0, inf }, .usual = { 0, 0.1 }, .latch = true }),
+        output (&Outputs::torque, "torque", unit::torque, "torque against closing"),
+        output (&Outputs::crack_front, "crack_front", unit::metre, "distance from the pivot to the end of the cut"),
         output (&Outputs::stored_energy, "stored_energy", unit::joule, "elastic energy"),
-        output (&Outputs::dissipated_energy, "dissipated_energy", unit::joule, "energy that the crack has cost since the start"),
+        output (&Outputs::dissipated_energy, "dissipated_energy", unit::joule, "energy spent on the crack since the start"),
         output (&Outputs::state, "state", unit::state, "-1 fault, 0 open, 3 elastic, 4 cutting"),
     };
 
@@ -135,21 +137,21 @@ inline Scissors::Outputs Scissors::tick (const Inputs& in) noexcept
     const double delta = now.touching ? std::max (0.0, now.squeeze()) : 0.0;
     const double k = now.params.stiffness;
 
+    const double closed = cuts ? 4.0 : 3.0;
     const Outputs out {
         .torque = 0.5 * k * delta * now.front * (1.0 + now.t * now.t),
         .crack_front = now.front,
         .stored_energy = 0.5 * k * delta * delta,
         .dissipated_energy = now.lost,
-        .state = ! now.touching ? 0.0 : cuts ? 4.0
-                                             : 3.0,
+        .state = now.touching ? closed : 0.0,
     };
     if (! isFinite (out.torque, out.crack_front, out.stored_energy, out.dissipated_energy)) return fault();
     plate = now;
     return out;
 }
 
-/// The front that meets the criterion at t, h / (2 t) - J_c h / (k t^2), is furthest out at t = 4 J_c / k. Blades that
-/// closed over that angle within the step have left it there.
+/// The front that meets the criterion at t, h / (2 t) - J_c h / (k t^2), is furthest out at t = 4 J_c / k. Blades that close over
+/// that angle within the step leave it there.
 inline bool Scissors::grow (Plate& p, double from) noexcept
 {
     const double h = p.params.thickness, k = p.params.stiffness, price = p.params.toughness * h;

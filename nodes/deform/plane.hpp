@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/node.hpp>
 
 #include <algorithm>
 
 namespace tactus::nodes
 {
 
-/// A flat wall or floor: nothing until the tool touches it, then the harder the deeper.
+/// A flat wall or floor: no force until the tool touches it, then more force with depth.
 ///
 ///     depth = offset - n . p                                  n out of the object, offset along it
 ///     N     = max (0, K (depth) (1 + dissipation rate) + damping rate)   while depth > 0; N = 0 otherwise
 ///     f     = N n                                             force on the tool
 ///
-/// K is `law`, or stiffness times depth if no law is given. `rate` is the difference of depth over one sample. It is
-/// the measured depth's, also while apart: the first sample inside knows how fast the tool came in.
+/// K is `law`, or stiffness times depth if no law is given. `rate` is the difference of the measured depth over one sample,
+/// even while apart: on the first sample inside it is the speed of the approach.
 ///
-/// Damping acts from the first touch on and so steps the force; dissipation grows with K (Hunt and Crossley's
-/// lambda, section 6) and does not. With it alone a tool of any mass and any power law returns the fraction
-/// e = (1 + W (-(1 + x) exp (-(1 + x)))) / x of its impact speed v, x = dissipation v, W Lambert's function.
+/// Damping acts from the first touch and so steps the force. Dissipation (Hunt and Crossley's lambda, section 6) grows with K
+/// and does not. With dissipation alone, and any power law, a tool of any mass returns the fraction
+/// e = (1 + W (-(1 + x) exp (-(1 + x)))) / x of its impact speed v, with x = dissipation v and W Lambert's function.
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 4 (one patch) and eq. (10); Hunt & Crossley 1975.
-/// Eq. (10) is printed with a minus, which with a positive rate into the object would feed energy in.
+/// Eq. (10) is printed with a minus, which would create energy with a rate that is positive into the object.
 ///
 /// Good to know
-///  - The force never pulls: leaving fast, a damped wall lets go before the tool is out.
+///  - The force never pulls: when the tool leaves fast, a damped wall lets go before the tool is out.
 ///  - Held between samples, a spring of stiffness K leaks K dp^2 / 2 per sample: the device must damp K T / 2 (section 1).
-///  - Of a quantised position the rate is coarse: one quantum in one sample. Damping times quantum / T is felt as a tick.
+///  - The rate of a quantised position is coarse: one quantum in one sample. Damping times quantum / T is felt as a tick.
 ///  - A wall that is moved by a wire or a knob does work, as a moving wall does.
 struct Plane
 {
@@ -69,15 +69,16 @@ struct Plane
 
     static constexpr std::tuple ports {
         input (&Inputs::position, "position", unit::metre, "tool position p"),
-        param (&Params::normal, "normal", unit::gain, "out of the object; any length but 0"),
-        param (&Params::offset, "offset", unit::metre, "where the surface is, along the unit normal", { .usual = { -0.1, 0.1 } }),
-        param (&Params::stiffness, "stiffness", unit::stiffness, "of the wall, if no law is given", { .hard = { 0, inf }, .usual = { 0, 1e4 } }),
-        param (&Params::damping, "damping", unit::damping, "viscous, from the first touch; never pulls", { .hard = { 0, inf }, .usual = { 0, 20 } }),
-        param (&Params::dissipation, "dissipation", unit::second_per_metre, "Hunt-Crossley: the law times 1 + dissipation rate", { .hard = { 0, inf }, .usual = { 0, 10 } }),
-        setting (&Settings::law, "law", unit::metre, unit::newton, "force over depth; none: stiffness times depth"),
+        param (&Params::normal, "normal", unit::gain, "direction out of the object; any length but 0"),
+        param (&Params::offset, "offset", unit::metre, "position of the surface along the unit normal", { .usual = { -0.1, 0.1 } }),
+        param (&Params::stiffness, "stiffness", unit::stiffness, "stiffness of the wall, if no law is given", { .hard = { 0, inf }, .usual = { 0, 1e4 } }),
+        param (&Params::damping, "damping", unit::damping, "viscous damping from the first touch; never pulls", { .hard = { 0, inf }, .usual = { 0, 20 } }),
+        param (&Params::dissipation, "dissipation", unit::second_per_metre, "Hunt-Crossley: the law times 1 + dissipation rate",
+               { .hard = { 0, inf }, .usual = { 0, 10 } }),
+        setting (&Settings::law, "law", unit::metre, unit::newton, "force against depth; none: stiffness times depth"),
         output (&Outputs::force, "force", unit::newton, "force on the tool"),
-        output (&Outputs::resistance, "resistance", unit::newton, "its amount, N"),
-        output (&Outputs::depth, "depth", unit::metre, "of the tool in the object; negative while apart"),
+        output (&Outputs::resistance, "resistance", unit::newton, "magnitude of the force"),
+        output (&Outputs::depth, "depth", unit::metre, "depth of the tool in the object; negative while apart"),
         output (&Outputs::hit, "hit", unit::hit, "impact speed on the tick of the first touch"),
         output (&Outputs::stored_energy, "stored_energy", unit::joule, "elastic energy"),
         output (&Outputs::state, "state", unit::state, "-1 fault, 0 open, 1 contact"),
@@ -94,8 +95,7 @@ struct Plane
 
     void update() noexcept
     {
-        const double longest = params.normal.cwiseAbs().maxCoeff();
-        n = longest > 0.0 ? (params.normal / longest).normalized() : Vec3::Zero();
+        n = direction (params.normal);
     }
 
     void adopt (const Plane& old) noexcept { last = old.last; }

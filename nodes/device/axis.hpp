@@ -1,28 +1,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/device_parts.hpp>
-#include <framework/node.hpp>
+#include <framework/node/device_parts.hpp>
+#include <framework/node/generic.hpp>
 
 #include <string>
 
 namespace tactus::nodes
 {
 
-/// One axis of the device beside the tool: a trigger, a thumb stick, a joint of a glove, a wheel.
+/// One axis of the device other than the tool: a trigger, a thumb stick, a joint of a glove, a wheel.
 ///
-/// Its unit is that of the device: m, rad, or 1 from end to end. While the device has nothing to say the last valid reading
-/// stays, as in device.position. A device without such an axis gives 0, with a warning when the run is set up, and so
-/// does a reading that is not finite, which is not kept.
+/// Its unit is the device's: m, rad, or 1 from end to end. While the device gives no valid reading, the last valid one is kept,
+/// as in device.position. It gives 0 on a device without such an axis, with a warning when the run is set up, and on a
+/// reading that is not finite, which is not kept.
 struct DeviceAxis
 {
-    struct Inputs
-    {
-    };
-
-    struct Params
-    {
-    };
+    using Inputs = Empty;
+    using Params = Empty;
 
     struct Settings
     {
@@ -37,13 +32,13 @@ struct DeviceAxis
     static constexpr Info info {
         .id = "device.axis",
         .name = "Axis",
-        .summary = "Where one axis of the device stands.",
+        .summary = "Position of one axis of the device.",
         .source = "definition",
     };
 
     static constexpr std::tuple ports {
-        setting (&Settings::axis, "axis", unit::count, "its name, as the device calls it"),
-        output (&Outputs::axis, "axis", any_unit, "where it stands: m, rad, or 1 from end to end"),
+        setting (&Settings::axis, "axis", unit::count, "name of the axis on the device"),
+        output (&Outputs::axis, "axis", any_unit, "position of the axis: m, rad, or 1 from end to end"),
     };
 
     Params params;
@@ -67,8 +62,7 @@ struct DeviceAxis
     }
 
 private:
-    inline static const DeviceState absent {};
-    const DeviceState* device = &absent;
+    const DeviceState* device = &no_device;
     int index = -1;
     double value = 0.0;   // last valid
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/device_parts.hpp>
-#include <framework/node.hpp>
+#include <framework/node/device_parts.hpp>
+#include <framework/node/generic.hpp>
 
 #include <charconv>
 #include <string>
@@ -10,19 +10,14 @@
 namespace tactus::nodes
 {
 
-/// A button of the device, by its name or by its number.
+/// A button of the device, by name or by number.
 ///
-/// While the device has nothing to say the last valid reading stays, as in device.position. A device without such a button
-/// gives 0, with a warning when the run is set up.
+/// While the device gives no valid reading, the last valid one is kept, as in device.position. It gives 0 on a device without
+/// such a button, with a warning when the run is set up.
 struct DeviceButton
 {
-    struct Inputs
-    {
-    };
-
-    struct Params
-    {
-    };
+    using Inputs = Empty;
+    using Params = Empty;
 
     struct Settings
     {
@@ -37,13 +32,13 @@ struct DeviceButton
     static constexpr Info info {
         .id = "device.button",
         .name = "Button",
-        .summary = "Whether a button of the device is held.",
+        .summary = "Whether a button of the device is held down.",
         .source = "definition",
     };
 
     static constexpr std::tuple ports {
-        setting (&Settings::button, "button", unit::count, "its name, as the device calls it, or its number from 0"),
-        output (&Outputs::pressed, "pressed", unit::state, "1 while it is held, else 0"),
+        setting (&Settings::button, "button", unit::count, "name of the button on the device, or its number from 0"),
+        output (&Outputs::pressed, "pressed", unit::state, "1 while it is held down, else 0"),
     };
 
     Params params;
@@ -58,8 +53,11 @@ struct DeviceButton
     std::string missing (const DeviceLayout& device_has) const
     {
         if (find (device_has) >= 0) return {};
-        const auto count = device_has.buttons.size();
-        if (const int wanted = number(); wanted >= 0) return "no button " + std::to_string (wanted) + "; it has " + (count == 0 ? "none at all" : std::to_string (count) + ", counted from 0");
+        if (const int wanted = number(); wanted >= 0)
+        {
+            const auto count = device_has.buttons.size();
+            return "no button " + std::to_string (wanted) + "; it has " + (count == 0 ? "none at all" : std::to_string (count) + ", counted from 0");
+        }
         return lacking ("button", "buttons", settings.button, device_has.buttons);
     }
 
@@ -71,7 +69,7 @@ struct DeviceButton
     }
 
 private:
-    /// A name that looks like a number is a name. -1 if it is not there.
+    /// Bit of the button, or -1 if the device does not have it. A button whose name looks like a number is found by name.
     int find (const DeviceLayout& device_has) const noexcept
     {
         int at = partNamed (settings.button, device_has.buttons);
@@ -79,7 +77,7 @@ private:
         return at < static_cast<int> (device_has.buttons.size()) && at < most_buttons ? at : -1;
     }
 
-    /// -1 for a name.
+    /// The setting as a number; -1 if it is a name.
     int number() const noexcept
     {
         const auto& text = settings.button;
@@ -90,8 +88,7 @@ private:
 
     static constexpr int most_buttons = 32;   // bits of Reading::buttons
 
-    inline static const DeviceState absent {};
-    const DeviceState* device = &absent;
+    const DeviceState* device = &no_device;
     int index = -1;
     bool is_held = false;   // last valid
 };

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/device_parts.hpp>
-#include <framework/node.hpp>
+#include <framework/node/device_parts.hpp>
+#include <framework/node/generic.hpp>
 
 #include <string>
 
 namespace tactus::nodes
 {
 
-/// Pushes one axis of the device beside the tool: a trigger, a wheel, a joint of an exoskeleton.
+/// Pushes one axis of the device other than the tool: a trigger, a wheel, a joint of an exoskeleton.
 ///
-/// In N for an axis that slides, in N m for one that turns; positive drives it to larger values of device.axis. Several
-/// efforts on one axis add up, and the role's guard limits the sum, as for device.force. On a device without such an axis
-/// it acts on nothing, with a warning when the run is set up.
+/// The unit is N for an axis that slides and N m for one that turns; a positive effort drives the axis to larger values of
+/// device.axis. Several efforts on one axis add up, and the role's guard limits the sum, as for device.force. On a device
+/// without such an axis it has no effect, with a warning when the run is set up.
+///
+/// A motor that renders the force at the tool has no effort of its own, because the guard would limit each, but not their sum.
 struct DeviceEffort
 {
     struct Inputs
@@ -21,18 +23,14 @@ struct DeviceEffort
         double effort = 0.0;
     };
 
-    struct Params
-    {
-    };
+    using Params = Empty;
 
     struct Settings
     {
         std::string axis;
     };
 
-    struct Outputs
-    {
-    };
+    using Outputs = Empty;
 
     static constexpr Info info {
         .id = "device.effort",
@@ -42,8 +40,8 @@ struct DeviceEffort
     };
 
     static constexpr std::tuple ports {
-        input (&Inputs::effort, "effort", any_unit_adding, "on the axis: N where it slides, N m where it turns"),
-        setting (&Settings::axis, "axis", unit::count, "its name, as the device calls it"),
+        input (&Inputs::effort, "effort", any_unit_adding, "effort on the axis: N if it slides, N m if it turns"),
+        setting (&Settings::axis, "axis", unit::count, "name of the axis on the device"),
     };
 
     Params params;

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
-/// Where forces leave the graph: the force and torque a device puts on the tool in the hand.
+/// The force and torque that a device applies to the tool in the hand. This is where forces leave the graph.
 ///
-/// Several sinks of one role add up. After the sum stands the role's guard, always; `applied` shows what it let
-/// through on the last tick. A non-finite value makes
-/// the guard bring the device to zero.
+/// Several sinks of one role add up. The sum always goes through the role's guard; `applied` shows what the guard let through
+/// on the last tick. On a non-finite value the guard brings the device to zero.
 struct DeviceForce
 {
     struct Inputs
@@ -19,9 +18,7 @@ struct DeviceForce
         Vec3 torque = Vec3::Zero();
     };
 
-    struct Params
-    {
-    };
+    using Params = Empty;
 
     struct Outputs
     {
@@ -49,8 +46,7 @@ struct DeviceForce
     Effort effort() const noexcept { return { wanted.force, wanted.torque }; }
 
 private:
-    inline static const DeviceState absent {};
-    const DeviceState* device = &absent;
+    const DeviceState* device = &no_device;
     Inputs wanted;
 };
 

@@ -1,26 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
-/// Where the hand enters the graph: position and rotation of the tool as the device measures them.
+/// Position and rotation of the tool as the device measures them. This is where the hand enters the graph.
 ///
-/// The position is quantised as the device's encoders are. While the device has nothing to say, position and rotation
-/// stay at the last valid reading, so that a dropped packet moves nothing; `valid` and `age` tell. Before the first
-/// valid reading they are 0. A reading that is not finite is none: to put the tool at the origin for a tick would be a
-/// stroke through the world, and a hit at its end.
+/// The position is quantised by the device's encoders. While the device gives no valid reading, position and rotation stay at
+/// the last valid one, so that a dropped packet moves nothing; `valid` and `age` report this. Before the first valid reading
+/// they are 0. A reading that is not finite is ignored: a tool at the origin for one tick would be a stroke through the world,
+/// with a hit at its end.
 struct DevicePosition
 {
-    struct Inputs
-    {
-    };
-
-    struct Params
-    {
-    };
+    using Inputs = Empty;
+    using Params = Empty;
 
     struct Outputs
     {
@@ -38,10 +33,10 @@ struct DevicePosition
     };
 
     static constexpr std::tuple ports {
-        output (&Outputs::position, "position", unit::metre, "of the tool: x right, y away, z up"),
-        output (&Outputs::rotation, "rotation", unit::radian, "of the tool, axis times angle"),
-        output (&Outputs::valid, "valid", unit::state, "1 while the device measures, else 0"),
-        output (&Outputs::age, "age", unit::second, "since the device took the reading"),
+        output (&Outputs::position, "position", unit::metre, "position of the tool: x right, y away, z up"),
+        output (&Outputs::rotation, "rotation", unit::radian, "rotation of the tool: axis times angle"),
+        output (&Outputs::valid, "valid", unit::state, "1 while the device gives a valid reading, else 0"),
+        output (&Outputs::age, "age", unit::second, "time since the device took the reading"),
     };
 
     Params params;
@@ -61,8 +56,7 @@ struct DevicePosition
     }
 
 private:
-    inline static const DeviceState absent { .reading = { .valid = false }, .applied = {} };
-    const DeviceState* device = &absent;
+    const DeviceState* device = &no_device;
     Vec3 position = Vec3::Zero(), rotation = Vec3::Zero();   // last valid
 };
 

@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
 /// How hard the hand presses or squeezes: a pen's tip, a gripper's handle, a force plate.
 ///
-/// While the device has nothing to say the last valid reading stays, as in device.position, whose `valid` and `age`
-/// tell. Devices without such a sensor give 0, and so does a reading that is not finite, which is not kept.
+/// While the device gives no valid reading, the last valid one is kept, as in device.position, whose `valid` and `age` report
+/// it. It gives 0 on devices without such a sensor, and on a reading that is not finite, which is not kept.
 struct DevicePressure
 {
-    struct Inputs
-    {
-    };
-
-    struct Params
-    {
-    };
+    using Inputs = Empty;
+    using Params = Empty;
 
     struct Outputs
     {
@@ -49,8 +44,7 @@ struct DevicePressure
     }
 
 private:
-    inline static const DeviceState absent {};
-    const DeviceState* device = &absent;
+    const DeviceState* device = &no_device;
     double force = 0.0;   // N, last valid
 };
 

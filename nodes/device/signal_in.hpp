@@ -1,50 +1,42 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/device_parts.hpp>
-#include <framework/node.hpp>
+#include <framework/node/device_parts.hpp>
+#include <framework/node/generic.hpp>
 
 #include <string>
 
 namespace tactus::nodes
 {
 
-/// What one of the device's sensor channels hears: an accelerometer at the tip, a contact microphone, a force cell.
+/// The signal of one sensor channel of the device: an accelerometer at the tip, a contact microphone, a force cell.
 ///
-/// What it is in depends on how the channel is calibrated. A device without such a channel gives 0, with a warning when the
-/// run is set up, and so does a device that has nothing to say and a value that is not finite: a signal is not held.
+/// Its unit depends on the channel's calibration. It gives 0 on a device without such a channel, with a warning when the run
+/// is set up, while the device gives no valid reading, and on a value that is not finite: a signal is not held.
 ///
 /// Good to know
-///  - One sample a tick: unless the device filters it, what is above half the rate of the graph folds back.
+///  - One sample per tick: unless the device filters the signal, everything above half the graph's rate aliases.
 struct DeviceSignalIn
 {
-    struct Inputs
-    {
-    };
-
-    struct Params
-    {
-    };
+    using Inputs = Empty;
+    using Params = Empty;
 
     struct Settings
     {
         int channel = 1;
     };
 
-    struct Outputs
-    {
-        double out = 0.0;
-    };
+    using Outputs = Out<double>;
 
     static constexpr Info info {
         .id = "device.signal_in",
         .name = "Signal in",
-        .summary = "What a sensor channel of the device hears.",
+        .summary = "The signal of a sensor channel of the device.",
         .source = "definition",
     };
 
     static constexpr std::tuple ports {
-        setting (&Settings::channel, "channel", unit::count, "which one, from 1", { .hard = { 1, Channels::most }, .usual = { 1, 8 } }),
+        setting (&Settings::channel, "channel", unit::count, "number of the channel, from 1", { .hard = { 1, Channels::most }, .usual = { 1, 8 } }),
         output (&Outputs::out, "out", any_unit, "signal: N, m/s2 or 1, as the channel is calibrated"),
     };
 
@@ -62,8 +54,7 @@ struct DeviceSignalIn
     }
 
 private:
-    inline static const DeviceState absent {};
-    const DeviceState* device = &absent;
+    const DeviceState* device = &no_device;
 };
 
 }   // namespace tactus::nodes

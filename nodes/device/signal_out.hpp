@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/device_parts.hpp>
-#include <framework/node.hpp>
+#include <framework/node/device_parts.hpp>
+#include <framework/node/generic.hpp>
 
 #include <string>
 
@@ -11,31 +11,23 @@ namespace tactus::nodes
 
 /// Sends a signal to one of the device's vibration channels: a voice coil, a linear resonant actuator, a tactor.
 ///
-/// What it is in depends on how the channel is calibrated: N, m/s2, or 1 at full scale. Several signals on one channel add
-/// up, and the role's guard limits the sum. On a device without such a channel it acts on nothing, with a warning when
-/// the run is set up.
+/// Its unit depends on the channel's calibration: N, m/s2, or 1 at full scale. Several signals on one channel add up, and the
+/// role's guard limits the sum. On a device without such a channel it has no effect, with a warning when the run is set up.
 ///
 /// Good to know
-///  - One sample a tick: what is above half the rate of the graph folds back.
+///  - One sample per tick: everything above half the graph's rate aliases.
 struct DeviceSignalOut
 {
-    struct Inputs
-    {
-        double in = 0.0;
-    };
+    using Inputs = In<double>;
 
-    struct Params
-    {
-    };
+    using Params = Empty;
 
     struct Settings
     {
         int channel = 1;
     };
 
-    struct Outputs
-    {
-    };
+    using Outputs = Empty;
 
     static constexpr Info info {
         .id = "device.signal_out",
@@ -46,7 +38,7 @@ struct DeviceSignalOut
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit_adding, "signal: N, m/s2 or 1, as the channel is calibrated"),
-        setting (&Settings::channel, "channel", unit::count, "which one, from 1", { .hard = { 1, Channels::most }, .usual = { 1, 8 } }),
+        setting (&Settings::channel, "channel", unit::count, "number of the channel, from 1", { .hard = { 1, Channels::most }, .usual = { 1, 8 } }),
     };
 
     Params params;

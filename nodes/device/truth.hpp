@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
-/// Where a simulated tool really is, before its encoders round it, and how fast it moves.
+/// The true position of a simulated tool, before its encoders round it, and its true velocity.
 ///
-/// For plots and tests, and to see what resolution costs: a graph that feels with it has no real counterpart. Only
-/// simulated devices know; of others it is 0. It is 0 also on a reading that is not valid or not finite.
+/// Use it for plots and tests, and to see the effect of the resolution. A graph that computes forces from it has no real counterpart.
+/// Only simulated devices provide it; it is 0 on other devices, and on a reading that is not valid or not finite.
 struct DeviceTruth
 {
-    struct Inputs
-    {
-    };
-
-    struct Params
-    {
-    };
+    using Inputs = Empty;
+    using Params = Empty;
 
     struct Outputs
     {
@@ -34,8 +29,8 @@ struct DeviceTruth
     };
 
     static constexpr std::tuple ports {
-        output (&Outputs::position, "position", unit::metre, "of the tool, not quantised"),
-        output (&Outputs::velocity, "velocity", unit::speed, "of the tool"),
+        output (&Outputs::position, "position", unit::metre, "position of the tool, not quantised"),
+        output (&Outputs::velocity, "velocity", unit::speed, "velocity of the tool"),
     };
 
     Params params;
@@ -50,8 +45,7 @@ struct DeviceTruth
     }
 
 private:
-    inline static const DeviceState absent {};
-    const DeviceState* device = &absent;
+    const DeviceState* device = &no_device;
 };
 
 }   // namespace tactus::nodes

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/biquad.hpp>
-#include <framework/node.hpp>
+#include <framework/kit/biquad.hpp>
+#include <framework/node/generic.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -10,17 +10,18 @@
 namespace tactus::nodes
 {
 
-/// The workbench filter: seven responses from one recursion of second order.
+/// A general-purpose filter: seven responses from one second-order recursion.
 ///
 ///     low, high    -3 dB at the cutoff with q = 0.7071 (Butterworth); a higher q rings there
 ///     band         gain 1 at the cutoff, q = cutoff over bandwidth
-///     notch        nothing at the cutoff, all else passes
+///     notch        nothing at the cutoff, everything else passes
 ///     peak         gain_db at the cutoff, 0 dB far from it
 ///     low_shelf    gain_db below the cutoff, 0 dB above; high_shelf the other way round
 ///
-/// Bilinear transform, prewarped. A cutoff is held between 1e-6 and 0.4999 of the tick rate. It starts from rest, also
-/// after a non-finite input. Parameters may move while it runs, slowly against the cutoff; a new kind takes over at once,
-/// with a click if there is signal. High and band pass nothing at rest: in a force path they let a held hand go.
+/// Bilinear transform, prewarped. The cutoff is limited to 1e-6 … 0.4999 of the tick rate. It starts from rest, even after a
+/// non-finite input. Parameters may move while it runs, slowly compared with the cutoff; a new kind takes over immediately,
+/// with a click if there is a signal. High and band give 0 at rest: in a force path they drop the force on a hand that holds
+/// still.
 ///
 /// Source: R. Bristow-Johnson, "Cookbook formulae for audio EQ biquad filter coefficients", with alpha from q.
 struct BiquadFilter
@@ -38,10 +39,7 @@ struct BiquadFilter
 
     static constexpr std::string_view kind_names[] { "low", "high", "band", "notch", "peak", "low_shelf", "high_shelf" };
 
-    struct Inputs
-    {
-        double in = 0.0;
-    };
+    using Inputs = In<double>;
 
     struct Params
     {
@@ -51,10 +49,7 @@ struct BiquadFilter
         Kind kind = Kind::low;
     };
 
-    struct Outputs
-    {
-        double out = 0.0;
-    };
+    using Outputs = Out<double>;
 
     static constexpr Info info {
         .id = "filter.biquad",
@@ -65,8 +60,8 @@ struct BiquadFilter
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "signal"),
-        param (&Params::cutoff, "cutoff", unit::hertz, "corner or centre", { .hard = { 0, inf }, .usual = { 1, 1000 } }),
-        param (&Params::q, "q", unit::count, "how sharp", { .hard = { 1e-3, 1e3 }, .usual = { 0.1, 20 } }),
+        param (&Params::cutoff, "cutoff", unit::hertz, "corner or centre frequency", { .hard = { 0, inf }, .usual = { 1, 1000 } }),
+        param (&Params::q, "q", unit::count, "sharpness", { .hard = { 1e-3, 1e3 }, .usual = { 0.1, 20 } }),
         param (&Params::gain_db, "gain_db", unit::decibel, "height of the peak or shelf", { .hard = { -120, 120 }, .usual = { -24, 24 } }),
         choice (&Params::kind, "kind", kind_names, "response"),
         output (&Outputs::out, "out", sameAs ("in"), "the filtered signal"),
@@ -80,7 +75,7 @@ struct BiquadFilter
     {
         const double w = 2.0 * std::numbers::pi * usableCutoff (params.cutoff, rate) / rate;
         const double c = std::cos (w);
-        const double rest = 2.0 * std::sin (0.5 * w) * std::sin (0.5 * w);   // 1 - cos w, without cancelling
+        const double rest = 2.0 * std::sin (0.5 * w) * std::sin (0.5 * w);   // 1 - cos w, without cancellation
         const double alpha = std::sin (w) / (2.0 * params.q);
         const double a = std::pow (10.0, params.gain_db / 40.0);
         const double s = 2.0 * std::sqrt (a) * alpha;

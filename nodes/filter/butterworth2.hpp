@@ -1,41 +1,29 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/biquad.hpp>
-#include <framework/node.hpp>
+#include <framework/kit/biquad.hpp>
+#include <framework/node/generic.hpp>
 
-#include <cmath>
 #include <numbers>
 
 namespace tactus::nodes
 {
 
-/// The flattest second-order low-pass: what rebuilds a smooth force from samples.
+/// The flattest second-order low-pass: it rebuilds a smooth force from samples.
 ///
 ///     H(s) = 1 / (s^2 + sqrt (2) s + 1),  s in units of w_c      12 dB per octave, -3 dB at the cutoff, gain 1 at rest
 ///
-/// made digital by the bilinear transform, prewarped so that the cutoff is where it is asked for. With its cutoff at or
-/// below the first resonance of a device it keeps texture from ringing it. Overshoots a step by 4 %. Costs delay: about
-/// sqrt (2) / (2 pi cutoff) s at low frequencies. A cutoff is held between 1e-6 and 0.4999 of the tick rate. It starts from
-/// rest, also after a non-finite input.
+/// discretised by the bilinear transform, prewarped so that the cutoff is exact. With a cutoff at or below the first resonance
+/// of a device, it keeps textures from exciting that resonance. A step overshoots by 4 %. The delay is about
+/// sqrt (2) / (2 pi cutoff) s at low frequencies. The cutoff is limited to 1e-6 … 0.4999 of the tick rate. The filter starts from
+/// rest, even after a non-finite input.
 ///
 /// Source: Butterworth 1930; Hayward 2007, section 5 (reconstruction filter).
 struct Butterworth2
 {
-    struct Inputs
-    {
-        double in = 0.0;
-    };
-
-    struct Params
-    {
-        double cutoff = 100.0;
-    };
-
-    struct Outputs
-    {
-        double out = 0.0;
-    };
+    using Inputs = In<double>;
+    using Params = Cutoff;
+    using Outputs = Out<double>;
 
     static constexpr Info info {
         .id = "filter.butterworth2",
@@ -46,7 +34,7 @@ struct Butterworth2
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "signal"),
-        param (&Params::cutoff, "cutoff", unit::hertz, "where it is 3 dB down", { .hard = { 0, inf }, .usual = { 1, 1000 } }),
+        lowPassCutoff (&Params::cutoff),
         output (&Outputs::out, "out", sameAs ("in"), "the smoothed signal"),
     };
 
@@ -56,7 +44,7 @@ struct Butterworth2
 
     void update() noexcept
     {
-        const double k = std::tan (std::numbers::pi * usableCutoff (params.cutoff, rate) / rate);
+        const double k = prewarped (params.cutoff, rate);
         const double damped = std::numbers::sqrt2 * k;
         const double norm = 1.0 / (1.0 + damped + k * k);
         const double b = k * k * norm;

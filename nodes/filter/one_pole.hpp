@@ -1,40 +1,28 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/biquad.hpp>
-#include <framework/node.hpp>
+#include <framework/kit/biquad.hpp>
+#include <framework/node/generic.hpp>
 
 #include <cmath>
-#include <numbers>
 
 namespace tactus::nodes
 {
 
-/// Takes the edge off a signal: a first-order low-pass, as a resistor and a capacitor.
+/// A gentle low-pass of first order, like a resistor and a capacitor.
 ///
 ///     H(s) = 1 / (1 + s / w_c)      6 dB per octave, -3 dB at the cutoff, gain 1 at rest
 ///
-/// made digital by the bilinear transform, prewarped so that the cutoff is where it is asked for; half the tick rate is
-/// lost completely. Costs delay: about 1 / (2 pi cutoff) s at low frequencies, which in a loop through the hand costs
-/// stiffness. A cutoff is held between 1e-6 and 0.4999 of the tick rate. It starts from rest, also after a non-finite input.
+/// discretised by the bilinear transform, prewarped so that the cutoff is exact; half the tick rate is removed completely. The
+/// delay is about 1 / (2 pi cutoff) s at low frequencies, which in a loop through the hand costs stiffness. The cutoff is limited
+/// to 1e-6 … 0.4999 of the tick rate. The filter starts from rest, even after a non-finite input.
 ///
 /// Source: Oppenheim & Schafer, Discrete-Time Signal Processing, bilinear transformation.
 struct OnePole
 {
-    struct Inputs
-    {
-        double in = 0.0;
-    };
-
-    struct Params
-    {
-        double cutoff = 100.0;
-    };
-
-    struct Outputs
-    {
-        double out = 0.0;
-    };
+    using Inputs = In<double>;
+    using Params = Cutoff;
+    using Outputs = Out<double>;
 
     static constexpr Info info {
         .id = "filter.one_pole",
@@ -45,7 +33,7 @@ struct OnePole
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "signal"),
-        param (&Params::cutoff, "cutoff", unit::hertz, "where it is 3 dB down", { .hard = { 0, inf }, .usual = { 1, 1000 } }),
+        lowPassCutoff (&Params::cutoff),
         output (&Outputs::out, "out", sameAs ("in"), "the smoothed signal"),
     };
 
@@ -55,17 +43,17 @@ struct OnePole
 
     void update() noexcept
     {
-        const double k = std::tan (std::numbers::pi * usableCutoff (params.cutoff, rate) / rate);
+        const double k = prewarped (params.cutoff, rate);
         b = k / (1.0 + k);
         a = (k - 1.0) / (k + 1.0);
     }
 
-    /// The biquad's form with what a first order leaves of it, and its rules: a sample it cannot digest gives 0.
+    /// The form of BiquadState, reduced to first order, with its rules: a sample it cannot process gives 0.
     Outputs tick (const Inputs& in) noexcept
     {
         const double out = b * in.in + s;
         s = b * in.in - a * out;
-        if (! isFinite (s))   // nor is it, if `out` is not
+        if (! isFinite (s))   // true also if `out` is not finite
         {
             s = 0.0;
             return {};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/node.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,18 +13,18 @@ namespace tactus::nodes
 
 /// Friction that sticks, gives a little, and lets go: the drag of a tool across a surface.
 ///
-/// The tool p holds on to the surface at a contact point c, as if by a short bristle. Pulled sideways the bristle
-/// stretches and the hand feels a spring; pulled further than d_max it is dragged along and the hand feels mu f_n.
-/// A long d_max feels like rubber or flesh, one of micrometres like steel.
+/// The tool p is attached to the surface at a contact point c, as if by a short bristle. Pulled sideways, the bristle stretches
+/// and the hand feels a spring. Pulled further than d_max, it is dragged along and the hand feels mu f_n. A long d_max feels
+/// like rubber or flesh, one of micrometres like steel.
 ///
 ///     d = p - c,   dd/dp = 1 - zeta (|d|) sgn (dp) d      the bristle yields by the adhesion function zeta   (1) (2)
-///     d = d~ min (1, d_max / |d~|),  d~ = p - c           adhesion `stick`: it yields not at all, or fully   (3)
-///     c <- c + |dp| zeta d~                               the others, by Euler's rule                        (4)
+///     d = d~ min (1, d_max / |d~|),  d~ = p - c           adhesion `stick`: it yields not at all or fully    (3)
+///     c <- c + |dp| zeta d~                               the other functions, by Euler's rule               (4)
 ///     f = -sigma d,   sigma = mu f_n / d_max              force on the tool, in the tangent plane
 ///
 /// The adhesion functions of Fig. 2, d_stick = static_ratio d_max:
 ///
-///     1 stick    0 up to d_stick, then 1 / d_max: sticks for good, slides freely
+///     1 stick    0 up to d_stick, then 1 / d_max: sticks without creep, slides freely
 ///     2 dupont   0 up to d_ba = break_away d_max, a half sine, 1 / d_max from d_stick on (Dupont et al. 2002)
 ///     3 ramp     |d| / (d_stick d_max), at most 1 / d_max: creeps under any load, less than Dahl
 ///     4 dahl     1 / d_max: creeps most
@@ -37,35 +37,35 @@ namespace tactus::nodes
 /// Hayward & Armstrong 2000; Dupont, Hayward, Armstrong & Altpeter 2002.
 ///
 /// Departures from the printed chapter
-///  - The first contact point, which it leaves open, is where the tool is: a touch starts without a force.
-///  - Eq. (4) misses a clamp: where |dp| zeta > 1 on a reversal, the force would flip sign. It is clamped at 1.
-///  - Steady sliding by eq. (3) or (4) ends exactly on the branch point, where rounding would make force and state
-///    chatter. Both branches keep away from it by the relative guard 1e-9.
+///  - The chapter leaves the first contact point open. Here it is where the tool is: a touch starts without a force.
+///  - Eq. (4) lacks a clamp: where |dp| zeta > 1 on a reversal, the force would flip sign. It is clamped at 1.
+///  - Steady sliding by eq. (3) or (4) ends exactly on the branch point, where rounding would make force and state chatter.
+///    Both branches keep away from it by the relative guard 1e-9.
 ///  - The default for functions 2 to 4 is not eq. (4) but the solution of eq. (2) with zeta held over the step,
-///    d = d e^(-zeta |dp|) + dp (1 - e^(-zeta |dp|)) / (zeta |dp|). It needs neither clamp nor projection and is exact
-///    for Dahl at any sampling. `integrator: euler` gives eq. (4).
-///  - With sigma following the load as printed, pressing harder while the bristle is stretched adds energy that comes
-///    back on release (1.6e-4 J in 50 strokes; see the test). `load: passive` re-anchors instead: when sigma rises, by
-///    load, mu or d_max, the force stays and the stretch gives way, since new contact area is not sheared yet.
-///    `load: scale` is the printed rule.
-///  - Eq. (1) to (4) are one-dimensional. Here d and dp are projected on the tangent plane of each sample, so that a
-///    turning normal takes the contact point along.
+///    d = d e^(-zeta |dp|) + dp (1 - e^(-zeta |dp|)) / (zeta |dp|). It needs neither clamp nor projection and is exact for Dahl
+///    at any sampling rate. `integrator: euler` gives eq. (4).
+///  - With sigma following the load as printed, pressing harder while the bristle is stretched adds energy that comes back on
+///    release (1.6e-4 J in 50 strokes; see the test). `load: passive` re-anchors instead: when sigma rises, by load, mu or
+///    d_max, the force stays and the stretch shrinks, because new contact area is not sheared yet. `load: scale` is the printed
+///    rule.
+///  - Eq. (1) to (4) are one-dimensional. Here d and dp are projected on the tangent plane of each sample, so that a turning
+///    normal takes the contact point along.
 ///
 /// Good to know
-///  - Time-free: only displacement moves the state. A tool at rest feels a constant force for ever, and the state of
-///    a repeated sample does not change by a bit.
-///  - stored_energy is sigma |d|^2 / 2. dissipated_energy is what the bristle has lost since the start, along the
-///    straight path between the samples: sigma times the stretch times the slip of c, and all that is let go when the
-///    load falls, the contact re-anchors, the normal turns or the contact opens. So the work of the hand is the growth
-///    of stored plus dissipated energy, and dissipated_energy never falls. Under `load: scale` it does fall when the
-///    load rises: this is the energy that rule makes. What is stored when a fault opens the contact is not counted.
-///  - The force is held between samples, so while it sticks the device must damp sigma T / 2 (section 1), or twice this
-///    with functions 2 to 4, which are twice as stiff on a reversal.
-///  - A bound that shrinks below the stretch lets the bristle slip at once, also at rest. This is how a texture on d_max
-///    is felt; keep `stiffness` constant for that.
-///  - With functions 2 and 3 and static_ratio > 1, the exponential integrator glides at a stretch between d_max and
-///    d_stick, while eq. (4) collapses to d_max and buzzes. Use function 1 for stick-slip.
-///  - Of a table that never reaches 1, the bristle stretches beyond d_max; of one that ends in 0, for ever.
+///  - Time-free: only displacement moves the state. A tool at rest feels a constant force forever, and repeating a sample does
+///    not change a single bit of the state.
+///  - stored_energy is sigma |d|^2 / 2. dissipated_energy is what the bristle has lost since the start, along the straight path
+///    between the samples: sigma times the stretch times the slip of c, and everything released when the load falls, the
+///    contact re-anchors, the normal turns or the contact opens. So the work of the hand is the growth of stored plus
+///    dissipated energy, and dissipated_energy never falls. Under `load: scale` it does fall when the load rises: this is the
+///    energy that rule creates. Energy stored when a fault opens the contact is not counted.
+///  - The force is held between samples, so while it sticks the device must damp sigma T / 2 (section 1), or twice this with
+///    functions 2 to 4, which are twice as stiff on a reversal.
+///  - If the bound shrinks below the stretch, the bristle slips immediately, even at rest. This is how a texture on d_max is
+///    felt; keep `stiffness` constant for that.
+///  - With functions 2 and 3 and static_ratio > 1, the exponential integrator slides at a stretch between d_max and d_stick,
+///    while eq. (4) collapses to d_max and buzzes. Use function 1 for stick-slip.
+///  - With a table that never reaches 1, the bristle stretches beyond d_max; with one that ends in 0, without limit.
 struct ElastoPlastic
 {
     enum class Adhesion
@@ -135,19 +135,21 @@ struct ElastoPlastic
 
     static constexpr std::tuple ports {
         input (&Inputs::position, "position", unit::metre, "tool position p"),
-        input (&Inputs::normal, "normal", unit::gain, "out of the surface; any length but 0"),
-        input (&Inputs::normal_force, "normal_force", unit::newton, "push of the tool into the surface f_n; 0 or less opens the contact"),
+        input (&Inputs::normal, "normal", unit::gain, "direction out of the surface; any length but 0"),
+        input (&Inputs::normal_force, "normal_force", unit::newton, "force f_n of the tool into the surface; 0 or less opens the contact"),
         param (&Params::mu, "mu", unit::gain, "friction coefficient while sliding", { .hard = { 0, inf }, .usual = { 0, 2 } }),
         param (&Params::d_max, "d_max", unit::metre, "stretch of the contact while it slides", { .hard = { 1e-9, inf }, .usual = { 1e-6, 1e-2 } }),
-        param (&Params::static_ratio, "static_ratio", unit::gain, "d_stick / d_max = mu_s / mu_k; above 1: stick-slip", { .hard = { 1, inf }, .usual = { 1, 5 } }),
+        param (&Params::static_ratio, "static_ratio", unit::gain, "d_stick / d_max = mu_s / mu_k; above 1: stick-slip",
+               { .hard = { 1, inf }, .usual = { 1, 5 } }),
         param (&Params::break_away, "break_away", unit::gain, "d_ba / d_max, where adhesion dupont begins to yield", { .hard = { 0, 1 } }),
-        param (&Params::stiffness, "stiffness", unit::stiffness, "sigma; 0: mu normal_force / d_max; else mu and load have no effect", { .hard = { 0, inf }, .usual = { 0, 1e5 } }),
+        param (&Params::stiffness, "stiffness", unit::stiffness, "sigma; 0: mu normal_force / d_max; else mu and load have no effect",
+               { .hard = { 0, inf }, .usual = { 0, 1e5 } }),
         choice (&Params::adhesion, "adhesion", adhesion_names, "how the contact yields, Fig. 2"),
         choice (&Params::integrator, "integrator", integrator_names, "eq. (2) exactly over each step, or eq. (4)"),
         choice (&Params::load, "load", load_names, "a rising load re-anchors the contact, or scales its force"),
         setting (&Settings::adhesion_curve, "adhesion_curve", unit::gain, unit::gain, "zeta d_max over |d| / d_max, for adhesion curve"),
         output (&Outputs::force, "force", unit::newton, "force on the tool"),
-        output (&Outputs::deflection, "deflection", unit::metre, "stretch of the contact d"),
+        output (&Outputs::deflection, "deflection", unit::metre, "stretch d of the contact"),
         output (&Outputs::stored_energy, "stored_energy", unit::joule, "energy in the stretch"),
         output (&Outputs::dissipated_energy, "dissipated_energy", unit::joule, "energy turned into heat since the start"),
         output (&Outputs::state, "state", unit::state, "-1 fault, 0 open, 1 stuck, 2 slipping"),
@@ -185,12 +187,12 @@ struct ElastoPlastic
 private:
     static constexpr double eps_slip = 1e-9;   // keeps steady sliding off the branch points of eq. (3) and (4)
 
-    /// What holds from one sample to the next while the tool touches.
+    /// The state from one sample to the next while the tool touches.
     struct Contact
     {
         bool touching = false;
         Vec3 p = Vec3::Zero(), n = Vec3::UnitZ();   // tool and unit normal
-        Vec3 given = Vec3::UnitZ();                 // the normal of any length it was made of
+        Vec3 given = Vec3::UnitZ();                 // the normal as given, of any length
         Vec3 d = Vec3::Zero();                      // stretch; the contact point is c = p - d
         double sigma = 0.0, d_max = 0.0, d_stick = 0.0;
         Adhesion adhesion {};
@@ -200,7 +202,7 @@ private:
         double stored() const noexcept { return 0.5 * sigma * d.squaredNorm(); }
     };
 
-    /// One step along dp: the new stretch, the energy lost on the way over sigma, and whether c has moved.
+    /// One step along dp: the new stretch, the energy lost on the way divided by sigma, and whether c has moved.
     struct Step
     {
         Vec3 d;
@@ -209,13 +211,16 @@ private:
     };
 
     double zeta (double r, Adhesion) const noexcept;
+    Step advance (const Vec3& d, const Vec3& dp, const Contact&) const noexcept;
     Step stick (const Vec3& d, const Vec3& dp) const noexcept;
     Step euler (const Vec3& d, const Vec3& dp, Adhesion) const noexcept;
     Step exponential (const Vec3& d, const Vec3& dp, Adhesion) const noexcept;
     bool letGo (Vec3& d, Adhesion) const noexcept;
+    Outputs open() noexcept;
     Step drag (double from, const Vec3& d, double r, double hold) const noexcept;
     Outputs fault() noexcept;
 
+    static bool isExact (const Contact& c) noexcept { return c.adhesion != Adhesion::stick && c.integrator == Integrator::exponential; }
     static Vec3 tangential (const Vec3& v, const Vec3& n) noexcept { return v - n * n.dot (v); }
 
     Contact contact;
@@ -229,13 +234,7 @@ inline ElastoPlastic::Outputs ElastoPlastic::tick (const Inputs& in) noexcept
 {
     if (! isFinite (in.position, in.normal, in.normal_force)) return fault();
 
-    if (in.normal_force <= 0.0)
-    {
-        const double lost = dissipated + contact.stored();
-        contact = {};
-        if (isFinite (lost)) dissipated = lost;
-        return { .dissipated_energy = dissipated };
-    }
+    if (in.normal_force <= 0.0) return open();
 
     const double longest = in.normal.cwiseAbs().maxCoeff();
     const double sigma = params.stiffness > 0.0 ? params.stiffness : params.mu * in.normal_force / params.d_max;
@@ -262,19 +261,16 @@ inline ElastoPlastic::Outputs ElastoPlastic::tick (const Inputs& in) noexcept
     }
     else
     {
-        // What has changed since the last sample changes where the tool was, before it moves.
+        // Changes since the last sample take effect where the tool was, before it moves.
         if (sigma > contact.sigma && (now.load == Load::passive || params.stiffness > 0.0)) now.d *= contact.sigma / sigma;
         if (now.n != contact.n) now.d = tangential (now.d, now.n);
-        const bool exact = now.adhesion != Adhesion::stick && now.integrator == Integrator::exponential;
-        if (exact && (now.d_max < contact.d_max || now.d_stick < contact.d_stick)) slips = letGo (now.d, now.adhesion);
+        if (isExact (now) && (now.d_max < contact.d_max || now.d_stick < contact.d_stick)) slips = letGo (now.d, now.adhesion);
         lost = contact.stored() - now.stored();
 
         const Vec3 dp = tangential (now.p - contact.p, now.n);
         if (! isFinite (dp.squaredNorm())) return fault();
 
-        const Step step = exact                             ? exponential (now.d, dp, now.adhesion)
-                          : now.adhesion == Adhesion::stick ? stick (now.d, dp)
-                                                            : euler (now.d, dp, now.adhesion);
+        const Step step = advance (now.d, dp, now);
         now.d = step.d;
         lost += sigma * step.loss;
         slips = slips || step.slips;
@@ -292,6 +288,20 @@ inline ElastoPlastic::Outputs ElastoPlastic::tick (const Inputs& in) noexcept
     contact = now;
     dissipated = out.dissipated_energy;
     return out;
+}
+
+inline ElastoPlastic::Outputs ElastoPlastic::open() noexcept
+{
+    const double lost = dissipated + contact.stored();
+    contact = {};
+    if (isFinite (lost)) dissipated = lost;
+    return { .dissipated_energy = dissipated };
+}
+
+inline ElastoPlastic::Step ElastoPlastic::advance (const Vec3& d, const Vec3& dp, const Contact& c) const noexcept
+{
+    if (isExact (c)) return exponential (d, dp, c.adhesion);
+    return c.adhesion == Adhesion::stick ? stick (d, dp) : euler (d, dp, c.adhesion);
 }
 
 /// Fig. 2: how fast the contact yields at stretch r, in 1/m.
@@ -325,7 +335,7 @@ inline ElastoPlastic::Step ElastoPlastic::stick (const Vec3& d, const Vec3& dp) 
     return { .d = pulled };
 }
 
-/// Eq. (4), clamped. The loss is that of a stretch to d~ and of yielding there.
+/// Eq. (4), clamped. The loss is the loss of a stretch to d~ and of yielding there.
 inline ElastoPlastic::Step ElastoPlastic::euler (const Vec3& d, const Vec3& dp, Adhesion adhesion) const noexcept
 {
     const Vec3 pulled = d + dp;
@@ -336,8 +346,8 @@ inline ElastoPlastic::Step ElastoPlastic::euler (const Vec3& d, const Vec3& dp, 
     return { .d = pulled - g * pulled, .loss = 0.5 * g * (2.0 - g) * r * r, .slips = g > 0.0 };
 }
 
-/// Eq. (2), solved with zeta held over the step. With x = zeta |dp|, phi and psi are the means over the step of
-/// e^(-zeta s) and of what dp adds to the stretch; their product with dp is the work done on the way.
+/// Eq. (2), solved with zeta held over the step. With x = zeta |dp|, phi and psi are the means over the step of e^(-zeta s) and
+/// of the share of dp in the stretch; their product with dp is the work done on the way.
 inline ElastoPlastic::Step ElastoPlastic::exponential (const Vec3& d, const Vec3& dp, Adhesion adhesion) const noexcept
 {
     const double x = zeta ((d + dp).norm(), adhesion) * dp.norm();
@@ -350,16 +360,16 @@ inline ElastoPlastic::Step ElastoPlastic::exponential (const Vec3& d, const Vec3
     return { .d = after, .loss = std::max (0.0, work - 0.5 * (after - d).dot (after + d)), .slips = true };
 }
 
-/// Drags the contact point along until the stretch, pulled to d of length r, is back at d_max. It held up to `hold`, or
-/// as far as it was stretched when a shrinking bound let it go: from there the spring falls back to d_max, and what is
-/// left of the way is slip against the mean of static and sliding friction.
+/// Drags the contact point along until the stretch, pulled to d of length r, is back at d_max. It holds up to `hold`, or up to
+/// its stretch when a shrinking bound released it. From there the spring falls back to d_max, and the rest of the way is slip
+/// against the mean of static and sliding friction.
 inline ElastoPlastic::Step ElastoPlastic::drag (double from, const Vec3& d, double r, double hold) const noexcept
 {
     const double d_max = params.d_max, peak = std::clamp (from, hold, r);
     return { .d = d * (d_max / r), .loss = 0.5 * ((peak - d_max) * (peak + d_max) + (hold + d_max) * (r - peak)), .slips = true };
 }
 
-/// Brings a stretch that a shrinking bound has left outside back to where it slides. Eq. (3) and (4) do so by themselves.
+/// Brings a stretch that a shrinking bound left outside back to where it slides. Eq. (3) and (4) do so on their own.
 inline bool ElastoPlastic::letGo (Vec3& d, Adhesion adhesion) const noexcept
 {
     const double r = d.norm(), yield = zeta (r, adhesion) * r;

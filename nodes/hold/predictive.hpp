@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/length.hpp>
-#include <framework/node.hpp>
+#include <framework/kit/vec3.hpp>
+#include <framework/node/node.hpp>
 
 #include <limits>
 
 namespace tactus::nodes
 {
 
-/// Plugs most of the energy leak of a sampled force.
+/// Removes most of the energy leak of a sampled force.
 ///
-/// A force that is held between samples is, on average, half a sample old. So a spring gives back more than it took,
-/// sigma dp^2 / 2 per sample, and feels alive. This node holds what the force will be in the middle of the sample:
+/// A force held between samples is half a sample old on average. So a spring gives back more than it took, sigma dp^2 / 2 per
+/// sample, and feels active. This node predicts the force in the middle of the sample and holds that:
 ///
 ///     out = f_k + (f_k - f_(k-1)) / 2 = 1.5 f_k - 0.5 f_(k-1)         no longer than `limit`
 ///
-/// With a spring pushed in and let out by 10 mm the leak falls to less than a hundredth (see the test).
+/// With a spring pushed in and released by 10 mm, the leak falls to less than a hundredth (see the test).
 ///
 /// Source: Ellis, Sarkar & Jenkins 1997 (sample, estimate, hold); Hayward, "Physically-Based Haptic Synthesis" (2007),
 /// section 1.
 ///
 /// Good to know
-///  - The force must not be predicted across a touch, where it has no slope. Wire the contact to `contact`: when its
-///    value changes, the force before is forgotten and that sample passes as it is. A force that happens to be 0 is no change.
-///  - Unwired, `contact` is ignored; that is its default of nan, and a nan on the wire is no change either.
-///  - It amplifies noise, by up to 2 from one sample to the next, and the device needs more damping for the same
-///    stiffness at high frequencies. Put it after filters and before the limiter.
-///  - Longer than `limit`, the force keeps its direction.
+///  - The force must not be predicted across a touch, where it has no slope. Wire the contact to `contact`: when its value
+///    changes, the previous force is forgotten and that sample passes unchanged. A force of 0 alone is not a change.
+///  - Unwired, `contact` is ignored: its default is nan, and a nan on the wire is not a change either.
+///  - It amplifies noise, by up to 2 from one sample to the next, and at high frequencies the device needs more damping for the
+///    same stiffness. Put it after filters and before the limiter.
+///  - A force longer than `limit` is shortened and keeps its direction.
 struct PredictiveHold
 {
     struct Inputs
@@ -49,14 +49,14 @@ struct PredictiveHold
     static constexpr Info info {
         .id = "hold.predictive",
         .name = "Predictive hold",
-        .summary = "Holds the force of the middle of the sample, so that springs leak less energy.",
+        .summary = "Predicts the force in the middle of the sample, so that springs leak less energy.",
         .source = "Ellis, Sarkar & Jenkins 1997",
     };
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", unit::newton, "force f"),
-        input (&Inputs::contact, "contact", unit::state, "a change of it starts anew; unwired: ignored"),
-        param (&Params::limit, "limit", unit::newton, "longest force it gives", { .hard = { 0, inf }, .usual = { 0, 100 } }),
+        input (&Inputs::contact, "contact", unit::state, "a change restarts the prediction; unwired: ignored"),
+        param (&Params::limit, "limit", unit::newton, "largest force it gives", { .hard = { 0, inf }, .usual = { 0, 100 } }),
         output (&Outputs::out, "out", unit::newton, "the force to hold"),
     };
 
@@ -81,7 +81,7 @@ struct PredictiveHold
         const Vec3 before = last.known && ! changed ? last.force : in.in;
         last = { .force = in.in, .contact = wired ? in.contact : last.contact, .wired = wired || last.wired, .known = true };
 
-        const Vec3 quarter = 0.25 * in.in + 0.5 * (0.25 * in.in - 0.25 * before);   // of the force: this cannot overflow
+        const Vec3 quarter = 0.25 * in.in + 0.5 * (0.25 * in.in - 0.25 * before);   // a quarter of the force, which cannot overflow
         if (length (quarter) > 0.25 * params.limit) return { .out = finiteOrZero (params.limit * direction (quarter)) };
         return { .out = finiteOrZero (4.0 * quarter) };
     }
@@ -91,7 +91,7 @@ private:
     {
         Vec3 force = Vec3::Zero();
         double contact = 0.0;
-        bool wired = false;   // there has been a contact
+        bool wired = false;   // `contact` has had a value
         bool known = false;   // false until the first finite sample
     };
 

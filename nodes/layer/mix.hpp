@@ -1,44 +1,43 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <string>
 
 namespace tactus::nodes
 {
 
-/// A mixing desk for the layers of an effect: contact, texture, shock, each on a channel of its own.
+/// A mixing desk for the layers of an effect: contact, texture, shock, each on its own channel.
 ///
-/// Per tick, in this order:
+/// On each tick, in this order:
 ///
 ///     gain       x_i = gain[i] in[i]
 ///     mute       times m_i: 0 if mute[i] is on, else 1
-///     solo       m_i is 0, too, if any solo is on and solo[i] is not; it goes up and down in a straight ramp of 10 ms
-///     level      level[i] = max (|m_i x_i|, level[i] e^(-T / 50 ms)): rises at once, falls with 50 ms
-///     ducking    times d_i: goes to 10^(-duck_db / 20) with 5 ms while a channel of higher priority sounds, else
-///                to 1 with 100 ms. Once, however many sound.
+///     solo       m_i is also 0 if any solo is on and solo[i] is not; m_i moves in straight ramps of 10 ms
+///     level      level[i] = max (|m_i x_i|, level[i] e^(-T / 50 ms)): rises immediately, decays over 50 ms
+///     ducking    times d_i: goes to 10^(-duck_db / 20) with time constant 5 ms while a channel of higher priority
+///                sounds, else to 1 with 100 ms. It is the same for one or several such channels.
 ///     sum        s = sum of d_i m_i x_i
 ///     ceiling    out = s within -ceiling…ceiling, cut hard; reduction = 20 log10 |s / out|, dB
 ///
-/// A channel sounds if its level is above 1 % of the loudest there was of late (a peak that falls with 2 s). So the desk
-/// needs no threshold in a unit it does not know, and mixes millinewtons as it mixes newtons.
+/// A channel sounds if its level is above 1 % of the loudest recent level (a peak that decays with time constant
+/// 2 s). So the desk needs no threshold in an unknown unit, and mixes millinewtons as well as newtons.
 ///
-/// Source: definition; the order is that of an audio mixing desk.
+/// Source: definition; the order is the same as in an audio mixing desk.
 ///
 /// Good to know
-///  - mute and solo are switches: on above 0.5. A channel in solo that is also muted is silent. Channels that are muted
-///    duck nobody.
-///  - Equal priorities, as delivered, do not duck each other. A higher number goes first.
-///  - A channel that is open, not ducked, and below the ceiling passes to the bit.
-///  - The ceiling has no memory and no knee: it cannot overshoot or pump, and a force that only depends on position stays
-///    so. What is above it is lost, so a reduction other than 0 says: turn the gains down.
-///  - Ducking depends on time. A spring that is ducked while pressed and not on release gives energy.
-///  - The first tick starts without ramps, and so does the one after a fault: one non-finite input silences all.
+///  - mute and solo are switches: on above 0.5. A channel that is both soloed and muted is silent. Muted channels duck no other
+///    channel.
+///  - Equal priorities, the default, do not duck each other. A higher number has priority.
+///  - A channel that is open, not ducked, and below the ceiling passes bit for bit.
+///  - The ceiling has no memory and no knee: it cannot overshoot or pump, and a force that depends only on position stays so.
+///    Everything above the ceiling is lost, so if reduction is not 0, turn the gains down.
+///  - Ducking depends on time. A spring that is ducked while pressed and not on release generates energy.
+///  - The first tick starts without ramps, and so does the tick after a fault. One non-finite input silences all channels.
 ///  - `names` are the labels of the channels for people and hosts, separated by commas: "contact, texture, shock".
 ///  - It mixes numbers. For forces in three axes, mix before vector.scale, or use one desk per axis.
 struct LayerMix
@@ -80,17 +79,17 @@ struct LayerMix
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "layers", 0.0),
-        param (&Params::gain, "gain", unit::gain, "factor on the layer of the same number", { .usual = { 0, 2 } }),
+        param (&Params::gain, "gain", unit::gain, "factor on the layer with the same number", { .usual = { 0, 2 } }),
         param (&Params::mute, "mute", unit::state, "on above 0.5: the layer is silent", { .hard = { 0, 1 } }),
         param (&Params::solo, "solo", unit::state, "on above 0.5: only layers in solo are heard", { .hard = { 0, 1 } }),
-        param (&Params::priority, "priority", unit::count, "while a layer of a higher one sounds, this one is ducked", { .usual = { 0, 10 } }),
-        param (&Params::duck_db, "duck_db", unit::decibel, "how far a ducked layer is lowered", { .hard = { 0, inf }, .usual = { 0, 60 } }),
-        param (&Params::ceiling, "ceiling", sameAs ("in"), "the mix never exceeds it, up or down; 0: none", { .hard = { 0, inf }, .usual = { 0, 20 } }),
-        setting (&Settings::inputs, "inputs", unit::count, "number of layers", { .hard = { 1, list_capacity }, .usual = { 1, 8 } }),
+        param (&Params::priority, "priority", unit::count, "a layer is ducked while one of higher priority sounds", { .usual = { 0, 10 } }),
+        param (&Params::duck_db, "duck_db", unit::decibel, "attenuation of a ducked layer", { .hard = { 0, inf }, .usual = { 0, 60 } }),
+        param (&Params::ceiling, "ceiling", sameAs ("in"), "largest magnitude of the mix; 0: no limit", { .hard = { 0, inf }, .usual = { 0, 20 } }),
+        inputCount (&Settings::inputs, "number of layers"),
         setting (&Settings::names, "names", unit::count, "labels of the layers, separated by commas"),
         output (&Outputs::out, "out", sameAs ("in"), "the mix"),
         output (&Outputs::level, "level", sameAs ("in"), "peak of each layer after gain, mute and solo, before ducking"),
-        output (&Outputs::reduction, "reduction", unit::decibel, "how much the ceiling takes away now"),
+        output (&Outputs::reduction, "reduction", unit::decibel, "current attenuation by the ceiling"),
     };
 
     Params params;
@@ -142,7 +141,7 @@ private:
         started = false;
     }
 
-    /// A peak on its way down; ends in 0 rather than among the subnormals.
+    /// A falling peak. It ends at 0 rather than in subnormal numbers.
     static double fall (double level, double factor) noexcept { return level > 1e-300 ? level * factor : 0.0; }
 
     static constexpr double audible = 0.01;   // of the loudest
@@ -173,12 +172,12 @@ inline LayerMix::Outputs LayerMix::tick (const Inputs& in) noexcept
     loudest = fall (loudest, fading);
     for (int i = 0; i < size; ++i)
     {
-        Channel& c = channels[static_cast<std::size_t> (i)];
+        Channel& c = channels[at (i)];
         const double target = isOpen (i) ? 1.0 : 0.0;
         c.open = started ? std::clamp (target, c.open - ramp, c.open + ramp) : target;
 
         const double x = c.open * (params.gain[i] * in.in[i]);
-        heard[static_cast<std::size_t> (i)] = x;
+        heard[at (i)] = x;
         c.level = std::max (std::abs (x), fall (c.level, decay));
         loudest = std::max (loudest, c.level);
         out.level[i] = c.level;
@@ -188,11 +187,11 @@ inline LayerMix::Outputs LayerMix::tick (const Inputs& in) noexcept
     double sum = 0.0;
     for (int i = 0; i < size; ++i)
     {
-        Channel& c = channels[static_cast<std::size_t> (i)];
+        Channel& c = channels[at (i)];
         const double target = isDucked (i, size) ? ducked : 1.0;
         c.duck += (target < c.duck ? attack : release) * (target - c.duck);
         if (std::abs (target - c.duck) < 1e-9) c.duck = target;
-        sum += c.duck * heard[static_cast<std::size_t> (i)];
+        sum += c.duck * heard[at (i)];
     }
     if (! isFinite (sum)) return fault();
 
@@ -210,7 +209,7 @@ inline LayerMix::Outputs LayerMix::tick (const Inputs& in) noexcept
 inline bool LayerMix::isDucked (int i, int size) const noexcept
 {
     for (int j = 0; j < size; ++j)
-        if (params.priority[j] > params.priority[i] && channels[static_cast<std::size_t> (j)].level > audible * loudest) return true;
+        if (params.priority[j] > params.priority[i] && channels[at (j)].level > audible * loudest) return true;
     return false;
 }
 

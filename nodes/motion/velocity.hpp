@@ -1,45 +1,44 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/length.hpp>
-#include <framework/node.hpp>
+#include <framework/kit/vec3.hpp>
+#include <framework/node/node.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 
 namespace tactus::nodes
 {
 
-/// Velocity from positions that come in steps: quick when the hand is, quiet when it is not.
+/// Velocity from quantised positions: fast when the hand moves fast, quiet when it does not.
 ///
-/// The difference of two samples turns one quantum q of an encoder into a speed of q / T. Averaging over n samples
-/// divides this by n, and lags. So the window adapts, per axis and per sample:
+/// The difference of two samples turns one quantum q of an encoder into a speed of q / T. Averaging over n samples divides this
+/// by n, but lags. So the window adapts, per axis and per sample:
 ///
 ///     velocity = (p_k - p_(k-n)) / (n T)
 ///
-/// n the largest, up to `max_window`, for which the line through p_(k-n) and p_k passes within `noise` of every sample
-/// between. A hand that brakes shortens the window at once; a steady one is averaged as long as it is steady.
+/// where n is the largest, up to `max_window`, for which the line through p_(k-n) and p_k passes within `noise` of every sample
+/// between. A braking hand shortens the window immediately; a steady one is averaged for as long as it is steady.
 ///
 /// Source: Janabi-Sharifi, Hayward & Chen 2000, first-order adaptive windowing, end-fit.
 ///
 /// Departures from the paper
-///  - Rest. Where all samples of the full window lie within `noise` of each other, their line is noise too, and a tool at
-///    rest would creep by up to q / (n T). There the velocity is 0, unless they lie on a line to 1e-6: a true ramp is
-///    told exactly, however slow. So the resolution is noise / (max_window T), as it is anyway.
-///  - `noise` 0 means the quantum of the device. No wire tells the node, so it takes for it, per axis, the smallest step it
-///    has seen. Of quantised positions this is the quantum, once the tool has moved slowly; of exact ones it is the slowest
-///    moment so far, and the window soon a tick or two. Steps below 1e-10 m are rounding.
+///  - Rest. If all samples of the full window lie within `noise` of each other, their line is noise too, and a tool at rest
+///    would creep by up to q / (n T). The velocity is then 0, unless they lie on a line to within 1e-6: a true ramp is exact, however
+///    slow. So the resolution is noise / (max_window T), as in the paper.
+///  - `noise` 0 means the quantum of the device. No wire carries it, so the node takes the smallest step it has seen, per axis.
+///    For quantised positions this is the quantum, once the tool has moved slowly. For exact positions it is the slowest moment
+///    so far, and the window soon shrinks to a tick or two. Steps below 1e-10 m are rounding.
 ///
 /// Good to know
-///  - Noise that is not in steps, or steps turned out of their axes, must be told: noise is the largest distance of two
-///    samples of a tool at rest. What the node has learnt by itself would be too small.
-///  - Exact on ramps, from the second sample on if its steps exceed the noise, else from the third. Of quantised positions
-///    the error is below 2 noise / (n T). The lag is n T / 2: under an acceleration a, n T is about sqrt (8 noise / a).
-///    So it is worth most where the hand is slow; with noise told too large it lags.
+///  - If the noise is not in steps, or the steps are rotated out of their axes, set `noise`: the largest distance between two
+///    samples of a tool at rest. The value learnt by the node would be too small.
+///  - Exact on ramps, from the second sample if its steps exceed the noise, else from the third. With quantised positions the
+///    error is below 2 noise / (n T). The lag is n T / 2: under an acceleration a, n T is about sqrt (8 noise / a).
+///    So it helps most where the hand is slow; with `noise` set too large it lags.
 ///  - Cost grows with max_window.
-///  - On the first sample, and after a fault, it is 0. What it has learnt of the quantum stays.
+///  - It is 0 on the first sample and after a fault. The learnt quantum stays.
 struct Velocity
 {
     struct Inputs
@@ -74,10 +73,10 @@ struct Velocity
 
     static constexpr std::tuple ports {
         input (&Inputs::position, "position", unit::metre, "tool position p"),
-        param (&Params::noise, "noise", unit::metre, "how far samples at rest are apart; 0: the quantum, learnt", { .hard = { 0, inf }, .usual = { 0, 1e-3 } }),
+        param (&Params::noise, "noise", unit::metre, "distance between samples at rest; 0: the learnt quantum", { .hard = { 0, inf }, .usual = { 0, 1e-3 } }),
         setting (&Settings::max_window, "max_window", unit::count, "longest window, in ticks", { .hard = { 1, longest_window }, .usual = { 1, 64 } }),
-        output (&Outputs::velocity, "velocity", unit::speed, "of the tool"),
-        output (&Outputs::speed, "speed", unit::speed, "its amount"),
+        output (&Outputs::velocity, "velocity", unit::speed, "velocity of the tool"),
+        output (&Outputs::speed, "speed", unit::speed, "magnitude of the velocity"),
     };
 
     Params params;
@@ -110,8 +109,8 @@ struct Velocity
         Vec3 v;
         for (int i = 0; i < 3; ++i)
         {
-            Axis& axis = axes[static_cast<std::size_t> (i)];
-            axis.past[static_cast<std::size_t> (newest)] = in.position[i];
+            Axis& axis = axes[at (i)];
+            axis.past[at (newest)] = in.position[i];
             learn (axis);
             v[i] = slope (axis) / dt;
         }
@@ -129,24 +128,24 @@ private:
     static constexpr int capacity = longest_window + 1;
     static constexpr double rounding = 1e-10;   // m; no encoder is finer
 
-    static constexpr auto inverses = []   // 1/n: a product costs a fifth of a division
+    static constexpr auto inverses = []   // 1/n: multiplying costs a fifth of dividing
     {
         std::array<double, capacity> all {};
         for (int n = 1; n < capacity; ++n)
-            all[static_cast<std::size_t> (n)] = 1.0 / n;
+            all[at (n)] = 1.0 / n;
         return all;
     }();
 
     struct Axis
     {
-        std::array<double, capacity> past {};   // ring of the last positions, m
+        std::array<double, capacity> past {};   // ring of the last positions, in m
         double quantum = inf;                   // smallest step seen, m
     };
 
     double ago (const Axis& axis, int ticks) const noexcept
     {
         const int place = newest - ticks;
-        return axis.past[static_cast<std::size_t> (place >= 0 ? place : place + capacity)];
+        return axis.past[at (place >= 0 ? place : place + capacity)];
     }
 
     void learn (Axis& axis) const noexcept
@@ -162,18 +161,17 @@ private:
         const int longest = std::min (settings.max_window, known - 1);
         if (longest < 1) return 0.0;
 
-        const bool told = params.noise > 0.0;
-        const double noise = (told ? params.noise : axis.quantum < inf ? axis.quantum
-                                                                       : 0.0)
-                             * (1.0 + 1e-6);   // quanta that were computed are not all alike to the last bit
+        const bool is_set = params.noise > 0.0;
+        const double learnt = axis.quantum < inf ? axis.quantum : 0.0;
+        const double noise = (is_set ? params.noise : learnt) * (1.0 + 1e-6);   // computed quanta differ in the last bits
         const double now = ago (axis, 0);
 
-        // Slopes whose line from now into the past has met every sample so far; and how far these lie apart.
+        // The slopes of the lines from now into the past that pass every sample so far, and the range of these samples.
         double least = -inf, most = inf, lowest = now, highest = now;
         int fitting = 0;
         for (int n = 1; n <= longest && least <= most; ++n)
         {
-            const double then = ago (axis, n), inverse = inverses[static_cast<std::size_t> (n)], step = (now - then) * inverse, play = noise * inverse;
+            const double then = ago (axis, n), inverse = inverses[at (n)], step = (now - then) * inverse, play = noise * inverse;
             if (step >= least && step <= most) fitting = n;
             least = std::max (least, step - play);
             most = std::min (most, step + play);
@@ -181,7 +179,7 @@ private:
             highest = std::max (highest, then);
         }
 
-        const bool rests = least <= most && highest - lowest <= noise && (told || longest > 1);
+        const bool rests = least <= most && highest - lowest <= noise && (is_set || longest > 1);
         if (fitting == 0 || (rests && ! isRamp (axis, longest))) return 0.0;
         return (now - ago (axis, fitting)) / fitting;
     }

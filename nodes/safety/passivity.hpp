@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/node.hpp>
 
 #include <algorithm>
 
 namespace tactus::nodes
 {
 
-/// Watches the energy that a virtual object has given to the hand, and brakes until it is paid back.
+/// Observes the energy that a virtual object has given to the hand, and brakes until it is paid back.
 ///
-/// A hard wall that is computed from samples gives energy it never took, and buzzes. The observer counts the work of
-/// the hand on the force as it was held; whenever the account is overdrawn the controller adds a damper:
+/// A hard wall computed from samples gives back more energy than it took, and buzzes. The observer counts the work of the hand
+/// against the force as it was held. Whenever the balance is negative, the controller adds a damper:
 ///
 ///     E_n   = E_(n-1) - f_out(n-1) . dp_n                       observer, dp_n = p_n - p_(n-1)
 ///     alpha = min (-E T / |dp|^2, alpha_max)  if E < 0 and |dp| > 1e-9 m, else 0
@@ -20,29 +20,29 @@ namespace tactus::nodes
 /// Source: Hannaford & Ryu 2002; Hayward, "Physically-Based Haptic Synthesis" (2007), section 1.
 ///
 /// Departures from Hannaford and Ryu
-///  - Pairing. The force that was held while the tool moved by dp_n is the one of the sample before. `pairing: zoh`
-///    counts this one, which is exact. `pairing: backward` is theirs as we know it, f(n) with dp_n:
+///  - Pairing. The force held while the tool moved by dp_n is the force of the previous sample. `pairing: zoh` counts that one,
+///    which is exact. `pairing: backward` is, as far as we know, theirs: f(n) with dp_n:
 ///        E_n = E_(n-1) - f_n . dp_n + alpha_(n-1) |dp_(n-1)|^2 / T
-///    It credits sigma dp^2 / 2 per sample to a spring, as much as the hold leaks, so it does not see the leak: against
-///    a wall that buzzes it does nothing (see the test).
-///  - A cap. Without one the damper itself is too much for the sampled mass, and the controller diverges: 11 of 12 swept
-///    cases, to 1e6 N. The bound is B + 2 M / T, less with a wall behind it. alpha_max 0 stands for mass / (2 T); more
-///    than 1.8 mass / T is not given, whatever alpha_max says: at 2 a wall of 8000 N/m is calm for some seconds, and then
-///    throws the hand back with kilonewtons.
+///    It credits a spring with sigma dp^2 / 2 per sample, as much as the hold leaks, so it does not see the leak: against a
+///    buzzing wall it does nothing (see the test).
+///  - Cap. Without one the damper itself is too much for the sampled mass, and the controller diverges: in 11 of 12 swept
+///    cases, to 1e6 N. The bound is B + 2 M / T, less with a wall behind it. alpha_max 0 means mass / (2 T). More than
+///    1.8 mass / T is never applied, whatever alpha_max is: at 2 a wall of 8000 N/m is calm for some seconds, and then throws
+///    the hand back with kilonewtons.
 ///
 /// What to expect: a buzz of millimetres shrinks to a tenth or less (K = 3000 N/m, B = 0.5 N s/m, M = 0.1 kg, T = 1 ms,
-/// a hand of 1.5 N: from 12 to 0.13 mm in 3 s), not to silence. With a cap E dips below 0 for a while: it recovers, that
-/// is what it promises.
+/// a hand of 1.5 N: from 12 to 0.13 mm in 3 s), not to silence. With a cap, E dips below 0 for a while and then recovers.
 ///
 /// Good to know
 ///  - `energy` is E before the correction of this sample.
-///  - `contact` 0 resets the energy, else what honest dampers took can be squandered later. Any other value lets it run on.
-///  - On the first sample, and after a fault, the force passes as it is. A fault gives no force and keeps the energy; the
+///  - `contact` 0 resets the energy; without that, energy taken by real dampers could be given back later. Any other value keeps
+///    the balance running.
+///  - On the first sample, and after a fault, the force passes unchanged. A fault gives no force and keeps the energy; the
 ///    motion across it is not counted.
-///  - `mass` is what the hand feels of the device. Stated too large, the cap is unsafe; 0, it never brakes.
+///  - `mass` is the mass of the device as the hand feels it. Too large a value makes the cap unsafe; with 0 it never brakes.
 ///  - T is the sampling period. A device with a delay needs a smaller alpha_max.
-///  - A change of `pairing` waits until `contact` is 0, or for a fault or a restart.
-///  - A limiter belongs after it; every role has its guard.
+///  - A change of `pairing` takes effect when `contact` is 0, after a fault, or on a restart.
+///  - A limiter belongs after it; every role has its own guard.
 struct PassivityObserver
 {
     enum class Pairing
@@ -75,7 +75,7 @@ struct PassivityObserver
     static constexpr Info info {
         .id = "safety.passivity",
         .name = "Passivity observer and controller",
-        .summary = "Brakes whenever an object has given more energy than it took.",
+        .summary = "Brakes whenever an object has given back more energy than it took.",
         .source = "Hannaford & Ryu 2002; Hayward 2007, section 1",
     };
 
@@ -83,14 +83,15 @@ struct PassivityObserver
 
     static constexpr std::tuple ports {
         input (&Inputs::position, "position", unit::metre, "tool position p"),
-        input (&Inputs::force, "force", unit::newton, "of the object on the tool f"),
+        input (&Inputs::force, "force", unit::newton, "force f of the object on the tool"),
         input (&Inputs::contact, "contact", unit::state, "0 resets the energy"),
-        param (&Params::alpha_max, "alpha_max", unit::damping, "most damping it adds; 0: mass / (2 T); never above 1.8 mass / T", { .hard = { 0, inf }, .usual = { 0, 200 } }),
-        param (&Params::mass, "mass", unit::kilogram, "of the device, as the hand feels it", { .hard = { 0, inf }, .usual = { 0, 1 } }),
-        choice (&Params::pairing, "pairing", pairing_names, "which force moves by dp: the held one, or the new one"),
-        output (&Outputs::force, "force", unit::newton, "force on the tool, braked f_out"),
-        output (&Outputs::energy, "energy", unit::joule, "taken from the hand since the reset, E before correction"),
-        output (&Outputs::alpha, "alpha", unit::damping, "damping it adds now"),
+        param (&Params::alpha_max, "alpha_max", unit::damping, "most damping it adds; 0: mass / (2 T); at most 1.8 mass / T",
+               { .hard = { 0, inf }, .usual = { 0, 200 } }),
+        param (&Params::mass, "mass", unit::kilogram, "mass of the device, as the hand feels it", { .hard = { 0, inf }, .usual = { 0, 1 } }),
+        choice (&Params::pairing, "pairing", pairing_names, "the force that moves by dp: the held one, or the new one"),
+        output (&Outputs::force, "force", unit::newton, "f_out, force on the tool with the damper"),
+        output (&Outputs::energy, "energy", unit::joule, "energy E taken from the hand since the reset, before correction"),
+        output (&Outputs::alpha, "alpha", unit::damping, "damping it currently adds"),
     };
 
     Params params;
@@ -130,11 +131,11 @@ struct PassivityObserver
     }
 
 private:
-    static constexpr double eps = 1e-9;   // m; a step this short tells nothing
+    static constexpr double eps = 1e-9;   // m; a shorter step carries no information
 
     double cap() const noexcept
     {
-        const double momentum = params.mass / dt;   // of which 2, and the device's own damping, are too much
+        const double momentum = params.mass / dt;   // 2 of these, plus the device's own damping, are too much
         return params.alpha_max > 0.0 ? std::min (params.alpha_max, 1.8 * momentum) : 0.5 * momentum;
     }
 
@@ -146,9 +147,9 @@ private:
 
     struct Account
     {
-        Vec3 p = Vec3::Zero(), force = Vec3::Zero();   // of the last sample, the force as it was given
+        Vec3 p = Vec3::Zero(), force = Vec3::Zero();   // of the last sample; the force as it was applied
         double energy = 0.0;                           // J
-        double braked = 0.0;                           // by the last sample's damper, J
+        double braked = 0.0;                           // by the damper on the last sample, J
         Pairing pairing = Pairing::zoh;
         bool known = false;   // false until the first finite sample
     };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/node.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,37 +14,37 @@
 namespace tactus::nodes
 {
 
-/// The push of a struck object: a mass runs into a spring that dampens it, and is thrown back.
+/// The push of a struck object: a mass runs into a damped spring and is thrown back.
 ///
 ///     N = max (0, K (d) + D (d) d')      while the mass is d > 0 deep, d' > 0 on its way in     (10)
-///     m d'' = -N,  d = 0, d' = v         from a hit of speed v on
+///     m d'' = -N,  d = 0, d' = v         starting at a hit of speed v
 ///
-/// K is `stiffness`, D `damping`, m `mass`. Played on a hit rather than felt through the hand's position, it is as hard
-/// as the object is, however slow the device. Hits add up, each a mass of its own.
+/// K is `stiffness`, D `damping`, m `mass`. It is played on a hit rather than computed from the hand's position, so it is as hard
+/// as the object, however slow the device. Hits add up; each has its own mass.
 ///
-/// With D = lambda K, as Hunt and Crossley have it, the mass leaves at e v,
+/// With D = lambda K, as in Hunt and Crossley, the mass leaves at e v,
 ///
 ///     e = (1 + W (-(1 + x) exp (-(1 + x)))) / x,   x = lambda v, W Lambert's function; 1 - 2 x / 3 for a small x
 ///
-/// whatever its mass and the law; the impulse is m v (1 + e), and m v^2 (1 - e^2) / 2, the area of the loop of force over
-/// depth, is lost. `damping` is given so, {"dissipation": lambda}, or as a law of its own, in N s/m.
+/// whatever its mass and the law. The impulse is m v (1 + e), and the energy m v^2 (1 - e^2) / 2, the area of the loop of force
+/// against depth, is lost. `damping` is given as {"dissipation": lambda}, or as a separate law in N s/m.
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 6, eq. (10); Hunt & Crossley 1975.
 ///
 /// Departures from the printed chapter
-///  - Eq. (10) is printed N = K - D d', which with d' into the object feeds energy in: lambda v = 0.3 returns 1.25 v.
-///  - Of the "initial value of d^z", which is 0 at the first touch, its speed is meant.
-///  - No adhesion: N is never negative. A free impact would not make it so.
+///  - Eq. (10) is printed N = K - D d'. With d' positive into the object this creates energy: lambda v = 0.3 returns 1.25 v.
+///  - The "initial value of d^z" is 0 at the first touch; its speed is meant.
+///  - No adhesion: N is never negative. It would not become negative in a free impact.
 ///
 /// Good to know
-///  - The tick of a hit gives 0, and so does the end: no click. Within a sample the motion takes `substeps` steps of
-///    Euler's semi-implicit rule; over a contact of 66 samples 4 of them are off by 0.13 % of the peak, 16 by 0.03 %.
-///  - The steps are explicit: where h D / m nears 1 the mass is thrown back too soon. Take more substeps then.
-///  - When all voices sound a new hit is dropped; none that sounds is cut short.
-///  - A contact of fewer than four samples is not what was asked for: `warning` says so for a hit of 1 m/s. Harder hits
-///    are shorter, with a stiffness k d^n by v^(-(n - 1) / (n + 1)).
-///  - Hits of no or not a number's speed are none. A quantised position toggles its contact: use contact.impact.
-///  - It gives the hand an impulse that it never put in: this node is not passive.
+///  - The force is 0 on the tick of a hit, and at the end: no click. Within a sample the motion takes `substeps` steps of the
+///    semi-implicit Euler rule; over a contact of 66 samples, 4 of them are off by 0.13 % of the peak, 16 by 0.03 %.
+///  - The steps are explicit: where h D / m approaches 1, the mass is thrown back too soon. Use more substeps then.
+///  - While all voices sound, a new hit is dropped; no voice is cut short.
+///  - A contact of fewer than four samples is not accurate: `warning` reports it for a hit of 1 m/s. Harder hits are shorter;
+///    with a stiffness k d^n, by v^(-(n - 1) / (n + 1)).
+///  - A hit whose speed is not positive or not finite is ignored. A quantised position toggles its contact: use contact.impact.
+///  - It gives the hand an impulse that the hand never put in: this node is not passive.
 struct HuntCrossley
 {
     struct Inputs
@@ -80,12 +80,12 @@ struct HuntCrossley
 
     static constexpr std::tuple ports {
         input (&Inputs::hit, "hit", unit::hit, "impact speed v"),
-        param (&Params::mass, "mass", unit::kilogram, "that is thrown back m", { .hard = { 1e-6, inf }, .usual = { 0.001, 1 }, .latch = true }),
-        param (&Params::gain, "gain", unit::gain, "of the output", { .usual = { 0, 4 } }),
-        setting (&Settings::stiffness, "stiffness", unit::metre, unit::newton, "K, force over depth"),
-        setting (&Settings::damping, "damping", unit::metre, unit::damping, "D over depth, or a dissipation that K is multiplied with"),
+        param (&Params::mass, "mass", unit::kilogram, "mass m that is thrown back", { .hard = { 1e-6, inf }, .usual = { 0.001, 1 }, .latch = true }),
+        param (&Params::gain, "gain", unit::gain, "gain of the output", { .usual = { 0, 4 } }),
+        setting (&Settings::stiffness, "stiffness", unit::metre, unit::newton, "K, force against depth"),
+        setting (&Settings::damping, "damping", unit::metre, unit::damping, "D against depth, or a dissipation that multiplies K"),
         setting (&Settings::substeps, "substeps", unit::count, "steps of the motion in each sample", { .hard = { 1, 1000 }, .usual = { 1, 32 } }),
-        setting (&Settings::voices, "voices", unit::count, "how many hits can sound together", { .hard = { 1, 1000 }, .usual = { 1, 16 } }),
+        setting (&Settings::voices, "voices", unit::count, "number of hits that can sound together", { .hard = { 1, 1000 }, .usual = { 1, 16 } }),
         output (&Outputs::resistance, "resistance", unit::newton, "force out of the object"),
     };
 
@@ -95,7 +95,7 @@ struct HuntCrossley
     std::string problem() const
     {
         const Law& K = settings.stiffness;
-        if (! K.rises() || ! isFinite (K.inverse (1e-9))) return "stiffness must push back, and not fall with depth";
+        if (! K.rises() || ! isFinite (K.inverse (1e-9))) return "stiffness must push back, and must not fall with depth";
         if (! settings.damping.rises()) return "damping must not be negative, nor fall with depth";
         return {};
     }
@@ -105,10 +105,11 @@ struct HuntCrossley
     void prepare (const Setup& setup)
     {
         h = setup.dt_s() / settings.substeps;
-        voices.assign (static_cast<std::size_t> (settings.voices), {});
+        voices.assign (at (settings.voices), {});
     }
 
-    /// Hits that sound go on, as many as there are voices; in their places, as the order of a sum shows in its last bit.
+    /// Sounding hits continue, up to the number of voices. They keep their places, because the order of a sum shows in its last
+    /// bit.
     void adopt (const HuntCrossley& old) noexcept
     {
         const auto kept = std::min (voices.size(), old.voices.size());
@@ -136,7 +137,7 @@ private:
         bool sounds = false;
     };
 
-    static constexpr double faded = 1e-9;   // N and m/s; a mass that damping brings to rest would never leave
+    static constexpr double faded = 1e-9;   // N and m/s; a mass brought to rest by damping would never leave
 
     /// Eq. (10).
     double force (double d, double v) const noexcept
@@ -152,7 +153,7 @@ private:
         if (free != voices.end()) *free = hit;
     }
 
-    /// n steps. A voice that has left the object, or overflowed, sounds no more.
+    /// n steps. A voice that has left the object, or has overflowed, stops sounding.
     double advance (Voice& voice, int n, double step) const noexcept
     {
         auto& [d, v, m, sounds] = voice;
@@ -189,7 +190,7 @@ inline std::string HuntCrossley::warning (const Setup& setup) const
 
     std::ostringstream text;
     text << "a hit of 1 m/s lasts " << std::setprecision (2) << double (steps) / fine << " samples, fewer than " << enough
-         << "; take a softer law, a larger mass or a higher rate";
+         << "; use a softer law, a larger mass or a higher rate";
     return text.str();
 }
 

@@ -1,29 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 #include <cmath>
 
 namespace tactus::nodes
 {
 
-/// How large a signal is, whatever its sign.
+/// The absolute value of a signal.
 struct SignalAbs
 {
-    struct Inputs
-    {
-        double in = 0.0;
-    };
-
-    struct Params
-    {
-    };
-
-    struct Outputs
-    {
-        double out = 0.0;
-    };
+    using Inputs = In<double>;
+    using Params = Empty;
+    using Outputs = Out<double>;
 
     static constexpr Info info {
         .id = "signal.abs",

@@ -1,45 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
-/// The sum of its inputs. An input that nothing is wired to counts as 0.
+/// The sum of its inputs. An unwired input counts as 0.
 ///
-/// A non-finite input silences the sum, not only its own part of it: what is wrong should not be half heard.
+/// A non-finite input silences the whole sum, not only its own part.
 struct SignalAdd
 {
-    struct Inputs
-    {
-        InputList<double> in;
-    };
+    using Inputs = In<InputList<double>>;
+    using Params = Empty;
+    using Settings = InputCount;
+    using Outputs = Out<double>;
 
-    struct Params
-    {
-    };
-
-    struct Settings
-    {
-        int inputs = 2;
-    };
-
-    struct Outputs
-    {
-        double out = 0.0;
-    };
-
-    static constexpr Info info {
-        .id = "signal.add",
-        .name = "Add",
-        .summary = "Adds signals up.",
-        .source = "definition",
-    };
+    static constexpr Info info { .id = "signal.add", .name = "Add", .summary = "Adds signals.", .source = "definition" };
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "signals", 0.0),
-        setting (&Settings::inputs, "inputs", unit::count, "number of inputs", { .hard = { 1, list_capacity }, .usual = { 1, 8 } }),
+        inputCount (&Settings::inputs),
         output (&Outputs::out, "out", sameAs ("in"), "the sum"),
     };
 

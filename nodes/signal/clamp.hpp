@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -9,15 +9,12 @@
 namespace tactus::nodes
 {
 
-/// Holds a signal between two bounds. If they are crossed, the upper one counts.
+/// Limits a signal to a range. If the bounds are crossed, the upper one takes precedence.
 ///
-/// It cuts hard, which is heard as harmonics when a vibration runs into it.
+/// The limit is hard: a vibration that runs into it gains harmonics.
 struct SignalClamp
 {
-    struct Inputs
-    {
-        double in = 0.0;
-    };
+    using Inputs = In<double>;
 
     struct Params
     {
@@ -25,17 +22,9 @@ struct SignalClamp
         double max = 1.0;
     };
 
-    struct Outputs
-    {
-        double out = 0.0;
-    };
+    using Outputs = Out<double>;
 
-    static constexpr Info info {
-        .id = "signal.clamp",
-        .name = "Clamp",
-        .summary = "Holds a signal between two bounds.",
-        .source = "definition",
-    };
+    static constexpr Info info { .id = "signal.clamp", .name = "Clamp", .summary = "Limits a signal to a range.", .source = "definition" };
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "signal"),

@@ -1,34 +1,29 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 #include <cmath>
 
 namespace tactus::nodes
 {
 
-/// A number that stays where it is put: a knob with an output.
+/// A constant number: a knob with an output.
 struct SignalConstant
 {
-    struct Inputs
-    {
-    };
+    using Inputs = Empty;
 
     struct Params
     {
         double value = 0.0;
     };
 
-    struct Outputs
-    {
-        double out = 0.0;
-    };
+    using Outputs = Out<double>;
 
     static constexpr Info info {
         .id = "signal.constant",
         .name = "Constant",
-        .summary = "Gives a number that stays where it is put.",
+        .summary = "Gives a constant number.",
         .source = "definition",
     };
 

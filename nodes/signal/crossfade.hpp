@@ -1,39 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
-/// Goes from one signal to another.
+/// Fades from one signal to another.
 ///
 ///     out = (1 - amount) a + amount b
 ///
-/// The weights add up to 1, so two signals that agree pass unchanged. Two that have nothing to do with each other (noises,
-/// say) are 3 dB weaker half way.
+/// The weights add up to 1, so two identical signals pass unchanged. Two unrelated signals, such as noises, are 3 dB
+/// weaker halfway.
 struct SignalCrossfade
 {
-    struct Inputs
-    {
-        double a = 0.0;
-        double b = 0.0;
-    };
-
-    struct Params
-    {
-        double amount = 0.0;
-    };
-
-    struct Outputs
-    {
-        double out = 0.0;
-    };
+    using Inputs = Pair<double>;
+    using Params = Amount<double>;
+    using Outputs = Out<double>;
 
     static constexpr Info info {
         .id = "signal.crossfade",
         .name = "Crossfade",
-        .summary = "Goes from one signal to another.",
+        .summary = "Fades from one signal to another.",
         .source = "definition",
     };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 #include <algorithm>
 #include <vector>
@@ -9,41 +9,33 @@
 namespace tactus::nodes
 {
 
-/// Holds a signal back by a whole number of ticks, starting from 0.
+/// Delays a signal by a whole number of ticks, starting from 0.
 ///
-/// Its output does not depend on this tick's input, so a loop through it can be computed. In a loop through the hand
-/// each tick of delay costs stiffness that the hand can feel; a wire without a delay costs none.
+/// The output does not depend on this tick's input, so a loop through this node can be computed. In a loop through the hand,
+/// each tick of delay lowers the stiffness that stays stable, and the hand can feel the difference. A wire without a delay does
+/// not lower it.
 struct Delay
 {
-    struct Inputs
-    {
-        double in = 0.0;
-    };
-
-    struct Params
-    {
-    };
+    using Inputs = In<double>;
+    using Params = Empty;
 
     struct Settings
     {
         int ticks = 1;
     };
 
-    struct Outputs
-    {
-        double out = 0.0;
-    };
+    using Outputs = Out<double>;
 
     static constexpr Info info {
         .id = "signal.delay",
         .name = "Delay",
-        .summary = "Holds a signal back by a whole number of ticks.",
+        .summary = "Delays a signal by a whole number of ticks.",
         .source = "definition",
     };
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "signal"),
-        setting (&Settings::ticks, "ticks", unit::count, "how many ticks it is held back", { .hard = { 1, 1e6 }, .usual = { 1, 100 } }),
+        setting (&Settings::ticks, "ticks", unit::count, "length of the delay in ticks", { .hard = { 1, 1e6 }, .usual = { 1, 100 } }),
         output (&Outputs::out, "out", sameAs ("in"), "the signal, that many ticks ago"),
     };
 
@@ -52,11 +44,11 @@ struct Delay
 
     void prepare (const Setup&)
     {
-        line.assign (static_cast<std::size_t> (settings.ticks), 0.0);
+        line.assign (at (settings.ticks), 0.0);
         now = 0;
     }
 
-    /// The newest samples stay; a longer line repeats the oldest of them, so that nothing steps to 0.
+    /// Keeps the newest samples. A longer delay line repeats the oldest of them, so that nothing steps to 0.
     void adopt (const Delay& old) noexcept
     {
         const auto had = old.line.size();

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 #include <algorithm>
 
 namespace tactus::nodes
 {
 
-/// The rise and fall of a touch: attack, decay, sustain, release, driven by a gate.
+/// An ADSR envelope driven by a gate: attack, decay, sustain, release.
 ///
-///     gate > 0.5   rises at the pace of 0 to 1 in `attack`, falls from 1 to `sustain` in `decay`, stays there
+///     gate > 0.5   rises at the rate of 0 to 1 in `attack`, falls from 1 to `sustain` in `decay`, and stays there
 ///     else         falls to 0 in `release`, from wherever it is
 ///
-/// All segments are straight lines. It starts from where it is: a gate that returns during the release goes on from the
-/// level reached, without a step. A time of less than one tick is a step. On a non-finite gate it gives 0 and starts anew.
+/// All segments are straight lines. Each starts from the current level: a gate that reopens during the release continues from
+/// there, without a step. A time of less than one tick is a step. On a non-finite gate it gives 0 and starts again from rest.
 ///
 /// Source: the ADSR of the early Moog and ARP synthesisers, with the straight segments and constant release time of
 /// juce::ADSR.
@@ -33,10 +33,7 @@ struct SignalEnvelope
         double release = 0.1;
     };
 
-    struct Outputs
-    {
-        double out = 0.0;
-    };
+    using Outputs = Out<double>;
 
     static constexpr Info info {
         .id = "signal.envelope",
@@ -117,12 +114,12 @@ private:
         release   // and rest
     };
 
-    static constexpr double rounding = 1e-9;   // so that n steps of 1/n arrive in n ticks
+    static constexpr double rounding = 1e-9;   // so that n steps of 1/n take n ticks
 
     double portionOf (double time) const noexcept { return time > dt ? dt / time : 1.0; }
 
     double dt = 0.0;                             // s
-    double rise = 1.0, fall = 1.0, fade = 1.0;   // change per tick; fade in parts of released_at
+    double rise = 1.0, fall = 1.0, fade = 1.0;   // change per tick; fade: as a share of released_at
     double level = 0.0, released_at = 0.0;
     Stage stage = Stage::release;
 };

@@ -1,30 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/expression.hpp>
-#include <framework/node.hpp>
+#include <framework/kit/expression.hpp>
+#include <framework/node/generic.hpp>
 
 #include <string>
 
 namespace tactus::nodes
 {
 
-/// A formula over its inputs, for what no other node does: in0 * abs (in1) + 0.2
+/// A formula of its inputs, for anything that no other node does: in0 * abs (in1) + 0.2
 ///
-/// What may stand in it is said in framework/expression.hpp: in0, in1, … or in[0], in[1], …, numbers, pi, e, + - * / ^,
-/// comparisons, ?:, and the usual functions. It is compiled before the first tick; a text that does not parse is an error
-/// of the graph, with its column. A result that is not finite is given as 0. Units cannot be followed through a formula:
-/// any input may be wired, and the output fits anywhere.
+/// A formula may contain in0, in1, … or in[0], in[1], …, numbers, pi, e, + - * / ^, comparisons, ?:, and the usual functions;
+/// framework/kit/expression.hpp has the grammar. It is compiled before the first tick. A formula that does not parse is an error
+/// of the graph and is reported with its column. A result that is not finite is given as 0. Units cannot be followed through a
+/// formula: any input may be wired, and the output fits anywhere.
 struct SignalExpression
 {
-    struct Inputs
-    {
-        InputList<double> in;
-    };
-
-    struct Params
-    {
-    };
+    using Inputs = In<InputList<double>>;
+    using Params = Empty;
 
     struct Settings
     {
@@ -32,10 +26,7 @@ struct SignalExpression
         std::string text = "in0";
     };
 
-    struct Outputs
-    {
-        double out = 0.0;
-    };
+    using Outputs = Out<double>;
 
     static constexpr Info info {
         .id = "signal.expression",
@@ -45,10 +36,10 @@ struct SignalExpression
     };
 
     static constexpr std::tuple ports {
-        input (&Inputs::in, "in", each_its_unit, "in0, in1, … of the formula", 0.0),
-        setting (&Settings::inputs, "inputs", unit::count, "number of inputs", { .hard = { 1, list_capacity }, .usual = { 1, 8 } }),
+        input (&Inputs::in, "in", each_its_unit, "values of in0, in1, … in the formula", 0.0),
+        inputCount (&Settings::inputs),
         setting (&Settings::text, "text", unit::count, "the formula"),
-        output (&Outputs::out, "out", any_unit, "its value"),
+        output (&Outputs::out, "out", any_unit, "value of the formula"),
     };
 
     Params params;

@@ -1,30 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
 /// Makes a signal larger or smaller.
 ///
-/// To multiply two signals, units and all, take signal.multiply.
+/// To multiply two signals with their units, use signal.multiply.
 struct SignalGain
 {
-    struct Inputs
-    {
-        double in = 0.0;
-    };
+    using Inputs = In<double>;
 
     struct Params
     {
         double gain = 1.0;
     };
 
-    struct Outputs
-    {
-        double out = 0.0;
-    };
+    using Outputs = Out<double>;
 
     static constexpr Info info {
         .id = "signal.gain",
@@ -35,7 +29,7 @@ struct SignalGain
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "signal"),
-        param (&Params::gain, "gain", unit::gain, "factor; negative turns the signal over", { .usual = { 0, 2 } }),
+        param (&Params::gain, "gain", unit::gain, "factor; a negative one inverts the signal", { .usual = { 0, 2 } }),
         output (&Outputs::out, "out", sameAs ("in"), "gain times the signal"),
     };
 

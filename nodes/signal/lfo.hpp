@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -10,18 +10,18 @@
 namespace tactus::nodes
 {
 
-/// An oscillator for slow movement, and for test signals.
+/// An oscillator for slow movements and for test signals.
 ///
 ///     out = offset + amplitude * shape (f t + phase / 2 pi)
 ///
 ///     sine      from 0, upwards first
-///     triangle  likewise
-///     square    +1 for the first half of the turn, -1 for the second
-///     saw       from 0 up to 1, jumps to -1 in the middle of the turn, up to 0
+///     triangle  from 0, upwards first
+///     square    +1 for the first half of the cycle, -1 for the second
+///     saw       from 0 up to 1, jumps to -1 in the middle of the cycle, up to 0
 ///
-/// The first sample is at `phase`. Turns are counted from whole ticks, so that nothing adds up: after a day at a fixed
-/// frequency the phase is still right to a rounding of the number of turns. A new frequency goes on from the phase reached.
-/// The corners are not smoothed: near half the tick rate they alias; vibration.* and texture.* are made for that.
+/// The first sample is at `phase`. The phase is computed from the number of ticks, so errors do not accumulate: after a day at
+/// a fixed frequency the phase is still correct to the rounding of the number of cycles. A new frequency continues from the
+/// current phase. The corners are not smoothed and alias near half the tick rate; use vibration.* and texture.* there.
 struct SignalLfo
 {
     enum class Shape
@@ -34,9 +34,7 @@ struct SignalLfo
 
     static constexpr std::string_view shape_names[] { "sine", "triangle", "square", "saw" };
 
-    struct Inputs
-    {
-    };
+    using Inputs = Empty;
 
     struct Params
     {
@@ -47,10 +45,7 @@ struct SignalLfo
         Shape shape = Shape::sine;
     };
 
-    struct Outputs
-    {
-        double out = 0.0;
-    };
+    using Outputs = Out<double>;
 
     static constexpr Info info {
         .id = "signal.lfo",
@@ -60,11 +55,11 @@ struct SignalLfo
     };
 
     static constexpr std::tuple ports {
-        param (&Params::frequency, "frequency", unit::hertz, "turns per second; negative turns backwards", { .usual = { 0, 100 } }),
+        param (&Params::frequency, "frequency", unit::hertz, "cycles per second; a negative one runs backwards", { .usual = { 0, 100 } }),
         param (&Params::amplitude, "amplitude", any_unit, "largest deviation from the offset", { .usual = { 0, 10 } }),
-        param (&Params::offset, "offset", sameAs ("amplitude"), "middle of the movement", { .usual = { -10, 10 } }),
-        param (&Params::phase, "phase", unit::radian, "where in the turn it starts", { .usual = { -2 * std::numbers::pi, 2 * std::numbers::pi } }),
-        choice (&Params::shape, "shape", shape_names, "form of the movement"),
+        param (&Params::offset, "offset", sameAs ("amplitude"), "middle of the oscillation", { .usual = { -10, 10 } }),
+        param (&Params::phase, "phase", unit::radian, "where in the cycle it starts", { .usual = { -2 * std::numbers::pi, 2 * std::numbers::pi } }),
+        choice (&Params::shape, "shape", shape_names, "waveform"),
         output (&Outputs::out, "out", sameAs ("amplitude"), "the oscillation"),
     };
 
@@ -75,14 +70,14 @@ struct SignalLfo
     void update() noexcept
     {
         if (params.frequency == frequency) return;
-        start = finiteOrZero (fraction (turn()));
+        start = finiteOrZero (fraction (cycle()));
         ticks = 0;
         frequency = finiteOrZero (params.frequency);
     }
 
     Outputs tick (const Inputs&) noexcept
     {
-        const double x = shaped (fraction (turn() + params.phase / (2.0 * std::numbers::pi)));
+        const double x = shaped (fraction (cycle() + params.phase / (2.0 * std::numbers::pi)));
         ++ticks;
         return { .out = finiteOrZero (params.offset + params.amplitude * x) };
     }
@@ -90,9 +85,9 @@ struct SignalLfo
     Claims claims() const { return { .amplitude = std::abs (params.offset) + std::abs (params.amplitude) }; }
 
 private:
-    static double fraction (double turns) noexcept { return turns - std::floor (turns); }
+    static double fraction (double cycles) noexcept { return cycles - std::floor (cycles); }
 
-    double turn() const noexcept { return start + frequency * static_cast<double> (ticks) / rate; }
+    double cycle() const noexcept { return start + frequency * static_cast<double> (ticks) / rate; }
 
     double shaped (double t) const noexcept
     {
@@ -112,7 +107,7 @@ private:
 
     double rate = 1.0;         // Hz
     double frequency = 0.0;    // Hz, since `start`
-    double start = 0.0;        // turn at which this frequency began
+    double start = 0.0;        // cycle at which this frequency began
     std::uint64_t ticks = 0;   // since then
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -9,42 +9,33 @@
 namespace tactus::nodes
 {
 
-/// Bends a signal by a drawn curve: straight between its points, held beyond its ends.
+/// Maps a signal through a drawn curve: straight between its points, constant beyond its ends.
 ///
-/// The curve says what comes out for each value that goes in, and may change the unit on the way: speed to newton, depth to
-/// gain. As delivered it passes 0 … 1 unchanged.
+/// The curve gives the output for each input and may change the unit: speed to force, depth to gain. The default curve passes
+/// 0 … 1 unchanged.
 struct SignalMap
 {
-    struct Inputs
-    {
-        double in = 0.0;
-    };
-
-    struct Params
-    {
-    };
+    using Inputs = In<double>;
+    using Params = Empty;
 
     struct Settings
     {
         Curve curve { { 0.0, 1.0 }, { 0.0, 1.0 } };
     };
 
-    struct Outputs
-    {
-        double out = 0.0;
-    };
+    using Outputs = Out<double>;
 
     static constexpr Info info {
         .id = "signal.map",
         .name = "Map",
-        .summary = "Bends a signal by a drawn curve.",
+        .summary = "Maps a signal through a drawn curve.",
         .source = "definition",
     };
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "signal"),
-        setting (&Settings::curve, "curve", sameAs ("in"), sameAs ("out"), "what comes out over what goes in"),
-        output (&Outputs::out, "out", any_unit, "the curve at the signal"),
+        setting (&Settings::curve, "curve", sameAs ("in"), sameAs ("out"), "output over input"),
+        output (&Outputs::out, "out", any_unit, "value of the curve at the signal"),
     };
 
     Params params;

@@ -1,47 +1,37 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
-/// The sum of its inputs, each with a gain of its own.
+/// The sum of its inputs, each with its own gain.
 ///
-/// layer.mix is the one with mute, solo and priorities.
+/// For mute, solo and priorities use layer.mix.
 struct SignalMix
 {
-    struct Inputs
-    {
-        InputList<double> in;
-    };
+    using Inputs = In<InputList<double>>;
 
     struct Params
     {
         List gain { 1.0 };
     };
 
-    struct Settings
-    {
-        int inputs = 2;
-    };
-
-    struct Outputs
-    {
-        double out = 0.0;
-    };
+    using Settings = InputCount;
+    using Outputs = Out<double>;
 
     static constexpr Info info {
         .id = "signal.mix",
         .name = "Mix",
-        .summary = "Adds signals up, each with its own gain.",
+        .summary = "Adds signals, each with its own gain.",
         .source = "definition",
     };
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "signals", 0.0),
-        param (&Params::gain, "gain", unit::gain, "factor on the input of the same number", { .usual = { 0, 2 } }),
-        setting (&Settings::inputs, "inputs", unit::count, "number of inputs", { .hard = { 1, list_capacity }, .usual = { 1, 8 } }),
+        param (&Params::gain, "gain", unit::gain, "factor on the input with the same number", { .usual = { 0, 2 } }),
+        inputCount (&Settings::inputs),
         output (&Outputs::out, "out", sameAs ("in"), "the sum of gain times input"),
     };
 

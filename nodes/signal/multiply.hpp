@@ -1,45 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
-/// The product of its inputs, units included. An input that nothing is wired to counts as 1.
+/// The product of its inputs, units included. An unwired input counts as 1.
 ///
 /// This is the amplifier of a modular synthesiser: a vibration times an envelope, a force times a contact window.
 struct SignalMultiply
 {
-    struct Inputs
-    {
-        InputList<double> in;
-    };
+    using Inputs = In<InputList<double>>;
+    using Params = Empty;
+    using Settings = InputCount;
+    using Outputs = Out<double>;
 
-    struct Params
-    {
-    };
-
-    struct Settings
-    {
-        int inputs = 2;
-    };
-
-    struct Outputs
-    {
-        double out = 0.0;
-    };
-
-    static constexpr Info info {
-        .id = "signal.multiply",
-        .name = "Multiply",
-        .summary = "Multiplies signals.",
-        .source = "definition",
-    };
+    static constexpr Info info { .id = "signal.multiply", .name = "Multiply", .summary = "Multiplies signals.", .source = "definition" };
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", each_its_unit, "signals", 1.0),
-        setting (&Settings::inputs, "inputs", unit::count, "number of inputs", { .hard = { 1, list_capacity }, .usual = { 1, 8 } }),
+        inputCount (&Settings::inputs),
         output (&Outputs::out, "out", productOf ("in"), "the product"),
     };
 

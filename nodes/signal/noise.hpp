@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
-#include <framework/random.hpp>
+#include <framework/kit/random.hpp>
+#include <framework/node/generic.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -10,16 +10,15 @@
 namespace tactus::nodes
 {
 
-/// White noise: each tick a new number, Gaussian around 0.
+/// White noise: a new Gaussian random number around 0 each tick.
 ///
-/// The same seed gives the same noise on every run; two nodes that must not sound as one need two seeds. The generator is
-/// the node's own (framework/random.hpp), the same bits on every machine whose std::log and std::cos agree. White up to
-/// half the tick rate, so a faster graph spreads the same power wider; a filter behind it sets the band.
+/// The same seed gives the same noise on every run. Two nodes that must sound different need two seeds. The generator is the
+/// node's own (framework/kit/random.hpp); it gives the same bits on every machine whose std::log and std::cos agree. The noise
+/// is white up to half the tick rate, so a faster graph spreads the same power over a wider band; a filter after it sets the
+/// band.
 struct SignalNoise
 {
-    struct Inputs
-    {
-    };
+    using Inputs = Empty;
 
     struct Params
     {
@@ -31,10 +30,7 @@ struct SignalNoise
         int seed = 1;
     };
 
-    struct Outputs
-    {
-        double out = 0.0;
-    };
+    using Outputs = Out<double>;
 
     static constexpr Info info {
         .id = "signal.noise",
@@ -45,7 +41,7 @@ struct SignalNoise
 
     static constexpr std::tuple ports {
         param (&Params::amplitude, "amplitude", any_unit, "standard deviation", { .hard = { 0, inf }, .usual = { 0, 10 } }),
-        setting (&Settings::seed, "seed", unit::count, "which noise", { .hard = { 0, 2147483647 }, .usual = { 1, 1000 } }),
+        setting (&Settings::seed, "seed", unit::count, "number that selects the noise", { .hard = { 0, 2147483647 }, .usual = { 1, 1000 } }),
         output (&Outputs::out, "out", sameAs ("amplitude"), "the noise"),
     };
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
-/// Keeps the value a signal had at the last hit.
+/// Holds the value a signal had at the last hit.
 ///
-/// It takes the signal on the tick of the hit itself and gives 0 until the first one. A hit that is nan is no hit. On a
-/// non-finite input it gives 0 for that tick; what it holds, stays.
+/// It takes the signal on the tick of the hit itself and gives 0 until the first hit. A nan is not a hit. On a non-finite input
+/// it gives 0 for that tick and keeps the held value.
 struct SignalSampleHold
 {
     struct Inputs
@@ -18,25 +18,19 @@ struct SignalSampleHold
         double hit = 0.0;
     };
 
-    struct Params
-    {
-    };
-
-    struct Outputs
-    {
-        double out = 0.0;
-    };
+    using Params = Empty;
+    using Outputs = Out<double>;
 
     static constexpr Info info {
         .id = "signal.sample_hold",
         .name = "Sample and hold",
-        .summary = "Keeps the value a signal had at the last hit.",
+        .summary = "Holds the value a signal had at the last hit.",
         .source = "definition",
     };
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "signal"),
-        input (&Inputs::hit, "hit", unit::hit, "takes the signal while positive"),
+        input (&Inputs::hit, "hit", unit::hit, "samples the signal while this is positive"),
         output (&Outputs::out, "out", sameAs ("in"), "the signal at the last hit"),
     };
 

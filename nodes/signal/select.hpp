@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -9,43 +9,33 @@
 namespace tactus::nodes
 {
 
-/// Passes one of its inputs on, by number, counted from 0.
+/// Passes on one of its inputs, by number from 0.
 ///
-/// The number is rounded to the nearest, so that 0.9999 out of a calculation still means 1, and held to the inputs there
-/// are. It switches hard; signal.crossfade goes gently.
+/// The number is rounded to the nearest integer, so that a computed 0.9999 means 1, and limited to the inputs that exist. The
+/// switch is hard; signal.crossfade is gradual.
 struct SignalSelect
 {
-    struct Inputs
-    {
-        InputList<double> in;
-    };
+    using Inputs = In<InputList<double>>;
 
     struct Params
     {
         double index = 0.0;
     };
 
-    struct Settings
-    {
-        int inputs = 2;
-    };
-
-    struct Outputs
-    {
-        double out = 0.0;
-    };
+    using Settings = InputCount;
+    using Outputs = Out<double>;
 
     static constexpr Info info {
         .id = "signal.select",
         .name = "Select",
-        .summary = "Passes one of several signals on.",
+        .summary = "Passes on one of several signals.",
         .source = "definition",
     };
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "signals to choose from", 0.0),
-        param (&Params::index, "index", unit::count, "which of them, from 0", { .hard = { 0, list_capacity - 1 }, .usual = { 0, 7 } }),
-        setting (&Settings::inputs, "inputs", unit::count, "number of inputs", { .hard = { 1, list_capacity }, .usual = { 1, 8 } }),
+        param (&Params::index, "index", unit::count, "number of the chosen signal, from 0", { .hard = { 0, list_capacity - 1 }, .usual = { 0, 7 } }),
+        inputCount (&Settings::inputs),
         output (&Outputs::out, "out", sameAs ("in"), "the chosen signal"),
     };
 

@@ -1,36 +1,30 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
-/// Lets a signal change only so fast: steps become ramps.
+/// Limits how fast a signal changes: steps become ramps.
 ///
-/// It starts on the first sample, without a ramp from 0, and does so again after a non-finite one. A signal slower than
-/// the rate passes to the bit.
+/// It starts at the first sample, without a ramp from 0, and does so again after a non-finite input. A signal slower than the
+/// rate passes bit for bit.
 struct SignalSlew
 {
-    struct Inputs
-    {
-        double in = 0.0;
-    };
+    using Inputs = In<double>;
 
     struct Params
     {
         double rate = 1.0;
     };
 
-    struct Outputs
-    {
-        double out = 0.0;
-    };
+    using Outputs = Out<double>;
 
     static constexpr Info info {
         .id = "signal.slew",
         .name = "Slew limit",
-        .summary = "Lets a signal change only so fast.",
+        .summary = "Limits how fast a signal changes.",
         .source = "definition",
     };
 

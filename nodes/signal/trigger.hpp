@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -9,21 +9,18 @@
 namespace tactus::nodes
 {
 
-/// Makes hits of a signal: one each time it rises through a threshold.
+/// Triggers a hit each time a signal rises through a threshold.
 ///
-///     hit    speed, on the tick where `in` comes above threshold + hysteresis / 2
+///     hit    speed, on the tick where `in` rises above threshold + hysteresis / 2
 ///     gate   1 from there until `in` is back at threshold - hysteresis / 2 or below, which arms the next hit
 ///
-/// A signal that is already high on the first sample, or on the first one after a non-finite one, opens the gate without a
-/// hit: nothing rose. The hysteresis should be wider than the noise on the signal, else one crossing makes many hits.
+/// A signal that is already high on the first sample, or on the first sample after a non-finite one, opens the gate without a
+/// hit. The hysteresis should be wider than the noise on the signal, or one crossing makes many hits.
 ///
 /// Source: Schmitt 1938.
 struct SignalTrigger
 {
-    struct Inputs
-    {
-        double in = 0.0;
-    };
+    using Inputs = In<double>;
 
     struct Params
     {
@@ -41,15 +38,15 @@ struct SignalTrigger
     static constexpr Info info {
         .id = "signal.trigger",
         .name = "Trigger",
-        .summary = "Hits when a signal rises through a threshold.",
+        .summary = "Triggers a hit when a signal rises through a threshold.",
         .source = "Schmitt trigger (1938)",
     };
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "signal"),
         param (&Params::threshold, "threshold", sameAs ("in"), "middle of the two levels", { .usual = { -1, 1 } }),
-        param (&Params::hysteresis, "hysteresis", sameAs ("in"), "distance of the two levels", { .hard = { 0, inf }, .usual = { 0, 1 } }),
-        param (&Params::speed, "speed", unit::speed, "impact speed each hit stands for", { .hard = { 0, inf }, .usual = { 0, 5 } }),
+        param (&Params::hysteresis, "hysteresis", sameAs ("in"), "distance between the two levels", { .hard = { 0, inf }, .usual = { 0, 1 } }),
+        param (&Params::speed, "speed", unit::speed, "impact speed of each hit", { .hard = { 0, inf }, .usual = { 0, 5 } }),
         output (&Outputs::hit, "hit", unit::hit, "speed on the tick of the hit, else 0"),
         output (&Outputs::gate, "gate", unit::gain, "1 while the signal is high, else 0"),
     };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/node.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -9,23 +9,22 @@
 namespace tactus::nodes
 {
 
-/// Fades a texture out before the hand moves too fast for it: multiply a grating by `gain`.
+/// Fades a texture out before the hand moves too fast for it. Multiply a grating by `gain`.
 ///
 ///     v = (s_n - s_(n-1)) / T,   s = x cos (angle) + y sin (angle)      speed along the grating
-///     f = k |v|                                                        what it sounds at, Hz
+///     f = k |v|                                                        the frequency it sounds at, Hz
 ///     gain = 1 up to f_max / 2, then half a cosine down to 0 at f_max
 ///
-/// A grating scanned faster than half the sampling rate would come back as another, slower one, and above the first
-/// resonance of the device as a buzz. So f_max is the lower of that resonance F_0 and 1 / (alpha T) with alpha >= 2,
-/// better 10 (Table 1).
+/// A grating scanned above half the sampling rate would alias to a slower one, and above the first resonance of the device it
+/// would buzz. So f_max should be the lower of that resonance F_0 and 1 / (alpha T) with alpha >= 2, better 10 (Table 1).
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 5, Table 1; Campion & Hayward 2005.
 ///
 /// Good to know
-///  - The speed is the difference of two samples and 0 on the first, as after a fault: a quantum q of the position reads
-///    q / T. Where q k / T is near f_max the gain flutters: a finer encoder or a smoothed position.
-///  - gain times force is no longer the gradient of a potential: while it fades, it depends on speed.
-///  - A change of angle moves nothing: both samples are seen along the new one.
+///  - The speed is the difference between two samples, and 0 on the first sample and after a fault. A position quantum q
+///    shows up as a speed of q / T. Where q k / T is near f_max the gain flutters: use a finer encoder or a smoothed position.
+///  - gain times force is no longer the gradient of a potential: during the fade it depends on speed.
+///  - A change of angle adds no speed: both samples are measured along the new angle.
 struct AntiAlias
 {
     struct Inputs
@@ -55,11 +54,14 @@ struct AntiAlias
 
     static constexpr std::tuple ports {
         input (&Inputs::position, "position", unit::metre, "tool position"),
-        param (&Params::spatial_frequency, "spatial_frequency", unit::per_metre, "highest of the texture k", { .hard = { 0, inf }, .usual = { 10, 5000 } }),
-        param (&Params::angle, "angle", unit::radian, "of the wave in the xy plane, from x towards y", { .usual = { -std::numbers::pi, std::numbers::pi } }),
-        param (&Params::f_max, "f_max", unit::hertz, "from here on it is silent; from half of it on softer", { .hard = { 0, inf }, .usual = { 0, 1000 } }),
+        param (&Params::spatial_frequency, "spatial_frequency", unit::per_metre, "highest spatial frequency k of the texture",
+               { .hard = { 0, inf }, .usual = { 10, 5000 } }),
+        param (&Params::angle, "angle", unit::radian, "angle of the wave in the xy plane, from x towards y",
+               { .usual = { -std::numbers::pi, std::numbers::pi } }),
+        param (&Params::f_max, "f_max", unit::hertz, "silent from this frequency up; the fade begins at half of it",
+               { .hard = { 0, inf }, .usual = { 0, 1000 } }),
         output (&Outputs::gain, "gain", unit::gain, "factor on the texture"),
-        output (&Outputs::speed, "speed", unit::speed, "along the grating, signed"),
+        output (&Outputs::speed, "speed", unit::speed, "signed speed along the grating"),
     };
 
     Params params;

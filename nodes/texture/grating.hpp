@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/node.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -9,23 +9,23 @@
 namespace tactus::nodes
 {
 
-/// Regular ridges: a force along their direction that swells and ebbs as the tool crosses them.
+/// Regular ridges: a force along their direction that rises and falls as the tool crosses them.
 ///
 ///     value = A sin (2 pi k s + phase),   s = x cos (angle) + y sin (angle)
 ///     force = value (cos (angle), sin (angle), 0)
 ///
-/// k is in ridges per metre: 200 1/m is one every 5 mm. The force is the gradient of a potential, so over any closed
-/// path it does no work: superposed on anything passive it stays passive. That is why it points along the wave; a
-/// normal force that is modulated by lateral position would give energy, as Campion and Hayward (2008) warn.
+/// k is in ridges per metre: 200 1/m is one every 5 mm. The force is the gradient of a potential, so it does no work over any
+/// closed path: added to anything passive it stays passive. That is why it points along the wave; a normal force modulated by
+/// lateral position would create energy, as Campion and Hayward (2008) warn.
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 5; Campion & Hayward 2005.
 ///
 /// Good to know
-///  - The steepest slope of the force is 2 pi A k, in N/m, which the device must damp like a spring of that stiffness.
-///    (Table 1 has A k, "proportional to the slope".)
-///  - At speed v it sounds at k v Hz. Above the device's bandwidth it buzzes, and above half the sampling rate it
-///    aliases: multiply by texture.antialias. Multiply by contact.window too, so that a touch does not step the force.
-///  - Changing amplitude, frequency or angle while touching does work, unlike moving does.
+///  - The steepest slope of the force is 2 pi A k, in N/m; the device must damp it like a spring of that stiffness.
+///    (Table 1 gives A k, "proportional to the slope".)
+///  - At speed v it sounds at k v Hz. Above the device's bandwidth it buzzes, and above half the sampling rate it aliases:
+///    multiply by texture.antialias. Multiply by contact.window too, so that a touch does not step the force.
+///  - Moving does no work over a closed path. Changing amplitude, frequency or angle in contact does work.
 struct Grating
 {
     struct Inputs
@@ -57,11 +57,12 @@ struct Grating
     static constexpr std::tuple ports {
         input (&Inputs::position, "position", unit::metre, "tool position"),
         param (&Params::amplitude, "amplitude", unit::newton, "peak force A", { .hard = { 0, inf }, .usual = { 0, 1 } }),
-        param (&Params::spatial_frequency, "spatial_frequency", unit::per_metre, "ridges per metre k", { .hard = { 0, inf }, .usual = { 10, 5000 } }),
-        param (&Params::angle, "angle", unit::radian, "of the wave in the xy plane, from x towards y", { .usual = { -std::numbers::pi, std::numbers::pi } }),
-        param (&Params::phase, "phase", unit::radian, "at the origin", { .usual = { -std::numbers::pi, std::numbers::pi } }),
+        param (&Params::spatial_frequency, "spatial_frequency", unit::per_metre, "k, in ridges per metre", { .hard = { 0, inf }, .usual = { 10, 5000 } }),
+        param (&Params::angle, "angle", unit::radian, "angle of the wave in the xy plane, from x towards y",
+               { .usual = { -std::numbers::pi, std::numbers::pi } }),
+        param (&Params::phase, "phase", unit::radian, "phase at the origin", { .usual = { -std::numbers::pi, std::numbers::pi } }),
         output (&Outputs::force, "force", unit::newton, "force on the tool, along the wave"),
-        output (&Outputs::value, "value", unit::newton, "the force, signed"),
+        output (&Outputs::value, "value", unit::newton, "signed value of the force"),
     };
 
     Params params;

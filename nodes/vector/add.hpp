@@ -1,43 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
-/// The sum of its vectors. An input that nothing is wired to counts as 0.
+/// The sum of its vectors. An unwired input counts as 0.
 struct VectorAdd
 {
-    struct Inputs
-    {
-        InputList<Vec3> in;
-    };
+    using Inputs = In<InputList<Vec3>>;
+    using Params = Empty;
+    using Settings = InputCount;
+    using Outputs = Out<Vec3>;
 
-    struct Params
-    {
-    };
-
-    struct Settings
-    {
-        int inputs = 2;
-    };
-
-    struct Outputs
-    {
-        Vec3 out = Vec3::Zero();
-    };
-
-    static constexpr Info info {
-        .id = "vector.add",
-        .name = "Add",
-        .summary = "Adds vectors up.",
-        .source = "definition",
-    };
+    static constexpr Info info { .id = "vector.add", .name = "Add", .summary = "Adds vectors.", .source = "definition" };
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "vectors", 0.0),
-        setting (&Settings::inputs, "inputs", unit::count, "number of inputs", { .hard = { 1, list_capacity }, .usual = { 1, 8 } }),
+        inputCount (&Settings::inputs),
         output (&Outputs::out, "out", sameAs ("in"), "the sum"),
     };
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
-/// Parts a vector by a direction: a number along it, and the vector that is left across.
+/// Splits a vector by a direction: a number along it, and the vector that is left across it.
 ///
 ///     u = direction / |direction|      along = in . u      across = in - along u
 ///
-/// Only where the direction points matters, not how long it is. A direction of length 0 has nothing along it: all is across.
+/// Only the direction matters, not its length. With a direction of length 0, `along` is 0 and `across` is the whole vector.
 struct VectorAlong
 {
     struct Inputs
@@ -19,9 +19,7 @@ struct VectorAlong
         Vec3 direction = Vec3::UnitZ();
     };
 
-    struct Params
-    {
-    };
+    using Params = Empty;
 
     struct Outputs
     {
@@ -32,7 +30,7 @@ struct VectorAlong
     static constexpr Info info {
         .id = "vector.along",
         .name = "Along",
-        .summary = "Parts a vector into what lies along a direction and what lies across.",
+        .summary = "Splits a vector into the parts along and across a direction.",
         .source = "definition",
     };
 
@@ -40,7 +38,7 @@ struct VectorAlong
         input (&Inputs::in, "in", any_unit, "vector"),
         input (&Inputs::direction, "direction", any_unit, "direction of any length"),
         output (&Outputs::along, "along", sameAs ("in"), "signed part along the direction"),
-        output (&Outputs::across, "across", sameAs ("in"), "the rest, at right angles to it"),
+        output (&Outputs::across, "across", sameAs ("in"), "the rest, at right angles to the direction"),
     };
 
     Params params;
@@ -52,7 +50,7 @@ struct VectorAlong
         const Vec3 u = direction (in.direction);
         const double along = in.in.dot (u);
         const Vec3 across = in.in - along * u;
-        if (! isFinite (along) || ! isFinite (across)) return {};
+        if (! isFinite (along, across)) return {};
         return { .along = along, .across = across };
     }
 };

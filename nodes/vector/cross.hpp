@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
-
 #include <Eigen/Geometry>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
@@ -11,25 +10,14 @@ namespace tactus::nodes
 /// The cross product, right-handed: at right angles to both vectors. Lever cross force is torque.
 struct VectorCross
 {
-    struct Inputs
-    {
-        Vec3 a = Vec3::Zero();
-        Vec3 b = Vec3::Zero();
-    };
-
-    struct Params
-    {
-    };
-
-    struct Outputs
-    {
-        Vec3 out = Vec3::Zero();
-    };
+    using Inputs = Pair<Vec3>;
+    using Params = Empty;
+    using Outputs = Out<Vec3>;
 
     static constexpr Info info {
         .id = "vector.cross",
         .name = "Cross product",
-        .summary = "Multiplies two vectors to a third, at right angles to both.",
+        .summary = "Multiplies two vectors; the result is at right angles to both.",
         .source = "definition",
     };
 

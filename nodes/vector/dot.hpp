@@ -1,33 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
-/// The dot product: how much of one vector lies along the other, times the length of that. Force dot velocity is power.
+/// The dot product: how much of one vector lies along the other, times the length of the other. Force dot velocity is power.
 struct VectorDot
 {
-    struct Inputs
-    {
-        Vec3 a = Vec3::Zero();
-        Vec3 b = Vec3::Zero();
-    };
-
-    struct Params
-    {
-    };
-
-    struct Outputs
-    {
-        double amount = 0.0;
-    };
+    using Inputs = Pair<Vec3>;
+    using Params = Empty;
+    using Outputs = Amount<double>;
 
     static constexpr Info info {
         .id = "vector.dot",
         .name = "Dot product",
-        .summary = "Multiplies two vectors to a number.",
+        .summary = "Multiplies two vectors; the result is a number.",
         .source = "definition",
     };
 

@@ -1,48 +1,35 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
-#include <framework/rotation.hpp>
-
-#include <numbers>
+#include <framework/kit/rotation.hpp>
+#include <framework/node/frame.hpp>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
-/// Brings a point from the coordinates of a turned and shifted frame into those of the world.
+/// Transforms a point from a rotated and shifted frame into the world.
 ///
 ///     out = origin + R in
 ///
-/// R turns by the rotation vector. Forces and other directions take no shift: leave the origin at 0 for them.
+/// R is the rotation of the rotation vector. Forces and other directions are not shifted: leave the origin at 0 for them.
 struct VectorFromFrame
 {
-    struct Inputs
-    {
-        Vec3 in = Vec3::Zero();
-    };
-
-    struct Params
-    {
-        Vec3 origin = Vec3::Zero();
-        Vec3 rotation = Vec3::Zero();
-    };
-
-    struct Outputs
-    {
-        Vec3 out = Vec3::Zero();
-    };
+    using Inputs = In<Vec3>;
+    using Params = Frame;
+    using Outputs = Out<Vec3>;
 
     static constexpr Info info {
         .id = "vector.from_frame",
         .name = "From frame",
-        .summary = "Brings a vector from a frame into the world.",
+        .summary = "Transforms a vector from a frame into the world.",
         .source = "definition",
     };
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "vector, in the frame"),
-        param (&Params::origin, "origin", sameAs ("in"), "where the frame has its 0, in the world", { .usual = { -1, 1 } }),
-        param (&Params::rotation, "rotation", unit::radian, "how the frame is turned: axis times angle", { .usual = { -std::numbers::pi, std::numbers::pi } }),
+        frameOrigin (&Params::origin),
+        frameRotation (&Params::rotation),
         output (&Outputs::out, "out", sameAs ("in"), "the vector, in the world"),
     };
 

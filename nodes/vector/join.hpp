@@ -1,41 +1,29 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
-/// Makes a vector of three signals.
+/// Makes a vector from three signals.
 struct VectorJoin
 {
-    struct Inputs
-    {
-        double x = 0.0;
-        double y = 0.0;
-        double z = 0.0;
-    };
-
-    struct Params
-    {
-    };
-
-    struct Outputs
-    {
-        Vec3 out = Vec3::Zero();
-    };
+    using Inputs = Components;
+    using Params = Empty;
+    using Outputs = Out<Vec3>;
 
     static constexpr Info info {
         .id = "vector.join",
         .name = "Join",
-        .summary = "Makes a vector of three signals.",
+        .summary = "Makes a vector from three signals.",
         .source = "definition",
     };
 
     static constexpr std::tuple ports {
-        input (&Inputs::x, "x", any_unit, "part to the right"),
-        input (&Inputs::y, "y", sameAs ("x"), "part away from the person"),
-        input (&Inputs::z, "z", sameAs ("x"), "part upwards"),
+        input (&Inputs::x, "x", any_unit, "component to the right"),
+        input (&Inputs::y, "y", sameAs ("x"), "component away from the person"),
+        input (&Inputs::z, "z", sameAs ("x"), "component upwards"),
         output (&Outputs::out, "out", sameAs ("x"), "the vector"),
     };
 

@@ -1,36 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 #include <cmath>
 
 namespace tactus::nodes
 {
 
-/// How long a vector is.
+/// The length of a vector.
 struct VectorLength
 {
-    struct Inputs
-    {
-        Vec3 in = Vec3::Zero();
-    };
+    using Inputs = In<Vec3>;
+    using Params = Empty;
+    using Outputs = Amount<double>;
 
-    struct Params
-    {
-    };
-
-    struct Outputs
-    {
-        double amount = 0.0;
-    };
-
-    static constexpr Info info {
-        .id = "vector.length",
-        .name = "Length",
-        .summary = "How long a vector is.",
-        .source = "definition",
-    };
+    static constexpr Info info { .id = "vector.length", .name = "Length", .summary = "The length of a vector.", .source = "definition" };
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "vector"),

@@ -1,29 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
-/// Where a vector points: the same direction with length 1. A vector of length 0 points nowhere and stays 0.
+/// The direction of a vector: the same direction with length 1. A vector of length 0 has no direction and stays 0.
 ///
-/// Near 0 the direction is mostly noise: a force made of it needs a window that closes there.
+/// Near 0 the direction is mostly noise. A force made from it needs a window that closes there.
 struct VectorNormalize
 {
-    struct Inputs
-    {
-        Vec3 in = Vec3::Zero();
-    };
-
-    struct Params
-    {
-    };
-
-    struct Outputs
-    {
-        Vec3 out = Vec3::Zero();
-    };
+    using Inputs = In<Vec3>;
+    using Params = Empty;
+    using Outputs = Out<Vec3>;
 
     static constexpr Info info {
         .id = "vector.normalize",

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
-/// Makes a vector longer or shorter by a signal, units included: a normal times a resistance is a force.
+/// Scales a vector by a signal, units included: a normal times a resistance is a force.
 struct VectorScale
 {
     struct Inputs
@@ -15,14 +15,8 @@ struct VectorScale
         double gain = 1.0;
     };
 
-    struct Params
-    {
-    };
-
-    struct Outputs
-    {
-        Vec3 out = Vec3::Zero();
-    };
+    using Params = Empty;
+    using Outputs = Out<Vec3>;
 
     static constexpr Info info {
         .id = "vector.scale",
@@ -33,7 +27,7 @@ struct VectorScale
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "vector"),
-        input (&Inputs::gain, "gain", any_unit, "factor; negative turns the vector round"),
+        input (&Inputs::gain, "gain", any_unit, "factor; a negative one reverses the vector"),
         output (&Outputs::out, "out", productOf ("in", "gain"), "gain times the vector"),
     };
 

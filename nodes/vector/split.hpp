@@ -1,42 +1,30 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node.hpp>
+#include <framework/node/generic.hpp>
 
 namespace tactus::nodes
 {
 
-/// Takes a vector apart.
+/// Splits a vector into its components.
 struct VectorSplit
 {
-    struct Inputs
-    {
-        Vec3 in = Vec3::Zero();
-    };
-
-    struct Params
-    {
-    };
-
-    struct Outputs
-    {
-        double x = 0.0;
-        double y = 0.0;
-        double z = 0.0;
-    };
+    using Inputs = In<Vec3>;
+    using Params = Empty;
+    using Outputs = Components;
 
     static constexpr Info info {
         .id = "vector.split",
         .name = "Split",
-        .summary = "Takes a vector apart.",
+        .summary = "Splits a vector into its components.",
         .source = "definition",
     };
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "vector"),
-        output (&Outputs::x, "x", sameAs ("in"), "its part to the right"),
-        output (&Outputs::y, "y", sameAs ("in"), "its part away from the person"),
-        output (&Outputs::z, "z", sameAs ("in"), "its part upwards"),
+        output (&Outputs::x, "x", sameAs ("in"), "its component to the right"),
+        output (&Outputs::y, "y", sameAs ("in"), "its component away from the person"),
+        output (&Outputs::z, "z", sameAs ("in"), "its component upwards"),
     };
 
     Params params;

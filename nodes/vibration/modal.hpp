@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/mode.hpp>
-#include <framework/node.hpp>
+#include <framework/node/mode.hpp>
+#include <framework/node/node.hpp>
 
 #include <cmath>
 #include <complex>
@@ -13,22 +13,23 @@
 namespace tactus::nodes
 {
 
-/// The ring of a struck object: what tells wood from steel in a tap.
+/// The ring of a struck object: the difference between a tap on wood and one on steel.
 ///
 ///     value = gain sum_i a_i v e^(-decay_i t) sin (2 pi frequency_i t)      t since a hit of speed v; hits add up
 ///
-/// Each mode is a phasor z that turns and shrinks by a fixed complex factor each tick; a hit adds a_i v to its real
-/// part, and the sine is its imaginary part. So modes are exact at any rate, a hit starts without a click, and a
-/// second one while the first still rings is the exact sum of both.
+/// Each mode is a phasor z that is multiplied by a fixed complex factor each tick. A hit adds a_i v to its real part, and the
+/// sine is its imaginary part. So modes are exact at any rate, a hit starts without a click, and a second hit while the first
+/// still rings gives the exact sum of both.
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 6, after Okamura, Cutkosky & Dennerlein 2001.
-/// Printed is e^(b t) with b < 0; here `decay` is -b, positive.
+/// The chapter prints e^(b t) with b < 0; here `decay` is -b, positive.
 ///
 /// Good to know
-///  - `pitch` and `damping` multiply all frequencies and decays; wired, they bend a ring while it sounds, without a click.
-///  - Modes at or above half the sampling rate, and such as do not decay, are silent.
-///  - Published amplitudes are often accelerations per impact speed: multiply by the mass of the tip.
-///  - Hits of no or not a number's speed are none. This adds energy at each hit: keep it small against the contact's own force.
+///  - `pitch` and `damping` multiply all frequencies and decays. Wired, they bend a ring while it sounds, without a click.
+///  - Modes at or above half the sampling rate, and modes that do not decay, are silent.
+///  - Published amplitudes are often accelerations per impact speed: multiply them by the mass of the tip.
+///  - A hit whose speed is not positive or not finite is ignored. Each hit adds energy: keep it small compared with
+///    the contact's own force.
 struct Modal
 {
     using Mode = tactus::Mode;
@@ -64,7 +65,7 @@ struct Modal
 
     static constexpr std::tuple ports {
         input (&Inputs::hit, "hit", unit::hit, "impact speed v"),
-        param (&Params::gain, "gain", unit::gain, "of the output", { .usual = { 0, 4 } }),
+        param (&Params::gain, "gain", unit::gain, "gain of the output", { .usual = { 0, 4 } }),
         param (&Params::pitch, "pitch", unit::gain, "multiplies all frequencies", { .hard = { 0, inf }, .usual = { 0.25, 4 } }),
         param (&Params::damping, "damping", unit::gain, "multiplies all decays", { .hard = { 0, inf }, .usual = { 0.1, 10 } }),
         setting (&Settings::modes, "modes", unit::count, "the tones of the object"),
@@ -93,7 +94,7 @@ struct Modal
         }
     }
 
-    /// A mode rings on if the new list has its frequency, in the same place or elsewhere.
+    /// A mode keeps ringing if the new list has a mode of the same frequency, in the same place or elsewhere.
     void adopt (const Modal& old) noexcept
     {
         for (std::size_t i = 0; i < old.voices.size(); ++i)
@@ -109,7 +110,7 @@ struct Modal
         {
             auto& [z, factor] = voices[i];
             z = times (z, factor);
-            if (std::norm (z) < flush * flush) z = {};   // whether or not it is struck again now
+            if (std::norm (z) < flush * flush) z = {};   // before a new hit is added
             if (factor != Phasor {}) z += settings.modes[i].amplitude * v;
             sum += z.imag();
         }
@@ -130,15 +131,15 @@ private:
         Phasor z, factor;
     };
 
-    static constexpr double flush = 1e-18;   // N; a tail that no one feels would end in slow denormal numbers
+    static constexpr double flush = 1e-18;   // N; a tail that cannot be felt would end in slow denormal numbers
 
-    /// The product, without the detour that std::complex takes for infinities.
+    /// The product, without the special cases of std::complex for infinities.
     static Phasor times (Phasor a, Phasor b) noexcept
     {
         return { a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real() };
     }
 
-    /// Index of the mode of that frequency, at `preferred` if it is there; the number of modes if there is none.
+    /// Index of the mode with this frequency: `preferred` if that mode has it, the number of modes if none has it.
     std::size_t find (double frequency, std::size_t preferred) const noexcept
     {
         const auto& modes = settings.modes;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/biquad.hpp>
-#include <framework/mode.hpp>
-#include <framework/node.hpp>
+#include <framework/kit/recording.hpp>
+#include <framework/node/mode.hpp>
+#include <framework/node/node.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,33 +17,34 @@
 namespace tactus::nodes
 {
 
-/// A tap played back: the recording of a struck object, or its ring computed beforehand.
+/// A tap played back: the recording of a struck object, or its ring computed in advance.
 ///
-///     value = gain sum over hits of v table (pitch t)      t since a hit of speed v; straight between samples
+///     value = gain sum over hits of v table (pitch t)      t since a hit of speed v; linear between samples
 ///     table[i] = sum_j a_j e^(-decay_j i/rate) sin (2 pi frequency_j i/rate),  the last one 0      from `modes`
 ///     table[i] = sample i of `channel`                                                             from `wav`
 ///
-/// Each hit takes a voice and plays the table once. Between samples the error is at most max |y''| / (8 rate^2). It
-/// costs the same however many modes there are; vibration.modal is exact, and bends its decays.
+/// Each hit takes a voice and plays the table once. Between samples the error is at most max |y''| / (8 rate^2). The cost does
+/// not depend on the number of modes. vibration.modal is exact, and can bend its decays.
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 6; Okamura, Cutkosky & Dennerlein 2001. Playing
 /// measured taps: Kuchenbecker, Fiene & Niemeyer 2006.
 ///
 /// Good to know
-///  - A recording is force per impact speed, in N s/m: what a hit of 1 m/s gives. It plays at its own rate, whatever
-///    that of the graph.
-///  - A recording that does not begin and end at 0 is bent there over its first and last 2 ms, so that it never clicks.
+///  - A recording is force per impact speed, in N s/m: the force of a hit at 1 m/s. It plays at its own rate, whatever the
+///    graph's rate is.
+///  - A recording that does not begin and end at 0 is bent to 0 over its first and last 2 ms, so that it never clicks.
 ///  - Nothing at or above half the tick rate sounds: such modes are left out, and a recording is low-passed, 6 dB down at
-///    0.3 of the tick rate and 71 dB at 0.5 (Butterworth of order 8, forth and back, so that nothing comes late). A mode of
-///    half the table's rate or more sounds, but as another: give the table more than twice its frequency.
-///  - Each octave of `pitch` above 1 has a table of its own with half of that band. A hit takes its table as the pitch
-///    then is, so a pitch bent up while it sounds may fold back.
-///  - The tick of a hit gives nothing of it, nor does the end of the table: a table that is too short for its slowest
-///    mode ends in a step of what is left, a e^(-decay length/rate).
-///  - When all voices sound a new hit is dropped; none that sounds is cut short.
-///  - Modes left as delivered give way to a recording. When the table changes, hits that sound play the old one to its
-///    end, if it does not change twice meanwhile.
-///  - Hits of no or not a number's speed are none. This adds energy at each hit: keep it small against the contact's own force.
+///    0.3 of the tick rate and 71 dB at 0.5 (Butterworth of order 8, forwards and backwards, so without delay). A mode at half
+///    the table's rate or above aliases: give the table a rate of more than twice its frequency.
+///  - Each octave of `pitch` above 1 has its own table with half the band. A hit chooses its table by the pitch at that moment,
+///    so a pitch bent up while it sounds may alias.
+///  - A hit gives 0 on its own tick, and 0 at the end of the table. A table that is too short for its slowest mode ends in a
+///    step of size a e^(-decay length/rate).
+///  - While all voices sound, a new hit is dropped; no voice is cut short.
+///  - A recording replaces modes that are left at their default. When the table changes, sounding hits play the old table to
+///    its end, unless it changes twice in that time.
+///  - A hit whose speed is not positive or not finite is ignored. Each hit adds energy: keep it small compared with
+///    the contact's own force.
 struct Wavetable
 {
     struct Table
@@ -58,10 +59,10 @@ struct Wavetable
 
         static constexpr std::tuple fields {
             field (&Table::modes, "modes", unit::count, "the tones of the object"),
-            field (&Table::rate, "rate", unit::hertz, "of the samples that are made of the modes", { .hard = { 1, 1e6 }, .usual = { 1000, 48000 } }),
-            field (&Table::length, "length", unit::count, "how many of them", { .hard = { 2, longest }, .usual = { 100, 48000 } }),
-            field (&Table::wav, "wav", unit::count, "a recording instead, in N s/m"),
-            field (&Table::channel, "channel", unit::count, "of the recording, from 1", { .hard = { 1, 1024 }, .usual = { 1, 8 } }),
+            field (&Table::rate, "rate", unit::hertz, "rate of the samples computed from the modes", { .hard = { 1, 1e6 }, .usual = { 1000, 48000 } }),
+            field (&Table::length, "length", unit::count, "number of these samples", { .hard = { 2, longest }, .usual = { 100, 48000 } }),
+            field (&Table::wav, "wav", unit::count, "a recording instead of modes, in N s/m"),
+            field (&Table::channel, "channel", unit::count, "channel of the recording, from 1", { .hard = { 1, 1024 }, .usual = { 1, 8 } }),
         };
     };
 
@@ -96,10 +97,10 @@ struct Wavetable
 
     static constexpr std::tuple ports {
         input (&Inputs::hit, "hit", unit::hit, "impact speed v"),
-        param (&Params::gain, "gain", unit::gain, "of the output", { .usual = { 0, 4 } }),
-        param (&Params::pitch, "pitch", unit::gain, "how fast the table is played", { .hard = { 0.01, 8 }, .usual = { 0.25, 4 } }),
-        setting (&Settings::table, "table", unit::count, "what is played: modes, rate and length, or wav and channel"),
-        setting (&Settings::voices, "voices", unit::count, "how many hits can sound together", { .hard = { 1, 1000 }, .usual = { 1, 16 } }),
+        param (&Params::gain, "gain", unit::gain, "gain of the output", { .usual = { 0, 4 } }),
+        param (&Params::pitch, "pitch", unit::gain, "playback speed of the table", { .hard = { 0.01, 8 }, .usual = { 0.25, 4 } }),
+        setting (&Settings::table, "table", unit::count, "sound to play: modes, rate and length, or wav and channel"),
+        setting (&Settings::voices, "voices", unit::count, "number of hits that can sound together", { .hard = { 1, 1000 }, .usual = { 1, 16 } }),
         output (&Outputs::value, "value", unit::newton, "force of the vibration"),
     };
 
@@ -114,11 +115,11 @@ struct Wavetable
         dt = setup.dt_s();
         table = make (setup.rate_hz);
         previous = {};
-        voices.assign (static_cast<std::size_t> (settings.voices), {});
+        voices.assign (at (settings.voices), {});
     }
 
-    /// Hits that sound go on, as many as there are voices, with the table they began with; in their places, as the order
-    /// of a sum shows in its last bit.
+    /// Sounding hits keep the table they began with, up to the number of voices. They keep their places, because the
+    /// order of a sum shows in its last bit.
     void adopt (const Wavetable& old) noexcept
     {
         previous = old.table;
@@ -191,8 +192,6 @@ private:
     std::shared_ptr<const Tables> make (double tick_rate_hz) const;
     Samples ofModes (double below_hz) const;
     Samples ofRecording (double below_hz) const;
-    static void lowPass (Samples&, double cutoff_hz, double rate_hz);
-    static void bendEndsToZero (Samples&, double rate_hz);
 
     double dt = 1.0 / Setup {}.rate_hz;   // s
     std::shared_ptr<const Tables> table, previous;
@@ -207,7 +206,7 @@ inline std::string Wavetable::problem() const
     const Table& t = settings.table;
     if (! t.wav)
     {
-        if (t.modes.empty()) return "the table needs modes, or a recording wav";
+        if (t.modes.empty()) return "the table needs modes or a recording (wav)";
         if (! (t.rate > 0.0) || ! isFinite (t.rate)) return "the table's rate must be above 0 Hz";
         if (t.length < 2 || t.length > Table::longest) return "the table needs a length from 2 to " + std::to_string (Table::longest) + " samples";
         for (const Mode& m : t.modes)
@@ -215,17 +214,17 @@ inline std::string Wavetable::problem() const
         return {};
     }
 
-    if (t.modes != Table {}.modes && ! t.modes.empty()) return "the table is made of modes or of wav, not of both";
+    if (t.modes != Table {}.modes && ! t.modes.empty()) return "the table has modes and a wav; give one of them";
     const auto& channels = t.wav->channels;
-    if (t.channel < 1 || static_cast<std::size_t> (t.channel) > channels.size())
-        return "wav has no channel " + std::to_string (t.channel) + "; its channels are counted from 1 to " + std::to_string (channels.size());
+    if (t.channel < 1 || at (t.channel) > channels.size())
+        return "wav has no channel " + std::to_string (t.channel) + "; its channels are 1 to " + std::to_string (channels.size());
     if (! (t.wav->rate_hz > 0.0) || ! isFinite (t.wav->rate_hz)) return "the rate of wav must be above 0 Hz";
-    const Samples& samples = channels[static_cast<std::size_t> (t.channel - 1)];
-    if (samples.size() < 2 || samples.size() > static_cast<std::size_t> (Table::longest))
+    const Samples& samples = channels[at (t.channel - 1)];
+    if (samples.size() < 2 || samples.size() > at (Table::longest))
         return "wav needs from 2 to " + std::to_string (Table::longest) + " samples; it has " + std::to_string (samples.size());
-    if (! std::ranges::all_of (samples, [] (double v)
-                               { return isFinite (v); }))
-        return "wav has a sample that is not finite";
+    const auto finite = [] (double v)
+    { return isFinite (v); };
+    if (! std::ranges::all_of (samples, finite)) return "wav has a sample that is not finite";
     return {};
 }
 
@@ -235,12 +234,17 @@ inline std::string Wavetable::warning (const Setup& setup) const
     if (t.wav) return {};
     for (const Mode& m : t.modes)
         if (m.frequency >= 0.5 * t.rate && m.frequency < 0.5 * setup.rate_hz)
-            return "the table has too low a rate for the mode at " + std::to_string (std::lround (m.frequency)) + " Hz, which will sound as another: it needs more than twice that frequency";
+            return "the table's rate is too low for the mode at " + std::to_string (std::lround (m.frequency))
+                   + " Hz, which will alias: it needs more than twice that frequency";
 
     constexpr double unheard = 0.02;
     for (const Mode& m : t.modes)
         if (m.frequency < 0.5 * setup.rate_hz && m.decay > 0.0 && std::exp (-m.decay * t.length / t.rate) > unheard)
-            return "the table ends while the mode at " + std::to_string (std::lround (m.frequency)) + " Hz still sounds, which clicks: a length of " + std::to_string (std::lround (std::ceil (-std::log (unheard) * t.rate / m.decay))) + " would do";
+        {
+            const auto enough = std::lround (std::ceil (-std::log (unheard) * t.rate / m.decay));
+            return "the table ends while the mode at " + std::to_string (std::lround (m.frequency))
+                   + " Hz still sounds, which clicks: a length of " + std::to_string (enough) + " is enough";
+        }
     return {};
 }
 
@@ -259,7 +263,7 @@ inline std::shared_ptr<const Wavetable::Tables> Wavetable::make (double tick_rat
 inline Wavetable::Samples Wavetable::ofModes (double below_hz) const
 {
     const Table& t = settings.table;
-    Samples samples (static_cast<std::size_t> (t.length));
+    Samples samples (at (t.length));
     for (const Mode& m : t.modes)
     {
         if (! (m.decay > 0.0 && m.frequency < below_hz)) continue;
@@ -276,49 +280,14 @@ inline Wavetable::Samples Wavetable::ofModes (double below_hz) const
 inline Wavetable::Samples Wavetable::ofRecording (double below_hz) const
 {
     const Signal& wav = *settings.table.wav;
-    Samples samples = wav.channels[static_cast<std::size_t> (settings.table.channel - 1)];
+    Samples samples = wav.channels[at (settings.table.channel - 1)];
     bendEndsToZero (samples, wav.rate_hz);
     if (below_hz < 0.5 * wav.rate_hz)
     {
-        lowPass (samples, 0.6 * below_hz, wav.rate_hz);
+        lowPassBothWays (samples, 0.6 * below_hz, wav.rate_hz);
         bendEndsToZero (samples, wav.rate_hz);
     }
     return samples;
-}
-
-/// Butterworth, order 8, once forth and once back: 0.4 dB at 5/6 of the cutoff, 6 dB at it, 71 dB at 5/3 of it.
-inline void Wavetable::lowPass (Samples& samples, double cutoff_hz, double rate_hz)
-{
-    constexpr int sections = 4;
-    const double K = std::tan (std::numbers::pi * usableCutoff (cutoff_hz, rate_hz) / rate_hz);
-    const auto pass = [&] (const Biquad& c, auto first, auto last)
-    {
-        BiquadState state;
-        std::transform (first, last, first, [&] (double x)
-                        { return state (c, x); });
-    };
-    for (int i = 0; i < sections; ++i)
-    {
-        const double damping = 2.0 * std::cos (std::numbers::pi * (2 * i + 1) / (4 * sections));   // 1 / q
-        const double a0 = 1.0 + damping * K + K * K;
-        const Biquad c { .b0 = K * K / a0, .b1 = 2.0 * K * K / a0, .b2 = K * K / a0, .a1 = 2.0 * (K * K - 1.0) / a0, .a2 = (1.0 - damping * K + K * K) / a0 };
-        pass (c, samples.begin(), samples.end());
-        pass (c, samples.rbegin(), samples.rend());
-    }
-}
-
-inline void Wavetable::bendEndsToZero (Samples& samples, double rate_hz)
-{
-    constexpr double over_s = 2e-3;
-    const std::size_t last = samples.size() - 1;
-    const double over = std::clamp (over_s * rate_hz, 1.0, static_cast<double> (last));
-    const double at_first = samples.front(), at_last = samples.back();
-    for (std::size_t i = 0; i <= last && static_cast<double> (i) < over; ++i)
-    {
-        const double weight = 0.5 * (1.0 + std::cos (std::numbers::pi * static_cast<double> (i) / over));
-        samples[i] -= at_first * weight;
-        samples[last - i] -= at_last * weight;
-    }
 }
 
 }   // namespace tactus::nodes

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Plays vibration.modal on channels 3 and 4 of a JACK server without hardware, and holds what is captured against theory:
+"""Plays vibration.modal on channels 3 and 4 of a JACK server without hardware, and compares the recording with theory:
 ./test.sh --sound
 
 ring.py TACTUS OUT   48 kHz, 64 frames, 4 channels; once with the timer as the clock of the run, once with the card
 
-Theory: a mode that is struck at speed v rings with v A exp(-d t) sin(2 pi f t), in N; on the channel it is divided by the full
-scale. Frequency, decay and height come out of the capture by least squares.
+Theory: a mode hit at speed v rings with v A exp(-d t) sin(2 pi f t), in N; on the channel it is divided by the full scale.
+Frequency, decay and amplitude are fitted to the recording by least squares.
 """
 import pathlib
 import re
@@ -20,11 +20,11 @@ from sound_server import Server
 
 GRAPH = pathlib.Path(__file__).resolve().parent / "ring.json"
 RATE, BLOCK, CHANNELS = 48000, 64, 4
-FREQUENCY, DECAY, AMPLITUDE, SPEED = 120.0, 6.0, 2.0, 1.0  # as in ring.json
+FREQUENCY, DECAY, AMPLITUDE, SPEED = 120.0, 6.0, 2.0, 1.0  # same values as in ring.json
 FULL_SCALE = {3: 4.0, 4: 8.0}  # N, by channel
 SECONDS, PERIOD = 10.0, 1.0
 MOST_HZ, MOST_DB = 0.1, 0.1
-ATTEMPTS = 3  # another program may take the processor for so long that a run has gaps
+ATTEMPTS = 3  # another program may use the processor for so long that a run has gaps
 
 
 def samples(file, channels):
@@ -34,7 +34,7 @@ def samples(file, channels):
 
 
 def fit(sound, frequency, decay):
-    """Frequency, decay and the two parts at t = 0 of a sine that decays, by Gauss and Newton; and the rest beside it."""
+    """Frequency, decay and both components at t = 0 of a decaying sine, by Gauss-Newton; and the residual."""
     t = numpy.arange(len(sound)) / RATE
     for _ in range(20):
         envelope, angle = numpy.exp(-decay * t), 2.0 * numpy.pi * frequency * t
@@ -50,7 +50,7 @@ def fit(sound, frequency, decay):
 
 
 def rings(sound):
-    """Where each ring begins, as far as it is whole; without the first, while which the sound of a run is still faded in."""
+    """The start of each complete ring, except the first one, during which the sound still fades in."""
     quiet = numpy.abs(sound) < 0.2 * numpy.abs(sound).max()
     before, after = round(0.05 * RATE), round(0.7 * PERIOD * RATE)
     loud = numpy.flatnonzero(~quiet)
@@ -59,18 +59,18 @@ def rings(sound):
 
 
 def judge(sound, full_scale):
-    """The largest differences from theory: Hz, dB."""
+    """Frequency, level difference, decay and residual of each ring."""
     found = []
     for start in rings(sound):
         begin = start + round(0.02 * RATE)
         f, d, a, b, rest = fit(sound[begin : start + round(0.5 * RATE)], FREQUENCY, DECAY)
-        # Back to the strike, where the phase was 0: the last time before the begin, near where the sound set in.
+        # Go back to the hit, where the phase was 0: the last such time before `begin`, near the onset of the sound.
         phase = numpy.arctan2(b, a)
         cycles = numpy.round(f * (begin - start) / RATE - phase / (2.0 * numpy.pi))
         since = (cycles + phase / (2.0 * numpy.pi)) / f
         found.append((f, 20.0 * numpy.log10(numpy.hypot(a, b) * numpy.exp(d * since) / (SPEED * AMPLITUDE / full_scale)), d, rest))
     if len(found) < 4:
-        raise SystemExit(f"only {len(found)} rings were heard")
+        raise SystemExit(f"only {len(found)} rings were found")
     return found
 
 
@@ -96,7 +96,9 @@ def play(program, server, out, clock):
         found = judge(heard[:, lane], full_scale)
         hz = max((f - FREQUENCY for f, *_ in found), key=abs)
         db = max((level for _, level, *_ in found), key=abs)
-        print(f"  {clock}, channel {channel}: {len(found)} rings, {hz:+.4f} Hz and {db:+.4f} dB from theory at most, the rest {max(r for *_, r in found):.5f} of it; decay {numpy.mean([d for _, _, d, _ in found]):.3f} 1/s", flush=True)
+        print(f"  {clock}, channel {channel}: {len(found)} rings, {hz:+.4f} Hz and {db:+.4f} dB from theory at most, "
+              f"relative residual {max(r for *_, r in found):.5f}; "
+              f"decay {numpy.mean([d for _, _, d, _ in found]):.3f} 1/s", flush=True)
         worst = (max(worst[0], abs(hz)), max(worst[1], abs(db)))
     return worst, ratio
 
@@ -106,16 +108,17 @@ def command(program, *more):
 
 
 def refuse(program, server):
-    """What the card does not have is said."""
+    """Checks that requests that the card cannot meet give errors."""
     for words, message in ((["--route", f"ring.value={CHANNELS + 1}"], "audio/channel"), (["--route", "ring.value=1@2 m/s2"], "audio/unit")):
         ran = subprocess.run(command(program, "--duration", "1", *words), env=server.environment, capture_output=True, text=True)
         if ran.returncode != 1 or message not in ran.stderr:
-            raise SystemExit(f"{words}: not refused with {message}, but {ran.returncode}: {ran.stderr}")
+            raise SystemExit(f"{words}: expected error {message}, but got exit status {ran.returncode}: {ran.stderr}")
 
 
 def lose(program, server):
-    """A card that goes away and comes back, while it ticks the run."""
-    run = subprocess.Popen(command(program, "--duration", "8", "--clock", "audio", "--route", "ring.value=1"), env=server.environment, stderr=subprocess.PIPE, text=True)
+    """Tests a card that goes away and comes back while it ticks the run."""
+    run = subprocess.Popen(command(program, "--duration", "8", "--clock", "audio", "--route", "ring.value=1"),
+                           env=server.environment, stderr=subprocess.PIPE, text=True)
     time.sleep(2.0)
     server.end()
     time.sleep(1.5)
@@ -138,9 +141,9 @@ def main():
                     break
                 print(f"  not within {MOST_HZ} Hz and {MOST_DB} dB", flush=True)
             else:
-                raise SystemExit("what is captured is not what theory has")
+                raise SystemExit("the recording does not match theory")
             if clock == "audio" and ratio != 1.0:
-                raise SystemExit("a card that ticks the run has no ratio to itself but 1")
+                raise SystemExit("if the card ticks the run, the ratio must be 1")
         refuse(program, server)
         lose(program, server)
     finally:

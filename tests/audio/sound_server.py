@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""A JACK server without hardware, and what it plays, for the scripts of ./test.sh --sound."""
+"""A JACK server without hardware, and a recording of its output, for the scripts of ./test.sh --sound."""
 import os
 import subprocess
 import time
 
 
 class Server:
-    """The dummy driver: so many frames a block, so many channels. Its name is its own, so that others may run."""
+    """Runs the dummy driver with this block size (in frames) and this many channels. The server name is unique, so other servers can run too."""
 
     def __init__(self, rate, block, channels):
         self.rate, self.block, self.channels = rate, block, channels
@@ -15,7 +15,8 @@ class Server:
 
     def start(self):
         self.process = subprocess.Popen(
-            ["jackd", "-n", self.environment["JACK_DEFAULT_SERVER"], "-d", "dummy", "-r", str(self.rate), "-p", str(self.block), "-C", str(self.channels), "-P", str(self.channels)],
+            ["jackd", "-n", self.environment["JACK_DEFAULT_SERVER"], "-d", "dummy", "-r", str(self.rate), "-p", str(self.block),
+             "-C", str(self.channels), "-P", str(self.channels)],
             env=self.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
         )
         for _ in range(100):
@@ -24,10 +25,10 @@ class Server:
             if f"system:playback_{self.channels}" in listed.stdout:
                 return
         self.end()
-        raise SystemExit("jackd does not start")
+        raise SystemExit("jackd did not start")
 
     def capture(self, file, seconds, channels, bits="FLOAT"):
-        """Records what is on these channels of the card, counted from 1. To be waited for."""
+        """Starts recording these channels of the card, counted from 1. The caller waits for the process."""
         ports = [word for c in channels for word in ("-p", f"system:playback_{c}")]
         return subprocess.Popen(
             ["jack_capture", "-d", str(seconds), "-b", str(bits), "-c", str(len(channels)), *ports, str(file)],

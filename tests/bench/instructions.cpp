@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Ticks every node of the catalogue with inputs that a hand might give it, for callgrind to count (instructions.py).
+// Ticks every node of the catalogue with inputs that a hand might produce, so that callgrind can count (instructions.py).
 //
-// Callgrind counts within `ticked` and dumps what it has after each `counted`, so its n-th dump belongs to the n-th line
-// printed here. The first is of a tick that does nothing: what the call itself costs.
+// Callgrind counts inside `ticked` and dumps after each `counted`, so its n-th dump belongs to the n-th line printed
+// here. The first dump is for a tick that does nothing: the cost of the call itself.
 
-#include <framework/catalogue.hpp>
+#include <framework/node/catalogue.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -18,7 +18,7 @@ using namespace tactus;
 
 extern "C"
 {
-    // Found by name; each call to stay a call.
+    // Callgrind finds this function by name, so it must not be inlined.
     [[gnu::noinline]] void ticked (const NodeType&, void* node, const double* const* sources, void* outputs) noexcept;
     [[gnu::noinline]] void counted() noexcept;
 
@@ -41,7 +41,7 @@ double swing (double t, double hertz, double phase = 0.0) { return std::sin (2.0
 /// Strokes back and forth, and presses down to 2 mm deep, three times a second.
 Vec3 position (double t) { return { 0.03 * swing (t, 1.0), 0.02 * swing (t, 1.3), 1e-3 - 3e-3 * std::abs (swing (t, 1.5)) }; }
 
-/// What a hand or another node would give to this input, by its quantity.
+/// The value that a hand or another node would give to this input, by its quantity.
 double plausible (const PortSheet& port, int component, double t)
 {
     const auto& unit = port.unit.unit;

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes docs/instructions.md: what a tick of each node costs, counted by callgrind. No clock, so the same each time.
+"""Writes docs/instructions.md: the instructions per tick of each node, counted by callgrind. No clock is involved, so the result is reproducible.
 
-    instructions.py BUILD     a release build, as build/release
+    instructions.py BUILD     BUILD is a release build, such as build/release
 """
 
 import json
@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def count(program):
-    """[(id, instructions per tick or None, what is wrong)], the first of a tick that does nothing."""
+    """Returns [(id, instructions per tick or None, problem)]. The first entry is a tick that does nothing."""
     with tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "out"
         ran = subprocess.run(["valgrind", "--tool=callgrind", "--toggle-collect=ticked", "--dump-after=counted", f"--callgrind-out-file={out}", program],
@@ -33,9 +33,10 @@ def count(program):
 
 
 def compiled(build):
-    """The compiler and what decides on its code, of the nodes and of all else alike."""
+    """Returns the compiler and the flags that affect the generated code; nodes and everything else use the same."""
     entries = json.loads((build / "compile_commands.json").read_text())
     command = next(shlex.split(e["command"]) for e in entries if "nodes_friction_elasto_plastic_hpp" in e["file"])
+    command = command[next(i for i, word in enumerate(command) if word.endswith("++")):]   # without ccache
     version = subprocess.run([command[0], "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
     flags = [f for f in command[1:] if re.match(r"-(O|m|f|std=)|-DNDEBUG", f)]
     return re.sub(r"^c\+\+", "g++", version), " ".join(flags)
@@ -48,16 +49,17 @@ def main():
 
     lines = [
         "# Instructions per tick", "",
-        "Generated: `./test.sh --figures` writes it anew.", "",
-        f"Counted by callgrind with {version}, `{flags}`. A second at 4 kHz: the hand strokes and presses three times, a hit comes every 0.1 s, "
-        f"other inputs swing; parameters and settings as delivered. The mean over all ticks, with the inputs gathered from where they are wired "
-        f"and the outputs written, without the call itself ({nothing:.0f}). Functions of the C library are counted as this processor gets them.", "",
+        "What one tick of each node costs. `./test.sh --figures` generates this page.", "",
+        f"Counted by callgrind with {version}, `{flags}`. The input lasts one second at 4 kHz: the hand strokes and presses three times, a hit arrives "
+        f"every 0.1 s, other inputs oscillate; parameters and settings have their defaults. The numbers are means over all ticks. They include gathering "
+        f"the inputs and writing the outputs, but not the call itself ({nothing:.0f} instructions). Functions of the C library are counted in the variant that "
+        f"the library selects for this processor.", "",
         "| family | node | instructions |", "|---|---|---:|",
     ]
     family = None
     for node, mean, problem in nodes:
         its = node.split(".")[0]
-        lines.append(f"| {its if its != family else ''} | `{node}` | {f'{mean - nothing:.0f}' if mean is not None else f'not as delivered: {problem}'} |")
+        lines.append(f"| {its if its != family else ''} | `{node}` | {f'{mean - nothing:.0f}' if mean is not None else f'not with defaults: {problem}'} |")
         family = its
     (ROOT / "docs" / "instructions.md").write_text("\n".join(lines) + "\n")
     print(f"docs/instructions.md: {len(nodes)} nodes")

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What an expert tries first: touching, leaving and coming back.
+// Tests of what an expert tries first: touching, releasing and touching again.
 
-#include <expert/hands.hpp>
+#include "hands.hpp"
 #include <support/rig.hpp>
 
 #include <Eigen/Geometry>
@@ -22,7 +22,7 @@ namespace
 {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// A sample that bursts open, one blade in it, and the largest force since it was last asked for.
+/// A sample that ruptures, with one blade in it. Records the largest force since it was last read.
 struct Potato
 {
     explicit Potato (Dice& dice)
@@ -52,14 +52,14 @@ struct Potato
         return rig;
     }
 
-    double f_cut, f_rupture, d_rupture;   // N, N, m
+    double f_cut, f_rupture, d_rupture;   // in N, N, m
     Law law;
 };
 
-/// What was felt on the way.
+/// The forces along a path.
 struct Felt
 {
-    double most = 0.0;   // N
+    double most = 0.0;   // in N
     bool bursts = false;
 };
 
@@ -77,12 +77,13 @@ Felt press (Rig& rig, double from, double to, int n)
     return felt;
 }
 
-/// A square of 4 cm that faces upwards, of two triangles with the seam from corner to corner, soft at some corners and
-/// stiff at others; sideways half as stiff as along.
+/// A 4 cm square that faces upwards: two triangles with a diagonal seam, soft at some corners and stiff at others. Sideways it
+/// is half as stiff as along the normal.
 std::shared_ptr<const Surface> flesh (Dice& dice, double mu, bool frames_lean)
 {
     Surface s;
-    s.mesh = std::make_shared<const Mesh> (Mesh { { { -0.02, -0.02, 0 }, { 0.02, -0.02, 0 }, { 0.02, 0.02, 0 }, { -0.02, 0.02, 0 } }, { { 0, 1, 2 }, { 0, 2, 3 } } });
+    const Mesh square { { { -0.02, -0.02, 0 }, { 0.02, -0.02, 0 }, { 0.02, 0.02, 0 }, { -0.02, 0.02, 0 } }, { { 0, 1, 2 }, { 0, 2, 3 } } };
+    s.mesh = std::make_shared<const Mesh> (square);
     auto& corners = s.curves.emplace_back();
     for (int i = 0; i < 4; ++i)
     {
@@ -91,7 +92,9 @@ std::shared_ptr<const Surface> flesh (Dice& dice, double mu, bool frames_lean)
         { return Law { .kind = Law::Kind::power, .a = share * along, .b = n }; };
         corners.push_back ({ law (0.5), law (0.5), law (1.0) });
         if (! frames_lean) continue;
-        const Eigen::Quaterniond lean { Eigen::AngleAxisd (dice.uniform (-0.2, 0.2), Vec3 { dice.uniform (-1.0, 1.0), dice.uniform (-1.0, 1.0), 0.1 }.normalized()) };
+        const double angle = dice.uniform (-0.2, 0.2);
+        const Vec3 axis { dice.uniform (-1.0, 1.0), dice.uniform (-1.0, 1.0), 0.1 };
+        const Eigen::Quaterniond lean { Eigen::AngleAxisd (angle, axis.normalized()) };
         s.frames.push_back (Vec3 { 1, -1, -1 }.asDiagonal() * lean.toRotationMatrix());
     }
     s.mu.push_back ({ .number = mu });
@@ -108,9 +111,10 @@ Rig skin (const std::shared_ptr<const Surface>& surface, bool rubs)
 }
 }   // namespace
 
-TEST_CASE ("expert 6: sliding over the edge of a triangle, from soft to stiff, steps no force and gives no energy", "[expert][deform]")
+// Long because it checks two properties of the same surface, each with its own path of the hand.
+TEST_CASE ("expert 6: sliding across an edge from a soft to a stiff triangle causes no step in force and generates no energy", "[expert][deform]")
 {
-    rc::prop ("the finer the slide, the finer its steps of force: there is none in it", [] (unsigned seed)
+    rc::prop ("smaller position steps give smaller force steps, so the force itself has no step", [] (unsigned seed)
               {
         Dice dice { seed };
         const auto surface = flesh (dice, dice.uniform (0.2, 1.0), true);
@@ -127,12 +131,12 @@ TEST_CASE ("expert 6: sliding over the edge of a triangle, from soft to stiff, s
                 rig.input ("position", from + 0.012 * s * way);
                 rig.tick();
                 const Vec3 force = rig.vector ("force");
-                if (s > -0.6) most = std::max (most, (force - before).norm());   // it has been dragged along since long
+                if (s > -0.6) most = std::max (most, (force - before).norm());   // by now it has been dragged far enough
                 before = force;
             }
             return most;
         };
-        // A steep place that is shorter than the steps is met only by finer ones; a jump stays however fine they are.
+        // A steep place shorter than a step shows up only with finer steps; a jump remains however fine they are.
         double coarse = steepest (250);
         RC_ASSERT (coarse > 0.0);
         bool finer = false;
@@ -144,7 +148,7 @@ TEST_CASE ("expert 6: sliding over the edge of a triangle, from soft to stiff, s
         }
         RC_ASSERT (finer); });
 
-    rc::prop ("round and round, in and out: without friction it costs nothing, with enough it costs something", [] (unsigned seed)
+    rc::prop ("any closed path: without friction it costs no energy, with enough friction it costs some", [] (unsigned seed)
               {
         Dice dice { seed };
         const double mu = dice.uniform (0.6, 1.0), depth = dice.uniform (0.2e-3, 2e-3), lift = dice.uniform (-0.8, 0.8), phase = dice.uniform (0.0, 2.0 * M_PI);
@@ -178,15 +182,20 @@ TEST_CASE ("expert 6: sliding over the edge of a triangle, from soft to stiff, s
         RC_ASSERT (rubs >= -1e-3 * rubbed); });
 }
 
-TEST_CASE ("expert 7: a touch, and the next one elsewhere, starts without a kick", "[expert][friction][deform]")
+TEST_CASE ("expert 7: a touch that follows a touch elsewhere starts without a kick", "[expert][friction][deform]")
 {
     const double mu = 0.5, d_max = 2e-4, stiffness = 1000.0, rate = 1000.0;
-    const auto graph = Sketch {}.node ("hand", "device.position").node ("floor", "deform.plane", { { "stiffness", stiffness } }).node ("drag", "friction.elasto_plastic", { { "mu", mu }, { "d_max", d_max } }).node ("motor", "device.force").wire ("hand.position -> floor.position").wire ("hand.position -> drag.position").wire ("floor.resistance -> drag.normal_force").wire ("floor.force -> motor.force").wire ("drag.force -> motor.force");
+    Sketch graph;
+    graph.node ("hand", "device.position").node ("floor", "deform.plane", { { "stiffness", stiffness } });
+    graph.node ("drag", "friction.elasto_plastic", { { "mu", mu }, { "d_max", d_max } }).node ("motor", "device.force");
+    graph.wire ("hand.position -> floor.position").wire ("hand.position -> drag.position");
+    graph.wire ("floor.resistance -> drag.normal_force").wire ("floor.force -> motor.force").wire ("drag.force -> motor.force");
 
-    rc::prop ("a hand that taps about, and drags while it is down", [&] (unsigned seed)
+    rc::prop ("a hand that taps in different places and drags while it is down", [&] (unsigned seed)
               {
         Dice dice { seed };
-        const double reach = dice.uniform (0.01, 0.1), deepest = dice.size (1e-4, 1e-2), taps = dice.uniform (5.0, 20.0), strokes = dice.uniform (0.5, 3.0), phase = dice.uniform (0.0, 6.0);
+        const double reach = dice.uniform (0.01, 0.1), deepest = dice.size (1e-4, 1e-2);
+        const double taps = dice.uniform (5.0, 20.0), strokes = dice.uniform (0.5, 3.0), phase = dice.uniform (0.0, 6.0);
         const auto path = [&] (int k)
         {
             const double s = 2.0 * M_PI * k / rate;
@@ -210,9 +219,9 @@ TEST_CASE ("expert 7: a touch, and the next one elsewhere, starts without a kick
         RC_ASSERT (touches >= 3); });
 }
 
-TEST_CASE ("expert 8: in a cut that is there, the blade feels nothing down to its tip, and nothing bursts again", "[expert][cut]")
+TEST_CASE ("expert 8: in an existing cut the blade feels no force down to the end of the cut, and nothing ruptures again", "[expert][cut]")
 {
-    rc::prop ("any sample; the hand may be lost meanwhile", [] (unsigned seed)
+    rc::prop ("any sample; tracking of the hand may be lost in between", [] (unsigned seed)
               {
         Dice dice { seed };
         const Potato potato { dice };
@@ -232,7 +241,7 @@ TEST_CASE ("expert 8: in a cut that is there, the blade feels nothing down to it
         RC_ASSERT (rig.out ("state") == 4.0); });
 }
 
-TEST_CASE ("expert 9: a blade that is past rupture in one sample is where a slow one would be", "[expert][cut]")
+TEST_CASE ("expert 9: a blade that passes the rupture in one sample ends where a slow one would", "[expert][cut]")
 {
     rc::prop ("any sample, any depth", [] (unsigned seed)
               {

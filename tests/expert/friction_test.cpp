@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What an expert tries first: friction.
+// Tests of what an expert tries first: friction.
 
-#include <expert/hands.hpp>
+#include "hands.hpp"
 #include <support/rig.hpp>
 
 #include <catch2/catch.hpp>
@@ -20,7 +20,7 @@ namespace
 constexpr std::string_view adhesions[] { "stick", "dupont", "ramp", "dahl", "curve" };
 constexpr std::string_view integrators[] { "exponential", "euler" };
 
-/// A tool dragged along x by a hand that counts its work, by trapezoids.
+/// A tool dragged along x by a hand whose work is summed by trapezoids.
 struct Drag
 {
     Drag (std::string_view adhesion, std::string_view integrator, double d_max, std::string_view load = "passive")
@@ -30,7 +30,7 @@ struct Drag
         to (0.0);
     }
 
-    /// The new stretch.
+    /// Moves to x and returns the new deflection.
     double to (double x, double normal_force = 1.0)
     {
         const double before = force();
@@ -44,18 +44,22 @@ struct Drag
     double force() const { return rig.out ("force"); }
 
     Rig rig { "friction.elasto_plastic" };
-    double p = 0.0, work = 0.0;   // m, J
+    double p = 0.0, work = 0.0;   // in m, J
 };
 
 bool sameBits (double a, double b) { return std::bit_cast<std::uint64_t> (a) == std::bit_cast<std::uint64_t> (b); }
 }   // namespace
 
-TEST_CASE ("expert 1: leaning on it for a minute, the tool does not drift", "[expert][friction]")
+TEST_CASE ("expert 1: a tool that is leaned on for a minute does not drift", "[expert][friction]")
 {
-    // Breakaway is at 0.4 N. The hand leans with a part of that and trembles at 8 Hz.
+    // Breakaway is at 0.4 N. The hand leans with a fraction of this and trembles at 8 Hz.
     const auto drift = [] (std::string adhesion, double lean)
     {
-        const auto graph = Sketch {}.node ("hand", "device.position").node ("drag", "friction.elasto_plastic", { { "mu", 0.4 }, { "d_max", "0.4 mm" }, { "adhesion", adhesion } }).node ("motor", "device.force").wire ("hand.position -> drag.position").wire ("drag.force -> motor.force");
+        Sketch graph;
+        graph.node ("hand", "device.position");
+        graph.node ("drag", "friction.elasto_plastic", { { "mu", 0.4 }, { "d_max", "0.4 mm" }, { "adhesion", adhesion } });
+        graph.node ("motor", "device.force");
+        graph.wire ("hand.position -> drag.position").wire ("drag.force -> motor.force");
         test::Mass tool;
         tool.hand = [=] (double t)
         { return lean + 0.03 * std::sin (2.0 * M_PI * 8.0 * t); };
@@ -73,17 +77,17 @@ TEST_CASE ("expert 1: leaning on it for a minute, the tool does not drift", "[ex
     for (const double lean : { 0.02, 0.1, 0.2, 0.3, 0.35 })
         for (const std::string adhesion : { "stick", "dupont" })
         {
-            if (adhesion == "dupont" && lean + 0.03 > 0.7 * 0.4) continue;   // where it begins to yield
+            if (adhesion == "dupont" && lean + 0.03 > 0.7 * 0.4) continue;   // it begins to yield here
             INFO (adhesion << " at " << lean << " N");
             CHECK (std::abs (drift (adhesion, lean)) < 1e-9);
         }
     CHECK (drift ("dahl", 0.2) > 1e-3);
 }
 
-TEST_CASE ("expert 2: a tool that stands still gets a finite and steady answer from every node", "[expert]")
+TEST_CASE ("expert 2: every node gives a finite and steady response to a tool at rest", "[expert]")
 {
-    // What is a law of the way alone answers a repeated sample to the bit. What looks back in time comes to rest, and so
-    // does deform.surface, which slips once a tick until it is within its bound.
+    // A node whose force depends on position alone gives identical bits for a repeated sample. A node with memory comes to
+    // rest, and so does deform.surface, which slips once per tick until it is within its bound.
     constexpr std::string_view timeless[] { "friction.elasto_plastic", "cut.blade", "cut.scissors", "texture.grating" };
 
     for (const auto& type : catalogue())
@@ -130,9 +134,9 @@ TEST_CASE ("expert 2: a tool that stands still gets a finite and steady answer f
     }
 }
 
-TEST_CASE ("expert 3: in a slow slide neither state nor force chatters", "[expert][friction]")
+TEST_CASE ("expert 3: in a slow slide, neither the state nor the force chatters", "[expert][friction]")
 {
-    rc::prop ("any adhesion, either integrator, any direction, far below and above d_max a sample", [] (unsigned seed)
+    rc::prop ("any adhesion, either integrator, any direction, steps much smaller and much larger than d_max", [] (unsigned seed)
               {
         Dice dice { seed };
         const double d_max = dice.size (1e-6, 1e-2), step = dice.size (0.02, 4.0) * d_max;
@@ -141,7 +145,8 @@ TEST_CASE ("expert 3: in a slow slide neither state nor force chatters", "[exper
         rig.prepare();
 
         const double turn = dice.uniform (0.0, 2.0 * M_PI);
-        const Vec3 from { dice.uniform (-0.1, 0.1), dice.uniform (-0.1, 0.1), dice.uniform (-0.1, 0.1) }, dp = step * Vec3 { std::cos (turn), std::sin (turn), 0 };
+        const Vec3 from { dice.uniform (-0.1, 0.1), dice.uniform (-0.1, 0.1), dice.uniform (-0.1, 0.1) };
+        const Vec3 dp = step * Vec3 { std::cos (turn), std::sin (turn), 0 };
         const int settled = 25 + static_cast<int> (25.0 * d_max / step);
         double least = inf, most = 0.0;
         for (int k = 0; k < settled + 1500; ++k)
@@ -156,9 +161,9 @@ TEST_CASE ("expert 3: in a slow slide neither state nor force chatters", "[exper
         RC_ASSERT (most - least <= 1e-8); });
 }
 
-TEST_CASE ("expert 4: a reversal longer than d_max, in one sample, does not turn the force over", "[expert][friction]")
+TEST_CASE ("expert 4: a reversal longer than d_max within one sample does not reverse the force", "[expert][friction]")
 {
-    rc::prop ("any adhesion, either integrator, from any stretch", [] (unsigned seed)
+    rc::prop ("any adhesion, either integrator, any initial deflection", [] (unsigned seed)
               {
         Dice dice { seed };
         const auto adhesion = dice.of (adhesions), integrator = dice.of (integrators);
@@ -179,9 +184,9 @@ TEST_CASE ("expert 4: a reversal longer than d_max, in one sample, does not turn
         if (adhesion == "stick") RC_ASSERT (std::abs (after - std::min (d + dp, d_max)) < 1e-12 * d_max); });
 }
 
-TEST_CASE ("expert 5: pressing, shearing and lifting in turn gives no energy", "[expert][friction]")
+TEST_CASE ("expert 5: a cycle of pressing, shearing and lifting generates no energy", "[expert][friction]")
 {
-    rc::prop ("any adhesion and integrator, any closed path of place and load", [] (unsigned seed)
+    rc::prop ("any adhesion and integrator, any closed path of position and load", [] (unsigned seed)
               {
         Dice dice { seed };
         const auto adhesion = dice.of (adhesions), integrator = dice.of (integrators);
@@ -196,7 +201,8 @@ TEST_CASE ("expert 5: pressing, shearing and lifting in turn gives no energy", "
         }
         RC_ASSERT (drag.work >= -1e-12); });
 
-    // The printed rule, by which the whole force follows the load, gives energy on the same way, and does not claim otherwise.
+    // With the published rule, in which the whole force follows the load, the same path generates energy, and the node does not
+    // claim to be passive.
     const auto strokes = [] (std::string_view load)
     {
         Drag drag ("stick", "exponential", 1e-4, load);

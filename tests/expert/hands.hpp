@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/engine.hpp>
+#include <framework/run/engine.hpp>
 #include <support/sketch.hpp>
 
 #include <catch2/catch.hpp>
@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
-/// Hands for the tests: what an expert does to a graph, and what is then felt.
+/// Hands for these tests: what an expert does to a graph, and the resulting forces.
 namespace tactus::test
 {
 
-/// Draws numbers; all of a run follows from its seed.
+/// Generates random numbers; the seed determines the whole run.
 class Dice
 {
 public:
@@ -37,7 +37,7 @@ private:
     std::mt19937 random;
 };
 
-/// A tool that goes where it is led, whatever the force, and tells what it was given.
+/// A tool that follows a path whatever the force, and records its forces.
 class Led final : public Device
 {
 public:
@@ -52,19 +52,19 @@ public:
     Reading read() noexcept override { return at (static_cast<int> (forces.size())); }
     void write (const Effort& effort) noexcept override { forces.push_back (effort.force); }
 
-    std::vector<Vec3> forces;   ///< N, one a tick
+    std::vector<Vec3> forces;   ///< in N, one per tick
 
 private:
     std::function<Reading (int)> at;
 };
 
-/// A free mass with a damper, pushed by a hand along x; each force is held for a tick and the motion solved exactly.
+/// A free mass with a damper, pushed by a hand along x. Each force is held for a tick and the motion is solved exactly.
 class Mass final : public Device
 {
 public:
-    double mass = 0.1, damping = 2.0, quantum = 0.0;    // kg, N s/m, m
-    double x = 0.0, v = 0.0;                            // m, m/s
-    std::function<double (double)> hand = [] (double)   // N, at a time in s
+    double mass = 0.1, damping = 2.0, quantum = 0.0;    // in kg, N s/m, m
+    double x = 0.0, v = 0.0;                            // in m, m/s
+    std::function<double (double)> hand = [] (double)   // force in N at a time in s
     { return 0.0; };
 
     void prepare (double dt_s) override { dt = dt_s; }
@@ -84,7 +84,7 @@ private:
     int ticks = 0;
 };
 
-/// A graph that is ready to run, or a test that has failed.
+/// A graph that is ready to run; fails the test if it does not compile.
 inline std::shared_ptr<Plan> planOf (const Sketch& sketch, double rate_hz, CompileOptions options = {})
 {
     options.rate_hz = rate_hz;
@@ -95,7 +95,7 @@ inline std::shared_ptr<Plan> planOf (const Sketch& sketch, double rate_hz, Compi
     return compiled.plan;
 }
 
-/// What the hand is given at each tick of a path.
+/// The force on each tick of a path.
 inline std::vector<Vec3> felt (const Sketch& sketch, std::function<Vec3 (int)> path, int ticks, double rate_hz = 1000.0)
 {
     Engine engine { planOf (sketch, rate_hz) };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What an expert tries first: the way from the hand to the motor.
+// Tests of what an expert tries first: the path from the hand to the motor.
 
-#include <expert/hands.hpp>
+#include "hands.hpp"
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -22,15 +22,20 @@ namespace
 {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// A floor with friction and ridges on it: everything that answers the hand within the tick.
+/// A floor with friction and ridges, all of which respond to the hand within the tick.
 Sketch floorboard()
 {
     Sketch s;
     s.node ("hand", "device.position").node ("motor", "device.force");
     s.node ("floor", "deform.plane", { { "stiffness", "1 N/mm" } }).wire ("hand.position -> floor.position").wire ("floor.force -> sum.in[0]");
-    s.node ("drag", "friction.elasto_plastic", { { "d_max", "0.4 mm" } }).wire ("hand.position -> drag.position").wire ("floor.resistance -> drag.normal_force").wire ("drag.force -> sum.in[1]");
-    s.node ("grain", "texture.grating").node ("window", "contact.window").node ("faded", "vector.scale").wire ("hand.position -> grain.position").wire ("floor.depth -> window.depth").wire ("grain.force -> faded.in").wire ("window.gain -> faded.gain").wire ("faded.out -> sum.in[2]");
-    s.node ("sum", "vector.add", Json::object(), { { "inputs", 3 } }).node ("safe", "safety.passivity").wire ("hand.position -> safe.position").wire ("sum.out -> safe.force").wire ("floor.state -> safe.contact").wire ("safe.force -> motor.force");
+    s.node ("drag", "friction.elasto_plastic", { { "d_max", "0.4 mm" } }).wire ("hand.position -> drag.position");
+    s.wire ("floor.resistance -> drag.normal_force").wire ("drag.force -> sum.in[1]");
+    s.node ("grain", "texture.grating").node ("window", "contact.window").node ("faded", "vector.scale");
+    s.wire ("hand.position -> grain.position").wire ("floor.depth -> window.depth").wire ("grain.force -> faded.in");
+    s.wire ("window.gain -> faded.gain").wire ("faded.out -> sum.in[2]");
+    s.node ("sum", "vector.add", Json::object(), { { "inputs", 3 } }).node ("safe", "safety.passivity");
+    s.wire ("hand.position -> safe.position").wire ("sum.out -> safe.force").wire ("floor.state -> safe.contact");
+    s.wire ("safe.force -> motor.force");
     return s;
 }
 
@@ -48,11 +53,16 @@ bool sameBits (const std::vector<Vec3>& a, const std::vector<Vec3>& b)
 Vec3 stroke (int k) { return { 0.02 * std::sin (0.01 * k), 0.01 * std::cos (0.007 * k), 2e-3 * std::sin (0.023 * k) }; }
 }   // namespace
 
-TEST_CASE ("expert 15: a hard wall and an encoder buzz, and the observer sees it", "[expert][safety]")
+TEST_CASE ("expert 15: a hard wall buzzes with an encoder, and the passivity observer detects it", "[expert][safety]")
 {
     const auto buzz = [] (double stiffness, double quantum, std::string pairing)
     {
-        auto graph = Sketch {}.node ("hand", "device.position").node ("wall", "deform.plane", { { "normal", { -1, 0, 0 } }, { "stiffness", stiffness } }).node ("safe", "safety.passivity", { { "mass", 0.1 }, { "pairing", pairing } }).node ("motor", "device.force").wire ("hand.position -> wall.position").wire ("hand.position -> safe.position").wire ("wall.force -> safe.force").wire ("safe.force -> motor.force");
+        Sketch graph;
+        graph.node ("hand", "device.position");
+        graph.node ("wall", "deform.plane", { { "normal", { -1, 0, 0 } }, { "stiffness", stiffness } });
+        graph.node ("safe", "safety.passivity", { { "mass", 0.1 }, { "pairing", pairing } }).node ("motor", "device.force");
+        graph.wire ("hand.position -> wall.position").wire ("hand.position -> safe.position").wire ("wall.force -> safe.force");
+        graph.wire ("safe.force -> motor.force");
         test::Mass tool;
         tool.damping = 0.2;
         tool.quantum = quantum;
@@ -73,7 +83,7 @@ TEST_CASE ("expert 15: a hard wall and an encoder buzz, and the observer sees it
         return high - low;
     };
 
-    for (const double stiffness : { 1000.0, 3000.0, 6000.0 })   // it bears 2 B / T = 400 N/m
+    for (const double stiffness : { 1000.0, 3000.0, 6000.0 })   // the limit is 2 B / T = 400 N/m
         for (const double quantum : { 1e-6, 1e-5, 3e-5 })
         {
             const double blind = buzz (stiffness, quantum, "backward"), braked = buzz (stiffness, quantum, "zoh");
@@ -83,7 +93,7 @@ TEST_CASE ("expert 15: a hard wall and an encoder buzz, and the observer sees it
         }
 }
 
-TEST_CASE ("expert 16: millimetres are not metres, and radians are not cycles", "[expert][units]")
+TEST_CASE ("expert 16: millimetres are not mistaken for metres, nor radians for cycles", "[expert][units]")
 {
     const auto graph = [] (const Json& d_max, const Json& stiffness, const Json& ridges)
     {
@@ -106,12 +116,15 @@ TEST_CASE ("expert 16: millimetres are not metres, and radians are not cycles", 
     CHECK (rings ("100 1/s").empty());
     CHECK (has (rings ("628 rad/s"), "setting/value"));
 
-    // Of k cycles per metre one is 1 / k long: the force comes back after it, and not after 2 pi of it.
-    rc::prop ("any pitch, any place", [] (unsigned seed)
+    // With k cycles per metre, one ridge is 1 / k long, so the force repeats after 1 / k, not after 2 pi / k.
+    rc::prop ("any pitch, any position", [] (unsigned seed)
               {
         Dice dice { seed };
         const double k = dice.size (20.0, 5000.0), x = dice.uniform (-0.1, 0.1);
-        const auto grain = Sketch {}.node ("hand", "device.position").node ("grain", "texture.grating", { { "spatial_frequency", k } }).node ("motor", "device.force").wire ("hand.position -> grain.position").wire ("grain.force -> motor.force");
+        Sketch grain;
+        grain.node ("hand", "device.position").node ("grain", "texture.grating", { { "spatial_frequency", k } });
+        grain.node ("motor", "device.force");
+        grain.wire ("hand.position -> grain.position").wire ("grain.force -> motor.force");
         const auto f = felt (
             grain, [=] (int tick)
             { return Vec3 { x + 0.5 * tick / k, 0, 0 }; },
@@ -120,15 +133,19 @@ TEST_CASE ("expert 16: millimetres are not metres, and radians are not cycles", 
         RC_ASSERT (std::abs (f[1].x() + f[0].x()) < 1e-9); });
 }
 
-TEST_CASE ("expert 17: a tenth of a nanometre, ten centimetres from the origin, arrives at the motor", "[expert]")
+TEST_CASE ("expert 17: a motion of a tenth of a nanometre, ten centimetres from the origin, reaches the motor", "[expert]")
 {
-    // A float has steps of 7 nm there.
+    // At this distance, a float has steps of 7 nm.
     const double stiffness = 1e6, step = 1e-10;
-    rc::prop ("along each axis, at any place of a desk", [&] (unsigned seed)
+    rc::prop ("along each axis, anywhere on a desk", [&] (unsigned seed)
               {
         Dice dice { seed };
         const Vec3 axis = Vec3::Unit (dice.below (3)), from { dice.uniform (-0.2, 0.2), dice.uniform (-0.2, 0.2), dice.uniform (-0.2, 0.2) };
-        const auto graph = Sketch {}.node ("hand", "device.position").node ("wall", "deform.plane", { { "normal", { axis.x(), axis.y(), axis.z() } }, { "offset", 0.3 }, { "stiffness", stiffness } }).node ("motor", "device.force").wire ("hand.position -> wall.position").wire ("wall.force -> motor.force");
+        Sketch graph;
+        graph.node ("hand", "device.position");
+        graph.node ("wall", "deform.plane", { { "normal", { axis.x(), axis.y(), axis.z() } }, { "offset", 0.3 }, { "stiffness", stiffness } });
+        graph.node ("motor", "device.force");
+        graph.wire ("hand.position -> wall.position").wire ("wall.force -> motor.force");
         const auto f = felt (
             graph, [&] (int k)
             { return Vec3 { from + k * step * axis }; },
@@ -137,12 +154,12 @@ TEST_CASE ("expert 17: a tenth of a nanometre, ten centimetres from the origin, 
             RC_ASSERT (std::abs (axis.dot (f[k - 1] - f[k]) - stiffness * step) < 1e-3 * stiffness * step); });
 }
 
-TEST_CASE ("expert 18: the force of a sample is on the motor within its tick, however long the chain", "[expert]")
+TEST_CASE ("expert 18: the force for a sample reaches the motor within the same tick, however long the chain is", "[expert]")
 {
     const auto plan = planOf (floorboard(), 1000.0);
-    REQUIRE (plan->delays.size() == 1);
-    CHECK (plan->delays[0].shortest == 0);
-    CHECK (plan->delays[0].longest == 0);
+    REQUIRE (plan->delays().size() == 1);
+    CHECK (plan->delays()[0].shortest == 0);
+    CHECK (plan->delays()[0].longest == 0);
 
     rc::prop ("a hand that jumps in and out at any tick", [] (unsigned seed)
               {
@@ -168,9 +185,15 @@ TEST_CASE ("expert 18: the force of a sample is on the motor within its tick, ho
             RC_ASSERT (f[k].z() == 1000.0 * std::max (0.0, -z[k])); });
 }
 
-TEST_CASE ("expert 19: at another rate everything is as fast, as deep and as safe as before", "[expert]")
+TEST_CASE ("expert 19: at a different rate, everything is just as fast, as deep and as safe", "[expert]")
 {
-    const auto graph = Sketch {}.node ("ring", "vibration.modal", Json::object(), { { "modes", { { { "frequency", 90.0 }, { "decay", 40.0 }, { "amplitude", 1.0 } } } } }).node ("low", "filter.one_pole", { { "cutoff", "20 Hz" } }).node ("butter", "filter.butterworth2", { { "cutoff", "50 Hz" } }).node ("speed", "motion.velocity").node ("wall", "deform.plane", { { "stiffness", 0.0 }, { "damping", 2.0 } }).node ("fade", "texture.antialias").node ("safe", "safety.passivity", { { "mass", 0.1 } }).node ("wave", "signal.lfo", { { "frequency", "7 Hz" } }).wire ("wave.out -> butter.in");
+    Sketch graph;
+    graph.node ("ring", "vibration.modal", Json::object(), { { "modes", { { { "frequency", 90.0 }, { "decay", 40.0 }, { "amplitude", 1.0 } } } } });
+    graph.node ("low", "filter.one_pole", { { "cutoff", "20 Hz" } }).node ("butter", "filter.butterworth2", { { "cutoff", "50 Hz" } });
+    graph.node ("speed", "motion.velocity").node ("wall", "deform.plane", { { "stiffness", 0.0 }, { "damping", 2.0 } });
+    graph.node ("fade", "texture.antialias").node ("safe", "safety.passivity", { { "mass", 0.1 } });
+    graph.node ("wave", "signal.lfo", { { "frequency", "7 Hz" } });
+    graph.wire ("wave.out -> butter.in");
 
     for (const double rate : { 1000.0, 4000.0, 10'000.0, 48'000.0 })
     {
@@ -180,14 +203,14 @@ TEST_CASE ("expert 19: at another rate everything is as fast, as deep and as saf
         options.records = { "ring.value", "low.out", "speed.velocity.z", "wall.resistance", "fade.speed", "safe.alpha", "butter.out" };
         const auto plan = planOf (graph, rate, options);
         const auto out = [&] (std::size_t i)
-        { return *plan->taps[i].value; };
+        { return *plan->taps()[i].value; };
 
         const double v = -0.05;
         double loudest = 0.0, alpha = 0.0;
         for (int k = 0; k <= int (0.4 * rate); ++k)
         {
             const double t = k / rate;
-            plan->feeds = { k == 0 ? 1.0 : 0.0, 1.0, v * t, v * t, v * t, 1e-3 * t, 5.0 };
+            plan->setFeeds (std::vector { k == 0 ? 1.0 : 0.0, 1.0, v * t, v * t, v * t, 1e-3 * t, 5.0 });
             plan->tick();
             if (k == 0) continue;
             REQUIRE (out (0) == Approx (std::exp (-40.0 * t) * std::sin (2.0 * M_PI * 90.0 * t)).margin (1e-9));
@@ -203,9 +226,9 @@ TEST_CASE ("expert 19: at another rate everything is as fast, as deep and as saf
     }
 }
 
-TEST_CASE ("expert 20: what a device reads as nan is neither kept nor sent to the motor", "[expert]")
+TEST_CASE ("expert 20: a nan from the device is neither stored nor sent to the motor", "[expert]")
 {
-    // The object reaches over the origin: a tool that is put there while it is lost would strike it from inside.
+    // The object includes the origin: if a lost tool were assumed to be there, it would hit the object from inside.
     auto graph = floorboard();
     const Vec3 away { 0.05, -0.03, 0.06 };
     graph.graph.root.nodes[2].params["offset"] = away.z();
@@ -218,7 +241,7 @@ TEST_CASE ("expert 20: what a device reads as nan is neither kept nor sent to th
                                           { return f.norm(); })
                             .norm();
 
-    rc::prop ("lost for some ticks, told so or not, in any component", [&] (unsigned seed)
+    rc::prop ("tracking is lost for some ticks, reported or not, in any component", [&] (unsigned seed)
               {
         Dice dice { seed };
         const int from = 1 + dice.below (400), to = from + 1 + dice.below (4), which = dice.below (3);
@@ -243,6 +266,6 @@ TEST_CASE ("expert 20: what a device reads as nan is neither kept nor sent to th
             RC_ASSERT (isFinite (f));
             RC_ASSERT (f.norm() <= 1.5 * most);
         }
-        for (std::size_t k = 700; k < well.size(); ++k)   // once the contact has opened, nothing of it is left
+        for (std::size_t k = 700; k < well.size(); ++k)   // after the contact has ended, no trace of it is left
             RC_ASSERT ((hand.forces[k] - well[k]).norm() < 1e-6 * most); });
 }

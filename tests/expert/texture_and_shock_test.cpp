@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What an expert tries first: textures, shocks and rings.
+// Tests of what an expert tries first: textures, shocks and rings.
 
-#include <expert/hands.hpp>
+#include "hands.hpp"
 #include <support/rig.hpp>
 
 #include <catch2/catch.hpp>
@@ -16,15 +16,20 @@ using tactus::test::Sketch;
 
 namespace
 {
-/// A floor at z = 0 with ridges along x, which one of the gains fades.
+/// A floor at z = 0 with ridges along x, faded by a gain.
 Sketch ridges (double spatial_frequency, const std::string& fader, const Json& fader_params, const std::string& fader_in)
 {
-    return Sketch {}.node ("hand", "device.position").node ("floor", "deform.plane").node ("grain", "texture.grating", { { "amplitude", 0.2 }, { "spatial_frequency", spatial_frequency }, { "phase", 1.0 } }).node ("fade", fader, fader_params).node ("faded", "vector.scale").node ("motor", "device.force").wire (fader_in).wire ("hand.position -> floor.position").wire ("hand.position -> grain.position").wire ("grain.force -> faded.in").wire ("fade.gain -> faded.gain").wire ("faded.out -> motor.force");
+    Sketch s;
+    s.node ("hand", "device.position").node ("floor", "deform.plane");
+    s.node ("grain", "texture.grating", { { "amplitude", 0.2 }, { "spatial_frequency", spatial_frequency }, { "phase", 1.0 } });
+    s.node ("fade", fader, fader_params).node ("faded", "vector.scale").node ("motor", "device.force");
+    s.wire (fader_in).wire ("hand.position -> floor.position").wire ("hand.position -> grain.position");
+    return s.wire ("grain.force -> faded.in").wire ("fade.gain -> faded.gain").wire ("faded.out -> motor.force");
 }
 
 double along (const Vec3& force) { return force.x(); }
 
-/// The largest change from one tick to the next.
+/// The largest change from tick to tick.
 double steepest (const std::vector<double>& signal)
 {
     double most = 0.0;
@@ -47,7 +52,7 @@ double ring (const std::vector<Mode>& modes, double v, double t)
 }
 }   // namespace
 
-TEST_CASE ("expert 10: a scan too fast for the tick does not come back as a slow buzz", "[expert][texture]")
+TEST_CASE ("expert 10: a scan too fast for the tick rate does not alias into a slow buzz", "[expert][texture]")
 {
     const double rate = 1000.0, k = 1000.0, f_max = 300.0;
     auto graph = ridges (k, "texture.antialias", { { "spatial_frequency", k }, { "f_max", f_max } }, "hand.position -> fade.position");
@@ -57,7 +62,7 @@ TEST_CASE ("expert 10: a scan too fast for the tick does not come back as a slow
             graph, [=] (int tick)
             { return Vec3 { 0.01 + speed * tick / rate, 0, 0 }; },
             200, rate);
-        forces.erase (forces.begin());   // which knows no speed
+        forces.erase (forces.begin());   // the first sample has no speed yet
         return forces;
     };
     const auto loudest = [] (const std::vector<Vec3>& forces)
@@ -71,7 +76,7 @@ TEST_CASE ("expert 10: a scan too fast for the tick does not come back as a slow
                                                             { return f.isZero (0.0); }));
         if (pitch > 20.0 && pitch < 0.45 * f_max) RC_ASSERT (loudest (forces) > 0.15); });
 
-    // Without the guard 1.5 m/s over ridges 1 mm apart, 1500 Hz, are felt as 500 Hz.
+    // Without the guard, 1.5 m/s over ridges 1 mm apart (1500 Hz) would be felt as 500 Hz.
     REQUIRE (scan (1.5).back().isZero (0.0));
     graph.graph.root.nodes[3].bypass = true;
     const auto forces = scan (1.5);
@@ -80,12 +85,12 @@ TEST_CASE ("expert 10: a scan too fast for the tick does not come back as a slow
         REQUIRE (forces[i].x() == Approx (forces[i - 2].x()).margin (1e-9));
 }
 
-TEST_CASE ("expert 11: a texture is not switched on by the touch", "[expert][texture]")
+TEST_CASE ("expert 11: a texture fades in at the touch and does not start with a step", "[expert][texture]")
 {
     const double rate = 4000.0, k = 500.0, window = 1e-3, amplitude = 0.2;
     auto graph = ridges (k, "contact.window", { { "window", window } }, "floor.depth -> fade.depth");
 
-    rc::prop ("any way in, and out again", [&] (unsigned seed)
+    rc::prop ("any path in and out", [&] (unsigned seed)
               {
         Dice dice { seed };
         const double down = dice.size (1e-3, 0.2), across = dice.uniform (-0.2, 0.2), from = dice.uniform (-0.1, 0.1);
@@ -99,7 +104,7 @@ TEST_CASE ("expert 11: a texture is not switched on by the touch", "[expert][tex
             if (path (static_cast<int> (i)).z() >= 0.0) RC_ASSERT (forces[i].isZero (0.0));
         } });
 
-    // Without the window it is there all at once, apart from the surface too.
+    // Without the window, the texture is there immediately, even away from the surface.
     graph.graph.root.nodes[3].bypass = true;
     CHECK_FALSE (test::felt (
                      graph, [] (int)
@@ -111,7 +116,7 @@ TEST_CASE ("expert 11: a texture is not switched on by the touch", "[expert][tex
 
 TEST_CASE ("expert 12: nothing is louder on the rebound than on the way in", "[expert][shock][deform]")
 {
-    rc::prop ("a wall, pushed in and let out at any speed", [] (unsigned seed)
+    rc::prop ("a wall, pushed in and released at any speed", [] (unsigned seed)
               {
         Dice dice { seed };
         Rig rig { "deform.plane", 4000.0 };
@@ -128,10 +133,11 @@ TEST_CASE ("expert 12: nothing is louder on the rebound than on the way in", "[e
         for (std::size_t k = 1; k < 99; ++k)
             RC_ASSERT (out[100 - k] < in[k]); });
 
-    rc::prop ("a shock gives its mass back less than it came with", [] (unsigned seed)
+    rc::prop ("a mass leaves a shock with less energy than it arrived with", [] (unsigned seed)
               {
         Dice dice { seed };
-        const double m = dice.size (0.005, 0.5), v = dice.size (0.05, 2.0), d_max = dice.size (1e-4, 5e-3), n = dice.uniform (1.0, 2.5), x = dice.size (0.05, 3.0);
+        const double m = dice.size (0.005, 0.5), v = dice.size (0.05, 2.0), d_max = dice.size (1e-4, 5e-3);
+        const double n = dice.uniform (1.0, 2.5), x = dice.size (0.05, 3.0);
         const double rate = 1000.0 * v / d_max;
         Rig rig { "shock.hunt_crossley", rate };
         rig.set ("stiffness", Law { .kind = Law::Kind::power, .a = 0.5 * (n + 1.0) * m * v * v / std::pow (d_max, n + 1.0), .b = n });
@@ -150,9 +156,9 @@ TEST_CASE ("expert 12: nothing is louder on the rebound than on the way in", "[e
         RC_ASSERT (std::abs (x - std::log1p (x) + x * e + std::log1p (-x * e)) < 2e-3 * (x + 1.0)); });
 }
 
-TEST_CASE ("expert 13: a double tap is two shocks, each whole, without a click", "[expert][shock]")
+TEST_CASE ("expert 13: a double tap is two complete shocks without a click", "[expert][shock]")
 {
-    rc::prop ("any speeds, any time between", [] (unsigned seed)
+    rc::prop ("any speeds, any time between them", [] (unsigned seed)
               {
         Dice dice { seed };
         const double first = dice.size (0.01, 2.0), second = dice.size (0.01, 2.0);
@@ -179,7 +185,7 @@ TEST_CASE ("expert 13: a double tap is two shocks, each whole, without a click",
         RC_ASSERT (steepest (both) <= (steepest (one) + steepest (other)) * (1.0 + 1e-12)); });
 }
 
-TEST_CASE ("expert 14: struck again while it rings, an object clicks not, and it ends in silence, not in denormal numbers", "[expert][vibration]")
+TEST_CASE ("expert 14: an object hit again while it rings does not click, and ends in silence without denormal numbers", "[expert][vibration]")
 {
     rc::prop ("any modes, any hits", [] (unsigned seed)
               {
@@ -207,7 +213,7 @@ TEST_CASE ("expert 14: struck again while it rings, an object clicks not, and it
             rig.tick();
             if (k <= again) left.tick();
             const double now = rig.out ("value");
-            if (k <= again) RC_ASSERT (now == left.out ("value"));   // to the bit, also on the tick of the hit
+            if (k <= again) RC_ASSERT (now == left.out ("value"));   // bit for bit, including the tick of the hit
             if (k < 1000) RC_ASSERT (std::abs (now - ring (modes, v, k / rate) - ring (modes, w, (k - again) / rate)) < 1e-12 * loudest);
             RC_ASSERT (std::fpclassify (now) != FP_SUBNORMAL);
         }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Section 2, Fig. 2: the four adhesion functions, and what becomes of a contact that has them."""
+"""Section 2, Fig. 2: the four adhesion functions, and how a contact behaves with each."""
 
 import numpy as np
 from style import BLUE, GREEN, INK, VERMILION, WIDTH, axis, data, name, plt, zero

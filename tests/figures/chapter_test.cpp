@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The walk through the chapter: its pictures are there, and its commands run.
+// The walk through the chapter: its figures exist, and its commands run.
 
-#include "../host/cli/program.hpp"
+#include "host/cli/program.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -27,7 +27,7 @@ std::vector<std::string> found (const std::string& text, const std::string& patt
 }
 }   // namespace
 
-TEST_CASE ("the walk through the chapter shows every figure there is, and none that is not", "[figures]")
+TEST_CASE ("the walk through the chapter shows exactly the figures in the folder", "[figures]")
 {
     auto shown = found (test::textOf (docs + "chapter.md"), R"re(<img src="figures/(\w+\.png)")re");
     std::vector<std::string> drawn;
@@ -49,9 +49,9 @@ TEST_CASE ("the walk through the chapter shows every figure there is, and none t
     }
 }
 
-TEST_CASE ("the commands in the walk through the chapter render what they plot", "[figures]")
+TEST_CASE ("the commands in the walk through the chapter record what they plot", "[figures]")
 {
-    // Drawing takes ten times as long as rendering, and is tested where it is done.
+    // Drawing takes ten times as long as rendering, and is tested elsewhere.
     const std::regex command (R"(build/release/bin/tactus render (\S+) (.*)--record (\S+) (--over (\S+) )?--plot \w+\.png)");
     const auto lines = found (test::textOf (docs + "chapter.md"), "(build/release/bin/tactus .+)");
     REQUIRE (lines.size() >= 10);

@@ -12,9 +12,10 @@ namespace
 constexpr double f_cut = 4.0;   // N, 200 J/m2 times 20 mm
 }
 
-TEST_CASE ("figure: a cut passes through all branches, and pays for the crack what its surface costs", "[figures]")
+TEST_CASE ("figure: a cut passes through all branches, and the work on the crack equals the energy of its surface", "[figures]")
 {
-    const auto run = test::renderFigure ("cut", "cut", { "--duration", "8", "--record", "blade.depth,blade.resistance,blade.crack,blade.state,blade.dissipated_energy" });
+    const auto ports = "blade.depth,blade.resistance,blade.crack,blade.state,blade.dissipated_energy";
+    const auto run = test::renderFigure ("cut", "cut", { "--duration", "8", "--record", ports });
 
     double work = 0.0;
     int ruptures = 0, cutting = 0;
@@ -38,7 +39,7 @@ TEST_CASE ("figure: a cut passes through all branches, and pays for the crack wh
     CHECK (work == Approx (run.at ("blade.dissipated_energy", last)).epsilon (1e-3));
 }
 
-TEST_CASE ("figure: three samples of one toughness are cut at one force, whatever their stiffness and skin", "[figures]")
+TEST_CASE ("figure: three samples with the same toughness are cut at the same force, whatever their stiffness and skin", "[figures]")
 {
     const std::vector<std::string> samples { "soft", "crisp", "skinned" };
     std::string ports = "path.out";
@@ -62,6 +63,6 @@ TEST_CASE ("figure: three samples of one toughness are cut at one force, whateve
             CHECK (f == Approx (f_cut));
         }
         CHECK (cutting > 100);
-        CHECK (dip < 0.9 * f_cut);   // it falls below, and is loaded again
+        CHECK (dip < 0.9 * f_cut);   // the force falls below f_cut and rises again
     }
 }

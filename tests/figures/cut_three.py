@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Section 3, Fig. 7: three samples, cut at one force."""
+"""Section 3, Fig. 7: three samples that are cut at the same force."""
 
 from style import BLUE, GREEN, PALE, VERMILION, axis, data, figure, name, np
 
@@ -18,6 +18,6 @@ def draw():
     name(ax, 5.2, 8.7, "under a tough skin", VERMILION, ha="left")
     name(ax, 7.4, 5.2, "soft", GREEN)
     name(ax, 14.2, 4, "f$_\\mathrm{cut}$")
-    axis(ax, "Three samples of one toughness, cut at one force", "depth of the blade (mm)", "resistance (N)")
+    axis(ax, "Three samples with the same toughness, cut at the same force", "depth of the blade (mm)", "resistance (N)")
     ax.set(xlim=(0, 14), ylim=(-0.1, 9.6))
     return fig

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "figure_data.hpp"
 
-#include "../host/cli/program.hpp"
+#include "host/cli/program.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -27,18 +27,18 @@ Record render (const std::string& graph, const std::string& out, const std::vect
     INFO (ran.err);
     REQUIRE (ran.status == 0);
 
-    auto table = host::readTable (std::filesystem::path (out));
+    auto table = readTable (std::filesystem::path (out));
     REQUIRE (table);
     return Record { *std::move (table) };
 }
 }   // namespace
 
-Record::Record (host::Table recorded) : table (std::move (recorded)) {}
+Record::Record (Table recorded) : table (std::move (recorded)) {}
 
 std::size_t Record::index (const std::string& column) const
 {
     const auto found = table.column (column);
-    if (! found) FAIL ("nothing recorded of " << column);
+    if (! found) FAIL ("there is no recorded column " << column);
     return *found;
 }
 
@@ -64,7 +64,7 @@ Record renderOnce (const std::string& graph, const std::vector<std::string>& opt
 
 void writeFigure (const std::string& name, const std::vector<std::string>& columns, const Columns& rows)
 {
-    auto writer = host::TableWriter::create (pathOf (name), columns);
+    auto writer = TableWriter::create (pathOf (name), columns);
     REQUIRE (writer);
     for (const auto& row : rows)
         REQUIRE (writer->row (row));

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Section 2, Fig. 3 and 4: a tool led over a surface, and the leash to its contact point."""
+"""Section 2, Figs. 3 and 4: a tool moved over a surface, and the leash to its contact point."""
 
 import numpy as np
 from matplotlib.collections import LineCollection

@@ -8,7 +8,7 @@
 
 using namespace tactus;
 
-TEST_CASE ("figure: along a stroke the contact is on a leash of d_max, and moves only where it is taut", "[figures]")
+TEST_CASE ("figure: along a stroke the contact follows on a leash of d_max, and moves only while the leash is taut", "[figures]")
 {
     constexpr double d_max = 1e-3;
     const auto run = test::renderFigure ("friction_trace", "friction_trace", { "--duration", "4", "--record", "tool.out,contact.deflection,contact.state" });

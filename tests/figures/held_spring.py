@@ -19,7 +19,7 @@ def draw():
     ax.step(depth[into], force[into], where="post", color=BLUE, zorder=3)
     ax.step(depth[out], force[out], where="post", color=VERMILION, zorder=3)
     name(ax, 1.36, 0.80, "pressing", BLUE)
-    name(ax, 0.66, 1.22, "letting go", VERMILION, ha="right")
+    name(ax, 0.66, 1.22, "release", VERMILION, ha="right")
     note(ax, "the spring itself", (1.90, 1.90), (0.95, 2.06), ha="center", va="center")
     axis(ax, "A spring of 1 N/mm, held for 1 ms", "depth (mm)", "force on the tool (N)")
     ax.set(xlim=(0, 2.15), ylim=(0, 2.2), xticks=[0, 0.5, 1, 1.5, 2], yticks=[0, 0.5, 1, 1.5, 2])

@@ -5,7 +5,7 @@
 
 using namespace tactus;
 
-TEST_CASE ("figure: a spring held between samples gives back half of K dp^2 more at each sample", "[figures]")
+TEST_CASE ("figure: a spring held between samples gives back K dp^2 / 2 too much at each sample", "[figures]")
 {
     constexpr double K = 1000.0;       // N/m, as in the graph
     constexpr std::size_t hold = 20;   // ticks
@@ -14,7 +14,7 @@ TEST_CASE ("figure: a spring held between samples gives back half of K dp^2 more
     REQUIRE (depth.size() == 20 * hold + 1);
     CHECK (depth.front() == Approx (depth.back()).margin (1e-15));   // closed
 
-    double given = 0.0, leak = 0.0;   // by the held force, and what theory says of it
+    double given = 0.0, leak = 0.0;   // given by the held force, and predicted by theory
     for (std::size_t k = 0; k + 1 < depth.size(); ++k)
     {
         CHECK (f[k] == f[k - k % hold]);

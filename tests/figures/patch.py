@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Section 4, Fig. 9: responses between the points at which they are known."""
+"""Section 4, Fig. 9: responses between the points where they are given."""
 
 import numpy as np
 from style import GREY, INK, VERMILION, axis, data, figure, name
@@ -29,6 +29,6 @@ def draw():
     name(plan, 20, -4, "40 mm", GREY, ha="center")
     plan.set(title="A patch of two triangles", aspect="equal", anchor="N", xlim=(-5, 45), ylim=(-7, 43))
     plan.axis("off")
-    axis(curves, "Known at A–D, made of them at a–c", "depth (mm)", "resistance (N)")
+    axis(curves, "Given at A–D, interpolated at a–c", "depth (mm)", "resistance (N)")
     curves.set(xlim=(0, 4), ylim=(0, None))
     return fig

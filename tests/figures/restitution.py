@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Section 6, eq. (10): the loop of an impact, and what it gives back."""
+"""Section 6, eq. (10): the loop of an impact, and the fraction of speed that comes back."""
 
 from style import BLUE, GREEN, INK, VERMILION, axis, data, figure, name, np
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "figure_data.hpp"
 
-#include "../host/cli/program.hpp"
+#include "host/cli/program.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -19,10 +19,11 @@ std::vector<std::string> thrownAt (const test::Scratch& scratch, double v)
     std::ostringstream device;
     device.precision (17);
     device << R"({ "driver": "sim", "mass": 0.05, "damping": 0, "position": [0, 0, 1e-6], "velocity": [0, 0, )" << -v << "] }";
-    return { "--device", "tool=" + scratch.write ("tool.json", device.str()), "--duration", "0.02", "--record", "wall.depth,wall.resistance,player.resistance,motion.velocity.z" };
+    return { "--device", "tool=" + scratch.write ("tool.json", device.str()), "--duration", "0.02",
+             "--record", "wall.depth,wall.resistance,player.resistance,motion.velocity.z" };
 }
 
-/// lambda v_o - ln (1 + lambda v_o) = lambda v_i - ln (1 + lambda v_i), solved for e = -v_o / v_i by halving.
+/// Solves lambda v_o - ln (1 + lambda v_o) = lambda v_i - ln (1 + lambda v_i) for e = -v_o / v_i by bisection.
 double closedForm (double v)
 {
     const auto side = [] (double x)
@@ -38,7 +39,7 @@ double closedForm (double v)
 }
 }   // namespace
 
-TEST_CASE ("figure: what an impact returns of its speed falls with the speed as Hunt and Crossley's law says", "[figures]")
+TEST_CASE ("figure: the restitution of an impact falls with speed as Hunt and Crossley's law predicts", "[figures]")
 {
     CHECK (closedForm (0.15) == Approx (0.909016).epsilon (1e-6));
     CHECK (closedForm (1.0) == Approx (0.593624).epsilon (1e-6));

@@ -8,7 +8,7 @@
 
 using namespace tactus;
 
-TEST_CASE ("figure: a second tap adds its ring to what is left of the first, to the last digit", "[figures]")
+TEST_CASE ("figure: a second tap adds its ring exactly to what is left of the first", "[figures]")
 {
     const auto run = test::renderFigure ("ring", "ring", { "--duration", "0.08", "--record", "rubber.value,wood.value,aluminium.value,first.hit,second.hit" });
     const auto hitOf = [&] (const std::string& trigger)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Section 2: stick-slip that knows nothing of time."""
+"""Section 2: stick-slip that does not depend on time."""
 
 from style import BLUE, INK, PALE, axis, data, figure, name, np
 

@@ -7,7 +7,7 @@ using namespace tactus;
 
 namespace
 {
-/// Where the contact lets go on the way out, as displacements.
+/// Displacements where the contact slips on the way out.
 std::vector<double> slips (const test::Record& run)
 {
     std::vector<double> all;
@@ -17,7 +17,7 @@ std::vector<double> slips (const test::Record& run)
 }
 }   // namespace
 
-TEST_CASE ("figure: stick-slip has its teeth at the same places at a tenfold speed", "[figures]")
+TEST_CASE ("figure: at ten times the speed, the contact slips at the same places", "[figures]")
 {
     const std::string ports = "hand.out.x,contact.force.x,contact.state";
     const auto slow = test::renderFigure ("stick_slip", "stick_slip_slow", { "--duration", "0.5", "--record", ports });

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Section 1: how stiff a wall may be."""
+"""Section 1: how stiff a wall can be."""
 
 from style import BLUE, GREEN, INK, VERMILION, WIDTH, axis, data, name, plt, zero
 
@@ -22,7 +22,8 @@ def draw():
     below.set_xlabel("time (ms)")
 
     points = data("stiffness_limit")
-    for delay, colour, text, dy, side in ((0, INK, "2B/T", 0, "left"), (1, GREEN, "a tick late: 2B/3T", 0.55, "right"), (2, BLUE, "two ticks late: 2B/5T", -1.36, "right")):
+    for delay, colour, text, dy, side in ((0, INK, "2B/T", 0, "left"), (1, GREEN, "a tick late: 2B/3T", 0.55, "right"),
+                                          (2, BLUE, "two ticks late: 2B/5T", -1.36, "right")):
         mine = points["delay"] == delay
         law = 2.0 / (2 * delay + 1)
         limit.plot([0, 4.2], [0, 4.2 * law], color=colour, linewidth=0.9)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "figure_data.hpp"
 
-#include "../host/cli/program.hpp"
+#include "host/cli/program.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -31,10 +31,11 @@ std::vector<std::string> against (const test::Scratch& scratch, const Tool& tool
     std::ostringstream set;
     set.precision (17);
     set << "wall.stiffness=" << stiffness;
-    return { "--device", "tool=" + scratch.write ("tool.json", device.str()), "--set", set.str(), "--duration", "1", "--record", "hand.position.z,motor.force.z" };
+    return { "--device", "tool=" + scratch.write ("tool.json", device.str()), "--set", set.str(), "--duration", "1",
+             "--record", "hand.position.z,motor.force.z" };
 }
 
-/// How fast the swing about the point of rest grows, in 1/s: from its second quarter of a second to its last.
+/// Growth rate of the oscillation about the point of rest, in 1/s, from its second quarter of a second to its last.
 double growth (const test::Record& run, double stiffness)
 {
     const auto z = run["hand.position.z"];
@@ -50,7 +51,7 @@ double growth (const test::Record& run, double stiffness)
 }
 }   // namespace
 
-TEST_CASE ("figure: a wall is stable up to 2 B / T, and each tick of delay takes its share of that", "[figures]")
+TEST_CASE ("figure: a wall is stable up to 2 B / T, and each tick of delay lowers the limit", "[figures]")
 {
     const test::Scratch scratch;
     test::Columns limits;
@@ -65,7 +66,7 @@ TEST_CASE ("figure: a wall is stable up to 2 B / T, and each tick of delay takes
             CHECK (dies < 0.0);
             CHECK (grows > 0.0);
 
-            const double measured = below + (above - below) * dies / (dies - grows);   // where it does neither
+            const double measured = below + (above - below) * dies / (dies - grows);   // where it neither grows nor decays
             CHECK (measured == Approx (tool.limit()).epsilon (0.03));
             limits.push_back ({ double (delay), damping, measured, tool.limit() });
         }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How every picture of docs/chapter.md looks: one width, one face, few colours, names beside the lines they belong to."""
+"""The style of the figures in docs/chapter.md: one width, one typeface, few colours, labels next to the lines."""
 
 import io
 import pathlib
@@ -19,7 +19,7 @@ OUT = ROOT / "docs" / "figures"
 WIDTH = 6.0  # inches; 1200 pixels, shown at half that size
 DPI = 200
 
-# Okabe and Ito's palette, told apart by colour-blind eyes; those of it that are dark enough for text.
+# The colours of Okabe and Ito's colour-blind-safe palette that are dark enough for text.
 BLUE, VERMILION, GREEN, PURPLE = "#0072B2", "#D55E00", "#00805E", "#A3507F"
 INK, GREY, PALE = "#22272B", "#7A828A", "#D5DADF"
 SKY = "#56B4E9"  # for areas
@@ -90,19 +90,19 @@ def zero(ax):
 
 
 def name(ax, x, y, text, colour=INK, **kwargs):
-    """Names a line where it is, instead of in a legend."""
+    """Puts a label next to its line, instead of in a legend."""
     kwargs.setdefault("va", "center")
     ax.text(x, y, text, color=colour, **kwargs)
 
 
 def note(ax, text, at, to, colour=GREY, **kwargs):
-    """A remark with a thin line to what it is about."""
+    """A note with a thin line to its subject."""
     ax.annotate(text, xy=at, xytext=to, color=colour, fontsize=8,
                 arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.6, "shrinkA": 2, "shrinkB": 2}, **kwargs)
 
 
 def save(fig, name):
-    """As a PNG of few colours, without anything that changes from run to run."""
+    """Saves a PNG with few colours. It contains nothing that changes from run to run."""
     drawn = io.BytesIO()
     fig.savefig(drawn, format="png", dpi=DPI, facecolor="white", metadata={"Software": None})
     plt.close(fig)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "figure_data.hpp"
 
-#include "../host/cli/program.hpp"
+#include "host/cli/program.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -29,7 +29,7 @@ std::string text (double value)
 }
 }   // namespace
 
-TEST_CASE ("figure: four times the width of a tool is two orders of magnitude of its response", "[figures]")
+TEST_CASE ("figure: a tool four times as wide raises the response by two orders of magnitude", "[figures]")
 {
     std::vector<std::vector<double>> responses;
     std::vector<double> depth;
@@ -59,19 +59,27 @@ TEST_CASE ("figure: four times the width of a tool is two orders of magnitude of
     test::writeFigure ("tools", { "depth", "thin", "quarter", "half", "three_quarters", "wide" }, rows);
 }
 
-TEST_CASE ("figure: between the points of a patch the response is made of theirs, without a step at an edge", "[figures]")
+TEST_CASE ("figure: between the points of a patch the response is a blend of theirs and has no step at an edge", "[figures]")
 {
     const struct
     {
         double x, y;        // m
         double stiffness;   // of the law k e^1.6, N/m^1.6: at the four nodes, and by barycentric weights in between
-    } places[] { { 0.0, 0.0, 2.5e4 }, { 0.04, 0.0, 6e4 }, { 0.04, 0.04, 4.5e4 }, { 0.0, 0.04, 1.8e4 }, { 0.02, 0.02, 3.5e4 }, { 0.036, 0.012, 5.2e4 }, { 0.012, 0.028, 2.82e4 } };
+    } places[] {
+        { 0.0, 0.0, 2.5e4 },
+        { 0.04, 0.0, 6e4 },
+        { 0.04, 0.04, 4.5e4 },
+        { 0.0, 0.04, 1.8e4 },
+        { 0.02, 0.02, 3.5e4 },
+        { 0.036, 0.012, 5.2e4 },
+        { 0.012, 0.028, 2.82e4 },
+    };
 
     test::Columns rows;
     int number = 0;
     for (const auto& p : places)
     {
-        // a hair inside, where a node belongs to one triangle or two
+        // stay slightly inside the patch: a corner node belongs to one or two triangles, so which one is touched there is ambiguous
         const double x = 0.02 + (p.x - 0.02) * (1.0 - 1e-9), y = 0.02 + (p.y - 0.02) * (1.0 - 1e-9);
         const auto run = test::renderOnce ("patch", pressed ({ "x.value=" + text (x), "y.value=" + text (y) }, "patch.depth,patch.resistance"));
         INFO ("at " << p.x << ", " << p.y);
@@ -86,7 +94,7 @@ TEST_CASE ("figure: between the points of a patch the response is made of theirs
     }
     test::writeFigure ("patch", { "place", "x", "y", "depth", "resistance" }, rows);
 
-    // along the other diagonal, touched anew at each point
+    // along the other diagonal, with a new contact at each point
     const test::Scratch scratch;
     std::string feed = "patch.position.x,patch.position.y,patch.position.z\n";
     constexpr int steps = 400;

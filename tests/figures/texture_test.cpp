@@ -8,7 +8,7 @@
 
 using namespace tactus;
 
-TEST_CASE ("figure: ridges stay in their places while the stroke gathers speed, and fade before they pass too fast", "[figures]")
+TEST_CASE ("figure: ridges stay in place while the stroke speeds up, and fade out before they pass too fast", "[figures]")
 {
     constexpr double k = 500.0, amplitude = 0.1, f_max = 80.0;   // 1/m, N, Hz, as in the graph
     const auto run = test::renderFigure ("texture", "texture", { "--duration", "1", "--record", "hand.out.x,drag.force.x,felt.out.x,guard.gain,guard.speed" });

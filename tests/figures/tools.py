@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Section 4, Fig. 8: what the size of a tool does."""
+"""Section 4, Fig. 8: how the size of a tool changes the response."""
 
 from style import BLUE, GREY, VERMILION, axis, data, figure, name
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What makes a guard stop by itself: speed, impulse, energy, the dead-man's switch, the emergency stop.
+// The causes for which a guard stops the force: speed, impulse, energy, the dead-man's switch, the emergency stop.
 
-#include <framework/guard.hpp>
-#include <framework/guard_log.hpp>
+#include <framework/run/guard.hpp>
+#include <framework/run/guard_log.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -41,7 +41,7 @@ int ticksUntilStop (Guard& guard, int most, Tick tick)
     return -1;
 }
 
-/// A path of a hand: a few sines, so that it is smooth.
+/// The path of a hand: a few sines, so that it is smooth.
 struct Hand
 {
     explicit Hand (const std::vector<int>& chance) : amplitudes (chance) {}
@@ -54,7 +54,7 @@ struct Hand
         return x;
     }
 
-    std::vector<int> amplitudes;   // 10 um
+    std::vector<int> amplitudes;   // in units of 10 um
 };
 
 Hand anyHand()
@@ -63,11 +63,11 @@ Hand anyHand()
 }
 }   // namespace
 
-TEST_CASE ("guard: a tool that is too fast is stopped, one quantum more or less is not", "[framework][guard]")
+TEST_CASE ("guard: a tool that is too fast causes a stop, but one quantum of noise does not", "[framework][guard]")
 {
     constexpr double limit = 1.0, quantum = 1e-4;
 
-    rc::prop ("any speed that is 5 % below or above, measured in quanta", []
+    rc::prop ("any speed that is 5 % below or above the limit, measured in quanta", []
               {
         const bool too_fast = *rc::gen::arbitrary<bool>();
         const double speed = too_fast ? *rc::gen::element (1.05, 1.5, 4.0) : *rc::gen::element (0.95, 0.5, 0.01);
@@ -76,16 +76,16 @@ TEST_CASE ("guard: a tool that is too fast is stopped, one quantum more or less 
         const int stopped = ticksUntilStop (guard, 2000, [&] (int k)
                                             { guard (pushing (1.0), at (sign * quantum * std::floor (speed * k * dt / quantum + 0.5))); });
         RC_ASSERT ((stopped > 0) == too_fast);
-        // 1 - e^(-t/tau) of the speed is seen
+        // a fraction 1 - e^(-t/tau) of the speed is measured
         if (too_fast) RC_ASSERT (stopped * dt <= SpeedWatch::tau * std::log (speed / (speed - limit + 2e-2)) + 20 * dt); });
 
     auto guard = guardWith ({ .max_speed = limit });
     for (int k = 0; k < 500; ++k)
-        guard (pushing (1.0), at (k % 2 == 0 ? 0.0 : 2e-3));   // 2 m/s from tick to tick, and gets nowhere
+        guard (pushing (1.0), at (k % 2 == 0 ? 0.0 : 2e-3));   // 2 m/s from tick to tick, but no net motion
     CHECK (guard.stop() == Guard::Stop::none);
 }
 
-TEST_CASE ("guard: a device that is slower than the tick is no faster for it, if it tells the age of its readings", "[framework][guard]")
+TEST_CASE ("guard: the speed of a device slower than the tick is not overestimated if it reports the age of its readings", "[framework][guard]")
 {
     constexpr double tick = 0.25e-3;
     for (const double speed : { 0.9, 1.1 })
@@ -93,7 +93,7 @@ TEST_CASE ("guard: a device that is slower than the tick is no faster for it, if
         auto guard = guardWith ({ .max_speed = 1.0 }, tick);
         const int stopped = ticksUntilStop (guard, 4000, [&] (int k)
                                             {
-            const int read = k - k % 8;   // each 2 ms
+            const int read = k - k % 8;   // one reading every 2 ms
             Reading r = at (speed * read * tick);
             r.age = (k - read) * tick;
             guard (pushing (1.0), r); });
@@ -101,7 +101,7 @@ TEST_CASE ("guard: a device that is slower than the tick is no faster for it, if
     }
 }
 
-TEST_CASE ("guard: where the tool is when the device is heard again is no way it has gone", "[framework][guard]")
+TEST_CASE ("guard: a jump in position after a silence does not count as motion", "[framework][guard]")
 {
     auto guard = guardWith ({ .max_speed = 1.0, .max_energy = 0.01, .energy_window = 1.0 });
     for (int k = 0; k < 50; ++k)
@@ -115,7 +115,7 @@ TEST_CASE ("guard: where the tool is when the device is heard again is no way it
     }
 }
 
-TEST_CASE ("guard: force within the window stops when it is more than the limit, and neither sooner nor a sixteenth later", "[framework][guard]")
+TEST_CASE ("guard: an impulse above the limit within the window causes a stop, no sooner and at most a sixteenth later", "[framework][guard]")
 {
     rc::prop ("any pushes", []
               {
@@ -135,7 +135,7 @@ TEST_CASE ("guard: force within the window stops when it is more than the limit,
         {
             const double now = guard (pushing (0.1 * pushes[k / 50] * (k % 3 == 0 ? -1.0 : 1.0)), at (0.0)).force.x();
             if (guard.stop() != Guard::Stop::none) break;
-            RC_ASSERT (within (window) <= limit + 6.0 * dt + 1e-12);   // it is seen a tick later
+            RC_ASSERT (within (window) <= limit + 6.0 * dt + 1e-12);   // detected one tick later
             forces.push_back (now);
         }
         if (guard.stop() == Guard::Stop::none) return;
@@ -144,14 +144,14 @@ TEST_CASE ("guard: force within the window stops when it is more than the limit,
         RC_ASSERT (guard.latest().value > limit); });
 }
 
-TEST_CASE ("guard: what only gives back never trips the energy watchdog", "[framework][guard]")
+TEST_CASE ("guard: a passive load never trips the energy watchdog", "[framework][guard]")
 {
     rc::prop ("any spring and damper in any hand", []
               {
         const auto hand = anyHand();
         const double stiffness = *rc::gen::element (10.0, 200.0, 1000.0), damping = *rc::gen::element (0.0, 0.5, 2.0);
 
-        // The most it stores, and what the sampled loop leaks within the longest stretch: half K dx^2 a tick.
+        // The most energy it stores, plus the leak of the sampled loop in the longest stretch: half K dx^2 per tick.
         double most = 0.0, leak = 0.0;
         for (int k = 0; k < 3000; ++k)
         {
@@ -159,7 +159,7 @@ TEST_CASE ("guard: what only gives back never trips the energy watchdog", "[fram
             most = std::max (most, 0.5 * stiffness * x * x);
             leak += 0.5 * stiffness * dx * dx + damping / dt * std::abs (dx * (hand (k + 1) - 2.0 * x + hand (k - 1)));
         }
-        auto guard = guardWith ({ .max_energy = most + leak + 1e-9 });   // over the whole session
+        auto guard = guardWith ({ .max_energy = most + leak + 1e-9 });   // for the whole session
         for (int k = 0; k < 3000; ++k)
         {
             const double x = hand (k), v = (x - hand (k - 1)) / dt;
@@ -168,7 +168,7 @@ TEST_CASE ("guard: what only gives back never trips the energy watchdog", "[fram
         } });
 }
 
-TEST_CASE ("guard: what drives the hand trips the energy watchdog, exactly when it has given more than it may", "[framework][guard]")
+TEST_CASE ("guard: an active load trips the energy watchdog exactly when it has delivered more than the limit", "[framework][guard]")
 {
     rc::prop ("any negative damping in any hand", []
               {
@@ -183,15 +183,15 @@ TEST_CASE ("guard: what drives the hand trips the energy watchdog, exactly when 
             if (k > 0) bucket = std::max (0.0, bucket + on_device * (x - before) - (window > 0.0 ? limit / window * dt : 0.0));
             else if (window > 0.0) bucket = 0.0;
             on_device = guard (pushing (drive * (x - before) / dt), at (x)).force.x();
-            if (std::abs (bucket - limit) < 1e-9) return;   // on the edge
+            if (std::abs (bucket - limit) < 1e-9) return;   // too close to the limit to decide
             RC_ASSERT ((guard.stop() == Guard::Stop::energy) == (bucket > limit));
             if (bucket > limit) return;
         } });
 }
 
-TEST_CASE ("guard: the energy that a runaway loop can give is bounded", "[framework][guard]")
+TEST_CASE ("guard: the energy that a runaway loop can deliver is bounded", "[framework][guard]")
 {
-    // A mass on a spring that pushes away, as an unstable wall does: it gains energy as long as it is let.
+    // A mass on a spring that pushes away, like an unstable wall: it gains energy until it is stopped.
     constexpr double limit = 0.02, window = 1.0, mass = 0.1;
     auto guard = guardWith ({ .max_force = 20.0, .max_energy = limit, .energy_window = window });
     double x = 1e-3, v = 0.0, given = 0.0, most_power = 0.0;
@@ -209,10 +209,10 @@ TEST_CASE ("guard: the energy that a runaway loop can give is bounded", "[framew
     CHECK (given > limit);
     CHECK (given < limit * 2.0 + most_power * (dt + Guard::fade_s));
     CHECK (describe (guard.latest()).starts_with ("the device has given the hand 0.02"));
-    CHECK (describe (guard.latest()).ends_with (" J, the limit is 0.02 J in 1 s"));
+    CHECK (describe (guard.latest()).ends_with (" J; the limit is 0.02 J in 1 s"));
 }
 
-TEST_CASE ("guard: no stop is a step, and what has latched comes back by rearm alone", "[framework][guard]")
+TEST_CASE ("guard: no stop is a step, and a latched stop is cleared only by rearm", "[framework][guard]")
 {
     struct Case
     {
@@ -257,14 +257,14 @@ TEST_CASE ("guard: no stop is a step, and what has latched comes back by rearm a
     CHECK (before == 4.0);
 }
 
-TEST_CASE ("guard: with a dead-man's switch there is force only while it is held, and it comes and goes smoothly", "[framework][guard]")
+TEST_CASE ("guard: with a dead-man's switch, there is force only while the switch is held, and it rises and falls smoothly", "[framework][guard]")
 {
     const bool by_button = GENERATE (true, false);
     const GuardLimits limits = by_button ? GuardLimits { .ramp = 0.05, .dead_man_buttons = 6 } : GuardLimits { .ramp = 0.05, .dead_man_pressure = 0.5 };
     Reading held, loose;
     held.buttons = 7;
     held.pressure = 0.5;
-    loose.buttons = by_button ? 3 : 7;   // one of the two
+    loose.buttons = by_button ? 3 : 7;   // one of the two buttons
     loose.pressure = by_button ? 1.0 : 0.2;
     auto guard = guardWith (limits);
     double before = 0.0, largest = 0.0;
@@ -286,7 +286,8 @@ TEST_CASE ("guard: with a dead-man's switch there is force only while it is held
         tick (loose);
     CHECK (guard.isAtRest());
     CHECK (largest <= 2.0 * dt / Guard::fade_s + 1e-12);
-    CHECK (describe (guard.latest()) == (by_button ? "the dead-man's switch is not held" : "the hand presses with 0.2 N, the dead-man's switch asks for 0.5 N"));
+    CHECK (describe (guard.latest())
+           == (by_button ? "the dead-man's switch is not held" : "the hand presses with 0.2 N; the dead-man's switch requires 0.5 N"));
     for (int k = 0; k < 60; ++k)
         tick (held);
     CHECK (guard.stop() == Guard::Stop::none);
@@ -297,7 +298,7 @@ TEST_CASE ("guard: with a dead-man's switch there is force only while it is held
     CHECK ((guard.stop() == Guard::Stop::released) == ! by_button);
 }
 
-TEST_CASE ("guard: the emergency stop is told whatever else withholds the force, and outlasts it", "[framework][guard]")
+TEST_CASE ("guard: an emergency stop is reported even if another cause withholds the force, and outlasts that cause", "[framework][guard]")
 {
     auto guard = guardWith ({ .dead_man_buttons = 1 });
     guard (pushing (1.0), at (0.0));
@@ -319,12 +320,12 @@ TEST_CASE ("guard: the emergency stop is told whatever else withholds the force,
     guard.halt();
     guard.rearm();
     guard (pushing (1.0), held);
-    CHECK (guard.stop() == Guard::Stop::halted);   // a halt stays
+    CHECK (guard.stop() == Guard::Stop::halted);   // the halt remains
     guard.resume();
     CHECK (guard (pushing (1.0), held).force.x() == 1.0);
 }
 
-TEST_CASE ("guard: every cause is told with its numbers", "[framework][guard]")
+TEST_CASE ("guard: every cause is reported with its numbers", "[framework][guard]")
 {
     const auto told = [] (const GuardLimits& limits, const Effort& wanted, const Reading& reading)
     {
@@ -333,16 +334,16 @@ TEST_CASE ("guard: every cause is told with its numbers", "[framework][guard]")
         guard (wanted, reading);
         return describe (guard.latest());
     };
-    CHECK (told ({ .max_speed = 1.0 }, {}, at (0.06)) == "the tool moves at 10 m/s, the limit is 1 m/s");
-    CHECK (told ({ .max_impulse = 0.005, .impulse_window = 0.5 }, {}, at (0.0)) == "the force has pushed for 0.01 N*s, the limit is 0.005 N*s in 0.5 s");
-    CHECK (told ({ .max_energy = 0.1 }, {}, at (0.03)) == "the device has given the hand 0.3 J, the limit is 0.1 J");
+    CHECK (told ({ .max_speed = 1.0 }, {}, at (0.06)) == "the tool moves at 10 m/s; the limit is 1 m/s");
+    CHECK (told ({ .max_impulse = 0.005, .impulse_window = 0.5 }, {}, at (0.0)) == "the force has pushed for 0.01 N*s; the limit is 0.005 N*s in 0.5 s");
+    CHECK (told ({ .max_energy = 0.1 }, {}, at (0.03)) == "the device has given the hand 0.3 J; the limit is 0.1 J");
     CHECK (told ({}, { .axes = { 1.0, not_a_number } }, at (0.0)) == "the graph asked for an effort on axis 2 that is not a number: nan");
     CHECK (told ({}, { .signals = { -tactus::GuardLimits::none } }, at (0.0)) == "the graph asked for a signal on channel 1 that is not a number: -inf");
     CHECK (told ({}, {}, at (not_a_number)) == "the reading is not a number: (nan, 0, 0)");
     CHECK (told ({ .watchdog = 0.02 }, {}, { .age = not_a_number }) == "the reading has no age");
 }
 
-TEST_CASE ("guard: an axis that is not asked for any more goes to zero as fast as it may", "[framework][guard]")
+TEST_CASE ("guard: the effort of an axis that is no longer commanded falls to zero as fast as the limits allow", "[framework][guard]")
 {
     auto guard = guardWith ({ .max_axis_slew = 100.0 });
     for (int k = 0; k < 50; ++k)
@@ -357,7 +358,7 @@ TEST_CASE ("guard: an axis that is not asked for any more goes to zero as fast a
     CHECK (before == Approx (0.0).margin (1e-9));
 }
 
-TEST_CASE ("the log of stops keeps the last of them, and may be read while they come", "[framework][guard]")
+TEST_CASE ("the log of stops keeps the latest ones, and can be read while new ones arrive", "[framework][guard]")
 {
     GuardLog log;
     CHECK (log.since().empty());

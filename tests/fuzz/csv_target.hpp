@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/devices/trace.hpp>
-#include <host/io/csv.hpp>
+#include <framework/file/csv.hpp>
+#include <framework/run/device/trace.hpp>
 
 #include <cstdlib>
 
 namespace tactus::fuzz
 {
 
-/// A text is a table whose rows are all as wide as its header, or an error with a place. A table that is a trace has
-/// times that rise from 0. Aborts if not.
+/// Reads the text as a table. Either all rows are as wide as the header, or reading reports an error with a place. If the
+/// table is a trace, its times rise from 0. Aborts otherwise.
 inline void tryCsv (std::string_view text)
 {
-    const auto table = host::readTable (text, "fuzz.csv");
+    const auto table = readTable (text, "fuzz.csv");
     if (! table)
     {
         const auto& e = table.error();
-        if (e.id.empty() || e.where.empty() || e.what.empty() || e.remedy.empty()) std::abort();
+        if (e.id.empty() || e.where.empty() || e.text.empty() || e.remedy.empty()) std::abort();
         return;
     }
     if (table->columns.empty() || table->values.size() != table->rows() * table->columns.size()) std::abort();
 
-    const auto trace = host::readTrace (table->columns, table->values);
+    const auto trace = readTrace (table->columns, table->values);
     if (hasErrors (trace.messages)) return;
     double before = 0.0;
     for (const auto& row : trace.trace.rows)

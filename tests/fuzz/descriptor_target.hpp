@@ -9,8 +9,8 @@
 namespace tactus::fuzz
 {
 
-/// Any bytes are a report descriptor whose fields lie one after the other, or errors with a place; and where they are a
-/// force feedback device, its profile takes any report. Aborts if not.
+/// Parses the bytes as a report descriptor. Either its fields do not overlap, or parsing reports errors, each with a place.
+/// If the bytes describe a force feedback device, its profile accepts any report. Aborts otherwise.
 inline void tryDescriptor (std::string_view data)
 {
     using namespace host::hid;

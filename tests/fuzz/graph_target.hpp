@@ -9,8 +9,8 @@
 namespace tactus::fuzz
 {
 
-/// A text is a graph that is written and read without a change, and that runs or is refused; or it is a list of problems
-/// that all have a place. Aborts if not.
+/// Reads the text as a graph. Either reading reports problems, each with a place; or the graph survives writing and reading
+/// unchanged, and then runs or is refused. Aborts otherwise.
 inline void tryGraph (std::string_view text)
 {
     const auto loaded = readGraph (text);

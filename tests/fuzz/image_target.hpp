@@ -8,12 +8,13 @@
 namespace tactus::fuzz
 {
 
-/// Bytes are a picture from black to white, or an error. Aborts if not.
+/// Reads the bytes as an image. Either its values are from black to white, or reading reports an error. Aborts otherwise.
 inline void tryImage (std::string_view bytes)
 {
     const auto grid = host::readImage (bytes, "fuzz.png");
     if (! grid) return checkWhole (grid.error());
-    if (grid->rows < 1 || grid->columns < 1 || grid->values.size() != static_cast<std::size_t> (grid->rows) * static_cast<std::size_t> (grid->columns)) std::abort();
+    if (grid->rows < 1 || grid->columns < 1) std::abort();
+    if (grid->values.size() != static_cast<std::size_t> (grid->rows) * static_cast<std::size_t> (grid->columns)) std::abort();
     for (const double grey : grid->values)
         if (! (grey >= 0.0 && grey <= 1.0)) std::abort();
 }

@@ -10,8 +10,8 @@
 namespace tactus::fuzz
 {
 
-/// Bytes are, as a file of any kind, a mesh whose triangles have three different points of it, which are finite; or an
-/// error with a place. Aborts if not.
+/// Reads the bytes as each kind of mesh file. Either every triangle has three different finite points, or reading reports an
+/// error with a place. Aborts otherwise.
 inline void tryMesh (std::string_view bytes)
 {
     for (const auto* name : { "fuzz.obj", "fuzz.off", "fuzz.ply", "fuzz.stl" })

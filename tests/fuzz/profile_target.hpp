@@ -8,7 +8,8 @@
 namespace tactus::fuzz
 {
 
-/// A text is a device profile that takes any report, or a list of problems that all have a place. Aborts if not.
+/// Reads the text as a device profile. Either the profile accepts any report, or reading reports problems, each with a place.
+/// Aborts otherwise.
 inline void tryProfile (std::string_view text)
 {
     const auto loaded = host::hid::readProfileText (text);

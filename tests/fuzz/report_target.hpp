@@ -10,15 +10,15 @@
 namespace tactus::fuzz
 {
 
-/// Any bytes are a report that gives finite values, or one that is refused and changes none. Any efforts become a report
-/// of the right length. Aborts if not.
+/// Decodes the bytes as a report. Either the values are finite, or the report is refused and changes nothing. Any efforts
+/// give a report of the right length. Aborts otherwise.
 inline void tryReport (std::shared_ptr<const host::hid::Profile> profile, std::string_view data)
 {
     using namespace host::hid;
     HidModel model (std::move (profile));
     const std::span bytes (reinterpret_cast<const std::uint8_t*> (data.data()), data.size());
 
-    // The data as one report, and cut into reports of every length that the profile knows, with their ids put in front.
+    // Tries the data as one report, and split into reports of every length in the profile, with ids prepended.
     const auto decode = [&] (std::span<const std::uint8_t> report)
     {
         const auto before = model.sample();
@@ -26,7 +26,8 @@ inline void tryReport (std::shared_ptr<const host::hid::Profile> profile, std::s
         if (! isFinite (after.position, after.rotation) || ! isFinite (after.pressure, after.time)) std::abort();
         for (const double value : after.axes)
             if (! isFinite (value)) std::abort();
-        if (after.refusal != Refusal::none && (after.position != before.position || after.axes != before.axes || after.buttons != before.buttons || after.time != before.time)) std::abort();
+        const bool changed = after.position != before.position || after.axes != before.axes || after.buttons != before.buttons || after.time != before.time;
+        if (after.refusal != Refusal::none && changed) std::abort();
     };
     decode (bytes);
     for (const auto& input : model.profile().inputs)
@@ -57,7 +58,8 @@ inline void tryReport (std::shared_ptr<const host::hid::Profile> profile, std::s
         take (value);
     for (std::size_t i = 0; i <= model.outputs(); ++i)
     {
-        const std::size_t length = i == model.outputs() ? 0 : model.profile().outputs[i].body.size() + (model.profile().outputs[i].id ? 0 : 1);
+        std::size_t length = 0;
+        if (i < model.outputs()) length = model.profile().outputs[i].body.size() + (model.profile().outputs[i].id ? 0u : 1u);
         if (model.encode (i, effort, samples).size() != length || model.neutral (i).size() != length) std::abort();
     }
 }

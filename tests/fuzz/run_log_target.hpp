@@ -3,8 +3,8 @@
 
 #include "whole_error.hpp"
 
-#include <host/runlog/graph_snapshot.hpp>
-#include <host/runlog/run_log_reader.hpp>
+#include <framework/run/log/graph_snapshot.hpp>
+#include <framework/run/log/run_log_reader.hpp>
 
 #include <cstdlib>
 #include <memory>
@@ -14,10 +14,11 @@
 namespace tactus::fuzz
 {
 
-/// A text is a log whose ticks rise from 0, or an error with a place; so are the graphs in it. Aborts if not.
+/// Reads the text as a run log. Either its ticks rise from 0, or reading reports an error with a place; the same applies to
+/// the graphs in the log. Aborts otherwise.
 inline void tryRunLog (std::string_view text)
 {
-    auto log = host::RunLogReader::open (std::make_unique<std::istringstream> (std::string (text)), "fuzz.jsonl");
+    auto log = RunLogReader::open (std::make_unique<std::istringstream> (std::string (text)), "fuzz.jsonl");
     if (! log) return checkWhole (log.error());
 
     for (std::uint64_t k = 0;; ++k)
@@ -25,12 +26,12 @@ inline void tryRunLog (std::string_view text)
         const auto line = log->next();
         if (! line) return checkWhole (line.error());
         if (! *line) return;
-        const host::RunTick& tick = **line;
+        const RunTick& tick = **line;
         if (tick.tick < k || (tick.feed && tick.feed->size() != log->head().feeds.size())) std::abort();
         k = tick.tick;
         if (! tick.graph) continue;
-        const auto graph = host::readSnapshot (*tick.graph, ".");
-        if (const auto* m = std::get_if<Message> (&graph); m && (m->id.empty() || m->text.empty() || m->remedy.empty())) std::abort();
+        const auto graph = readSnapshot (*tick.graph, ".");
+        if (! graph && (graph.error().id.empty() || graph.error().text.empty() || graph.error().remedy.empty())) std::abort();
     }
 }
 

@@ -10,8 +10,8 @@
 namespace tactus::fuzz
 {
 
-/// A text is a session that is written as it is read, or is refused, with a place for each problem, and then holds nothing.
-/// Aborts if not.
+/// Reads the text as a session. Either the session survives writing and reading unchanged, or it is refused with a place for
+/// each problem and gives an empty session. Aborts otherwise.
 inline void trySession (std::string_view text)
 {
     const auto read = host::readSession (text);

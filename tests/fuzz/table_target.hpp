@@ -10,12 +10,14 @@
 namespace tactus::fuzz
 {
 
-/// A text is a full grid of finite numbers, or an error with a place. Aborts if not.
+/// Reads the text as a table. Either it is a full grid of finite numbers, or reading reports an error with a place. Aborts
+/// otherwise.
 inline void tryTable (std::string_view text)
 {
     const auto grid = host::readGrid (text, "fuzz.csv");
     if (! grid) return checkWhole (grid.error());
-    if (grid->rows < 1 || grid->columns < 1 || grid->values.size() != static_cast<std::size_t> (grid->rows) * static_cast<std::size_t> (grid->columns)) std::abort();
+    if (grid->rows < 1 || grid->columns < 1) std::abort();
+    if (grid->values.size() != static_cast<std::size_t> (grid->rows) * static_cast<std::size_t> (grid->columns)) std::abort();
     if (! std::ranges::all_of (grid->values, [] (double v)
                                { return isFinite (v); })) std::abort();
 }

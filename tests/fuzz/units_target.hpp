@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/units.hpp>
+#include <framework/text/units.hpp>
 
 #include <cmath>
 #include <cstdlib>
@@ -9,19 +9,20 @@
 namespace tactus::fuzz
 {
 
-/// A text is a finite measure whose unit can be written and read again, or a sentence. Aborts if not.
+/// Reads the text as a measure. Either it is finite and its unit can be written and read back, or reading reports an error.
+/// Aborts otherwise.
 inline void tryUnits (std::string_view text)
 {
     const auto result = parseMeasure (text);
-    if (const auto* sentence = std::get_if<std::string> (&result))
+    if (! result)
     {
-        if (sentence->empty()) std::abort();
+        if (result.error().text.empty()) std::abort();
         return;
     }
-    const auto& measure = std::get<Measure> (result);
+    const auto& measure = *result;
     if (! std::isfinite (measure.value)) std::abort();
     const auto again = parseMeasure ("1 " + symbolOf (measure.dimension));
-    if (! std::holds_alternative<Measure> (again) || ! (std::get<Measure> (again).dimension == measure.dimension)) std::abort();
+    if (! again || ! (again->dimension == measure.dimension)) std::abort();
 }
 
 }   // namespace tactus::fuzz

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/io/error.hpp>
+#include <framework/text/message.hpp>
 
 #include <cstdlib>
 
 namespace tactus::fuzz
 {
 
-/// An error says all four things. Aborts if not.
-inline void checkWhole (const host::Error& e)
+/// Checks that an error has an id, a place, a description and a remedy. Aborts otherwise.
+inline void checkWhole (const Message& e)
 {
-    if (e.id.empty() || e.where.empty() || e.what.empty() || e.remedy.empty()) std::abort();
+    if (e.id.empty() || e.where.empty() || e.text.empty() || e.remedy.empty()) std::abort();
 }
 
 }   // namespace tactus::fuzz

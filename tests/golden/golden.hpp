@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Golden sets: tests/golden/NAME.csv holds inputs and expected outputs of a model, one row a sample, computed by an
-/// independent program; NAME.json their parameters and how closely they are to be met.
+/// Golden sets: tests/golden/NAME.csv contains inputs and expected outputs of a model, one row per sample, computed by an
+/// independent program. NAME.json contains the parameters and tolerances.
 
-#include <nlohmann/json.hpp>
+#include <framework/text/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +25,8 @@ public:
     {
         const std::string path = std::string (TACTUS_SOURCE_DIR) + "/tests/golden/" + name;
         std::ifstream csv (path + ".csv"), json (path + ".json");
-        if (! csv || ! json) throw std::runtime_error ("no golden set " + path);
-        about = nlohmann::json::parse (json);
+        if (! csv || ! json) throw std::runtime_error ("there is no golden set " + path);
+        about = Json::parse (std::string { std::istreambuf_iterator<char> (json), {} });
 
         std::string line, cell;
         std::getline (csv, line);
@@ -45,14 +45,14 @@ public:
     double operator() (std::size_t row, const std::string& column) const
     {
         const auto at = std::ranges::find (names, column);
-        if (at == names.end()) throw std::runtime_error ("no golden column " + column);
+        if (at == names.end()) throw std::runtime_error ("there is no golden column " + column);
         return table[row][static_cast<std::size_t> (at - names.begin())];
     }
 
-    double param (const std::string& name) const { return about["params"][name]; }
-    double dt_s() const { return about["T"]; }
+    double param (const std::string& name) const { return about["params"][name].get<double>(); }
+    double dt_s() const { return about["T"].get<double>(); }
 
-    /// How far a column may be off: the entry with the longest fitting prefix.
+    /// The tolerance of a column: the entry with the longest matching prefix.
     double tolerance (const std::string& column) const
     {
         std::string best;
@@ -62,7 +62,8 @@ public:
         return found.is_string() ? 0.0 : found["abs"].get<double>();
     }
 
-    /// The largest error of actual (row) over all rows, in units of the column's tolerance; 0 or inf for an exact one.
+    /// The largest error of actual (row) over all rows, in units of the column's tolerance. If the tolerance is zero, it
+    /// is 0 or inf.
     template <typename Actual>
     double worst (const std::string& column, Actual actual) const
     {
@@ -76,7 +77,7 @@ public:
     }
 
 private:
-    nlohmann::json about;
+    Json about;
     std::vector<std::string> names;
     std::vector<std::vector<double>> table;
 };

@@ -3,8 +3,8 @@
 #include "support/chance_hand.hpp"
 #include "support/sketch.hpp"
 
+#include "support/live.hpp"
 #include <framework/file/graph_file.hpp>
-#include <framework/live.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 
@@ -32,7 +32,7 @@ std::vector<std::shared_ptr<const graph::Graph>> presets()
 }
 }   // namespace
 
-TEST_CASE ("presets are switched as fast as they come while a hand trembles on them, and no force steps", "[graphs][live]")
+TEST_CASE ("switching presets as fast as possible under a trembling hand never causes a step in the force", "[graphs][live]")
 {
     const auto graphs = presets();
     host::FileAssets assets;
@@ -40,13 +40,13 @@ TEST_CASE ("presets are switched as fast as they come while a hand trembles on t
     const auto first = std::ranges::find (graphs, std::string ("Dry wood"), [] (const auto& g)
                                           { return g->name; });
     REQUIRE (first != graphs.end());
-    Live live { **first, catalogue(), options, compile (**first, catalogue(), options).plan };
+    test::Live live { **first, catalogue(), options, compile (**first, catalogue(), options).plan };
     test::ChanceHand hand (5);
     live.engine().attach ("stylus", hand);
 
     std::atomic<bool> over = false;
     std::atomic<int> switched = 0;
-    int steps = 0, moved = 0;   // of the tick thread, until it is joined
+    int steps = 0, moved = 0;   // written by the tick thread; read after it is joined
     {
         std::jthread ticking ([&, plan = static_cast<const Plan*> (&live.engine().plan())]() mutable
                               {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A board that speaks the report of host/profiles/tactus_board.json, and misbehaves as it is told.
+// A board that uses the reports of host/profiles/tactus_board.json and can misbehave on request.
 #include "gadget.hpp"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ std::int32_t get32 (std::span<const std::uint8_t> r, std::size_t at)
     return static_cast<std::int32_t> (v);
 }
 
-/// CRC-32 of IEEE 802.3, a bit at a time.
+/// CRC-32 of IEEE 802.3, bit by bit.
 std::uint32_t crcOf (std::span<const std::uint8_t> bytes)
 {
     std::uint32_t crc = 0xffffffff;
@@ -49,7 +49,7 @@ std::uint32_t crcOf (std::span<const std::uint8_t> bytes)
     return ~crc;
 }
 
-/// Pressed into the wood and rubbed to and fro, in nm.
+/// Pressed into the wood and rubbed back and forth, in nm.
 std::array<std::int32_t, 3> placeAt (std::uint32_t n)
 {
     const double t = 1e-3 * n;
@@ -71,7 +71,7 @@ Report reportOf (std::uint32_t n)
     return r;
 }
 
-/// What happened, in memory until the end, so that files cost no time.
+/// The log, kept in memory until the end so that file access causes no delays.
 struct Log
 {
     std::string lines;
@@ -84,10 +84,10 @@ struct Log
         lines += line;
     }
 
-    /// Returns whether it was pushed.
+    /// Returns true if there was a force.
     bool got (std::span<const std::uint8_t> report)
     {
-        // Without a report id, some kernels hand on the 0 that stands for it.
+        // Without a report id, some kernels pass on the 0 that replaces it.
         if (report.size() == 65) report = report.subspan (1);
         if (report.size() != 64)
         {
@@ -97,13 +97,15 @@ struct Log
         const bool good_sum = static_cast<std::uint32_t> (get32 (report, 60)) == crcOf (report.first (60));
         const bool neutral = std::all_of (report.begin() + 2, report.begin() + 60, [] (auto b)
                                           { return b == 0; });
+        const bool driven = (report[2] & 1) != 0;
+        const char* kind = driven ? "driven" : "other";
+        if (neutral) kind = "neutral";
+        if (! good_sum && ! neutral) kind = "sum";
         char line[128];
-        std::snprintf (line, sizeof line, "out,%s,%u,%d,%d,%d,%.6f\n", ! good_sum && ! neutral ? "sum" : neutral            ? "neutral"
-                                                                                                     : (report[2] & 1) != 0 ? "driven"
-                                                                                                                            : "other",
-                       static_cast<std::uint32_t> (get32 (report, 4)), get32 (report, 8), get32 (report, 12), get32 (report, 16), now());
+        std::snprintf (line, sizeof line, "out,%s,%u,%d,%d,%d,%.6f\n", kind, static_cast<std::uint32_t> (get32 (report, 4)), get32 (report, 8),
+                       get32 (report, 12), get32 (report, 16), now());
         lines += line;
-        return good_sum && (report[2] & 1) != 0 && get32 (report, 8) != 0;
+        return good_sum && driven && get32 (report, 8) != 0;
     }
 
     void mark (const char* what)
@@ -113,22 +115,59 @@ struct Log
         lines += line;
     }
 };
+
+/// Sends report n, with the faults that `args` request for it. Returns how many further reports it sent.
+std::uint32_t sendReport (VirtualDevice& device, Log& log, const std::vector<std::string>& args, std::uint32_t n)
+{
+    const auto every = [&] (const char* name)
+    {
+        const auto each = static_cast<std::uint32_t> (option (args, name, 0.0));
+        return each > 0 && n % each == each - 1;
+    };
+    auto r = reportOf (n);
+    if (every ("drop"))
+        log.sent ("dropped", n);
+    else if (every ("malformed"))
+    {
+        r[0] = 0x55;
+        device.input (r);
+        log.sent ("malformed", n);
+    }
+    else if (every ("short"))
+    {
+        device.input (std::span (r).first (20));
+        log.sent ("short", n);
+    }
+    else if (every ("oversized"))
+    {
+        std::array<std::uint8_t, 200> large {};
+        std::copy (r.begin(), r.end(), large.begin());
+        device.input (large);
+        log.sent ("oversized", n);
+    }
+    else if (every ("swap"))
+    {
+        device.input (reportOf (n + 1));
+        log.sent ("good", n + 1);
+        device.input (r);
+        log.sent ("good", n);
+        return 1;
+    }
+    else
+        log.sent (device.input (r) ? "good" : "dropped", n);
+    return 0;
+}
 }   // namespace
 
-/// --seconds S, --rate HZ, --log FILE, --serial TEXT, --wait 1 (silent until it is told something), --mark FILE (that is
-/// made once it was pushed), --gadget FILE (the device's end of a USB gadget that is there, in place of a device of uhid), --describe
-/// 1 (only writes its report descriptor to stdout); every so many reports: --drop, --malformed, --short, --oversized,
-/// --swap; once, after so many: --stall (100 ms), --unplug (away for --away S).
+/// --seconds S, --rate HZ, --log FILE, --serial TEXT, --wait 1 (silent until it receives a report), --mark FILE (created once
+/// there has been a force), --gadget FILE (the device end of an existing USB gadget, instead of uhid), --describe 1 (only prints its
+/// report descriptor to stdout); every N reports: --drop, --malformed, --short, --oversized, --swap; once, after N reports:
+/// --stall (100 ms), --unplug (away for --away S).
 int board (const std::vector<std::string>& args)
 {
     std::signal (SIGTERM, [] (int)
                  { ended = 1; });
     const double seconds = option (args, "seconds", 10.0), period = 1.0 / option (args, "rate", 1000.0);
-    const auto every = [&] (const char* name, std::uint32_t n)
-    {
-        const auto each = static_cast<std::uint32_t> (option (args, name, 0.0));
-        return each > 0 && n % each == each - 1;
-    };
     const auto stall_at = static_cast<std::uint32_t> (option (args, "stall", 0.0)), unplug_at = static_cast<std::uint32_t> (option (args, "unplug", 0.0));
     const auto serial = text (args, "serial", "B7");
 
@@ -136,7 +175,7 @@ int board (const std::vector<std::string>& args)
 
     Log log;
     const auto gadget = text (args, "gadget", "");
-    const auto plug = [&]() -> std::unique_ptr<MadeUp>
+    const auto plug = [&]() -> std::unique_ptr<VirtualDevice>
     {
         if (! gadget.empty()) return std::make_unique<Gadget> (gadget.c_str());
         return std::make_unique<Uhid> ("Tactus test board", serial.c_str(), std::uint16_t { 0x16c0 }, std::uint16_t { 0x0486 }, descriptor);
@@ -158,67 +197,29 @@ int board (const std::vector<std::string>& args)
     while (now() < end && ended == 0)
     {
         device->serve (due, heard);
-        due = std::max (due + period, now() - 4.0 * period);   // late by more than that is not made up for
+        due = std::max (due + period, now() - 4.0 * period);   // larger delays are not made up
         if (device->isOpen() != was_open) log.mark (was_open ? "closed" : "opened");
         was_open = device->isOpen();
         if (! was_open || (waits && ! told)) continue;
 
         ++n;
-        auto r = reportOf (n);
         if (n == stall_at) device->serve (now() + 0.1, heard);
         if (n == unplug_at)
         {
             log.mark ("unplugged");
             device.reset();
             was_open = false;
-            timespec wait {};
-            const double away = option (args, "away", 1.0);
-            wait.tv_sec = static_cast<time_t> (away);
-            wait.tv_nsec = static_cast<long> ((away - std::floor (away)) * 1e9);
-            ::nanosleep (&wait, nullptr);
+            pauseFor (option (args, "away", 1.0));
             device = plug();
             log.mark ("plugged");
             due = now();
             continue;
         }
-        if (every ("drop", n))
-            log.sent ("dropped", n);
-        else if (every ("malformed", n))
-        {
-            r[0] = 0x55;
-            device->input (r);
-            log.sent ("malformed", n);
-        }
-        else if (every ("short", n))
-        {
-            device->input (std::span (r).first (20));
-            log.sent ("short", n);
-        }
-        else if (every ("oversized", n))
-        {
-            std::array<std::uint8_t, 200> large {};
-            std::copy (r.begin(), r.end(), large.begin());
-            device->input (large);
-            log.sent ("oversized", n);
-        }
-        else if (every ("swap", n))
-        {
-            device->input (reportOf (n + 1));
-            log.sent ("good", n + 1);
-            device->input (r);
-            log.sent ("good", n);
-            ++n;
-        }
-        else
-            log.sent (device->input (r) ? "good" : "dropped", n);
+        n += sendReport (*device, log, args, n);
     }
     device->serve (now() + 0.05, heard);
 
-    if (auto* file = std::fopen (text (args, "log", "/dev/stdout").c_str(), "w"))
-    {
-        std::fputs (log.lines.c_str(), file);
-        std::fclose (file);
-    }
+    writeLog (args, log.lines);
     return 0;
 }
 

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Looks at what in_guest.sh left in a folder: check.py FOLDER PROGRAM SOURCE
+"""Checks the results of in_guest.sh in a folder: check.py FOLDER PROGRAM SOURCE
 
-What the program counted has to be what the device did; the forces that the device got have to be, by the sequence number
-that each answers, those that `tactus render` gives for the positions that were recorded, bit for bit after encoding."""
+The program's counts must match the device's log. Each force that the device received is assigned to a tick by the sequence
+number of the report that it answers. After encoding, it must match the force that `tactus render` computes for the recorded
+positions, bit for bit."""
 import csv
 import json
 import math
@@ -29,7 +30,7 @@ def text(name):
 
 
 class Board:
-    """What a board did and heard, in order."""
+    """The log of a board: what it sent and received, in order."""
 
     def __init__(self, name):
         self.rows = [line.split(",") for line in text(name + ".board.csv").splitlines()]
@@ -45,25 +46,27 @@ def play_rows(name):
 
 
 def counted(name):
-    """The program's own account."""
+    """The program's own summary."""
     said = text(name + ".play.err")
     number = lambda pattern: int((re.search(pattern, said) or [0, 0])[1])
-    return {"reports": number(r"tactus_board\): (\d+) reports"), "taken": number(r"reports, (\d+) taken"), "lost": number(r"taken, (\d+) lost"), "refused": number(r"lost, (\d+) refused"),
+    return {"reports": number(r"tactus_board\): (\d+) reports"), "taken": number(r"reports, (\d+) taken"), "lost": number(r"taken, (\d+) lost"),
+            "refused": number(r"lost, (\d+) refused"),
             "short": number(r"(\d+) too short"), "long": number(r"(\d+) too long"), "mark": number(r"(\d+) wrong mark"),
-            "restarts": number(r"(\d+) out of order"), "dropped": number(r"(\d+) overwritten before"), "departures": number(r"unplugged (\d+) times"), "no room": number(r"(\d+) without room")}
+            "restarts": number(r"(\d+) out of order"), "dropped": number(r"(\d+) replaced by newer"), "departures": number(r"unplugged (\d+) times"),
+            "no room": number(r"(\d+) without room")}
 
 
 def starved(name):
-    """True if its ticks were so late that the kernel, which keeps 64 reports for a program, lost some: on a busy computer."""
+    """True if ticks were so late, on a busy computer, that the kernel lost reports: it keeps 64 per program."""
     late = re.search(r"late p50 .* max ([0-9.e+]+) us", text(name + ".play.err"))
     if late and float(late[1]) < 60e3:
         return False
-    print(f"skipped {name}: what was lost, and the whole force: the computer is too busy")
+    print(f"skipped {name}: the counts of lost reports and the full force, because the computer is too busy")
     return True
 
 
 def expected(sent, reports, with_short):
-    """What should have been counted after so many reports had been looked at. Newer kernels keep short reports to themselves."""
+    """The expected count after this many reports. Newer kernels do not pass on short reports."""
     out = {"lost": 0, "restarts": 0, "short": 0, "long": 0, "mark": 0}
     kinds = {"short": "short", "oversized": "long", "malformed": "mark"}
     last = None
@@ -80,34 +83,34 @@ def expected(sent, reports, with_short):
 
 
 def micro(newton):
-    """As the profile has it: s32, 1 uN."""
+    """Encoded as in the profile: s32, 1 uN."""
     return int(math.floor(newton / 1e-6 + 0.5))
 
 
 def closed_loop(name):
     board, rows, said = Board(name), play_rows(name), counted(name)
-    check(board.broken == 0, f"{name}: every report that the board got had the right length and sum")
+    check(board.broken == 0, f"{name}: every report to the board had the right length and checksum")
 
-    # The tick that answers a report has its position.
+    # The tick that answers a report used the position in that report.
     ticks = []
     for row in rows:
         place = tuple(round(float(row["hand.position." + c]) * 1e9) for c in "xyz")
         ticks.append(board.place.get(place, 0))
 
-    applied = [tuple(micro(float(row["motor.applied." + c])) for c in "xyz") for row in rows]   # of the tick before
+    applied = [tuple(micro(float(row["motor.applied." + c])) for c in "xyz") for row in rows]   # on the previous tick
     k, compared, wrong = 0, 0, 0
     for kind, echo, force, _ in board.heard:
         if kind != "driven" or echo == 0 or not any(force):
-            continue   # while a reading is not valid the graph keeps the place before, which tells no number; there is no force then
+            continue   # while a reading is not valid, the graph keeps the previous position, which identifies no report; there is no force then
         found = next((i for i in range(k, len(rows) - 1) if ticks[i] == echo and applied[i + 1] == force), None)
         if found is None:
-            wrong += ticks.count(echo) > 0 and echo not in ticks[-2:]   # what answers the end of the run is not recorded
+            wrong += ticks.count(echo) > 0 and echo not in ticks[-2:]   # answers at the end of the run are not recorded
             continue
         k, compared = found, compared + 1
-    check(wrong == 0 and compared > 0, f"{name}: {compared} forces are, by sequence number, what the guard let through, {wrong} are not")
-    check(any(abs(f[2]) > 1e5 for f in applied), f"{name}: there was force on the tool")
+    check(wrong == 0 and compared > 0, f"{name}: {compared} forces match the guard's output by sequence number, {wrong} do not")
+    check(any(abs(f[2]) > 1e5 for f in applied), f"{name}: there was a force on the tool")
 
-    # The same positions once more, offline.
+    # The same positions again, offline.
     with tempfile.TemporaryDirectory() as scratch:
         trace, again = os.path.join(scratch, "trace.csv"), os.path.join(scratch, "again.csv")
         with open(trace, "w", encoding="utf-8") as f:
@@ -119,30 +122,30 @@ def closed_loop(name):
         with open(again, newline="", encoding="utf-8") as f:
             offline = list(csv.DictReader(f))
     same = sum(all(a["motor.force." + c] == b["motor.force." + c] for c in "xyz") for a, b in zip(rows, offline))
-    check(same == len(rows) == len(offline) and same > 500, f"{name}: {same} of {len(rows)} ticks have offline the force they had live, to the bit")
+    check(same == len(rows) == len(offline) and same > 500, f"{name}: {same} of {len(rows)} ticks have the same force offline and live, bit for bit")
 
     full = sum(1 for i in range(len(rows) - 1) if all(rows[i]["motor.force." + c] == rows[i + 1]["motor.applied." + c] for c in "xyz"))
-    print(f"        {said}; {full} ticks with the whole force")
+    print(f"        {said}; {full} ticks with the full force")
     return board, said, full
 
 
 board, said, full = closed_loop("loop")
-check(said["refused"] == 0 and said["taken"] > 300, f"loop: {said['taken']} reports are understood")
+check(said["refused"] == 0 and said["taken"] > 300, f"loop: {said['taken']} reports decoded")
 if not starved("loop"):
-    check(full > 0, "loop: after the ramp the device gets the graph's force as it is")
-    check(said["lost"] == 0, "loop: nothing is lost")
+    check(full > 0, "loop: after the ramp the device gets the graph's force unchanged")
+    check(said["lost"] == 0, "loop: no report is lost")
 
 if os.path.exists(os.path.join(folder, "usb.board.csv")):
     board, said, _ = closed_loop("usb")
-    check(said["refused"] == 0 and said["taken"] > 300, f"usb: {said['taken']} reports are understood")
-    taken = gaps = 0   # among those that the program took
+    check(said["refused"] == 0 and said["taken"] > 300, f"usb: {said['taken']} reports decoded")
+    taken = gaps = 0   # among the reports that the program took
     for kind, _ in board.sent:
         taken += kind == "good"
         gaps += kind == "dropped" and taken > 0
         if taken == said["taken"]:
             break
     if not starved("usb"):
-        check(said["lost"] == gaps, f"usb: {said['lost']} counted as lost, {gaps} for which the bus had no room")
+        check(said["lost"] == gaps, f"usb: {said['lost']} counted as lost, {gaps} dropped by the bus")
 else:
     print("skipped: this kernel has no USB gadgets")
 
@@ -152,27 +155,27 @@ for what, number in should.items():
     check(said[what] == number and (number > 0 or what == "short"), f"faults: {what}: {said[what]} counted, {number} by the device")
 
 board, said, _ = closed_loop("unplug")
-check(said["departures"] == 1, "unplug: it went away once")
+check(said["departures"] == 1, "unplug: the board went away once")
 came_back = next(i for i, r in enumerate(board.rows) if r[0] == "plugged")
 after = [(r[1], tuple(int(v) for v in r[3:6])) for r in board.rows[came_back:] if r[0] == "out" and len(r) == 7]
 driven = [f for kind, f in after if kind == "driven"]
-check(len(driven) > 10, f"unplug: it is driven again, {len(driven)} times")
+check(len(driven) > 10, f"unplug: the board is driven again with {len(driven)} reports")
 first, most = max(abs(v) for v in driven[0]), max(abs(v) for f in driven for v in f)
-check(first < most / 4, f"unplug: it begins at {first} uN and rises to {most}")
+check(first < most / 4, f"unplug: force starts at {first} uN and rises to {most}")
 
 for signal in ("INT", "TERM", "KILL", "SEGV"):
     heard = Board(signal).heard
     pushed = [h for h in heard if h[0] == "driven" and any(h[2])]
-    check(len(pushed) > 10, f"{signal}: it was under force")
-    check(heard[-1][0] == "neutral", f"{signal}: the last that the board heard is to rest")
+    check(len(pushed) > 10, f"{signal}: the board was under force")
+    check(heard[-1][0] == "neutral", f"{signal}: the last report to the board is neutral")
     if signal in ("INT", "TERM"):
         last = [h for h in heard if h[0] == "driven"][-1]
-        check(not any(last[2]), f"{signal}: and the force had gone to zero before")
+        check(not any(last[2]), f"{signal}: the force had gone to zero before that")
     else:
         print(f"        {1e3 * (heard[-1][3] - pushed[-1][3]):.1f} ms after the last push")
 
 class Joystick:
-    """What a joystick was told, by OpenFFBoard's descriptor: 05 block magnitude, 0a block operation, 0b block, 0c control."""
+    """What a joystick received, according to OpenFFBoard's descriptor: 05 block magnitude, 0a block operation, 0b block, 0c control."""
 
     def __init__(self, name):
         rows = [line.split(",") for line in text(name + ".board.csv").splitlines()]
@@ -182,7 +185,7 @@ class Joystick:
         self.blocks = {r[1] for r in self.told if r[0] in (1, 5, 0x0A, 0x0B)}
 
     def rests(self):
-        """True if the last it was told is to stop; what is written after a crash may come twice."""
+        """True if the last command was to stop. After a crash, commands may come twice."""
         return 0x0C in [r[0] for r in self.told[-4:]] and self.told[-1] in (b"\x0c\x04", b"\x0b" + self.told[-1][1:]) and self.forces[-1] == 0
 
 
@@ -197,47 +200,52 @@ if os.path.exists(os.path.join(folder, "joystick.board.csv")):
             break
         k, compared = found, compared + 1
     fade = [abs(f) for f in pushed[max(0, compared - 1):]]   # after the end of the run, which is not recorded
-    check(compared > 50 and len(fade) < 20 and fade == sorted(fade, reverse=True), f"joystick: {compared} of {len(pushed)} forces are, in order, what the guard let through; the others fade")
-    check(max(abs(f) for f in stick.forces) > 500, f"joystick: it is pushed with up to {max(abs(f) for f in stick.forces) / 32767 * 4:.2f} N")
-    check(stick.told[0] == b"\x0c\x08" and stick.told[1][:2] == b"\x11\x01", "joystick: it forgets its effects and makes a constant force")
-    check(stick.blocks == {3}, "joystick: all is said of the block that it gave")
+    check(compared > 50 and len(fade) < 20 and fade == sorted(fade, reverse=True),
+          f"joystick: {compared} of {len(pushed)} forces match the guard's output in order; the rest is the fade")
+    check(max(abs(f) for f in stick.forces) > 500, f"joystick: the force on it reaches {max(abs(f) for f in stick.forces) / 32767 * 4:.2f} N")
+    check(stick.told[0] == b"\x0c\x08" and stick.told[1][:2] == b"\x11\x01", "joystick: its effects are cleared and a constant force is created")
+    check(stick.blocks == {3}, "joystick: all reports use the block that it assigned")
     starts = sum(1 for r in stick.told if r[:3] == b"\x0a\x03\x01")
-    check(starts >= 4, f"joystick: the effect, which ends by itself, was started {starts} times")
+    check(starts >= 4, f"joystick: the effect, which ends on its own, is started {starts} times")
     check(stick.rests(), "joystick: at the end all effects are stopped")
 
     weak = Joystick("uncalibrated")
     most = max(abs(f) for f in weak.forces)
-    check(0 < most <= 3277, f"uncalibrated: it gives {most / 327.67:.1f} % of what it can at the most")
-    check("pid/uncalibrated" in text("uncalibrated.play.err"), "uncalibrated: which is said")
+    check(0 < most <= 3277, f"uncalibrated: at most {most / 327.67:.1f} % of the joystick's force is used")
+    check("pid/uncalibrated" in text("uncalibrated.play.err"), "uncalibrated: there is a warning")
 
     back = Joystick("replugged")
     came = next(i for i, r in enumerate(back.rows) if r[0] == "plugged")
     after = [r for how, _, r in back.rows[came:] if how == "out"]
     again = [int.from_bytes(r[2:4], "little", signed=True) for r in after if r[0] == 5]
-    check({r[1] for r in after if r[0] in (1, 5, 0x0A)} == {7} and any(again), f"replugged: it is driven again, {sum(1 for f in again if f)} times, in the block that it then gave")
+    check({r[1] for r in after if r[0] in (1, 5, 0x0A)} == {7} and any(again),
+          f"replugged: the joystick is driven again with {sum(1 for f in again if f)} reports, in its new block")
     first = next((abs(f) for f in again if f), 0)
-    check(first < max(abs(f) for f in again) / 4, f"replugged: it begins at {first} and rises to {max(abs(f) for f in again)}")
+    check(first < max(abs(f) for f in again) / 4, f"replugged: force starts at {first} and rises to {max(abs(f) for f in again)}")
 
-    check("pid/full" in text("no_room.play.err"), "no room: which is said")
+    check("pid/full" in text("no_room.play.err"), "no free effect block: there is an error")
 
     killed = Joystick("joystick_killed")
     check(sum(1 for f in killed.forces if f) > 20 and killed.rests(), "joystick: when its program is killed, all effects are stopped")
 else:
-    print("skipped: the joystick, whose descriptor is not there")
+    print("skipped: the joystick, because its descriptor is missing")
 
 check("No HID device is connected." in text("none.txt"), "without a device, the list says so")
-check("tactus_board" in text("devices.txt") and "spacemouse" in text("devices.txt"), "the list names what fits")
+check("tactus_board" in text("devices.txt") and "spacemouse" in text("devices.txt"), "the list names the profiles that fit")
 devices = json.loads(text("devices.json"))
-check({p["id"] for d in devices for p in d["profiles"][:1]} >= {"tactus_board", "spacemouse"} and all(d["may_open"] for d in devices), "so does the list as JSON")
+check({p["id"] for d in devices for p in d["profiles"][:1]} >= {"tactus_board", "spacemouse"} and all(d["may_open"] for d in devices),
+      "the list as JSON names them too")
 if any(d["product"] == "Test joystick" for d in devices):
-    check(any(d["product"] == "Test joystick" and d["profiles"][0]["id"] == "pid" for d in devices), "a joystick with force feedback is listed as one")
+    check(any(d["product"] == "Test joystick" and d["profiles"][0]["id"] == "pid" for d in devices), "a joystick with force feedback is listed as pid")
 probes = {d["probe"]["profile"]: d["probe"] for d in json.loads(text("probe.json")) if "probe" in d}
 mouse = probes.get("spacemouse", {})
-check(mouse.get("reports", 0) > 3 and mouse["axes"]["x"] == 100 * 4e-6 and mouse["axes"]["rz"] == -0.05 and mouse["pressed"] == ["button1"], f"a SpaceMouse is probed: {mouse.get('reports')} reports")
-check(probes.get("tactus_board", {}).get("taken", 0) > 10, "beside a board")
-check("hid/not_opened" in text("taken.txt") and "has it" in text("taken.txt"), "two programs do not drive one device")
+check(mouse.get("reports", 0) > 3 and mouse["axes"]["x"] == 100 * 4e-6 and mouse["axes"]["rz"] == -0.05 and mouse["pressed"] == ["button1"],
+      f"a SpaceMouse is probed: {mouse.get('reports')} reports")
+check(probes.get("tactus_board", {}).get("taken", 0) > 10, "a board is probed along with it")
+check("hid/not_opened" in text("taken.txt") and "is using it" in text("taken.txt"), "a second program cannot open a device in use")
 rule = 'KERNEL=="hidraw*", ATTRS{idVendor}=="16c0", ATTRS{idProduct}=="0486", TAG+="uaccess"'
-check(rule in text("denied.txt") and rule in text("denied_play.txt") and "hid/not_permitted" in text("denied_play.txt"), "who may not open a device is told the udev rule")
+check(rule in text("denied.txt") and rule in text("denied_play.txt") and "hid/not_permitted" in text("denied_play.txt"),
+      "a user without permission is shown the udev rule")
 
-print(f"{len(failures)} failures" if failures else "all is well")
+print(f"{len(failures)} failures" if failures else "everything passed")
 sys.exit(1 if failures else 0)

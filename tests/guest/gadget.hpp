@@ -6,9 +6,9 @@
 namespace tactus::guest
 {
 
-/// The device's end of a USB gadget (Linux: Documentation/usb/gadget_hid.rst): a device on a bus of its own, with endpoints that
-/// are polled. Whoever made the gadget plugs it in.
-class Gadget final : public MadeUp
+/// The device end of a USB gadget (Linux: Documentation/usb/gadget_hid.rst): a device on its own bus, with
+/// polled endpoints. The script that creates the gadget plugs it in.
+class Gadget final : public VirtualDevice
 {
 public:
     explicit Gadget (const char* path)

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Runs in the guest: devices made by guest_device, and the program as it is on this computer. What is to be looked at
-# afterwards goes to /run/results; check.py looks at it. Nothing here depends on how long anything takes.
+# Runs in the guest, with devices from guest_device and the programs built on this computer. Results go to /run/results, where
+# check.py reads them. Nothing here depends on timing.
 cd "$(dirname "$0")/../.."
-work=$(mktemp -d -p "${TMPDIR:-/var/tmp}")   # in memory, and gone with the guest
+work=$(mktemp -d -p "${TMPDIR:-/var/tmp}")   # in memory; it disappears with the guest
 chmod a+rx "$work"
 tactus=${TACTUS_PROGRAM:-build/release/bin/tactus}
 device=${GUEST_DEVICE:-build/release/bin/guest_device}
@@ -12,19 +12,19 @@ failures=0
 say () { echo "== $*"; echo "$SECONDS $*" >>/run/results/times.txt; }
 fail () { echo "FAILED: $*"; failures=$((failures + 1)); }
 
-wait_for () { for _ in $(seq 1200); do compgen -G "$1" >/dev/null && return; sleep 0.1; done; fail "$1 did not come"; }
+wait_for () { for _ in $(seq 1200); do compgen -G "$1" >/dev/null && return; sleep 0.1; done; fail "$1 did not appear"; }
 gone () { for _ in $(seq 100); do compgen -G '/dev/hidraw*' >/dev/null || return; sleep 0.1; done; }
 
-# plug OPTIONS…: a board, until unplug. Its log is $work/board.csv.
+# plug OPTIONS…: plugs in a board, until `unplug`. Its log is $work/board.csv.
 plug () { gone; $device board --seconds 300 --log $work/board.csv "$@" & sim=$!; wait_for '/dev/hidraw*'; }
 unplug () { kill -TERM $sim; wait $sim; }
 
-# keep NAME: what the run left, under that name.
+# keep NAME: keeps the results of the run under this name.
 keep () { local f; for f in board.csv play.csv play.err; do [ -e $work/$f ] && mv $work/$f "/run/results/$1.$f"; done; }
 
 play () { $tactus play graphs/dry_wood.json --device stylus=hid:tactus_board --osc off "$@" 2>$work/play.err; }
-# end_under_force SIGNAL: to the program that plays, once the device was pushed; until nobody has the device any more, also
-# not the guardian that lets go of it.
+# end_under_force SIGNAL: sends SIGNAL to the playing program once the device has been under force. Then waits until no process
+# has the device open, including the guardian that sends the neutral reports.
 end_under_force ()
 {
     wait_for "$work/pushed"
@@ -51,9 +51,9 @@ play --duration 3 "${recorded[@]}" || fail "the faulty board"
 unplug
 keep faults
 
-say "unplugged under force, and back"
+say "unplugged under force, and plugged in again"
 plug --unplug 800 --away 1.5
-play --duration 5 "${recorded[@]}" || fail "unplugged"
+play --duration 5 "${recorded[@]}" || fail "the unplugged board"
 unplug
 keep unplug
 
@@ -66,7 +66,7 @@ for signal in INT TERM KILL SEGV; do
     keep "$signal"
 done
 
-# gadget: a board on a bus of its own, as the kernel's USB stack sees it.
+# gadget: creates a board on its own bus, behind the kernel's USB stack.
 gadget=/sys/kernel/config/usb_gadget/board
 make_gadget ()
 {
@@ -85,12 +85,12 @@ make_gadget ()
     ls /sys/class/udc | head -1 >$gadget/UDC
 }
 
-say "a closed loop by USB"
+say "a closed loop over USB"
 if make_gadget; then
     wait_for '/dev/hidg0'
     wait_for '/dev/hidraw*'
     $device board --seconds 300 --log $work/board.csv --wait 1 --gadget /dev/hidg0 & sim=$!
-    play --duration 3 "${recorded[@]}" || fail "the closed loop by USB"
+    play --duration 3 "${recorded[@]}" || fail "the closed loop over USB"
     unplug
     echo >$gadget/UDC
     keep usb
@@ -102,7 +102,7 @@ if [ -e "$FFB_DESCRIPTOR" ]; then
     feel () { $tactus play graphs/dry_wood.json --osc off --rate 1000 "$@" 2>$work/play.err; }
     echo '{"driver": "hid", "profile": "pid", "calibration": {"full_force": "4 N", "travel": {"x": "12 cm", "y": "12 cm", "z": "12 cm"}}}' >$work/joystick.json
 
-    say "a joystick with force feedback, by its own descriptor"
+    say "a joystick with force feedback, driven through its own descriptor"
     stick
     feel --device stylus=$work/joystick.json --duration 2 "${recorded[@]}" || fail "the joystick"
     unplug
@@ -114,16 +114,16 @@ if [ -e "$FFB_DESCRIPTOR" ]; then
     unplug
     keep uncalibrated
 
-    say "the same, unplugged under force and back with another effect block"
+    say "the same, unplugged under force and plugged in again with another effect block"
     stick --unplug 1 --away 0.8
     feel --device stylus=$work/joystick.json --duration 4 "${recorded[@]}" || fail "the joystick, unplugged"
     unplug
     keep replugged
 
-    say "the same, with no room for an effect"
+    say "the same, with no free effect block"
     stick --blocks 0
     feel --device stylus=hid:pid --duration 1
-    [ $? -eq 1 ] || fail "a joystick without room is an error"
+    [ $? -eq 1 ] || fail "a joystick without a free effect block must be an error"
     unplug
     keep no_room
 
@@ -148,20 +148,20 @@ $tactus devices --probe --duration 2 --json >/run/results/probe.json || fail "ta
 $tactus devices --probe --duration 600 >/dev/null 2>&1 & other=$!
 for _ in $(seq 1200); do ls -l /proc/$other/fd 2>/dev/null | grep -q hidraw && break; sleep 0.1; done
 $tactus play graphs/dry_wood.json --device stylus=hid:tactus_board --osc off --duration 1 2>/run/results/taken.txt
-[ $? -eq 1 ] || fail "a device that another program has is an error"
+[ $? -eq 1 ] || fail "a device that another program is using must be an error"
 kill $other
 wait $other
 kill $mouse $joystick
 
-say "a device that this user may not open"
-mkdir -p $work/any   # where anybody may read, as the sources may not be
+say "a device that this user has no permission to open"
+mkdir -p $work/any   # readable by everyone; the sources may not be
 cp -r "$tactus" host/profiles graphs/dry_wood.json $work/any
 chmod -R a+rX $work/any
 chmod 0600 /dev/hidraw* 2>/dev/null
 as_nobody="setpriv --reuid=65534 --regid=65534 --clear-groups"
-$as_nobody $work/any/tactus devices >/run/results/denied.txt || fail "tactus devices for anybody"
+$as_nobody $work/any/tactus devices >/run/results/denied.txt || fail "tactus devices for a user without permission"
 $as_nobody $work/any/tactus play $work/any/dry_wood.json --device stylus=hid:tactus_board --osc off --duration 1 2>/run/results/denied_play.txt
-[ $? -eq 1 ] || fail "a device that may not be opened is an error"
+[ $? -eq 1 ] || fail "a device that the user has no permission to open must be an error"
 unplug
 
 cp $work/* /run/results/ 2>/dev/null

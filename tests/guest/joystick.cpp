@@ -35,7 +35,7 @@ struct Log
     }
 };
 
-/// Held a millimetre deep and rubbed to and fro; 12 cm from end to end, and z grows downwards.
+/// Held one millimetre deep and rubbed back and forth; 12 cm from end to end, z downwards.
 std::array<std::uint8_t, 25> reportAt (double t)
 {
     constexpr double counts = 65535.0 / 0.12;
@@ -47,15 +47,15 @@ std::array<std::uint8_t, 25> reportAt (double t)
         r[at] = static_cast<std::uint8_t> (v);
         r[at + 1] = static_cast<std::uint8_t> (v >> 8);
     };
-    put (9, 0.02 * std::sin (6.0 * t));   // x, behind 64 buttons
+    put (9, 0.02 * std::sin (6.0 * t));   // x, after 64 buttons
     put (13, 1e-3);                       // z
     return r;
 }
 }   // namespace
 
-/// A joystick with OpenFFBoard's report descriptor, from a file: it answers as one, and writes down all that it is told.
-/// --file NAME --log FILE --mark FILE --seconds S --blocks N (that it gives out; 0: its memory is full) --unplug S --away S (comes back with
-/// another block)
+/// A joystick with OpenFFBoard's report descriptor, read from a file. It answers like a real one, and logs everything it receives.
+/// --file NAME --log FILE --mark FILE --seconds S --blocks N (effect blocks it assigns; 0: its memory is full) --unplug S
+/// --away S (comes back with another block)
 int joystick (const std::vector<std::string>& args)
 {
     std::signal (SIGTERM, [] (int)
@@ -103,8 +103,7 @@ int joystick (const std::vector<std::string>& args)
             device.reset();
             was_open = asked = false;
             block = 7;
-            timespec wait { 0, static_cast<long> (option (args, "away", 0.8) * 1e9) };
-            ::nanosleep (&wait, nullptr);
+            pauseFor (option (args, "away", 0.8));
             device = plug();
             log.add ("plugged", {});
             continue;
@@ -113,11 +112,7 @@ int joystick (const std::vector<std::string>& args)
     }
     device->serve (now() + 0.05, heard);
 
-    if (auto* out = std::fopen (text (args, "log", "/dev/stdout").c_str(), "w"))
-    {
-        std::fputs (log.lines.c_str(), out);
-        std::fclose (out);
-    }
+    writeLog (args, log.lines);
     return 0;
 }
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# make_guest.sh FOLDER: a kernel with uhid and a first root for it, in FOLDER. The guest's own root is this computer's, read
-# only, so that programs built here run in it unchanged. Nothing is installed. Exit status 77, with a sentence, if there is no
-# kernel to be had.
+# make_guest.sh FOLDER: puts a kernel with uhid and an initial root file system into FOLDER. The guest's main root is this
+# computer's, read-only, so that programs built here run in it unchanged. Nothing is installed. Exits with status 77 and a
+# message if no kernel is available.
 set -euo pipefail
 folder=$(mkdir -p "$1" && cd "$1" && pwd)
 no_kernel () { echo "skipped: no kernel for the guest: $*"; exit 77; }
@@ -13,10 +13,10 @@ done
 
 if ! compgen -G "$folder/kernel/boot/vmlinuz-*" >/dev/null; then
     package=$(apt-cache depends linux-image-amd64 2>/dev/null | sed -n 's/.*Depends: \(linux-image-[0-9].*\)/\1/p' | tail -n 1)
-    [ -n "$package" ] || no_kernel "apt knows no linux-image-amd64"
+    [ -n "$package" ] || no_kernel "apt does not know linux-image-amd64"
     rm -rf "$folder/kernel" "$folder/download"
     mkdir -p "$folder/download"
-    (cd "$folder/download" && apt-get download "$package" >apt.log 2>&1) || no_kernel "$package cannot be fetched"
+    (cd "$folder/download" && apt-get download "$package" >apt.log 2>&1) || no_kernel "$package cannot be downloaded"
     dpkg-deb -x "$folder"/download/linux-image-*.deb "$folder/kernel.part"
     rm -rf "$folder/download"
     mv "$folder/kernel.part" "$folder/kernel"

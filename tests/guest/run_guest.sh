@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# run_guest.sh FOLDER SCRIPT RESULTS: runs SCRIPT in the guest of make_guest.sh, where the folder RESULTS is /run/results, and
-# ends with its exit status; with 77, and a sentence, where there can be no guest that sees this computer's files. Without
-# hardware help, so that it runs everywhere, some ten times as slow as here: what it shows is that things work, not how fast.
+# run_guest.sh FOLDER SCRIPT RESULTS: runs SCRIPT in the guest that make_guest.sh built, where the folder RESULTS is
+# /run/results. Exits with the status of SCRIPT, or with 77 and a message if no guest can run with this computer's files. The
+# guest uses no hardware virtualisation, so it runs everywhere, about ten times slower than the host. It shows that things work,
+# not how fast they are.
 set -euo pipefail
 folder=$(cd "$1" && pwd) script=$(realpath "$2") results=$(mkdir -p "$3" && cd "$3" && pwd)
 log=$results/console.log
-# no_timer_check: on a busy computer the guest's timer may be too late for the kernel's own test of it, which panics then.
+# no_timer_check: on a busy computer the guest's timer may be too late for the kernel's own timer test, and the kernel would panic.
 boot ()
 {
     timeout "${GUEST_TIMEOUT:-600}" qemu-system-x86_64 -M q35 -accel tcg,thread=multi -cpu max -smp 2 -m 1024 -nodefaults -no-reboot \
@@ -19,11 +20,12 @@ boot ()
 }
 isUp () { grep -q GUEST_UP "$log" 2>/dev/null; }
 
-# A guest that did not come up has tested nothing, and is started once more; one that did is not, whatever it found.
+# If the guest does not start, nothing has been tested, so it is started once more. A guest that starts is never run again,
+# whatever the result.
 for _ in 1 2; do
     boot
     isUp && break
-    echo "the guest did not come up" >&2
+    echo "the guest did not start" >&2
 done
 if ! isUp; then
     echo "skipped: no guest can run here: $({ tail -n 1 "$results/qemu.txt"; tail -n 1 "$log" 2>/dev/null; } | tr -d '\r' | tr '\n' ' ')"

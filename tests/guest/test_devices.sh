@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# test_devices.sh BUILD: the programs of a build folder with HID devices that are not there, in a guest that has them.
+# test_devices.sh BUILD: tests the programs of a build folder with virtual HID devices, in a QEMU guest.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=$(cd "$1" && pwd)

@@ -30,33 +30,33 @@ inline double now()
     return static_cast<double> (t.tv_sec) + 1e-9 * static_cast<double> (t.tv_nsec);
 }
 
-/// A HID device made of nothing. It is plugged in while this lives.
-class MadeUp
+/// A virtual HID device. It is plugged in as long as this object exists.
+class VirtualDevice
 {
 public:
     using Heard = std::function<void (std::span<const std::uint8_t>)>;
 
-    virtual ~MadeUp() = default;
+    virtual ~VirtualDevice() = default;
 
-    /// False if there was no room for the report, which is lost.
+    /// Returns false if the report did not fit; it is then lost.
     virtual bool input (std::span<const std::uint8_t> report) = 0;
 
-    /// True while somebody has it open, as far as it can know.
+    /// True while a program has the device open, as far as the device can tell.
     virtual bool isOpen() const = 0;
 
-    /// Waits for what the computer wants, at most until then; calls back with each output report.
+    /// Handles requests from the computer until the given time; calls back with each output report.
     virtual void serve (double until, const Heard&) = 0;
 };
 
-/// For poll: the time that is left, half a second at most.
+/// The timeout for poll: the remaining time, at most half a second.
 inline timespec waitUntil (double until)
 {
     const double left = until - now();
     return { 0, left > 0.0 ? static_cast<long> (std::min (left, 0.5) * 1e9) : 0 };
 }
 
-/// By the kernel's uhid (Linux: Documentation/hid/uhid.rst): without a bus.
-class Uhid final : public MadeUp
+/// A device through the kernel's uhid (Linux: Documentation/hid/uhid.rst), without a bus.
+class Uhid final : public VirtualDevice
 {
 public:
     Uhid (const char* name, const char* serial, std::uint16_t vid, std::uint16_t pid, std::span<const std::uint8_t> descriptor)
@@ -91,7 +91,7 @@ public:
     Uhid (const Uhid&) = delete;
     Uhid& operator= (const Uhid&) = delete;
 
-    /// What it answers when it is asked for the report of this id; nothing: it refuses.
+    /// The answer to a request for the report with this id. Empty: the request is refused.
     std::function<std::vector<std::uint8_t> (std::uint8_t)> on_ask {};
 
     bool input (std::span<const std::uint8_t> report) override
@@ -157,7 +157,7 @@ private:
     bool opened = false;
 };
 
-/// "--name VALUE" among the arguments.
+/// The value of "--name VALUE" in the arguments.
 inline double option (const std::vector<std::string>& args, const std::string& name, double otherwise)
 {
     for (std::size_t i = 0; i + 1 < args.size(); ++i)
@@ -172,8 +172,26 @@ inline std::string text (const std::vector<std::string>& args, const std::string
     return otherwise;
 }
 
-/// Makes the file --mark once it was called so often, so that whoever waits for a device to be under force need not guess how
-/// long that takes.
+/// Blocks while the device is unplugged.
+inline void pauseFor (double seconds)
+{
+    const auto whole = static_cast<time_t> (seconds);
+    const timespec wait { whole, static_cast<long> ((seconds - static_cast<double> (whole)) * 1e9) };
+    ::nanosleep (&wait, nullptr);
+}
+
+/// Writes a log to the file --log, or stdout.
+inline void writeLog (const std::vector<std::string>& args, const std::string& lines)
+{
+    if (auto* file = std::fopen (text (args, "log", "/dev/stdout").c_str(), "w"))
+    {
+        std::fputs (lines.c_str(), file);
+        std::fclose (file);
+    }
+}
+
+/// Creates the file --mark after this many calls, so that a script that waits until a device is under force does not
+/// have to guess how long that takes.
 class Mark
 {
 public:

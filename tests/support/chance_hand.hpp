@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/device.hpp>
+#include <framework/node/device.hpp>
 
 #include <bit>
 #include <cstdint>
@@ -11,12 +11,12 @@
 namespace tactus::test
 {
 
-/// A hand that trembles about the origin, the same for the same seed, and remembers what it was asked for. It does not
-/// yield, so that two runs can be compared.
+/// A hand that trembles about the origin and records the requested efforts. The same seed gives the same motion.
+/// It does not yield to forces, so two runs can be compared.
 class ChanceHand final : public Device
 {
 public:
-    /// There is room for so many efforts; later ones are let go.
+    /// `room` is the number of efforts to record; later ones are dropped.
     explicit ChanceHand (unsigned seed, std::size_t room = 0) : random (seed) { efforts.reserve (room); }
 
     void prepare (double) override {}
@@ -45,7 +45,7 @@ public:
 
     std::vector<Effort> efforts;
     Effort last;
-    std::uint64_t digest = 0;   ///< of the bits of all efforts
+    std::uint64_t digest = 0;   ///< digest of the bits of all efforts
 
 private:
     std::mt19937 random;

@@ -10,8 +10,7 @@
 namespace tactus::test
 {
 
-/// What fuzzing has found worth keeping: each file of a corpus through a function that aborts when it finds something.
-/// Returns how many there were.
+/// Runs every file of a fuzzing corpus through a target, which aborts if it finds a bug. Returns the number of files.
 inline int replay (const std::string& name, void (*target) (std::string_view))
 {
     int files = 0;

@@ -2,7 +2,7 @@
 #include "interpreter.hpp"
 
 #include <framework/plan/compile.hpp>
-#include <framework/units.hpp>
+#include <framework/text/units.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ double sorted (std::vector<double> values)
     return total;
 }
 
-/// "finger" of "finger[2]/drag", what is in the brackets, and the rest of the path.
+/// Splits "finger[2]/drag" into "finger", the index in the brackets, and the rest of the path.
 struct Head
 {
     std::string name, instance, rest;
@@ -50,7 +50,7 @@ Head headOf (const std::string& path)
     return head;
 }
 
-/// "finger[0]", "finger[1]" … of those that are meant; "finger" if it is not counted.
+/// The instances that an index selects: "finger[0]", "finger[1]" …; just "finger" if the node has no count.
 std::vector<std::string> instancesOf (const graph::Node& n, const std::string& meant)
 {
     if (! n.extra.contains ("count")) return { n.name };
@@ -85,7 +85,7 @@ void Interpreter::expand (const graph::Patch& patch, const std::string& prefix, 
     {
         double gain = 1.0;
         if (w.gain.is_number()) gain = w.gain.get<double>();
-        if (w.gain.is_string()) gain = std::get<Measure> (parseMeasure (w.gain.get<std::string>())).value;
+        if (w.gain.is_string()) gain = parseMeasure (w.gain.get<std::string>())->value;
         for (const auto& from : resolve (patch, prefix, w.from, true))
             for (const auto& to : resolve (patch, prefix, w.to, false))
                 wires.push_back ({ from, to, &w, section, gain, {}, {}, {}, {}, {}, {}, {} });
@@ -108,7 +108,7 @@ void Interpreter::expandInstances (const graph::Node& n, const std::string& pref
     override (n, prefix);
 }
 
-/// What is said of one instance comes last.
+/// Overrides of a single instance are applied last.
 void Interpreter::override (const graph::Node& n, const std::string& prefix)
 {
     for (const bool of_one : { false, true })
@@ -129,7 +129,7 @@ void Interpreter::override (const graph::Node& n, const std::string& prefix)
         }
 }
 
-/// Each instance of a subgraph with a rate of its own is a section of its own.
+/// Each instance of a subgraph with its own rate is a separate section.
 int Interpreter::sectionOf (const graph::Node& n, int around)
 {
     const int every = n.extra.value ("every", 1), times = n.extra.value ("times", 1);
@@ -157,7 +157,8 @@ void Interpreter::add (const graph::Node& n, const std::string& path, const Role
         const auto& v = n.settings.at (std::string (s.id));
         if (v.is_number()) s.set (i.node.get(), v.get<double>());
         if (v.is_string()) s.set (i.node.get(), v.get<std::string>());
-        if (v.is_array()) s.set (i.node.get(), Records { { v[0]["frequency"].get<double>(), v[0]["decay"].get<double>(), v[0]["amplitude"].get<double>() } });
+        if (v.is_array())
+            s.set (i.node.get(), Records { { v[0]["frequency"].get<double>(), v[0]["decay"].get<double>(), v[0]["amplitude"].get<double>() } });
     }
     for (const auto& p : i.type->params)
     {
@@ -193,10 +194,13 @@ std::vector<int> Interpreter::components (const Wire& w) const
     return row.width == 3 ? std::vector { 0, 1, 2 } : std::vector { 0 };
 }
 
-int Interpreter::fromComponent (const Wire& w, int component) { return w.from.component >= 0 ? w.from.component : w.to.component >= 0 ? 0
-                                                                                                                                      : component; }
+int Interpreter::fromComponent (const Wire& w, int component)
+{
+    if (w.from.component >= 0) return w.from.component;
+    return w.to.component >= 0 ? 0 : component;
+}
 
-/// The sections each wire leaves, the innermost first, and enters, the outermost first.
+/// For each wire: the sections it leaves (innermost first) and the sections it enters (outermost first).
 void Interpreter::route()
 {
     for (auto& w : wires)
@@ -222,7 +226,7 @@ void Interpreter::findWhatIsCarried()
     const auto compiled = compile (g, catalogue(), options);
     const auto quantityOf = [&] (const End& e)
     {
-        for (const auto& tap : compiled.plan->taps)
+        for (const auto& tap : compiled.plan->taps())
             if (tap.name == nameOf (e) || tap.name == nameOf (e) + ".x") return tap.quantity;
         throw std::out_of_range (nameOf (e));
     };
@@ -231,7 +235,8 @@ void Interpreter::findWhatIsCarried()
         const auto& row = sheet (w.from, true);
         const auto a = quantityOf (w.from), b = quantityOf (w.to);
         w.hits = a == Quantity::hit || b == Quantity::hit;
-        w.steps = ! w.hits && (a == Quantity::state || b == Quantity::state || (row.width == 1 && row.unit.kind == UnitRule::Kind::fixed && row.unit.unit == unit::count));
+        const bool counts = row.width == 1 && row.unit.kind == UnitRule::Kind::fixed && row.unit.unit == unit::count;
+        w.steps = ! w.hits && (a == Quantity::state || b == Quantity::state || counts);
     }
 }
 
@@ -268,7 +273,7 @@ std::vector<Interpreter::End> Interpreter::resolve (const graph::Patch& patch, c
     return ends;
 }
 
-double Interpreter::stands (const End& end, int component) const
+double Interpreter::currentValue (const End& end, int component) const
 {
     const auto bracket = end.port.find ('[');
     const auto entry = bracket == std::string::npos ? std::max (component, 0) : std::stoi (end.port.substr (bracket + 1));
@@ -278,11 +283,11 @@ double Interpreter::stands (const End& end, int component) const
 double Interpreter::output (const End& end, int component)
 {
     const auto& i = instances.at (end.node);
-    if (! i.type->peek || i.source->bypass) evaluate (end.node);   // a peeking node's outputs stand since the tick began
-    return stands (end, component);
+    if (! i.type->peek || i.source->bypass) evaluate (end.node);   // a peeking node's outputs have been valid since the start of the tick
+    return currentValue (end, component);
 }
 
-/// Where a wire has been led into so many sections.
+/// The value of a wire after it has entered this many sections.
 double Interpreter::arrives (Wire& w, int component, std::size_t entered)
 {
     if (entered > 0) return w.entering[component][w.enters[entered - 1]].out;
@@ -301,10 +306,10 @@ double Interpreter::enteringValue (Wire& w, int section, int component)
 double Interpreter::leavingValue (Wire& w, int section, int component)
 {
     const auto left = std::ranges::find (w.leaves, section) - w.leaves.begin();
-    return left == 0 ? stands (w.from, fromComponent (w, component)) : w.leaving[component][w.leaves[static_cast<std::size_t> (left) - 1]].out;
+    return left == 0 ? currentValue (w.from, fromComponent (w, component)) : w.leaving[component][w.leaves[static_cast<std::size_t> (left) - 1]].out;
 }
 
-/// Sums what is wired to one component of a port; false if nothing is.
+/// Sums the wires into one component of a port. Returns false if there are none.
 bool Interpreter::driven (const std::string& path, const std::string& port, int component, bool add, double& value)
 {
     std::vector<double> terms;
@@ -318,6 +323,7 @@ bool Interpreter::driven (const std::string& path, const std::string& port, int 
     return ! terms.empty();
 }
 
+/// Long because it does all steps of a node in order (inputs, params, bypass, tick), and the later steps use the inputs.
 void Interpreter::evaluate (const std::string& path)
 {
     auto& i = instances.at (path);
@@ -387,7 +393,7 @@ void Interpreter::evaluate (const std::string& path)
     if (fault && in.empty()) i.type->initialiseOutputs (i.outputs.data());
 }
 
-/// One tick of a section's own.
+/// Runs one of the section's own ticks.
 void Interpreter::run (int section)
 {
     for (auto& s : sections)
@@ -411,7 +417,8 @@ void Interpreter::run (int section)
             }
 }
 
-/// What a section does in one tick of the section around.
+/// What a section does in one tick of the enclosing section.
+/// Long because it covers both kinds of rate, `every` and `times`, which share the helpers for crossing wires.
 void Interpreter::step (int section)
 {
     auto& s = sections[static_cast<std::size_t> (section)];
@@ -459,8 +466,12 @@ void Interpreter::step (int section)
                  {
             const double value = leavingValue (w, section, c);
             if (phase == 0) newEnd (x, value);
-            x.out = w.hits ? (phase == 0 ? value : 0.0) : ! s.linear || w.steps ? value
-                                                                               : std::lerp (x.before, x.newest, static_cast<double> (phase) / s.every); });
+            if (w.hits)
+                x.out = phase == 0 ? value : 0.0;
+            else if (s.linear && ! w.steps)
+                x.out = std::lerp (x.before, x.newest, static_cast<double> (phase) / s.every);
+            else
+                x.out = value; });
         return;
     }
 
@@ -470,8 +481,13 @@ void Interpreter::step (int section)
     {
         s.number = number * static_cast<std::uint64_t> (s.times) + static_cast<std::uint64_t> (i);
         entering ([&] (Wire& w, int, Crossing& x)
-                  { x.out = w.hits ? (i == 0 ? x.newest : 0.0) : w.steps ? x.newest
-                                                                         : std::lerp (x.before, x.newest, (i + 1.0) / s.times); });
+                  {
+            if (w.hits)
+                x.out = i == 0 ? x.newest : 0.0;
+            else if (w.steps)
+                x.out = x.newest;
+            else
+                x.out = std::lerp (x.before, x.newest, (i + 1.0) / s.times); });
         run (section);
         leaving ([&] (Wire& w, int c, Crossing& x)
                  { x.gathered += leavingValue (w, section, c); });

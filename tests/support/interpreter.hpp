@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/catalogue.hpp>
 #include <framework/graph/graph.hpp>
+#include <framework/node/catalogue.hpp>
 
 #include <deque>
 #include <map>
@@ -13,9 +13,9 @@
 namespace tactus::test
 {
 
-/// What a graph means, written as plainly as possible and as slowly: each tick pulls every output by name, through
-/// subgraphs and wires, in and out of sections with a rate of their own. Plans are compared with it. For graphs that
-/// compile; what a port carries, a hit or a signal, is asked of the compiler.
+/// Evaluates a graph in the plainest (and slowest) way: each tick pulls every output by name, through subgraphs and
+/// wires, in and out of sections with their own rates. Tests compare compiled plans with it. It handles only graphs that
+/// compile, and asks the compiler whether a port carries hits or a signal.
 class Interpreter
 {
 public:
@@ -33,7 +33,7 @@ private:
         const graph::Node* source = nullptr;
         std::string role;
         std::shared_ptr<void> node;
-        std::vector<double> outputs;   // as doubles: Outputs structs hold nothing else
+        std::vector<double> outputs;   // as doubles: Outputs structs contain nothing else
         std::vector<std::vector<double>> params;
         int entries = 0;
         int section = 0;
@@ -44,13 +44,13 @@ private:
         int around = -1;
         int every = 1, times = 1;
         bool linear = false;
-        double up = 1.0, down = 1.0;   // ticks in one of the graph
-        std::uint64_t number = 0;      // of its own tick
-        bool done = false;             // in this tick of the section around
+        double up = 1.0, down = 1.0;   // its ticks per tick of the graph
+        std::uint64_t number = 0;      // number of its own ticks
+        bool done = false;             // has run in this tick of the enclosing section
     };
     struct End
     {
-        std::string node, port;   // node by full path, port as "in", "in[2]"
+        std::string node, port;   // full path of the node; port as "in" or "in[2]"
         int component = -1;
     };
     struct Crossing
@@ -62,10 +62,10 @@ private:
     {
         End from, to;
         const graph::Wire* wire = nullptr;
-        int section = 0;   // where it is written
+        int section = 0;   // the section it is written in
         double gain = 1.0;
-        bool hits = false, steps = false;                           // else a signal
-        std::vector<int> leaves, enters;                            // sections on its way
+        bool hits = false, steps = false;                           // if neither is set: a signal
+        std::vector<int> leaves, enters;                            // sections it crosses
         std::map<int, std::deque<double>> line;                     // by component
         std::map<int, std::map<int, Crossing>> leaving, entering;   // by component, by section
     };
@@ -95,7 +95,7 @@ private:
     double enteringValue (Wire&, int section, int component);
     double leavingValue (Wire&, int section, int component);
     double arrives (Wire&, int component, std::size_t sections_entered);
-    double stands (const End&, int component) const;
+    double currentValue (const End&, int component) const;
     double output (const End&, int component);
     bool driven (const std::string& path, const std::string& port, int component, bool add, double& value);
 };

@@ -34,7 +34,7 @@ int NoAllocation::locks() const noexcept { return locks_seen; }
 
 namespace
 {
-/// The function that ours stands in front of.
+/// The libc function overridden by the function here.
 template <typename Lock>
 auto next (const char* name) noexcept
 {
@@ -49,7 +49,8 @@ int locking (int (*real) (Lock*), Lock* lock) noexcept
 }
 }   // namespace
 
-// The executable's own symbols come before those of libc, also for calls from inside libstdc++.
+// The executable's own symbols take precedence over libc's, even for calls from inside libstdc++.
+// Long because it is one list of short wrappers, one for each function that is counted.
 extern "C"
 {
     void* __libc_malloc (std::size_t);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>   // so that __GLIBC__ is known where this comes first
+#include <cstddef>   // defines __GLIBC__, even if this header is included first
 
-/// Counts what has no place on the tick thread: while one of these lives, every call of malloc and its family and
-/// every lock of a mutex, shared or not, on this thread. Under ASan and TSan, which have an allocator of their own, it counts nothing.
+/// Counts operations that the tick thread must avoid. While an instance exists, it counts, on this thread, every call of malloc
+/// and its family and every lock of a mutex, shared or not. Under ASan and TSan, which have their own allocator, it counts
+/// nothing.
 class NoAllocation
 {
 public:

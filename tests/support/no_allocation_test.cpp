@@ -7,7 +7,7 @@
 #include <mutex>
 #include <shared_mutex>
 
-TEST_CASE ("the watch on allocation sees an allocation, a release and a lock")
+TEST_CASE ("NoAllocation counts an allocation, a release and locks")
 {
     if (! NoAllocation::watches)
     {

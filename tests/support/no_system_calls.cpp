@@ -12,6 +12,7 @@
 #define TACTUS_SECCOMP 1
 #include <linux/audit.h>
 #include <linux/filter.h>
+#include <linux/futex.h>
 #include <linux/seccomp.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
@@ -27,20 +28,25 @@ bool canForbidSystemCalls() noexcept
     return true;
 }
 
-void forbidSystemCalls() noexcept
+void forbidSystemCalls (Allow allowed) noexcept
 {
 #if defined(__x86_64__)
     constexpr unsigned architecture = AUDIT_ARCH_X86_64;
 #else
     constexpr unsigned architecture = AUDIT_ARCH_AARCH64;
 #endif
+    const unsigned waking = allowed == Allow::waking_threads ? SYS_futex : SYS_write;
     sock_filter rules[] {
         BPF_STMT (BPF_LD | BPF_W | BPF_ABS, offsetof (seccomp_data, arch)),
-        BPF_JUMP (BPF_JMP | BPF_JEQ | BPF_K, architecture, 0, 4),
+        BPF_JUMP (BPF_JMP | BPF_JEQ | BPF_K, architecture, 0, 8),
         BPF_STMT (BPF_LD | BPF_W | BPF_ABS, offsetof (seccomp_data, nr)),
-        BPF_JUMP (BPF_JMP | BPF_JEQ | BPF_K, SYS_write, 3, 0),
-        BPF_JUMP (BPF_JMP | BPF_JEQ | BPF_K, SYS_exit, 2, 0),
-        BPF_JUMP (BPF_JMP | BPF_JEQ | BPF_K, SYS_exit_group, 1, 0),
+        BPF_JUMP (BPF_JMP | BPF_JEQ | BPF_K, SYS_write, 7, 0),
+        BPF_JUMP (BPF_JMP | BPF_JEQ | BPF_K, SYS_exit, 6, 0),
+        BPF_JUMP (BPF_JMP | BPF_JEQ | BPF_K, SYS_exit_group, 5, 0),
+        BPF_JUMP (BPF_JMP | BPF_JEQ | BPF_K, waking, 0, 3),
+        BPF_STMT (BPF_LD | BPF_W | BPF_ABS, offsetof (seccomp_data, args[1])),   // the lower half, on a little-endian machine
+        BPF_STMT (BPF_ALU | BPF_AND | BPF_K, static_cast<unsigned> (FUTEX_CMD_MASK)),
+        BPF_JUMP (BPF_JMP | BPF_JEQ | BPF_K, FUTEX_WAKE, 1, 0),
         BPF_STMT (BPF_RET | BPF_K, SECCOMP_RET_KILL_PROCESS),
         BPF_STMT (BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
     };
@@ -55,13 +61,13 @@ bool canForbidSystemCalls() noexcept
 {
     return false;
 }
-void forbidSystemCalls() noexcept {}
+void forbidSystemCalls (Allow) noexcept {}
 
 #endif
 
 ChildEnd inChild (const std::function<int()>& run)
 {
-    std::fflush (nullptr);   // else it is written twice
+    std::fflush (nullptr);   // otherwise buffered output would be written twice
     const auto child = fork();
     if (child < 0) return {};
     if (child == 0) _exit (run());

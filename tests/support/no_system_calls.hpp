@@ -6,21 +6,29 @@
 namespace tactus::test
 {
 
-/// True where forbidSystemCalls works: Linux on x86-64 and aarch64, without a sanitizer, which has calls of its own.
+/// True where forbidSystemCalls works: Linux on x86-64 and aarch64, without a sanitizer (sanitizers make their own
+/// system calls).
 bool canForbidSystemCalls() noexcept;
 
-/// From now on, any system call of this thread but write and exit kills the process with SIGSYS. For a child process:
-/// there is no way back.
-void forbidSystemCalls() noexcept;
+enum class Allow
+{
+    nothing,
+    waking_threads   ///< futex with FUTEX_WAKE
+};
+
+/// From now on, any system call of this thread except write, exit and the allowed ones kills the process with SIGSYS. Use
+/// it in a child process only: it cannot be undone.
+void forbidSystemCalls (Allow = Allow::nothing) noexcept;
 
 /// How a child process ended.
 struct ChildEnd
 {
-    int status = -1;   ///< what `run` returned; -1 if it did not come to that
-    int signal = 0;    ///< that killed it, or 0
+    int status = -1;   ///< what `run` returned; -1 if it did not return
+    int signal = 0;    ///< the signal that killed it, or 0
 };
 
-/// Forks, and runs this in the child, which ends with it at once, whatever other threads it started are at.
+/// Forks and runs this in the child. The child exits as soon as the function returns, no matter what its other threads are
+/// doing.
 ChildEnd inChild (const std::function<int()>& run);
 
 }   // namespace tactus::test

@@ -14,10 +14,13 @@
 namespace tactus::test
 {
 
-/// A graph whose subgraph "part" holds what a test puts there, used by the node "sec" with a rate of its own.
+/// A graph with a subgraph "part", filled by the test, and a node "sec" that runs it at its own rate.
 struct Parted : Sketch
 {
-    explicit Parted (Json rate, const Json& shows = { { "in", "amp.in" } }, const Json& gives = { { "out", "amp.out" } }, const Json& params = Json::object())
+    explicit Parted (Json rate,
+                     const Json& shows = { { "in", "amp.in" } },
+                     const Json& gives = { { "out", "amp.out" } },
+                     const Json& params = Json::object())
     {
         subgraph ("part");
         use ("sec", "part", std::move (rate));
@@ -39,7 +42,7 @@ struct Parted : Sketch
         {
             std::vector<std::pair<std::string, graph::Endpoint>> all;
             for (const auto& [name, end] : names.items())
-                all.emplace_back (name, std::get<graph::Endpoint> (graph::parseEndpoint (end.get<std::string>())));
+                all.emplace_back (name, *graph::parseEndpoint (end.get<std::string>()));
             return all;
         };
         subgraph (patch).expose = { list (inputs), list (outputs), list (params) };
@@ -60,9 +63,9 @@ struct Run
 
     const Tap& tick (std::vector<double> fed = {}, std::size_t tap = 0)
     {
-        std::ranges::copy (fed, plan->feeds.begin());
+        std::ranges::copy (fed, plan->feeds().begin());
         plan->tick();
-        return plan->taps.at (tap);
+        return plan->taps().at (tap);
     }
 
     std::shared_ptr<Plan> plan;
@@ -78,7 +81,7 @@ inline Json every (int k, const char* hold = nullptr)
 
 inline Json times (int m) { return { { "times", m } }; }
 
-/// A section that passes on what it gets, twice as large, to a node outside.
+/// A section that doubles its input and passes it to an outer node.
 inline Parted doubling (Json rate)
 {
     Parted sketch { std::move (rate) };
@@ -87,12 +90,14 @@ inline Parted doubling (Json rate)
     return sketch;
 }
 
-/// From a hand to a motor through a section, on these two wires: "split.x -> late.in" inside, "sec.out -> motor.force.x" outside.
+/// From a hand to a motor through a section. The two wires are "split.x -> late.in" inside and "sec.out -> motor.force.x"
+/// outside, or variants of them.
 inline Parted fromHandToMotor (Json rate, const std::string& inside, const std::string& outside)
 {
     Parted sketch { std::move (rate), { { "in", "split.in" } }, { { "out", "out.out" } } };
     auto& part = sketch.part();
-    sketch.add (part, "split", "vector.split").add (part, "late", "signal.gain").add (part, "out", "signal.multiply").add (part, "k", "signal.constant", { { "value", "1 N/m" } });
+    sketch.add (part, "split", "vector.split").add (part, "late", "signal.gain").add (part, "out", "signal.multiply");
+    sketch.add (part, "k", "signal.constant", { { "value", "1 N/m" } });
     sketch.add (part, inside).add (part, "late.out -> out.in[0]").add (part, "k.out -> out.in[1]");
     sketch.node ("hand", "device.position").node ("motor", "device.force").wire ("hand.position -> sec.in").wire (outside);
     return sketch;

@@ -2,7 +2,7 @@
 #include "random_edit.hpp"
 #include "random_graph.hpp"
 
-#include <framework/catalogue.hpp>
+#include <framework/node/catalogue.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,8 @@ namespace
 class Editor
 {
 public:
-    Editor (std::mt19937& r, const graph::Graph& graph_, const std::string& prefix_, const std::string& role_) : random (r), g (graph_), prefix (prefix_), role (role_) {}
+    Editor (std::mt19937& r, const graph::Graph& graph_, const std::string& prefix_, const std::string& role_)
+        : random (r), g (graph_), prefix (prefix_), role (role_) {}
 
     graph::Command any()
     {
@@ -27,7 +28,7 @@ private:
     std::mt19937& random;
     const graph::Graph& g;
     const std::string &prefix, &role;
-    std::string in;   // the patch that is edited
+    std::string in;   // the patch being edited
 
     int below (int n) { return std::uniform_int_distribution { 0, std::max (n, 1) - 1 }(random); }
     bool oneIn (int n) { return below (n) == 0; }
@@ -42,7 +43,7 @@ private:
     const graph::Patch& patch() const { return in.empty() ? g.root : *g.find (in); }
     std::string freshName() { return prefix + "x" + std::to_string (below (1000)); }
 
-    /// Without our own subgraphs, so that none comes to contain itself, and there is no end to them.
+    /// Never uses the edited subgraphs themselves: a subgraph must never contain itself, and the nesting must end.
     graph::Node newNode()
     {
         auto n = randomNode (random, freshName(), {});
@@ -71,14 +72,15 @@ private:
             return graph::RenameNode { in, node->name, freshName() };
         case 3:
         case 4:
-            return type ? setParam (*node, *type) : node->type.starts_with ("graph:") ? setOverride (*node)
-                                                                                      : std::nullopt;
+            if (type) return setParam (*node, *type);
+            return node->type.starts_with ("graph:") ? setOverride (*node) : std::nullopt;
         case 5:
             return type ? setSetting (*node, *type) : std::nullopt;
         case 6:
             return graph::SetNodeKey { in, node->name, "bypass", oneIn (2) ? std::optional<Json> (true) : std::nullopt };
         case 7:
-            if (node->type.starts_with ("graph:")) return graph::SetNodeKey { in, node->name, "count", oneIn (4) ? std::nullopt : std::optional<Json> (1 + below (4)) };
+            if (node->type.starts_with ("graph:"))
+                return graph::SetNodeKey { in, node->name, "count", oneIn (4) ? std::nullopt : std::optional<Json> (1 + below (4)) };
             return graph::SetNodeKey { in, node->name, "type", Json (newNode().type) };
         case 8:
         case 9:
@@ -88,13 +90,18 @@ private:
         }
     }
 
+    /// The key that sets the node's rate; a random one if it has none.
+    const char* rateKey (const graph::Node& node)
+    {
+        for (const char* key : { "every", "times" })
+            if (node.extra.contains (key)) return key;
+        return oneIn (2) ? "every" : "times";
+    }
+
     graph::Command setRate (const graph::Node& node)
     {
         if (node.extra.contains ("every") && oneIn (3)) return graph::SetNodeKey { in, node.name, "hold", Json (oneIn (2) ? "linear" : "latch") };
-        const auto* key = node.extra.contains ("every") ? "every" : node.extra.contains ("times") ? "times"
-                                                                : oneIn (2)                       ? "every"
-                                                                                                  : "times";
-        return graph::SetNodeKey { in, node.name, key, oneIn (3) ? std::nullopt : std::optional<Json> (1 + below (4)) };
+        return graph::SetNodeKey { in, node.name, rateKey (node), oneIn (3) ? std::nullopt : std::optional<Json> (1 + below (4)) };
     }
 
     std::optional<graph::Command> setParam (const graph::Node& node, const NodeType& type)
@@ -102,7 +109,7 @@ private:
         const auto* sheet = oneOf (type.params);
         if (sheet == nullptr || sheet->list) return std::nullopt;
         const std::string id (sheet->id);
-        if (! sheet->choices.empty()) return graph::SetParam { in, node.name, id, Json (sheet->choices[static_cast<std::size_t> (below (static_cast<int> (sheet->choices.size())))]) };
+        if (const auto* choice = oneOf (sheet->choices)) return graph::SetParam { in, node.name, id, Json (*choice) };
 
         const auto number = [&]
         {
@@ -114,7 +121,7 @@ private:
         return graph::SetParam { in, node.name, id, Json::array ({ number(), number(), number() }) };
     }
 
-    /// Of something inside, in all instances or in one.
+    /// An override of an inner node, for all instances or for one.
     std::optional<graph::Command> setOverride (const graph::Node& node)
     {
         const auto* inner = oneOf (g.find (node.type.substr (6))->nodes);
@@ -139,7 +146,7 @@ private:
         return graph::SetSetting { in, node.name, id, modes };
     }
 
-    /// From anywhere in the patch to one of ours.
+    /// A wire from anywhere in the patch to one of the edited nodes.
     std::optional<graph::Command> addWire (const graph::Node& to)
     {
         if (patch().wires.size() > 80) return std::nullopt;
@@ -207,7 +214,7 @@ graph::Graph prefixed (graph::Graph g, const std::string& prefix, const std::str
     return g;
 }
 
-graph::Graph besides (graph::Graph a, graph::Graph b)
+graph::Graph sideBySide (graph::Graph a, graph::Graph b)
 {
     std::ranges::move (b.root.nodes, std::back_inserter (a.root.nodes));
     std::ranges::move (b.root.wires, std::back_inserter (a.root.wires));
@@ -215,7 +222,10 @@ graph::Graph besides (graph::Graph a, graph::Graph b)
     return a;
 }
 
-graph::Command randomEdit (std::mt19937& random, const graph::Graph& g, const std::string& prefix, const std::string& role) { return Editor { random, g, prefix, role }.any(); }
+graph::Command randomEdit (std::mt19937& random, const graph::Graph& g, const std::string& prefix, const std::string& role)
+{
+    return Editor { random, g, prefix, role }.any();
+}
 
 graph::Command randomRegrouping (std::mt19937& random, const graph::Graph& g)
 {

@@ -8,19 +8,19 @@
 namespace tactus::test
 {
 
-/// The graph with all its nodes and subgraphs renamed to begin with a prefix, and all its roles replaced by one.
+/// Adds a prefix to the names of all nodes and subgraphs, and replaces all roles by one.
 graph::Graph prefixed (graph::Graph, const std::string& prefix, const std::string& role);
 
-/// Both graphs side by side in one. Their names must differ.
-graph::Graph besides (graph::Graph, graph::Graph);
+/// Combines both graphs side by side. Their names must differ.
+graph::Graph sideBySide (graph::Graph, graph::Graph);
 
-/// An edit of what begins with a prefix, as somebody might do who patches without thought: nodes come, go, are renamed
-/// and become other ones, wires are drawn, bent and cut, params and settings set. Many do not compile. What begins with
-/// anything else is only ever listened to. New device nodes have the role that is given.
+/// A random edit of nodes whose names begin with the prefix, like the edits of a careless user: nodes are added, removed,
+/// renamed or given other types; wires are added, changed or removed; params and settings are set. Many edits do not compile.
+/// Other nodes are used only as starts of wires. New device nodes get the given role.
 graph::Command randomEdit (std::mt19937&, const graph::Graph&, const std::string& prefix, const std::string& role);
 
-/// An edit that changes how a graph is written and not what it means: renames, nodes collapsed to subgraphs, subgraphs
-/// expanded. It may be refused.
+/// A random edit that changes how a graph is written but not its meaning: renames nodes, collapses nodes into
+/// subgraphs, expands subgraphs. It may be refused.
 graph::Command randomRegrouping (std::mt19937&, const graph::Graph&);
 
 }   // namespace tactus::test

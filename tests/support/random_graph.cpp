@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "random_graph.hpp"
 
-#include <framework/catalogue.hpp>
 #include <framework/graph/endpoints.hpp>
 #include <framework/graph/text.hpp>
+#include <framework/node/catalogue.hpp>
 #include <framework/plan/compile.hpp>
-#include <framework/units.hpp>
+#include <framework/text/units.hpp>
 
 #include <algorithm>
 #include <set>
@@ -33,7 +33,7 @@ public:
             g.graphs.emplace_back ("sub" + std::to_string (k), std::move (patch));
         }
         fill (g.root, std::max (2, size - count (g)), g);
-        mend (g);
+        repair (g);
         return g;
     }
 
@@ -44,7 +44,7 @@ public:
         n.name = std::move (name);
         if (! g.graphs.empty() && oneIn (8))
         {
-            const auto& [kind, patch] = g.graphs[static_cast<std::size_t> (below (static_cast<int> (g.graphs.size())))];
+            const auto& [kind, patch] = oneOf (g.graphs);
             n.type = "graph:" + kind;
             if (oneIn (2)) multiply (n, patch);
             giveRate (n);
@@ -62,7 +62,7 @@ public:
                 if (s.id == "modes") n.settings["modes"] = { { { "frequency", 180.0 }, { "decay", 20.0 }, { "amplitude", 0.5 } } };
             }
             for (const auto& p : type.params)
-                if (p.choices.size() > 1 && ! p.list) n.params[std::string (p.id)] = p.choices[static_cast<std::size_t> (below (static_cast<int> (p.choices.size())))];
+                if (p.choices.size() > 1 && ! p.list) n.params[std::string (p.id)] = oneOf (p.choices);
         }
         n.bypass = ! n.type.starts_with ("graph:") && oneIn (20);
         return n;
@@ -88,6 +88,12 @@ private:
     int below (int n) { return std::uniform_int_distribution { 0, std::max (n, 1) - 1 }(random); }
     bool oneIn (int n) { return below (n) == 0; }
 
+    template <typename List>
+    auto oneOf (List& list) -> decltype (list[0])
+    {
+        return list[static_cast<std::size_t> (below (static_cast<int> (list.size())))];
+    }
+
     void giveRate (graph::Node& n)
     {
         if (oneIn (3))
@@ -109,19 +115,20 @@ private:
 
     static int countOf (const graph::Node& n) { return n.extra.value ("count", 0); }
 
-    /// Makes a node several instances, which are not quite alike.
+    /// Gives a node several instances that differ slightly.
     void multiply (graph::Node& n, const graph::Patch& inside)
     {
         n.extra["count"] = 1 + below (4);
         for (const auto* role : { "left", "right" })
-            if (oneIn (2)) n.roles[role] = oneIn (2) ? Json ("left") : Json (std::vector<std::string> (static_cast<std::size_t> (countOf (n)), "left"));
+            if (oneIn (2))
+                n.roles[role] = oneIn (2) ? Json ("left") : Json (std::vector<std::string> (static_cast<std::size_t> (countOf (n)), "left"));
         for (auto& [role, means] : n.roles.items())
             if (means.is_array()) means[0] = "right";
         for (const auto& m : inside.nodes)
         {
             const auto* type = catalogue().find (m.type);
             if (type == nullptr || type->params.empty() || type->problem) continue;
-            const auto& row = type->params[static_cast<std::size_t> (below (static_cast<int> (type->params.size())))];
+            const auto& row = oneOf (type->params);
             const auto key = m.name + "." + std::string (row.id);
             if (row.list || row.width != 1 || ! row.choices.empty()) continue;
             if (oneIn (3)) n.overrides["[" + std::to_string (below (countOf (n))) + "]/" + key] = row.limits.hard.clamp (0.5 * below (9));
@@ -132,9 +139,7 @@ private:
     void fill (graph::Patch& patch, int size, const graph::Graph& g)
     {
         for (int i = 0; i < size; ++i)
-        {
             patch.nodes.push_back (node ("n" + std::to_string (i), g));
-        }
         for (int i = 0; i < 2 * size; ++i)
             addWire (patch, g);
     }
@@ -145,30 +150,37 @@ private:
         int width;
     };
 
-    /// A port of a node by chance, seen from the start or end of a wire.
+    /// The ports where a wire may start or end: the outputs, or the inputs and occasionally the params.
+    template <typename List>
+    const List& oneListOf (bool start, const List& outputs, const List& inputs, const List& params)
+    {
+        if (start) return outputs;
+        return oneIn (4) && ! params.empty() ? params : inputs;
+    }
+
+    /// A random port of a node, as seen from the start or end of a wire.
     std::optional<Port> port (const graph::Node& n, bool start, const graph::Graph& g)
     {
         if (n.type.starts_with ("graph:"))
         {
             const auto& e = g.find (n.type.substr (6))->expose;
-            const auto& list = start ? e.outputs : oneIn (4) && ! e.params.empty() ? e.params
-                                                                                   : e.inputs;
+            const auto& list = oneListOf (start, e.outputs, e.inputs, e.params);
             auto path = n.name;
-            if (const int count = countOf (n); count > 0 && oneIn (2)) path += oneIn (3) ? "[*]" : "[" + std::to_string (below (count)) + "]";
+            if (const int count = countOf (n); count > 0 && oneIn (2))
+                path += oneIn (3) ? "[*]" : "[" + std::to_string (below (count)) + "]";
             if (const auto& nodes = g.find (n.type.substr (6))->nodes; ! nodes.empty() && oneIn (4))
             {
-                auto inner = port (nodes[static_cast<std::size_t> (below (static_cast<int> (nodes.size())))], start, g);
+                auto inner = port (oneOf (nodes), start, g);
                 if (inner) inner->endpoint.node.insert (0, path + "/");
                 return inner;
             }
             if (list.empty()) return {};
-            return Port { { path, list[static_cast<std::size_t> (below (static_cast<int> (list.size())))].first }, 0 };
+            return Port { { path, oneOf (list).first }, 0 };
         }
         const auto& type = *catalogue().find (n.type);
-        const auto& rows = start ? type.outputs : oneIn (4) && ! type.params.empty() ? type.params
-                                                                                     : type.inputs;
+        const auto& rows = oneListOf (start, type.outputs, type.inputs, type.params);
         if (rows.empty()) return {};
-        const auto& row = rows[static_cast<std::size_t> (below (static_cast<int> (rows.size())))];
+        const auto& row = oneOf (rows);
         Port p { { n.name, std::string (row.id) }, row.width };
         if (row.list) p.endpoint.index = below (n.settings.value ("inputs", 2));
         if (row.width == 3 && oneIn (3))
@@ -181,8 +193,8 @@ private:
 
     void addWire (graph::Patch& patch, const graph::Graph& g)
     {
-        const auto& a = patch.nodes[static_cast<std::size_t> (below (static_cast<int> (patch.nodes.size())))];
-        const auto& b = patch.nodes[static_cast<std::size_t> (below (static_cast<int> (patch.nodes.size())))];
+        const auto& a = oneOf (patch.nodes);
+        const auto& b = oneOf (patch.nodes);
         if (auto w = wire (a, b, g)) patch.wires.push_back (std::move (*w));
     }
 
@@ -195,7 +207,8 @@ private:
             const auto add = [&] (auto& list, const std::vector<PortSheet>& rows)
             {
                 for (const auto& row : rows)
-                    if (! row.list && row.choices.empty() && oneIn (2)) list.emplace_back (n.name + "_" + std::string (row.id), graph::Endpoint { n.name, std::string (row.id) });
+                    if (! row.list && row.choices.empty() && oneIn (2))
+                        list.emplace_back (n.name + "_" + std::string (row.id), graph::Endpoint { n.name, std::string (row.id) });
             };
             add (patch.expose.inputs, type.inputs);
             add (patch.expose.outputs, type.outputs);
@@ -210,14 +223,14 @@ private:
         return std::ranges::find (g.graphs, name, &std::pair<std::string, graph::Patch>::first)->second;
     }
 
-    /// Takes away what does not compile, or mends it: a delay into a loop, a gain with a unit where dimensions differ.
-    void mend (graph::Graph& g)
+    /// Removes or repairs the parts that do not compile: adds a delay to a loop, or a gain with a unit where dimensions differ.
+    void repair (graph::Graph& g)
     {
         for (;;)
         {
             const auto messages = compile (g, catalogue()).messages;
             std::set<std::pair<graph::Patch*, std::size_t>> doomed;
-            bool mended = false;
+            bool repaired = false;
             for (const auto& m : messages)
             {
                 if (m.severity != Message::Severity::error) continue;
@@ -234,24 +247,25 @@ private:
                 }
                 auto& patch = patchOf (g, m.where);
                 const auto index = static_cast<std::size_t> (std::stoul (m.where.substr (at + 7)));
-                mended = true;
+                repaired = true;
                 if (m.id == "graph/loop")
                     patch.wires[index].delay = 1 + below (3);
                 else if (m.id == "wire/add_to_input")
                     patch.wires[index].add = false;
                 else if (m.id == "wire/unit" && patch.wires[index].gain.is_null() && oneIn (2))
-                    patch.wires[index].gain = "0.5 " + m.remedy.substr (m.remedy.rfind (' ') + 1);
+                    patch.wires[index].gain = "0.5 " + m.remedy.substr (m.remedy.rfind (' ') + 1);   // the remedy ends with the unit
                 else
                     doomed.emplace (&patch, index);
             }
             if (! hasErrors (messages)) return;
-            if (doomed.empty() && ! mended) doomed.emplace (&g.root, g.root.wires.size() - 1);   // what clashes inside was wired outside
+            if (doomed.empty() && ! repaired)
+                doomed.emplace (&g.root, g.root.wires.size() - 1);   // a clash inside a subgraph comes from a wire outside
             for (auto i = doomed.rbegin(); i != doomed.rend(); ++i)
                 i->first->wires.erase (i->first->wires.begin() + static_cast<std::ptrdiff_t> (i->second));
         }
     }
 
-    /// What returns to the hand does not run several times a tick: "/graphs/sub1/nodes/n3/times".
+    /// A subgraph that returns effort to the hand must not run several times a tick: "/graphs/sub1/nodes/n3/times".
     static void slowDown (graph::Graph& g, std::string pointer)
     {
         pointer.erase (pointer.rfind ('/'));
@@ -259,7 +273,7 @@ private:
         std::ranges::find (patch.nodes, pointer.substr (pointer.rfind ('/') + 1), &graph::Node::name)->extra.erase ("times");
     }
 
-    /// A node whose units clash loses a wire.
+    /// Removes a wire of a node whose units clash.
     static void unwire (graph::Graph& g, const std::string& node_pointer, std::set<std::pair<graph::Patch*, std::size_t>>& doomed)
     {
         const auto name = node_pointer.substr (node_pointer.rfind ('/') + 1);

@@ -10,18 +10,19 @@
 namespace tactus::test
 {
 
-/// A graph that compiles, drawn by chance: up to `size` nodes of any type, some inside subgraphs (nested, shared, in several
-/// instances with values and roles of their own, at rates of their own), wires between whole ports and components, to one
-/// instance and to all, delays, gains with units, wires onto parameters with and without (+), bypassed nodes.
+/// A random graph that compiles, with up to `size` nodes of any type. Some are inside subgraphs (nested, shared, in
+/// several instances with their own values and roles, at their own rates). Wires connect whole ports and components, to
+/// one instance or to all, with delays and with gains that have units, and into parameters with and without (+). Some nodes are
+/// bypassed.
 graph::Graph randomGraph (unsigned seed, int size);
 
-/// A node of any type, subgraphs of the graph among them, as randomGraph draws them.
+/// A random node of any type, including the graph's subgraphs, as randomGraph generates them.
 graph::Node randomNode (std::mt19937&, std::string name, const graph::Graph&);
 
-/// A wire between two nodes, if they have ports of one width; it need not compile.
+/// A random wire between two nodes, if they have ports of the same width. It may fail to compile.
 std::optional<graph::Wire> randomWire (std::mt19937&, const graph::Node& from, const graph::Node& to, const graph::Graph&);
 
-/// The same graph, its nodes and wires written in another order.
+/// The same graph with its nodes and wires written in a different order.
 graph::Graph shuffled (graph::Graph, unsigned seed);
 
 }   // namespace tactus::test

@@ -14,7 +14,7 @@ auto& named (std::string_view id, Sheets& sheets)
 {
     const auto at = std::ranges::find (sheets, id, [] (const auto& s)
                                        { return s.id; });
-    INFO ("there is no " << id);
+    INFO ("the node has no '" << id << "'");
     REQUIRE (at != sheets.end());
     return *at;
 }
@@ -22,7 +22,7 @@ auto& named (std::string_view id, Sheets& sheets)
 const NodeType& typeNamed (std::string_view id)
 {
     const auto* type = catalogue().find (id);
-    INFO ("there is no node " << id);
+    INFO ("there is no node type '" << id << "'");
     REQUIRE (type != nullptr);
     return *type;
 }
@@ -31,7 +31,7 @@ std::size_t firstOf (std::string_view id, const std::vector<Rig::Component>& com
 {
     const auto at = std::ranges::find_if (components, [&] (const auto& c)
                                           { return c.port->id == id && c.index == index; });
-    INFO ("there is no " << id << " [" << index << "]");
+    INFO ("the node has no '" << id << "[" << index << "]'");
     REQUIRE (at != components.end());
     return static_cast<std::size_t> (at - components.begin());
 }
@@ -66,7 +66,7 @@ Rig& Rig::choose (std::string_view id, std::string_view alternative)
 {
     const auto& port = named (id, sheet.params);
     const auto at = std::ranges::find (port.choices, alternative);
-    INFO (id << " is never " << alternative);
+    INFO ("'" << id << "' has no alternative '" << alternative << "'");
     REQUIRE (at != port.choices.end());
     const int value = static_cast<int> (at - port.choices.begin());
     std::copy_n (reinterpret_cast<const std::byte*> (&value), sizeof value, static_cast<std::byte*> (sheet.paramsOf (node.get())) + port.offset);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/catalogue.hpp>
+#include <framework/node/catalogue.hpp>
 
 #include <cstddef>
 #include <memory>
 #include <string_view>
 #include <vector>
 
-/// A node of any type on the test bench: driven as the engine would drive it, by the names in its datasheet.
+/// A node of any type on the test bench. It is driven as the engine would drive it, by the names in its datasheet.
 ///
 ///     Rig rig { "signal.mix" };
 ///     rig.set ("inputs", 3.0).param ("gain", 0.5, 2);     // settings first; gain[2] = 0.5
@@ -17,12 +17,12 @@
 ///     rig.tick();
 ///     CHECK (rig.out ("out") == 0.5);
 ///
-/// A device node is bound to `*device`. Of a node with peek(), the outputs of a tick are those it gave before it. A test
-/// fails at once on a name that the node does not have.
+/// A device node is bound to `*device`. If a node has peek(), the outputs of a tick are the ones from before the tick. A test
+/// fails immediately if it uses a name that the node does not have.
 class Rig
 {
 public:
-    /// One number among a node's inputs or outputs: the component of a vector, or the entry of a list.
+    /// One number of a node's inputs or outputs: a component of a vector, or an entry of a list.
     struct Component
     {
         const tactus::PortSheet* port;
@@ -47,22 +47,22 @@ public:
     double out (std::string_view id, int index = 0) const;
     tactus::Vec3 vector (std::string_view id) const;
 
-    tactus::Claims claims() const;   ///< none if the node claims nothing
+    tactus::Claims claims() const;   ///< empty if the node has no claims
     tactus::Effort effort() const noexcept;
 
     //==========================================================================
-    // By number, for tests that know nothing of the node.
+    // Access by number, for tests that know nothing about the node.
 
     const tactus::NodeType& type() const noexcept { return sheet; }
-    std::vector<double> in;                   ///< what the inputs read; default values after prepare
-    std::vector<Component> inputs, outputs;   ///< what each number stands for; after prepare
+    std::vector<double> in;                   ///< the values that the inputs read; default values after prepare
+    std::vector<Component> inputs, outputs;   ///< describe each number; valid after prepare
     double out (std::size_t output) const noexcept;
     std::vector<double> outs() const;
-    double& paramAt (const tactus::PortSheet&, int index) noexcept;   ///< not for choices; call moved() afterwards
+    double& paramAt (const tactus::PortSheet&, int index) noexcept;   ///< not for choices; call moved() after changing it
     void moved() noexcept { params_moved = true; }
-    int entries() const noexcept { return list_size; }   ///< how many a list of this node has
+    int entries() const noexcept { return list_size; }   ///< size of this node's lists
 
-    std::unique_ptr<tactus::DeviceState> device = std::make_unique<tactus::DeviceState>();   ///< its role, for a device node
+    std::unique_ptr<tactus::DeviceState> device = std::make_unique<tactus::DeviceState>();   ///< state of its role, for a device node
 
 private:
     const tactus::NodeType& sheet;

@@ -2,9 +2,11 @@
 #include "actions.hpp"
 
 #include <framework/graph/endpoints.hpp>
+#include <framework/run/device/make_device.hpp>
 #include <host/app/model/fragment.hpp>
+#include <host/app/model/param_value.hpp>
+#include <host/app/model/patch.hpp>
 #include <host/app/model/wire_rules.hpp>
-#include <host/devices/make_device.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,24 +19,23 @@ namespace
 const graph::Patch& patchOf (const graph::Graph& g, const std::string& name)
 {
     static const graph::Patch none;
-    const auto* patch = name.empty() ? &g.root : g.find (name);
+    const auto* patch = findPatch (g, name);
     return patch == nullptr ? none : *patch;
 }
 
-graph::Endpoint endpoint (const std::string& node, const FacePort& port)
+graph::Endpoint endpoint (const std::string& node, const FacePort& port, int component = -1)
 {
-    const auto bracket = port.id.find ('[');
-    return { node, port.id.substr (0, bracket), bracket == std::string::npos ? -1 : std::atoi (port.id.c_str() + bracket + 1), -1 };
+    const auto entry = entryOf (port.id);
+    return { node, baseOf (port.id), entry ? static_cast<int> (*entry) : -1, component };
 }
 
-/// True if both are the same component, or one is all of the other.
+Json toJson (juce::Point<float> at) { return Json::array ({ std::round (static_cast<double> (at.x)), std::round (static_cast<double> (at.y)) }); }
+
+/// True if both are the same component, or if one is the whole vector.
 bool overlap (const graph::Endpoint& a, const graph::Endpoint& b)
 {
     return a.node == b.node && a.port == b.port && a.index == b.index && (a.component == b.component || a.component < 0 || b.component < 0);
 }
-
-bool leadsTo (const graph::Wire& w, const std::string& node) { return w.to.node == node; }
-bool comesFrom (const graph::Wire& w, const std::string& node) { return w.from.node == node; }
 
 std::vector<std::string> namesOf (const graph::Patch& patch, const Selection& ids)
 {
@@ -44,14 +45,15 @@ std::vector<std::string> namesOf (const graph::Patch& patch, const Selection& id
     return names;
 }
 
-/// The wires that take over from a node that goes, if what came in is what went out.
+/// The wires that replace a deleted node, if its input fits its destinations.
 std::vector<graph::Wire> healed (const graph::Patch& patch, const Scene& scene, const SceneNode& gone)
 {
     std::vector<const graph::Wire*> in, out;
     for (const auto& w : patch.wires)
     {
-        if (leadsTo (w, gone.name) && gone.face->find (Role::input, gone.face->endOf (w.to) ? gone.face->endOf (w.to)->id : "") != nullptr) in.push_back (&w);
-        if (comesFrom (w, gone.name)) out.push_back (&w);
+        const auto* end = w.to.node == gone.name ? gone.face->endOf (w.to) : nullptr;
+        if (end != nullptr && end->role == Role::input) in.push_back (&w);
+        if (w.from.node == gone.name) out.push_back (&w);
     }
     if (in.size() != 1) return {};
     const auto start = std::ranges::find (scene.nodes(), graph::firstNameOf (in[0]->from.node), &SceneNode::name);
@@ -62,7 +64,9 @@ std::vector<graph::Wire> healed (const graph::Patch& patch, const Scene& scene, 
     {
         const auto end = std::ranges::find (scene.nodes(), graph::firstNameOf (w->to.node), &SceneNode::name);
         const auto* to = end == scene.nodes().end() ? nullptr : end->face->endOf (w->to);
-        if (to == nullptr || start->quantityOf (*from) != end->quantityOf (*to) || whyNot ({ from, start->quantityOf (*from) }, { to, end->quantityOf (*to) })) continue;
+        if (to == nullptr) continue;
+        const auto carried = start->quantityOf (*from), taken = end->quantityOf (*to);
+        if (carried != taken || ! checkWire ({ from, carried }, { to, taken })) continue;
         graph::Wire through;
         through.from = in[0]->from;
         through.to = w->to;
@@ -75,7 +79,7 @@ std::vector<graph::Wire> healed (const graph::Patch& patch, const Scene& scene, 
 
 graph::Command placeNodes (const graph::Graph& g, const std::string& patch, const std::vector<std::pair<graph::Id, juce::Point<float>>>& places)
 {
-    graph::Batch batch { places.size() == 1 ? "move a node" : "move nodes", {} };
+    graph::Batch batch { places.size() == 1 ? "move node" : "move nodes", {} };
     for (const auto& [id, at] : places)
     {
         const auto& nodes = patchOf (g, patch).nodes;
@@ -83,7 +87,7 @@ graph::Command placeNodes (const graph::Graph& g, const std::string& patch, cons
         if (node == nodes.end()) continue;
         auto ui = node->extra.value ("ui", Json::object());
         if (! ui.is_object()) ui = Json::object();
-        ui["at"] = Json::array ({ std::round (static_cast<double> (at.x)), std::round (static_cast<double> (at.y)) });
+        ui["at"] = toJson (at);
         batch.commands.push_back (graph::SetNodeKey { patch, node->name, "ui", ui });
     }
     return batch;
@@ -140,25 +144,23 @@ graph::Command addNode (const graph::Graph& g, const std::string& patch, const s
     const auto cut = type.find_last_of (".:");
     node.name = freeName (patchOf (g, patch), {}, type.substr (cut == std::string::npos ? 0 : cut + 1));
     node.type = type;
-    node.extra["ui"] = Json { { "at", Json::array ({ std::round (static_cast<double> (at.x)), std::round (static_cast<double> (at.y)) }) } };
+    node.extra["ui"] = Json { { "at", toJson (at) } };
     made = node.id;
     if (! type.starts_with ("device.")) return graph::AddNode { patch, std::move (node) };
-    // A device node acts on somebody. The first one brings a stylus in a hand that strokes.
-    graph::Batch all { "add a node", {} };
+    // A device node needs a device role. The first one creates a simulated stylus in a stroking hand.
+    graph::Batch all { "add node", {} };
     if (g.devices.empty()) all.commands.push_back (graph::SetDevice { "stylus", defaultDevice() });
     node.role = g.devices.empty() ? "stylus" : g.devices.front().first;
     all.commands.push_back (graph::AddNode { patch, std::move (node) });
     return all;
 }
 
-graph::Command connect (const graph::Graph& g, const std::string& patch, const SceneNode& from, const FacePort& out, const SceneNode& to, const FacePort& in, int from_component, int to_component)
+graph::Command connect (const graph::Graph& g, const std::string& patch, const Plug& from, const Plug& to)
 {
     graph::Wire wire;
-    wire.from = endpoint (from.name, out);
-    wire.to = endpoint (to.name, in);
-    wire.from.component = from_component;
-    wire.to.component = to_component;
-    const bool several = in.role == Role::input && addsUp (to.quantityOf (in));
+    wire.from = endpoint (from.node.name, from.port, from.component);
+    wire.to = endpoint (to.node.name, to.port, to.component);
+    const bool several = to.port.role == Role::input && addsUp (to.node.quantityOf (to.port));
     graph::Batch batch { "connect", {} };
     for (const auto& w : patchOf (g, patch).wires)
         if (overlap (w.to, wire.to) && (! several || w.from == wire.from)) batch.commands.push_back (graph::RemoveWire { patch, w.id });
@@ -172,15 +174,15 @@ std::optional<graph::Command> duplicate (const graph::Graph& g, const std::strin
     const auto& patch = patchOf (g, name);
     graph::Batch all { "duplicate", {} };
     Selection copies;
-    auto pasted = paste (g, name, copyText (g, name, ids), static_cast<double> (beside), static_cast<double> (beside), copies);
-    if (auto* command = std::get_if<graph::Command> (&pasted); command != nullptr && ! copies.empty())
+    auto pasted = paste (g, name, copyText (g, name, ids), { beside, beside }, copies);
+    if (pasted && ! copies.empty())
     {
-        // The copies come in the order of what they are copies of.
+        // The copies are in the order of the originals.
         std::vector<std::string> names;
-        for (const auto& c : std::get<graph::Batch> (command->edit).commands)
+        for (const auto& c : std::get<graph::Batch> (pasted->edit).commands)
             if (const auto* add = std::get_if<graph::AddNode> (&c.edit)) names.push_back (add->node.name);
         const auto originals = namesOf (patch, ids);
-        all.commands.push_back (std::move (*command));
+        all.commands.push_back (*std::move (pasted));
         for (const auto& w : patch.wires)
         {
             const auto copy = std::ranges::find (originals, w.to.node);
@@ -220,7 +222,8 @@ std::optional<graph::Command> insertInto (const graph::Graph& g, const std::stri
     for (const auto& in : node->face->inputs)
         for (const auto& out : node->face->outputs)
         {
-            if (whyNot ({ start, a.quantityOf (*start) }, { &in, node->quantityOf (in) }) || whyNot ({ &out, node->quantityOf (out) }, { end, b.quantityOf (*end) })) continue;
+            if (! checkWire ({ start, a.quantityOf (*start) }, { &in, node->quantityOf (in) })) continue;
+            if (! checkWire ({ &out, node->quantityOf (out) }, { end, b.quantityOf (*end) })) continue;
             graph::Wire first = *wire, second;
             first.to = endpoint (node->name, in);
             first.add = false;
@@ -235,21 +238,21 @@ std::optional<graph::Command> insertInto (const graph::Graph& g, const std::stri
 graph::Command toggleExposed (const graph::Graph& g, const std::string& subgraph, const std::string& node, const FacePort& port)
 {
     auto to = patchOf (g, subgraph).expose;
-    auto& ports = port.role == Role::input ? to.inputs : port.role == Role::param ? to.params
-                                                                                  : to.outputs;
+    auto& sources = port.role == Role::input ? to.inputs : to.params;
+    auto& ports = port.role == Role::output ? to.outputs : sources;
     const auto end = endpoint (node, port);
     const auto shown = std::ranges::find (ports, end, &std::pair<std::string, graph::Endpoint>::second);
     if (shown != ports.end())
     {
         ports.erase (shown);
-        return graph::Batch { "hide a port", { graph::ChangeExpose { subgraph, std::move (to) } } };
+        return graph::Batch { "hide port", { graph::ChangeExpose { subgraph, std::move (to) } } };
     }
     std::set<std::string> taken;
     for (const auto* all : { &to.inputs, &to.params, &to.outputs })
         for (const auto& [name, where] : *all)
             taken.insert (name);
     ports.emplace_back (freeName ({}, taken, end.port), end);
-    return graph::Batch { "show a port", { graph::ChangeExpose { subgraph, std::move (to) } } };
+    return graph::Batch { "expose port", { graph::ChangeExpose { subgraph, std::move (to) } } };
 }
 
 }   // namespace tactus::host

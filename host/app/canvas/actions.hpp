@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// What people do on a canvas, as commands. Each is one step of undo.
+/// Canvas edits as commands. Each is one undo step.
 
 #include "scene.hpp"
 
@@ -15,34 +15,41 @@ namespace tactus::host
 
 using Selection = std::set<graph::Id>;   ///< nodes and wires
 
-/// Writes the places of nodes into the graph.
+/// Stores the positions of nodes in the graph.
 graph::Command placeNodes (const graph::Graph&, const std::string& patch, const std::vector<std::pair<graph::Id, juce::Point<float>>>&);
 
-/// Takes what is selected away. Where a node had one wire in and its outputs could carry on what it carried, the wire goes
-/// through: "healed".
+/// Deletes the selection. If a deleted node had exactly one incoming wire, that wire is reconnected to each of the node's
+/// destinations that it fits ("healed").
 graph::Command removeSelected (const graph::Graph&, const std::string& patch, const Scene&, const Selection&);
 
-/// All of them if any is not bypassed yet, else none.
+/// Bypasses all selected nodes. If all of them are already bypassed, ends the bypass.
 graph::Command toggleBypass (const graph::Graph&, const std::string& patch, const Selection&);
 
-/// Makes a subgraph of the selected nodes, under free names.
+/// Collapses the selected nodes into a subgraph with a free name.
 std::optional<graph::Command> group (const graph::Graph&, const std::string& patch, const Selection&);
 
-/// A node of a type at a place, under a free name made of its type; its id is filled in.
+/// Adds a node of a type, with a free name derived from the type. `made` receives its id.
 graph::Command addNode (const graph::Graph&, const std::string& patch, const std::string& type, juce::Point<float>, graph::Id& made);
 
-/// A copy of the selected nodes and notes beside them, with the wires among them and those that come in from others. Nothing
-/// if nothing is selected that can be copied.
+/// Copies the selected nodes and notes next to the originals, with the wires between them and their incoming wires. Empty if
+/// nothing selected can be copied.
 std::optional<graph::Command> duplicate (const graph::Graph&, const std::string& patch, const Scene&, const Selection&, Selection& made);
 
-/// A wire from an output to an input or param, or a component of either. If only one wire fits there, it takes the place of
-/// the one that is there.
-graph::Command connect (const graph::Graph&, const std::string& patch, const SceneNode& from, const FacePort&, const SceneNode& to, const FacePort&, int from_component = -1, int to_component = -1);
+/// One end of a new wire: a port, or one component of it.
+struct Plug
+{
+    const SceneNode& node;
+    const FacePort& port;
+    int component = -1;
+};
 
-/// A node that stands on a wire goes into it, by its first ports that fit; nothing if none do.
+/// Connects an output to an input or param. Replaces the existing wire if the destination takes only one.
+graph::Command connect (const graph::Graph&, const std::string& patch, const Plug& from, const Plug& to);
+
+/// Inserts a node into a wire, through its first pair of ports that fit. Empty if none do.
 std::optional<graph::Command> insertInto (const graph::Graph&, const std::string& patch, const Scene&, graph::Id wire, graph::Id node);
 
-/// Shows a port of a node of a subgraph to its outside, under a free name, or hides it again.
+/// Exposes a port of a node inside a subgraph under a free name, or hides it again.
 graph::Command toggleExposed (const graph::Graph&, const std::string& subgraph, const std::string& node, const FacePort&);
 
 }   // namespace tactus::host

@@ -11,7 +11,7 @@ namespace
 {
 constexpr float least_gap = 16.0f;
 
-/// The first and the last stay where they are, unless the others do not fit between them.
+/// Spaces the boxes out between the first and the last. Those two stay in place if the others fit between them.
 void spread (std::vector<juce::Rectangle<float>>& boxes, bool vertical)
 {
     const auto begin = [&] (std::size_t i)

@@ -8,18 +8,18 @@
 namespace tactus::host
 {
 
-/// Ways of putting boxes in line.
+/// Alignment and distribution commands.
 enum class Alignment
 {
     left,
     right,
     top,
     bottom,
-    columns,   ///< one under another, with the same gaps
-    rows       ///< one beside another, with the same gaps
+    columns,   ///< distribute vertically, with equal gaps
+    rows       ///< distribute horizontally, with equal gaps
 };
 
-/// The boxes in line, in the order they came. Their size stays; what reaches furthest to that side stays where it is.
+/// Aligns boxes and returns them in the same order and size. The outermost box on that side stays in place.
 std::vector<juce::Rectangle<float>> aligned (std::vector<juce::Rectangle<float>>, Alignment);
 
 }   // namespace tactus::host

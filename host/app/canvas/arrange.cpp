@@ -15,7 +15,7 @@ using Wires = std::vector<std::pair<int, int>>;
 
 std::size_t at (int i) { return static_cast<std::size_t> (i); }
 
-/// The wires that close no loop, when they are followed from the first box on.
+/// Drops the wires that close a loop, by depth-first search from the first box.
 Wires withoutLoops (std::size_t size, const Wires& wires)
 {
     std::vector<std::vector<int>> next (size);
@@ -33,25 +33,25 @@ Wires withoutLoops (std::size_t size, const Wires& wires)
     for (int start = 0; start < static_cast<int> (size); ++start)
     {
         if (mark[at (start)] != Mark::fresh) continue;
-        std::vector<std::pair<int, std::size_t>> way { { start, 0 } };
+        std::vector<std::pair<int, std::size_t>> stack { { start, 0 } };
         mark[at (start)] = Mark::open;
-        while (! way.empty())
+        while (! stack.empty())
         {
-            const auto [box, i] = way.back();
+            const auto [box, i] = stack.back();
             if (i == next[at (box)].size())
             {
                 mark[at (box)] = Mark::done;
-                way.pop_back();
+                stack.pop_back();
                 continue;
             }
-            ++way.back().second;
+            ++stack.back().second;
             const int to = next[at (box)][i];
             if (mark[at (to)] == Mark::open) continue;
             kept.emplace_back (box, to);
             if (mark[at (to)] == Mark::fresh)
             {
                 mark[at (to)] = Mark::open;
-                way.emplace_back (to, 0);
+                stack.emplace_back (to, 0);
             }
         }
     }
@@ -76,7 +76,7 @@ std::vector<int> columnsOf (std::size_t size, const Wires& wires)
             if (--waiting[at (to)] == 0) ready.push_back (to);
         }
 
-    // A source that feeds only what is far to the right stands next to it.
+    // Move a source next to its nearest destination.
     for (auto box = ready.rbegin(); box != ready.rend(); ++box)
     {
         const bool is_source = std::ranges::none_of (wires, [&] (const auto& w)
@@ -90,7 +90,7 @@ std::vector<int> columnsOf (std::size_t size, const Wires& wires)
     return column;
 }
 
-/// Boxes in columns, and beside them a free place in each column that a wire passes.
+/// Boxes in columns, plus an empty lane in each column that a wire crosses.
 class Columns
 {
 public:
@@ -101,7 +101,7 @@ public:
             int last = from;
             for (int c = column[at (from)] + 1; c < column[at (to)]; ++c)
             {
-                sizes.emplace_back (0.0f, passage);
+                sizes.emplace_back (0.0f, lane_height);
                 column.push_back (c);
                 steps.emplace_back (last, static_cast<int> (sizes.size()) - 1);
                 last = steps.back().second;
@@ -120,12 +120,12 @@ public:
     const std::vector<juce::Point<float>>& result() const noexcept { return places; }
 
 private:
-    static constexpr float passage = 16.0f;
+    static constexpr float lane_height = 16.0f;
     static constexpr int sweeps = 8;
 
     std::vector<juce::Point<float>> sizes, places;
     std::vector<int> column;
-    Wires steps;   // from column to column
+    Wires steps;   // wires, cut at each column
     std::vector<std::vector<int>> columns;
 
     float middle (int b) const { return places[at (b)].y + sizes[at (b)].y / 2; }

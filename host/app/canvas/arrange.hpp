@@ -9,9 +9,9 @@
 namespace tactus::host
 {
 
-/// Places for boxes that wires join, so that most wires run from left to right: columns by the longest way from where
-/// nothing comes in, and within a column near to what they are joined with, with room left for long wires to pass
-/// (after Sugiyama, Tagawa and Toda 1981). A wire that closes a loop counts for nothing. No place is before (0, 0).
+/// Lays out boxes so that most wires run from left to right (after Sugiyama, Tagawa and Toda 1981). The column of a box is the
+/// longest path from a box without inputs. Within a column, boxes are close to their neighbours, with lanes for long wires.
+/// Wires that close a loop are ignored. All positions are at or beyond (0, 0).
 std::vector<juce::Point<float>> arrange (const std::vector<juce::Point<float>>& sizes, const std::vector<std::pair<int, int>>& wires);
 
 }   // namespace tactus::host

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "box.hpp"
 
-#include <framework/number_text.hpp>
+#include <framework/text/number_text.hpp>
+#include <host/app/model/param_value.hpp>
 #include <host/app/model/with_prefix.hpp>
 
 #include <algorithm>
@@ -25,15 +26,20 @@ std::string valueText (const Json& value, const FacePort& port)
         const auto symbol = port.unit.kind == UnitRule::Kind::fixed ? port.unit.unit.symbol : std::string_view {};
         const double si = value.get<double>();
         constexpr double small = 0.1;
-        if (std::abs (si) < small && si != 0.0 && (symbol == "m" || symbol == "s" || symbol == "N" || symbol == "J")) return withPrefix (si, std::string (symbol));
+        if (std::abs (si) < small && si != 0.0 && (symbol == "m" || symbol == "s" || symbol == "N" || symbol == "J"))
+            return withPrefix (si, std::string (symbol));
         const auto number = numberText (si);
         return symbol.empty() || symbol == "1" ? number : number + ' ' + std::string (symbol);
     }
     if (! value.is_array()) return {};
+    const auto partText = [] (const Json& part)
+    {
+        if (part.is_number()) return numberText (part.get<double>());
+        return part.is_string() ? part.get<std::string>() : "?";
+    };
     std::string text;
     for (const auto& part : value)
-        text += (text.empty() ? "" : ", ") + (part.is_number() ? numberText (part.get<double>()) : part.is_string() ? part.get<std::string>()
-                                                                                                                    : std::string ("?"));
+        text += (text.empty() ? "" : ", ") + partText (part);
     return '(' + text + ')';
 }
 
@@ -44,7 +50,9 @@ const Socket* Box::find (Role role, std::string_view id) const noexcept
     return socket == sockets.end() ? nullptr : &*socket;
 }
 
-Box boxOf (const graph::Node& node, const Face& face, const std::function<bool (const FacePort&)>& wired, const std::function<Json (const FacePort&)>& valueNow, const TextWidth& widthOf)
+namespace
+{
+std::vector<const FacePort*> shownParams (const graph::Node& node, const Face& face, const std::function<bool (const FacePort&)>& wired)
 {
     std::vector<const FacePort*> params;
     for (const auto& p : face.params)
@@ -52,12 +60,19 @@ Box boxOf (const graph::Node& node, const Face& face, const std::function<bool (
     int room = Box::most_params;
     for (const bool set : { true, false })
         for (const auto& p : face.params)
-            if (room > 0 && ! wired (p) && node.params.contains (p.id.substr (0, p.id.find ('['))) == set)
+            if (room > 0 && ! wired (p) && node.params.contains (baseOf (p.id)) == set)
             {
                 params.push_back (&p);
                 --room;
             }
+    return params;
+}
+}   // namespace
 
+Box boxOf (const graph::Node& node, const Face& face, const std::function<bool (const FacePort&)>& wired,
+           const std::function<Json (const FacePort&)>& valueNow, const TextWidth& widthOf)
+{
+    const auto params = shownParams (node, face, wired);
     Box box;
     const auto label = [&] (const std::string& text)
     { return widthOf (text, Box::label_size, false); };
@@ -65,7 +80,8 @@ Box boxOf (const graph::Node& node, const Face& face, const std::function<bool (
     box.width = glyph_width + std::min (Box::widest_title, widthOf (node.name, Box::title_size, true)) + 2 * Box::padding;
     for (std::size_t i = 0; i < rows; ++i)
     {
-        const float left = i < face.inputs.size() ? label (face.inputs[i].id) : 0.0f, right = i < face.outputs.size() ? label (face.outputs[i].id) : 0.0f;
+        const float left = i < face.inputs.size() ? label (face.inputs[i].id) : 0.0f;
+        const float right = i < face.outputs.size() ? label (face.outputs[i].id) : 0.0f;
         box.width = std::max (box.width, left + right + (left > 0.0f && right > 0.0f ? gap : 0.0f) + 2 * Box::padding);
     }
     std::vector<std::string> values;
@@ -80,8 +96,9 @@ Box boxOf (const graph::Node& node, const Face& face, const std::function<bool (
     for (std::size_t i = 0; i < rows; ++i, y += Box::row_height)
     {
         const juce::Rectangle<float> row { 0.0f, y, box.width, Box::row_height };
-        if (i < face.inputs.size()) box.sockets.push_back ({ &face.inputs[i], { 0.0f, row.getCentreY() }, row.withWidth (box.width / 2), {} });
-        if (i < face.outputs.size()) box.sockets.push_back ({ &face.outputs[i], { box.width, row.getCentreY() }, row.withTrimmedLeft (box.width / 2), {} });
+        const float y_middle = row.getCentreY(), half = box.width / 2;
+        if (i < face.inputs.size()) box.sockets.push_back ({ &face.inputs[i], { 0.0f, y_middle }, row.withWidth (half), {} });
+        if (i < face.outputs.size()) box.sockets.push_back ({ &face.outputs[i], { box.width, y_middle }, row.withTrimmedLeft (half), {} });
     }
     for (std::size_t i = 0; i < params.size(); ++i, y += Box::row_height)
     {

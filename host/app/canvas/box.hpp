@@ -10,22 +10,22 @@
 namespace tactus::host
 {
 
-/// Where a port is on its node, and where a wire meets it.
+/// A port on a node: where it is, and where wires connect.
 struct Socket
 {
-    const FacePort* port = nullptr;   ///< of the face the box was made for
+    const FacePort* port = nullptr;   ///< a port of the face the box was made from
     juce::Point<float> at;            ///< from the top left corner of the node
-    juce::Rectangle<float> row;       ///< of its label, as the mouse finds it
-    std::string value;                ///< of a param, as it is written; empty for the others
+    juce::Rectangle<float> row;       ///< its label, for hit testing
+    std::string value;                ///< a param's value as shown; empty for other ports
 };
 
-/// A node as it is laid out, in canvas units, which are pixels at 100 %. As wide as its words, and not wider.
+/// The layout of a node in canvas units, which are pixels at 100 %. The node is only as wide as its text.
 struct Box
 {
     static constexpr float header_height = 28.0f, row_height = 20.0f, grid = 8.0f, padding = 10.0f;
     static constexpr float title_size = 13.0f, label_size = 12.0f;
-    static constexpr int most_params = 3;           ///< that are shown although no wire leads to them
-    static constexpr float widest_title = 220.0f;   ///< a longer name is cut
+    static constexpr int most_params = 3;           ///< params shown without a wire
+    static constexpr float widest_title = 220.0f;   ///< longer names are cut off
 
     float width = 0.0f, height = 0.0f;
     std::vector<Socket> sockets;
@@ -33,14 +33,15 @@ struct Box
     const Socket* find (Role, std::string_view id) const noexcept;
 };
 
-/// How wide a text is, in a size, bold or not.
+/// Measures text in a font size.
 using TextWidth = std::function<float (const std::string&, float size, bool bold)>;
 
-/// Inputs and params on the left, outputs on the right. Of the params those are shown that `wired` tells, and then a few,
-/// those first that the node sets, with what `valueNow` says. The face must outlive the box.
-Box boxOf (const graph::Node&, const Face&, const std::function<bool (const FacePort&)>& wired, const std::function<Json (const FacePort&)>& valueNow, const TextWidth&);
+/// Lays out a node: inputs and params on the left, outputs on the right. Shows the params for which `wired` is true and a few
+/// more, starting with those the node sets, with their `valueNow`. The face must outlive the box.
+Box boxOf (const graph::Node&, const Face&, const std::function<bool (const FacePort&)>& wired,
+           const std::function<Json (const FacePort&)>& valueNow, const TextWidth&);
 
-/// A value as it stands in a file, for people: "0.4 mm", "0.3", "(0, 0, 1)".
+/// Formats a value from a file for display: "0.4 mm", "0.3", "(0, 0, 1)".
 std::string valueText (const Json&, const FacePort&);
 
 }   // namespace tactus::host

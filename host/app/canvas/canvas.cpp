@@ -4,6 +4,7 @@
 #include "drags.hpp"
 
 #include <host/app/look/focus.hpp>
+#include <host/app/model/patch.hpp>
 #include <host/app/model/wire_rules.hpp>
 
 #include <limits>
@@ -15,49 +16,48 @@ namespace
 {
 constexpr float socket_reach = 9.0f, wire_reach = 6.0f;   // pixels
 
-using Way = std::vector<std::pair<std::string, std::string>>;
+bool leadsTo (const graph::Node& node, const std::string& subgraph) { return node.type == "graph:" + subgraph; }
 
-/// The subgraph nodes through which one comes to a patch.
-std::optional<Way> wayTo (const graph::Graph& g, const std::string& patch)
+/// The subgraph nodes on the path to a patch. Empty if the root does not reach it.
+std::optional<Canvas::Breadcrumbs> breadcrumbsTo (const graph::Graph& g, const std::string& patch)
 {
-    std::vector<Way> open { {} };
+    std::vector<Canvas::Breadcrumbs> open { {} };
     std::set<std::string> seen;
     for (std::size_t i = 0; i < open.size(); ++i)
     {
-        const auto way = open[i];
-        const auto here = way.empty() ? std::string() : way.back().second;
-        if (here == patch) return way;
-        const auto* in = here.empty() ? &g.root : g.find (here);
+        const auto path = open[i];
+        const auto here = path.empty() ? std::string() : path.back().second;
+        if (here == patch) return path;
+        const auto* in = findPatch (g, here);
         if (in == nullptr || ! seen.insert (here).second) continue;
         for (const auto& n : in->nodes)
             if (n.type.starts_with ("graph:"))
             {
-                open.push_back (way);
+                open.push_back (path);
                 open.back().emplace_back (n.name, n.type.substr (6));
             }
     }
     return std::nullopt;
 }
 
-/// What was entered may be gone, or called otherwise by now: as far as it still leads somewhere.
-void followWay (Way& way, const graph::Graph& g)
+/// Follows renamed nodes and subgraphs after an edit, and cuts the path where it no longer exists.
+void updateBreadcrumbs (Canvas::Breadcrumbs& path, const graph::Graph& g)
 {
     const auto* in = &g.root;
-    for (std::size_t i = 0; i < way.size(); ++i)
+    for (std::size_t i = 0; i < path.size(); ++i)
     {
-        auto& [name, subgraph] = way[i];
+        auto& [name, subgraph] = path[i];
         const auto* node = in->find (name);
         if (node != nullptr && node->type.starts_with ("graph:") && g.find (subgraph) == nullptr) subgraph = node->type.substr (6);
-        const auto leads = [type = "graph:" + subgraph] (const graph::Node& n)
-        { return n.type == type; };
-        if (node == nullptr || ! leads (*node))
+        if (node == nullptr || ! leadsTo (*node, subgraph))
         {
-            const auto other = std::ranges::find_if (in->nodes, leads);
-            if (other == in->nodes.end()) return way.resize (i);
+            const auto other = std::ranges::find_if (in->nodes, [&] (const graph::Node& n)
+                                                     { return leadsTo (n, subgraph); });
+            if (other == in->nodes.end()) return path.resize (i);
             name = other->name;
         }
         in = g.find (subgraph);
-        if (in == nullptr) return way.resize (i);
+        if (in == nullptr) return path.resize (i);
     }
 }
 }   // namespace
@@ -74,11 +74,13 @@ Canvas::~Canvas() { document.remove (*this); }
 
 void Canvas::documentChanged()
 {
-    followWay (entered, document.graph());
+    updateBreadcrumbs (entered, document.graph());
     rebuild();
     std::erase_if (highlights.selected, [this] (graph::Id id)
-                   { return isNote (id) ? noteOf (id) >= shown->notes().size() : shown->find (id) == nullptr && shown->findWire (id) == nullptr; });
-    if (onWay) onWay();
+                   {
+        if (isNote (id)) return noteOf (id) >= shown->notes().size();
+        return shown->find (id) == nullptr && shown->findWire (id) == nullptr; });
+    if (onBreadcrumbs) onBreadcrumbs();
     if (onSelection) onSelection();
 }
 
@@ -121,8 +123,8 @@ void Canvas::selectNext (juce::Point<float> direction)
     for (const auto& n : shown->nodes())
     {
         if (&n == from) continue;
-        const auto way = n.bounds().getCentre() - (from == nullptr ? shown->bounds().getTopLeft() : from->bounds().getCentre());
-        const float along = way.getDotProduct (direction), beside = std::abs (way.x * direction.y - way.y * direction.x);
+        const auto d = n.bounds().getCentre() - (from == nullptr ? shown->bounds().getTopLeft() : from->bounds().getCentre());
+        const float along = d.getDotProduct (direction), beside = std::abs (d.x * direction.y - d.y * direction.x);
         if (from != nullptr && along <= beside * 0.5f) continue;
         if (const float distance = along + 2.0f * beside; distance < least)
         {
@@ -141,13 +143,13 @@ std::string Canvas::address (const std::string& port) const
     return path + port;
 }
 
-void Canvas::wayChanged()
+void Canvas::breadcrumbsChanged()
 {
     highlights = {};
-    endTyping (false);
+    closeEditor (false);
     rebuild();
     frameAll();
-    if (onWay) onWay();
+    if (onBreadcrumbs) onBreadcrumbs();
     if (onSelection) onSelection();
 }
 
@@ -156,7 +158,7 @@ void Canvas::leaveTo (std::size_t depth)
     if (depth >= entered.size()) return;
     const auto left = entered[depth].first;
     entered.resize (depth);
-    wayChanged();
+    breadcrumbsChanged();
     for (const auto& n : shown->nodes())
         if (n.name == left) select ({ n.id });
 }
@@ -165,24 +167,23 @@ void Canvas::enter (const SceneNode& node)
 {
     if (! node.type.starts_with ("graph:") || document.graph().find (node.type.substr (6)) == nullptr) return;
     entered.emplace_back (node.name, node.type.substr (6));
-    wayChanged();
+    breadcrumbsChanged();
 }
 
 void Canvas::show (const std::string& patch_name, graph::Id id)
 {
     if (patch() != patch_name)
     {
-        const auto way_there = wayTo (document.graph(), patch_name);
-        if (! way_there) return;
-        entered = *way_there;
-        wayChanged();
+        const auto path = breadcrumbsTo (document.graph(), patch_name);
+        if (! path) return;
+        entered = *path;
+        breadcrumbsChanged();
     }
     if (id == 0) return;
     select ({ id });
-    const auto* node = shown->find (id);
-    const auto* wire = shown->findWire (id);
-    const auto at = node != nullptr ? node->bounds().getCentre() : wire != nullptr ? (wire->from + wire->to) / 2.0f
-                                                                                   : window.toCanvas (getLocalBounds().getCentre().toFloat());
+    auto at = window.toCanvas (getLocalBounds().getCentre().toFloat());
+    if (const auto* node = shown->find (id)) at = node->bounds().getCentre();
+    if (const auto* wire = shown->findWire (id)) at = (wire->from + wire->to) / 2.0f;
     if (! getLocalBounds().toFloat().contains (window.toPixels (at))) window.centreOn (at, getLocalBounds().toFloat());
     repaint();
 }
@@ -198,8 +199,8 @@ void Canvas::frameSelection()
     juce::Rectangle<float> area;
     const auto include = [&] (juce::Rectangle<float> r)
     { area = area.isEmpty() ? r : area.getUnion (r); };
-    for (const auto& n : shown->nodes())
-        if (highlights.selected.contains (n.id)) include (n.bounds());
+    for (const auto* n : selectedNodes())
+        include (n->bounds());
     for (std::size_t i = 0; i < shown->notes().size(); ++i)
         if (highlights.selected.contains (noteId (i))) include (shown->notes()[i].area);
     window.frame (area.isEmpty() ? shown->bounds() : area, getLocalBounds().toFloat());
@@ -239,7 +240,7 @@ void Canvas::paint (juce::Graphics& g)
     {
         g.setColour (look.theme().dim);
         g.setFont (look.font (14.0f));
-        g.drawText ("Nothing here yet. Press space, or double click, for the first node.", getLocalBounds(), juce::Justification::centred, true);
+        g.drawText ("Press Space or double-click to add a node.", getLocalBounds(), juce::Justification::centred, true);
     }
     paintScene (g, *shown, window, look, highlights);
     if (with_map) Minimap (*shown, window, getLocalBounds()).paint (g, look.theme());
@@ -256,7 +257,8 @@ void Canvas::resized()
 std::unique_ptr<Drag> Canvas::dragFor (const juce::MouseEvent& e)
 {
     if (e.mods.isMiddleButtonDown() || e.mods.isRightButtonDown()) return panBy (*this, e);
-    if (const Minimap map { *shown, window, getLocalBounds() }; with_map && map.isShown() && map.bounds().contains (e.position)) return panByMap (*this, e);
+    const Minimap map { *shown, window, getLocalBounds() };
+    if (with_map && map.isShown() && map.bounds().contains (e.position)) return panByMap (*this, e);
     const auto at = window.toCanvas (e.position);
     if (const auto over = shown->socketAt (at, socket_reach / window.zoom); over && ! over.socket->port->isChoice())
     {
@@ -287,7 +289,7 @@ std::unique_ptr<Drag> Canvas::dragFor (const juce::MouseEvent& e)
                 setParam (*shown->find (node->id), *socket->port, std::nullopt);
                 return nullptr;
             }
-            if (auto turning = turnParam (*this, *node, *socket)) return turning;
+            if (auto dragged = dragParam (*this, *node, *socket)) return dragged;
         }
         grab (node->id);
         if (e.mods.isAltDown()) duplicateSelection();
@@ -310,7 +312,7 @@ std::unique_ptr<Drag> Canvas::dragFor (const juce::MouseEvent& e)
 
 void Canvas::mouseDown (const juce::MouseEvent& e)
 {
-    endTyping (true);
+    closeEditor (true);
     takeFocus (*this);
     drag = dragFor (e);
 }
@@ -327,10 +329,10 @@ void Canvas::mouseUp (const juce::MouseEvent& e)
     {
         const auto at = window.toCanvas (e.position);
         const auto* node = shown->nodeAt (at);
-        const auto* wire = node == nullptr ? shown->wireAt (at, wire_reach / window.zoom) : nullptr;
-        if (const auto id = node != nullptr ? node->id : wire != nullptr ? wire->id
-                                                                         : 0;
-            id != 0 && ! highlights.selected.contains (id)) select ({ id });
+        const auto* wire = shown->wireAt (at, wire_reach / window.zoom);
+        graph::Id id = wire != nullptr ? wire->id : 0;
+        if (node != nullptr) id = node->id;
+        if (id != 0 && ! highlights.selected.contains (id)) select ({ id });
         showMenu();
     }
     repaint();
@@ -355,44 +357,39 @@ void Canvas::showMenu()
     menu.showMenuAsync (juce::PopupMenu::Options().withMousePosition().withParentComponent (getTopLevelComponent()));
 }
 
-void Canvas::mouseMove (const juce::MouseEvent& e)
+Canvas::Hover Canvas::hoverAt (juce::Point<float> at) const
 {
-    const auto at = window.toCanvas (e.position);
-    graph::Id over = 0;
-    juce::String text;
-    auto shape = juce::MouseCursor::NormalCursor;
     if (const auto s = shown->socketAt (at, socket_reach / window.zoom))
     {
-        const auto unit = s.socket->port->unit.kind == UnitRule::Kind::fixed ? s.socket->port->unit.unit : unitOf (s.node->quantityOf (*s.socket->port));
-        over = s.node->id;
-        text = s.node->name + "." + s.socket->port->id + "  [" + std::string (unit.symbol) + "]  " + s.socket->port->about;
-        shape = juce::MouseCursor::CrosshairCursor;
+        const auto& port = *s.socket->port;
+        const auto unit = port.unit.kind == UnitRule::Kind::fixed ? port.unit.unit : unitOf (s.node->quantityOf (port));
+        return { s.node->id, s.node->name + "." + port.id + "  [" + std::string (unit.symbol) + "]  " + port.about, juce::MouseCursor::CrosshairCursor };
     }
-    else if (const auto* node = shown->nodeAt (at))
+    if (const auto* node = shown->nodeAt (at))
     {
-        over = node->id;
-        text = node->face->type == nullptr ? node->type : std::string (node->face->type->info.name) + ": " + std::string (node->face->type->info.summary);
-        if (const auto* socket = node->paramAt (at); socket != nullptr && ! socket->port->isChoice())
-        {
-            text = socket->port->id + ": " + socket->port->about + ". Drag up or down; shift is fine";
-            shape = juce::MouseCursor::UpDownResizeCursor;
-        }
+        const auto* socket = node->paramAt (at);
+        if (socket != nullptr && ! socket->port->isChoice())
+            return { node->id, socket->port->id + ": " + socket->port->about + ". Drag up or down; hold shift for fine steps",
+                     juce::MouseCursor::UpDownResizeCursor };
+        if (node->face->type == nullptr) return { node->id, node->type };
+        return { node->id, std::string (node->face->type->info.name) + ": " + std::string (node->face->type->info.summary) };
     }
-    else if (const auto* wire = shown->wireAt (at, wire_reach / window.zoom))
-    {
-        over = wire->id;
-        text = wire->text;
-    }
-    else if (const auto note = shown->noteAt (at))
-    {
-        text = "A note: drag it, pull its corner, double click to write";
-        if (shown->isCorner (*note, at)) shape = juce::MouseCursor::BottomRightCornerResizeCursor;
-    }
-    if (const auto problem = highlights.live.problems.find (over); problem != highlights.live.problems.end()) text = problem->second;
-    setMouseCursor (shape);
-    hint (text);
-    if (over == highlights.hovered) return;
-    highlights.hovered = over;
+    if (const auto* wire = shown->wireAt (at, wire_reach / window.zoom)) return { wire->id, wire->text };
+    const auto note = shown->noteAt (at);
+    if (! note) return {};
+    const auto shape = shown->isCorner (*note, at) ? juce::MouseCursor::BottomRightCornerResizeCursor : juce::MouseCursor::NormalCursor;
+    return { 0, "Note: drag to move, drag the corner to resize, double-click to edit", shape };
+}
+
+void Canvas::mouseMove (const juce::MouseEvent& e)
+{
+    auto over = hoverAt (window.toCanvas (e.position));
+    const auto& problems = highlights.live.problems;
+    if (const auto problem = problems.find (over.id); problem != problems.end()) over.text = problem->second;
+    setMouseCursor (over.cursor);
+    hint (over.text);
+    if (over.id == highlights.hovered) return;
+    highlights.hovered = over.id;
     repaint();
 }
 
@@ -412,11 +409,11 @@ void Canvas::mouseDoubleClick (const juce::MouseEvent& e)
         socket == nullptr ? enter (*node) : editParam (*node, *socket);
     }
     else if (const auto* wire = shown->wireAt (at, wire_reach / window.zoom))
-        wantNode ({ at, {}, wire->id });
+        requestNode ({ at, {}, wire->id });
     else if (const auto note = shown->noteAt (at))
         editNote (*note);
     else
-        wantNode ({ at });
+        requestNode ({ at });
 }
 
 void Canvas::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel)

@@ -12,7 +12,7 @@
 namespace tactus::host
 {
 
-/// What the mouse is doing from button down to button up.
+/// A mouse drag, from button down to button up.
 class Drag
 {
 public:
@@ -22,27 +22,19 @@ public:
     virtual void paint (juce::Graphics&) const {}   ///< over the scene, in pixels
 };
 
-/// The port a wire is drawn from.
-struct WireStart
-{
-    graph::Id node = 0;
-    Role role = Role::output;
-    std::string port;
-};
-
-/// A node that somebody is about to choose: where it will stand, and what it will be joined to.
-struct NodeWish
+/// A request to add a node that the user has yet to choose: where it goes and what it will be connected to.
+struct NodeRequest
 {
     juce::Point<float> at;
-    std::optional<WireStart> start {};   ///< a wire that waits for its other end
-    graph::Id wire = 0;                  ///< into this wire; 0: into none
+    std::optional<PortId> start {};   ///< connect it to this port
+    graph::Id wire = 0;               ///< insert it into this wire; 0 for none
 };
 
-/// Where graphs are patched: nodes, wires and notes of one patch, under the pointer and the keyboard.
+/// The patch editor: shows the nodes, wires and notes of one patch and edits them with mouse and keyboard.
 ///
-/// Drag on nothing selects; the middle or the right button pans, and a click of the right one opens the menu; the wheel
-/// zooms to the pointer, and a trackpad pans. A drag from a port draws a wire; it lights what it fits and says why it does
-/// not fit elsewhere. What the keyboard does: commands.hpp.
+/// Dragging on empty canvas selects. The middle or right button pans; a right-click opens the menu. The wheel zooms at the
+/// pointer; a trackpad pans. Dragging from a port draws a wire: ports it fits are highlighted, others show why it does not
+/// fit. Keyboard commands: commands.hpp.
 class Canvas final : public juce::Component, private Document::Listener
 {
 public:
@@ -53,23 +45,24 @@ public:
     const Scene& scene() const noexcept { return *shown; }
     View& view() noexcept { return window; }
     const View& view() const noexcept { return window; }
-    Highlights& lit() noexcept { return highlights; }
+    Highlights& highlighted() noexcept { return highlights; }
     const Selection& selection() const noexcept { return highlights.selected; }
+    std::vector<const SceneNode*> selectedNodes() const;
     void select (Selection);
     void selectAll();
-    void selectNext (juce::Point<float> direction);   ///< the nearest node on that side of the one that is selected
+    void selectNext (juce::Point<float> direction);   ///< selects the nearest node in that direction
 
-    /// From the graph itself inwards: the names of the subgraph nodes, and of the subgraphs, that were entered.
-    const std::vector<std::pair<std::string, std::string>>& way() const noexcept { return entered; }
+    /// The subgraphs entered, from the outside in: the name of each node and of its subgraph.
+    using Breadcrumbs = std::vector<std::pair<std::string, std::string>>;
+    const Breadcrumbs& breadcrumbs() const noexcept { return entered; }
     std::string patch() const { return entered.empty() ? std::string {} : entered.back().second; }
     void leaveTo (std::size_t depth);
-    void enter (const SceneNode&);   ///< of a subgraph of this file; else nothing
+    void enter (const SceneNode&);   ///< no effect unless it is a subgraph of this file
 
-    /// Goes to the patch, and selects and frames a node or wire of it. A patch that no way leads to from the graph itself is
-    /// not gone to.
+    /// Goes to a patch, then selects a node or wire in it and scrolls to it. No effect if the patch cannot be reached from the root.
     void show (const std::string& patch, graph::Id);
 
-    /// As the whole graph names a port that is in the patch shown: "grain/wave.value".
+    /// The full path of a port in the current patch: "grain/wave.value".
     std::string address (const std::string& port) const;
 
     void frameAll();
@@ -78,7 +71,7 @@ public:
     void toggleMap();
     juce::Point<float> pointerOrCentre() const;   ///< of the canvas
 
-    // What commands do; each is one step of undo.
+    // Commands. Each is one undo step.
     void removeSelection();
     void duplicateSelection();
     void copySelection() const;
@@ -98,38 +91,38 @@ public:
     void wireFromSelection();
     void exposeFromSelection();
 
-    /// Adds it, and joins it to what waits for it.
-    void addNodeAt (const std::string& type, const NodeWish&);
+    /// Adds a node and connects it as requested.
+    void addNodeAt (const std::string& type, const NodeRequest&);
 
-    /// Draws a wire between two ports. Where one is a vector and the other is not, asks which component.
-    void join (const SceneNode& from, const FacePort& out, const SceneNode& to, const FacePort& in);
+    /// Connects two ports. If only one of them is a vector, asks which component to use.
+    void join (const ScenePort& from, const ScenePort& to);
 
     void editNote (std::size_t);
     void editParam (const SceneNode&, const Socket&);
     void setParam (const SceneNode&, const FacePort&, const std::optional<Json>&, graph::Step = graph::Step::own);
 
-    /// A change made here: what stands somewhere because nobody said where stays there. False if it is refused.
+    /// Performs an edit and stores the positions of automatically arranged nodes with it. Returns false if it is refused.
     bool perform (graph::Command, graph::Step = graph::Step::own);
-    graph::Graph placedGraph() const;   ///< with the places of all nodes of the patch written down
+    graph::Graph placedGraph() const;   ///< the graph with the positions of all nodes of the patch stored
 
     void showLive (Live);   ///< many times a second
 
-    std::function<void()> onSelection, onWay;
-    std::function<void (const juce::String&)> onHint;   ///< a word on what is under the pointer, or ""
+    std::function<void()> onSelection, onBreadcrumbs;
+    std::function<void (const juce::String&)> onHint;   ///< describes what is under the pointer, or ""
 
-    /// A node is wanted: on a double click, a key, or where a wire was let go on nothing.
-    std::function<void (NodeWish)> onWantsNode;
-    void wantNode (NodeWish wish)
+    /// The user wants to add a node: by double-click, by key, or by dropping a wire on empty canvas.
+    std::function<void (NodeRequest)> onNodeRequested;
+    void requestNode (NodeRequest request)
     {
-        if (onWantsNode) onWantsNode (std::move (wish));
+        if (onNodeRequested) onNodeRequested (std::move (request));
     }
 
-    /// One of several is to be chosen, by what it is called; `chosen` is told its type.
+    /// Asks the user to choose one of several entries; `chosen` receives its type.
     std::function<void (const juce::String& purpose, std::vector<PaletteEntry>, std::function<void (const std::string&)> chosen)> onChoose;
 
-    std::function<void (std::vector<std::string> ports)> onProbe;   ///< as the whole graph names them
+    std::function<void (std::vector<std::string> ports)> onProbe;   ///< full paths
 
-    std::function<void (const juce::String&)> onNotice;   ///< why something was not done
+    std::function<void (const juce::String&)> onNotice;   ///< why an edit was not made
 
     void hint (const juce::String&);
     void notice (const juce::String& text)
@@ -153,26 +146,34 @@ public:
 private:
     void documentChanged() override;
     void rebuild();
-    void wayChanged();
+    void breadcrumbsChanged();
+    /// What is under the pointer: its id, a description, and the cursor to show.
+    struct Hover
+    {
+        graph::Id id = 0;
+        juce::String text {};
+        juce::MouseCursor::StandardCursorType cursor = juce::MouseCursor::NormalCursor;
+    };
+    Hover hoverAt (juce::Point<float>) const;
     std::unique_ptr<Drag> dragFor (const juce::MouseEvent&);
     const graph::Patch& patchShown() const;
-    std::optional<graph::Command> settle() const;
-    juce::Point<float> freePlace (juce::Point<float>) const;   ///< there, or below what stands there
+    std::optional<graph::Command> storePositions() const;      ///< of arranged nodes; empty if all are stored
+    juce::Point<float> freePlace (juce::Point<float>) const;   ///< this point, or the next free one below
 
-    /// Has a text typed over a part of the canvas.
-    void type (juce::Rectangle<float> area, const juce::String& text, bool several_lines, std::function<void (const juce::String&)> typed);
-    void endTyping (bool keep);
+    /// Opens a text editor over part of the canvas.
+    void openEditor (juce::Rectangle<float> area, const juce::String& text, bool several_lines, std::function<void (const juce::String&)> done);
+    void closeEditor (bool keep);
 
     Document& document;
     const Catalogue& catalogue;
     std::unique_ptr<Scene> shown;
     View window;
     Highlights highlights;
-    std::vector<std::pair<std::string, std::string>> entered;
+    Breadcrumbs entered;
     std::unique_ptr<Drag> drag;
-    std::unique_ptr<juce::TextEditor> typing;
-    std::function<void (const juce::String&)> on_typed;
-    bool framed = false;   // once there was room
+    std::unique_ptr<juce::TextEditor> editor;
+    std::function<void (const juce::String&)> on_edited;
+    bool framed = false;   // after the first layout with enough room
     bool with_map = true;
 };
 

@@ -11,32 +11,20 @@ namespace
 {
 bool always (const Canvas&) noexcept { return true; }
 
-std::size_t nodesSelected (const Canvas& c) noexcept
-{
-    return static_cast<std::size_t> (std::ranges::count_if (c.scene().nodes(), [&] (const SceneNode& n)
-                                                            { return c.selection().contains (n.id); }));
-}
+bool hasSelection (const Canvas& c) noexcept { return ! c.selection().empty(); }
+bool hasNode (const Canvas& c) noexcept { return ! c.selectedNodes().empty(); }
+bool hasOneNode (const Canvas& c) noexcept { return c.selectedNodes().size() == 1; }
+bool hasTwoNodes (const Canvas& c) noexcept { return c.selectedNodes().size() > 1; }
+bool hasNote (const Canvas& c) noexcept { return std::ranges::any_of (c.selection(), isNote); }
+bool hasSomeNodes (const Canvas& c) noexcept { return ! c.scene().nodes().empty(); }
+bool isInside (const Canvas& c) noexcept { return ! c.breadcrumbs().empty(); }
+bool isInsideWithNode (const Canvas& c) noexcept { return isInside (c) && hasOneNode (c); }
+bool hasSubgraph (const Canvas& c) noexcept { return hasOneNode (c) && c.selectedNodes()[0]->face->kind == Face::Kind::subgraph; }
 
-bool anything (const Canvas& c) noexcept { return ! c.selection().empty(); }
-bool aNode (const Canvas& c) noexcept { return nodesSelected (c) > 0; }
-bool oneNode (const Canvas& c) noexcept { return nodesSelected (c) == 1; }
-bool twoNodes (const Canvas& c) noexcept { return nodesSelected (c) > 1; }
-bool aNote (const Canvas& c) noexcept { return std::ranges::any_of (c.selection(), isNote); }
-bool someNodes (const Canvas& c) noexcept { return ! c.scene().nodes().empty(); }
-bool inside (const Canvas& c) noexcept { return ! c.way().empty(); }
-
-bool insideOnANode (const Canvas& c) noexcept { return inside (c) && oneNode (c); }
-
-bool aWire (const Canvas& c) noexcept
+bool hasWire (const Canvas& c) noexcept
 {
     return std::ranges::any_of (c.scene().wires(), [&] (const SceneWire& w)
                                 { return c.selection().contains (w.id); });
-}
-
-bool aSubgraph (const Canvas& c) noexcept
-{
-    return oneNode (c) && std::ranges::any_of (c.scene().nodes(), [&] (const SceneNode& n)
-                                               { return c.selection().contains (n.id) && n.face->kind == Face::Kind::subgraph; });
 }
 
 template <Alignment how>
@@ -63,93 +51,81 @@ void delay (Canvas& c)
     c.delaySelection (by);
 }
 
+template <void (Canvas::*command)()>
+void call (Canvas& c)
+{
+    (c.*command)();
+}
+
+template <int percent>
+void zoom (Canvas& c)
+{
+    c.zoomBy (static_cast<float> (percent) / 100.0f);
+}
+
+void addNode (Canvas& c) { c.requestNode ({ c.pointerOrCentre(), {}, 0 }); }
+void undo (Canvas& c) { c.edited().undo(); }
+void redo (Canvas& c) { c.edited().redo(); }
+void copy (Canvas& c) { c.copySelection(); }
+void leave (Canvas& c) { c.leaveTo (c.breadcrumbs().size() - 1); }
+void resetZoom (Canvas& c) { c.zoomBy (1.0f / c.view().zoom); }
+
+void cut (Canvas& c)
+{
+    c.copySelection();
+    c.removeSelection();
+}
+
 constexpr CanvasCommand all[] {
-    { "Add a node", "spacebar|tab", always, [] (Canvas& c)
-      { c.wantNode ({ c.pointerOrCentre(), {}, 0 }); } },
-    { "Add a note, or a region around what is selected", "n", always, [] (Canvas& c)
-      { c.addNote(); } },
-    { "Another colour for the region, or none", "k", aNote, [] (Canvas& c)
-      { c.recolourNotes(); } },
-    { "Wire from here", "w", oneNode, [] (Canvas& c)
-      { c.wireFromSelection(); } },
-    { "Probe what it carries", "p", anything, [] (Canvas& c)
-      { c.probeSelection(); },
-      true },
+    { "Add node", "spacebar|tab", always, addNode },
+    { "Add note, or region around selection", "n", always, call<&Canvas::addNote> },
+    { "Next region colour", "k", hasNote, call<&Canvas::recolourNotes> },
+    { "Connect to...", "w", hasOneNode, call<&Canvas::wireFromSelection> },
+    { "Probe signal", "p", hasSelection, call<&Canvas::probeSelection>, true },
 
-    { "Undo", "ctrl + z", always, [] (Canvas& c)
-      { c.edited().undo(); } },
-    { "Redo", "ctrl + y|ctrl + shift + z", always, [] (Canvas& c)
-      { c.edited().redo(); } },
-    { "Cut", "ctrl + x", anything, [] (Canvas& c)
-      {
-          c.copySelection();
-          c.removeSelection();
-      } },
-    { "Copy", "ctrl + c", anything, [] (Canvas& c)
-      { c.copySelection(); } },
-    { "Paste", "ctrl + v", always, [] (Canvas& c)
-      { c.pasteText(); } },
-    { "Duplicate, with the wires that come in", "ctrl + d", aNode, [] (Canvas& c)
-      { c.duplicateSelection(); } },
-    { "Delete, and heal the wires through", "delete|backspace", anything, [] (Canvas& c)
-      { c.removeSelection(); } },
-    { "Select all", "ctrl + a", someNodes, [] (Canvas& c)
-      { c.selectAll(); },
-      true },
+    { "Undo", "ctrl + z", always, undo },
+    { "Redo", "ctrl + y|ctrl + shift + z", always, redo },
+    { "Cut", "ctrl + x", hasSelection, cut },
+    { "Copy", "ctrl + c", hasSelection, copy },
+    { "Paste", "ctrl + v", always, call<&Canvas::pasteText> },
+    { "Duplicate with incoming wires", "ctrl + d", hasNode, call<&Canvas::duplicateSelection> },
+    { "Delete and reconnect", "delete|backspace", hasSelection, call<&Canvas::removeSelection> },
+    { "Select all", "ctrl + a", hasSomeNodes, call<&Canvas::selectAll>, true },
 
-    { "Bypass", "b", aNode, [] (Canvas& c)
-      { c.bypassSelection(); } },
-    { "Make a subgraph of it", "g", aNode, [] (Canvas& c)
-      { c.groupSelection(); } },
-    { "Put a subgraph's inside in its place", "shift + g", aSubgraph, [] (Canvas& c)
-      { c.expandSelection(); } },
-    { "Enter the subgraph", "return", aSubgraph, [] (Canvas& c)
-      { c.enterSelection(); } },
-    { "Leave the subgraph", "u", inside, [] (Canvas& c)
-      { c.leaveTo (c.way().size() - 1); } },
-    { "Show a port of it outside, or hide it", "o", insideOnANode, [] (Canvas& c)
-      { c.exposeFromSelection(); },
-      true },
+    { "Bypass", "b", hasNode, call<&Canvas::bypassSelection> },
+    { "Group into subgraph", "g", hasNode, call<&Canvas::groupSelection> },
+    { "Ungroup subgraph", "shift + g", hasSubgraph, call<&Canvas::expandSelection> },
+    { "Enter subgraph", "return", hasSubgraph, call<&Canvas::enterSelection> },
+    { "Leave subgraph", "u", isInside, leave },
+    { "Expose or hide port...", "o", isInsideWithNode, call<&Canvas::exposeFromSelection>, true },
 
-    { "One more tick of delay on the wire", "]", aWire, delay<1> },
-    { "One tick of delay less", "[", aWire, delay<-1> },
-    { "Switch the wire off or on", "e", aWire, [] (Canvas& c)
-      { c.toggleWires(); },
-      true },
+    { "Increase wire delay", "]", hasWire, delay<1> },
+    { "Decrease wire delay", "[", hasWire, delay<-1> },
+    { "Toggle wire", "e", hasWire, call<&Canvas::toggleWires>, true },
 
-    { "Arrange all", "l", someNodes, [] (Canvas& c)
-      { c.arrangeAll(); } },
-    { "Align left", "alt + cursor left", twoNodes, align<Alignment::left> },
-    { "Align right", "alt + cursor right", twoNodes, align<Alignment::right> },
-    { "Align at the top", "alt + cursor up", twoNodes, align<Alignment::top> },
-    { "Align at the bottom", "alt + cursor down", twoNodes, align<Alignment::bottom> },
-    { "Spread from left to right", "alt + shift + cursor right", twoNodes, align<Alignment::rows> },
-    { "Spread from top to bottom", "alt + shift + cursor down", twoNodes, align<Alignment::columns>, true },
+    { "Arrange all", "l", hasSomeNodes, call<&Canvas::arrangeAll> },
+    { "Align left", "alt + cursor left", hasTwoNodes, align<Alignment::left> },
+    { "Align right", "alt + cursor right", hasTwoNodes, align<Alignment::right> },
+    { "Align top", "alt + cursor up", hasTwoNodes, align<Alignment::top> },
+    { "Align bottom", "alt + cursor down", hasTwoNodes, align<Alignment::bottom> },
+    { "Distribute horizontally", "alt + shift + cursor right", hasTwoNodes, align<Alignment::rows> },
+    { "Distribute vertically", "alt + shift + cursor down", hasTwoNodes, align<Alignment::columns>, true },
 
-    { "Move left", "cursor left", anything, nudge<-1, 0>, false, false },
-    { "Move right", "cursor right", anything, nudge<1, 0>, false, false },
-    { "Move up", "cursor up", anything, nudge<0, -1>, false, false },
-    { "Move down", "cursor down", anything, nudge<0, 1>, true, false },
-    { "Select the next one at the left", "ctrl + cursor left", someNodes, step<-1, 0>, false, false },
-    { "Select the next one at the right", "ctrl + cursor right", someNodes, step<1, 0>, false, false },
-    { "Select the next one above", "ctrl + cursor up", someNodes, step<0, -1>, false, false },
-    { "Select the next one below", "ctrl + cursor down", someNodes, step<0, 1>, true, false },
+    { "Move left", "cursor left", hasSelection, nudge<-1, 0>, false, false },
+    { "Move right", "cursor right", hasSelection, nudge<1, 0>, false, false },
+    { "Move up", "cursor up", hasSelection, nudge<0, -1>, false, false },
+    { "Move down", "cursor down", hasSelection, nudge<0, 1>, true, false },
+    { "Select next node to the left", "ctrl + cursor left", hasSomeNodes, step<-1, 0>, false, false },
+    { "Select next node to the right", "ctrl + cursor right", hasSomeNodes, step<1, 0>, false, false },
+    { "Select next node above", "ctrl + cursor up", hasSomeNodes, step<0, -1>, false, false },
+    { "Select next node below", "ctrl + cursor down", hasSomeNodes, step<0, 1>, true, false },
 
-    { "Frame what is selected", "f", someNodes, [] (Canvas& c)
-      { c.frameSelection(); } },
-    { "Frame all", "home", someNodes, [] (Canvas& c)
-      { c.frameAll(); } },
-    { "Zoom in", "+|=", always, [] (Canvas& c)
-      { c.zoomBy (1.25f); },
-      false, false },
-    { "Zoom out", "-", always, [] (Canvas& c)
-      { c.zoomBy (0.8f); },
-      false, false },
-    { "Actual size", "0", always, [] (Canvas& c)
-      { c.zoomBy (1.0f / c.view().zoom); },
-      false, false },
-    { "Show or hide the map", "m", always, [] (Canvas& c)
-      { c.toggleMap(); } },
+    { "Frame selection", "f", hasSomeNodes, call<&Canvas::frameSelection> },
+    { "Frame all", "home", hasSomeNodes, call<&Canvas::frameAll> },
+    { "Zoom in", "+|=", always, zoom<125>, false, false },
+    { "Zoom out", "-", always, zoom<80>, false, false },
+    { "Actual size", "0", always, resetZoom, false, false },
+    { "Show or hide minimap", "m", always, call<&Canvas::toggleMap> },
 };
 }   // namespace
 

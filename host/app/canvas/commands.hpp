@@ -8,15 +8,15 @@ namespace tactus::host
 
 class Canvas;
 
-/// Something that can be done on a canvas, by a key or from its menu.
+/// A canvas command with a menu item, a keyboard shortcut, or both.
 struct CanvasCommand
 {
-    const char* name;                       ///< as in the menu
-    const char* keys;                       ///< as juce::KeyPress describes them, several separated by '|'; "" for none
-    bool (*can) (const Canvas&) noexcept;   ///< whether there is anything to do it with
+    const char* name;                       ///< menu text
+    const char* keys;                       ///< juce::KeyPress descriptions, separated by '|'; "" for none
+    bool (*can) (const Canvas&) noexcept;   ///< false if it does not apply to the selection
     void (*run) (Canvas&);
-    bool ends_group = false;   ///< a line follows in the menu
-    bool in_menu = true;       ///< else it is for the keys alone
+    bool ends_group = false;   ///< a separator follows in the menu
+    bool in_menu = true;       ///< false: keyboard only
 };
 
 std::span<const CanvasCommand> canvasCommands() noexcept;

@@ -2,9 +2,10 @@
 #include "drags.hpp"
 
 #include <framework/graph/endpoints.hpp>
-#include <framework/turn.hpp>
+#include <framework/run/turn.hpp>
+#include <host/app/model/controlled_param.hpp>
 #include <host/app/model/drag_number.hpp>
-#include <host/app/model/held.hpp>
+#include <host/app/model/patch.hpp>
 #include <host/app/model/wire_rules.hpp>
 
 #include <cmath>
@@ -14,7 +15,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr float reach_px = 14.0f;   // from the middle of a port
+constexpr float reach_px = 14.0f;   // from the centre of a port
 
 class Pan final : public Drag
 {
@@ -86,14 +87,14 @@ public:
 
     void move (const juce::MouseEvent& e) override
     {
-        auto way = canvas.view().toCanvas (e.position) - grabbed;
-        if (! e.mods.isAltDown()) way = { std::round (way.x / Box::grid) * Box::grid, std::round (way.y / Box::grid) * Box::grid };
-        if (way == moved) return;
-        moved = way;
+        auto by = canvas.view().toCanvas (e.position) - grabbed;
+        if (! e.mods.isAltDown()) by = (by / Box::grid).roundToInt().toFloat() * Box::grid;
+        if (by == moved) return;
+        moved = by;
         graph::Batch all { "move", {} };
         auto places = starts;
         for (auto& [id, at] : places)
-            at += way;
+            at += by;
         const auto& document = canvas.edited();
         if (! places.empty()) all.commands.push_back (placeNodes (document.graph(), canvas.patch(), places));
         auto now = notes;
@@ -101,7 +102,7 @@ public:
         for (std::size_t i = 0; i < now.size(); ++i)
             if (canvas.selection().contains (noteId (i)))
             {
-                now[i].area += way;
+                now[i].area += by;
                 with_notes = true;
             }
         if (with_notes) all.commands.push_back (setNotes (document.graph(), canvas.patch(), now, "move"));
@@ -116,7 +117,8 @@ public:
         const auto* node = scene.find (starts[0].first);
         if (node == nullptr) return;
         for (const auto& w : scene.wires())
-            if (scene.nodes()[static_cast<std::size_t> (w.start)].id == node->id || scene.nodes()[static_cast<std::size_t> (w.end)].id == node->id) return;
+            for (const int end : { w.start, w.end })
+                if (&scene.nodes()[static_cast<std::size_t> (end)] == node) return;
         for (const auto* wire : scene.wiresAt (node->bounds().getCentre(), node->bounds().getHeight() / 2))
             if (auto command = insertInto (canvas.edited().graph(), canvas.patch(), scene, wire->id, node->id))
             {
@@ -136,15 +138,19 @@ private:
 class ResizeNote final : public Drag
 {
 public:
-    ResizeNote (Canvas& c, const juce::MouseEvent& e, std::size_t n) : canvas (c), grabbed (c.view().toCanvas (e.position)), note (n), notes (c.scene().notes()) {}
+    ResizeNote (Canvas& c, const juce::MouseEvent& e, std::size_t n)
+        : canvas (c), grabbed (c.view().toCanvas (e.position)), note (n), notes (c.scene().notes())
+    {
+    }
 
     void move (const juce::MouseEvent& e) override
     {
         constexpr float least = 6 * Box::grid;
-        const auto way = canvas.view().toCanvas (e.position) - grabbed;
+        const auto by = canvas.view().toCanvas (e.position) - grabbed;
         auto now = notes;
-        now[note].area.setSize (std::max (least, notes[note].area.getWidth() + way.x), std::max (least, notes[note].area.getHeight() + way.y));
-        canvas.perform (setNotes (canvas.edited().graph(), canvas.patch(), now, "resize a note"), begun ? graph::Step::joined : graph::Step::own);
+        now[note].area.setSize (std::max (least, notes[note].area.getWidth() + by.x), std::max (least, notes[note].area.getHeight() + by.y));
+        const auto step = begun ? graph::Step::joined : graph::Step::own;
+        canvas.perform (setNotes (canvas.edited().graph(), canvas.patch(), now, "resize note"), step);
         begun = true;
     }
 
@@ -169,36 +175,40 @@ public:
 
 private:
     Canvas& canvas;
-    Minimap map;   // as it was when it was grabbed, so that it does not move under the pointer
+    Minimap map;   // the map at the start of the drag, so that it does not move under the pointer
 };
 
-class TurnParam final : public Drag
+class DragParam final : public Drag
 {
 public:
-    TurnParam (Canvas& c, const SceneNode& n, const FacePort& p, QuantityText v)
-        : canvas (c), node (n.id), port (p.id), sheet (*p.sheet), held (c.patch().empty() ? heldBy (c.edited().graph(), n.name + '.' + p.id) : std::nullopt), grabbed (v), now (v)
+    DragParam (Canvas& c, const SceneNode& n, const FacePort& p, QuantityText v)
+        : canvas (c), id { n.id, Role::param, p.id }, sheet (*p.sheet), grabbed (v), now (v)
     {
+        if (c.patch().empty()) control = controlOf (c.edited().graph(), n.name + '.' + p.id);
     }
 
     void move (const juce::MouseEvent& e) override
     {
         constexpr double fine = 0.1;
-        auto to = dragged (grabbed, sheet, -static_cast<double> (e.getDistanceFromDragStartY()) * (e.mods.isShiftDown() ? fine : 1.0));
-        if (held) to = to.moved (std::clamp (to.si(), std::min (held->low, held->high), std::max (held->low, held->high)));
-        const auto* shown = canvas.scene().find (node);
-        const auto* p = shown == nullptr ? nullptr : shown->face->find (Role::param, port);
-        if (to.number == now.number || p == nullptr || ! sheet.limits.hard.contains (to.si())) return;
+        const double up = -static_cast<double> (e.getDistanceFromDragStartY());
+        auto to = dragged (grabbed, sheet, e.mods.isShiftDown() ? up * fine : up);
+        if (control)
+        {
+            const auto [low, high] = std::minmax (control->low, control->high);
+            to = to.moved (std::clamp (to.si(), low, high));
+        }
+        const auto param = canvas.scene().findPort (id);
+        if (to.number == now.number || ! param || ! sheet.limits.hard.contains (to.si())) return;
         now = to;
-        canvas.setParam (*shown, *p, to.toJson(), begun ? graph::Step::joined : graph::Step::own);
+        canvas.setParam (*param.node, *param.port, to.toJson(), begun ? graph::Step::joined : graph::Step::own);
         begun = true;
     }
 
 private:
     Canvas& canvas;
-    graph::Id node;
-    std::string port;
+    PortId id;
     const PortSheet& sheet;
-    std::optional<Held> held;   // a control moves it, and only so far
+    std::optional<ControlledParam> control;   // set if a control drives the param; it limits the range
     QuantityText grabbed, now;
     bool begun = false;
 };
@@ -206,20 +216,20 @@ private:
 class DrawWire final : public Drag
 {
 public:
-    /// `replugged` is a wire that is taken to another end; 0 if it is a new one.
-    DrawWire (Canvas& c, WireStart s, graph::Id replugged = 0) : canvas (c), start (std::move (s)), wire_id (replugged)
+    /// `replugged` is the existing wire being moved to another end; 0 for a new wire.
+    DrawWire (Canvas& c, PortId s, graph::Id replugged = 0) : canvas (c), start (std::move (s)), wire_id (replugged)
     {
         const auto* node = c.scene().find (start.node);
         const auto* socket = node == nullptr ? nullptr : node->box.find (start.role, start.port);
         if (socket == nullptr) return;
         begin = end_at = node->placeOf (*socket);
-        c.lit().fits = [this] (const SceneNode& n, const FacePort& p)
-        { return ! problemAt (n, p); };
+        c.highlighted().fits = [this] (const SceneNode& n, const FacePort& p)
+        { return check (n, p).has_value(); };
     }
 
     ~DrawWire() override
     {
-        canvas.lit().fits = nullptr;
+        canvas.highlighted().fits = nullptr;
         canvas.repaint();
     }
 
@@ -229,15 +239,15 @@ public:
         const auto over = canvas.scene().socketAt (end_at, reach_px / canvas.view().zoom);
         if (over && over.node->id != start.node)
         {
-            const auto problem = problemAt (*over.node, *over.socket->port);
-            why_not = problem ? juce::String (*problem) : juce::String();
-            canvas.hint (problem ? juce::String (over.node->name + "." + over.socket->port->id + ": " + *problem) : juce::String (over.node->name + "." + over.socket->port->id));
-            if (! problem) end_at = over.node->placeOf (*over.socket);
+            const auto fits = check (*over.node, *over.socket->port);
+            problem = fits ? juce::String() : juce::String (fits.error().text);
+            canvas.hint (juce::String (over.node->name + "." + over.socket->port->id) + (fits ? juce::String() : ": " + problem));
+            if (fits) end_at = over.node->placeOf (*over.socket);
         }
         else
         {
-            why_not.clear();
-            canvas.hint ("Let go on a port that is lit, or on the canvas for a new node");
+            problem.clear();
+            canvas.hint ("Drop on a highlighted port, or on the canvas to add a node");
         }
         canvas.repaint();
     }
@@ -249,112 +259,97 @@ public:
         const auto over = canvas.scene().socketAt (at, reach_px / canvas.view().zoom);
         if (! over)
         {
-            if (e.getDistanceFromDragStart() <= least_way_px || canvas.scene().nodeAt (at) != nullptr) return;
+            if (e.getDistanceFromDragStart() <= least_drag_px || canvas.scene().nodeAt (at) != nullptr) return;
             if (wire_id != 0) return unplug ("disconnect");
-            canvas.wantNode ({ at, start });
+            canvas.requestNode ({ at, start });
             return;
         }
-        if (problemAt (*over.node, *over.socket->port)) return;
-        const auto* node = canvas.scene().find (start.node);
-        const auto* port = node == nullptr ? nullptr : node->face->find (start.role, start.port);
-        if (port == nullptr) return;
-        const WireStart other { over.node->id, over.socket->port->role, over.socket->port->id };
-        if (wire_id != 0)
-        {
-            unplug ("re-plug");
-            // The scene is another one now.
-            node = canvas.scene().find (start.node);
-            port = node == nullptr ? nullptr : node->face->find (start.role, start.port);
-        }
-        const auto* there = canvas.scene().find (other.node);
-        const auto* in = there == nullptr ? nullptr : there->face->find (other.role, other.port);
-        if (port == nullptr || in == nullptr) return;
-        start.role == Role::output ? canvas.join (*node, *port, *there, *in) : canvas.join (*there, *in, *node, *port);
+        if (! check (*over.node, *over.socket->port)) return;
+        const PortId other { over.node->id, over.socket->port->role, over.socket->port->id };
+        if (wire_id != 0) unplug ("re-plug");   // rebuilds the scene
+        const auto a = canvas.scene().findPort (start), b = canvas.scene().findPort (other);
+        if (a && b) start.role == Role::output ? canvas.join (a, b) : canvas.join (b, a);
     }
 
     void paint (juce::Graphics& g) const override
     {
-        const auto* node = canvas.scene().find (start.node);
-        const auto* port = node == nullptr ? nullptr : node->face->find (start.role, start.port);
-        if (port == nullptr) return;
+        const auto from = canvas.scene().findPort (start);
+        if (! from) return;
         SceneWire wire;
         wire.from = start.role == Role::output ? begin : end_at;
         wire.to = start.role == Role::output ? end_at : begin;
-        wire.quantity = node->quantityOf (*port);
-        wire.width = port->width;
+        wire.quantity = from.end().quantity;
+        wire.width = from.port->width;
         const juce::Graphics::ScopedSaveState state (g);
         g.addTransform (canvas.view().transform());
-        wire.enabled = why_not.isEmpty();
+        wire.enabled = problem.isEmpty();
         paintWire (g, wire, themeOf (canvas), false, false);
-        if (why_not.isNotEmpty()) paintWhyNot (g);
+        if (problem.isNotEmpty()) paintProblem (g);
     }
 
 private:
-    std::optional<std::string> problemAt (const SceneNode& n, const FacePort& p) const
+    Result<> check (const SceneNode& n, const FacePort& p) const
     {
-        const auto* node = canvas.scene().find (start.node);
-        const auto* port = node == nullptr ? nullptr : node->face->find (start.role, start.port);
-        if (port == nullptr) return "gone";
-        const WireEnd here { port, node->quantityOf (*port) }, there { &p, n.quantityOf (p) };
-        return start.role == Role::output ? whyNotByComponent (here, there) : whyNotByComponent (there, here);
+        const auto from = canvas.scene().findPort (start);
+        if (! from) return Message::error ("wire/refused", {}, "the port no longer exists");
+        const WireEnd there { &p, n.quantityOf (p) };
+        return start.role == Role::output ? checkWireByComponent (from.end(), there) : checkWireByComponent (there, from.end());
     }
 
-    /// Beside the end of the wire, above where the pointer is.
-    void paintWhyNot (juce::Graphics& g) const
+    /// Paints the problem next to the end of the wire, above the pointer.
+    void paintProblem (juce::Graphics& g) const
     {
         const auto& look = lookOf (canvas);
         const auto font = look.font (13.0f, true);
-        const auto box = juce::Rectangle<float> (font.getStringWidthFloat (why_not) + 20.0f, 24.0f).withPosition (end_at.translated (14.0f, -34.0f));
+        const auto box = juce::Rectangle<float> (font.getStringWidthFloat (problem) + 20.0f, 24.0f).withPosition (end_at.translated (14.0f, -34.0f));
         g.setColour (look.theme().panel);
         g.fillRoundedRectangle (box, 4.0f);
         g.setColour (look.theme().warning);
         g.drawRoundedRectangle (box.reduced (0.5f), 4.0f, 1.2f);
         g.setFont (font);
         g.setColour (look.theme().text);
-        g.drawText (why_not, box, juce::Justification::centred, false);
+        g.drawText (problem, box, juce::Justification::centred, false);
     }
 
     void unplug (const char* step) { canvas.perform (graph::Batch { step, { graph::RemoveWire { canvas.patch(), wire_id } } }); }
 
-    static constexpr int least_way_px = 8;
+    static constexpr int least_drag_px = 8;
 
     Canvas& canvas;
-    WireStart start;
+    PortId start;
     graph::Id wire_id;
     juce::Point<float> begin, end_at;
-    juce::String why_not;   // it cannot end where it is
+    juce::String problem;   // why it cannot end at the current port
 };
 }   // namespace
 
 std::unique_ptr<Drag> panBy (Canvas& c, const juce::MouseEvent& e) { return std::make_unique<Pan> (c, e); }
 std::unique_ptr<Drag> lasso (Canvas& c, const juce::MouseEvent& e) { return std::make_unique<Lasso> (c, e); }
 std::unique_ptr<Drag> moveSelection (Canvas& c, const juce::MouseEvent& e) { return std::make_unique<Move> (c, e); }
-std::unique_ptr<Drag> drawWire (Canvas& c, WireStart s) { return std::make_unique<DrawWire> (c, std::move (s)); }
+std::unique_ptr<Drag> drawWire (Canvas& c, PortId s) { return std::make_unique<DrawWire> (c, std::move (s)); }
 std::unique_ptr<Drag> resizeNote (Canvas& c, const juce::MouseEvent& e, std::size_t note) { return std::make_unique<ResizeNote> (c, e, note); }
 std::unique_ptr<Drag> panByMap (Canvas& c, const juce::MouseEvent& e) { return std::make_unique<PanByMap> (c, e); }
 
 std::unique_ptr<Drag> replugWire (Canvas& c, const SceneNode& node, const FacePort& port)
 {
-    const auto& g = c.edited().graph();
-    const auto* patch = c.patch().empty() ? &g.root : g.find (c.patch());
+    const auto* patch = findPatch (c.edited().graph(), c.patch());
     if (patch == nullptr) return nullptr;
     for (const auto& w : patch->wires)
     {
         if (w.to.node != node.name || node.face->endOf (w.to) != &port) continue;
         const auto start = std::ranges::find (c.scene().nodes(), w.from.node, &SceneNode::name);
         const auto* out = start == c.scene().nodes().end() ? nullptr : start->face->startOf (w.from);
-        if (out != nullptr) return std::make_unique<DrawWire> (c, WireStart { start->id, Role::output, out->id }, w.id);
+        if (out != nullptr) return std::make_unique<DrawWire> (c, PortId { start->id, Role::output, out->id }, w.id);
     }
     return nullptr;
 }
 
-std::unique_ptr<Drag> turnParam (Canvas& c, const SceneNode& node, const Socket& socket)
+std::unique_ptr<Drag> dragParam (Canvas& c, const SceneNode& node, const Socket& socket)
 {
     const auto* sheet = socket.port->sheet;
     if (sheet == nullptr || socket.port->width != 1 || socket.port->isChoice()) return nullptr;
     const auto value = readQuantity (readValue (socket.value), *sheet);
-    const auto* text = std::get_if<QuantityText> (&value);
-    return text == nullptr ? nullptr : std::make_unique<TurnParam> (c, node, *socket.port, *text);
+    return value ? std::make_unique<DragParam> (c, node, *socket.port, *value) : nullptr;
 }
 
 }   // namespace tactus::host

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a canvas does to what is selected: its part of the commands.
+// The canvas commands that edit the selection.
 #include "arrange.hpp"
 #include "canvas.hpp"
 
 #include <framework/graph/endpoints.hpp>
 #include <framework/graph/text.hpp>
-#include <framework/turn.hpp>
+#include <framework/run/turn.hpp>
 #include <host/app/look/focus.hpp>
 #include <host/app/model/clipboard.hpp>
 #include <host/app/model/fragment.hpp>
 #include <host/app/model/param_now.hpp>
+#include <host/app/model/patch.hpp>
 #include <host/app/model/quantity_text.hpp>
 #include <host/app/model/wire_rules.hpp>
 
@@ -20,27 +21,33 @@ namespace tactus::host
 
 const graph::Patch& Canvas::patchShown() const
 {
-    const auto& g = document.graph();
-    const auto* in = entered.empty() ? &g.root : g.find (entered.back().second);
-    return in == nullptr ? g.root : *in;
+    const auto* in = findPatch (document.graph(), patch());
+    return in == nullptr ? document.graph().root : *in;
 }
 
-std::optional<graph::Command> Canvas::settle() const
+std::vector<const SceneNode*> Canvas::selectedNodes() const
+{
+    std::vector<const SceneNode*> nodes;
+    for (const auto& n : shown->nodes())
+        if (highlights.selected.contains (n.id)) nodes.push_back (&n);
+    return nodes;
+}
+
+std::optional<graph::Command> Canvas::storePositions() const
 {
     std::vector<std::pair<graph::Id, juce::Point<float>>> places;
     for (const auto& n : patchShown().nodes)
-        if (const auto* node = shown->find (n.id); node != nullptr && ! placeOf (n)) places.emplace_back (n.id, node->at);
+        if (const auto* node = shown->find (n.id); node != nullptr && ! positionOf (n)) places.emplace_back (n.id, node->at);
     if (places.empty()) return std::nullopt;
     return placeNodes (document.graph(), patch(), places);
 }
 
 bool Canvas::perform (graph::Command command, graph::Step step)
 {
-    auto settled = settle();
-    if (! settled) return document.perform (std::move (command), step);
-    auto name = graph::nameOf (command);
-    graph::Batch all { std::move (name), {} };
-    all.commands.push_back (std::move (*settled));
+    auto stored = storePositions();
+    if (! stored) return document.perform (std::move (command), step);
+    graph::Batch all { graph::nameOf (command), {} };
+    all.commands.push_back (std::move (*stored));
     all.commands.push_back (std::move (command));
     return document.perform (std::move (all), step);
 }
@@ -48,7 +55,7 @@ bool Canvas::perform (graph::Command command, graph::Step step)
 graph::Graph Canvas::placedGraph() const
 {
     auto placed = document.graph();
-    if (const auto settled = settle()) graph::apply (placed, *settled);
+    if (const auto stored = storePositions()) (void)graph::apply (placed, *stored);
     return placed;
 }
 
@@ -82,18 +89,17 @@ void Canvas::copySelection() const
 void Canvas::pasteText()
 {
     const auto text = textFromClipboard();
-    double right = 32.0, down = 32.0;   // beside what it was copied from
+    juce::Point<double> offset { 32.0, 32.0 };   // next to the original
     if (const auto corner = cornerOf (text); corner && isMouseOver())
     {
         const auto at = (pointerOrCentre() / Box::grid).roundToInt().toDouble() * static_cast<double> (Box::grid);
-        right = at.x - corner->first;
-        down = at.y - corner->second;
+        offset = at - *corner;
     }
     Selection made;
-    auto command = paste (document.graph(), patch(), text, right, down, made);
-    if (const auto* problem = std::get_if<Message> (&command))
-        notice ("Nothing to paste: " + juce::String (problem->text));
-    else if (! made.empty() && perform (std::get<graph::Command> (std::move (command))))
+    auto command = paste (document.graph(), patch(), text, offset, made);
+    if (! command)
+        notice ("Nothing to paste: " + juce::String (command.error().text));
+    else if (! made.empty() && perform (*std::move (command)))
         select (made);
 }
 
@@ -111,34 +117,24 @@ void Canvas::groupSelection()
 
 void Canvas::expandSelection()
 {
-    for (const auto& n : shown->nodes())
-        if (highlights.selected.contains (n.id))
-        {
-            perform (graph::ExpandNode { patch(), n.name });
-            return;
-        }
+    if (const auto nodes = selectedNodes(); ! nodes.empty()) perform (graph::ExpandNode { patch(), nodes[0]->name });
 }
 
 void Canvas::enterSelection()
 {
-    for (const auto& n : shown->nodes())
-        if (highlights.selected.contains (n.id)) return enter (n);
+    if (const auto nodes = selectedNodes(); ! nodes.empty()) enter (*nodes[0]);
 }
 
 void Canvas::alignSelection (Alignment how)
 {
-    std::vector<graph::Id> ids;
+    const auto nodes = selectedNodes();
     std::vector<juce::Rectangle<float>> boxes;
-    for (const auto& n : shown->nodes())
-        if (highlights.selected.contains (n.id))
-        {
-            ids.push_back (n.id);
-            boxes.push_back (n.bounds());
-        }
+    for (const auto* n : nodes)
+        boxes.push_back (n->bounds());
     boxes = aligned (std::move (boxes), how);
     std::vector<std::pair<graph::Id, juce::Point<float>>> places;
-    for (std::size_t i = 0; i < ids.size(); ++i)
-        places.emplace_back (ids[i], boxes[i].getPosition());
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        places.emplace_back (nodes[i]->id, boxes[i].getPosition());
     auto command = placeNodes (document.graph(), patch(), places);
     std::get<graph::Batch> (command.edit).name = "align";
     perform (std::move (command));
@@ -166,8 +162,8 @@ void Canvas::nudgeSelection (juce::Point<float> by)
 {
     graph::Batch all { "move", {} };
     std::vector<std::pair<graph::Id, juce::Point<float>>> places;
-    for (const auto& n : shown->nodes())
-        if (highlights.selected.contains (n.id)) places.emplace_back (n.id, n.at + by);
+    for (const auto* n : selectedNodes())
+        places.emplace_back (n->id, n->at + by);
     all.commands.push_back (placeNodes (document.graph(), patch(), places));
     if (std::ranges::any_of (highlights.selected, isNote))
     {
@@ -181,7 +177,7 @@ void Canvas::nudgeSelection (juce::Point<float> by)
 
 void Canvas::delaySelection (int ticks)
 {
-    graph::Batch all { ticks > 0 ? "delay" : "less delay", {} };
+    graph::Batch all { ticks > 0 ? "increase delay" : "decrease delay", {} };
     for (const auto& w : patchShown().wires)
         if (highlights.selected.contains (w.id) && w.delay + ticks >= 0)
         {
@@ -211,15 +207,18 @@ void Canvas::toggleWires()
 void Canvas::addNote()
 {
     juce::Rectangle<float> around;
-    for (const auto& n : shown->nodes())
-        if (highlights.selected.contains (n.id)) around = around.isEmpty() ? n.bounds() : around.getUnion (n.bounds());
+    for (const auto* n : selectedNodes())
+        around = around.isEmpty() ? n->bounds() : around.getUnion (n->bounds());
     constexpr float margin = 3 * Box::grid, width = 200.0f, height = 56.0f;
     auto notes = shown->notes();
     if (around.isEmpty())
         notes.push_back ({ juce::Rectangle<float> (width, height).withPosition (freePlace (pointerOrCentre())), {}, {} });
     else
-        notes.push_back ({ around.expanded (margin).withTop (around.getY() - margin - Box::header_height), {}, std::string (note_colours[notes.size() % std::size (note_colours)]) });
-    perform (setNotes (document.graph(), patch(), notes, "add a note"));
+    {
+        const auto area = around.expanded (margin).withTop (around.getY() - margin - Box::header_height);
+        notes.push_back ({ area, {}, std::string (note_colours[notes.size() % std::size (note_colours)]) });
+    }
+    perform (setNotes (document.graph(), patch(), notes, "add note"));
     select ({ noteId (notes.size() - 1) });
     editNote (notes.size() - 1);
 }
@@ -233,7 +232,7 @@ void Canvas::recolourNotes()
             const auto* next = notes[i].isRegion() ? std::ranges::find (note_colours, notes[i].colour) + 1 : std::begin (note_colours);
             notes[i].colour = next == std::end (note_colours) ? std::string() : std::string (*next);
         }
-    perform (setNotes (document.graph(), patch(), notes, "colour a note"));
+    perform (setNotes (document.graph(), patch(), notes, "colour region"));
 }
 
 void Canvas::editNote (std::size_t i)
@@ -241,12 +240,12 @@ void Canvas::editNote (std::size_t i)
     if (i >= shown->notes().size()) return;
     const auto& note = shown->notes()[i];
     const auto area = note.isRegion() ? note.area.withHeight (Box::header_height) : note.area;
-    type (area, juce::String::fromUTF8 (note.text.c_str()), ! note.isRegion(), [this, i] (const juce::String& text)
-          {
+    openEditor (area, juce::String::fromUTF8 (note.text.c_str()), ! note.isRegion(), [this, i] (const juce::String& text)
+                {
         auto notes = shown->notes();
         if (i >= notes.size()) return;
         notes[i].text = text.toStdString();
-        perform (setNotes (document.graph(), patch(), notes, "write a note")); });
+        perform (setNotes (document.graph(), patch(), notes, "edit note")); });
 }
 
 void Canvas::setParam (const SceneNode& shown_node, const FacePort& port, const std::optional<Json>& value, graph::Step step)
@@ -256,52 +255,52 @@ void Canvas::setParam (const SceneNode& shown_node, const FacePort& port, const 
     if (auto command = changeParam (document.graph(), patch(), *node, port, value))
         perform (std::move (*command), step);
     else
-        notice (juce::String (beyondReach (document.graph(), *node, port)));
+        notice (juce::String (outOfRangeText (document.graph(), *node, port)));
 }
 
 void Canvas::editParam (const SceneNode& node, const Socket& socket)
 {
     const auto* sheet = socket.port->sheet;
     if (sheet == nullptr || socket.port->width != 1 || socket.port->isChoice()) return;
-    type (socket.row.translated (node.at.x, node.at.y), socket.value, false, [this, id = node.id, port = socket.port->id] (const juce::String& text)
-          {
-        const auto* now = shown->find (id);
-        const auto* p = now == nullptr ? nullptr : now->face->find (Role::param, port);
-        if (p == nullptr || p->sheet == nullptr) return;
-        const auto read = readQuantity (readValue (text.trim().toStdString()), *p->sheet);
-        if (const auto* problem = std::get_if<std::string> (&read)) return notice (juce::String (now->name + '.' + p->id + ": " + *problem));
-        setParam (*now, *p, std::get<QuantityText> (read).toJson()); });
+    const PortId id { node.id, Role::param, socket.port->id };
+    openEditor (socket.row.translated (node.at.x, node.at.y), socket.value, false, [this, id] (const juce::String& text)
+                {
+        const auto param = shown->findPort (id);
+        if (! param || param.port->sheet == nullptr) return;
+        const auto read = readQuantity (readValue (text.trim().toStdString()), *param.port->sheet);
+        if (! read) return notice (juce::String (param.node->name + '.' + id.port + ": " + read.error().text));
+        setParam (*param.node, *param.port, read->toJson()); });
 }
 
-void Canvas::type (juce::Rectangle<float> area, const juce::String& text, bool several_lines, std::function<void (const juce::String&)> typed)
+void Canvas::openEditor (juce::Rectangle<float> area, const juce::String& text, bool several_lines, std::function<void (const juce::String&)> done)
 {
-    endTyping (true);
-    on_typed = std::move (typed);
-    typing = std::make_unique<juce::TextEditor>();
-    typing->setMultiLine (several_lines);
-    typing->setReturnKeyStartsNewLine (false);
-    typing->setFont (lookOf (*this).font (13.0f));
-    typing->setText (text, false);
+    closeEditor (true);
+    on_edited = std::move (done);
+    editor = std::make_unique<juce::TextEditor>();
+    editor->setMultiLine (several_lines);
+    editor->setReturnKeyStartsNewLine (false);
+    editor->setFont (lookOf (*this).font (13.0f));
+    editor->setText (text, false);
     const auto box = juce::Rectangle<float> (window.toPixels (area.getTopLeft()), window.toPixels (area.getBottomRight())).toNearestInt();
-    typing->setBounds (box.withWidth (std::max (120, box.getWidth())).withHeight (std::max (24, box.getHeight())));
-    typing->onReturnKey = typing->onFocusLost = [this]
-    { endTyping (true); };
-    typing->onEscapeKey = [this]
-    { endTyping (false); };
-    addAndMakeVisible (*typing);
-    takeFocus (*typing);
-    typing->selectAll();
+    editor->setBounds (box.withWidth (std::max (120, box.getWidth())).withHeight (std::max (24, box.getHeight())));
+    editor->onReturnKey = editor->onFocusLost = [this]
+    { closeEditor (true); };
+    editor->onEscapeKey = [this]
+    { closeEditor (false); };
+    addAndMakeVisible (*editor);
+    takeFocus (*editor);
+    editor->selectAll();
 }
 
-void Canvas::endTyping (bool keep)
+void Canvas::closeEditor (bool keep)
 {
-    const std::shared_ptr<juce::TextEditor> ended = std::move (typing);
+    const std::shared_ptr<juce::TextEditor> ended = std::move (editor);
     if (! ended) return;
     ended->onFocusLost = nullptr;
     removeChildComponent (ended.get());
-    juce::MessageManager::callAsync ([ended] {});   // only after the event that ends it, which may be its own
-    const auto typed = std::exchange (on_typed, nullptr);
-    if (keep) typed (ended->getText());
+    juce::MessageManager::callAsync ([ended] {});   // deletes it after the current event, which may be its own
+    const auto done = std::exchange (on_edited, nullptr);
+    if (keep) done (ended->getText());
 }
 
 void Canvas::probeSelection()
@@ -309,69 +308,55 @@ void Canvas::probeSelection()
     std::vector<std::string> ports;
     for (const auto& w : patchShown().wires)
         if (highlights.selected.contains (w.id)) ports.push_back (address (graph::toText (w.from)));
-    for (const auto& n : shown->nodes())
-        if (highlights.selected.contains (n.id) && ! n.face->outputs.empty()) ports.push_back (address (n.name + '.' + n.face->outputs.front().id));
+    for (const auto* n : selectedNodes())
+        if (! n->face->outputs.empty()) ports.push_back (address (n->name + '.' + n->face->outputs.front().id));
     if (! ports.empty() && onProbe) onProbe (std::move (ports));
 }
 
 void Canvas::wireFromSelection()
 {
-    const SceneNode* from = nullptr;
-    for (const auto& n : shown->nodes())
-        if (highlights.selected.contains (n.id)) from = &n;
-    if (from == nullptr || ! onChoose) return;
-
-    struct Way
-    {
-        graph::Id to;
-        std::string out, in;
-    };
-    auto ways = std::make_shared<std::vector<Way>>();
+    const auto nodes = selectedNodes();
+    if (nodes.empty() || ! onChoose) return;
+    const auto& from = *nodes.back();
+    std::vector<std::pair<PortId, PortId>> wires;
     std::vector<PaletteEntry> entries;
-    for (const auto& out : from->face->outputs)
+    for (const auto& out : from.face->outputs)
         for (const auto& n : shown->nodes())
             for (const auto* ports : { &n.face->inputs, &n.face->params })
                 for (const auto& in : *ports)
                 {
-                    if (n.id == from->id || whyNot ({ &out, from->quantityOf (out) }, { &in, n.quantityOf (in) })) continue;
-                    entries.push_back ({ from->name + '.' + out.id + " -> " + n.name + '.' + in.id, {}, in.about });
-                    ways->push_back ({ n.id, out.id, in.id });
+                    if (n.id == from.id || ! checkWire ({ &out, from.quantityOf (out) }, { &in, n.quantityOf (in) })) continue;
+                    entries.push_back ({ from.name + '.' + out.id + " -> " + n.name + '.' + in.id, {}, in.about });
+                    wires.push_back ({ { from.id, Role::output, out.id }, { n.id, in.role, in.id } });
                 }
-    const auto texts = std::make_shared<std::vector<PaletteEntry>> (entries);
-    onChoose ("Wire from " + juce::String (from->name), std::move (entries), [this, id = from->id, ways, texts] (const std::string& chosen)
+    onChoose ("Connect " + juce::String (from.name) + " to...", entries, [this, wires, entries] (const std::string& chosen)
               {
-        const auto place = std::ranges::find (*texts, chosen, &PaletteEntry::type);
-        if (place == texts->end()) return;
-        const auto& way = (*ways)[static_cast<std::size_t> (place - texts->begin())];
-        const auto *a = shown->find (id), *b = shown->find (way.to);
-        if (a == nullptr || b == nullptr) return;
-        const auto* out = a->face->find (Role::output, way.out);
-        const auto* in = b->face->find (Role::input, way.in);
-        if (in == nullptr) in = b->face->find (Role::param, way.in);
-        if (out != nullptr && in != nullptr) join (*a, *out, *b, *in); });
+        const auto entry = std::ranges::find (entries, chosen, &PaletteEntry::type);
+        if (entry == entries.end()) return;
+        const auto& [out, in] = wires[static_cast<std::size_t> (entry - entries.begin())];
+        const auto a = shown->findPort (out), b = shown->findPort (in);
+        if (a && b) join (a, b); });
 }
 
 void Canvas::exposeFromSelection()
 {
-    const SceneNode* node = nullptr;
-    for (const auto& n : shown->nodes())
-        if (highlights.selected.contains (n.id)) node = &n;
-    if (node == nullptr || entered.empty() || ! onChoose) return;
+    const auto nodes = selectedNodes();
+    if (nodes.empty() || entered.empty() || ! onChoose) return;
+    const auto& node = *nodes.back();
     std::vector<PaletteEntry> entries;
-    for (const auto* ports : { &node->face->inputs, &node->face->params, &node->face->outputs })
-        for (const auto& p : *ports)
-            entries.push_back ({ node->name + '.' + p.id, {}, p.about });
-    onChoose ("Show outside, or hide", std::move (entries), [this, id = node->id] (const std::string& chosen)
+    std::vector<PortId> ports;
+    for (const auto role : { Role::input, Role::param, Role::output })
+        for (const auto& p : node.face->of (role))
+        {
+            entries.push_back ({ node.name + '.' + p.id, {}, p.about });
+            ports.push_back ({ node.id, role, p.id });
+        }
+    onChoose ("Expose or hide port", entries, [this, entries, ports] (const std::string& chosen)
               {
-        const auto* now = shown->find (id);
-        if (now == nullptr || entered.empty()) return;
-        for (const auto* ports : { &now->face->inputs, &now->face->params, &now->face->outputs })
-            for (const auto& p : *ports)
-                if (now->name + '.' + p.id == chosen)
-                {
-                    perform (toggleExposed (document.graph(), patch(), now->name, p));
-                    return;
-                } });
+        const auto entry = std::ranges::find (entries, chosen, &PaletteEntry::type);
+        if (entry == entries.end() || entered.empty()) return;
+        const auto found = shown->findPort (ports[static_cast<std::size_t> (entry - entries.begin())]);
+        if (found) perform (toggleExposed (document.graph(), patch(), found.node->name, *found.port)); });
 }
 
 juce::Point<float> Canvas::freePlace (juce::Point<float> at) const
@@ -390,52 +375,53 @@ juce::Point<float> Canvas::freePlace (juce::Point<float> at) const
     return at;
 }
 
-void Canvas::addNodeAt (const std::string& type, const NodeWish& wish)
+void Canvas::addNodeAt (const std::string& type, const NodeRequest& request)
 {
     graph::Id made = 0;
-    if (! perform (addNode (document.graph(), patch(), type, wish.wire != 0 ? wish.at : freePlace (wish.at), made))) return;
+    const auto at = request.wire != 0 ? request.at : freePlace (request.at);
+    if (! perform (addNode (document.graph(), patch(), type, at, made))) return;
     select ({ made });
-    if (wish.wire != 0)
+    if (request.wire != 0)
     {
-        if (auto command = insertInto (document.graph(), patch(), *shown, wish.wire, made)) perform (std::move (*command), graph::Step::joined);
+        if (auto command = insertInto (document.graph(), patch(), *shown, request.wire, made)) perform (std::move (*command), graph::Step::joined);
         return;
     }
-    const auto *node = shown->find (made), *other = wish.start ? shown->find (wish.start->node) : nullptr;
-    const auto* port = other == nullptr ? nullptr : other->face->find (wish.start->role, wish.start->port);
-    if (port == nullptr || node == nullptr) return;
+    const auto* node = shown->find (made);
+    const auto other = request.start ? shown->findPort (*request.start) : ScenePort {};
+    if (! other || node == nullptr) return;
 
-    const WireEnd there { port, other->quantityOf (*port) };
-    const auto& ports = wish.start->role == Role::output ? node->face->inputs : node->face->outputs;
-    for (const auto& p : ports)
+    const bool is_output = other.port->role == Role::output;
+    for (const auto& p : is_output ? node->face->inputs : node->face->outputs)
     {
-        const WireEnd here { &p, node->quantityOf (p) };
-        if (wish.start->role == Role::output ? whyNot (there, here) : whyNot (here, there)) continue;
-        perform (wish.start->role == Role::output ? connect (document.graph(), patch(), *other, *port, *node, p) : connect (document.graph(), patch(), *node, p, *other, *port), graph::Step::joined);
+        const ScenePort own { node, &p };
+        const auto &from = is_output ? other : own, &to = is_output ? own : other;
+        if (! checkWire (from.end(), to.end())) continue;
+        perform (connect (document.graph(), patch(), { *from.node, *from.port }, { *to.node, *to.port }), graph::Step::joined);
         return;
     }
 }
 
-void Canvas::join (const SceneNode& from, const FacePort& out, const SceneNode& to, const FacePort& in)
+void Canvas::join (const ScenePort& from, const ScenePort& to)
 {
-    if (out.width == in.width)
+    if (from.port->width == to.port->width)
     {
-        perform (connect (document.graph(), patch(), from, out, to, in));
+        perform (connect (document.graph(), patch(), { *from.node, *from.port }, { *to.node, *to.port }));
         return;
     }
     if (! onChoose) return;
-    const bool of_output = out.width == 3;
-    const auto vector = of_output ? from.name + '.' + out.id : to.name + '.' + in.id;
+    const bool of_output = from.port->width == 3;
+    const auto& vector = of_output ? from : to;
     constexpr std::array axes { ".x", ".y", ".z" };
     std::vector<PaletteEntry> entries;
     for (const auto* axis : axes)
-        entries.push_back ({ vector + axis, {}, of_output ? "This component goes out" : "This component takes it in; the others stay as they are" });
-    onChoose ("Which component?", entries, [this, a = from.id, b = to.id, out_id = out.id, in_role = in.role, in_id = in.id, entries, of_output] (const std::string& chosen)
+        entries.push_back ({ vector.node->name + '.' + vector.port->id + axis, {}, of_output ? "Send this component" : "Feed this component" });
+    const PortId out { from.node->id, Role::output, from.port->id }, in { to.node->id, to.port->role, to.port->id };
+    onChoose ("Which component?", entries, [this, out, in, entries, of_output] (const std::string& chosen)
               {
         const auto component = static_cast<int> (std::ranges::find (entries, chosen, &PaletteEntry::type) - entries.begin());
-        const auto *start = shown->find (a), *end = shown->find (b);
-        const auto* o = start == nullptr ? nullptr : start->face->find (Role::output, out_id);
-        const auto* i = end == nullptr ? nullptr : end->face->find (in_role, in_id);
-        if (component < 3 && o != nullptr && i != nullptr) perform (connect (document.graph(), patch(), *start, *o, *end, *i, of_output ? component : -1, of_output ? -1 : component)); });
+        const auto a = shown->findPort (out), b = shown->findPort (in);
+        if (component >= 3 || ! a || ! b) return;
+        perform (connect (document.graph(), patch(), { *a.node, *a.port, of_output ? component : -1 }, { *b.node, *b.port, of_output ? -1 : component })); });
 }
 
 }   // namespace tactus::host

@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-/// All of a scene in a corner of its canvas, and which part of it is seen. It is there while not all is.
+/// An overview in the corner of the canvas, with the visible area marked. Shown while part of the scene is out of view.
 class Minimap
 {
 public:
@@ -18,7 +18,7 @@ public:
     bool isShown() const noexcept { return ! area.isEmpty(); }
     juce::Rectangle<float> bounds() const noexcept { return area; }   ///< pixels
 
-    /// The place of the canvas that is shown there.
+    /// The canvas position under a pixel of the map.
     juce::Point<float> toCanvas (juce::Point<float> pixel) const noexcept { return world.getPosition() + (pixel - inner.getPosition()) / scale; }
 
     void paint (juce::Graphics&, const Theme&) const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "notes.hpp"
 
+#include <host/app/model/patch.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -14,31 +16,24 @@ constexpr float smallest = 48.0f, largest = 1e5f;
 
 Json uiOf (const graph::Graph& g, const std::string& patch)
 {
-    const auto* in = patch.empty() ? &g.extra : g.find (patch) != nullptr ? &g.find (patch)->extra
-                                                                          : nullptr;
-    if (in == nullptr) return Json::object();
-    const auto ui = in->find ("ui");
-    return ui != in->end() && ui->is_object() ? *ui : Json::object();
-}
-
-std::optional<juce::Point<float>> readPair (const Json& note, const char* key)
-{
-    const auto pair = note.find (key);
-    if (pair == note.end() || ! pair->is_array() || pair->size() != 2 || ! (*pair)[0].is_number() || ! (*pair)[1].is_number()) return std::nullopt;
-    const auto x = (*pair)[0].get<double>(), y = (*pair)[1].get<double>();
-    if (! (std::abs (x) < 1e6 && std::abs (y) < 1e6)) return std::nullopt;
-    return juce::Point<float> (static_cast<float> (x), static_cast<float> (y));
+    const auto* in = patch.empty() ? nullptr : g.find (patch);
+    if (in == nullptr && ! patch.empty()) return Json::object();
+    const auto& extra = in == nullptr ? g.extra : in->extra;
+    const auto ui = extra.find ("ui");
+    return ui != extra.end() && ui->is_object() ? *ui : Json::object();
 }
 
 std::optional<Note> readNote (const Json& json)
 {
     if (! json.is_object()) return std::nullopt;
-    const auto at = readPair (json, "at"), size = readPair (json, "size");
+    const auto at = readPoint (json, "at"), size = readPoint (json, "size");
     const auto text = json.find ("text");
     if (! at || ! size || text == json.end() || ! text->is_string()) return std::nullopt;
-    Note note { { at->x, at->y, std::clamp (size->x, smallest, largest), std::clamp (size->y, smallest, largest) }, text->get<std::string>(), {}, json };
-    if (const auto colour = json.find ("colour"); colour != json.end() && colour->is_string() && std::ranges::count (note_colours, colour->get<std::string>()) > 0)
-        note.colour = colour->get<std::string>();
+    const auto corner = at->toFloat(), extent = size->toFloat();
+    const juce::Rectangle<float> area { corner.x, corner.y, std::clamp (extent.x, smallest, largest), std::clamp (extent.y, smallest, largest) };
+    Note note { area, text->get<std::string>(), {}, json };
+    const auto colour = json.value ("colour", Json());
+    if (colour.is_string() && std::ranges::count (note_colours, colour.get<std::string>()) > 0) note.colour = colour.get<std::string>();
     return note;
 }
 

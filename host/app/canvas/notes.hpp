@@ -12,7 +12,7 @@
 namespace tactus::host
 {
 
-/// A remark on a canvas. With a colour it is a region behind nodes that belong together, which moves with them.
+/// A comment on the canvas. With a colour it is a region behind a group of nodes; moving the region moves them.
 struct Note
 {
     juce::Rectangle<float> area;   ///< canvas units
@@ -24,13 +24,13 @@ struct Note
 
 inline constexpr std::string_view note_colours[] { "blue", "orange", "green", "purple", "yellow", "grey" };
 
-/// The notes of a patch, from its `ui`. What is no note there is left alone and not shown.
+/// Reads the notes of a patch from its `ui`. Entries that are not notes are kept but not shown.
 std::vector<Note> notesOf (const graph::Graph&, const std::string& patch);
 
-/// What leaves the patch with these notes, as one step of that name.
+/// Replaces the notes of a patch as one undo step of that name.
 graph::Command setNotes (const graph::Graph&, const std::string& patch, const std::vector<Note>&, std::string step);
 
-/// Notes are told apart by their place in the list; among what is selected they have ids that no node or wire has.
+/// A note is identified by its index. In a selection it gets an id that no node or wire has.
 constexpr graph::Id note_bit = graph::Id { 1 } << 63;
 constexpr graph::Id noteId (std::size_t i) noexcept { return note_bit | i; }
 constexpr bool isNote (graph::Id id) noexcept { return (id & note_bit) != 0; }

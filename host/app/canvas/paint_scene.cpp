@@ -18,7 +18,10 @@ constexpr float too_small_to_read = 0.35f;   // zoom
 class NodePainter
 {
 public:
-    NodePainter (juce::Graphics& graphics, const Look& l, const Highlights& h, float z) : g (graphics), look (l), theme (l.theme()), highlights (h), zoom (z), words (z > too_small_to_read) {}
+    NodePainter (juce::Graphics& graphics, const Look& l, const Highlights& h, float z)
+        : g (graphics), look (l), theme (l.theme()), highlights (h), zoom (z), is_readable (z > too_small_to_read)
+    {
+    }
 
     void operator() (const SceneNode& node) const
     {
@@ -28,9 +31,9 @@ public:
         g.fillRoundedRectangle (bounds.translated (0.0f, 2.0f).expanded (1.0f), corner);
         g.setColour (theme.raised);
         g.fillRoundedRectangle (bounds, corner);
-        words ? header (node) : nameAlone (node);
-        g.setColour (selected ? theme.accent : highlights.hovered == node.id ? theme.dim
-                                                                             : theme.hairline);
+        is_readable ? header (node) : nameAlone (node);
+        const auto outline = highlights.hovered == node.id ? theme.dim : theme.hairline;
+        g.setColour (selected ? theme.accent : outline);
         g.drawRoundedRectangle (bounds.reduced (0.5f), corner, selected ? 2.0f : 1.0f);
         for (const auto& s : node.box.sockets)
             socket (node, s);
@@ -40,11 +43,11 @@ public:
     }
 
 private:
-    /// As large on the screen as it has to be to be read; over the edges of a small node, if need be.
+    /// The name at a readable size on screen. It may extend over the edges of a small node.
     void nameAlone (const SceneNode& node) const
     {
-        constexpr float size = 10.0f, least_width = 20.0f;   // pixels of the screen
-        constexpr float most_over = 1.6f;                    // times as wide as the node
+        constexpr float size = 10.0f, least_width = 20.0f;   // pixels
+        constexpr float most_over = 1.6f;                    // times the width of the node
         if (node.box.width * zoom < least_width) return;
         const auto font = look.font (size / zoom);
         const float width = std::clamp (font.getStringWidthFloat (node.name) + 2.0f / zoom, node.box.width, most_over * node.box.width);
@@ -65,12 +68,13 @@ private:
         g.setFont (look.font (Box::title_size, true));
         g.drawText (node.name, area.withTrimmedLeft (Box::padding + 22.0f).withTrimmedRight (4.0f), juce::Justification::centredLeft, true);
         if (const auto state = highlights.live.states.find (node.id); state != highlights.live.states.end()) light (area, state->second);
-        if (node.bypass) g.drawLine ({ area.getBottomLeft().translated (Box::padding, -14.0f), area.getBottomRight().translated (-Box::padding, -14.0f) }, 1.0f);
+        const float middle = area.getBottom() - 14.0f;
+        if (node.bypass) g.drawLine (area.getX() + Box::padding, middle, area.getRight() - Box::padding, middle, 1.0f);
         g.setColour (theme.hairline);
         g.drawHorizontalLine (juce::roundToInt (area.getBottom()) - 1, area.getX() + 1.0f, area.getRight() - 1.0f);
     }
 
-    /// What the node is in: nothing, or one state or another.
+    /// A lamp for the node's state; grey for state 0.
     void light (juce::Rectangle<float> header_area, int state) const
     {
         constexpr std::array lit { Quantity::energy, Quantity::hit, Quantity::force };
@@ -94,7 +98,7 @@ private:
     void socket (const SceneNode& node, const Socket& s) const
     {
         const bool fits = ! highlights.fits || highlights.fits (node, *s.port);
-        const float alpha = fits ? (node.bypass ? 0.5f : 1.0f) : 0.2f;
+        const float bright = node.bypass ? 0.5f : 1.0f, alpha = fits ? bright : 0.2f;
         const auto place = node.placeOf (s);
         const auto row = s.row.translated (node.at.x, node.at.y).withX (node.at.x).withWidth (node.box.width).reduced (Box::padding, 0.0f);
         if (! s.port->isChoice())
@@ -110,7 +114,7 @@ private:
                 g.fillEllipse (juce::Rectangle<float> (2 * r, 2 * r).withCentre (place));
             if (highlights.fits && fits) g.drawEllipse (juce::Rectangle<float> (2 * r + 6, 2 * r + 6).withCentre (place), 1.5f);
         }
-        if (! words) return;
+        if (! is_readable) return;
         g.setFont (look.font (Box::label_size));
         g.setColour ((s.port->role == Role::param ? theme.dim : theme.text).withMultipliedAlpha (alpha));
         g.drawText (s.port->id, row, s.port->role == Role::output ? juce::Justification::centredRight : juce::Justification::centredLeft, false);
@@ -133,7 +137,7 @@ private:
     const Theme& theme;
     const Highlights& highlights;
     float zoom;
-    bool words;
+    bool is_readable;   // large enough for text
 };
 
 juce::Colour colourOf (const Note& note, const Theme& theme)
@@ -147,6 +151,7 @@ void paintNote (juce::Graphics& g, const Note& note, const Look& look, bool sele
 {
     const auto& theme = look.theme();
     const auto colour = colourOf (note, theme);
+    const auto text = juce::String::fromUTF8 (note.text.c_str());
     if (note.isRegion())
     {
         g.setColour (colour.withAlpha (theme.is_dark ? 0.10f : 0.14f));
@@ -155,7 +160,8 @@ void paintNote (juce::Graphics& g, const Note& note, const Look& look, bool sele
         g.drawRoundedRectangle (note.area.reduced (0.5f), 8.0f, 1.0f);
         g.setFont (look.font (13.0f, true));
         g.setColour (theme.text);
-        g.drawText (note.text.empty() ? "Region" : juce::String::fromUTF8 (note.text.c_str()), note.area.withHeight (Box::header_height).reduced (12.0f, 0.0f), juce::Justification::centredLeft, true);
+        const auto title = note.area.withHeight (Box::header_height).reduced (12.0f, 0.0f);
+        g.drawText (note.text.empty() ? "Region" : text, title, juce::Justification::centredLeft, true);
     }
     else
     {
@@ -163,7 +169,8 @@ void paintNote (juce::Graphics& g, const Note& note, const Look& look, bool sele
         g.fillRect (note.area.withWidth (2.0f));
         g.setFont (look.font (13.0f));
         g.setColour (note.text.empty() ? theme.dim : theme.text);
-        g.drawFittedText (note.text.empty() ? "A note. Double click to write." : juce::String::fromUTF8 (note.text.c_str()), note.area.reduced (10.0f, 4.0f).toNearestInt(), juce::Justification::topLeft, 100, 1.0f);
+        const auto area = note.area.reduced (10.0f, 4.0f).toNearestInt();
+        g.drawFittedText (note.text.empty() ? "Double-click to edit this note." : text, area, juce::Justification::topLeft, 100, 1.0f);
     }
     g.setColour (colour.withAlpha (0.6f));
     for (const float d : { 5.0f, 9.0f })
@@ -188,7 +195,8 @@ void paintDelay (juce::Graphics& g, const SceneWire& w, const Look& look)
     g.setColour (look.theme().text);
     g.drawText (text, box, juce::Justification::centred, false);
 }
-/// A port that the outside sees: its name there, at the side on which wires come or go.
+
+/// An exposed port: its outer name, on the side where wires connect.
 void paintExposed (juce::Graphics& g, const Scene::Exposed& e, const Look& look)
 {
     constexpr float height = 18.0f, stem = 14.0f;
@@ -209,11 +217,11 @@ void paintExposed (juce::Graphics& g, const Scene::Exposed& e, const Look& look)
     g.drawText (e.name, box, juce::Justification::centred, false);
 }
 
-/// All that a wire may cover, with its bends.
+/// An area that contains the wire with its bends.
 juce::Rectangle<float> boundsOf (const SceneWire& w)
 {
     juce::Rectangle<float> all { w.from, w.to };
-    for (const auto& p : w.by)
+    for (const auto& p : w.waypoints)
         all = all.getUnion (juce::Rectangle<float> (p, p).expanded (1.0f));
     return all.expanded (200.0f, 16.0f);
 }
@@ -231,7 +239,8 @@ void paintHit (juce::Graphics& g, const SceneWire& w, double along, const Theme&
 {
     const auto path = w.path();
     g.setColour (theme.of (Quantity::hit));
-    g.fillEllipse (juce::Rectangle<float> (9.0f, 9.0f).withCentre (path.getPointAlongPath (path.getLength() * static_cast<float> (std::clamp (along, 0.0, 1.0)))));
+    const auto at = path.getPointAlongPath (path.getLength() * static_cast<float> (std::clamp (along, 0.0, 1.0)));
+    g.fillEllipse (juce::Rectangle<float> (9.0f, 9.0f).withCentre (at));
 }
 }   // namespace
 

@@ -33,7 +33,7 @@ juce::Path curveThrough (juce::Point<float> from, const std::vector<juce::Point<
     path.startNewSubPath (from);
     if (to.x < from.x && by.size() == 2)
     {
-        // Back: out to the right, down, along below, up again and in from the left.
+        // A wire that runs back: out to the right, down, left below the nodes, up, and in from the left.
         const auto low_right = by[0], low_left = by[1];
         path.cubicTo (from.translated (2 * bend, 0.0f), { low_right.x + 2 * bend, low_right.y }, low_right);
         path.lineTo (low_left);
@@ -50,7 +50,8 @@ juce::Path curveThrough (juce::Point<float> from, const std::vector<juce::Point<
     return path;
 }
 
-std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Point<float> to, juce::Rectangle<float> start, juce::Rectangle<float> end, const std::vector<juce::Rectangle<float>>& obstacles)
+std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Point<float> to, juce::Rectangle<float> start, juce::Rectangle<float> end,
+                                             const std::vector<juce::Rectangle<float>>& obstacles)
 {
     const auto direct = curveThrough (from, {}, to);
     const auto reach = direct.getBounds().expanded (clearance);
@@ -61,8 +62,11 @@ std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Poin
     if (to.x < from.x)
     {
         float low = std::max (start.getBottom(), end.getBottom());
-        for (const auto& o : obstacles)   // under all that stands between
-            if (o.getX() < from.x && o.getRight() > to.x && o.getY() < low + clearance && o.getBottom() > std::min (from.y, to.y)) low = std::max (low, o.getBottom());
+        for (const auto& o : obstacles)   // stay below everything in between
+        {
+            const bool is_between = o.getX() < from.x && o.getRight() > to.x;
+            if (is_between && o.getY() < low + clearance && o.getBottom() > std::min (from.y, to.y)) low = std::max (low, o.getBottom());
+        }
         return { { from.x, low + 2 * clearance }, { to.x, low + 2 * clearance } };
     }
 
@@ -72,12 +76,12 @@ std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Poin
     std::vector<juce::Point<float>> by;
     for (std::size_t i = 0; i < met.size();)
     {
-        // What stands side by side in a column is passed as one.
+        // Go around all boxes of a column together.
         auto box = met[i++];
         while (i < met.size() && met[i].getX() < box.getRight() + 2 * clearance)
             box = box.getUnion (met[i++]);
         const float middle = from.y + (to.y - from.y) * (box.getCentreX() - from.x) / std::max (1.0f, to.x - from.x);
-        // By the side that is nearer, with room for what else stands there.
+        // Take the nearer side, clear of other boxes there.
         float above = box.getY() - clearance, below = box.getBottom() + clearance;
         for (int look = 0; look < 4; ++look)
             for (const auto& o : obstacles)

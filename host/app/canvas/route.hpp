@@ -8,12 +8,12 @@
 namespace tactus::host
 {
 
-/// The places by which a wire goes, so that it does not run behind nodes: none where the direct way is free. A wire that
-/// goes back, to the left, goes around below its ends. `obstacles` are the boxes of all other nodes, `start` and `end` those
-/// at its ends.
-std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Point<float> to, juce::Rectangle<float> start, juce::Rectangle<float> end, const std::vector<juce::Rectangle<float>>& obstacles);
+/// The waypoints of a wire that keep it from running behind nodes; empty if the direct path is free. A wire that runs back to
+/// the left goes below both ends. `start` and `end` are the boxes at its ends, `obstacles` the boxes of all other nodes.
+std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Point<float> to, juce::Rectangle<float> start, juce::Rectangle<float> end,
+                                             const std::vector<juce::Rectangle<float>>& obstacles);
 
-/// A smooth line from left to right through all of these.
+/// A smooth curve through all of these points.
 juce::Path curveThrough (juce::Point<float> from, const std::vector<juce::Point<float>>& by, juce::Point<float> to);
 
 }   // namespace tactus::host

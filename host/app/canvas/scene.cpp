@@ -5,6 +5,7 @@
 #include <framework/graph/endpoints.hpp>
 #include <framework/graph/text.hpp>
 #include <host/app/model/param_now.hpp>
+#include <host/app/model/patch.hpp>
 #include <host/app/model/quantities.hpp>
 
 #include <algorithm>
@@ -17,8 +18,7 @@ namespace
 {
 std::size_t at (int i) { return static_cast<std::size_t> (i); }
 
-constexpr std::size_t most_routed = 300;   // nodes; of larger patches each edit would take too long
-
+constexpr std::size_t most_routed = 300;   // nodes; routing a larger patch would slow down every edit
 }   // namespace
 
 Quantity SceneNode::quantityOf (const FacePort& port) const
@@ -37,7 +37,7 @@ const Socket* SceneNode::paramAt (juce::Point<float> p) const noexcept
 
 Scene::Scene (const graph::Graph& graph, const std::string& name, const Catalogue& catalogue, const TextWidth& widthOf)
 {
-    const auto* patch = name.empty() ? &graph.root : graph.find (name);
+    const auto* patch = findPatch (graph, name);
     if (patch == nullptr) return;
     addNodes (graph, name, *patch, catalogue, widthOf);
     place (*patch);
@@ -67,7 +67,7 @@ void Scene::addNodes (const graph::Graph& graph, const std::string& name, const 
             node, *made.face, wired, [&] (const FacePort& p)
             { return paramNow (graph, name, node, p).value; },
             widthOf);
-        numbers.emplace (node.name, static_cast<int> (all_nodes.size()) - 1);
+        indices.emplace (node.name, static_cast<int> (all_nodes.size()) - 1);
     }
 }
 
@@ -78,19 +78,19 @@ void Scene::place (const graph::Patch& patch)
     for (const auto& n : all_nodes)
         sizes.emplace_back (n.box.width, n.box.height);
     for (const auto& w : patch.wires)
-        if (const int from = numberOf (w.from.node), to = numberOf (w.to.node); from >= 0 && to >= 0 && w.delay == 0) wires.emplace_back (from, to);
+        if (const int from = indexOf (w.from.node), to = indexOf (w.to.node); from >= 0 && to >= 0 && w.delay == 0) wires.emplace_back (from, to);
     const auto places = arrange (sizes, wires);
     std::vector<std::size_t> unplaced;
     for (std::size_t i = 0; i < all_nodes.size(); ++i)
     {
-        const auto place = placeOf (patch.nodes[i]);
-        all_nodes[i].at = place.value_or (places[i]);
-        if (! place) unplaced.push_back (i);
+        const auto stored = positionOf (patch.nodes[i]);
+        all_nodes[i].at = stored ? stored->toFloat() : places[i];
+        if (! stored) unplaced.push_back (i);
     }
     if (unplaced.size() == all_nodes.size()) return;
     for (const auto i : unplaced)
     {
-        if (const auto beside = besideOthers (i, unplaced, wires)) all_nodes[i].at = *beside;
+        if (const auto beside = besideNeighbour (i, unplaced, wires)) all_nodes[i].at = *beside;
         const auto isFree = [&]
         {
             for (std::size_t k = 0; k < all_nodes.size(); ++k)
@@ -102,38 +102,50 @@ void Scene::place (const graph::Patch& patch)
     }
 }
 
-/// Left of what a node leads to, else right of where it comes from, as far as those stand somewhere.
-std::optional<juce::Point<float>> Scene::besideOthers (std::size_t i, const std::vector<std::size_t>& unplaced, const std::vector<std::pair<int, int>>& wires) const
+/// A position left of the node's destination if that has a position, else right of its source if that has one.
+std::optional<juce::Point<float>> Scene::besideNeighbour (std::size_t i, const std::vector<std::size_t>& unplaced,
+                                                          const std::vector<std::pair<int, int>>& wires) const
 {
     constexpr float gap = 64.0f;
-    const auto stands = [&] (int node)
+    const auto isPlaced = [&] (int node)
     { return at (node) != i && std::ranges::count (unplaced, at (node)) == 0; };
     for (const auto& [from, to] : wires)
-        if (at (from) == i && stands (to)) return all_nodes[at (to)].at.translated (-gap - all_nodes[i].box.width, 0.0f);
+        if (at (from) == i && isPlaced (to)) return all_nodes[at (to)].at.translated (-gap - all_nodes[i].box.width, 0.0f);
     for (const auto& [from, to] : wires)
-        if (at (to) == i && stands (from)) return all_nodes[at (from)].at.translated (gap + all_nodes[at (from)].box.width, 0.0f);
+        if (at (to) == i && isPlaced (from)) return all_nodes[at (from)].at.translated (gap + all_nodes[at (from)].box.width, 0.0f);
     return std::nullopt;
 }
 
-/// Generic ports take on what is wired to them.
+/// A generic port takes on the quantity wired to it.
 void Scene::findQuantities (const graph::Patch& patch, const Quantities& quantities)
 {
     for (std::size_t i = 0; i < all_nodes.size(); ++i)
         for (const auto* ports : { &all_nodes[i].face->inputs, &all_nodes[i].face->params, &all_nodes[i].face->outputs })
             for (const auto& port : *ports)
-                if (port.quantity() == Quantity::any)
-                    if (const auto q = quantities.of (patch, i, port.role, port.id); q != Quantity::any) all_nodes[i].carried[{ port.role, port.id }] = q;
+            {
+                if (port.quantity() != Quantity::any) continue;
+                const auto q = quantities.of (patch, i, port.role, port.id);
+                if (q != Quantity::any) all_nodes[i].carried[{ port.role, port.id }] = q;
+            }
 }
 
 void Scene::addWires (const graph::Patch& patch)
 {
     for (const auto& w : patch.wires)
     {
-        const int from = numberOf (w.from.node), to = numberOf (w.to.node);
+        const int from = indexOf (w.from.node), to = indexOf (w.to.node);
         if (from < 0 || to < 0) continue;
         const auto &a = all_nodes[at (from)], &b = all_nodes[at (to)];
         const auto *start = a.face->startOf (w.from), *end = b.face->endOf (w.to);
-        SceneWire wire { .id = w.id, .from = a.bounds().getTopRight().translated (0.0f, Box::header_height / 2), .to = b.at.translated (0.0f, Box::header_height / 2), .start = from, .end = to, .delay = w.delay, .add = w.add, .enabled = w.enabled.value_or (true), .text = graph::toText (w) };
+        SceneWire wire { .id = w.id,
+                         .from = a.bounds().getTopRight().translated (0.0f, Box::header_height / 2),
+                         .to = b.at.translated (0.0f, Box::header_height / 2),
+                         .start = from,
+                         .end = to,
+                         .delay = w.delay,
+                         .add = w.add,
+                         .enabled = w.enabled.value_or (true),
+                         .text = graph::toText (w) };
         if (start != nullptr)
         {
             if (const auto* s = a.box.find (start->role, start->id)) wire.from = a.placeOf (*s);
@@ -158,7 +170,7 @@ void Scene::addExposed (const graph::Patch& patch)
     {
         for (const auto& [name, end] : ports)
         {
-            const int n = numberOf (end.node);
+            const int n = indexOf (end.node);
             if (n < 0) continue;
             const auto& node = all_nodes[at (n)];
             const auto* port = role == Role::output ? node.face->startOf (end) : node.face->endOf (end);
@@ -174,41 +186,43 @@ void Scene::addExposed (const graph::Patch& patch)
 void Scene::routeWires()
 {
     if (all_nodes.size() > most_routed) return;
-    // A node that nothing is joined to may be about to be put into a wire: none makes way for it.
+    // Wires are not routed around an unconnected node: the user may be about to insert it into one of them.
     std::vector<bool> joined (all_nodes.size());
     for (const auto& w : all_wires)
         joined[at (w.start)] = joined[at (w.end)] = true;
-    // Wires that go the same way lie side by side.
+    // Parallel wires run side by side.
     constexpr float apart = 6.0f;
     std::vector<std::pair<juce::Point<float>, juce::Point<float>>> taken;
     const auto isTaken = [&] (juce::Point<float> a, juce::Point<float> b)
     {
-        return std::ranges::any_of (taken, [&] (const auto& t)
-                                    { return std::abs (t.first.y - a.y) < apart - 1.0f && std::min (t.first.x, t.second.x) < std::max (a.x, b.x) && std::min (a.x, b.x) < std::max (t.first.x, t.second.x); });
+        const auto overlaps = [&] (const auto& t)
+        {
+            const bool is_level = std::abs (t.first.y - a.y) < apart - 1.0f;
+            return is_level && std::min (t.first.x, t.second.x) < std::max (a.x, b.x) && std::min (a.x, b.x) < std::max (t.first.x, t.second.x);
+        };
+        return std::ranges::any_of (taken, overlaps);
     };
     for (auto& w : all_wires)
     {
         std::vector<juce::Rectangle<float>> others;
         for (std::size_t i = 0; i < all_nodes.size(); ++i)
             if (joined[i] && i != at (w.start) && i != at (w.end)) others.push_back (all_nodes[i].bounds());
-        w.by = routeAround (w.from, w.to, all_nodes[at (w.start)].bounds(), all_nodes[at (w.end)].bounds(), others);
-        for (std::size_t i = 0; i + 1 < w.by.size(); i += 2)
+        w.waypoints = routeAround (w.from, w.to, all_nodes[at (w.start)].bounds(), all_nodes[at (w.end)].bounds(), others);
+        for (std::size_t i = 0; i + 1 < w.waypoints.size(); i += 2)
         {
-            const float way = w.by[i].y < (w.from.y + w.to.y) / 2 ? -apart : apart;
-            while (isTaken (w.by[i], w.by[i + 1]))
-            {
-                w.by[i].y += way;
-                w.by[i + 1].y += way;
-            }
-            taken.emplace_back (w.by[i], w.by[i + 1]);
+            auto &a = w.waypoints[i], &b = w.waypoints[i + 1];
+            const float step = a.y < (w.from.y + w.to.y) / 2 ? -apart : apart;
+            for (; isTaken (a, b); b.y += step)
+                a.y += step;
+            taken.emplace_back (a, b);
         }
     }
 }
 
-int Scene::numberOf (const std::string& name) const noexcept
+int Scene::indexOf (const std::string& name) const noexcept
 {
-    const auto found = numbers.find (graph::firstNameOf (name));
-    return found == numbers.end() ? -1 : found->second;
+    const auto found = indices.find (graph::firstNameOf (name));
+    return found == indices.end() ? -1 : found->second;
 }
 
 juce::Rectangle<float> Scene::bounds() const noexcept
@@ -231,6 +245,12 @@ const SceneWire* Scene::findWire (graph::Id id) const noexcept
 {
     const auto wire = std::ranges::find (all_wires, id, &SceneWire::id);
     return wire == all_wires.end() ? nullptr : &*wire;
+}
+
+ScenePort Scene::findPort (const PortId& id) const noexcept
+{
+    const auto* node = find (id.node);
+    return { node, node == nullptr ? nullptr : node->face->find (id.role, id.port) };
 }
 
 const SceneNode* Scene::nodeAt (juce::Point<float> p) const noexcept
@@ -283,25 +303,19 @@ SceneSocket Scene::socketAt (juce::Point<float> p, float reach) const noexcept
 std::optional<std::size_t> Scene::noteAt (juce::Point<float> p) const noexcept
 {
     for (std::size_t i = all_notes.size(); i-- > 0;)
-        if (const auto& n = all_notes[i]; n.area.contains (p) && (! n.isRegion() || p.y < n.area.getY() + Box::header_height || isCorner (i, p))) return i;
+    {
+        const auto& n = all_notes[i];
+        if (n.area.contains (p) && (! n.isRegion() || p.y < n.area.getY() + Box::header_height || isCorner (i, p))) return i;
+    }
     return std::nullopt;
 }
 
 bool Scene::isCorner (std::size_t note, juce::Point<float> p) const noexcept
 {
     constexpr float corner = 16.0f;
-    return note < all_notes.size() && juce::Rectangle<float> (all_notes[note].area.getRight() - corner, all_notes[note].area.getBottom() - corner, corner, corner).contains (p);
-}
-
-std::optional<juce::Point<float>> placeOf (const graph::Node& node)
-{
-    const auto ui = node.extra.find ("ui");
-    if (ui == node.extra.end() || ! ui->is_object()) return std::nullopt;
-    const auto place = ui->find ("at");
-    if (place == ui->end() || ! place->is_array() || place->size() != 2 || ! (*place)[0].is_number() || ! (*place)[1].is_number()) return std::nullopt;
-    const auto x = (*place)[0].get<double>(), y = (*place)[1].get<double>();
-    if (! (std::abs (x) < 1e6 && std::abs (y) < 1e6)) return std::nullopt;
-    return juce::Point<float> (static_cast<float> (x), static_cast<float> (y));
+    if (note >= all_notes.size()) return false;
+    auto area = all_notes[note].area;
+    return area.removeFromBottom (corner).removeFromRight (corner).contains (p);
 }
 
 }   // namespace tactus::host

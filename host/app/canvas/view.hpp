@@ -8,7 +8,7 @@
 namespace tactus::host
 {
 
-/// Which part of a canvas is seen, and how large.
+/// Scroll position and zoom of a canvas.
 struct View
 {
     static constexpr float smallest = 0.1f, largest = 4.0f;
@@ -20,7 +20,7 @@ struct View
     juce::Point<float> toPixels (juce::Point<float> p) const noexcept { return p * zoom + origin; }
     juce::AffineTransform transform() const noexcept { return juce::AffineTransform::scale (zoom).translated (origin); }
 
-    /// What is under the pointer stays there.
+    /// Zooms around a pixel, whose canvas position stays fixed.
     void zoomAt (juce::Point<float> pixel, float factor) noexcept
     {
         const auto fixed = toCanvas (pixel);
@@ -30,7 +30,7 @@ struct View
 
     void centreOn (juce::Point<float> place, juce::Rectangle<float> window) noexcept { origin = window.getCentre() - place * zoom; }
 
-    /// All of an area, in the middle, no larger than life.
+    /// Fits an area into the window, centred, at most at 100 %.
     void frame (juce::Rectangle<float> area, juce::Rectangle<float> window) noexcept
     {
         if (area.isEmpty() || window.isEmpty()) return;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "devices_panel.hpp"
-#include "sound_words.hpp"
+#include "sound_text.hpp"
 
 #include <host/app/inspector/fields.hpp>
+#include <host/app/model/message_text.hpp>
 #include <host/audio/audio_rig.hpp>
-#include <host/devices/gestures.hpp>
-#include <host/devices/make_device.hpp>
+
+#include <framework/run/device/gestures.hpp>
+#include <framework/run/device/make_device.hpp>
 
 #include <algorithm>
 
@@ -16,34 +18,54 @@ namespace
 {
 constexpr int card_width = 280, widest_card = 480, refreshes_apart = 6;   // five times a second
 
-const char *const first_that_can = "the first device that can", *const sound_card = "sound card";
+constexpr const char* sound_card = "sound card";
 
-/// What may be set of a binding: where it stands, how it is called, and what it does.
+/// Clocks other than a role: the value in the session, and the label.
+constexpr std::pair<const char*, const char*> clocks[] { { "", "automatic" }, { "timer", "timer" }, { "audio", sound_card } };
+
+std::string labelOf (const std::string& clock)
+{
+    const auto known = std::ranges::find (clocks, clock, [] (const auto& c)
+                                          { return std::string_view (c.first); });
+    return known != std::end (clocks) ? known->second : clock;
+}
+
+std::string clockLabelled (const std::string& label)
+{
+    const auto known = std::ranges::find (clocks, label, [] (const auto& c)
+                                          { return std::string_view (c.second); });
+    return known != std::end (clocks) ? known->first : label;
+}
+
+/// A setting of a binding: its JSON pointer, label and tooltip.
 struct Part
 {
     const char *pointer, *label, *about;
 };
 constexpr Part parts[] {
-    { "/workspace/scale", "scale", "How large the device's workspace is in the graph's: 2 makes the hand go half as far, and walls feel twice as stiff" },
-    { "/workspace/offset", "offset", "Where the device's origin is in the graph: [0, 0, \"1 cm\"]" },
-    { "/guard/max_force", "force at most", "As in 3 N. What the device's profile allows cannot be raised" },
-    { "/guard/max_speed", "speed at most", "As in 1 m/s, of the tool in the hand: faster, and the guard stops it for good" },
-    { "/guard/ramp", "ramp", "As in 0.5 s, from no force to all of it" },
+    { "/workspace/scale", "scale", "Size of the device's workspace in the graph: at 2 the hand moves half as far, and walls feel twice as stiff" },
+    { "/workspace/offset", "offset", "Position of the device's origin in the graph, such as [0, 0, \"1 cm\"]" },
+    { "/guard/max_force", "max force", "Force limit, such as 3 N. Cannot exceed the limit in the device's profile" },
+    { "/guard/max_speed", "max speed",
+      "Speed limit of the tool in the hand, such as 1 m/s. If the tool exceeds it, the guard withholds the force until you rearm" },
+    { "/guard/ramp", "ramp", "Time from no force to full force, such as 0.5 s" },
 };
 
 constexpr Part parts_of_sound[] {
-    { "/outputs", "outputs", "Channels of the card for the signal outputs 1, 2 ... of the role, and how much 1 is there: 3@4 N, 4@4 N. Left out: those that the graph asks for" },
-    { "/inputs", "inputs", "The same for the signal inputs: 1@20 m/s2" },
-    { "/guard/max_signal", "signal at most", "Of each output, in its own unit" },
-    { "/guard/ramp", "ramp", "As in 0.5 s, from nothing to all of it" },
+    { "/outputs", "outputs",
+      "Card channels for the signal outputs 1, 2 ... of the role, and the value at full scale, such as 3@4 N, 4@4 N. "
+      "Default: the outputs that the graph uses" },
+    { "/inputs", "inputs", "The same for the signal inputs, such as 1@20 m/s2" },
+    { "/guard/max_signal", "max signal", "Limit of each output, in that output's unit" },
+    { "/guard/ramp", "ramp", "Time from silence to full signal, such as 0.5 s" },
 };
 constexpr Part parts_of_card[] {
-    { "/type", "system", "As `tactus devices` lists them: JACK, ALSA ... Left out: any" },
-    { "/output", "plays on", "Name of the card, or a part of it" },
-    { "/input", "hears from", "Name of the card, or a part of it" },
-    { "/rate_hz", "rate", "Hz. Left out: the card's own" },
-    { "/block", "block", "Frames. Small ones are late sooner, large ones add to the delay" },
-    { "/reserve", "reserve", "As in 10 ms: how late a tick or a block may be without a gap; adds to the delay" },
+    { "/type", "audio system", "JACK, ALSA ... as listed by `tactus devices`. Default: any" },
+    { "/output", "output", "Name of the card, or part of it" },
+    { "/input", "input", "Name of the card, or part of it" },
+    { "/rate_hz", "sample rate", "Sample rate in Hz. Default: the card's own rate" },
+    { "/block", "block size", "Block size in frames. Small blocks risk gaps; large ones add delay" },
+    { "/reserve", "reserve", "How late a tick or block may be without causing a gap, such as 10 ms. Adds to the delay" },
 };
 
 std::span<const Part> partsOf (const std::string& driver)
@@ -58,36 +80,34 @@ juce::String written (const Json& v) { return asText (v.is_string() ? v.get<std:
 
 Json readText (const juce::String& t)
 {
-    auto value = Json::parse (t.trim().toStdString(), nullptr, false);
-    return value.is_discarded() ? Json (t.trim().toStdString()) : value;
+    const auto text = t.trim().toStdString();
+    return Json::tryParse (text).value_or (Json (text));
 }
-
-juce::String asText (const Message& m) { return asText (m.text + (m.remedy.empty() ? "" : ": " + m.remedy)); }
 
 bool isListOfChannels (const std::string& pointer) { return pointer == "/outputs" || pointer == "/inputs"; }
 
-/// A role may be bound with its workspace and guard; which device it is does not depend on them.
-Json device (Json binding)
+/// The device of a binding, without its workspace, guard and channels.
+Json deviceOf (Json binding)
 {
     for (const auto* key : { "workspace", "guard", "outputs", "inputs" })
         binding.erase (key);
     return binding;
 }
 
-/// Takes a part away, and what it leaves empty around it.
-void take (Json& binding, const std::string& pointer)
+/// Removes a setting, and the object around it if that becomes empty.
+void remove (Json& binding, const std::string& pointer)
 {
-    const Json::json_pointer at (pointer);
+    const JsonPointer at (pointer);
     if (! binding.contains (at)) return;
-    auto& around = binding.at (at.parent_pointer());
-    around.erase (at.back());
-    if (around.empty() && ! at.parent_pointer().empty()) binding.erase (at.parent_pointer().back());
+    auto& around = binding.at (at.parent());
+    around.erase (at.parts().back());
+    if (around.empty() && ! at.parent().parts().empty()) binding.erase (at.parent().parts().back());
 }
 }   // namespace
 
 std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& profiles)
 {
-    std::vector<BindingChoice> all { { "as the graph says", Json() }, { "simulated tool", defaultDevice() }, { sound_card, { { "driver", "audio" } } } };
+    std::vector<BindingChoice> all { { "as in the graph", Json() }, { "simulated tool", defaultDevice() }, { sound_card, { { "driver", "audio" } } } };
     for (const auto& d : connected)
     {
         const auto fitting = hid::matching (profiles.profiles, d);
@@ -95,15 +115,16 @@ std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<cons
         Json description { { "driver", "hid" }, { "profile", fitting.front()->id } };
         const auto alike = std::ranges::count_if (connected, [&] (const auto& other)
                                                   { return hid::fit (*fitting.front(), other) > 0; });
-        if (alike > 1 && ! d.serial.empty()) description["serial"] = d.serial;
-        BindingChoice choice { fitting.front()->name + (alike > 1 && ! d.serial.empty() ? ", serial " + d.serial : std::string()), std::move (description) };
+        const bool needs_serial = alike > 1 && ! d.serial.empty();
+        if (needs_serial) description["serial"] = d.serial;
+        BindingChoice choice { fitting.front()->name + (needs_serial ? ", serial " + d.serial : ""), std::move (description) };
         if (std::ranges::count (all, choice) == 0) all.push_back (std::move (choice));
     }
     for (const auto& g : gestures())
         all.push_back ({ "gesture " + std::string (g.id), { { "driver", "gesture" }, { "path", g.id } } });
     if (bound_now != nullptr)
     {
-        const auto now = device (*bound_now);
+        const auto now = deviceOf (*bound_now);
         if (std::ranges::none_of (all, [&] (const auto& c)
                                   { return c.description == now; }))
             all.push_back ({ nameOf (now), now });
@@ -111,7 +132,7 @@ std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<cons
     return all;
 }
 
-DevicesPanel::DevicesPanel (Document& d, Performance& p, DeviceDesk& k) : document (d), run (p), desk (k)
+DevicesPanel::DevicesPanel (Document& d, LiveRun& r, DeviceSetup& s) : document (d), run (r), setup (s)
 {
     scroll.setViewedComponent (&sheet, false);
     scroll.setScrollBarsShown (true, false);
@@ -119,7 +140,7 @@ DevicesPanel::DevicesPanel (Document& d, Performance& p, DeviceDesk& k) : docume
     addAndMakeVisible (scroll);
 }
 
-DevicesPanel::~DevicesPanel() { desk.look (false); }
+DevicesPanel::~DevicesPanel() { setup.scan (false); }
 
 const RoleFit* DevicesPanel::fitOf (const std::string& role) const
 {
@@ -129,23 +150,31 @@ const RoleFit* DevicesPanel::fitOf (const std::string& role) const
 
 void DevicesPanel::edit (const std::function<void (DeviceSession&)>& change)
 {
-    if (const auto wrong = desk.edit (change); wrong && onHint) onHint (asText (*wrong));
-    look();
+    if (const auto edited = setup.edit (change); ! edited) complain ({ edited.error() });
+    update();
 }
 
-void DevicesPanel::bind (const std::string& role, const std::string& words)
+bool DevicesPanel::complain (const Messages& messages) const
+{
+    const auto error = std::ranges::find (messages, Message::Severity::error, &Message::severity);
+    if (error == messages.end()) return false;
+    if (onHint) onHint (asText (messageText (*error)));
+    return true;
+}
+
+void DevicesPanel::bind (const std::string& role, const std::string& label)
 {
     const auto at = std::ranges::find (shape.roles, role);
     if (at == shape.roles.end()) return;
     const auto& choices = shape.choices[static_cast<std::size_t> (at - shape.roles.begin())];
-    const auto choice = std::ranges::find (choices, words, &BindingChoice::words);
+    const auto choice = std::ranges::find (choices, label, &BindingChoice::label);
     if (choice == choices.end()) return;
     edit ([role, to = choice->description] (DeviceSession& s)
           {
         if (to.is_null())
             s.unbind (role);
         else
-            s.bind (role, boundAnew (s.binding (role), to)); });
+            s.bind (role, rebound (s.binding (role), to)); });
 }
 
 void DevicesPanel::setPart (const std::string& role, const std::string& pointer, const juce::String& text)
@@ -154,18 +183,13 @@ void DevicesPanel::setPart (const std::string& role, const std::string& pointer,
     if (before == nullptr) return;
     auto binding = *before;
     if (text.trim().isEmpty())
-        take (binding, pointer);
+        remove (binding, pointer);
     else
     {
-        const Json::json_pointer at (pointer);
-        binding[at] = isListOfChannels (pointer) ? readChannelsText (text.toStdString(), binding.contains (at) ? binding.at (at) : Json()) : readText (text);
+        auto& value = binding[JsonPointer (pointer)];   // null if it is new
+        value = isListOfChannels (pointer) ? readChannelsText (text.toStdString(), value) : readText (text);
     }
-    for (const auto& m : checkBinding (binding, desk.session().file.parent_path(), desk.profiles()))
-        if (m.severity == Message::Severity::error)
-        {
-            if (onHint) onHint (asText (m));
-            return;
-        }
+    if (complain (checkBinding (binding, setup.session().file.parent_path(), setup.profiles()))) return;
     edit ([&] (DeviceSession& s)
           { s.bind (role, binding); });
 }
@@ -173,20 +197,20 @@ void DevicesPanel::setPart (const std::string& role, const std::string& pointer,
 void DevicesPanel::refresh()
 {
     if (! isVisible() || ++refreshes % refreshes_apart != 0) return;
-    look();
+    update();
 }
 
-void DevicesPanel::look()
+void DevicesPanel::update()
 {
-    const auto connected = desk.connected();
-    fits = fitsOf (run.needs(), document.graph(), desk.session(), desk.profiles(), connected);
+    const auto connected = setup.connected();
+    fits = fitsOf (run.needs(), document.graph(), setup.session(), setup.profiles(), connected);
     Shape now;
     for (const auto& fit : fits)
     {
         now.roles.push_back (fit.role);
         const auto* binding = bindingOf (fit.role);
         now.drivers.push_back (binding != nullptr ? binding->value ("driver", std::string()) : std::string());
-        now.choices.push_back (bindingChoices (bindingOf (fit.role), connected, desk.profiles()));
+        now.choices.push_back (bindingChoices (bindingOf (fit.role), connected, setup.profiles()));
     }
     now.routes = routes().size();
     if (columns.empty() || now != shape)
@@ -221,26 +245,23 @@ void DevicesPanel::rebuild()
 std::unique_ptr<Column> DevicesPanel::clockCard()
 {
     auto card = std::make_unique<Column>();
-    card->add ("Clock", Words::Kind::title);
-    std::vector<std::string> choices { first_that_can, "timer", sound_card };
+    card->add ("Clock", TextBlock::Kind::title);
+    std::vector<std::string> choices;
+    for (const auto& [clock, label] : clocks)
+        choices.emplace_back (label);
     choices.insert (choices.end(), shape.roles.begin(), shape.roles.end());
     const auto chosen = [this]
-    {
-        const auto now = desk.session().session.clock();
-        return now.empty() ? std::string (first_that_can) : now == "audio" ? std::string (sound_card)
-                                                                           : now;
-    };
+    { return labelOf (setup.session().session.clock()); };
     if (std::ranges::count (choices, chosen()) == 0) choices.push_back (chosen());
     card->add (choiceRow (
-        "ticked by", choices, chosen,
+        "source", choices, chosen,
         [this] (const std::string& to)
         { edit ([&] (DeviceSession& s)
-                { s.setClock (to == first_that_can ? std::string() : to == sound_card ? std::string ("audio")
-                                                                                      : to); }); },
-        "What ticks a run: the reports of a role's device, the blocks of the sound card, or a timer at the rate of the graph"));
+                { s.setClock (clockLabelled (to)); }); },
+        "What ticks the run: the reports of a role's device, the blocks of the sound card, or a timer at the rate of the graph"));
     card->add (remark ([this]
-                       { return ticking(); }));
-    card->add ("Kept in " + asText (desk.session().file.string()) + ", not in the graph.", Words::Kind::small);
+                       { return clockRemark(); }));
+    card->add ("Saved in " + asText (setup.session().file.string()) + ", not in the graph.", TextBlock::Kind::small);
     return card;
 }
 
@@ -248,32 +269,32 @@ std::unique_ptr<Column> DevicesPanel::roleCard (std::size_t i)
 {
     const auto role = shape.roles[i];
     auto card = std::make_unique<Column>();
-    card->add (asText (role), Words::Kind::title);
-    std::vector<std::string> words;
+    card->add (asText (role), TextBlock::Kind::title);
+    std::vector<std::string> labels;
     for (const auto& c : shape.choices[i])
-        words.push_back (c.words);
+        labels.push_back (c.label);
     card->add (choiceRow (
-        "device", words, [this, role, choices = shape.choices[i]]
+        "device", labels, [this, role, choices = shape.choices[i]]
         {
         const auto* now = bindingOf (role);
         const auto at = std::ranges::find_if (choices, [&] (const auto& c)
-                                              { return now == nullptr ? c.description.is_null() : c.description == device (*now); });
-        return at == choices.end() ? std::string() : at->words; },
+                                              { return now == nullptr ? c.description.is_null() : c.description == deviceOf (*now); });
+        return at == choices.end() ? std::string() : at->label; },
         [this, role] (const std::string& to)
         { bind (role, to); },
-        "What stands behind this role here, whatever the graph"));
+        "The device for this role, in every graph"));
     card->add (remark ([this, role]
-                       { return fitting (role); }));
+                       { return fitRemark (role); }));
     card->add (remark ([this, role]
-                       { return doing (role); }));
+                       { return statusRemark (role); }));
     if (shape.drivers[i].empty()) return card;
     for (const auto& part : partsOf (shape.drivers[i]))
         card->add (textRow (
-            part.label, [this, role, at = Json::json_pointer (part.pointer)]
+            part.label, [this, role, at = JsonPointer (part.pointer), is_list = isListOfChannels (part.pointer)]
             {
             const auto* now = bindingOf (role);
             if (now == nullptr || ! now->contains (at)) return juce::String();
-            return isListOfChannels (at.to_string()) ? asText (textOfChannels (now->at (at))) : written (now->at (at)); },
+            return is_list ? asText (textOfChannels (now->at (at))) : written (now->at (at)); },
             [this, role, pointer = std::string (part.pointer)] (const juce::String& text)
             { setPart (role, pointer, text); },
             part.about));
@@ -282,23 +303,18 @@ std::unique_ptr<Column> DevicesPanel::roleCard (std::size_t i)
 
 Json DevicesPanel::routes() const
 {
-    const auto* sound = desk.session().session.audio();
+    const auto* sound = setup.session().session.audio();
     return sound != nullptr ? sound->value ("routes", Json::array()) : Json::array();
 }
 
 void DevicesPanel::setSound (const std::function<void (Json&)>& change)
 {
-    const auto* before = desk.session().session.audio();
+    const auto* before = setup.session().session.audio();
     Json sound = before != nullptr ? *before : Json::object();
     change (sound);
     Messages messages;
     audio::readAudioSettings (sound, "", messages);
-    for (const auto& m : messages)
-        if (m.severity == Message::Severity::error)
-        {
-            if (onHint) onHint (asText (m));
-            return;
-        }
+    if (complain (messages)) return;
     edit ([&] (DeviceSession& s)
           { s.setAudio (sound); });
 }
@@ -308,9 +324,9 @@ void DevicesPanel::setCard (const std::string& pointer, const juce::String& text
     setSound ([&] (Json& sound)
               {
         if (text.trim().isEmpty())
-            take (sound, pointer);
+            remove (sound, pointer);
         else
-            sound[Json::json_pointer (pointer)] = readText (text); });
+            sound[JsonPointer (pointer)] = readText (text); });
 }
 
 void DevicesPanel::setRoute (std::size_t i, const juce::String& text)
@@ -324,41 +340,41 @@ void DevicesPanel::setRoute (std::size_t i, const juce::String& text)
     else
     {
         auto route = readRouteText (text.trim().toStdString(), is_new ? Json::object() : all[i]);
-        if (const auto* problem = std::get_if<Message> (&route))
+        if (! route)
         {
-            if (onHint) onHint (asText (*problem));
+            complain ({ route.error() });
             return;
         }
         if (is_new)
-            all.push_back (std::get<Json> (route));
+            all.push_back (*std::move (route));
         else
-            all[i] = std::get<Json> (route);
+            all[i] = *std::move (route);
     }
     setSound ([&] (Json& sound)
               { sound["routes"] = all; });
 }
 
-/// The card that all runs play on, and the ports that they play.
+/// The sound card of all runs, and the ports that they play on it.
 std::unique_ptr<Column> DevicesPanel::soundCard()
 {
     auto card = std::make_unique<Column>();
-    card->add ("Sound card", Words::Kind::title);
+    card->add ("Sound card", TextBlock::Kind::title);
     for (std::size_t i = 0; i <= shape.routes; ++i)
         card->add (textRow (
-            i < shape.routes || i == 0 ? "plays" : "plays also", [this, i]
+            i < shape.routes || i == 0 ? "route" : "add route", [this, i]
             {
             const auto all = routes();
             return i < all.size() ? asText (textOfRoute (all[i])) : juce::String(); },
             [this, i] (const juce::String& text)
             { setRoute (i, text); },
-            "PORT=CHANNEL@FULLSCALE, as in mix.out=3@4 N: a port of the graph on a channel of the card, and how much of it is the loudest"));
+            "PORT=CHANNEL@FULLSCALE, such as mix.out=3@4 N: a port of the graph, a channel of the card, and the value at full scale"));
     card->add (remark ([this]
-                       { return sounding(); }));
+                       { return soundRemark(); }));
     for (const auto& part : parts_of_card)
         card->add (textRow (
-            part.label, [this, at = Json::json_pointer (part.pointer)]
+            part.label, [this, at = JsonPointer (part.pointer)]
             {
-            const auto* now = desk.session().session.audio();
+            const auto* now = setup.session().session.audio();
             return now != nullptr && now->contains (at) ? written (now->at (at)) : juce::String(); },
             [this, pointer = std::string (part.pointer)] (const juce::String& text)
             { setCard (pointer, text); },
@@ -366,41 +382,42 @@ std::unique_ptr<Column> DevicesPanel::soundCard()
     return card;
 }
 
-Remark DevicesPanel::sounding() const
+Remark DevicesPanel::soundRemark() const
 {
     const auto now = run.isRunning() ? run.audioStatus() : std::nullopt;
-    if (! now) return { routes().empty() ? "Plays no port: write one, as in mix.out=1@4 N." : "Nothing runs.", false };
+    if (! now) return { routes().empty() ? "No routes. Add one, such as mix.out=1@4 N." : "Not running.", false };
     if (now->card.type.empty()) return { now->trouble.empty() ? "No sound card." : asText (now->trouble), true };
     const auto sound = asText (audio::statusOf (*now)).trim();
     if (! now->is_open) return { sound + (now->trouble.empty() ? juce::String() : ": " + asText (now->trouble)), true };
-    return { asText (now->card.type + ": " + now->card.name + ", ") + juce::String (now->card.rate_hz) + " Hz, blocks of " + juce::String (now->card.block) + "\n" + sound, now->clipped > 0 };
+    const auto& card = now->card;
+    const auto format = juce::String (card.rate_hz) + " Hz, blocks of " + juce::String (card.block);
+    return { asText (card.type + ": " + card.name + ", ") + format + "\n" + sound, now->clipped > 0 };
 }
 
-/// What the role needs, and what of it is not there.
-Remark DevicesPanel::fitting (const std::string& role) const
+/// What the role needs, and what its device lacks.
+Remark DevicesPanel::fitRemark (const std::string& role) const
 {
     const auto* fit = fitOf (role);
     if (fit == nullptr) return {};
     Remark r { asText ("Needs " + describe (fit->needs) + "."), false };
-    const auto complain = [&] (const std::string& what)
+    const auto addProblem = [&] (const std::string& what)
     {
         r.text << "\n"
                << asText (what);
-        r.is_wrong = true;
+        r.is_problem = true;
     };
     for (const auto& m : fit->messages)
-        complain (m.text);
-    if (! fit->lacking.empty()) complain ("It does not fit:");
+        addProblem (m.text);
+    if (! fit->lacking.empty()) addProblem ("The device does not fit:");
     for (const auto& l : fit->lacking)
-        complain (l);
-    if (fit->from == RoleFit::From::graph) r.text << "\n"
-                                                  << asText ("The graph says: " + nameOf (fit->description) + ".");
-    if (fit->from == RoleFit::From::nobody) r.text << "\nNobody says which device it is: a simulated tool at rest.";
+        addProblem (l);
+    if (fit->from == RoleFit::From::graph) r.text << asText ("\nIn the graph: " + nameOf (fit->description) + ".");
+    if (fit->from == RoleFit::From::none) r.text << "\nNo device is set. A simulated tool at rest is used.";
     return r;
 }
 
-/// How its device is doing.
-Remark DevicesPanel::doing (const std::string& role) const
+/// Says whether the device of a role is connected and works, and whether its guard has stopped it.
+Remark DevicesPanel::statusRemark (const std::string& role) const
 {
     Remark r;
     const auto* fit = fitOf (role);
@@ -408,41 +425,44 @@ Remark DevicesPanel::doing (const std::string& role) const
     if (health != run.health().end())
     {
         r.text = asText (describe (*health));
-        r.is_wrong = ! health->connected;
+        r.is_problem = ! health->connected;
     }
     else if (fit != nullptr && fit->connected && ! run.isRunning())
-        r = *fit->connected ? Remark { "Connected.", false } : Remark { "Not connected. A run waits for it, and nothing pushes meanwhile.", true };
+        r = *fit->connected ? Remark { "Connected.", false } : Remark { "Not connected. A run waits for the device, without force.", true };
     const auto status = run.status();
     if (! status || ! run.isRunning()) return r;
     for (const auto& now : status->shown())
         if (now.name == role && now.stop != Guard::Stop::none)
         {
-            r.text << (r.text.isEmpty() ? "" : "\n") << "Its guard holds the force back: " << asText (describe (now.latestEvent())) << ".";
-            r.is_wrong = true;
+            r.text << (r.text.isEmpty() ? "" : "\n") << "Stopped by its guard: " << asText (describe (now.latestEvent())) << ".";
+            r.is_problem = true;
         }
     return r;
 }
 
-Remark DevicesPanel::ticking() const
+Remark DevicesPanel::clockRemark() const
 {
     const auto status = run.status();
-    if (! status || ! run.isRunning()) return { "Nothing runs.", false };
-    if (const auto sound = run.audioStatus(); sound && desk.session().session.clock() == "audio")
-    {
-        if (status->clock_replaced) return { "The sound card gives no blocks: a timer ticks in its place, and all forces are held at zero.", true };
-        return { "The blocks of the sound card tick, at " + juce::String (run.rate()) + " Hz.", false };
-    }
+    if (! status || ! run.isRunning()) return { "Not running.", false };
+    const auto wanted = setup.session().session.clock();
     const auto& role = run.clockRole();
-    if (const auto wanted = desk.session().session.clock(); role.empty() && ! wanted.empty() && wanted != "timer")
-        return { "A timer ticks, at " + juce::String (run.rate()) + " Hz: " + (fitOf (wanted) == nullptr ? "this graph has no role " + asText (wanted) : asText (wanted) + " has no clock now") + ".", false };
-    if (role.empty()) return { "A timer ticks, at " + juce::String (run.rate()) + " Hz.", false };
-    if (status->clock_replaced) return { asText (role) + " is away: a timer ticks in its place, and all forces are held at zero.", true };
-    return { asText (role) + " ticks, at " + juce::String (run.rate()) + " Hz.", false };
+    const bool by_card = wanted == "audio" && run.audioStatus();
+    if (status->clock_replaced && (by_card || ! role.empty()))
+    {
+        const auto why = by_card ? juce::String ("The sound card has stalled") : asText (role) + " is disconnected";
+        return { why + ": a timer ticks instead, and all forces are held at zero.", true };
+    }
+    const auto rate = ", at " + juce::String (run.rate()) + " Hz";
+    if (by_card) return { "Ticked by the sound card" + rate + ".", false };
+    if (! role.empty()) return { "Ticked by " + asText (role) + rate + ".", false };
+    if (wanted.empty() || wanted == "timer") return { "Ticked by a timer" + rate + ".", false };
+    const auto why = fitOf (wanted) == nullptr ? "this graph has no role " + asText (wanted) : asText (wanted) + " has no clock at the moment";
+    return { "Ticked by a timer" + rate + ": " + why + ".", false };
 }
 
 void DevicesPanel::paint (juce::Graphics& g) { g.fillAll (lookOf (*this).theme().panel); }
 
-/// Cards side by side, as many as there is room for.
+/// Lays out the cards in rows, as many side by side as there is room for.
 void DevicesPanel::resized()
 {
     scroll.setBounds (getLocalBounds());
@@ -466,8 +486,8 @@ void DevicesPanel::resized()
 
 void DevicesPanel::visibilityChanged()
 {
-    desk.look (isVisible());
-    if (isVisible()) look();
+    setup.scan (isVisible());
+    if (isVisible()) update();
 }
 
 }   // namespace tactus::host

@@ -1,60 +1,59 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "device_desk.hpp"
-
 #include <host/app/inspector/describe.hpp>
-#include <host/app/run/performance.hpp>
+#include <host/app/run/device_setup.hpp>
+#include <host/app/run/live_run.hpp>
 #include <host/sessions/role_fits.hpp>
 
 namespace tactus::host
 {
 
-/// What a role can be bound to, and how that is called in a list.
+/// A device that a role can be bound to.
 struct BindingChoice
 {
-    std::string words;
-    Json description;   ///< null: what the graph says
+    std::string label;
+    Json description;   ///< null: as in the graph
 
     bool operator== (const BindingChoice&) const = default;
 };
 
-/// What the graph says, a simulated tool, the gestures, each device that is connected and has a profile, and what the role is
-/// bound to now, if it is none of these.
+/// The choices for a role: as in the graph, a simulated tool, the sound card, each connected device that has a profile, the gestures,
+/// and what the role is bound to now if that is none of these.
 std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<const hid::ConnectedDevice>, const hid::LoadedProfiles&);
 
-/// The devices behind the roles of the graph: what each role needs, what it is bound to and whether that fits, how it is doing,
-/// its workspace and the limits of its guard; who ticks the run; and what the sound card plays. What is edited here goes into the session, not into the
+/// The devices for the roles of the graph. For each role: what it needs, what it is bound to and whether that fits, its status, its
+/// workspace, and the limits of its guard. Also the clock of the run, and what the sound card plays. Edits change the session, not the
 /// graph.
 class DevicesPanel final : public juce::Component
 {
 public:
-    DevicesPanel (Document&, Performance&, DeviceDesk&);
+    DevicesPanel (Document&, LiveRun&, DeviceSetup&);
     ~DevicesPanel() override;
 
-    void refresh();   ///< to be called many times a second; of no effect while it is not to be seen
+    void refresh();   ///< call many times a second; does nothing while hidden
 
     std::function<void (const juce::String&)> onHint;
 
-    std::size_t cards() const noexcept { return columns.size(); }   ///< the clock's, one for each role, and the sound card's
+    std::size_t cards() const noexcept { return columns.size(); }   ///< one for the clock, one for each role, and one for the sound card
     Column& card (std::size_t i) { return *columns[i]; }
 
-    void bind (const std::string& role, const std::string& words);                                  ///< by one of the choices
-    void setPart (const std::string& role, const std::string& pointer, const juce::String& text);   ///< of the binding; empty: takes it away
+    void bind (const std::string& role, const std::string& label);                                  ///< to one of the choices
+    void setPart (const std::string& role, const std::string& pointer, const juce::String& text);   ///< part of the binding; empty text removes it
 
-    void setCard (const std::string& pointer, const juce::String& text);   ///< of the sound card; empty: takes it away
-    void setRoute (std::size_t, const juce::String& text);                 ///< empty: takes it away; one more than there are: adds it
+    void setCard (const std::string& pointer, const juce::String& text);   ///< a setting of the sound card; empty text removes it
+    void setRoute (std::size_t, const juce::String& text);                 ///< empty text removes it; an index past the end adds one
 
     void paint (juce::Graphics&) override;
     void resized() override;
     void visibilityChanged() override;
 
 private:
-    /// What decides which rows there are.
+    /// What determines the rows.
     struct Shape
     {
         std::vector<std::string> roles;
-        std::vector<std::string> drivers;   // of those that are bound; "": not bound
+        std::vector<std::string> drivers;   // "" if not bound
         std::vector<std::vector<BindingChoice>> choices;
         std::size_t routes = 0;
 
@@ -62,26 +61,27 @@ private:
     };
 
     const RoleFit* fitOf (const std::string& role) const;
-    const Json* bindingOf (const std::string& role) const { return desk.session().session.binding (role); }
+    const Json* bindingOf (const std::string& role) const { return setup.session().session.binding (role); }
     void edit (const std::function<void (DeviceSession&)>&);
-    void look();
+    void update();
+    bool complain (const Messages&) const;   // shows the first error; returns true if there is one
     void rebuild();
     std::unique_ptr<Column> clockCard();
     std::unique_ptr<Column> roleCard (std::size_t);
     std::unique_ptr<Column> soundCard();
     Json routes() const;
     void setSound (const std::function<void (Json&)>&);
-    Remark fitting (const std::string& role) const;
-    Remark doing (const std::string& role) const;
-    Remark ticking() const;
-    Remark sounding() const;
+    Remark fitRemark (const std::string& role) const;
+    Remark statusRemark (const std::string& role) const;
+    Remark clockRemark() const;
+    Remark soundRemark() const;
 
     Document& document;
-    Performance& run;
-    DeviceDesk& desk;
+    LiveRun& run;
+    DeviceSetup& setup;
     std::vector<RoleFit> fits;
     Shape shape;
-    std::vector<std::unique_ptr<Column>> columns, retired;   // a card may be changed by one of its own rows
+    std::vector<std::unique_ptr<Column>> columns, retired;   // retired: a row may rebuild the card that it is in
     juce::Viewport scroll;
     juce::Component sheet;
     int refreshes = 0;

@@ -32,7 +32,11 @@ void HistoryPanel::goToRow (int row)
     if (row >= 0 && row < getNumRows()) document.goTo (static_cast<std::size_t> (row));
 }
 
-juce::String HistoryPanel::nameOfRow (int row) const { return row <= 0 || row >= static_cast<int> (names.size()) + 1 ? juce::String ("begin") : juce::String (names[static_cast<std::size_t> (row) - 1]); }
+juce::String HistoryPanel::nameOfRow (int row) const
+{
+    if (row <= 0 || row > static_cast<int> (names.size())) return "initial state";
+    return juce::String (names[static_cast<std::size_t> (row) - 1]);
+}
 
 juce::String HistoryPanel::getTooltipForRow (int row) { return nameOfRow (row); }
 
@@ -45,7 +49,8 @@ void HistoryPanel::paint (juce::Graphics& g)
     if (! names.empty()) return;
     g.setColour (look.theme().dim);
     g.setFont (look.font (13.0f));
-    g.drawFittedText ("Each step you do will stand here by its name. A click goes back or forth to it, as Ctrl+Z and Ctrl+Y do one by one.", getLocalBounds().reduced (16).withTrimmedTop (32), juce::Justification::topLeft, 8);
+    const auto* hint = "Your edits are listed here. Click a step to undo or redo up to it; Ctrl+Z and Ctrl+Y go one step at a time.";
+    g.drawFittedText (hint, getLocalBounds().reduced (16).withTrimmedTop (32), juce::Justification::topLeft, 8);
 }
 
 void HistoryPanel::resized() { list.setBounds (getLocalBounds().withTrimmedRight (1).reduced (8)); }

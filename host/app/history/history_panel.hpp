@@ -7,15 +7,14 @@
 namespace tactus::host
 {
 
-/// All that was done, by name, the latest at the bottom. A click goes there; what is undone by that stays until something
-/// else is done.
+/// The undo history, newest step at the bottom. A click goes to a step; undone steps stay in the list until the next edit.
 class HistoryPanel final : public juce::Component, private Document::Listener, private juce::ListBoxModel
 {
 public:
     explicit HistoryPanel (Document&);
     ~HistoryPanel() override;
 
-    void goToRow (int row);   ///< 0 is how it began
+    void goToRow (int row);   ///< 0 is the initial state
 
     void paint (juce::Graphics&) override;
     void resized() override;

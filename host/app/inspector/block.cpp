@@ -1,33 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "block.hpp"
 
+#include <host/app/look/text.hpp>
+
 #include <cmath>
 
 namespace tactus::host
 {
 
-Words::Words (juce::String t, Kind k) : text (std::move (t)), kind (k) { setInterceptsMouseClicks (false, false); }
+TextBlock::TextBlock (juce::String t, Kind k) : text (std::move (t)), kind (k) { setInterceptsMouseClicks (false, false); }
 
-int Words::heightFor (int width) { return static_cast<int> (std::ceil (layout (width).getHeight())) + (kind == Kind::heading ? 14 : 6); }
+int TextBlock::heightFor (int width) { return static_cast<int> (std::ceil (layout (width).getHeight())) + (kind == Kind::heading ? 14 : 6); }
 
-void Words::paint (juce::Graphics& g)
+void TextBlock::paint (juce::Graphics& g)
 {
     auto area = getLocalBounds().toFloat();
     if (kind == Kind::heading) area.removeFromTop (8.0f);
     layout (getWidth()).draw (g, area);
 }
 
-juce::TextLayout Words::layout (int width) const
+juce::TextLayout TextBlock::layout (int width) const
 {
     const auto& look = lookOf (*this);
-    juce::AttributedString s;
-    const bool strong = kind == Kind::title || kind == Kind::heading, bright = kind == Kind::title || kind == Kind::text;
-    const float size = kind == Kind::title ? 16.0f : kind == Kind::text ? 13.0f
-                                                                        : 12.0f;
-    s.append (text, look.font (size, strong), bright ? look.theme().text : look.theme().dim);
-    juce::TextLayout l;
-    l.createLayout (s, static_cast<float> (width));
-    return l;
+    const bool bold = kind == Kind::title || kind == Kind::heading, bright = kind == Kind::title || kind == Kind::text;
+    float size = 12.0f;
+    if (kind == Kind::title) size = 16.0f;
+    if (kind == Kind::text) size = 13.0f;
+    return wrapText (text, look.font (size, bold), bright ? look.theme().text : look.theme().dim, static_cast<float> (width));
 }
 
 void Column::add (std::unique_ptr<Block> b)
@@ -40,9 +39,9 @@ void Column::add (std::unique_ptr<Block> b)
     blocks.push_back (std::move (b));
 }
 
-void Column::add (const juce::String& words, Words::Kind kind)
+void Column::add (const juce::String& text, TextBlock::Kind kind)
 {
-    if (words.isNotEmpty()) add (std::make_unique<Words> (words, kind));
+    if (text.isNotEmpty()) add (std::make_unique<TextBlock> (text, kind));
 }
 
 void Column::refresh (const graph::Node* node)
@@ -51,17 +50,31 @@ void Column::refresh (const graph::Node* node)
         b->refresh (node);
 }
 
-void Column::layOut (int width)
+int Column::heightFor (int width)
 {
-    constexpr int margin = 16;
-    int y = margin;
+    int height = 2 * margins.vertical;
+    for (auto& b : blocks)
+        height += b->heightFor (inner (width));
+    return height;
+}
+
+void Column::resized()
+{
+    const int width = inner (getWidth());
+    int y = margins.vertical;
     for (auto& b : blocks)
     {
-        const int h = b->heightFor (width - 2 * margin);
-        b->setBounds (margin, y, width - 2 * margin, h);
-        y += h;
+        const int height = b->heightFor (width);
+        b->setBounds (margins.left, y, width, height);
+        y += height;
     }
-    setSize (width, y + margin);
+}
+
+void Column::layOut (int width)
+{
+    const juce::Rectangle<int> size (width, heightFor (width));
+    if (size == getLocalBounds()) return resized();
+    setSize (size.getWidth(), size.getHeight());
 }
 
 }   // namespace tactus::host

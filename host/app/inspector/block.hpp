@@ -10,18 +10,18 @@
 namespace tactus::host
 {
 
-/// A part of a column of such, as high as it needs to be for a width.
+/// One item of a Column. Its height follows from its width.
 class Block : public juce::Component
 {
 public:
     virtual int heightFor (int width) = 0;
-    virtual void refresh (const graph::Node*) {}   ///< the node as it is now, if there is one
+    virtual void refresh (const graph::Node*) {}   ///< the current node, if there is one
 
-    std::function<void()> onHeight;   ///< it needs another height now
+    std::function<void()> onHeight;   ///< its height changed
 };
 
-/// Text that wraps.
-class Words final : public Block
+/// Wrapped text.
+class TextBlock final : public Block
 {
 public:
     enum class Kind
@@ -32,7 +32,7 @@ public:
         heading
     };
 
-    Words (juce::String, Kind);
+    TextBlock (juce::String, Kind);
 
     int heightFor (int width) override;
     void paint (juce::Graphics&) override;
@@ -44,22 +44,35 @@ private:
     Kind kind;
 };
 
-/// Blocks, one under another.
-class Column final : public juce::Component
+/// A vertical stack of blocks.
+class Column : public Block
 {
 public:
-    void add (std::unique_ptr<Block>);
-    void add (const juce::String& words, Words::Kind);   ///< nothing if there are none
-    void refresh (const graph::Node*);
-    void layOut (int width);
+    struct Margins
+    {
+        int left, right, vertical;
+    };
 
-    std::function<void()> onHeight;   ///< of one of them
+    explicit Column (Margins m = { 16, 16, 16 }) : margins (m) {}
+
+    void add (std::unique_ptr<Block>);
+    void add (const juce::String& text, TextBlock::Kind);   ///< no effect if empty
+
+    int heightFor (int width) override;
+    void refresh (const graph::Node*) override;
+    void resized() override;
+    void layOut (int width);   ///< also sets its own size
 
     std::size_t size() const noexcept { return blocks.size(); }
     Block& operator[] (std::size_t i) { return *blocks[i]; }
 
-private:
+protected:
     std::vector<std::unique_ptr<Block>> blocks;
+
+private:
+    int inner (int width) const noexcept { return width - margins.left - margins.right; }
+
+    const Margins margins;
 };
 
 }   // namespace tactus::host

@@ -3,7 +3,7 @@
 #include "setting_editor.hpp"
 #include "table_row.hpp"
 #include "tool_button.hpp"
-#include <host/app/model/held.hpp>
+#include <host/app/model/controlled_param.hpp>
 
 #include <framework/graph/text.hpp>
 
@@ -29,32 +29,30 @@ void change (Document& d, const std::string& id, const std::function<void (graph
     d.perform (graph::ChangeControl { id, std::move (to) }, step);
 }
 
-/// Its name, which a double click edits, its fader, and a cross.
-class Head final : public Block
+/// The control's name, fader and delete button.
+class Header final : public Block
 {
 public:
-    Head (Document& d, std::string i) : document (d), id (std::move (i))
+    Header (Document& d, std::string i) : document (d), id (std::move (i))
     {
         name.setEditable (false, true, false);
         name.setBorderSize ({ 0, 0, 0, 0 });
-        name.setTooltip ("Double click to rename");
+        name.setTooltip ("Double-click to rename");
         name.onTextChange = [this]
         { change (document, id, [text = name.getText().toStdString()] (auto& c)
                   { c.name = text; }); };
         fader.setSliderStyle (juce::Slider::LinearBar);
         fader.setRange (0.0, 1.0);
         fader.setNumDecimalPlacesToDisplay (2);
-        fader.onDragStart = [this]
-        { goes_on = false; };
-        fader.onDragEnd = [this]
-        { goes_on = false; };
+        fader.onDragStart = fader.onDragEnd = [this]
+        { continues = false; };
         fader.onValueChange = [this]
         {
             change (
                 document, id, [v = fader.getValue()] (auto& c)
                 { c.value = v; },
-                goes_on ? graph::Step::joined : graph::Step::own);
-            goes_on = fader.isMouseButtonDown();
+                continues ? graph::Step::joined : graph::Step::own);
+            continues = fader.isMouseButtonDown();
         };
         cross.onClick = [this]
         { document.perform (graph::RemoveControl { id }); };
@@ -86,14 +84,17 @@ private:
     std::string id;
     juce::Label name;
     juce::Slider fader;
-    ToolButton cross { juce::String::fromUTF8 ("\xc3\x97"), ToolButton::Kind::plain, "Remove this control; what it set keeps what is stored of it" };
-    bool goes_on = false;
+    ToolButton cross { juce::String::fromUTF8 ("\xc3\x97"), ToolButton::Kind::plain, "Delete this control. Its parameters go back to their stored values." };
+    bool continues = false;
 };
 
 class ControlEditor final : public Stack
 {
 public:
-    ControlEditor (Document& d, const Catalogue& c, std::string i, Refusal r) : document (d), catalogue (c), id (std::move (i)), refused (std::move (r)) {}
+    ControlEditor (Document& d, const Catalogue& c, std::string i, Refusal r)
+        : document (d), catalogue (c), id (std::move (i)), refused (std::move (r))
+    {
+    }
 
 protected:
     std::string shape() const override
@@ -107,44 +108,44 @@ protected:
 
     void fill() override
     {
-        put (std::make_unique<Head> (document, id));
+        add (std::make_unique<Header> (document, id));
         const auto* c = find (document, id);
         if (c == nullptr) return;
-        if (c->to.empty()) put (std::make_unique<Words> ("Moves nothing yet: press the right button on a parameter.", Words::Kind::small));
+        if (c->to.empty()) add ("No targets yet. Right-click a parameter to add one.", TextBlock::Kind::small);
         for (std::size_t i = 0; i < c->to.size(); ++i)
         {
             const auto path = c->to[i].path;
-            put (std::make_unique<Words> (juce::String (path) + ", from and to", Words::Kind::small));
+            add (juce::String (path) + ", range", TextBlock::Kind::small);
             const auto end = [this, i] (Json graph::Control::Target::*which)
             {
-                return Slot { [this, i, which]
-                              {
-                                  const auto* now = find (document, id);
-                                  return now == nullptr || i >= now->to.size() ? Json() : now->to[i].*which;
-                              },
-                              [this, i, which] (std::optional<Json> v, bool goes_on)
-                              {
-                                  change (
-                                      document, id, [&] (auto& to)
-                                      {
+                return Binding { [this, i, which]
+                                 {
+                                     const auto* now = find (document, id);
+                                     return now == nullptr || i >= now->to.size() ? Json() : now->to[i].*which;
+                                 },
+                                 [this, i, which] (std::optional<Json> v, bool continues)
+                                 {
+                                     change (
+                                         document, id, [&] (auto& to)
+                                         {
                                       if (v && i < to.to.size()) to.to[i].*which = *v; },
-                                      goes_on ? graph::Step::joined : graph::Step::own);
-                              } };
+                                         continues ? graph::Step::joined : graph::Step::own);
+                                 } };
             };
             const auto remove = [this, path]
             {
                 if (auto command = removeTarget (document.graph(), id, path)) document.perform (std::move (*command));
             };
             const auto sheet = sheetOfTarget (path);
-            put (std::make_unique<TableRow> (std::vector<TableRow::Cell> { { sheet, end (&graph::Control::Target::low) }, { sheet, end (&graph::Control::Target::high) } }, remove, refused));
+            std::vector<TableRow::Cell> cells { { sheet, end (&graph::Control::Target::low) }, { sheet, end (&graph::Control::Target::high) } };
+            add (std::make_unique<TableRow> (std::move (cells), remove, refused));
         }
     }
 
 private:
     PortSheet sheetOfTarget (const std::string& path) const
     {
-        const auto e = graph::parseEndpoint (path);
-        if (const auto* end = std::get_if<graph::Endpoint> (&e))
+        if (const auto end = graph::parseEndpoint (path))
             if (const auto* node = document.graph().root.find (end->node))
             {
                 const auto face = faceOf (document.graph(), document.graph().root, *node, catalogue);
@@ -160,6 +161,9 @@ private:
 };
 }   // namespace
 
-std::unique_ptr<Block> controlEditor (Document& document, const Catalogue& catalogue, const std::string& id, const Refusal& refused) { return std::make_unique<ControlEditor> (document, catalogue, id, refused); }
+std::unique_ptr<Block> controlEditor (Document& document, const Catalogue& catalogue, const std::string& id, const Refusal& refused)
+{
+    return std::make_unique<ControlEditor> (document, catalogue, id, refused);
+}
 
 }   // namespace tactus::host

@@ -4,12 +4,13 @@
 #include "rows.hpp"
 #include "setting_editor.hpp"
 
-#include <framework/message.hpp>
+#include <framework/text/message.hpp>
+#include <host/app/model/patch.hpp>
 
 namespace tactus::host
 {
 
-/// What the blocks of an inspector work with.
+/// What the blocks of an inspector need.
 struct Inspected
 {
     Document& document;
@@ -17,16 +18,22 @@ struct Inspected
     std::string patch;   ///< "" is the graph itself
     Refusal refused;
     EditorContext editors;
-    std::function<Messages()> messages;   ///< of the graph as it is; may be none
+    std::function<Messages()> messages;   ///< about the current graph; may be null
 
-    const graph::Patch* in() const { return patch.empty() ? &document.graph().root : document.graph().find (patch); }
+    const graph::Patch* in() const { return findPatch (document.graph(), patch); }
+
+    const graph::Node* node (const std::string& name) const
+    {
+        const auto* p = in();
+        return p == nullptr ? nullptr : p->find (name);
+    }
 };
 
-/// Text that is worked out anew whenever something changes; amber if it is a complaint.
+/// Text that is recomputed after each change; amber if it reports a problem.
 struct Remark
 {
     juce::String text;
-    bool is_wrong = false;
+    bool is_problem = false;
 };
 std::unique_ptr<Block> remark (std::function<Remark()>);
 
@@ -35,7 +42,7 @@ void describeNode (const Inspected&, const graph::Node&, bool help, const std::f
 void describeWire (const Inspected&, graph::Id, Column&);
 void describeDevice (const Inspected&, const graph::Node&, Column&);
 
-/// What decides which blocks such a node needs.
+/// A key that changes when a node needs other blocks.
 std::string shapeOf (const Inspected&, const graph::Node&);
 
 }   // namespace tactus::host

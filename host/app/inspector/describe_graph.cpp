@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "describe.hpp"
-#include <host/app/model/held.hpp>
 
 #include <framework/graph/text.hpp>
+#include <host/app/look/text.hpp>
+#include <host/app/model/controlled_param.hpp>
 
 #include <cmath>
 
@@ -11,8 +12,6 @@ namespace tactus::host
 
 namespace
 {
-juce::String text (const std::string& s) { return juce::String::fromUTF8 (s.c_str()); }
-
 class RemarkBlock final : public Block
 {
 public:
@@ -35,11 +34,7 @@ private:
     juce::TextLayout layout (int width) const
     {
         const auto& look = lookOf (*this);
-        juce::AttributedString s;
-        s.append (shown.text, look.font (12.0f), shown.is_wrong ? look.theme().warning : look.theme().dim);
-        juce::TextLayout l;
-        l.createLayout (s, static_cast<float> (width));
-        return l;
+        return wrapText (shown.text, look.font (12.0f), shown.is_problem ? look.theme().warning : look.theme().dim, static_cast<float> (width));
     }
 
     std::function<Remark()> get;
@@ -48,16 +43,16 @@ private:
 
 void describeSubgraph (const Inspected& at, Column& column)
 {
-    column.add (text (at.patch), Words::Kind::title);
-    column.add ("A subgraph. What it shows of its inside can be wired and set from outside.", Words::Kind::text);
+    column.add (fromUtf8 (at.patch), TextBlock::Kind::title);
+    column.add ("A subgraph. Its exposed ports can be wired and set from outside.", TextBlock::Kind::text);
     const auto* patch = at.in();
     if (patch == nullptr) return;
     const auto list = [&] (const char* title, const std::vector<std::pair<std::string, graph::Endpoint>>& shown)
     {
         if (shown.empty()) return;
-        column.add (title, Words::Kind::heading);
+        column.add (title, TextBlock::Kind::heading);
         for (const auto& [name, end] : shown)
-            column.add (text (name + "  is  " + graph::toText (end)), Words::Kind::small);
+            column.add (fromUtf8 (name + " = " + graph::toText (end)), TextBlock::Kind::small);
     };
     list ("Inputs", patch->expose.inputs);
     list ("Parameters", patch->expose.params);
@@ -72,7 +67,7 @@ void describeGraph (const Inspected& at, Column& column)
     if (! at.patch.empty()) return describeSubgraph (at, column);
     auto& document = at.document;
     const auto& graph = document.graph();
-    column.add (graph.name.empty() ? juce::String ("A graph without a name") : text (graph.name), Words::Kind::title);
+    column.add (graph.name.empty() ? juce::String ("Untitled graph") : fromUtf8 (graph.name), TextBlock::Kind::title);
 
     const auto header = [&document] (auto set)
     {
@@ -80,56 +75,55 @@ void describeGraph (const Inspected& at, Column& column)
         set (h);
         document.perform (std::move (h));
     };
-    column.add (textRow (
-        "name", [&document]
-        { return text (document.graph().name); },
-        [header] (const juce::String& t)
-        { header ([&] (auto& h)
-                  { h.name = t.trim().toStdString(); }); },
-        "What the graph is called"));
-    column.add (textRow (
-        "about", [&document]
-        { return text (document.graph().about); },
-        [header] (const juce::String& t)
-        { header ([&] (auto& h)
-                  { h.about = t.trim().toStdString(); }); },
-        "What it feels like", 6));
+    const auto row = [&] (const char* label, std::string graph::Graph::*member, std::optional<std::string> graph::SetHeader::*to, const char* help, int lines)
+    {
+        column.add (textRow (
+            label, [&document, member]
+            { return fromUtf8 (document.graph().*member); },
+            [header, to] (const juce::String& t)
+            { header ([&] (auto& h)
+                      { h.*to = t.trim().toStdString(); }); },
+            help, lines));
+    };
+    row ("name", &graph::Graph::name, &graph::SetHeader::name, "The name of the graph", 1);
+    row ("about", &graph::Graph::about, &graph::SetHeader::about, "What it feels like", 6);
     const auto tags = [&document]
     {
         juce::StringArray all;
         for (const auto& t : document.graph().tags)
-            all.add (text (t));
+            all.add (fromUtf8 (t));
         return all.joinIntoString (", ");
     };
-    column.add (textRow (
-        "tags", tags, [header] (const juce::String& t)
-        {
+    const auto setTags = [header] (const juce::String& t)
+    {
         std::vector<std::string> all;
         for (const auto& tag : juce::StringArray::fromTokens (t, ",", ""))
             if (tag.trim().isNotEmpty()) all.push_back (tag.trim().toStdString());
         header ([&] (auto& h)
-                { h.tags = all; }); },
-        "Words to find it by, separated by commas", 2));
-    column.add (numberRow ("rate", sheetOfNumber ("rate_hz", unit::hertz, "how often it ticks; takes effect when it starts anew", { .hard = { 1, 1e6 }, .usual = { 1000, 16000 } }, 4000.0), { [&document]
-                                                                                                                                                                                               { return Json (document.graph().rate_hz); },
-                                                                                                                                                                                               [&document] (std::optional<Json> v, bool goes_on)
-                                                                                                                                                                                               {
-                                                                                                                                                                                                   const auto sheet = sheetOfNumber ("rate_hz", unit::hertz, "", {}, 4000.0);
-                                                                                                                                                                                                   const auto read = readQuantity (v.value_or (Json (4000.0)), sheet);
-                                                                                                                                                                                                   graph::SetHeader h;
-                                                                                                                                                                                                   if (const auto* q = std::get_if<QuantityText> (&read)) h.rate_hz = std::round (q->si());
-                                                                                                                                                                                                   document.perform (std::move (h), goes_on ? graph::Step::joined : graph::Step::own);
-                                                                                                                                                                                               } },
-                           at.refused));
+                { h.tags = all; });
+    };
+    column.add (textRow ("tags", tags, setTags, "Search keywords, separated by commas", 2));
+    static constexpr double usual_rate_hz = 4000.0;
+    const Limits limits { .hard = { 1, 1e6 }, .usual = { 1000, 16000 } };
+    const auto rate = sheetOfNumber ("rate_hz", unit::hertz, "the tick rate; takes effect at the next start", limits, usual_rate_hz);
+    const Binding rate_binding { [&document]
+                                 { return Json (document.graph().rate_hz); },
+                                 [&document, rate] (std::optional<Json> v, bool continues)
+                                 {
+                                     graph::SetHeader h;
+                                     h.rate_hz = std::round (siOf (v.value_or (Json (usual_rate_hz)), rate, usual_rate_hz));
+                                     document.perform (std::move (h), continues ? graph::Step::joined : graph::Step::own);
+                                 } };
+    column.add (numberRow ("rate", rate, rate_binding, at.refused));
 
-    column.add ("Controls", Words::Kind::heading);
-    if (graph.controls.empty()) column.add ("One knob for several parameters. Add one here, or press the right button on a parameter.", Words::Kind::small);
+    column.add ("Controls", TextBlock::Kind::heading);
+    if (graph.controls.empty()) column.add ("A control moves several parameters at once. Add one here, or right-click a parameter.", TextBlock::Kind::small);
     for (const auto& c : graph.controls)
         column.add (controlEditor (document, at.catalogue, c.id, at.refused));
     column.add (buttonRow (
         "+ control", [&document]
         { document.perform (newControl (document.graph())); },
-        "Add a control, which moves parameters between two ends"));
+        "Add a control"));
 }
 
 }   // namespace tactus::host

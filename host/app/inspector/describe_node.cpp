@@ -3,6 +3,7 @@
 #include "header.hpp"
 
 #include <framework/graph/text.hpp>
+#include <host/app/look/text.hpp>
 #include <host/app/model/node_doc.hpp>
 
 #include <cmath>
@@ -12,42 +13,21 @@ namespace tactus::host
 
 namespace
 {
-juce::String text (std::string_view s) { return juce::String::fromUTF8 (std::string (s).c_str()); }
-
-const graph::Node* find (const Inspected& at, const std::string& name)
+/// Binds a setting or another key of a node; Edit is SetSetting or SetNodeKey.
+template <typename Edit, typename Values>
+Binding bindingOf (const Inspected& at, const std::string& name, const std::string& key, Values graph::Node::*values)
 {
-    const auto* in = at.in();
-    return in == nullptr ? nullptr : in->find (name);
-}
-
-Slot settingSlot (const Inspected& at, const std::string& name, const std::string& id)
-{
-    return { [at, name, id]
+    return { [at, name, key, values]
              {
-                 const auto* n = find (at, name);
-                 return n != nullptr && n->settings.contains (id) ? Json (n->settings.at (id)) : Json();
+                 const auto* n = at.node (name);
+                 return n != nullptr && (n->*values).contains (key) ? Json ((n->*values).at (key)) : Json();
              },
-             [&document = at.document, patch = at.patch, name, id] (std::optional<Json> value, bool goes_on)
-             { document.perform (graph::SetSetting { patch, name, id, std::move (value) }, goes_on ? graph::Step::joined : graph::Step::own); } };
+             [&document = at.document, patch = at.patch, name, key] (std::optional<Json> value, bool continues)
+             { document.perform (Edit { patch, name, key, std::move (value) }, continues ? graph::Step::joined : graph::Step::own); } };
 }
 
-/// A key of a node that holds a whole number.
-Slot keySlot (const Inspected& at, const std::string& name, const std::string& key)
-{
-    return { [at, name, key]
-             {
-                 const auto* n = find (at, name);
-                 return n != nullptr && n->extra.contains (key) ? Json (n->extra.at (key)) : Json();
-             },
-             [&document = at.document, patch = at.patch, name, key] (std::optional<Json> value, bool goes_on)
-             {
-                 if (value && value->is_number()) value = Json (static_cast<std::int64_t> (std::llround (value->get<double>())));
-                 document.perform (graph::SetNodeKey { patch, name, key, std::move (value) }, goes_on ? graph::Step::joined : graph::Step::own);
-             } };
-}
-
-/// What is wrong with a node, or to be said of it.
-Remark complaints (const Inspected& at, const std::string& name)
+/// The messages about a node.
+Remark problemsOf (const Inspected& at, const std::string& name)
 {
     Remark r;
     if (! at.messages || ! at.patch.empty()) return r;
@@ -55,61 +35,60 @@ Remark complaints (const Inspected& at, const std::string& name)
     for (const auto& m : at.messages())
     {
         if (! m.where.starts_with (place) || (m.where.size() > place.size() && m.where[place.size()] != '/')) continue;
-        r.text << (r.text.isEmpty() ? "" : "\n") << text (m.text) << (m.remedy.empty() ? juce::String() : "; " + text (m.remedy));
-        r.is_wrong = true;
+        r.text << (r.text.isEmpty() ? "" : "\n") << fromUtf8 (m.text) << (m.remedy.empty() ? juce::String() : "; " + fromUtf8 (m.remedy));
+        r.is_problem = true;
     }
     return r;
 }
 
-void explain (const std::vector<FacePort>& ports, const char* title, Column& column)
+void listPorts (const std::vector<FacePort>& ports, const char* title, Column& column)
 {
     if (ports.empty()) return;
-    column.add (title, Words::Kind::heading);
+    column.add (title, TextBlock::Kind::heading);
     for (const auto& p : ports)
     {
-        const auto unit = p.unit.kind == UnitRule::Kind::fixed ? std::string (p.unit.unit.symbol) : std::string ("as wired");
-        column.add (text (p.id + (unit == "1" ? "" : ", " + unit) + (p.width == 3 ? ", vector" : "")), Words::Kind::text);
-        column.add (text (p.about), Words::Kind::small);
+        const auto unit = p.unit.kind == UnitRule::Kind::fixed ? std::string (p.unit.unit.symbol) : std::string ("any unit");
+        column.add (fromUtf8 (p.id + (unit == "1" ? "" : ", " + unit) + (p.width == 3 ? ", vector" : "")), TextBlock::Kind::text);
+        column.add (fromUtf8 (p.about), TextBlock::Kind::small);
     }
 }
 
 void describeSubgraphNode (const Inspected& at, const graph::Node& node, Column& column)
 {
-    column.add ("Runs", Words::Kind::heading);
-    const auto whole = [&] (const char* key, const char* about, double most)
-    { column.add (numberRow (key, sheetOfNumber (key, unit::count, about, { .hard = { 1, most }, .usual = { 1, 16 } }, 1.0), keySlot (at, node.name, key), at.refused)); };
-    whole ("count", "instances, counted from 0", 1e6);
-    whole ("every", "it runs on one tick in so many", 1e6);
-    whole ("times", "it runs so many times in each tick, where nothing returns to the hand", 1e6);
+    column.add ("Instances and rate", TextBlock::Kind::heading);
+    const auto addInteger = [&] (const char* key, const char* about)
+    {
+        const auto sheet = sheetOfNumber (key, unit::count, about, { .hard = { 1, 1e6 }, .usual = { 1, 16 } }, 1.0);
+        column.add (numberRow (key, sheet, bindingOf<graph::SetNodeKey> (at, node.name, key, &graph::Node::extra).asInteger(), at.refused));
+    };
+    addInteger ("count", "number of instances, numbered from 0");
+    addInteger ("every", "runs every n-th tick");
+    addInteger ("times", "runs n times per tick; only without feedback to the hand");
 
-    column.add ("Inside, set from here", Words::Kind::heading);
+    column.add ("Overrides", TextBlock::Kind::heading);
     const auto set = [&document = at.document, patch = at.patch, name = node.name] (const std::string& path, const juce::String& t)
     {
-        const auto written = t.trim().toStdString();
-        auto value = Json::parse (written, nullptr, false);
-        if (value.is_discarded()) value = Json (written);
-        document.perform (graph::SetOverride { patch, name, path, written.empty() ? std::nullopt : std::optional (std::move (value)) });
+        auto value = t.trim().isEmpty() ? std::nullopt : std::optional (parseText (t));
+        document.perform (graph::SetOverride { patch, name, path, std::move (value) });
     };
     for (const auto& [path, value] : node.overrides.items())
         column.add (textRow (
-            text (path), [at, name = node.name, path = path]
+            fromUtf8 (path), [at, name = node.name, path = path]
             {
-            const auto* n = find (at, name);
-            if (n == nullptr || ! n->overrides.contains (path)) return juce::String();
-            const auto& v = n->overrides.at (path);
-            return text (v.is_string() ? v.get<std::string>() : v.dump()); },
+            const auto* n = at.node (name);
+            return n == nullptr || ! n->overrides.contains (path) ? juce::String() : editText (n->overrides.at (path)); },
             [set, path = path] (const juce::String& t)
             { set (path, t); },
-            "Of this node alone; empty: what the subgraph says"));
+            "For this node only. Leave empty to use the subgraph's value."));
     column.add (textRow (
-        "another", []
+        "add override", []
         { return juce::String(); },
         [set, refused = at.refused] (const juce::String& t)
         {
         if (t.trim().isEmpty()) return;
-        if (! t.contains ("=")) return refused ("Write which and what: drag.mu = 0.4, or [3]/drag.mu = 0.4 of one instance");
+        if (! t.contains ("=")) return refused ("Write a parameter and a value: drag.mu = 0.4, or [3]/drag.mu = 0.4 for one instance");
         set (t.upToFirstOccurrenceOf ("=", false, false).trim().toStdString(), t.fromFirstOccurrenceOf ("=", false, false)); },
-        "A parameter inside, for this node alone: drag.mu = 0.4, or [3]/drag.mu = 0.4 of one instance"));
+        "Overrides a parameter inside, for this node only: drag.mu = 0.4, or [3]/drag.mu = 0.4 for one instance"));
 }
 }   // namespace
 
@@ -138,35 +117,36 @@ void describeNode (const Inspected& at, const graph::Node& node, bool help, cons
 {
     const auto face = faceOf (at.document.graph(), *at.in(), node, at.catalogue);
     column.add (nodeHeader (at, node, help, toggleHelp));
-    if (face.type != nullptr) column.add (text (face.type->info.summary), Words::Kind::text);
-    if (face.kind == Face::Kind::placeholder) column.add ("There is no such type here. The node keeps what it has and gives 0.", Words::Kind::text);
-    if (face.kind == Face::Kind::subgraph) column.add ("A subgraph: double click it on the canvas to enter.", Words::Kind::text);
+    if (face.type != nullptr) column.add (fromUtf8 (face.type->info.summary), TextBlock::Kind::text);
+    if (face.kind == Face::Kind::placeholder)
+        column.add ("Unknown node type. The node keeps its parameters and wires; its outputs are 0.", TextBlock::Kind::text);
+    if (face.kind == Face::Kind::subgraph) column.add ("A subgraph. Double-click it on the canvas to enter.", TextBlock::Kind::text);
     column.add (remark ([at, name = node.name]
-                        { return complaints (at, name); }));
+                        { return problemsOf (at, name); }));
     if (help)
     {
-        explain (face.inputs, "Inputs", column);
-        explain (face.params, "Parameters", column);
-        explain (face.outputs, "Outputs", column);
+        listPorts (face.inputs, "Inputs", column);
+        listPorts (face.params, "Parameters", column);
+        listPorts (face.outputs, "Outputs", column);
     }
 
-    if (! face.params.empty()) column.add (help ? "Their values" : "Parameters", Words::Kind::heading);
+    if (! face.params.empty()) column.add (help ? "Parameter values" : "Parameters", TextBlock::Kind::heading);
     for (const auto& p : face.params)
         if (p.sheet != nullptr) column.add (paramRow (at.document, at.patch, node.name, p, at.refused));
     if (face.kind == Face::Kind::subgraph) describeSubgraphNode (at, node, column);
     if (node.type.starts_with ("device.")) describeDevice (at, node, column);
     if (face.type == nullptr) return;
-    if (! face.type->settings.empty()) column.add ("Settings", Words::Kind::heading);
+    if (! face.type->settings.empty()) column.add ("Settings", TextBlock::Kind::heading);
     for (const auto& s : face.type->settings)
-        column.add (settingEditor (s, settingSlot (at, node.name, std::string (s.id)), at.editors));
+        column.add (settingEditor (s, bindingOf<graph::SetSetting> (at, node.name, std::string (s.id), &graph::Node::settings), at.editors));
     if (const auto law = lawOf (node.type); ! law.empty())
     {
-        column.add ("Law", Words::Kind::heading);
+        column.add ("Law", TextBlock::Kind::heading);
         for (const auto& line : law)
-            column.add (juce::String::fromUTF8 (line.c_str()), Words::Kind::small);
+            column.add (fromUtf8 (line), TextBlock::Kind::small);
     }
-    column.add ("Source", Words::Kind::heading);
-    column.add (text (face.type->info.source), Words::Kind::small);
+    column.add ("Source", TextBlock::Kind::heading);
+    column.add (fromUtf8 (face.type->info.source), TextBlock::Kind::small);
 }
 
 }   // namespace tactus::host

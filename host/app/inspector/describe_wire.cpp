@@ -21,18 +21,18 @@ const graph::Wire* find (const Inspected& at, graph::Id id)
     return w == in->wires.end() ? nullptr : &*w;
 }
 
-void change (const Inspected& at, graph::Id id, const std::function<void (graph::Wire&)>& f, bool goes_on = false)
+void change (const Inspected& at, graph::Id id, const std::function<void (graph::Wire&)>& f, bool continues = false)
 {
     const auto* now = find (at, id);
     if (now == nullptr) return;
     auto to = *now;
     f (to);
-    at.document.perform (graph::ChangeWire { at.patch, id, std::move (to) }, goes_on ? graph::Step::joined : graph::Step::own);
+    at.document.perform (graph::ChangeWire { at.patch, id, std::move (to) }, continues ? graph::Step::joined : graph::Step::own);
 }
 
-constexpr std::string_view open = "as wired";   // of a port that takes its unit from what it is wired to
+constexpr std::string_view open = "any unit";   // a port that takes its unit from what is wired to it
 
-/// "N, vector" of an end of a wire; "" if nobody knows.
+/// The unit at one end of a wire, such as "N, vector". Empty if unknown.
 std::string unitAt (const Inspected& at, const graph::Endpoint& e, bool start)
 {
     const auto* in = at.in();
@@ -44,65 +44,68 @@ std::string unitAt (const Inspected& at, const graph::Endpoint& e, bool start)
     const auto unit = port->unit.kind == UnitRule::Kind::fixed ? std::string (port->unit.unit.symbol) : std::string (open);
     return unit + (port->width == 3 && e.component < 0 ? ", vector" : "");
 }
+
+void addEnd (const Inspected& at, graph::Id id, const char* label, graph::Endpoint graph::Wire::*which, const char* help, Column& column)
+{
+    const auto get = [at, id, which]
+    {
+        const auto* w = find (at, id);
+        return w == nullptr ? juce::String() : juce::String (graph::toText (w->*which));
+    };
+    const auto set = [at, id, which] (const juce::String& t)
+    {
+        const auto e = graph::parseEndpoint (t.trim().toStdString());
+        if (! e) return at.refused (juce::String (e.error().text));
+        change (at, id, [&] (auto& w)
+                { w.*which = *e; });
+    };
+    column.add (textRow (label, get, set, help));
+}
+
+void addDelay (const Inspected& at, graph::Id id, Column& column)
+{
+    const Binding delay { [at, id]
+                          {
+                              const auto* w = find (at, id);
+                              return w == nullptr || w->delay == 0 ? Json() : Json (w->delay);
+                          },
+                          [at, id] (std::optional<Json> v, bool continues)
+                          {
+                              const int ticks = v && v->is_number() ? static_cast<int> (std::lround (v->get<double>())) : 0;
+                              change (
+                                  at, id, [&] (auto& w)
+                                  { w.delay = ticks; },
+                                  continues);
+                          } };
+    const Limits limits { .hard = { 0, static_cast<double> (graph::longest_delay) }, .usual = { 0, 16 } };
+    column.add (numberRow ("delay", sheetOfNumber ("delay", unit::count, "delay in ticks; 1 breaks a loop", limits, 0.0), delay, at.refused));
+}
 }   // namespace
 
 void describeWire (const Inspected& at, graph::Id id, Column& column)
 {
-    column.add ("Wire", Words::Kind::title);
-    const auto end = [&] (const char* label, graph::Endpoint graph::Wire::*which, bool start)
-    {
-        column.add (textRow (
-            label, [at, id, which]
-            {
-            const auto* w = find (at, id);
-            return w == nullptr ? juce::String() : juce::String (graph::toText (w->*which)); },
-            [at, id, which] (const juce::String& t)
-            {
-            auto e = graph::parseEndpoint (t.trim().toStdString());
-            if (const auto* wrong = std::get_if<std::string> (&e))
-                at.refused (juce::String (*wrong));
-            else
-                change (at, id, [&] (auto& w)
-                        { w.*which = std::get<graph::Endpoint> (e); }); },
-            start ? "Where it starts: node.output" : "Where it ends: node.input, or node.param"));
-    };
-    end ("from", &graph::Wire::from, true);
-    end ("to", &graph::Wire::to, false);
+    column.add ("Wire", TextBlock::Kind::title);
+    addEnd (at, id, "from", &graph::Wire::from, "Source: node.output", column);
+    addEnd (at, id, "to", &graph::Wire::to, "Destination: node.input or node.param", column);
     column.add (remark ([at, id]
                         {
         const auto* w = find (at, id);
         if (w == nullptr) return Remark {};
         const auto from = unitAt (at, w->from, true), to = unitAt (at, w->to, false);
-        const bool one = from == to || to.starts_with (open) || from.starts_with (open);
-        return Remark { juce::String (one ? "carries " + (from.starts_with (open) ? to : from) : from + "  into  " + to), false }; }));
-    const Slot delay { [at, id]
-                       {
-                           const auto* w = find (at, id);
-                           return w == nullptr || w->delay == 0 ? Json() : Json (w->delay);
-                       },
-                       [at, id] (std::optional<Json> v, bool goes_on)
-                       {
-                           const int ticks = v && v->is_number() ? static_cast<int> (std::lround (v->get<double>())) : 0;
-                           change (
-                               at, id, [&] (auto& w)
-                               { w.delay = ticks; },
-                               goes_on);
-                       } };
-    column.add (numberRow ("delay", sheetOfNumber ("delay", unit::count, "how many ticks it holds back; 1 opens a loop", { .hard = { 0, static_cast<double> (graph::longest_delay) }, .usual = { 0, 16 } }, 0.0), delay, at.refused));
+        if (from != to && ! to.starts_with (open) && ! from.starts_with (open)) return Remark { juce::String (from + " into " + to), false };
+        return Remark { juce::String ("carries " + (from.starts_with (open) ? to : from)), false }; }));
+    addDelay (at, id, column);
     column.add (textRow (
         "gain", [at, id]
         {
         const auto* w = find (at, id);
-        if (w == nullptr || w->gain.is_null()) return juce::String();
-        return juce::String (w->gain.is_string() ? w->gain.template get<std::string>() : w->gain.dump()); },
+        return w == nullptr ? juce::String() : editText (w->gain); },
         [at, id] (const juce::String& t)
         {
-        const auto written = t.trim().toStdString();
-        auto value = written.empty() ? Json() : Json::parse (written, nullptr, false);
-        if (value.is_discarded()) value = Json (written);
+        const auto value = t.trim().isEmpty() ? Json() : parseText (t);
         change (at, id, [&] (auto& w)
                 { w.gain = value; }); },
-        "Times this: a number, or one with a unit as \"1e-4 m/N\"; empty: 1"));
+        "A factor, with or without a unit, such as \"1e-4 m/N\". Empty means 1."));
     column.add (switchRow (
         "enabled", [at, id]
         {
@@ -111,7 +114,7 @@ void describeWire (const Inspected& at, graph::Id id, Column& column)
         [at, id] (bool on)
         { change (at, id, [&] (auto& w)
                   { w.enabled = on ? std::nullopt : std::optional (false); }); },
-        "A wire that is off carries nothing"));
+        "A disabled wire carries nothing"));
     column.add (switchRow (
         "adds", [at, id]
         {
@@ -120,7 +123,7 @@ void describeWire (const Inspected& at, graph::Id id, Column& column)
         [at, id] (bool on)
         { change (at, id, [&] (auto& w)
                   { w.add = on; }); },
-        "Onto a parameter: it adds to the stored value instead of taking its place"));
+        "For a parameter: adds to the stored value instead of replacing it"));
 }
 
 }   // namespace tactus::host

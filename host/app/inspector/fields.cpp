@@ -2,20 +2,22 @@
 #include "fields.hpp"
 #include "tool_button.hpp"
 
+#include <host/app/look/text.hpp>
+
 #include <algorithm>
 #include <cmath>
 
 namespace tactus::host
 {
 
-Slot Slot::member (const std::string& key) const
+Binding Binding::member (const std::string& key) const
 {
     return { [get = get, key]
              {
                  const auto all = get();
                  return all.is_object() && all.contains (key) ? Json (all.at (key)) : Json();
              },
-             [get = get, set = set, key] (std::optional<Json> value, bool goes_on)
+             [get = get, set = set, key] (std::optional<Json> value, bool continues)
              {
                  auto all = get();
                  if (! all.is_object()) all = Json::object();
@@ -23,24 +25,45 @@ Slot Slot::member (const std::string& key) const
                      all[key] = *value;
                  else
                      all.erase (key);
-                 set (all.empty() ? std::nullopt : std::optional (std::move (all)), goes_on);
+                 set (all.empty() ? std::nullopt : std::optional (std::move (all)), continues);
              } };
 }
 
-Slot Slot::entry (std::size_t i) const
+Binding Binding::entry (std::size_t i) const
 {
     return { [get = get, i]
              {
                  const auto all = get();
                  return all.is_array() && i < all.size() ? Json (all[i]) : Json();
              },
-             [get = get, set = set, i] (std::optional<Json> value, bool goes_on)
+             [get = get, set = set, i] (std::optional<Json> value, bool continues)
              {
                  auto all = get();
                  if (! all.is_array() || i >= all.size()) return;
                  all[i] = value ? *value : Json();
-                 set (std::move (all), goes_on);
+                 set (std::move (all), continues);
              } };
+}
+
+Binding Binding::asInteger() const
+{
+    return { get, [set = set] (std::optional<Json> value, bool continues)
+             {
+                 if (value && value->is_number()) value = Json (static_cast<std::int64_t> (std::llround (value->get<double>())));
+                 set (std::move (value), continues);
+             } };
+}
+
+Json parseText (const juce::String& text)
+{
+    const auto trimmed = text.trim().toStdString();
+    return Json::tryParse (trimmed).value_or (Json (trimmed));
+}
+
+juce::String editText (const Json& value)
+{
+    if (value.is_null()) return {};
+    return fromUtf8 (value.is_string() ? value.get<std::string>() : value.dump());
 }
 
 TextField::TextField()
@@ -76,7 +99,8 @@ namespace
 class TextRow final : public SetRow
 {
 public:
-    TextRow (const juce::String& l, std::function<juce::String()> g, std::function<void (const juce::String&)> set, const juce::String& about, int n) : SetRow (l), get (std::move (g)), lines (n)
+    TextRow (const juce::String& l, std::function<juce::String()> g, std::function<void (const juce::String&)> set, const juce::String& about, int n)
+        : SetRow (l), get (std::move (g)), lines (n)
     {
         setTooltip (about);
         field.setTooltip (about);
@@ -95,13 +119,10 @@ public:
     int heightFor (int width) override
     {
         if (lines < 2) return row_height;
-        // As high as its text, within reason: beyond that it scrolls.
+        // As high as the text, up to a limit; beyond that it scrolls.
         const auto& look = lookOf (*this);
-        juce::AttributedString written;
-        written.append (field.getText(), look.font (12.0f), look.theme().text);
-        juce::TextLayout l;
-        l.createLayout (written, static_cast<float> ((stacked ? width : width * 3 / 5) - 32));
-        const int text = std::clamp (static_cast<int> (std::ceil (l.getHeight())), 16, 200);
+        const auto layout = wrapText (field.getText(), look.font (12.0f), look.theme().text, static_cast<float> ((stacked ? width : width * 3 / 5) - 32));
+        const int text = std::clamp (static_cast<int> (std::ceil (layout.getHeight())), 16, 200);
         return (stacked ? 24 : 4) + text + 16;
     }
 
@@ -117,7 +138,9 @@ private:
 class ChoiceRow final : public SetRow
 {
 public:
-    ChoiceRow (const juce::String& l, std::vector<std::string> c, std::function<std::string()> g, std::function<void (const std::string&)> set, const juce::String& about) : SetRow (l), choices (std::move (c)), get (std::move (g))
+    ChoiceRow (const juce::String& l, std::vector<std::string> c, std::function<std::string()> g, std::function<void (const std::string&)> set,
+               const juce::String& about)
+        : SetRow (l), choices (std::move (c)), get (std::move (g))
     {
         setTooltip (about);
         box.setTooltip (about);
@@ -152,7 +175,8 @@ private:
 class SwitchRow final : public SetRow
 {
 public:
-    SwitchRow (const juce::String& l, std::function<bool()> g, std::function<void (bool)> set, const juce::String& about) : SetRow (l), get (std::move (g))
+    SwitchRow (const juce::String& l, std::function<bool()> g, std::function<void (bool)> set, const juce::String& about)
+        : SetRow (l), get (std::move (g))
     {
         setTooltip (about);
         button.setTooltip (about);
@@ -178,12 +202,13 @@ private:
 class NumberRow final : public SetRow
 {
 public:
-    NumberRow (const juce::String& l, const PortSheet& s, Slot at, std::function<void (const juce::String&)> refused) : SetRow (l), sheet (s), slot (std::move (at)), field (sheet)
+    NumberRow (const juce::String& l, const PortSheet& s, Binding at, std::function<void (const juce::String&)> refused)
+        : SetRow (l), sheet (s), binding (std::move (at)), field (sheet)
     {
         setTooltip (field.getTooltip());
         onReset = [this]
-        { slot.set (std::nullopt, false); };
-        field.onChange = slot.set;
+        { binding.set (std::nullopt, false); };
+        field.onChange = binding.set;
         field.onRefused = std::move (refused);
         addAndMakeVisible (field);
         NumberRow::refresh (nullptr);
@@ -191,9 +216,9 @@ public:
 
     void refresh (const graph::Node*) override
     {
-        const auto now = slot.get();
+        const auto now = binding.get();
         setIsSet (! now.is_null());
-        field.setStrong (isSet());
+        field.setBold (isSet());
         field.show (now.is_null() ? Json (sheet.initial[0]) : now);
     }
 
@@ -201,32 +226,53 @@ public:
 
 private:
     PortSheet sheet;
-    Slot slot;
+    Binding binding;
     NumberField field;
 };
 
 class ButtonRow final : public Block
 {
 public:
-    ButtonRow (const juce::String& words, std::function<void()> press, const juce::String& about) : button (words, ToolButton::Kind::framed, about)
+    ButtonRow (const juce::String& text, std::function<void()> press, const juce::String& about) : button (text, ToolButton::Kind::framed, about)
     {
         button.onClick = std::move (press);
         addAndMakeVisible (button);
     }
 
     int heightFor (int) override { return 36; }
-    void resized() override { button.setBounds (getLocalBounds().withTrimmedTop (4).withTrimmedBottom (4).withWidth (std::min (getWidth(), button.bestWidth()))); }
+    void resized() override { button.setBounds (getLocalBounds().reduced (0, 4).withWidth (std::min (getWidth(), button.bestWidth()))); }
 
 private:
     ToolButton button;
 };
 }   // namespace
 
-std::unique_ptr<Block> textRow (const juce::String& label, std::function<juce::String()> get, std::function<void (const juce::String&)> set, const juce::String& about, int lines) { return std::make_unique<TextRow> (label, std::move (get), std::move (set), about, lines); }
-std::unique_ptr<Block> choiceRow (const juce::String& label, std::vector<std::string> choices, std::function<std::string()> get, std::function<void (const std::string&)> set, const juce::String& about) { return std::make_unique<ChoiceRow> (label, std::move (choices), std::move (get), std::move (set), about); }
-std::unique_ptr<Block> switchRow (const juce::String& label, std::function<bool()> get, std::function<void (bool)> set, const juce::String& about) { return std::make_unique<SwitchRow> (label, std::move (get), std::move (set), about); }
-std::unique_ptr<Block> numberRow (const juce::String& label, const PortSheet& sheet, Slot slot, std::function<void (const juce::String&)> refused) { return std::make_unique<NumberRow> (label, sheet, std::move (slot), std::move (refused)); }
-std::unique_ptr<Block> buttonRow (const juce::String& words, std::function<void()> press, const juce::String& about) { return std::make_unique<ButtonRow> (words, std::move (press), about); }
+std::unique_ptr<Block> textRow (const juce::String& label, std::function<juce::String()> get, std::function<void (const juce::String&)> set,
+                                const juce::String& about, int lines)
+{
+    return std::make_unique<TextRow> (label, std::move (get), std::move (set), about, lines);
+}
+
+std::unique_ptr<Block> choiceRow (const juce::String& label, std::vector<std::string> choices, std::function<std::string()> get,
+                                  std::function<void (const std::string&)> set, const juce::String& about)
+{
+    return std::make_unique<ChoiceRow> (label, std::move (choices), std::move (get), std::move (set), about);
+}
+
+std::unique_ptr<Block> switchRow (const juce::String& label, std::function<bool()> get, std::function<void (bool)> set, const juce::String& about)
+{
+    return std::make_unique<SwitchRow> (label, std::move (get), std::move (set), about);
+}
+
+std::unique_ptr<Block> numberRow (const juce::String& label, const PortSheet& sheet, Binding binding, std::function<void (const juce::String&)> refused)
+{
+    return std::make_unique<NumberRow> (label, sheet, std::move (binding), std::move (refused));
+}
+
+std::unique_ptr<Block> buttonRow (const juce::String& text, std::function<void()> press, const juce::String& about)
+{
+    return std::make_unique<ButtonRow> (text, std::move (press), about);
+}
 
 PortSheet sheetOfNumber (std::string_view id, UnitRule unit, std::string_view about, Limits limits, double initial)
 {

@@ -11,26 +11,35 @@
 namespace tactus::host
 {
 
-/// Where a value is read, and written: as the file has it. Null if there is none; nothing takes it away.
-struct Slot
+/// Reads and writes a value as stored in the file. get() returns null if there is none; set() without a value removes it.
+struct Binding
 {
     std::function<Json()> get;
-    std::function<void (std::optional<Json>, bool goes_on)> set;
+    std::function<void (std::optional<Json>, bool continues)> set;
 
-    /// Of a member of an object in this slot. An object that is left empty goes.
-    Slot member (const std::string& key) const;
+    /// A member of the bound object. An object that becomes empty is removed.
+    Binding member (const std::string& key) const;
 
-    /// Of an entry of an array in this slot.
-    Slot entry (std::size_t) const;
+    /// Rounds numbers to integers when they are set.
+    Binding asInteger() const;
+
+    /// An entry of the bound array.
+    Binding entry (std::size_t) const;
 };
 
-/// One line, or several, of text that is taken on return or when it is left, and given up on Esc.
+/// Reads what the user typed: JSON if it parses, else text.
+Json parseText (const juce::String&);
+
+/// A value as the user edits it: text without quotes, anything else as JSON. Empty for null.
+juce::String editText (const Json&);
+
+/// A text field, single or multi-line. Return or losing focus applies the text; Esc reverts it.
 class TextField final : public juce::TextEditor
 {
 public:
     TextField();
 
-    void show (const juce::String&);   ///< unless somebody is writing in it
+    void show (const juce::String&);   ///< no effect while the user is typing
     void apply();
 
     std::function<void (const juce::String&)> onApply;
@@ -39,17 +48,19 @@ private:
     juce::String shown;
 };
 
-std::unique_ptr<Block> textRow (const juce::String& label, std::function<juce::String()> get, std::function<void (const juce::String&)> set, const juce::String& about, int lines = 1);
-std::unique_ptr<Block> choiceRow (const juce::String& label, std::vector<std::string> choices, std::function<std::string()> get, std::function<void (const std::string&)> set, const juce::String& about);
+std::unique_ptr<Block> textRow (const juce::String& label, std::function<juce::String()> get, std::function<void (const juce::String&)> set,
+                                const juce::String& about, int lines = 1);
+std::unique_ptr<Block> choiceRow (const juce::String& label, std::vector<std::string> choices, std::function<std::string()> get,
+                                  std::function<void (const std::string&)> set, const juce::String& about);
 std::unique_ptr<Block> switchRow (const juce::String& label, std::function<bool()> get, std::function<void (bool)> set, const juce::String& about);
 
-/// A number of its own sheet.
-std::unique_ptr<Block> numberRow (const juce::String& label, const PortSheet&, Slot, std::function<void (const juce::String&)> refused);
+/// A number field. The sheet is copied.
+std::unique_ptr<Block> numberRow (const juce::String& label, const PortSheet&, Binding, std::function<void (const juce::String&)> refused);
 
-/// A button with words.
-std::unique_ptr<Block> buttonRow (const juce::String& words, std::function<void()> press, const juce::String& about);
+/// A text button.
+std::unique_ptr<Block> buttonRow (const juce::String& text, std::function<void()> press, const juce::String& about);
 
-/// The sheet of a number that is none of a node's ports.
+/// A sheet for a number that is not a port of a node.
 PortSheet sheetOfNumber (std::string_view id, UnitRule, std::string_view about, Limits, double initial);
 
 }   // namespace tactus::host

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "file_words.hpp"
+#include "file_text.hpp"
 #include "setting_editor.hpp"
 #include "tool_button.hpp"
+
+#include <host/app/look/text.hpp>
 
 namespace tactus::host
 {
@@ -11,15 +13,19 @@ namespace
 juce::Image thumbnail (const Grid& grid, int most)
 {
     const double scale = static_cast<double> (most) / std::max (1, std::max (grid.columns, grid.rows));
-    const int width = std::max (1, static_cast<int> (grid.columns * scale)), height = std::max (1, static_cast<int> (grid.rows * scale));
+    const int width = std::max (1, static_cast<int> (grid.columns * scale));
+    const int height = std::max (1, static_cast<int> (grid.rows * scale));
     juce::Image image (juce::Image::RGB, width, height, false);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
-            image.setPixelAt (x, y, juce::Colour::greyLevel (static_cast<float> (grid (std::min (grid.rows - 1, y * grid.rows / height), std::min (grid.columns - 1, x * grid.columns / width)))));
+        {
+            const int row = std::min (grid.rows - 1, y * grid.rows / height), column = std::min (grid.columns - 1, x * grid.columns / width);
+            image.setPixelAt (x, y, juce::Colour::greyLevel (static_cast<float> (grid (row, column))));
+        }
     return image;
 }
 
-const char* endingsOf (SettingSheet::Kind kind)
+const char* patternsOf (SettingSheet::Kind kind)
 {
     switch (kind)
     {
@@ -37,11 +43,12 @@ const char* endingsOf (SettingSheet::Kind kind)
 class FileRow final : public Block, public juce::FileDragAndDropTarget
 {
 public:
-    FileRow (juce::String l, SettingSheet::Kind k, Slot s, const EditorContext& c, const juce::String& about) : label (std::move (l)), kind (k), slot (std::move (s)), context (c)
+    FileRow (juce::String l, SettingSheet::Kind k, Binding s, const EditorContext& c, const juce::String& about)
+        : label (std::move (l)), kind (k), binding (std::move (s)), context (c)
     {
         field.setTooltip (about);
         field.onApply = [this] (const juce::String& text)
-        { slot.set (text.trim().isEmpty() ? std::nullopt : std::optional<Json> (text.trim().toStdString()), false); };
+        { binding.set (text.trim().isEmpty() ? std::nullopt : std::optional<Json> (text.trim().toStdString()), false); };
         browse.onClick = [this]
         { openChooser(); };
         addAndMakeVisible (field);
@@ -55,17 +62,17 @@ public:
 
     void refresh (const graph::Node*) override
     {
-        const auto now = slot.get();
+        const auto now = binding.get();
         const auto written = now.is_string() ? now.get<std::string>() : std::string();
         field.show (written);
-        // Only anew if it is another file, or one that has been written since: each edit of the graph comes by here.
+        // Called after every edit of the graph: read the file again only if it is a different one or was modified.
         std::error_code problem;
         const auto path = resolved (written, context.folder());
         const auto as_of = std::make_pair (path, std::filesystem::last_write_time (path, problem));
-        if (as_of == read_as_of && ! words.text.empty()) return;
+        if (as_of == read_as_of && ! info.text.empty()) return;
         read_as_of = as_of;
-        words = wordsOn (written, kind, context.folder(), context.assets);
-        picture = words.picture ? thumbnail (*words.picture, 56) : juce::Image();
+        info = describeFile (written, kind, context.folder(), context.assets);
+        picture = info.picture ? thumbnail (*info.picture, 56) : juce::Image();
         repaint();
     }
 
@@ -75,7 +82,7 @@ public:
     void filesDropped (const juce::StringArray& files, int, int) override
     {
         hover (false);
-        take (files[0]);
+        setFile (files[0]);
     }
 
     void paint (juce::Graphics& g) override
@@ -109,11 +116,8 @@ private:
     juce::TextLayout layout (int width) const
     {
         const auto& look = lookOf (*this);
-        juce::AttributedString s;
-        s.append (juce::String::fromUTF8 (words.text.c_str()), look.font (11.0f), words.is_wrong ? look.theme().warning : look.theme().dim);
-        juce::TextLayout l;
-        l.createLayout (s, static_cast<float> (width - (picture.isValid() ? 64 : 0)));
-        return l;
+        const auto colour = info.is_problem ? look.theme().warning : look.theme().dim;
+        return wrapText (fromUtf8 (info.text), look.font (11.0f), colour, static_cast<float> (width - (picture.isValid() ? 64 : 0)));
     }
 
     void hover (bool now)
@@ -122,31 +126,37 @@ private:
         repaint();
     }
 
-    void take (const juce::String& file) { slot.set (Json (pathFrom (file.toStdString(), context.folder())), false); }
+    void setFile (const juce::String& file) { binding.set (Json (pathFrom (file.toStdString(), context.folder())), false); }
 
     void openChooser()
     {
         const auto folder = context.folder();
-        chooser = std::make_unique<juce::FileChooser> ("Choose a file", folder.empty() ? juce::File() : juce::File::getCurrentWorkingDirectory().getChildFile (folder), endingsOf (kind));
-        chooser->launchAsync (juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, [safe = juce::Component::SafePointer (this)] (const juce::FileChooser& c)
-                              {
-            if (safe != nullptr && c.getResult() != juce::File()) safe->take (c.getResult().getFullPathName()); });
+        const auto start = folder.empty() ? juce::File() : juce::File::getCurrentWorkingDirectory().getChildFile (folder);
+        chooser = std::make_unique<juce::FileChooser> ("Choose a file", start, patternsOf (kind));
+        const auto chosen = [safe = juce::Component::SafePointer (this)] (const juce::FileChooser& c)
+        {
+            if (safe != nullptr && c.getResult() != juce::File()) safe->setFile (c.getResult().getFullPathName());
+        };
+        chooser->launchAsync (juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, chosen);
     }
 
     juce::String label;
     SettingSheet::Kind kind;
-    Slot slot;
+    Binding binding;
     EditorContext context;
     TextField field;
-    ToolButton browse { juce::String::fromUTF8 ("Browse\xe2\x80\xa6"), ToolButton::Kind::framed, "Choose a file; one can be dropped here, too" };
+    ToolButton browse { juce::String::fromUTF8 ("Browse\xe2\x80\xa6"), ToolButton::Kind::framed, "Choose a file, or drop one here" };
     std::unique_ptr<juce::FileChooser> chooser;
-    FileWords words;
+    FileText info;
     std::pair<std::string, std::filesystem::file_time_type> read_as_of;
     juce::Image picture;
     bool over = false;
 };
 }   // namespace
 
-std::unique_ptr<Block> fileRow (const juce::String& label, SettingSheet::Kind kind, Slot slot, const EditorContext& context, const juce::String& about) { return std::make_unique<FileRow> (label, kind, std::move (slot), context, about); }
+std::unique_ptr<Block> fileRow (const juce::String& label, SettingSheet::Kind kind, Binding binding, const EditorContext& context, const juce::String& about)
+{
+    return std::make_unique<FileRow> (label, kind, std::move (binding), context, about);
+}
 
 }   // namespace tactus::host

@@ -9,14 +9,14 @@ namespace tactus::host
 
 namespace
 {
-class Header final : public Block
+class NodeHeader final : public Block
 {
 public:
-    Header (const Inspected& at, const graph::Node& node, bool help_shown, std::function<void()> toggleHelp) : type (node.type)
+    NodeHeader (const Inspected& at, const graph::Node& node, bool help_shown, std::function<void()> toggleHelp) : type (node.type)
     {
         auto& document = at.document;
         name.setFont (lookOf (*this).font (15.0f, true));
-        name.setTooltip ("The name of the node: letters, digits, _");
+        name.setTooltip ("Node name: letters, digits and _");
         name.onApply = [&document, patch = at.patch, before = node.name, this] (const juce::String& to)
         {
             if (! document.perform (graph::RenameNode { patch, before, to.trim().toStdString() })) name.show (before);
@@ -30,7 +30,7 @@ public:
         addAndMakeVisible (help);
         bypass.setColour ([] (const Theme& t)
                           { return t.warning; });
-        Header::refresh (&node);
+        NodeHeader::refresh (&node);
     }
 
     int heightFor (int) override { return 60; }
@@ -67,10 +67,14 @@ public:
 private:
     std::string type;
     TextField name;
-    ToolButton bypass { "bypass", ToolButton::Kind::toggle, "It lets through what comes in, and does nothing" }, help { "?", ToolButton::Kind::toggle, "All its ports, in words" };
+    ToolButton bypass { "bypass", ToolButton::Kind::toggle, "Pass the input through unchanged" };
+    ToolButton help { "?", ToolButton::Kind::toggle, "Describe all ports" };
 };
 }   // namespace
 
-std::unique_ptr<Block> nodeHeader (const Inspected& at, const graph::Node& node, bool help, std::function<void()> toggleHelp) { return std::make_unique<Header> (at, node, help, std::move (toggleHelp)); }
+std::unique_ptr<Block> nodeHeader (const Inspected& at, const graph::Node& node, bool help, std::function<void()> toggleHelp)
+{
+    return std::make_unique<NodeHeader> (at, node, help, std::move (toggleHelp));
+}
 
 }   // namespace tactus::host

@@ -6,8 +6,7 @@
 namespace tactus::host
 {
 
-/// The head of a node: its family's picture, its name, which can be changed, its type, a switch that bypasses it, and one for
-/// more help.
+/// The header of a node: icon, editable name, type, and buttons for bypass and help.
 std::unique_ptr<Block> nodeHeader (const Inspected&, const graph::Node&, bool help, std::function<void()> toggleHelp);
 
 }   // namespace tactus::host

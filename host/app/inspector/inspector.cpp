@@ -38,68 +38,74 @@ Inspected Inspector::inspected()
     {
         if (onHint) onHint (why);
     };
-    return { document, catalogue, patch, refused, EditorContext { files, [this]
-                                                                  { return document.graph().folder; },
-                                                                  refused },
-             [this]
-             { return messagesNow ? messagesNow() : Messages {}; } };
+    const auto folder = [this]
+    { return document.graph().folder; };
+    const auto messages = [this]
+    { return messagesNow ? messagesNow() : Messages {}; };
+    return { document, catalogue, patch, refused, EditorContext { files, folder, refused }, messages };
+}
+
+Inspector::Selected Inspector::selected (const Inspected& at) const
+{
+    Selected s;
+    if (const auto* in = at.in())
+    {
+        for (const auto& n : in->nodes)
+            if (selection.contains (n.id)) s.nodes.push_back (&n);
+        for (const auto& w : in->wires)
+            if (selection.contains (w.id)) s.wires.push_back (w.id);
+    }
+    s.key = patch + '|' + std::to_string (s.nodes.size()) + '|' + std::to_string (s.wires.size()) + (help ? "?" : "");
+    if (s.nodes.size() == 1) s.key += shapeOf (at, *s.nodes[0]);
+    if (s.isOneWire()) s.key += std::to_string (s.wires[0]);
+    if (! s.isEmpty()) return s;
+    s.key += document.graph().name;
+    for (const auto& c : document.graph().controls)
+        s.key += '/' + c.id;
+    return s;
+}
+
+std::unique_ptr<Column> Inspector::makeColumn (const Inspected& at, const Selected& s)
+{
+    auto made = std::make_unique<Column>();
+    const auto toggleHelp = [this]
+    { setHelp (! help); };
+    if (s.nodes.size() == 1)
+        describeNode (at, *s.nodes[0], help, toggleHelp, *made);
+    else if (s.isOneWire())
+        describeWire (at, s.wires[0], *made);
+    else if (s.isEmpty())
+        describeGraph (at, *made);
+    else
+    {
+        made->add (juce::String (s.nodes.size()) + " nodes, " + juce::String (s.wires.size()) + " wires", TextBlock::Kind::title);
+        made->add ("Drag to move, B to bypass, G to group into a subgraph, Delete to delete.", TextBlock::Kind::small);
+    }
+    made->onHeight = [this]
+    { resized(); };
+    return made;
 }
 
 void Inspector::rebuild()
 {
     const auto at = inspected();
-    const auto* in = at.in();
-    std::vector<const graph::Node*> nodes;
-    std::vector<graph::Id> wires;
-    if (in != nullptr)
+    const auto now = selected (at);
+    const auto* node = now.nodes.size() == 1 ? now.nodes[0] : nullptr;
+    if (now.key != made_for || ! column)
     {
-        for (const auto& n : in->nodes)
-            if (selection.contains (n.id)) nodes.push_back (&n);
-        for (const auto& w : in->wires)
-            if (selection.contains (w.id)) wires.push_back (w.id);
-    }
-
-    const bool one_wire = nodes.empty() && wires.size() == 1;
-    std::string key = patch + '|' + std::to_string (nodes.size()) + '|' + std::to_string (wires.size()) + (help ? "?" : "");
-    if (nodes.size() == 1) key += shapeOf (at, *nodes[0]);
-    if (one_wire) key += std::to_string (wires[0]);
-    if (nodes.empty() && wires.empty())
-    {
-        key += document.graph().name;
-        for (const auto& c : document.graph().controls)
-            key += '/' + c.id;
-    }
-    if (key != made_for || ! column)
-    {
-        made_for = key;
-        auto made = std::make_unique<Column>();
-        if (nodes.size() == 1)
-            describeNode (
-                at, *nodes[0], help, [this]
-                { setHelp (! help); },
-                *made);
-        else if (one_wire)
-            describeWire (at, wires[0], *made);
-        else if (nodes.empty() && wires.empty())
-            describeGraph (at, *made);
-        else
-        {
-            made->add (juce::String (nodes.size()) + " nodes, " + juce::String (wires.size()) + " wires", Words::Kind::title);
-            made->add ("Drag moves them, B bypasses them, G makes a subgraph of them, Delete takes them away.", Words::Kind::small);
-        }
-        made->onHeight = [this]
-        { resized(); };
+        made_for = now.key;
+        auto made = makeColumn (at, now);
         const auto of = std::make_pair (patch, selection);
         const auto place = column && of == shown_of ? scroll.getViewPosition() : juce::Point<int>();
         shown_of = of;
         retired = std::move (column);
         column = std::move (made);
         scroll.setViewedComponent (column.get(), false);
-        column->refresh (nodes.size() == 1 ? nodes[0] : nullptr);
+        column->refresh (node);
         resized();
         scroll.setViewPosition (place);
     }
-    column->refresh (nodes.size() == 1 ? nodes[0] : nullptr);
+    column->refresh (node);
     resized();
 }
 

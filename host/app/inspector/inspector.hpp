@@ -12,7 +12,7 @@
 namespace tactus::host
 {
 
-/// What is selected, a node or a wire, with all that can be set of it; or, if nothing is, the graph and its controls.
+/// Edits the selected node or wire. With nothing selected it edits the graph and its controls.
 class Inspector final : public juce::Component, private Document::Listener
 {
 public:
@@ -20,11 +20,11 @@ public:
     ~Inspector() override;
 
     void inspect (const std::string& patch, std::set<graph::Id> selection);
-    void setHelp (bool);   ///< all ports in words
+    void setHelp (bool);   ///< describes all ports
     bool showsHelp() const noexcept { return help; }
 
-    std::function<void (const juce::String&)> onHint;   ///< why something was not taken
-    std::function<Messages()> messagesNow;              ///< what is wrong with the graph as it is
+    std::function<void (const juce::String&)> onHint;   ///< why an edit was refused
+    std::function<Messages()> messagesNow;              ///< messages about the current graph
 
     Column& shown() noexcept { return *column; }
 
@@ -36,15 +36,27 @@ private:
     void rebuild();
     Inspected inspected();
 
+    struct Selected
+    {
+        std::vector<const graph::Node*> nodes;
+        std::vector<graph::Id> wires;
+        std::string key;   // changes when the column has to be rebuilt
+
+        bool isEmpty() const noexcept { return nodes.empty() && wires.empty(); }
+        bool isOneWire() const noexcept { return nodes.empty() && wires.size() == 1; }
+    };
+    Selected selected (const Inspected&) const;
+    std::unique_ptr<Column> makeColumn (const Inspected&, const Selected&);
+
     Document& document;
     const Catalogue& catalogue;
     FileAssets files;
     std::string patch;
     std::set<graph::Id> selection;
     bool help = false;
-    std::string made_for;                                   // what the column shows: another column only for something else, so that a drag goes on
-    std::unique_ptr<Column> column, retired;                // retired: a field of it may be what asked for another
-    std::pair<std::string, std::set<graph::Id>> shown_of;   // while it is the same, it stays scrolled to where it was
+    std::string made_for;                                   // key of the current column; the column is kept while it matches, so that a drag can continue
+    std::unique_ptr<Column> column, retired;                // retired: kept alive because one of its fields may have triggered the rebuild
+    std::pair<std::string, std::set<graph::Id>> shown_of;   // the scroll position is kept while it is the same
     juce::Viewport scroll;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "figure_block.hpp"
 #include "law_shape.hpp"
+#include "plot_block.hpp"
 #include "setting_editor.hpp"
 #include "table_row.hpp"
 
@@ -11,17 +11,15 @@ namespace tactus::host
 
 namespace
 {
-juce::String symbolOf (const UnitRule& r) { return r.kind == UnitRule::Kind::fixed && r.unit.symbol != "1" ? juce::String (std::string (r.unit.symbol)) : juce::String(); }
-
 PortSheet cellSheet (const UnitRule& unit, std::string_view about) { return sheetOfNumber ("value", unit, about, {}, 0.0); }
 
-/// Lines of x and y in two arrays, a curve's or a table law's.
-template <typename Put>
-void putPoints (Slot lists, const SettingSheet& sheet, const EditorContext& context, Put&& put)
+/// Adds rows for the points of a curve or of a table law, which are stored as one array of x and one of y.
+void addPoints (Binding lists, const SettingSheet& sheet, const EditorContext& context, Column& column)
 {
     const auto now = lists.get();
     const std::size_t n = now.is_array() && now.size() == 2 && now[0].is_array() && now[1].is_array() ? std::min (now[0].size(), now[1].size()) : 0;
-    put (std::make_unique<TableHead> (std::vector<std::pair<juce::String, juce::String>> { { "at", symbolOf (sheet.x_unit) }, { "value", symbolOf (sheet.unit) } }));
+    std::vector<std::pair<juce::String, juce::String>> head { { "x", unitText (sheet.x_unit) }, { "y", unitText (sheet.unit) } };
+    column.add (std::make_unique<TableHead> (std::move (head)));
     for (std::size_t i = 0; i < n; ++i)
     {
         const auto remove = [lists, i]
@@ -31,20 +29,21 @@ void putPoints (Slot lists, const SettingSheet& sheet, const EditorContext& cont
                 list.erase (i);
             lists.set (std::move (all), false);
         };
-        put (std::make_unique<TableRow> (std::vector<TableRow::Cell> { { cellSheet (sheet.x_unit, "where"), lists.entry (0).entry (i) }, { cellSheet (sheet.unit, "how much there"), lists.entry (1).entry (i) } }, remove, context.refused));
+        std::vector<TableRow::Cell> cells { { cellSheet (sheet.x_unit, "x"), lists.entry (0).entry (i) },
+                                            { cellSheet (sheet.unit, "y"), lists.entry (1).entry (i) } };
+        column.add (std::make_unique<TableRow> (std::move (cells), remove, context.refused));
     }
-    const auto add = [lists]
+    const auto append = [lists]
     {
         auto all = lists.get();
         if (! all.is_array() || all.size() != 2 || ! all[0].is_array() || ! all[1].is_array()) all = Json::array ({ Json::array(), Json::array() });
-        // As far beyond the last point as that is beyond the one before.
+        // Extrapolates from the last two points.
         const auto next = [] (const Json& list, double first)
         {
             const auto number = [] (const Json& v)
             {
-                const auto read = readQuantity (v, sheetOfNumber ("value", UnitRule (UnitRule::Kind::open), "", {}, 0.0));
-                const auto* q = std::get_if<QuantityText> (&read);
-                return q == nullptr ? QuantityText {} : *q;
+                const auto read = readQuantity (v, cellSheet (UnitRule (UnitRule::Kind::open), ""));
+                return read ? *read : QuantityText {};
             };
             const auto n_before = list.size();
             if (n_before == 0) return Json (0.0);
@@ -57,36 +56,39 @@ void putPoints (Slot lists, const SettingSheet& sheet, const EditorContext& cont
         all[1].push_back (y);
         lists.set (std::move (all), false);
     };
-    put (buttonRow ("+ point", add, "A point beyond the last"));
+    column.add (buttonRow ("+ point", append, "Append a point"));
 }
 
-/// The curve of a setting, drawn.
+/// A plot of a curve or law setting. `without` is shown if there is nothing to plot.
 template <typename T>
-std::unique_ptr<Block> figure (const SettingSheet& sheet, const Slot& slot, const std::string& without)
+std::unique_ptr<Block> plot (const SettingSheet& sheet, const Binding& binding, const std::string& without)
 {
-    return std::make_unique<FigureBlock> ([&sheet, slot, without]() -> FigureBlock::Shown
-                                          {
-        const auto now = slot.get();
-        if (now.is_null()) return without;
+    return std::make_unique<PlotBlock> ([&sheet, binding, without]() -> Result<PlotData>
+                                        {
+        const auto nothing = Message::error ("plot/empty", {}, without);
+        const auto now = binding.get();
+        if (now.is_null()) return nothing;
         std::string where;
         const auto read = plan::readSetting (now, sheet, {}, where);
-        if (const auto* problem = std::get_if<std::string> (&read)) return *problem;
-        const auto* value = std::get_if<T> (&std::get<SettingValue> (read));
-        if (value == nullptr) return without;
-        auto f = figureOf (*value, sheet.x_unit, sheet.unit);
-        if (f.x.empty()) return without;
-        return f; });
+        if (! read) return read.error();
+        const auto* value = std::get_if<T> (&*read);
+        if (value == nullptr) return nothing;
+        auto data = plotOf (*value, sheet.x_unit, sheet.unit);
+        if (data.x.empty()) return nothing;
+        return data; });
 }
+
+const char* const law_help = "none: no law; power: k e^n; exponential: a (exp (b e) - 1); table: linear between points; dissipation: a times the stiffness law";
 
 class LawEditor final : public Stack
 {
 public:
-    LawEditor (const SettingSheet& s, Slot at, const EditorContext& c) : sheet (s), slot (std::move (at)), context (c) {}
+    LawEditor (const SettingSheet& s, Binding at, const EditorContext& c) : sheet (s), binding (std::move (at)), context (c) {}
 
 protected:
     std::string shape() const override
     {
-        const auto now = slot.get();
+        const auto now = binding.get();
         const auto kind = lawKindOf (now);
         if (kind != "table") return kind;
         const auto& lists = now["table"];
@@ -95,19 +97,19 @@ protected:
 
     void fill() override
     {
-        const auto get = [slot = slot]
-        { return lawKindOf (slot.get()); };
+        const auto get = [binding = binding]
+        { return lawKindOf (binding.get()); };
         const auto set = [this] (const std::string& kind)
         {
-            if (kind == lawKindOf (slot.get())) return;
+            if (kind == lawKindOf (binding.get())) return;
             auto law = lawOfKind (kind, now());
-            slot.set (law.is_null() ? std::nullopt : std::optional (std::move (law)), false);
+            binding.set (law.is_null() ? std::nullopt : std::optional (std::move (law)), false);
         };
-        put (choiceRow ("kind", lawKinds(), get, set, "none: not given; power: k e^n; exponential: a (exp (b e) - 1); table: straight between points; dissipation: a times the stiffness law"));
+        add (choiceRow ("kind", lawKinds(), get, set, law_help));
         const auto kind = get();
-        const auto numbers = slot.member (kind);
-        const auto number = [&] (const char* label, Slot at, const UnitRule& unit, const char* about, Limits limits)
-        { put (numberRow (label, sheetOfNumber (label, unit, about, limits, 0.0), std::move (at), context.refused)); };
+        const auto numbers = binding.member (kind);
+        const auto number = [&] (const char* label, Binding at, const UnitRule& unit, const char* about, Limits limits)
+        { add (numberRow (label, sheetOfNumber (label, unit, about, limits, 0.0), std::move (at), context.refused)); };
         if (kind == "power")
         {
             number ("k", numbers.entry (0), UnitRule (UnitRule::Kind::open), "factor of k e^n", { .hard = { 0, inf } });
@@ -115,57 +117,61 @@ protected:
         }
         if (kind == "exponential")
         {
-            number ("a", numbers.entry (0), sheet.unit, "of a (exp (b e) - 1)", { .hard = { 0, inf } });
-            number ("b", numbers.entry (1), UnitRule (UnitRule::Kind::open), "how fast it stiffens: of a (exp (b e) - 1)", { .hard = { 0, inf } });
+            number ("a", numbers.entry (0), sheet.unit, "factor of a (exp (b e) - 1)", { .hard = { 0, inf } });
+            number ("b", numbers.entry (1), UnitRule (UnitRule::Kind::open), "exponent of a (exp (b e) - 1)", { .hard = { 0, inf } });
         }
-        if (kind == "dissipation") number ("a", numbers, UnitRule (UnitRule::Kind::open), "times the law of stiffness", { .hard = { 0, inf } });
-        if (kind == "table") putPoints (numbers, sheet, context, [this] (auto b)
-                                        { put (std::move (b)); });
-        if (kind != "none") put (figure<Law> (sheet, slot, "a factor of the stiffness law; it has no curve of its own"));
+        if (kind == "dissipation") number ("a", numbers, UnitRule (UnitRule::Kind::open), "factor of the stiffness law", { .hard = { 0, inf } });
+        if (kind == "table") addPoints (numbers, sheet, context, *this);
+        if (kind != "none") add (plot<Law> (sheet, binding, "A factor of the stiffness law; it has no curve of its own."));
     }
 
 private:
     Law now() const
     {
         std::string where;
-        const auto read = plan::readSetting (slot.get(), sheet, {}, where);
-        const auto* value = std::get_if<SettingValue> (&read);
-        const auto* law = value == nullptr ? nullptr : std::get_if<Law> (value);
+        const auto read = plan::readSetting (binding.get(), sheet, {}, where);
+        const auto* law = read ? std::get_if<Law> (&*read) : nullptr;
         return law == nullptr ? Law {} : *law;
     }
 
     const SettingSheet& sheet;
-    Slot slot;
+    Binding binding;
     EditorContext context;
 };
 
 class CurveEditor final : public Stack
 {
 public:
-    CurveEditor (const SettingSheet& s, Slot at, const EditorContext& c) : sheet (s), slot (std::move (at)), context (c) {}
+    CurveEditor (const SettingSheet& s, Binding at, const EditorContext& c) : sheet (s), binding (std::move (at)), context (c) {}
 
 protected:
     std::string shape() const override
     {
-        const auto now = slot.get();
+        const auto now = binding.get();
         return now.is_array() && ! now.empty() && now[0].is_array() ? std::to_string (now[0].size()) : "";
     }
 
     void fill() override
     {
-        put (figure<Curve> (sheet, slot, "No points yet."));
-        putPoints (slot, sheet, context, [this] (auto b)
-                   { put (std::move (b)); });
+        add (plot<Curve> (sheet, binding, "No points."));
+        addPoints (binding, sheet, context, *this);
     }
 
 private:
     const SettingSheet& sheet;
-    Slot slot;
+    Binding binding;
     EditorContext context;
 };
 }   // namespace
 
-std::unique_ptr<Block> lawEditor (const SettingSheet& sheet, Slot slot, const EditorContext& context) { return std::make_unique<LawEditor> (sheet, std::move (slot), context); }
-std::unique_ptr<Block> curveEditor (const SettingSheet& sheet, Slot slot, const EditorContext& context) { return std::make_unique<CurveEditor> (sheet, std::move (slot), context); }
+std::unique_ptr<Block> lawEditor (const SettingSheet& sheet, Binding binding, const EditorContext& context)
+{
+    return std::make_unique<LawEditor> (sheet, std::move (binding), context);
+}
+
+std::unique_ptr<Block> curveEditor (const SettingSheet& sheet, Binding binding, const EditorContext& context)
+{
+    return std::make_unique<CurveEditor> (sheet, std::move (binding), context);
+}
 
 }   // namespace tactus::host

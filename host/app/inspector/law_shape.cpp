@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "law_shape.hpp"
 
-#include <algorithm>
+#include <host/app/model/quantity_text.hpp>
+
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 namespace tactus::host
 {
-
-namespace
-{
-double rounded (double v)
-{
-    char text[40];
-    std::snprintf (text, sizeof text, "%.3g", v);
-    return std::strtod (text, nullptr);
-}
-}   // namespace
 
 const std::vector<std::string>& lawKinds()
 {
@@ -35,7 +24,7 @@ std::string lawKindOf (const Json& law)
 
 Json lawOfKind (const std::string& kind, const Law& before)
 {
-    constexpr double pressed = 1.0;   // N; where both agree
+    constexpr double pressed = 1.0;   // both laws agree at this force, in N
     double at = before.inverse (pressed), force = pressed;
     if (! std::isfinite (at) || ! (at > 0.0))
     {

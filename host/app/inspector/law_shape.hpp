@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/json.hpp>
-#include <framework/law.hpp>
+#include <framework/kit/law.hpp>
+#include <framework/text/json.hpp>
 
 #include <string>
 #include <vector>
@@ -10,13 +10,13 @@
 namespace tactus::host
 {
 
-/// The kinds of laws as files name them.
+/// The kinds of laws, as named in files.
 const std::vector<std::string>& lawKinds();
 
-/// Which of them a written law is of; "none" of anything else.
+/// The kind of a stored law; "none" if it is not a law.
 std::string lawKindOf (const Json&);
 
-/// A law of another kind that is about as stiff where a hand presses as the one before; null for "none".
+/// Converts a law to another kind with about the same stiffness at 1 N. Null for "none".
 Json lawOfKind (const std::string& kind, const Law& before);
 
 }   // namespace tactus::host

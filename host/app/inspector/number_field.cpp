@@ -3,7 +3,7 @@
 
 #include <host/app/look/focus.hpp>
 
-#include <framework/number_text.hpp>
+#include <framework/text/number_text.hpp>
 
 #include <cctype>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace
 {
 constexpr double fine = 0.1;
 
-/// 500000 rather than 5e+05, as long as that is short.
+/// Writes numbers of moderate size without an exponent: 500000, not 5e+05.
 std::string plainText (double v)
 {
     if (v == 0.0 || ! (std::abs (v) >= 1e-4 && std::abs (v) < 1e7)) return numberText (v);
@@ -25,27 +25,34 @@ std::string plainText (double v)
     std::snprintf (text, sizeof text, "%.10g", v);
     return text;
 }
+
+/// The position of a value within a range, 0…1.
+double partOf (const Interval& range, double v, bool is_logarithmic)
+{
+    if (is_logarithmic) return std::log (std::max (v, range.min) / range.min) / std::log (range.max / range.min);
+    return (v - range.min) / (range.max - range.min);
+}
 }   // namespace
 
 NumberField::NumberField (const PortSheet& s) : sheet (s)
 {
     setMouseCursor (juce::MouseCursor::UpDownResizeCursor);
     setWantsKeyboardFocus (true);
-    setMouseClickGrabsKeyboardFocus (false);   // a drag leaves the keys to the canvas
+    setMouseClickGrabsKeyboardFocus (false);   // the canvas keeps the keyboard focus during a drag
     setTooltip (tooltipOf (sheet));
 }
 
-void NumberField::setStrong (bool is_set)
+void NumberField::setBold (bool is_set)
 {
-    if (strong == is_set) return;
-    strong = is_set;
+    if (bold == is_set) return;
+    bold = is_set;
     repaint();
 }
 
 void NumberField::show (const Json& written)
 {
     const auto read = readQuantity (written, sheet);
-    if (const auto* text = std::get_if<QuantityText> (&read)) value = *text;
+    if (read) value = *read;
     repaint();
 }
 
@@ -72,8 +79,8 @@ void NumberField::moveTo (const QuantityText& to)
     if (to.number == value.number || ! sheet.limits.hard.contains (to.si())) return;
     value = to;
     repaint();
-    const bool goes_on = std::exchange (begun, true);
-    if (onChange) onChange (value.toJson(), goes_on);
+    const bool continues = std::exchange (begun, true);
+    if (onChange) onChange (value.toJson(), continues);
 }
 
 void NumberField::mouseUp (const juce::MouseEvent&) { begun = false; }
@@ -86,13 +93,13 @@ void NumberField::mouseDoubleClick (const juce::MouseEvent& e)
 bool NumberField::keyPressed (const juce::KeyPress& key)
 {
     constexpr double step = 4.0;   // pixels of a drag
-    const double way = key.isKeyCode (juce::KeyPress::upKey) ? step : key.isKeyCode (juce::KeyPress::downKey) ? -step
-                                                                                                              : 0.0;
-    if (way != 0.0)
+    const bool is_up = key.isKeyCode (juce::KeyPress::upKey);
+    if (is_up || key.isKeyCode (juce::KeyPress::downKey))
     {
+        const double pixels = (is_up ? step : -step) * (key.getModifiers().isShiftDown() ? fine : 1.0);
         grabbed = value;
         begun = false;
-        moveTo (dragged (grabbed, sheet, key.getModifiers().isShiftDown() ? way * fine : way));
+        moveTo (dragged (grabbed, sheet, pixels));
         begun = false;
         return true;
     }
@@ -138,7 +145,7 @@ void NumberField::apply()
 
 void NumberField::closeEditor()
 {
-    // It goes later: an editor may not go while it calls.
+    // Deleted later: this may be called from the editor itself.
     editor->setVisible (false);
     juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this)]
                                      {
@@ -150,15 +157,15 @@ void NumberField::type (const juce::String& text)
     const auto trimmed = text.trim().toStdString();
     char* rest = nullptr;
     const double plain = std::strtod (trimmed.c_str(), &rest);
-    // What is typed without a unit is in the unit that is shown.
+    // A number without a unit is in the unit shown.
     auto wanted = ! trimmed.empty() && *rest == '\0' ? QuantityText { plain, value.unit, value.scale }.toJson() : Json (trimmed);
     const auto read = readQuantity (wanted, sheet);
-    if (const auto* problem = std::get_if<std::string> (&read))
+    if (! read)
     {
-        if (onRefused) onRefused (*problem);
+        if (onRefused) onRefused (read.error().text);
         return;
     }
-    value = std::get<QuantityText> (read);
+    value = *read;
     repaint();
     if (onChange) onChange (value.toJson(), false);
 }
@@ -175,34 +182,38 @@ void NumberField::paint (juce::Graphics& g)
     auto area = getLocalBounds().toFloat();
     g.setColour (theme.raised);
     g.fillRoundedRectangle (area, 4.0f);
-    g.setColour (hasKeyboardFocus (false) ? theme.accent : isMouseOverOrDragging() ? theme.dim
-                                                                                   : theme.hairline);
+    const auto outline = isMouseOverOrDragging() ? theme.dim : theme.hairline;
+    g.setColour (hasKeyboardFocus (false) ? theme.accent : outline);
     g.drawRoundedRectangle (area.reduced (0.5f), 4.0f, 1.0f);
 
     const auto& usual = sheet.limits.usual;
     const bool unusual = ! usual.contains (value.si());
     if (std::isfinite (usual.min) && std::isfinite (usual.max) && usual.max > usual.min)
     {
-        const double part = isLogarithmic (sheet) ? std::log (std::max (value.si(), usual.min) / usual.min) / std::log (usual.max / usual.min) : (value.si() - usual.min) / (usual.max - usual.min);
         const auto bar = area.reduced (3.0f, 2.0f).removeFromBottom (2.0f);
         g.setColour (theme.hairline);
         g.fillRect (bar);
         g.setColour (unusual ? theme.warning : theme.accent);
-        g.fillRect (bar.withWidth (bar.getWidth() * static_cast<float> (std::clamp (part, 0.0, 1.0))));
+        g.fillRect (bar.withWidth (bar.getWidth() * static_cast<float> (std::clamp (partOf (usual, value.si(), isLogarithmic (sheet)), 0.0, 1.0))));
     }
+    paintText (g, area.reduced (std::min (8.0f, area.getWidth() * 0.08f), 0.0f), unusual ? theme.warning : theme.text);
+}
 
+void NumberField::paintText (juce::Graphics& g, juce::Rectangle<float> text, juce::Colour colour) const
+{
+    const auto& look = lookOf (*this);
+    const auto& theme = look.theme();
     g.setFont (look.font (12.0f));
-    auto text = area.reduced (std::min (8.0f, area.getWidth() * 0.08f), 0.0f);
-    const auto unit = value.unit.empty() ? sheet.unit.kind == UnitRule::Kind::fixed && sheet.unit.unit.symbol != "1" ? juce::String (std::string (sheet.unit.unit.symbol)) : juce::String() : juce::String (value.unit);
+    const auto unit = value.unit.empty() ? unitText (sheet.unit) : juce::String (value.unit);
     if (const float width = g.getCurrentFont().getStringWidthFloat (unit) + 5.0f; unit.isNotEmpty() && width < 0.55f * text.getWidth())
     {
         g.setColour (theme.dim);
         g.drawText (unit, text, juce::Justification::centredRight, false);
         text.removeFromRight (width);
     }
-    g.setFont (look.font (12.0f, strong));
-    g.setColour (unusual ? theme.warning : theme.text);
-    // Too long for its field, it is shown with fewer digits; its tooltip and its editor have them all.
+    g.setFont (look.font (12.0f, bold));
+    g.setColour (colour);
+    // A number that is too long is shown with fewer digits. The editor shows them all.
     auto number = plainText (value.number);
     for (int digits = 6; digits > 1 && g.getCurrentFont().getStringWidthFloat (number) > text.getWidth(); --digits)
     {
@@ -219,10 +230,16 @@ void NumberField::paint (juce::Graphics& g)
     g.drawText (caption, text, juce::Justification::centredLeft, false);
 }
 
+juce::String unitText (const UnitRule& rule)
+{
+    const bool has_unit = rule.kind == UnitRule::Kind::fixed && rule.unit.symbol != "1";
+    return has_unit ? juce::String (std::string (rule.unit.symbol)) : juce::String();
+}
+
 juce::String tooltipOf (const PortSheet& sheet)
 {
-    const bool has_unit = sheet.unit.kind == UnitRule::Kind::fixed && sheet.unit.unit.symbol != "1";
-    const auto unit = has_unit ? ' ' + std::string (sheet.unit.unit.symbol) : std::string();
+    const auto symbol = unitText (sheet.unit).toStdString();
+    const auto unit = symbol.empty() ? symbol : ' ' + symbol;
     const auto range = [&] (const Interval& i)
     {
         if (std::isinf (i.min) && std::isinf (i.max)) return std::string();
@@ -234,7 +251,7 @@ juce::String tooltipOf (const PortSheet& sheet)
     if (! text.empty()) text[0] = static_cast<char> (std::toupper (static_cast<unsigned char> (text[0])));
     if (const auto hard = range (sheet.limits.hard); ! hard.empty()) text += "\nAllowed: " + hard;
     if (const auto usual = range (sheet.limits.usual); ! usual.empty() && ! (sheet.limits.usual == sheet.limits.hard)) text += "\nUsual: " + usual;
-    if (sheet.limits.latch) text += "\nRead when contact begins, or on the hit.";
+    if (sheet.limits.latch) text += "\nSampled when contact begins, or on a hit.";
     return text;
 }
 

@@ -12,26 +12,26 @@
 namespace tactus::host
 {
 
-/// A number that is dragged up and down, finely with shift, or typed after a double click or return, with a unit if one
-/// likes. Alt-click brings the default back; the arrows go in small steps. It is amber outside its usual range, which the
-/// bar under it stands for, and refuses what lies outside the hard one.
+/// A number field. Drag up or down to change it (shift: fine), double-click or press Return to type, with an optional unit.
+/// Alt-click restores the default; arrow keys change it in small steps. The bar shows the position within the usual range.
+/// Outside that range the field is amber; values outside the hard range are refused.
 class NumberField final : public juce::Component, public juce::SettableTooltipClient
 {
 public:
     explicit NumberField (const PortSheet&);
 
-    /// What it is, in a word, before the number where both fit.
+    /// A caption before the number, shown if both fit.
     void setCaption (const juce::String& text) { caption = text; }
 
-    void show (const Json& value);   ///< as the file has it
+    void show (const Json& value);   ///< as stored in the file
     const QuantityText& shown() const noexcept { return value; }
 
-    /// A value, and whether it goes on with the one before, in one drag. Nothing for the default.
-    std::function<void (std::optional<Json>, bool goes_on)> onChange;
+    /// Called with the new value, or nothing for the default. `continues` is true during a drag, after its first change.
+    std::function<void (std::optional<Json>, bool continues)> onChange;
     std::function<void (const juce::String&)> onRefused;
 
-    void setStrong (bool);             ///< what is set, rather than left as it was
-    void type (const juce::String&);   ///< as if it had been typed
+    void setBold (bool);               ///< marks a value that is not the default
+    void type (const juce::String&);   ///< applies typed text
     void openEditor();
     bool isEditing() const noexcept { return editor != nullptr && editor->isVisible(); }
 
@@ -51,15 +51,19 @@ private:
     void moveTo (const QuantityText&);
     void apply();
     void closeEditor();
+    void paintText (juce::Graphics&, juce::Rectangle<float>, juce::Colour) const;
 
     const PortSheet& sheet;
     juce::String caption;
     QuantityText value, grabbed;
-    bool begun = false, strong = false;
+    bool begun = false, bold = false;
     std::unique_ptr<juce::TextEditor> editor;
 };
 
-/// What a tooltip says of a number: its sentence, and between which ends it may be and usually is.
+/// The unit symbol to show. Empty for a pure number and for a generic port.
+juce::String unitText (const UnitRule&);
+
+/// A tooltip for a number: description, allowed range and usual range.
 juce::String tooltipOf (const PortSheet&);
 
 }   // namespace tactus::host

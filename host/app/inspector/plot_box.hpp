@@ -3,8 +3,8 @@
 
 #include <host/app/look/look.hpp>
 
-#include <framework/datasheet.hpp>
-#include <framework/quantity.hpp>
+#include <framework/node/datasheet.hpp>
+#include <framework/text/quantity.hpp>
 
 #include <string>
 #include <vector>
@@ -12,8 +12,8 @@
 namespace tactus::host
 {
 
-/// A small figure: a line through points, or a stem at each, with axes in units.
-struct Figure
+/// The data of a small plot with units on its axes: a line through points, or a stem per point.
+struct PlotData
 {
     enum class Kind
     {
@@ -23,15 +23,15 @@ struct Figure
 
     Kind kind = Kind::line;
     std::vector<double> x, y;
-    std::vector<bool> knots;   ///< which points get a dot; none if empty
+    std::vector<bool> knots;   ///< true for points that get a dot; may be empty
     std::string x_unit, y_unit;
-    Quantity quantity = Quantity::any;   ///< of y, for its colour
+    Quantity quantity = Quantity::any;   ///< quantity of y, for the colour
 };
 
-void paintFigure (juce::Graphics&, juce::Rectangle<float>, const Figure&, const Look&);
+void paintPlot (juce::Graphics&, juce::Rectangle<float>, const PlotData&, const Look&);
 
-/// A law over what a hand reaches of it.
-Figure figureOf (const Law&, const UnitRule& x, const UnitRule& y);
-Figure figureOf (const Curve&, const UnitRule& x, const UnitRule& y);
+/// The curve of a law over the range a hand can reach.
+PlotData plotOf (const Law&, const UnitRule& x, const UnitRule& y);
+PlotData plotOf (const Curve&, const UnitRule& x, const UnitRule& y);
 
 }   // namespace tactus::host

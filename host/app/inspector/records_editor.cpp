@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "figure_block.hpp"
+#include "plot_block.hpp"
 #include "setting_editor.hpp"
 #include "table_row.hpp"
 
@@ -27,26 +27,27 @@ const SettingSheet* fieldOf (const SettingSheet& sheet, std::string_view id)
 class RecordsEditor final : public Stack
 {
 public:
-    RecordsEditor (const SettingSheet& s, Slot at, const EditorContext& c) : sheet (s), slot (std::move (at)), context (c) {}
+    RecordsEditor (const SettingSheet& s, Binding at, const EditorContext& c) : sheet (s), binding (std::move (at)), context (c) {}
 
 protected:
     std::string shape() const override
     {
-        const auto now = slot.get();
+        const auto now = binding.get();
         return now.is_null() ? "default" : std::to_string (now.size());
     }
 
     void fill() override
     {
-        if (fieldOf (sheet, "frequency") != nullptr && fieldOf (sheet, "amplitude") != nullptr) put (std::make_unique<FigureBlock> ([this]
-                                                                                                                                    { return tones(); }));
+        const bool is_tones = fieldOf (sheet, "frequency") != nullptr && fieldOf (sheet, "amplitude") != nullptr;
+        if (is_tones) add (std::make_unique<PlotBlock> ([this]
+                                                        { return tones(); }));
         std::vector<std::pair<juce::String, juce::String>> names;
         for (const auto& f : sheet.fields)
-            names.emplace_back (std::string (f.id), f.unit.kind == UnitRule::Kind::fixed && f.unit.unit.symbol != "1" ? std::string (f.unit.unit.symbol) : std::string());
-        put (std::make_unique<TableHead> (std::move (names)));
-        const Slot all { [this]
-                         { return records(); },
-                         slot.set };
+            names.emplace_back (std::string (f.id), unitText (f.unit));
+        add (std::make_unique<TableHead> (std::move (names)));
+        const Binding all { [this]
+                            { return records(); },
+                            binding.set };
         for (std::size_t i = 0; i < all.get().size(); ++i)
         {
             std::vector<TableRow::Cell> cells;
@@ -58,23 +59,23 @@ protected:
                 left.erase (i);
                 all.set (std::move (left), false);
             };
-            put (std::make_unique<TableRow> (std::move (cells), remove, context.refused));
+            add (std::make_unique<TableRow> (std::move (cells), remove, context.refused));
         }
-        const auto add = [all]
+        const auto append = [all]
         {
             auto more = all.get();
             more.push_back (more.empty() ? Json::object() : Json (more.back()));
             all.set (std::move (more), false);
         };
         const auto one = juce::String (std::string (sheet.id)).trimCharactersAtEnd ("s");
-        put (buttonRow ("+ " + one, add, "Another one, as the last"));
+        add (buttonRow ("+ " + one, append, "Append a copy of the last one"));
     }
 
 private:
-    /// What is written, or else the records that a node has by itself.
+    /// The stored records, or the defaults if none are stored.
     Json records() const
     {
-        auto now = slot.get();
+        auto now = binding.get();
         if (now.is_array()) return now;
         now = Json::array();
         if (const auto* initial = std::get_if<Records> (&sheet.initial))
@@ -93,9 +94,9 @@ private:
         return now;
     }
 
-    FigureBlock::Shown tones() const
+    Result<PlotData> tones() const
     {
-        Figure f { Figure::Kind::stems, {}, {}, {}, "Hz", std::string (fieldOf (sheet, "amplitude")->unit.unit.symbol), Quantity::force };
+        PlotData f { PlotData::Kind::stems, {}, {}, {}, "Hz", std::string (fieldOf (sheet, "amplitude")->unit.unit.symbol), Quantity::force };
         const auto all = records();
         for (const auto& r : all)
         {
@@ -103,23 +104,24 @@ private:
             const auto number = [&] (const char* id)
             {
                 const auto field = sheetOf (*fieldOf (sheet, id));
-                const auto read = readQuantity (r.contains (id) ? Json (r.at (id)) : Json (field.initial[0]), field);
-                const auto* q = std::get_if<QuantityText> (&read);
-                return q == nullptr ? 0.0 : q->si();
+                return siOf (r.contains (id) ? Json (r.at (id)) : Json (field.initial[0]), field);
             };
             f.x.push_back (number ("frequency"));
             f.y.push_back (number ("amplitude"));
         }
-        if (f.x.empty()) return "No tones yet: it is silent.";
+        if (f.x.empty()) return Message::error ("plot/empty", {}, "No tones.");
         return f;
     }
 
     const SettingSheet& sheet;
-    Slot slot;
+    Binding binding;
     EditorContext context;
 };
 }   // namespace
 
-std::unique_ptr<Block> recordsEditor (const SettingSheet& sheet, Slot slot, const EditorContext& context) { return std::make_unique<RecordsEditor> (sheet, std::move (slot), context); }
+std::unique_ptr<Block> recordsEditor (const SettingSheet& sheet, Binding binding, const EditorContext& context)
+{
+    return std::make_unique<RecordsEditor> (sheet, std::move (binding), context);
+}
 
 }   // namespace tactus::host

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rows.hpp"
 #include "fields.hpp"
-#include <host/app/model/held.hpp>
+
+#include <host/app/model/controlled_param.hpp>
 #include <host/app/model/param_now.hpp>
 #include <host/app/model/param_value.hpp>
+#include <host/app/model/patch.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,31 +17,29 @@ namespace
 {
 const graph::Node* find (const Document& document, const std::string& patch, const std::string& node)
 {
-    const auto* in = patch.empty() ? &document.graph().root : document.graph().find (patch);
+    const auto* in = findPatch (document.graph(), patch);
     return in == nullptr ? nullptr : in->find (node);
 }
 
-/// As many digits as a hand can mean.
-double rounded (double v) { return v == 0.0 ? 0.0 : std::stod (juce::String::formatted ("%.3e", v).toStdString()); }
-
-/// A label at the left and a field at the right.
+/// A parameter: a label, and number fields or a choice.
 class ParamRow final : public SetRow
 {
 public:
-    ParamRow (Document& d, std::string p, std::string n, const FacePort& f, const Refusal& r) : SetRow (f.id), document (d), patch (std::move (p)), node_name (std::move (n)), port (f), refused (r)
+    ParamRow (Document& d, std::string p, std::string n, const FacePort& f, const Refusal& r)
+        : SetRow (f.id), document (d), patch (std::move (p)), node_name (std::move (n)), port (f), refused (r)
     {
         setTooltip (tooltipOf (*port.sheet));
         onReset = [this]
         { change (std::nullopt, false); };
         if (patch.empty() && port.width == 1 && ! port.isChoice())
             onWantsMenu = [this] (juce::PopupMenu& menu)
-            { fill (menu); };
+            { fillMenu (menu); };
         const int fields = port.isChoice() ? 0 : port.width;
         for (int i = 0; i < fields; ++i)
         {
             auto& field = *numbers.emplace_back (std::make_unique<NumberField> (*port.sheet));
-            field.onChange = [this, i] (std::optional<Json> v, bool goes_on)
-            { change (v && port.width == 3 ? std::optional (withComponent (static_cast<std::size_t> (i), *v)) : std::move (v), goes_on); };
+            field.onChange = [this, i] (std::optional<Json> v, bool continues)
+            { change (v && port.width == 3 ? std::optional (withComponent (static_cast<std::size_t> (i), *v)) : std::move (v), continues); };
             field.onRefused = refused;
             addAndMakeVisible (field);
         }
@@ -59,7 +59,7 @@ public:
         auto now = paramNow (document.graph(), patch, *node, port);
         current = std::move (now.value);
         setIsSet (now.is_set);
-        setNote (now.held ? "by " + juce::String (now.held->name) : juce::String(), themeOf (*this).accent);
+        setNote (now.control ? "by " + juce::String (now.control->name) : juce::String(), themeOf (*this).accent);
         if (port.isChoice())
         {
             const auto at = std::ranges::find (port.sheet->choices, current.is_string() ? current.get<std::string>() : std::string());
@@ -68,7 +68,7 @@ public:
         for (std::size_t i = 0; i < numbers.size(); ++i)
         {
             numbers[i]->show (componentOf (i));
-            numbers[i]->setStrong (isSet());
+            numbers[i]->setBold (isSet());
         }
     }
 
@@ -76,35 +76,36 @@ public:
     {
         choice.setBounds (area);
         for (std::size_t i = 0; i < numbers.size(); ++i)
-            numbers[i]->setBounds (area.removeFromLeft (area.getWidth() / static_cast<int> (numbers.size() - i)).reduced (numbers.size() > 1 ? 1 : 0, 0));
+        {
+            const auto cell = area.removeFromLeft (area.getWidth() / static_cast<int> (numbers.size() - i));
+            numbers[i]->setBounds (cell.reduced (numbers.size() > 1 ? 1 : 0, 0));
+        }
     }
 
 private:
-    std::optional<Held> heldNow() const { return patch.empty() ? heldBy (document.graph(), node_name + '.' + port.id) : std::nullopt; }
-
-    void change (std::optional<Json> value, bool goes_on)
+    void change (std::optional<Json> value, bool continues)
     {
         const auto* node = find (document, patch, node_name);
         if (node == nullptr) return;
         if (auto command = changeParam (document.graph(), patch, *node, port, value))
         {
-            document.perform (std::move (*command), goes_on ? graph::Step::joined : graph::Step::own);
+            document.perform (std::move (*command), continues ? graph::Step::joined : graph::Step::own);
             return;
         }
         refresh (nullptr);
-        if (refused) refused (beyondReach (document.graph(), *node, port));
+        if (refused) refused (outOfRangeText (document.graph(), *node, port));
     }
 
-    void fill (juce::PopupMenu& menu)
+    void fillMenu (juce::PopupMenu& menu)
     {
-        if (const auto held = heldNow())
+        if (const auto param = controlOf (document.graph(), node_name + '.' + port.id))
         {
-            menu.addItem ("Release from " + juce::String (held->name), [safe = juce::Component::SafePointer (this)]
+            menu.addItem ("Release from " + juce::String (param->name), [safe = juce::Component::SafePointer (this)]
                           {
                 if (safe != nullptr) release (safe->document, safe->node_name, safe->port); });
             return;
         }
-        menu.addSectionHeader (juce::String::fromUTF8 ("Control this by\xe2\x80\xa6"));
+        menu.addSectionHeader ("Assign to control");
         const auto item = [&] (const juce::String& what, const std::string& id)
         {
             menu.addItem (what, [safe = juce::Component::SafePointer (this), id]
@@ -113,10 +114,14 @@ private:
         };
         for (const auto& c : document.graph().controls)
             item (c.name.empty() ? c.id : c.name, c.id);
-        item ("a new control", {});
+        item ("New control", {});
     }
 
-    Json componentOf (std::size_t i) const { return port.width == 3 ? current.is_array() && i < current.size() ? Json (current[i]) : Json (port.sheet->initial[i]) : current; }
+    Json componentOf (std::size_t i) const
+    {
+        if (port.width != 3) return current;
+        return current.is_array() && i < current.size() ? Json (current[i]) : Json (port.sheet->initial[i]);
+    }
 
     Json withComponent (std::size_t i, const Json& v) const
     {
@@ -136,7 +141,10 @@ private:
 };
 }   // namespace
 
-std::unique_ptr<Block> paramRow (Document& document, const std::string& patch, const std::string& node, const FacePort& port, const Refusal& refused) { return std::make_unique<ParamRow> (document, patch, node, port, refused); }
+std::unique_ptr<Block> paramRow (Document& document, const std::string& patch, const std::string& node, const FacePort& port, const Refusal& refused)
+{
+    return std::make_unique<ParamRow> (document, patch, node, port, refused);
+}
 
 void controlBy (Document& document, const std::string& name, const FacePort& port, const std::string& control)
 {
@@ -146,25 +154,22 @@ void controlBy (Document& document, const std::string& name, const FacePort& por
     const auto now = own.is_null() ? initialValue (document.graph(), *node, port) : own;
     const auto [low, high] = sweepOf (now, *port.sheet);
     const auto path = name + '.' + port.id;
-    const auto read = readQuantity (now, *port.sheet);
-    const auto* q = std::get_if<QuantityText> (&read);
-    auto command = control.empty() ? std::optional (newControlFor (document.graph(), path, low, high, q == nullptr ? 0.0 : q->si())) : addTarget (document.graph(), control, path, low, high);
-    if (command) document.perform (std::move (*command));
+    if (control.empty())
+        document.perform (newControlFor (document.graph(), path, low, high, siOf (now, *port.sheet)));
+    else if (auto command = addTarget (document.graph(), control, path, low, high))
+        document.perform (std::move (*command));
 }
 
 void release (Document& document, const std::string& name, const FacePort& port)
 {
     const auto path = name + '.' + port.id;
-    const auto held = heldBy (document.graph(), path);
+    const auto param = controlOf (document.graph(), path);
     const auto* node = find (document, {}, name);
-    if (! held || node == nullptr || port.sheet == nullptr) return;
-    auto without = removeTarget (document.graph(), held->control, path);
+    if (! param || node == nullptr || port.sheet == nullptr) return;
+    auto without = removeTarget (document.graph(), param->control, path);
     if (! without) return;
-    // What the control made of it, it keeps.
-    const auto read = readQuantity (held->low_text, *port.sheet);
-    const auto* unit = std::get_if<QuantityText> (&read);
-    const auto value = unit == nullptr ? Json (rounded (held->value)) : unit->moved (held->value).toJson();
-    document.perform (graph::Batch { "release " + path, { std::move (*without), graph::SetParam { {}, name, baseOf (port.id), withValue (*node, port, value) } } });
+    const auto kept = withValue (*node, port, valueOf (*param, *port.sheet));
+    document.perform (graph::Batch { "release " + path, { std::move (*without), graph::SetParam { {}, name, baseOf (port.id), kept } } });
 }
 
 }   // namespace tactus::host

@@ -12,18 +12,18 @@
 namespace tactus::host
 {
 
-/// A word on why something was not taken.
+/// Tells the user why an edit was refused.
 using Refusal = std::function<void (const juce::String&)>;
 
-/// A param of a node: a field for each component, or a list of choices. One that a control sets moves that control; its menu
-/// gives it to one, or takes it away.
+/// A param of a node: a field per component, or a list of choices. If a control drives it, editing moves the control. Its menu
+/// assigns it to a control or releases it.
 std::unique_ptr<Block> paramRow (Document&, const std::string& patch, const std::string& node, const FacePort&, const Refusal&);
 
-/// What the menu of a param does. "" is a new control.
+/// Assigns a param to a control, "" for a new one; releases it and keeps its current value.
 void controlBy (Document&, const std::string& node, const FacePort&, const std::string& control);
 void release (Document&, const std::string& node, const FacePort&);
 
-/// A control of the graph: its name, a fader, and what it moves from where to where.
+/// A control of the graph: its name, a fader, and its targets with their ranges.
 std::unique_ptr<Block> controlEditor (Document&, const Catalogue&, const std::string& id, const Refusal&);
 
 }   // namespace tactus::host

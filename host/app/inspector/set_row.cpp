@@ -9,7 +9,7 @@ class SetRow::Arrow final : public juce::Button
 public:
     Arrow() : juce::Button ("Reset")
     {
-        setTooltip ("Back to the default");
+        setTooltip ("Reset to default");
         setMouseCursor (juce::MouseCursor::PointingHandCursor);
     }
 
@@ -29,7 +29,7 @@ public:
     }
 };
 
-/// The pointer over the row or anything in it.
+/// Tracks the mouse over the row and its children.
 class SetRow::Watch final : public juce::MouseListener
 {
 public:
@@ -45,7 +45,7 @@ private:
     SetRow& row;
 };
 
-SetRow::SetRow (juce::String l) : words (std::move (l)), arrow (std::make_unique<Arrow>()), watch (std::make_unique<Watch> (*this))
+SetRow::SetRow (juce::String l) : label_text (std::move (l)), arrow (std::make_unique<Arrow>()), watch (std::make_unique<Watch> (*this))
 {
     arrow->onClick = [this]
     {
@@ -57,12 +57,6 @@ SetRow::SetRow (juce::String l) : words (std::move (l)), arrow (std::make_unique
 
 SetRow::~SetRow() { removeMouseListener (watch.get()); }
 
-void SetRow::setLabel (const juce::String& l)
-{
-    words = l;
-    repaint();
-}
-
 void SetRow::setIsSet (bool now)
 {
     is_set = now;
@@ -70,9 +64,9 @@ void SetRow::setIsSet (bool now)
     repaint();
 }
 
-void SetRow::setNote (const juce::String& text, juce::Colour colour)
+void SetRow::setNote (const juce::String& n, juce::Colour colour)
 {
-    note = text;
+    note = n;
     note_colour = colour;
     repaint();
 }
@@ -101,7 +95,7 @@ void SetRow::paint (juce::Graphics& g)
     }
     g.setFont (look.font (12.0f, is_set));
     g.setColour (is_set ? look.theme().text : look.theme().dim);
-    g.drawText (words, area, juce::Justification::centredLeft, true);
+    g.drawText (label_text, area, juce::Justification::centredLeft, true);
 }
 
 void SetRow::resized()

@@ -6,8 +6,7 @@
 namespace tactus::host
 {
 
-/// A label, and at its right what sets it. What was set is bold, and has an arrow that brings the default back, seen while the
-/// pointer is over the row.
+/// A label with fields to its right. The label of a value that is set is bold; on hover, an arrow resets it to the default.
 class SetRow : public Block, public juce::SettableTooltipClient
 {
 public:
@@ -17,22 +16,21 @@ public:
 
     int heightFor (int) override { return row_height; }
 
-    std::function<void()> onReset;                        ///< none: there is no default to go back to
-    std::function<void (juce::PopupMenu&)> onWantsMenu;   ///< fills the menu of the right button
+    std::function<void()> onReset;                        ///< null if there is no default
+    std::function<void (juce::PopupMenu&)> onWantsMenu;   ///< fills the context menu
 
     bool isSet() const noexcept { return is_set; }
-    const juce::String& label() const noexcept { return words; }
-    void setLabel (const juce::String&);
+    const juce::String& label() const noexcept { return label_text; }
 
     void paint (juce::Graphics&) override;
     void resized() final;
 
 protected:
     void setIsSet (bool);
-    void setNote (const juce::String&, juce::Colour);   ///< a few small words over the label's end
-    virtual void place (juce::Rectangle<int>) = 0;      ///< the fields go there
+    void setNote (const juce::String&, juce::Colour);   ///< small text below the label
+    virtual void place (juce::Rectangle<int>) = 0;      ///< lays out the fields
 
-    bool stacked = false;   ///< the label stands over the fields, not beside them
+    bool stacked = false;   ///< puts the label above the fields
 
 private:
     class Arrow;
@@ -42,7 +40,7 @@ private:
     void openMenu();
     int labelWidth() const { return stacked ? getWidth() : getWidth() * 2 / 5; }
 
-    juce::String words, note;
+    juce::String label_text, note;
     juce::Colour note_colour;
     std::unique_ptr<Arrow> arrow;
     std::unique_ptr<Watch> watch;

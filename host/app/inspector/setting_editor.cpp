@@ -2,6 +2,8 @@
 #include "setting_editor.hpp"
 #include "tool_button.hpp"
 
+#include <host/app/look/text.hpp>
+
 #include <framework/plan/settings.hpp>
 
 #include <array>
@@ -16,51 +18,49 @@ using Kind = SettingSheet::Kind;
 
 bool isFile (Kind k) { return k == Kind::signal || k == Kind::image || k == Kind::table; }
 
-/// A value as in the file.
+/// A value as JSON.
 class JsonText final : public Block
 {
 public:
-    JsonText (const SettingSheet& s, Slot at) : slot (std::move (at))
+    JsonText (const SettingSheet& s, Binding at) : binding (std::move (at))
     {
         field.setMultiLine (true);
         field.setReturnKeyStartsNewLine (false);
         field.setTooltip (std::string (s.about));
-        field.setTextToShowWhenEmpty ("as the file has it: " + std::string (name (s.kind)), themeOf (*this).dim);
+        field.setTextToShowWhenEmpty ("JSON: " + std::string (name (s.kind)), themeOf (*this).dim);
         field.onApply = [this] (const juce::String& text)
         {
-            const auto written = text.trim().toStdString();
-            auto value = Json::parse (written, nullptr, false);
-            if (value.is_discarded()) value = Json (written);
-            slot.set (written.empty() ? std::nullopt : std::optional (std::move (value)), false);
+            binding.set (text.trim().isEmpty() ? std::nullopt : std::optional (parseText (text)), false);
         };
         addAndMakeVisible (field);
     }
 
-    int heightFor (int) override { return length > 160 ? 152 : length > 40 ? 80
-                                                                           : 32; }
+    int heightFor (int) override
+    {
+        if (length > 160) return 152;
+        return length > 40 ? 80 : 32;
+    }
 
     void refresh (const graph::Node*) override
     {
-        const auto now = slot.get();
-        const auto text = now.is_null() ? std::string() : now.is_string() ? now.get<std::string>()
-                                                                          : now.dump();
-        length = text.size();
+        const auto text = editText (binding.get());
+        length = text.length();
         field.show (text);
     }
 
     void resized() override { field.setBounds (getLocalBounds().reduced (0, 2)); }
 
 private:
-    Slot slot;
+    Binding binding;
     TextField field;
-    std::size_t length = 0;
+    int length = 0;
 };
 
 /// Three numbers.
 class VectorBlock final : public Block
 {
 public:
-    VectorBlock (const SettingSheet& s, Slot at, const EditorContext& context) : slot (std::move (at))
+    VectorBlock (const SettingSheet& s, Binding at, const EditorContext& context) : binding (std::move (at))
     {
         const auto* v = std::get_if<Vec3> (&s.initial);
         initial = v == nullptr ? Vec3 (Vec3::Zero()) : *v;
@@ -70,11 +70,11 @@ public:
         {
             auto& f = *fields.emplace_back (std::make_unique<NumberField> (sheets[i]));
             f.onRefused = context.refused;
-            f.onChange = [this, i] (std::optional<Json> value, bool goes_on)
+            f.onChange = [this, i] (std::optional<Json> value, bool continues)
             {
                 auto all = written();
                 all[i] = value ? *value : Json (sheets[i].initial[0]);
-                slot.set (std::move (all), goes_on);
+                binding.set (std::move (all), continues);
             };
             addAndMakeVisible (f);
         }
@@ -99,11 +99,11 @@ public:
 private:
     Json written() const
     {
-        const auto now = slot.get();
+        const auto now = binding.get();
         return now.is_array() && now.size() == 3 ? now : Json::array ({ initial.x(), initial.y(), initial.z() });
     }
 
-    Slot slot;
+    Binding binding;
     Vec3 initial;
     std::vector<PortSheet> sheets;
     std::vector<std::unique_ptr<NumberField>> fields;
@@ -113,7 +113,7 @@ private:
 class RecordEditor final : public Stack
 {
 public:
-    RecordEditor (const SettingSheet& s, Slot at, const EditorContext& c) : sheet (s), slot (std::move (at)), context (c) { indent = 8; }
+    RecordEditor (const SettingSheet& s, Binding at, const EditorContext& c) : Stack (8), sheet (s), binding (std::move (at)), context (c) {}
 
 protected:
     std::string shape() const override { return {}; }
@@ -121,24 +121,23 @@ protected:
     void fill() override
     {
         for (const auto& f : sheet.fields)
-            put (settingEditor (f, slot.member (std::string (f.id)), context));
+            add (settingEditor (f, binding.member (std::string (f.id)), context));
     }
 
 private:
     const SettingSheet& sheet;
-    Slot slot;
+    Binding binding;
     EditorContext context;
 };
 
-/// The mesh of a surface, its deflection ratio, and the laws it gives by where these are the same everywhere.
+/// The mesh of a surface, its deflection ratio, and its laws if they are the same at all nodes.
 class SurfaceEditor final : public Stack
 {
 public:
-    SurfaceEditor (const SettingSheet&, Slot at, const EditorContext& c) : slot (std::move (at)), context (c)
+    SurfaceEditor (const SettingSheet&, Binding at, const EditorContext& c) : Stack (8), binding (std::move (at)), context (c)
     {
-        indent = 8;
         law.kind = Kind::law;
-        law.describe ("law", unit::newton, "force over deflection", {});
+        law.describe ("law", unit::newton, "force against deflection", {});
         law.x_unit = unit::metre;
         law.initial = Law {};
     }
@@ -146,7 +145,7 @@ public:
 protected:
     std::string shape() const override
     {
-        const auto now = slot.get();
+        const auto now = binding.get();
         std::string text = now.is_object() && now.contains ("nodes") ? "inline" : "mesh";
         if (now.is_object() && now.contains ("mu")) text += now["mu"].is_array() ? "list" : "one";
         return text + std::to_string (tools (now));
@@ -154,28 +153,31 @@ protected:
 
     void fill() override
     {
-        const auto now = slot.get();
+        const auto now = binding.get();
         if (now.is_object() && now.contains ("nodes"))
         {
             const auto count = [&] (const char* key)
             { return std::to_string (now.contains (key) && now[key].is_array() ? now[key].size() : 0); };
-            put (std::make_unique<Words> (juce::String (count ("nodes") + " nodes and " + count ("triangles") + " triangles, written in the graph itself. Its text has them all."), Words::Kind::small));
+            const auto size = count ("nodes") + " nodes and " + count ("triangles") + " triangles, stored in the graph. Edit them as JSON.";
+            add (size, TextBlock::Kind::small);
         }
         else
-            put (fileRow ("mesh", Kind::surface, slot.member ("mesh"), context, "OBJ, OFF, PLY or STL"));
-        if (! now.is_object() || ! now.contains ("mu") || ! now["mu"].is_array()) put (numberRow ("mu", sheetOfNumber ("mu", unit::gain, "how far the contact gives sideways, over its depth", { .hard = { 0, inf }, .usual = { 0, 1 } }, 0.0), slot.member ("mu"), context.refused));
+            add (fileRow ("mesh", Kind::surface, binding.member ("mesh"), context, "OBJ, OFF, PLY or STL"));
+        const auto mu = sheetOfNumber ("mu", unit::gain, "lateral deflection of the contact over its depth", { .hard = { 0, inf }, .usual = { 0, 1 } }, 0.0);
+        if (! now.is_object() || ! now.contains ("mu") || ! now["mu"].is_array()) add (numberRow ("mu", mu, binding.member ("mu"), context.refused));
         static constexpr std::array axes { "x, along", "y, across", "z, inward" };
         const auto n = tools (now);
         for (std::size_t tool = 0; tool < n; ++tool)
             for (std::size_t axis = 0; axis < 3; ++axis)
             {
-                put (std::make_unique<Words> ((n > 1 ? "tool " + juce::String (static_cast<int> (tool)) + ", " : juce::String()) + axes[axis], Words::Kind::heading));
-                put (lawEditor (law, slot.member ("curves").entry (tool).entry (axis), context));
+                const auto prefix = n > 1 ? "tool " + juce::String (static_cast<int> (tool)) + ", " : juce::String();
+                add (prefix + axes[axis], TextBlock::Kind::heading);
+                add (lawEditor (law, binding.member ("curves").entry (tool).entry (axis), context));
             }
     }
 
 private:
-    /// How many tools have one triple of laws for all nodes; 0 if any has more.
+    /// The number of tools if each has one triple of laws for all nodes, else 0.
     static std::size_t tools (const Json& now)
     {
         if (! now.is_object() || ! now.contains ("curves") || ! now["curves"].is_array()) return 0;
@@ -185,16 +187,17 @@ private:
         return curves.size();
     }
 
-    Slot slot;
+    Binding binding;
     EditorContext context;
     SettingSheet law {};
 };
 
-/// A head with the setting's name over its editor, which the text of the file can take the place of.
-class Titled final : public Block
+/// A setting's name over its editor, with buttons to edit it as JSON and to reset it.
+class SettingBlock final : public Block
 {
 public:
-    Titled (const SettingSheet& s, Slot at, const EditorContext& context, std::unique_ptr<Block> b) : sheet (s), slot (std::move (at)), folder (context.folder), assets (&context.assets), body (std::move (b)), text (s, slot)
+    SettingBlock (const SettingSheet& s, Binding at, const EditorContext& context, std::unique_ptr<Block> b)
+        : sheet (s), binding (std::move (at)), folder (context.folder), assets (&context.assets), body (std::move (b)), text (s, binding)
     {
         as_text.onClick = [this]
         {
@@ -203,7 +206,7 @@ public:
             if (onHeight) onHeight();
         };
         reset.onClick = [this]
-        { slot.set (std::nullopt, false); };
+        { binding.set (std::nullopt, false); };
         body->onHeight = [this]
         {
             if (onHeight) onHeight();
@@ -219,16 +222,17 @@ public:
 
     void refresh (const graph::Node* node) override
     {
-        const auto now = slot.get();
+        const auto now = binding.get();
         is_set = ! now.is_null();
         reset.setVisible (is_set);
-        if (now != checked)   // it may name files, and each edit of the graph comes by here
+        if (now != checked)   // called after every edit, and checking may read files
         {
             checked = now;
             problem = {};
             std::string where;
             if (is_set)
-                if (const auto read = plan::readSetting (now, sheet, { assets, folder() }, where); const auto* why = std::get_if<std::string> (&read)) problem = juce::String::fromUTF8 ((where.empty() ? *why : where + ": " + *why).c_str());
+                if (const auto read = plan::readSetting (now, sheet, { assets, folder() }, where); ! read)
+                    problem = fromUtf8 (where.empty() ? read.error().text : where + ": " + read.error().text);
         }
         body->refresh (node);
         text.refresh (node);
@@ -267,69 +271,64 @@ private:
     }
 
     const SettingSheet& sheet;
-    Slot slot;
+    Binding binding;
     std::function<std::string()> folder;
     Assets* assets;
     std::unique_ptr<Block> body;
     JsonText text;
-    ToolButton as_text { "text", ToolButton::Kind::toggle, "Write it as in the file" }, reset { "reset", ToolButton::Kind::plain, "Back to the default" };
+    ToolButton as_text { "JSON", ToolButton::Kind::toggle, "Edit as JSON" };
+    ToolButton reset { "reset", ToolButton::Kind::plain, "Reset to default" };
     juce::String problem;
     Json checked;
     bool is_set = false;
 };
 
-std::unique_ptr<Block> bodyOf (const SettingSheet& sheet, const Slot& slot, const EditorContext& context)
+std::unique_ptr<Block> bodyOf (const SettingSheet& sheet, const Binding& binding, const EditorContext& context)
 {
     switch (sheet.kind)
     {
     case Kind::vector:
-        return std::make_unique<VectorBlock> (sheet, slot, context);
+        return std::make_unique<VectorBlock> (sheet, binding, context);
     case Kind::curve:
-        return curveEditor (sheet, slot, context);
+        return curveEditor (sheet, binding, context);
     case Kind::law:
-        return lawEditor (sheet, slot, context);
+        return lawEditor (sheet, binding, context);
     case Kind::record:
-        return std::make_unique<RecordEditor> (sheet, slot, context);
+        return std::make_unique<RecordEditor> (sheet, binding, context);
     case Kind::records:
-        return recordsEditor (sheet, slot, context);
+        return recordsEditor (sheet, binding, context);
     case Kind::surface:
-        return std::make_unique<SurfaceEditor> (sheet, slot, context);
+        return std::make_unique<SurfaceEditor> (sheet, binding, context);
     default:
         return nullptr;
     }
 }
 }   // namespace
 
-std::unique_ptr<Block> settingEditor (const SettingSheet& sheet, Slot slot, const EditorContext& context)
+std::unique_ptr<Block> settingEditor (const SettingSheet& sheet, Binding binding, const EditorContext& context)
 {
     const juce::String label (std::string (sheet.id)), about (std::string (sheet.about));
-    if (isFile (sheet.kind)) return fileRow (label, sheet.kind, std::move (slot), context, about);
+    if (isFile (sheet.kind)) return fileRow (label, sheet.kind, std::move (binding), context, about);
     if (sheet.kind == Kind::number || sheet.kind == Kind::integer)
     {
         auto number = sheetOfNumber (sheet.id, sheet.unit, sheet.about, sheet.limits, std::get<double> (sheet.initial));
-        if (sheet.kind == Kind::integer)
-            slot.set = [set = slot.set] (std::optional<Json> v, bool goes_on)
-            {
-                if (v && v->is_number()) v = Json (static_cast<std::int64_t> (std::llround (v->get<double>())));
-                set (std::move (v), goes_on);
-            };
-        return numberRow (label, number, std::move (slot), context.refused);
+        return numberRow (label, number, sheet.kind == Kind::integer ? binding.asInteger() : binding, context.refused);
     }
     if (sheet.kind == Kind::text)
     {
-        const auto get = [slot]
+        const auto get = [binding]
         {
-            const auto now = slot.get();
-            return now.is_string() ? juce::String::fromUTF8 (now.get<std::string>().c_str()) : juce::String();
+            const auto now = binding.get();
+            return now.is_string() ? fromUtf8 (now.get<std::string>()) : juce::String();
         };
         return textRow (
-            label, get, [slot] (const juce::String& t)
-            { slot.set (t.trim().isEmpty() ? std::nullopt : std::optional<Json> (t.trim().toStdString()), false); },
+            label, get, [binding] (const juce::String& t)
+            { binding.set (t.trim().isEmpty() ? std::nullopt : std::optional<Json> (t.trim().toStdString()), false); },
             about, 2);
     }
-    auto body = bodyOf (sheet, slot, context);
-    if (! body) body = std::make_unique<JsonText> (sheet, slot);
-    return std::make_unique<Titled> (sheet, std::move (slot), context, std::move (body));
+    auto body = bodyOf (sheet, binding, context);
+    if (! body) body = std::make_unique<JsonText> (sheet, binding);
+    return std::make_unique<SettingBlock> (sheet, std::move (binding), context, std::move (body));
 }
 
 }   // namespace tactus::host

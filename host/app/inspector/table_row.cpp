@@ -18,7 +18,8 @@ std::vector<juce::Rectangle<int>> columnsOf (juce::Rectangle<int> area, std::siz
 }
 }   // namespace
 
-TableRow::TableRow (std::vector<Cell> c, std::function<void()> remove, const std::function<void (const juce::String&)>& refused) : cells (std::move (c))
+TableRow::TableRow (std::vector<Cell> c, std::function<void()> remove, const std::function<void (const juce::String&)>& refused)
+    : cells (std::move (c))
 {
     for (auto& cell : cells)
     {
@@ -26,18 +27,15 @@ TableRow::TableRow (std::vector<Cell> c, std::function<void()> remove, const std
         {
             auto field = std::make_unique<TextField>();
             field->setTooltip (std::string (cell.sheet.about));
-            field->onApply = [slot = cell.slot] (const juce::String& text)
-            {
-                auto value = Json::parse (text.toStdString(), nullptr, false);
-                slot.set (value.is_discarded() ? Json (text.toStdString()) : std::move (value), false);
-            };
+            field->onApply = [binding = cell.binding] (const juce::String& text)
+            { binding.set (parseText (text), false); };
             fields.push_back (std::move (field));
         }
         else
         {
             auto field = std::make_unique<NumberField> (cell.sheet);
-            field->onChange = [slot = cell.slot, initial = cell.sheet.initial[0]] (std::optional<Json> v, bool goes_on)
-            { slot.set (v ? *v : Json (initial), goes_on); };
+            field->onChange = [binding = cell.binding, initial = cell.sheet.initial[0]] (std::optional<Json> v, bool continues)
+            { binding.set (v ? *v : Json (initial), continues); };
             field->onRefused = refused;
             fields.push_back (std::move (field));
         }
@@ -51,12 +49,11 @@ void TableRow::refresh (const graph::Node*)
 {
     for (std::size_t i = 0; i < cells.size(); ++i)
     {
-        const auto now = cells[i].slot.get();
+        const auto now = cells[i].binding.get();
         if (auto* number = dynamic_cast<NumberField*> (fields[i].get()))
             number->show (now.is_null() ? Json (cells[i].sheet.initial[0]) : now);
         else if (auto* text = dynamic_cast<TextField*> (fields[i].get()))
-            text->show (now.is_null() ? "" : now.is_string() ? now.get<std::string>()
-                                                             : now.dump());
+            text->show (editText (now));
     }
 }
 

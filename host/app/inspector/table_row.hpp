@@ -7,15 +7,15 @@
 namespace tactus::host
 {
 
-/// A line of a table: a cell for each column, and a cross that takes the line away.
+/// A table row: a cell per column and a button that removes the row.
 class TableRow final : public Block
 {
 public:
     struct Cell
     {
         PortSheet sheet;
-        Slot slot;
-        bool is_text = false;   ///< what is no number is written as in the file
+        Binding binding;
+        bool is_text = false;   ///< edited as JSON
     };
 
     TableRow (std::vector<Cell>, std::function<void()> remove, const std::function<void (const juce::String&)>& refused);
@@ -27,10 +27,10 @@ public:
 private:
     std::vector<Cell> cells;
     std::vector<std::unique_ptr<juce::Component>> fields;
-    ToolButton cross { juce::String::fromUTF8 ("\xc3\x97"), ToolButton::Kind::plain, "Remove this line" };
+    ToolButton cross { juce::String::fromUTF8 ("\xc3\x97"), ToolButton::Kind::plain, "Remove this row" };
 };
 
-/// The names of the columns over such, and their units under these.
+/// The header of a table: column names and units.
 class TableHead final : public Block
 {
 public:

@@ -8,26 +8,26 @@
 namespace tactus::host
 {
 
-/// A small button with a word or sign on it. One that is a switch is filled while it is on.
+/// A small text button. A toggle is filled while it is on.
 class ToolButton final : public juce::Button
 {
 public:
     enum class Kind
     {
-        plain,   ///< a word without a frame, that lights up under the pointer
+        plain,   ///< no frame; highlighted on hover
         framed,
         toggle,   ///< shows its state; the owner sets it
-        tab       ///< one of several names, of which one is chosen
+        tab       ///< one of several tabs
     };
 
-    ToolButton (const juce::String& words, Kind k, const juce::String& tooltip = {}) : juce::Button (words), kind (k)
+    ToolButton (const juce::String& caption, Kind k, const juce::String& tooltip = {}) : juce::Button (caption), kind (k)
     {
         setTooltip (tooltip);
-        setMouseClickGrabsKeyboardFocus (false);   // a click leaves the keys to the canvas
+        setMouseClickGrabsKeyboardFocus (false);   // the canvas keeps the keyboard focus
         setMouseCursor (juce::MouseCursor::PointingHandCursor);
     }
 
-    /// What it is filled with while on; the accent, unless said.
+    /// The fill colour while on. The default is the accent colour.
     void setColour (std::function<juce::Colour (const Theme&)> c) { on_colour = std::move (c); }
 
     void setJustification (juce::Justification j) { justified = j; }
@@ -49,26 +49,32 @@ public:
         }
         else if (framed || over)
         {
-            g.setColour (lit ? on : down ? theme.hairline
-                                         : theme.raised);
+            const auto idle = down ? theme.hairline : theme.raised;
+            g.setColour (lit ? on : idle);
             g.fillRoundedRectangle (area, 4.0f);
         }
         if (framed || hasKeyboardFocus (false))
         {
-            g.setColour (hasKeyboardFocus (false) ? theme.accent : over ? theme.dim
-                                                               : lit    ? on
-                                                                        : theme.hairline);
+            auto outline = lit ? on : theme.hairline;
+            if (over) outline = theme.dim;
+            g.setColour (hasKeyboardFocus (false) ? theme.accent : outline);
             g.drawRoundedRectangle (area, 4.0f, 1.0f);
         }
         g.setFont (look.font (12.0f, lit));
-        const auto ink = lit ? (on.getPerceivedBrightness() > 0.5f ? juce::Colour (0xff14171b) : juce::Colours::white) : over ? theme.text
-                                                                                                                              : theme.dim;
-        const bool bright = kind == Kind::framed || (kind == Kind::tab && getToggleState());
-        g.setColour (isEnabled() ? (bright ? theme.text : ink) : theme.dim.withAlpha (0.5f));
-        g.drawText (getButtonText(), justified == juce::Justification::centred ? getLocalBounds() : getLocalBounds().reduced (4, 0), justified, true);
+        g.setColour (textColour (theme, lit, over, on));
+        const bool centred = justified == juce::Justification::centred;
+        g.drawText (getButtonText(), centred ? getLocalBounds() : getLocalBounds().reduced (4, 0), justified, true);
     }
 
 private:
+    juce::Colour textColour (const Theme& theme, bool lit, bool over, juce::Colour fill) const
+    {
+        if (! isEnabled()) return theme.dim.withAlpha (0.5f);
+        if (kind == Kind::framed || (kind == Kind::tab && getToggleState())) return theme.text;
+        if (lit) return fill.getPerceivedBrightness() > 0.5f ? juce::Colour (0xff14171b) : juce::Colours::white;
+        return over ? theme.text : theme.dim;
+    }
+
     Kind kind;
     juce::Justification justified = juce::Justification::centred;
     std::function<juce::Colour (const Theme&)> on_colour;

@@ -38,7 +38,7 @@ Bands bandsOf (std::span<const double> samples, double rate_hz)
     for (std::size_t k = 1; k < spectrum.size(); ++k)
     {
         const double power = (2 * k == size ? 1.0 : 2.0) * std::norm (spectrum[k]) / (static_cast<double> (size) * weight);
-        // A line stands for all frequencies up to half way to the next: low bands are narrower than that.
+        // A line covers all frequencies up to halfway to its neighbours, because low bands are narrower than the spacing of the lines.
         const double low = (static_cast<double> (k) - 0.5) * step, high = low + step;
         for (int b = 0; b < Bands::count; ++b)
             if (const double shared = std::min (high, Bands::edge (b + 1)) - std::max (low, Bands::edge (b)); shared > 0.0)

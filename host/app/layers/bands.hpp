@@ -7,19 +7,19 @@
 namespace tactus::host
 {
 
-/// How much of a signal lies where, in bands as wide as one another on a log axis: each the mean square of what is in it.
+/// The power of a signal in frequency bands of equal width on a log axis. Each value is the mean square within its band.
 struct Bands
 {
     static constexpr int count = 24;
-    static constexpr double lowest_hz = 10.0, highest_hz = 1000.0;   ///< what skin feels
+    static constexpr double lowest_hz = 10.0, highest_hz = 1000.0;   ///< the range that skin can feel
 
     std::array<double, count> power {};
 
-    static double edge (int) noexcept;   ///< Hz; 0 is where the first band begins
+    static double edge (int) noexcept;   ///< in Hz; edge (0) is the start of the first band
 };
 
-/// Of some samples, through a Hann window, so that a loud tone does not smear over all bands. A sample that is no finite
-/// number counts as 0.
+/// The bands of some samples. A Hann window is applied so that a loud tone does not leak into all bands. Samples that are not
+/// finite count as 0.
 Bands bandsOf (std::span<const double> samples, double rate_hz);
 
 }   // namespace tactus::host

@@ -12,7 +12,7 @@ namespace
 {
 constexpr double fine = 0.1;
 
-/// As many digits as a hand can mean.
+/// Rounds to the precision of a drag.
 double rounded (double gain) { return gain < 0.1 ? std::round (gain * 1e4) * 1e-4 : std::round (gain * 1e3) * 1e-3; }
 }   // namespace
 
@@ -53,7 +53,7 @@ void Fader::mouseUp (const juce::MouseEvent&) { dragged = false; }
 
 void Fader::mouseDoubleClick (const juce::MouseEvent& e)
 {
-    if (! e.mods.isAltDown() && onWantsText) onWantsText();
+    if (! e.mods.isAltDown() && onTextEntry) onTextEntry();
 }
 
 void Fader::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel)

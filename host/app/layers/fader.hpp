@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-/// A gain as a knob on a slot. Shift moves it finely, alt-click brings it back to 1, the wheel nudges it.
+/// A gain fader. Shift-drag is fine, Alt-click resets it to the default, and the wheel nudges it.
 class Fader final : public juce::Component, public juce::SettableTooltipClient
 {
 public:
@@ -17,9 +17,9 @@ public:
 
     void show (double gain);
 
-    /// Nothing for the default; whether it goes on with the one before, in one drag.
+    /// Without a gain: resets to the default. `goes_on`: continues the previous change of the same drag.
     std::function<void (std::optional<double> gain, bool goes_on)> onChange;
-    std::function<void()> onWantsText;   ///< double click
+    std::function<void()> onTextEntry;   ///< double click
 
     void paint (juce::Graphics&) override;
     void mouseDown (const juce::MouseEvent&) override;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "layers_panel.hpp"
 
+#include <host/app/model/message_text.hpp>
+
 #include <algorithm>
 
 namespace tactus::host
@@ -9,17 +11,17 @@ namespace tactus::host
 namespace
 {
 constexpr int spectrum_every = 3;   // refreshes
-constexpr auto what_it_is = "A layer mixer lays textures and vibrations over one another, each with its gain, mute and solo, and lets loud "
-                            "ones duck the others. Its layers will stand here as strips with faders and meters in newton.";
+constexpr auto introduction = "A layer mixer mixes textures and vibrations. Each layer has gain, mute and solo, and loud layers can duck the "
+                              "others. The layers appear here as strips with faders and meters in newtons.";
 }   // namespace
 
-LayersPanel::LayersPanel (Document& d, Performance& p, const Catalogue& c) : document (d), catalogue (c), traces (p.traces())
+LayersPanel::LayersPanel (Document& d, Traces& t, const Catalogue& c) : document (d), catalogue (c), traces (t)
 {
     setTitle ("Layers");
     more.onClick = [this]
     { openMenu(); };
     first.onClick = [this]
-    { addDeskNow(); };
+    { addMixerNow(); };
     scroll.setViewedComponent (&row, false);
     scroll.setScrollBarsShown (false, true);
     scroll.setScrollBarThickness (8);
@@ -35,69 +37,74 @@ LayersPanel::~LayersPanel() { document.remove (*this); }
 void LayersPanel::rebuild()
 {
     const auto& graph = document.graph();
-    auto found = desksOf (graph);
-    const auto same = std::ranges::find (found, chosen.id, &DeskPlace::id);
-    const auto next = same != found.end() ? *same : found.empty() ? DeskPlace {}
-                                                                  : found.front();
-    const auto* node = found.empty() ? nullptr : findDesk (graph, next);
+    auto found = mixersOf (graph);
+    const auto same = std::ranges::find (found, chosen.id, &MixerPlace::id);
+    MixerPlace next;
+    if (! found.empty()) next = same != found.end() ? *same : found.front();
+    const auto* node = found.empty() ? nullptr : findMixer (graph, next);
     const auto layers = node == nullptr ? std::size_t {} : static_cast<std::size_t> (layersOf (*node, catalogue));
     const bool other = next != chosen || layers != strips.size();
-    if (found != all || other)
-    {
-        all = std::move (found);
-        chosen = next;
-        names.clear();
-        for (std::size_t i = 0; i < all.size(); ++i)
-        {
-            auto& b = *names.emplace_back (std::make_unique<ToolButton> (juce::String (all[i].path), ToolButton::Kind::tab));
-            b.setToggleState (all[i].id == chosen.id, juce::dontSendNotification);
-            b.onClick = [this, i]
-            { choose (i); };
-            addAndMakeVisible (b);
-        }
-    }
-    if (other)
-    {
-        strips.clear();
-        total.reset();
-        if (node != nullptr)
-        {
-            const auto hint = [this] (const juce::String& text)
-            {
-                if (onHint) onHint (text);
-            };
-            const auto context = std::make_shared<const DeskContext> (DeskContext { document, catalogue, chosen, hint, [this] (const std::string& patch, graph::Id id)
-                                                                                    {
-                    if (onSelect) onSelect (patch, id); },
-                                                                                    [this] (int layer, int x, bool let_go)
-                                                                                    { drag (layer, x, let_go); } });
-            for (std::size_t i = 0; i < layers; ++i)
-                row.addAndMakeVisible (*strips.emplace_back (std::make_unique<LayerStrip> (context, static_cast<int> (i))));
-            addAndMakeVisible (*(total = std::make_unique<MixStrip> (context)));
-        }
-        wish();
-    }
+    const bool other_names = found != all || other;
+    all = std::move (found);
+    chosen = next;
+    if (other_names) rebuildNames();
+    if (other) rebuildStrips (layers);
     for (auto& s : strips)
         s->show();
     if (total) total->show();
 
-    first.setVisible (all.empty());
     more.setVisible (! all.empty());
     scroll.setVisible (! all.empty());
-    outlook = {};
+    first.setVisible (false);
+    preview = {};
     if (all.empty())
     {
-        const auto added = addDesk (graph, catalogue);
-        const auto* why = std::get_if<std::string> (&added);
-        outlook = why != nullptr ? juce::String (*why) : juce::String();
-        first.setVisible (why == nullptr);
-        if (why == nullptr) outlook = std::get<AddedDesk> (added).says;
+        const auto added = addMixer (graph, catalogue);
+        preview = juce::String (added ? added->description : "Cannot add a mixer: " + messageText (added.error()) + ".");
+        first.setVisible (added.has_value());
     }
     resized();
     repaint();
 }
 
-void LayersPanel::wish()
+void LayersPanel::rebuildNames()
+{
+    names.clear();
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+        auto& b = *names.emplace_back (std::make_unique<ToolButton> (juce::String (all[i].path), ToolButton::Kind::tab));
+        b.setToggleState (all[i].id == chosen.id, juce::dontSendNotification);
+        b.onClick = [this, i]
+        { choose (i); };
+        addAndMakeVisible (b);
+    }
+}
+
+void LayersPanel::rebuildStrips (std::size_t layers)
+{
+    strips.clear();
+    total.reset();
+    if (! all.empty())
+    {
+        const auto hint = [this] (const juce::String& text)
+        {
+            if (onHint) onHint (text);
+        };
+        const auto select = [this] (const std::string& patch, graph::Id id)
+        {
+            if (onSelect) onSelect (patch, id);
+        };
+        const auto dragged = [this] (int layer, int x, bool let_go)
+        { drag (layer, x, let_go); };
+        const auto context = std::make_shared<const MixerContext> (MixerContext { document, catalogue, chosen, hint, select, dragged });
+        for (std::size_t i = 0; i < layers; ++i)
+            row.addAndMakeVisible (*strips.emplace_back (std::make_unique<LayerStrip> (context, static_cast<int> (i))));
+        addAndMakeVisible (*(total = std::make_unique<MixStrip> (context)));
+    }
+    requestTraces();
+}
+
+void LayersPanel::requestTraces()
 {
     std::vector<std::string> ports;
     if (isVisible() && ! all.empty())
@@ -109,7 +116,7 @@ void LayersPanel::wish()
     traces.want (std::move (ports));
 }
 
-void LayersPanel::visibilityChanged() { wish(); }
+void LayersPanel::visibilityChanged() { requestTraces(); }
 
 void LayersPanel::refresh()
 {
@@ -123,14 +130,14 @@ void LayersPanel::refresh()
     if (total) total->refresh (traces, dt);
 }
 
-void LayersPanel::choose (std::size_t desk)
+void LayersPanel::choose (std::size_t mixer)
 {
-    if (desk >= all.size()) return;
-    // Later: the button that asks for it is made anew.
-    juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), id = all[desk].id]
+    if (mixer >= all.size()) return;
+    // Asynchronous, because the rebuild deletes the button that was clicked.
+    juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), id = all[mixer].id]
                                      {
         if (safe == nullptr) return;
-        const auto at = std::ranges::find (safe->all, id, &DeskPlace::id);
+        const auto at = std::ranges::find (safe->all, id, &MixerPlace::id);
         if (at == safe->all.end()) return;
         safe->chosen = { id, {}, {}, {} };
         safe->rebuild(); });
@@ -140,22 +147,20 @@ void LayersPanel::add (const std::string& type)
 {
     if (all.empty()) return;
     auto added = addLayer (document.graph(), chosen, catalogue, type);
-    if (const auto* why = std::get_if<std::string> (&added))
+    if (! added)
     {
-        if (onHint) onHint (juce::String (*why));
+        if (onHint) onHint (juce::String (messageText (added.error())));
         return;
     }
-    auto& [command, misses] = std::get<AddedLayer> (added);
-    if (! document.perform (std::move (command))) return;
-    if (onHint && ! misses.empty()) onHint (juce::String (misses));
+    if (! document.perform (std::move (added->command))) return;
+    if (onHint && ! added->missing.empty()) onHint (juce::String (added->missing));
     scroll.setViewPosition (row.getWidth(), 0);
 }
 
-void LayersPanel::addDeskNow()
+void LayersPanel::addMixerNow()
 {
-    auto added = addDesk (document.graph(), catalogue);
-    if (auto* desk = std::get_if<AddedDesk> (&added))
-        juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), command = std::move (desk->command)]
+    if (auto added = addMixer (document.graph(), catalogue))
+        juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), command = std::move (added->command)]
                                          {
             if (safe != nullptr) safe->document.perform (command); });
 }
@@ -188,7 +193,9 @@ void LayersPanel::drag (int layer, int x, bool let_go)
     if (! let_go || place == layer) return;
     juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), layer, place]
                                      {
-        if (safe != nullptr && findDesk (safe->document.graph(), safe->chosen) != nullptr) safe->document.perform (moveLayer (safe->document.graph(), safe->chosen, safe->catalogue, layer, place)); });
+        if (safe == nullptr) return;
+        const auto& graph = safe->document.graph();
+        if (findMixer (graph, safe->chosen) != nullptr) safe->document.perform (moveLayer (graph, safe->chosen, safe->catalogue, layer, place)); });
 }
 
 void LayersPanel::paint (juce::Graphics& g)
@@ -199,12 +206,12 @@ void LayersPanel::paint (juce::Graphics& g)
     if (all.empty())
     {
         auto area = getLocalBounds().reduced (24, 16);
-        juce::AttributedString words;
-        words.setWordWrap (juce::AttributedString::byWord);
-        words.append ("No layer mixer in this graph\n", look.font (14.0f, true), theme.text);
-        words.append (what_it_is, look.font (13.0f), theme.dim);
-        if (outlook.isNotEmpty()) words.append ("\n\n" + outlook, look.font (13.0f), theme.text);
-        words.draw (g, area.withWidth (std::min (area.getWidth(), 560)).toFloat());
+        juce::AttributedString text;
+        text.setWordWrap (juce::AttributedString::byWord);
+        text.append ("No layer mixer in this graph\n", look.font (14.0f, true), theme.text);
+        text.append (introduction, look.font (13.0f), theme.dim);
+        text.append ("\n\n" + preview, look.font (13.0f), theme.text);
+        text.draw (g, area.withWidth (std::min (area.getWidth(), 560)).toFloat());
         return;
     }
     g.setColour (theme.hairline);

@@ -9,13 +9,13 @@
 namespace tactus::host
 {
 
-/// A level as it is read off: how strong it was of late, and the highest peak, held for a while.
+/// A level meter: the recent RMS level, and the peak, which is held for a while.
 class Meter
 {
 public:
-    static constexpr double hold_s = 1.5, fall_per_s = 0.1;   ///< of the peak once it is held no longer: a tenth a second
+    static constexpr double hold_s = 1.5, fall_per_s = 0.1;   ///< after the hold, the peak falls to a tenth within a second
 
-    /// The latest samples, of which the last `fresh` have not been shown before, and the time since the last call.
+    /// Takes the latest samples, the last `fresh` of which are new, and the time since the last call.
     void take (std::span<const double> latest, std::size_t fresh, double dt_s) noexcept
     {
         double sum = 0.0, highest = 0.0;
@@ -45,7 +45,7 @@ private:
     double level = 0.0, held = 0.0, held_for = 0.0;
 };
 
-/// Where a level stands on a scale of four decades, from a thousandth to ten: 0 to 1.
+/// The position of a level on a scale of four decades, from 0.001 to 10, as 0 to 1.
 inline double meterPosition (double level) noexcept { return level > 0.0 ? std::clamp ((std::log10 (level) + 3.0) / 4.0, 0.0, 1.0) : 0.0; }
 
 }   // namespace tactus::host

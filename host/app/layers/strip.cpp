@@ -3,8 +3,9 @@
 
 #include <framework/graph/endpoints.hpp>
 #include <framework/graph/text.hpp>
+#include <host/app/model/controlled_param.hpp>
 #include <host/app/model/face.hpp>
-#include <host/app/model/held.hpp>
+#include <host/app/model/message_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +25,7 @@ const PortSheet& sheetOf (const Catalogue& c, std::string_view param)
     return *std::ranges::find (params, param, &PortSheet::id);
 }
 
-/// The latest samples of a trace, the last `n` of it at most.
+/// The latest samples of a trace, at most `n`.
 void latestOf (const Trace& trace, std::size_t n, double factor, std::vector<double>& into)
 {
     const auto from = std::max (trace.begin(), trace.end() - std::min<std::uint64_t> (trace.end(), n));
@@ -46,7 +47,7 @@ bool MeterFeed::take (const std::vector<std::shared_ptr<const Trace>>& traces, d
         unit = trace.unit();
         quantity = trace.quantity();
         fresh = trace.end() > seen ? static_cast<std::size_t> (trace.end() - seen) : 0;
-        // Where nothing new has come, nothing sounds.
+        // Without new samples, the level is zero.
         if (fresh > 0 || trace.end() < seen) latestOf (trace, static_cast<std::size_t> (rms_s * trace.rate()), factor, latest);
         seen = trace.end();
     }
@@ -59,9 +60,10 @@ juce::String levelText (double level, const std::string& unit)
     if (! (level >= 1e-6)) return juce::String::fromUTF8 ("\xe2\x80\x93");
     const bool small = level < 0.1;
     const double shown = small ? level * 1e3 : level;
-    const auto number = juce::String (shown, shown < 9.995 ? 2 : shown < 99.95 ? 1
-                                                                               : 0);
-    return number + ' ' + (small ? "m" : "") + juce::String (unit.empty() ? "1" : unit);
+    int decimals = 0;
+    if (shown < 99.95) decimals = shown < 9.995 ? 2 : 1;
+    const auto symbol = juce::String (unit.empty() ? "1" : unit);
+    return juce::String (shown, decimals) + ' ' + (small ? "m" + symbol : symbol);
 }
 
 void paintMeter (juce::Graphics& g, juce::Rectangle<float> area, const Meter& meter, juce::Colour colour, const Look& look, bool with_scale)
@@ -105,13 +107,13 @@ void NameLabel::paint (juce::Graphics& g)
 }
 
 //==============================================================================
-LayerStrip::LayerStrip (std::shared_ptr<const DeskContext> c, int i)
+LayerStrip::LayerStrip (std::shared_ptr<const MixerContext> c, int i)
     : context (std::move (c)), layer (i), gain_field (sheetOf (context->catalogue, "gain")), priority (sheetOf (context->catalogue, "priority"))
 {
     name.setEditable (false, true, false);
     name.setBorderSize ({ 0, 4, 0, 4 });
     source.setJustification (juce::Justification::centredLeft);
-    name.setTooltip ("Double click to name the layer; drag to move it");
+    name.setTooltip ("Double-click to rename, drag to move");
     name.onTextChange = [this]
     { rename (name.getText()); };
     name.addMouseListener (this, false);
@@ -131,7 +133,7 @@ LayerStrip::LayerStrip (std::shared_ptr<const DeskContext> c, int i)
     { flip ("solo", solo); };
     fader.onChange = [this] (std::optional<double> to, bool goes_on)
     { setGain (to ? std::optional<Json> (*to) : std::nullopt, goes_on); };
-    fader.onWantsText = [this]
+    fader.onTextEntry = [this]
     { gain_field.openEditor(); };
     gain_field.onChange = [this] (std::optional<Json> to, bool goes_on)
     { setGain (std::move (to), goes_on); };
@@ -148,9 +150,7 @@ LayerStrip::LayerStrip (std::shared_ptr<const DeskContext> c, int i)
 
 double LayerStrip::numberOf (const graph::Node& node, const std::string& param) const
 {
-    const auto read = readQuantity (layerValue (node, context->catalogue, param, layer), sheetOf (context->catalogue, param));
-    const auto* q = std::get_if<QuantityText> (&read);
-    return q == nullptr ? 0.0 : q->si();
+    return siOf (layerValue (node, context->catalogue, param, layer), sheetOf (context->catalogue, param));
 }
 
 bool LayerStrip::isOn (const graph::Node& node, const std::string& param) const { return numberOf (node, param) > 0.5; }
@@ -165,16 +165,16 @@ void LayerStrip::show()
     const auto label = layerNames (*node, layers)[static_cast<std::size_t> (layer)];
     if (! name.isBeingEdited()) name.setText (label.empty() ? "Layer " + juce::String (layer + 1) : juce::String (label), juce::dontSendNotification);
 
-    const auto held = heldBy (graph, pathOf ("gain"));
+    const auto held = controlOf (graph, pathOf ("gain"));
     held_by = held ? juce::String (held->name) : juce::String();
     const auto written = held ? Json (std::round (held->value * 1e4) * 1e-4) : layerValue (*node, context->catalogue, "gain", layer);
     gain_field.show (written);
     gain = gain_field.shown().si();
     fader.show (gain);
-    const auto says = held ? "\nThe control " + held_by + " sets it, and moves along." : juce::String();
-    fader.setTooltip ("Gain. Drag; shift: fine; double click: type; alt-click: 1" + says);
-    gain_field.setTooltip (tooltipOf (sheetOf (context->catalogue, "gain")) + says);
-    gain_field.setStrong (held || gain != 1.0);
+    const auto note = held ? "\nSet by the control " + held_by + ", which moves with it." : juce::String();
+    fader.setTooltip ("Gain. Drag to change, with Shift for fine steps; double-click to type; Alt-click to reset to 1" + note);
+    gain_field.setTooltip (tooltipOf (sheetOf (context->catalogue, "gain")) + note);
+    gain_field.setBold (held || gain != 1.0);
     priority.show (layerValue (*node, context->catalogue, "priority", layer));
     mute.setToggleState (isOn (*node, "mute"), juce::dontSendNotification);
     solo.setToggleState (isOn (*node, "solo"), juce::dontSendNotification);
@@ -189,8 +189,9 @@ void LayerStrip::show()
     const auto* from = w == nullptr || patch == nullptr ? nullptr : patch->find (graph::firstNameOf (w->from.node));
     wired = from != nullptr;
     fed_by = wired ? from->id : 0;
-    source.setButtonText (wired ? juce::String (graph::toText (w->from)) : "no wire yet");
-    source.setTooltip (wired ? "Fed by " + juce::String (graph::toText (w->from)) + "; click to select it" : "Draw a wire into " + juce::String (context->place.node) + ".in[" + juce::String (layer) + "]");
+    source.setButtonText (wired ? juce::String (graph::toText (w->from)) : "not wired");
+    source.setTooltip (wired ? "Input: " + juce::String (graph::toText (w->from)) + "; click to select it"
+                             : "Draw a wire into " + juce::String (context->place.node) + ".in[" + juce::String (layer) + "]");
     if (wired && feed.quantity == Quantity::any)
         if (const auto face = faceOf (graph, *patch, *from, context->catalogue); const auto* port = face.startOf (w->from)) feed.quantity = port->quantity();
     repaint();
@@ -198,13 +199,12 @@ void LayerStrip::show()
 
 void LayerStrip::setGain (std::optional<Json> to, bool goes_on)
 {
-    if (const auto held = heldBy (context->document.graph(), pathOf ("gain")))
+    if (const auto held = controlOf (context->document.graph(), pathOf ("gain")))
     {
-        const auto read = readQuantity (to.value_or (Json (1.0)), sheetOf (context->catalogue, "gain"));
-        const auto* q = std::get_if<QuantityText> (&read);
-        // A fader that reaches further than its control stops where that ends.
-        const double wanted = q == nullptr ? 1.0 : std::clamp (q->si(), std::min (held->low, held->high), std::max (held->low, held->high));
-        if (auto command = moveHeld (context->document.graph(), *held, wanted))
+        // The range of the control limits the fader.
+        const auto [low, high] = std::minmax (held->low, held->high);
+        const double wanted = std::clamp (siOf (to.value_or (Json (1.0)), sheetOf (context->catalogue, "gain"), 1.0), low, high);
+        if (auto command = moveControlFor (context->document.graph(), *held, wanted))
             context->perform (std::move (*command), goes_on);
         else
             show();
@@ -231,13 +231,13 @@ void LayerStrip::rename (const juce::String& to)
 void LayerStrip::remove()
 {
     auto command = removeLayer (context->document.graph(), context->place, context->catalogue, layer);
-    if (const auto* why = std::get_if<std::string> (&command))
+    if (! command)
     {
-        if (context->hint) context->hint (juce::String (*why));
+        if (context->hint) context->hint (juce::String (messageText (command.error())));
         return;
     }
-    // Later: the strip goes with its layer, and this is called by a button of it.
-    juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), command = std::get<graph::Command> (std::move (command))]
+    // Asynchronous, because the command deletes this strip, whose button is being clicked.
+    juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), command = *std::move (command)]
                                      {
         if (safe != nullptr) std::shared_ptr (safe->context)->perform (command); });
 }
@@ -289,7 +289,7 @@ void LayerStrip::paint (juce::Graphics& g)
         g.setColour (colour);
         for (int b = 0; b < Bands::count; ++b)
         {
-            // As the meter: an amplitude over four decades.
+            // An amplitude over four decades, as in the meter.
             const auto h = static_cast<float> (meterPosition (std::sqrt (2.0 * spectrum.power[static_cast<std::size_t> (b)]))) * (box.getHeight() - 4.0f);
             g.fillRect (box.getX() + 2.0f + each * static_cast<float> (b), box.getBottom() - 2.0f - h, each - 0.8f, h);
         }
@@ -301,7 +301,8 @@ void LayerStrip::paint (juce::Graphics& g)
     if (held_by.isNotEmpty())
     {
         g.setColour (theme.accent);
-        g.fillEllipse (juce::Rectangle<float> (5.0f, 5.0f).withCentre ({ static_cast<float> (gain_field.getX()) + 8.0f, static_cast<float> (gain_field.getBounds().getCentreY()) }));
+        const auto field = gain_field.getBounds().toFloat();
+        g.fillEllipse (juce::Rectangle<float> (5.0f, 5.0f).withCentre ({ field.getX() + 8.0f, field.getCentreY() }));
     }
 }
 
@@ -342,7 +343,7 @@ void LayerStrip::mouseUp (const juce::MouseEvent& e)
 }
 
 //==============================================================================
-MixStrip::MixStrip (std::shared_ptr<const DeskContext> c)
+MixStrip::MixStrip (std::shared_ptr<const MixerContext> c)
     : context (std::move (c)), duck (sheetOf (context->catalogue, "duck_db")), ceiling (sheetOf (context->catalogue, "ceiling"))
 {
     const auto bind = [this] (NumberField& field, const char* param)
@@ -367,9 +368,9 @@ void MixStrip::show()
         return own != node->params.end() ? Json (*own) : Json (sheetOf (context->catalogue, param).initial[0]);
     };
     duck.show (value ("duck_db"));
-    duck.setStrong (node->params.contains ("duck_db"));
+    duck.setBold (node->params.contains ("duck_db"));
     ceiling.show (value ("ceiling"));
-    ceiling.setStrong (node->params.contains ("ceiling"));
+    ceiling.setBold (node->params.contains ("ceiling"));
     limits = ceiling.shown().si() > 0.0;
     repaint();
 }
@@ -388,7 +389,7 @@ void MixStrip::refresh (const Traces::Client& traces, double dt_s)
             if (v > over_db) over_db = v;
     }
     repaint (meter_area);
-    if (before != over_db || shown_peak != peak) repaint (words);
+    if (before != over_db || shown_peak != peak) repaint (text_area);
 }
 
 void MixStrip::paint (juce::Graphics& g)
@@ -404,15 +405,15 @@ void MixStrip::paint (juce::Graphics& g)
     paintMeter (g, meter_area.toFloat(), feed.meter, over ? theme.warning : inkOf (feed.quantity, theme), look, true);
     g.setFont (look.font (12.0f));
     g.setColour (theme.dim);
-    g.drawText ("ducked by", duck_label, juce::Justification::centredLeft, false);
+    g.drawText ("ducking", duck_label, juce::Justification::centredLeft, false);
     g.drawText ("ceiling", ceiling_label, juce::Justification::centredLeft, false);
-    auto lines = words;
+    auto lines = text_area;
     g.setColour (theme.text);
     g.drawText ("peak " + peak, lines.removeFromTop (18), juce::Justification::centredLeft, false);
+    juce::String state = limits ? "below the ceiling" : "no ceiling";
+    if (limits && over) state = "over by " + juce::String (over_db, 1) + " dB";
     g.setColour (over ? theme.warning : theme.dim);
-    g.drawText (! limits ? juce::String ("no ceiling") : over ? "over by " + juce::String (over_db, 1) + " dB"
-                                                              : juce::String ("below its ceiling"),
-                lines.removeFromTop (18), juce::Justification::centredLeft, false);
+    g.drawText (state, lines.removeFromTop (18), juce::Justification::centredLeft, false);
 }
 
 void MixStrip::resized()
@@ -427,7 +428,7 @@ void MixStrip::resized()
     ceiling_label = tall ? area.removeFromTop (16) : juce::Rectangle<int>();
     ceiling.setBounds (area.removeFromTop (24));
     area.removeFromTop (4);
-    words = area;
+    text_area = area;
 }
 
 }   // namespace tactus::host

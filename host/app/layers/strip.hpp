@@ -2,9 +2,9 @@
 #pragma once
 
 #include "bands.hpp"
-#include "desk.hpp"
 #include "fader.hpp"
 #include "meter.hpp"
+#include "mixer.hpp"
 
 #include <host/app/inspector/number_field.hpp>
 #include <host/app/inspector/tool_button.hpp>
@@ -14,28 +14,28 @@
 namespace tactus::host
 {
 
-/// The desk that strips belong to, and what they ask of those around it.
-struct DeskContext
+/// The mixer that the strips belong to, and their callbacks.
+struct MixerContext
 {
     Document& document;
     const Catalogue& catalogue;
-    DeskPlace place;
+    MixerPlace place;
     std::function<void (const juce::String&)> hint;
     std::function<void (const std::string& patch, graph::Id)> select;
-    std::function<void (int layer, int x, bool let_go)> drag;   ///< of a strip by its name, to an x in its parent
+    std::function<void (int layer, int x, bool let_go)> drag;   ///< a strip is dragged by its name, to an x in its parent
 
-    const graph::Node* node() const { return findDesk (document.graph(), place); }
+    const graph::Node* node() const { return findMixer (document.graph(), place); }
     void perform (graph::Command c, bool goes_on = false) const { document.perform (std::move (c), goes_on ? graph::Step::joined : graph::Step::own); }
 };
 
-/// What a meter has seen, from a trace.
+/// Feeds a meter from a trace.
 struct MeterFeed
 {
     Meter meter;
     std::string unit;
     Quantity quantity = Quantity::any;
 
-    /// True if there is something to be seen. `factor` is what the level is multiplied with on its way.
+    /// Returns true if there is a trace. `factor` scales the level.
     bool take (const std::vector<std::shared_ptr<const Trace>>&, double factor, double dt_s);
 
 private:
@@ -43,31 +43,31 @@ private:
     std::vector<double> latest;
 };
 
-/// A level as a bar, with its peak as a line; the scale has four decades, from a thousandth to ten.
+/// Paints a level as a bar with its peak as a line, on a scale of four decades, from 0.001 to 10.
 void paintMeter (juce::Graphics&, juce::Rectangle<float>, const Meter&, juce::Colour, const Look&, bool with_scale);
 
-/// "0.42 N"; "–" of nothing.
+/// "0.42 N", or "–" for silence.
 juce::String levelText (double level, const std::string& unit);
 
-/// A name that is edited after a double click.
+/// A name that can be edited by a double click.
 class NameLabel final : public juce::Label
 {
 public:
     void paint (juce::Graphics&) override;
 };
 
-/// A channel of a desk.
+/// A channel of a mixer.
 class LayerStrip final : public juce::Component
 {
 public:
     static constexpr int width = 112;
 
-    LayerStrip (std::shared_ptr<const DeskContext>, int layer);
+    LayerStrip (std::shared_ptr<const MixerContext>, int layer);
 
-    void show();   ///< as the graph has it
+    void show();   ///< updates from the graph
     void refresh (const Traces::Client&, double dt_s, bool with_spectrum);
 
-    // What a hand does at it.
+    // What the user does.
     void setGain (std::optional<Json>, bool goes_on);
     void setValue (const std::string& param, std::optional<Json>, bool goes_on);
     void rename (const juce::String&);
@@ -88,11 +88,12 @@ private:
     bool isOn (const graph::Node&, const std::string& param) const;
     double numberOf (const graph::Node&, const std::string& param) const;
 
-    std::shared_ptr<const DeskContext> context;
+    std::shared_ptr<const MixerContext> context;
     int layer;
     NameLabel name;
-    ToolButton source { "", ToolButton::Kind::plain }, close { juce::String::fromUTF8 ("\xc3\x97"), ToolButton::Kind::plain, "Remove this layer and its wires" };
-    ToolButton mute { "M", ToolButton::Kind::toggle, "Mute: this layer is silent" }, solo { "S", ToolButton::Kind::toggle, "Solo: only layers in solo are heard" };
+    ToolButton source { "", ToolButton::Kind::plain };
+    ToolButton close { juce::String::fromUTF8 ("\xc3\x97"), ToolButton::Kind::plain, "Remove this layer and its wires" };
+    ToolButton mute { "M", ToolButton::Kind::toggle, "Mute this layer" }, solo { "S", ToolButton::Kind::toggle, "Solo: mute all layers that are not soloed" };
     Fader fader;
     NumberField gain_field, priority;
     MeterFeed feed;
@@ -104,13 +105,13 @@ private:
     juce::String held_by;
 };
 
-/// What all layers come to: the mix, its ceiling, and how far layers are ducked.
+/// The master strip: the level of the mix, its ceiling, and the ducking of layers.
 class MixStrip final : public juce::Component
 {
 public:
     static constexpr int width = 168;
 
-    explicit MixStrip (std::shared_ptr<const DeskContext>);
+    explicit MixStrip (std::shared_ptr<const MixerContext>);
 
     void show();
     void refresh (const Traces::Client&, double dt_s);
@@ -120,13 +121,13 @@ public:
     void resized() override;
 
 private:
-    std::shared_ptr<const DeskContext> context;
+    std::shared_ptr<const MixerContext> context;
     NumberField duck, ceiling;
     MeterFeed feed;
     juce::String peak;
     double over_db = 0.0;
     bool limits = false;
-    juce::Rectangle<int> meter_area, duck_label, ceiling_label, words;
+    juce::Rectangle<int> meter_area, duck_label, ceiling_label, text_area;
 };
 
 }   // namespace tactus::host

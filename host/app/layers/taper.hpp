@@ -7,8 +7,8 @@
 namespace tactus::host
 {
 
-/// Where the knob of a fader stands, from 0 to 1, and its gain: silence at the bottom, 1 at three quarters, the most at the
-/// top. Between it goes as ears and fingers do, with most of its way for what lies within 20 dB of 1.
+/// The taper of a fader: maps its position, from 0 to 1, to a gain. Silence is at the bottom, 1 at three quarters, and the largest gain
+/// at the top. It follows a power law, so that most of the travel covers gains within 20 dB of 1.
 struct Taper
 {
     static constexpr double unity = 0.75, most = 2.0;

@@ -6,7 +6,7 @@
 namespace tactus::host
 {
 
-/// Gives a component the keyboard, if it is on a screen.
+/// Gives a component the keyboard focus if it is on screen.
 inline void takeFocus (juce::Component& c)
 {
     if (c.isShowing()) c.grabKeyboardFocus();

@@ -38,7 +38,7 @@ float sine (float turns) { return std::sin (juce::MathConstants<float>::twoPi * 
 
 juce::Path glyphOf (std::string_view family)
 {
-    // What each is like to the hand or on a scope: a saw of stick and slip, a blade, a dent, ridges, a ring, a spike …
+    // Each glyph suggests how the family feels or looks on a scope: stick-slip sawtooth, blade, dent, ridges, ringing, spike …
     if (family == "friction") return lines ({ { { 0, 12 }, { 5, 4 }, { 6, 11 }, { 11, 3 }, { 12, 10 }, { 14, 8 } } });
     if (family == "cut") return lines ({ { { 1, 1 }, { 9, 9 } }, { { 9, 9 }, { 7, 11 }, { 1, 1 } }, { { 0, 13 }, { 14, 13 } } });
     if (family == "deform") return curve ([] (float x)
@@ -59,7 +59,9 @@ juce::Path glyphOf (std::string_view family)
     if (family == "signal") return curve ([] (float x)
                                           { return 7.0f - 5.0f * sine (x); });
     if (family == "vector") return lines ({ { { 1, 13 }, { 12, 2 } }, { { 6, 2 }, { 12, 2 }, { 12, 8 } } });
-    if (family == "layer") return lines ({ { { 7, 1 }, { 13, 4 }, { 7, 7 }, { 1, 4 }, { 7, 1 } }, { { 1, 7 }, { 7, 10 }, { 13, 7 } }, { { 1, 10 }, { 7, 13 }, { 13, 10 } } });
+    if (family == "layer") return lines ({ { { 7, 1 }, { 13, 4 }, { 7, 7 }, { 1, 4 }, { 7, 1 } },
+                                           { { 1, 7 }, { 7, 10 }, { 13, 7 } },
+                                           { { 1, 10 }, { 7, 13 }, { 13, 10 } } });
     if (family == "device") return lines ({ { { 2, 12 }, { 12, 12 } }, { { 7, 12 }, { 7, 7 }, { 11, 2 } } });
     if (family == "graph") return lines ({ { { 1, 1 }, { 13, 1 }, { 13, 13 }, { 1, 13 }, { 1, 1 } }, { { 4, 5 }, { 10, 9 } } });
     juce::Path dot;

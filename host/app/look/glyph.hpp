@@ -8,8 +8,8 @@
 namespace tactus::host
 {
 
-/// The little picture of a family of nodes ("friction" of friction.elasto_plastic), in a square of 14; to be stroked. A
-/// subgraph is the family "graph". What has none gets a dot.
+/// The icon of a node family, such as "friction" for friction.elasto_plastic: a path to stroke, 14 by 14. Subgraphs are the
+/// family "graph". An unknown family gets a dot.
 juce::Path glyphOf (std::string_view family);
 
 }   // namespace tactus::host

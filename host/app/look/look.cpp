@@ -35,7 +35,7 @@ void Look::setTheme (const Theme& t)
 juce::Font Look::font (float size, bool bold) const
 {
     juce::Font f (bold ? bold_face : regular);
-    f.setHeight (size * 1.2f);   // JUCE's height is from ascent to descent
+    f.setHeight (size * 1.2f);   // JUCE's height is ascent plus descent
     return f;
 }
 
@@ -45,7 +45,8 @@ juce::Typeface::Ptr Look::getTypefaceForFont (const juce::Font& f)
     return juce::LookAndFeel_V4::getTypefaceForFont (f);
 }
 
-void Look::drawScrollbar (juce::Graphics& g, juce::ScrollBar&, int x, int y, int width, int height, bool vertical, int thumb_start, int thumb_size, bool over, bool down)
+void Look::drawScrollbar (juce::Graphics& g, juce::ScrollBar&, int x, int y, int width, int height, bool vertical, int thumb_start,
+                          int thumb_size, bool over, bool down)
 {
     auto thumb = vertical ? juce::Rectangle<int> (x, thumb_start, width, thumb_size) : juce::Rectangle<int> (thumb_start, y, thumb_size, height);
     g.setColour (theme().dim.withAlpha (over || down ? 0.7f : 0.35f));
@@ -86,7 +87,8 @@ void Look::positionComboBoxText (juce::ComboBox& box, juce::Label& label)
     label.setFont (getComboBoxFont (box));
 }
 
-void Look::drawLinearSlider (juce::Graphics& g, int x, int y, int width, int height, float at, float, float, juce::Slider::SliderStyle, juce::Slider& slider)
+void Look::drawLinearSlider (juce::Graphics& g, int x, int y, int width, int height, float at, float, float, juce::Slider::SliderStyle,
+                             juce::Slider& slider)
 {
     const auto area = juce::Rectangle<int> (x, y, width, height).toFloat();
     g.setColour (theme().raised);

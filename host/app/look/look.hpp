@@ -8,26 +8,27 @@
 namespace tactus::host
 {
 
-/// How everything in the window looks: its colours and its typeface. Set it as the default before there is a component.
+/// The look and feel of the window: colours and typeface. Make it the default before creating any component.
 class Look final : public juce::LookAndFeel_V4
 {
 public:
     Look();
 
     const Theme& theme() const noexcept { return *current; }
-    void setTheme (const Theme&);   ///< the caller repaints
+    void setTheme (const Theme&);   ///< the caller has to repaint
 
     juce::Font font (float size, bool bold = false) const;
 
     juce::Typeface::Ptr getTypefaceForFont (const juce::Font&) override;
-    void drawScrollbar (juce::Graphics&, juce::ScrollBar&, int x, int y, int width, int height, bool vertical, int thumb_start, int thumb_size, bool over, bool down) override;
+    void drawScrollbar (juce::Graphics&, juce::ScrollBar&, int x, int y, int width, int height, bool vertical, int thumb_start,
+                        int thumb_size, bool over, bool down) override;
     void fillTextEditorBackground (juce::Graphics&, int width, int height, juce::TextEditor&) override;
     void drawTextEditorOutline (juce::Graphics&, int width, int height, juce::TextEditor&) override;
     void drawComboBox (juce::Graphics&, int width, int height, bool down, int, int, int, int, juce::ComboBox&) override;
     juce::Font getComboBoxFont (juce::ComboBox&) override { return font (12.0f); }
     juce::Font getPopupMenuFont() override { return font (13.0f); }
 
-    /// Menus open inside the window: they cannot come to lie behind it, and need no window manager.
+    /// Menus open inside the window, so they need no window manager and cannot end up behind it.
     juce::Component* getParentComponentForMenuOptions (const juce::PopupMenu::Options&) override;
 
     juce::Font getLabelFont (juce::Label&) override { return font (12.0f); }
@@ -39,12 +40,11 @@ private:
     juce::Typeface::Ptr regular, bold_face;
 };
 
-/// The look of a component, which must be one of ours.
+/// The Look of a component. It must have one.
 Look& lookOf (const juce::Component&);
 inline const Theme& themeOf (const juce::Component& c) { return lookOf (c).theme(); }
 
-/// A number in a text whose digits are all as wide as the widest, so that it does not dance; what is no digit is as it is.
-/// Right aligned in its area.
+/// Draws a number right-aligned with tabular digits, so that it does not jitter while it changes.
 void drawNumber (juce::Graphics&, const juce::String&, juce::Rectangle<float>);
 
 }   // namespace tactus::host

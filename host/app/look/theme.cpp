@@ -16,7 +16,17 @@ juce::Colour Theme::of (Quantity q) const
 const Theme& Theme::dark()
 {
     static const Theme theme {
-        .canvas = juce::Colour (0xff14171b), .dots = juce::Colour (0xff262c34), .panel = juce::Colour (0xff1b1f25), .raised = juce::Colour (0xff232931), .hairline = juce::Colour (0xff2e3640), .text = juce::Colour (0xffe8ecf1), .dim = juce::Colour (0xff98a4b3), .accent = juce::Colour (0xff56b4e9), .warning = juce::Colour (0xffe69f00), .stop = juce::Colour (0xffe5484d), .is_dark = true
+        .canvas = juce::Colour (0xff14171b),
+        .dots = juce::Colour (0xff262c34),
+        .panel = juce::Colour (0xff1b1f25),
+        .raised = juce::Colour (0xff232931),
+        .hairline = juce::Colour (0xff2e3640),
+        .text = juce::Colour (0xffe8ecf1),
+        .dim = juce::Colour (0xff98a4b3),
+        .accent = juce::Colour (0xff56b4e9),
+        .warning = juce::Colour (0xffe69f00),
+        .stop = juce::Colour (0xffe5484d),
+        .is_dark = true,
     };
     return theme;
 }
@@ -24,7 +34,17 @@ const Theme& Theme::dark()
 const Theme& Theme::light()
 {
     static const Theme theme {
-        .canvas = juce::Colour (0xffeef1f4), .dots = juce::Colour (0xffd3d9e0), .panel = juce::Colour (0xfff8f9fb), .raised = juce::Colour (0xffffffff), .hairline = juce::Colour (0xffccd3db), .text = juce::Colour (0xff14171b), .dim = juce::Colour (0xff56616e), .accent = juce::Colour (0xff0072b2), .warning = juce::Colour (0xff9a5b00), .stop = juce::Colour (0xffc62a2f), .is_dark = false
+        .canvas = juce::Colour (0xffeef1f4),
+        .dots = juce::Colour (0xffd3d9e0),
+        .panel = juce::Colour (0xfff8f9fb),
+        .raised = juce::Colour (0xffffffff),
+        .hairline = juce::Colour (0xffccd3db),
+        .text = juce::Colour (0xff14171b),
+        .dim = juce::Colour (0xff56616e),
+        .accent = juce::Colour (0xff0072b2),
+        .warning = juce::Colour (0xff9a5b00),
+        .stop = juce::Colour (0xffc62a2f),
+        .is_dark = false,
     };
     return theme;
 }

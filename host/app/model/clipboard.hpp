@@ -6,7 +6,7 @@
 namespace tactus::host
 {
 
-/// Puts a text where other programs find it too; where there is no display, at least this one does.
+/// Copies text to the system clipboard. Without a display, only this program can paste it.
 void copyToClipboard (const std::string&);
 std::string textFromClipboard();
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/hid_link/profile_shelf.hpp>
+#include <host/hid_link/profile_library.hpp>
 
 namespace tactus::host
 {
 
-/// The device profiles at hand, read once. [main thread]
+/// The available device profiles, read once. [main thread]
 inline const hid::LoadedProfiles& deviceProfiles()
 {
-    static const auto all = hid::profilesAtHand();
+    static const auto all = hid::loadProfileLibrary();
     return all;
 }
 

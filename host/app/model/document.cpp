@@ -6,20 +6,23 @@
 namespace tactus::host
 {
 
-Document::Document (graph::Graph g, std::filesystem::path file) : edits (std::move (g)), origins { std::make_shared<Origin> (Origin { { std::move (file) }, writeGraph (edits.graph()) }) } {}
+Document::Document (graph::Graph g, std::filesystem::path file)
+    : edits (std::move (g)), origins { std::make_shared<Origin> (Origin { { std::move (file) }, writeGraph (edits.graph()) }) }
+{
+}
 
 bool Document::perform (graph::Command command, graph::Step step)
 {
     const auto before = edits.position();
-    if (const auto refusal = edits.perform (std::move (command), step))
+    if (const auto done = edits.perform (std::move (command), step); ! done)
     {
-        tell ([&] (Listener& l)
-              { l.documentRefused (*refusal); });
+        notify ([&] (Listener& l)
+                { l.documentRefused (done.error()); });
         return false;
     }
-    origins.resize (before + 1);   // what was undone is gone
+    origins.resize (before + 1);   // drops the redo steps
     if (edits.position() > before) origins.push_back (origins.back());
-    tellOfChange();
+    notifyChanged();
     return true;
 }
 
@@ -27,10 +30,10 @@ void Document::open (graph::Graph g, Source source, const std::string& step)
 {
     auto saved = source.is_changed ? std::string() : writeGraph (g);
     const auto to = std::make_shared<const graph::Graph> (std::move (g));
-    edits.perform (graph::Batch { step, { graph::ReplaceGraph { to } } });   // which nothing refuses
+    (void)edits.perform (graph::Batch { step, { graph::ReplaceGraph { to } } });   // cannot be refused
     origins.resize (edits.position());
     origins.push_back (std::make_shared<Origin> (Origin { std::move (source), std::move (saved) }));
-    tellOfChange();
+    notifyChanged();
 }
 
 void Document::goTo (std::size_t position)
@@ -42,20 +45,19 @@ void Document::goTo (std::size_t position)
     while (edits.position() < position && edits.redo())
     {
     }
-    if (edits.position() != before) tellOfChange();
+    if (edits.position() != before) notifyChanged();
 }
 
 bool Document::isChanged() const { return writeGraph (edits.graph()) != origin().saved; }
 
 Messages Document::save (const std::filesystem::path& file)
 {
-    auto messages = saveGraph (edits.graph(), file);
-    if (! messages.empty()) return messages;
+    if (auto done = saveGraph (edits.graph(), file); ! done) return { std::move (done).error() };
     const auto text = writeGraph (edits.graph());
     for (const auto& o : origins)   // the same file may have been opened more than once
         if (o->source.file == file) o->saved = text;
     origin() = { { file }, text };
-    tellOfChange();
+    notifyChanged();
     return {};
 }
 

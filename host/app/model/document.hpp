@@ -2,7 +2,7 @@
 #pragma once
 
 #include <framework/graph/history.hpp>
-#include <framework/message.hpp>
+#include <framework/text/message.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -12,24 +12,24 @@
 namespace tactus::host
 {
 
-/// The graph that is edited, its file, and whoever shows it. To open another graph is an edit too: what was open before
-/// comes back by undo, and its file with it. [main thread]
+/// The graph being edited, its file and its listeners. Opening another graph is an edit too: undo brings back the previous
+/// graph together with its file. [main thread]
 class Document
 {
 public:
     struct Listener
     {
         virtual ~Listener() = default;
-        virtual void documentChanged() = 0;                ///< by an edit, an undo, or another graph
-        virtual void documentRefused (const Message&) {}   ///< an edit was, and changed nothing
+        virtual void documentChanged() = 0;                ///< after an edit, an undo, or when another graph is opened
+        virtual void documentRefused (const Message&) {}   ///< an edit was refused; nothing changed
     };
 
-    /// Where a graph comes from.
+    /// Where a graph came from.
     struct Source
     {
-        std::filesystem::path file {};     ///< where it is saved; empty: it has to be asked
-        std::filesystem::path preset {};   ///< what it is a copy of
-        bool is_changed = false;           ///< it has more than its file has, as after a crash
+        std::filesystem::path file {};     ///< where to save it; if empty, ask the user
+        std::filesystem::path preset {};   ///< the preset it is a copy of
+        bool is_changed = false;           ///< it differs from its file, for example after crash recovery
     };
 
     explicit Document (graph::Graph, std::filesystem::path file = {});
@@ -39,22 +39,22 @@ public:
     const std::filesystem::path& file() const noexcept { return origin().source.file; }
     const std::filesystem::path& preset() const noexcept { return origin().source.preset; }
 
-    /// Another one each time another graph is opened, the same again when that is undone.
+    /// Identifies the open graph: changes when another graph is opened, and changes back when that is undone.
     const void* identity() const noexcept { return &origin(); }
 
-    /// False if it was refused, which the listeners are told.
+    /// Returns false if the edit was refused; the listeners get the reason.
     bool perform (graph::Command, graph::Step = graph::Step::own);
     void undo() { goTo (edits.position() - std::min<std::size_t> (1, edits.position())); }
     void redo() { goTo (edits.position() + 1); }
-    void goTo (std::size_t position);   ///< of the history, by as many undos or redos as it takes
+    void goTo (std::size_t position);   ///< undoes or redoes up to that position of the history
 
-    /// Puts another graph in the place of this one, as a step of that name.
+    /// Replaces the graph as one undo step of that name.
     void open (graph::Graph, Source, const std::string& step);
 
-    /// True if what the file holds is not what is here.
+    /// True if the graph differs from its file.
     bool isChanged() const;
 
-    /// Writes the graph to its file, or to another one that is its file from then on. [errors as of saveGraph]
+    /// Writes the graph to a file, which becomes its file. [errors: those of saveGraph]
     Messages save (const std::filesystem::path&);
 
     void add (Listener& l) { listeners.push_back (&l); }
@@ -64,27 +64,27 @@ private:
     struct Origin
     {
         Source source;
-        std::string saved;   // what the file holds, as text
+        std::string saved;   // the contents of the file
     };
 
-    /// Some may leave while they are told.
+    /// Notifies the listeners. A listener may remove itself or others meanwhile.
     template <typename F>
-    void tell (F&& f)
+    void notify (F&& f)
     {
         for (auto* l : std::vector (listeners))
             if (std::ranges::count (listeners, l) > 0) f (*l);
     }
 
-    void tellOfChange()
+    void notifyChanged()
     {
-        tell ([] (Listener& l)
-              { l.documentChanged(); });
+        notify ([] (Listener& l)
+                { l.documentChanged(); });
     }
 
     Origin& origin() const noexcept { return *origins[edits.position()]; }
 
     graph::History edits;
-    std::vector<std::shared_ptr<Origin>> origins;   // of each position of the history
+    std::vector<std::shared_ptr<Origin>> origins;   // one per position of the history
     std::vector<Listener*> listeners;
 };
 

@@ -6,10 +6,10 @@
 namespace tactus::host
 {
 
-/// True if a param is turned by factors rather than by differences: its usual range spans two decades or more.
+/// True if dragging scales the value instead of adding to it: the usual range spans two decades or more.
 bool isLogarithmic (const PortSheet&) noexcept;
 
-/// Where a number gets to that is dragged up by so many pixels: over its usual range in 200. Within its hard range.
+/// The value after dragging up by this many pixels: 200 pixels cover the usual range. Clamped to the hard range.
 QuantityText dragged (const QuantityText& from, const PortSheet&, double pixels);
 
 }   // namespace tactus::host

@@ -11,9 +11,9 @@ namespace tactus::host
 
 namespace
 {
-constexpr int deepest = 32;   // a subgraph that contains itself is refused elsewhere, but still drawn
+constexpr int deepest = 32;   // levels; compile() refuses a subgraph that contains itself, but the canvas still draws it
 
-/// How many entries the array ports of a node have.
+/// The number of entries of a node's array ports.
 int entriesOf (const NodeType& type, const graph::Node& node)
 {
     for (const auto& sheet : type.settings)
@@ -44,13 +44,13 @@ std::vector<FacePort> portsOf (const std::vector<PortSheet>& sheets, int entries
     return ports;
 }
 
-/// A port's name after the dot.
+/// The port's part of an endpoint, such as "in[2]".
 std::string idOf (const graph::Endpoint& e) { return e.index < 0 ? e.port : e.port + '[' + std::to_string (e.index) + ']'; }
 
-class Maker
+class FaceBuilder
 {
 public:
-    explicit Maker (const Catalogue& c) : catalogue (c) {}
+    explicit FaceBuilder (const Catalogue& c) : catalogue (c) {}
 
     Face make (const graph::Graph& graph, const graph::Patch& patch, const graph::Node& node, int depth) const
     {
@@ -80,7 +80,8 @@ private:
         return face;
     }
 
-    void expose (const graph::Graph& owner, const graph::Patch& inside, const std::vector<std::pair<std::string, graph::Endpoint>>& names, Role role, int depth, std::vector<FacePort>& into) const
+    void expose (const graph::Graph& owner, const graph::Patch& inside, const std::vector<std::pair<std::string, graph::Endpoint>>& names, Role role,
+                 int depth, std::vector<FacePort>& into) const
     {
         for (const auto& [name, end] : names)
         {
@@ -122,10 +123,15 @@ private:
 
 const FacePort* Face::find (Role role, std::string_view id) const noexcept
 {
-    const auto& ports = role == Role::input ? inputs : role == Role::param ? params
-                                                                           : outputs;
+    const auto& ports = of (role);
     const auto port = std::ranges::find (ports, id, &FacePort::id);
     return port == ports.end() ? nullptr : &*port;
+}
+
+const std::vector<FacePort>& Face::of (Role role) const noexcept
+{
+    if (role == Role::input) return inputs;
+    return role == Role::param ? params : outputs;
 }
 
 const FacePort* Face::startOf (const graph::Endpoint& e) const noexcept { return find (Role::output, idOf (e)); }
@@ -137,6 +143,9 @@ const FacePort* Face::endOf (const graph::Endpoint& e) const noexcept
     return in != nullptr ? in : find (Role::param, id);
 }
 
-Face faceOf (const graph::Graph& graph, const graph::Patch& patch, const graph::Node& node, const Catalogue& catalogue) { return Maker (catalogue).make (graph, patch, node, 0); }
+Face faceOf (const graph::Graph& graph, const graph::Patch& patch, const graph::Node& node, const Catalogue& catalogue)
+{
+    return FaceBuilder (catalogue).make (graph, patch, node, 0);
+}
 
 }   // namespace tactus::host

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/catalogue.hpp>
 #include <framework/graph/graph.hpp>
+#include <framework/node/catalogue.hpp>
 
 #include <string>
 #include <vector>
@@ -10,14 +10,13 @@
 namespace tactus::host
 {
 
-/// A port as a node shows it: of a node of the catalogue a row of its datasheet, or one entry of an array port; of a
-/// subgraph what it exposes.
+/// A port as shown on a node: a datasheet row, one entry of an array port, or a port that a subgraph exposes.
 struct FacePort
 {
     Role role = Role::input;
-    std::string id;                     ///< as a wire names it after the dot: "force", "in[0]"
+    std::string id;                     ///< the name after the dot in a wire: "force", "in[0]"
     std::string about;                  ///< one sentence
-    UnitRule unit {};                   ///< fixed, or found out by what is wired
+    UnitRule unit {};                   ///< fixed, or taken from what is wired to it
     int width = 1;                      ///< components
     const PortSheet* sheet = nullptr;   ///< null on a placeholder
 
@@ -25,28 +24,29 @@ struct FacePort
     bool isChoice() const noexcept { return sheet != nullptr && ! sheet->choices.empty(); }
 };
 
-/// What a node shows of itself.
+/// The ports a node shows on the canvas and in the inspector.
 struct Face
 {
     enum class Kind
     {
         node,
         subgraph,
-        placeholder   ///< its type is unknown; it keeps the ports that wires name
+        placeholder   ///< unknown type; its ports are those that wires name
     };
 
     Kind kind = Kind::node;
-    const NodeType* type = nullptr;   ///< of a node of the catalogue
+    const NodeType* type = nullptr;   ///< null unless the type is in the catalogue
     std::vector<FacePort> inputs, params, outputs;
 
+    const std::vector<FacePort>& of (Role) const noexcept;
     const FacePort* find (Role, std::string_view id) const noexcept;
 
-    /// The port at an end of a wire: an output at its start, an input or param at its end.
+    /// The port at one end of a wire: an output at its start, an input or param at its end.
     const FacePort* startOf (const graph::Endpoint&) const noexcept;
     const FacePort* endOf (const graph::Endpoint&) const noexcept;
 };
 
-/// The face of a node that stands in a patch of a graph.
+/// Builds the face of a node in a patch of a graph.
 Face faceOf (const graph::Graph&, const graph::Patch&, const graph::Node&, const Catalogue&);
 
 }   // namespace tactus::host

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fragment.hpp"
+#include "patch.hpp"
 
 #include <framework/file/graph_file.hpp>
 #include <framework/graph/endpoints.hpp>
@@ -12,9 +13,7 @@ namespace tactus::host
 
 namespace
 {
-const graph::Patch* patchOf (const graph::Graph& g, const std::string& name) { return name.empty() ? &g.root : g.find (name); }
-
-/// Adds the subgraphs that nodes of a patch are of, and those inside.
+/// Adds the subgraphs that a patch uses, directly and through others.
 void addSubgraphs (const graph::Graph& from, const graph::Patch& patch, graph::Graph& into)
 {
     for (const auto& n : patch.nodes)
@@ -28,7 +27,7 @@ void addSubgraphs (const graph::Graph& from, const graph::Patch& patch, graph::G
         }
 }
 
-/// "drag" of "drag_2".
+/// Strips the number: "drag_2" becomes "drag".
 std::string stemOf (const std::string& name)
 {
     const auto digits = name.find_last_not_of ("0123456789");
@@ -36,29 +35,13 @@ std::string stemOf (const std::string& name)
     return numbered ? name.substr (0, digits) : name;
 }
 
-using Place = std::pair<double, double>;
-
-/// Where a node was put, if it was.
-std::optional<Place> placeOf (const graph::Node& node)
-{
-    const auto ui = node.extra.find ("ui");
-    if (ui == node.extra.end() || ! ui->is_object()) return std::nullopt;
-    const auto at = ui->find ("at");
-    if (at == ui->end() || ! at->is_array() || at->size() != 2 || ! (*at)[0].is_number() || ! (*at)[1].is_number()) return std::nullopt;
-    return Place { (*at)[0].get<double>(), (*at)[1].get<double>() };
-}
-
-void move (graph::Node& node, double dx, double dy)
-{
-    if (const auto from = placeOf (node)) node.extra["ui"]["at"] = Json::array ({ from->first + dx, from->second + dy });
-}
 }   // namespace
 
-std::optional<std::pair<double, double>> cornerOf (const std::string& text)
+std::optional<juce::Point<double>> cornerOf (const std::string& text)
 {
-    std::optional<Place> corner;
+    std::optional<juce::Point<double>> corner;
     for (const auto& node : readGraph (text).graph.root.nodes)
-        if (const auto at = placeOf (node)) corner = corner ? Place { std::min (corner->first, at->first), std::min (corner->second, at->second) } : *at;
+        if (const auto at = positionOf (node)) corner = corner ? juce::Point<double> { std::min (corner->x, at->x), std::min (corner->y, at->y) } : *at;
     return corner;
 }
 
@@ -75,7 +58,7 @@ std::string freeName (const graph::Patch& patch, const std::set<std::string>& al
 std::string copyText (const graph::Graph& g, const std::string& patch_name, const std::set<graph::Id>& ids)
 {
     graph::Graph copied;
-    const auto* patch = patchOf (g, patch_name);
+    const auto* patch = findPatch (g, patch_name);
     if (patch == nullptr) return {};
     std::set<std::string> names;
     for (const auto& n : patch->nodes)
@@ -91,14 +74,15 @@ std::string copyText (const graph::Graph& g, const std::string& patch_name, cons
     return writeGraph (copied);
 }
 
-std::variant<graph::Command, Message> paste (const graph::Graph& g, const std::string& patch_name, const std::string& text, double dx, double dy, std::set<graph::Id>& made)
+Result<graph::Command> paste (const graph::Graph& g, const std::string& patch_name, const std::string& text, juce::Point<double> offset,
+                              std::set<graph::Id>& made)
 {
     auto read = readGraph (text);
     for (auto& m : read.messages)
         if (m.severity == Message::Severity::error) return std::move (m);
-    const auto* patch = patchOf (g, patch_name);
+    const auto* patch = findPatch (g, patch_name);
     graph::Batch batch { "paste", {} };
-    if (patch == nullptr) return batch;
+    if (patch == nullptr) return graph::Command (std::move (batch));
 
     for (auto& [name, inside] : read.graph.graphs)
         if (g.find (name) == nullptr) batch.commands.push_back (graph::AddSubgraph { name, inside });
@@ -110,7 +94,7 @@ std::variant<graph::Command, Message> paste (const graph::Graph& g, const std::s
         taken.insert (name);
         renamed.emplace (node.name, name);
         node.name = name;
-        move (node, dx, dy);
+        if (const auto at = positionOf (node)) node.extra["ui"]["at"] = Json::array ({ at->x + offset.x, at->y + offset.y });
         made.insert (node.id);
         batch.commands.push_back (graph::AddNode { patch_name, node });
     }
@@ -125,7 +109,7 @@ std::variant<graph::Command, Message> paste (const graph::Graph& g, const std::s
         rename (wire.to);
         batch.commands.push_back (graph::AddWire { patch_name, wire });
     }
-    return batch;
+    return graph::Command (std::move (batch));
 }
 
 }   // namespace tactus::host

@@ -2,27 +2,29 @@
 #pragma once
 
 #include <framework/graph/edit.hpp>
+#include <framework/text/result.hpp>
 
 #include <optional>
 #include <set>
 #include <string>
-#include <utility>
-#include <variant>
+
+#include <juce_graphics/juce_graphics.h>
 
 namespace tactus::host
 {
 
-/// Nodes and the wires among them as text, which is a graph file of its own. With them go the subgraphs they are of.
+/// Copies nodes and the wires between them as text: a complete graph file that includes the subgraphs they use.
 std::string copyText (const graph::Graph&, const std::string& patch, const std::set<graph::Id>& nodes);
 
-/// What adds a copied text to a patch: as one step, under names that are free, moved by so much. Fills in the ids of the
-/// nodes it will make. Or why the text is none.
-std::variant<graph::Command, Message> paste (const graph::Graph&, const std::string& patch, const std::string& text, double dx, double dy, std::set<graph::Id>& made);
+/// Pastes copied text into a patch as one undo step, under free names and moved by `offset`. `made` receives the ids of the new
+/// nodes. Fails if the text is not a graph.
+Result<graph::Command> paste (const graph::Graph&, const std::string& patch, const std::string& text, juce::Point<double> offset,
+                              std::set<graph::Id>& made);
 
-/// The upper left corner of the nodes in a copied text; nothing if it does not say where they stand.
-std::optional<std::pair<double, double>> cornerOf (const std::string& text);
+/// The upper left corner of the nodes in copied text. Empty if no node has a position.
+std::optional<juce::Point<double>> cornerOf (const std::string& text);
 
-/// "drag", or where that is taken "drag_2", "drag_3" …
+/// Returns `wanted` if it is free, else "drag_2", "drag_3" and so on.
 std::string freeName (const graph::Patch&, const std::set<std::string>& also_taken, const std::string& wanted);
 
 }   // namespace tactus::host

@@ -8,20 +8,20 @@
 namespace tactus::host
 {
 
-/// Made by CMake out of the headers in nodes/.
+/// CMake generates it from the headers in nodes/.
 extern const std::vector<std::pair<std::string_view, std::string_view>> node_docs;
 
 std::vector<DocPart> readDoc (std::string_view doc)
 {
     std::vector<DocPart> parts;
-    bool goes_on = false;   // the line before belongs to the last part
+    bool continues = false;   // this line continues the last part
     std::istringstream lines { std::string (doc) };
     for (std::string line; std::getline (lines, line);)
     {
         const auto begin = line.find_first_not_of (' ');
         if (begin == std::string::npos)
         {
-            goes_on = false;
+            continues = false;
             continue;
         }
         const auto words = line.substr (begin);
@@ -29,21 +29,21 @@ std::vector<DocPart> readDoc (std::string_view doc)
         if (begin >= formula_indent)
         {
             parts.push_back ({ DocPart::Kind::formula, line.substr (formula_indent) });
-            goes_on = false;
+            continues = false;
         }
         else if (words.starts_with ("- "))
         {
-            // What a list begins with is its heading.
-            if (! parts.empty() && goes_on && parts.back().kind == DocPart::Kind::text) parts.back().kind = DocPart::Kind::heading;
+            // The text line right above a list is its heading.
+            if (! parts.empty() && continues && parts.back().kind == DocPart::Kind::text) parts.back().kind = DocPart::Kind::heading;
             parts.push_back ({ DocPart::Kind::item, words.substr (2) });
-            goes_on = true;
+            continues = true;
         }
-        else if (goes_on)
+        else if (continues)
             parts.back().text += ' ' + words;
         else
         {
             parts.push_back ({ DocPart::Kind::text, words });
-            goes_on = true;
+            continues = true;
         }
     }
     return parts;

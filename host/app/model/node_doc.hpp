@@ -8,28 +8,28 @@
 namespace tactus::host
 {
 
-/// A part of what a node's header says of it.
+/// One part of the doc comment of a node's header.
 struct DocPart
 {
     enum class Kind
     {
         text,
-        formula,   ///< a line of the law, with its spaces
+        formula,   ///< a line of the law, spaces included
         heading,
-        item   ///< of a list
+        item   ///< a list item
     };
 
     Kind kind = Kind::text;
     std::string text;
 };
 
-/// The doc block of a node's header, whose words were taken in when the program was built; empty for another type.
+/// The doc comment of a node's header, embedded at build time. Empty for an unknown type.
 std::vector<DocPart> docOf (std::string_view type);
 
-/// Its law: the formulas that come before the source.
+/// The node's law: the formulas above the source.
 std::vector<std::string> lawOf (std::string_view type);
 
-/// A doc block in parts.
+/// Splits a doc comment into parts.
 std::vector<DocPart> readDoc (std::string_view);
 
 }   // namespace tactus::host

@@ -1,29 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "controlled_param.hpp"
 #include "face.hpp"
-#include "held.hpp"
 
 #include <optional>
 
 namespace tactus::host
 {
 
-/// What a param is now: as it is written, or its default, or what a control of the graph makes of it.
+/// The current value of a param: the stored value, its default, or what a control of the graph sets it to.
 struct ParamNow
 {
     Json value;
-    bool is_set = false;        ///< it is not the default
-    std::optional<Held> held;   ///< by a control, which has to be moved instead
+    bool is_set = false;                      ///< true if the value is not the default
+    std::optional<ControlledParam> control;   ///< set if a control drives it; then that control has to move instead
 };
 
 ParamNow paramNow (const graph::Graph&, const std::string& patch, const graph::Node&, const FacePort&);
 
-/// What gives a param that value; without one, its default. A control that holds it is moved; nothing if it does not reach
-/// so far.
-std::optional<graph::Command> changeParam (const graph::Graph&, const std::string& patch, const graph::Node&, const FacePort&, const std::optional<Json>& value);
+/// What a control sets its parameter to now, in the unit its low end is written in.
+Json valueOf (const ControlledParam&, const PortSheet&);
 
-/// Why that is, in words.
-std::string beyondReach (const graph::Graph&, const graph::Node&, const FacePort&);
+/// Gives a param this value, or its default if there is none. Moves the control that drives it; empty if the value is out of
+/// that control's range.
+std::optional<graph::Command> changeParam (const graph::Graph&, const std::string& patch, const graph::Node&, const FacePort&,
+                                           const std::optional<Json>& value);
+
+/// Explains to the user why changeParam() returned nothing.
+std::string outOfRangeText (const graph::Graph&, const graph::Node&, const FacePort&);
 
 }   // namespace tactus::host

@@ -14,7 +14,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr int deepest = 32;
+constexpr int deepest = 32;   // levels of subgraphs
 
 Json entryIn (const Json& all, const std::optional<std::size_t>& entry)
 {
@@ -22,7 +22,7 @@ Json entryIn (const Json& all, const std::optional<std::size_t>& entry)
     return all.is_array() && *entry < all.size() ? Json (all[*entry]) : Json();
 }
 
-/// What stands inside a subgraph for a param that it shows; null if nothing was written there.
+/// The value stored inside a subgraph for a param that it exposes. Null if none is stored.
 Json inside (const graph::Graph& g, const graph::Node& node, const std::string& param, int depth)
 {
     const auto [owner, patch] = graph::insideOf (g, node);
@@ -79,12 +79,11 @@ std::optional<Json> withValue (const graph::Node& node, const FacePort& port, co
 std::pair<Json, Json> sweepOf (const Json& now, const PortSheet& sheet)
 {
     const auto read = readQuantity (now, sheet);
-    const auto* q = std::get_if<QuantityText> (&read);
-    const auto value = q == nullptr ? QuantityText { sheet.initial[0], {}, 1.0 } : *q;
+    const auto value = read ? *read : QuantityText { sheet.initial[0], {}, 1.0 };
     const auto& usual = sheet.limits.usual;
     const double low = std::isfinite (usual.min) ? usual.min : std::min (0.0, value.si());
-    const double high = std::isfinite (usual.max) ? usual.max : value.si() > low ? low + 2.0 * (value.si() - low)
-                                                                                 : low + 1.0;
+    const double above = value.si() > low ? low + 2.0 * (value.si() - low) : low + 1.0;
+    const double high = std::isfinite (usual.max) ? usual.max : above;
     return { value.moved (low).toJson(), value.moved (high).toJson() };
 }
 

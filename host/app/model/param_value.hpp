@@ -10,19 +10,20 @@
 namespace tactus::host
 {
 
-/// Which entry of an array port an id names: 2 of "gain[2]", or none; and the id without it.
+/// The two parts of the id of an array port's entry: 2 and "gain" for "gain[2]".
 std::optional<std::size_t> entryOf (const std::string& id);
 std::string baseOf (const std::string& id);
 
-/// What a param of a node says as written, null if nothing; and what it is then: what the inside of a subgraph says, or the
-/// default of its datasheet.
+/// The value stored in the node, or null if there is none.
 Json writtenValue (const graph::Node&, const FacePort&);
+
+/// The value that applies if the node stores none: the one stored inside the subgraph, or the datasheet's default.
 Json initialValue (const graph::Graph&, const graph::Node&, const FacePort&);
 
-/// What a param is to be written as, so that only its entry of a list changes. Nothing brings the default back.
+/// The value to store so that only the port's entry of a list changes. Empty means back to the default.
 std::optional<Json> withValue (const graph::Node&, const FacePort&, const std::optional<Json>&);
 
-/// From where to where a control moves it, unless said: its usual range, in the unit of the value as it is.
+/// The range a new control gets for a param: its usual range, in the unit of the current value.
 std::pair<Json, Json> sweepOf (const Json& now, const PortSheet&);
 
 }   // namespace tactus::host

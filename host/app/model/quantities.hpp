@@ -8,43 +8,43 @@
 namespace tactus::host
 {
 
-/// What the ports of a graph carry, also those that take on whatever is wired to them: it is followed along wires,
-/// through nodes, and in and out of subgraphs. For the eye; whether units fit is what compile() says.
+/// The quantity each port of a graph carries, generic ports included: it propagates along wires, through nodes, and in and out
+/// of subgraphs. For display only; compile() decides whether units match.
 class Quantities
 {
 public:
     Quantities (const graph::Graph&, const Catalogue&);
 
-    /// Any, where nothing says. The patch is one of that graph, the node's number counts within it.
+    /// Returns `any` if unknown. The patch belongs to that graph; `node` is an index into it.
     Quantity of (const graph::Patch&, std::size_t node, Role, std::string_view port) const;
 
 private:
-    struct Seat
+    struct NodePorts
     {
         Face face;
         int first;   ///< number of its first port; params follow inputs, outputs follow params
     };
 
-    struct Row
+    struct PatchPorts
     {
-        std::vector<Seat> seats;   ///< of the nodes of a patch, in their order
+        std::vector<NodePorts> nodes;   ///< in the order of the patch
         std::map<std::string_view, std::size_t> by_name;
     };
 
     void visit (const graph::Graph& owner, const graph::Patch&);
-    void followNode (const Seat&);
-    void followWires (const graph::Patch&);
-    void followInside (const graph::Graph& owner, const graph::Patch&);
+    void joinPortsOf (const NodePorts&);
+    void joinAlongWires (const graph::Patch&);
+    void joinWithInside (const graph::Graph& owner, const graph::Patch&);
 
-    const Seat* seatOf (const graph::Patch&, std::string_view node) const;
-    static int numberOf (const Seat&, const FacePort*);   ///< -1 for none
+    const NodePorts* portsOf (const graph::Patch&, std::string_view node) const;
+    static int numberOf (const NodePorts&, const FacePort*);   ///< -1 for none
     int root (int port) const;
     void join (int a, int b);
 
     const Catalogue& catalogue;
-    std::map<const graph::Patch*, Row> rows;
-    std::vector<int> towards;   // of ports that carry the same, one; in the end itself
-    std::vector<Quantity> known;
+    std::map<const graph::Patch*, PatchPorts> patches;
+    std::vector<int> parent;       // union-find: ports that carry the same quantity share a root
+    std::vector<Quantity> known;   // valid at the roots
 };
 
 }   // namespace tactus::host

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "quantity_text.hpp"
 
-#include <framework/number_text.hpp>
 #include <framework/plan/values.hpp>
-#include <framework/units.hpp>
+#include <framework/text/number_text.hpp>
+#include <framework/text/units.hpp>
 
 #include <cmath>
 #include <cstdlib>
@@ -11,8 +11,6 @@
 namespace tactus::host
 {
 
-namespace
-{
 double rounded (double v, int digits)
 {
     if (v == 0.0 || ! std::isfinite (v)) return v;
@@ -20,12 +18,11 @@ double rounded (double v, int digits)
     std::snprintf (text, sizeof text, "%.*e", digits - 1, v);
     return std::strtod (text, nullptr);
 }
-}   // namespace
 
 QuantityText QuantityText::moved (double to_si) const
 {
     auto other = *this;
-    other.number = rounded (to_si / scale, 3);
+    other.number = rounded (to_si / scale);
     return other;
 }
 
@@ -33,15 +30,16 @@ Json QuantityText::toJson() const { return unit.empty() ? Json (number) : Json (
 
 std::string QuantityText::toText() const { return unit.empty() ? numberText (number) : numberText (number) + ' ' + unit; }
 
-std::variant<QuantityText, std::string> readQuantity (const Json& value, const PortSheet& sheet)
+Result<QuantityText> readQuantity (const Json& value, const PortSheet& sheet)
 {
     const auto read = plan::readNumber (value);
-    if (const auto* problem = std::get_if<std::string> (&read)) return *problem;
-    const auto& n = std::get<plan::Number> (read);
+    if (! read) return read.error();
+    const auto& n = *read;
+    const std::string id (sheet.id);
     if (n.dimension && sheet.unit.kind == UnitRule::Kind::fixed && *n.dimension != sheet.unit.unit.dimension)
-        return symbolOf (*n.dimension) + " is no unit of " + std::string (sheet.id) + ", which is in " + std::string (sheet.unit.unit.symbol);
-    if (plan::miscounts (n, sheet.unit)) return plan::miscount (value, sheet.unit);
-    if (! sheet.limits.hard.contains (n.value)) return std::string (sheet.id) + " is " + plan::rangeText (sheet.limits.hard);
+        return Message::error ("param/unit", {}, symbolOf (*n.dimension) + " does not fit " + id + ", which is in " + std::string (sheet.unit.unit.symbol));
+    if (plan::miscounts (n, sheet.unit)) return Message::error ("param/unit", {}, plan::miscount (value, sheet.unit));
+    if (! sheet.limits.hard.contains (n.value)) return Message::error ("param/out_of_range", {}, id + " must be " + plan::rangeText (sheet.limits.hard));
 
     QuantityText text { n.value, {}, 1.0 };
     if (value.is_string())
@@ -52,9 +50,15 @@ std::variant<QuantityText, std::string> readQuantity (const Json& value, const P
         std::string unit = rest;
         unit.erase (0, unit.find_first_not_of (' '));
         const auto one = parseMeasure ("1 " + unit);
-        if (const auto* measure = std::get_if<Measure> (&one); ! unit.empty() && measure != nullptr) text = { number, unit, measure->value };
+        if (! unit.empty() && one) text = { number, unit, one->value };
     }
     return text;
+}
+
+double siOf (const Json& value, const PortSheet& sheet, double fallback)
+{
+    const auto read = readQuantity (value, sheet);
+    return read ? read->si() : fallback;
 }
 
 }   // namespace tactus::host

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/catalogue.hpp>
-#include <framework/json.hpp>
+#include <framework/node/catalogue.hpp>
+#include <framework/text/json.hpp>
+#include <framework/text/result.hpp>
 
 #include <string>
-#include <variant>
 
 namespace tactus::host
 {
 
-/// A number as people type it, and as a file keeps it: "0.4 mm" stays "0.4 mm".
+/// A number with the unit it was typed in, as the file keeps it: "0.4 mm" stays "0.4 mm".
 struct QuantityText
 {
     double number = 0.0;   ///< before the unit
@@ -19,14 +19,20 @@ struct QuantityText
 
     double si() const noexcept { return number * scale; }
 
-    /// In the same unit, with as many digits as a hand can mean.
+    /// Another value in the same unit, rounded to three digits.
     QuantityText moved (double to_si) const;
 
-    Json toJson() const;   ///< a plain number where there is no unit
+    Json toJson() const;   ///< a plain number if there is no unit
     std::string toText() const;
 };
 
-/// Reads what a file holds or somebody typed, for a param; or says what is wrong with it: the unit, or the hard range.
-std::variant<QuantityText, std::string> readQuantity (const Json&, const PortSheet&);
+/// Rounds to significant digits.
+double rounded (double, int digits = 3);
+
+/// Reads a param's value from a file or from what the user typed. Fails if the unit is wrong or the value is out of the hard range.
+Result<QuantityText> readQuantity (const Json&, const PortSheet&);
+
+/// The SI value of a param, or `fallback` if it cannot be read.
+double siOf (const Json&, const PortSheet&, double fallback = 0.0);
 
 }   // namespace tactus::host

@@ -17,11 +17,13 @@ Unit unitOf (Quantity q) noexcept
 
 bool addsUp (Quantity q) noexcept { return q == Quantity::force || q == Quantity::torque || q == Quantity::hit; }
 
-std::optional<std::string> whyNotByComponent (const WireEnd& from, const WireEnd& to)
+Result<> checkWireByComponent (const WireEnd& from, const WireEnd& to)
 {
-    if (from.port->role != Role::output) return "a wire starts at an output";
-    if (to.port->role == Role::output) return "a wire ends at an input or a parameter";
-    if (to.port->isChoice()) return "a choice takes no wire";
+    const auto refuse = [] (std::string why)
+    { return Message::error ("wire/refused", {}, std::move (why)); };
+    if (from.port->role != Role::output) return refuse ("a wire starts at an output");
+    if (to.port->role == Role::output) return refuse ("a wire ends at an input or a parameter");
+    if (to.port->isChoice()) return refuse ("a choice cannot be wired");
 
     const auto unitAt = [] (const WireEnd& e) -> std::optional<Unit>
     {
@@ -30,15 +32,15 @@ std::optional<std::string> whyNotByComponent (const WireEnd& from, const WireEnd
         return std::nullopt;
     };
     const auto a = unitAt (from), b = unitAt (to);
-    if (a && b && a->dimension != b->dimension) return std::string (a->symbol) + " into " + std::string (b->symbol);
-    return std::nullopt;
+    if (a && b && a->dimension != b->dimension) return refuse (std::string (a->symbol) + " into " + std::string (b->symbol));
+    return {};
 }
 
-std::optional<std::string> whyNot (const WireEnd& from, const WireEnd& to)
+Result<> checkWire (const WireEnd& from, const WireEnd& to)
 {
-    if (const auto problem = whyNotByComponent (from, to)) return problem;
-    if (from.port->width != to.port->width) return from.port->width == 3 ? "a vector into a scalar" : "a scalar into a vector";
-    return std::nullopt;
+    auto checked = checkWireByComponent (from, to);
+    if (! checked || from.port->width == to.port->width) return checked;
+    return Message::error ("wire/refused", {}, from.port->width == 3 ? "a vector into a scalar" : "a scalar into a vector");
 }
 
 }   // namespace tactus::host

@@ -3,29 +3,28 @@
 
 #include "face.hpp"
 
-#include <optional>
-#include <string>
+#include <framework/text/result.hpp>
 
 namespace tactus::host
 {
 
-/// One end of a wire that is being drawn: a port, and what it carries as far as is known.
+/// One end of a wire while it is being drawn: a port, and the quantity it carries if that is known.
 struct WireEnd
 {
     const FacePort* port;
     Quantity quantity;
 };
 
-/// Why a wire from an output cannot end there, in few words, as "m into N"; nothing if it can.
-std::optional<std::string> whyNot (const WireEnd& from, const WireEnd& to);
+/// Checks whether a wire from an output may end at a port. The error is short, such as "m into N".
+Result<> checkWire (const WireEnd& from, const WireEnd& to);
 
-/// The same if a single component of the vector may go, where one end is a vector and the other is not.
-std::optional<std::string> whyNotByComponent (const WireEnd& from, const WireEnd& to);
+/// The same, but a single component may be wired if one end is a vector and the other is not.
+Result<> checkWireByComponent (const WireEnd& from, const WireEnd& to);
 
-/// Several wires into such an input add up; any other takes one.
+/// True if several wires into one such input add up. Any other input takes one wire.
 bool addsUp (Quantity) noexcept;
 
-/// The SI unit of a quantity; "" of one that has none of its own.
+/// The SI unit of a quantity; "" if it has none.
 Unit unitOf (Quantity) noexcept;
 
 }   // namespace tactus::host

@@ -9,8 +9,8 @@ namespace tactus::host
 
 std::string withPrefix (double value, const std::string& unit, int digits)
 {
-    if (! std::isfinite (value)) return std::isnan (value) ? "nan" : value > 0.0 ? "inf"
-                                                                                 : "-inf";   // of a model that burst
+    if (std::isnan (value)) return "nan";   // an unstable model
+    if (std::isinf (value)) return value > 0.0 ? "inf" : "-inf";
     struct Prefix
     {
         const char* text;
@@ -29,7 +29,10 @@ std::string withPrefix (double value, const std::string& unit, int digits)
     const int whole = std::abs (scaled) < 1.0 ? 1 : static_cast<int> (std::floor (std::log10 (std::abs (scaled)))) + 1;
     constexpr int most_digits = 12;
     char text[48];
-    whole > most_digits ? std::snprintf (text, sizeof text, "%.*e", digits - 1, scaled) : std::snprintf (text, sizeof text, "%.*f", std::max (0, digits - whole), scaled);
+    if (whole > most_digits)
+        std::snprintf (text, sizeof text, "%.*e", digits - 1, scaled);
+    else
+        std::snprintf (text, sizeof text, "%.*f", std::max (0, digits - whole), scaled);
     const auto shown_unit = unit == "1" ? std::string {} : std::string (chosen->text) + unit;
     return shown_unit.empty() ? std::string (text) : std::string (text) + " " + shown_unit;
 }

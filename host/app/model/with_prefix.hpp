@@ -6,7 +6,7 @@
 namespace tactus::host
 {
 
-/// "3.1 mJ": so many digits, with an SI prefix.
+/// Formats a value with an SI prefix: "3.1 mJ".
 std::string withPrefix (double value, const std::string& unit, int digits = 3);
 
 }   // namespace tactus::host

@@ -28,7 +28,7 @@ void Palette::open (std::function<std::vector<PaletteEntry> (const std::string&)
     purpose = p;
     on_chosen = std::move (c);
     query.setText ({}, false);
-    query.setTextToShowWhenEmpty ("Search by name, unit, or what it does", themeOf (*this).dim);
+    query.setTextToShowWhenEmpty ("Search by name, unit or description", themeOf (*this).dim);
     update();
     setVisible (true);
     toFront (false);
@@ -66,9 +66,9 @@ void Palette::textEditorFocusLost (juce::TextEditor&)
 
 bool Palette::keyPressed (const juce::KeyPress& key, juce::Component*)
 {
-    const int step = key == juce::KeyPress::downKey ? 1 : key == juce::KeyPress::upKey ? -1
-                                                                                       : 0;
-    if (step == 0) return false;
+    const bool is_down = key == juce::KeyPress::downKey;
+    if (! is_down && key != juce::KeyPress::upKey) return false;
+    const int step = is_down ? 1 : -1;
     list.selectRow (juce::jlimit (0, std::max (0, getNumRows() - 1), list.getSelectedRow() + step));
     return true;
 }
@@ -85,7 +85,9 @@ void Palette::paint (juce::Graphics& g)
     g.setFont (look.font (12.0f));
     g.setColour (theme.dim);
     g.drawText (purpose, getLocalBounds().reduced (12, 8).removeFromTop (16), juce::Justification::centredLeft, true);
-    if (found.empty()) g.drawFittedText ("Nothing fits. Try a family such as friction or vibration, or a unit such as N.", getLocalBounds().withTrimmedTop (80).reduced (24), juce::Justification::centredTop, 2);
+    if (! found.empty()) return;
+    const auto area_below = getLocalBounds().withTrimmedTop (80).reduced (24);
+    g.drawFittedText ("No match. Try a family such as friction or vibration, or a unit such as N.", area_below, juce::Justification::centredTop, 2);
 }
 
 void Palette::resized()
@@ -110,7 +112,8 @@ void Palette::paintListBoxItem (int row, juce::Graphics& g, int w, int h, bool s
         g.fillRoundedRectangle (area.toFloat().reduced (1.0f), 4.0f);
     }
     g.setColour (theme.dim);
-    g.strokePath (glyphOf (entry.type.substr (0, entry.type.find_first_of (".:"))), juce::PathStrokeType (1.3f), juce::AffineTransform::translation (10.0f, static_cast<float> (h) / 2 - 7.0f));
+    const auto family = entry.type.substr (0, entry.type.find_first_of (".:"));
+    g.strokePath (glyphOf (family), juce::PathStrokeType (1.3f), juce::AffineTransform::translation (10.0f, static_cast<float> (h) / 2 - 7.0f));
     area = area.withTrimmedLeft (34).reduced (0, 3);
     auto first = area.removeFromTop (area.getHeight() / 2);
     g.setColour (theme.text);

@@ -10,7 +10,7 @@
 namespace tactus::host
 {
 
-/// A list of node types that shrinks as one types. Return or a click chooses; Esc, or a click elsewhere, closes.
+/// A searchable list of node types. Return or a click chooses an entry; Esc or a click elsewhere closes the list.
 class Palette final : public juce::Component, private juce::ListBoxModel, private juce::TextEditor::Listener, private juce::KeyListener
 {
 public:
@@ -18,8 +18,9 @@ public:
 
     Palette();
 
-    /// Shows it anew; `search` answers each query.
-    void open (std::function<std::vector<PaletteEntry> (const std::string&)> search, const juce::String& purpose, std::function<void (const std::string& type)> chosen);
+    /// Opens it with an empty query. `search` returns the entries for a query.
+    void open (std::function<std::vector<PaletteEntry> (const std::string&)> search, const juce::String& purpose,
+               std::function<void (const std::string& type)> chosen);
     void close();
 
     const std::vector<PaletteEntry>& entries() const noexcept { return found; }

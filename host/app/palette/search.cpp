@@ -26,20 +26,22 @@ std::vector<std::string> wordsOf (const std::string& text)
     return words;
 }
 
-bool fitsSomewhere (const Face& face, const WireEnd& end)
+bool containsAll (const std::string& text, const std::vector<std::string>& words)
 {
-    const auto any = [] (const std::vector<FacePort>& ports, auto check)
-    {
-        return std::ranges::any_of (ports, [&] (const FacePort& p)
-                                    { return ! check (WireEnd { &p, p.quantity() }); });
-    };
-    if (end.port->role != Role::output) return any (face.outputs, [&] (const WireEnd& e)
-                                                    { return whyNot (e, end); });
-    return any (face.inputs, [&] (const WireEnd& e)
-                { return whyNot (end, e); });
+    return std::ranges::all_of (words, [text = lower (text)] (const std::string& w)
+                                { return text.find (w) != std::string::npos; });
 }
 
-/// 0 for what begins with the query, 1 for what has it in its name, 2 for the rest.
+bool fitsSomewhere (const Face& face, const WireEnd& end)
+{
+    const bool starts_here = end.port->role != Role::output;
+    return std::ranges::any_of (starts_here ? face.outputs : face.inputs, [&] (const FacePort& p)
+                                {
+        const WireEnd own { &p, p.quantity() };
+        return (starts_here ? checkWire (own, end) : checkWire (end, own)).has_value(); });
+}
+
+/// 0 if the id or name starts with the query, 1 if it contains it, else 2.
 int rank (const PaletteEntry& e, const std::string& query)
 {
     const auto id = lower (e.type), name = lower (e.name);
@@ -59,12 +61,9 @@ std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::
         for (const auto* ports : { &face.inputs, &face.params, &face.outputs })
             for (const auto& p : *ports)
                 all += ' ' + p.id + ' ' + std::string (p.unit.unit.symbol) + ' ' + std::string (name (p.quantity()));
-        all = lower (std::move (all));
-        const bool matches = std::ranges::all_of (words, [&] (const std::string& w)
-                                                  { return all.find (w) != std::string::npos; });
         const bool fitting = std::ranges::all_of (fits, [&] (const WireEnd& end)
                                                   { return fitsSomewhere (face, end); });
-        if (matches && fitting) found.push_back (std::move (entry));
+        if (fitting && containsAll (all, words)) found.push_back (std::move (entry));
     };
     const auto face = [&] (const std::string& type)
     {
@@ -75,7 +74,10 @@ std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::
     for (const auto& type : catalogue)
         consider ({ std::string (type.info.id), std::string (type.info.name), std::string (type.info.summary) }, face (std::string (type.info.id)));
     for (const auto& [id, patch] : g.graphs)
-        consider ({ "graph:" + id, id, "A subgraph of this graph, with " + std::to_string (patch.nodes.size()) + (patch.nodes.size() == 1 ? " node." : " nodes.") }, face ("graph:" + id));
+    {
+        const auto count = std::to_string (patch.nodes.size()) + (patch.nodes.size() == 1 ? " node." : " nodes.");
+        consider ({ "graph:" + id, id, "A subgraph of this graph with " + count }, face ("graph:" + id));
+    }
 
     const auto whole = lower (query);
     if (! whole.empty()) std::ranges::stable_sort (found, {}, [&] (const PaletteEntry& e)
@@ -88,8 +90,7 @@ std::vector<PaletteEntry> matching (const std::vector<PaletteEntry>& entries, co
     const auto words = wordsOf (query);
     auto found = entries;
     std::erase_if (found, [&] (const PaletteEntry& e)
-                   { return ! std::ranges::all_of (words, [text = lower (e.type + ' ' + e.name + ' ' + e.summary)] (const std::string& w)
-                                                   { return text.find (w) != std::string::npos; }); });
+                   { return ! containsAll (e.type + ' ' + e.name + ' ' + e.summary, words); });
     return found;
 }
 

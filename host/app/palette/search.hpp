@@ -9,19 +9,19 @@
 namespace tactus::host
 {
 
-/// Something that can be put on the canvas.
+/// An entry of the palette.
 struct PaletteEntry
 {
     std::string type;   ///< "friction.elasto_plastic", "graph:grain"
     std::string name, summary;
 };
 
-/// The types of the catalogue and the subgraphs of a graph that have all words of the query in their id, name, sentence, or
-/// in the unit or quantity of a port; those whose id or name begins with it first. Only those with a port that fits each of
-/// the wire ends: one that waits, or both of a wire that something is to be put into.
+/// Finds the node types of the catalogue and the subgraphs of a graph that contain all words of the query in their id, name,
+/// summary, ports, units or quantities. Those whose id or name starts with the query come first. Each result has a port for
+/// every wire end in `fits`: one end for a dropped wire, two for inserting into a wire.
 std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::Graph&, const Catalogue&, const std::vector<WireEnd>& fits);
 
-/// Those that have all words of the query, in the order they came.
+/// The entries that contain all words of the query, in the given order.
 std::vector<PaletteEntry> matching (const std::vector<PaletteEntry>&, const std::string& query);
 
 }   // namespace tactus::host

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "browser.hpp"
-#include "fitted_words.hpp"
+#include "fitted_text.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -11,18 +11,19 @@ namespace tactus::host
 namespace
 {
 constexpr int row_height = 36, star_width = 28, play_width = 28, most_recent_shown = 4;
-constexpr int low = 420;   // pixels; a panel that is lower has less of everything
+constexpr int low = 420;   // pixels; a lower panel shows a compact layout
 
-juce::String joined (const std::vector<std::string>& words)
+juce::String joined (const std::vector<std::string>& tags)
 {
     juce::StringArray all;
-    for (const auto& w : words)
-        all.add (w);
+    for (const auto& t : tags)
+        all.add (t);
     return all.joinIntoString (", ");
 }
 }   // namespace
 
-PresetBrowser::PresetBrowser (const Catalogue& c, Settings& s, PictureStore& p) : catalogue (c), settings (s), pictures (p), folder (presetFolder()), own_folder (ownFolder())
+PresetBrowser::PresetBrowser (const Catalogue& c, Settings& s, PictureStore& p)
+    : catalogue (c), settings (s), pictures (p), folder (presetFolder()), own_folder (ownFolder())
 {
     setTitle ("Presets");
     const auto& look = lookOf (*this);
@@ -64,9 +65,9 @@ void PresetBrowser::reload()
     update();
 }
 
-void PresetBrowser::search (const juce::String& words)
+void PresetBrowser::search (const juce::String& text)
 {
-    query.setText (words, false);
+    query.setText (text, false);
     update();
 }
 
@@ -86,9 +87,9 @@ void PresetBrowser::refresh()
 
 void PresetBrowser::update()
 {
-    const auto words = query.getText().toStdString();
-    found = matching (presets, words, chips.chosen());
-    found_own = matching (own, words, chips.chosen());
+    const auto text = query.getText().toStdString();
+    found = matching (presets, text, chips.chosen());
+    found_own = matching (own, text, chips.chosen());
     shown.clear();
     const auto section = [this] (const char* heading, const std::vector<Preset>& all, bool is_own, auto&& isWanted)
     {
@@ -104,12 +105,12 @@ void PresetBrowser::update()
     { return settings.isFavourite (p.file); };
     const auto isAny = [] (const Preset&)
     { return true; };
-    if (words.empty() && chips.chosen().empty()) section ("Recent", recent, true, isAny);
+    if (text.empty() && chips.chosen().empty()) section ("Recent", recent, true, isAny);
     section ("Favourites", found, false, isFavourite);
     section ("My graphs", found_own, true, isAny);
     section ("Presets", found, false, [&] (const Preset& p)
              { return ! isFavourite (p); });
-    if (std::ranges::count (shown, nullptr, &Row::preset) == 1) shown.erase (shown.begin());   // one section needs no heading
+    if (std::ranges::count (shown, nullptr, &Row::preset) == 1) shown.erase (shown.begin());   // a single section needs no heading
 
     auto all = found;
     all.insert (all.end(), found_own.begin(), found_own.end());
@@ -127,7 +128,10 @@ void PresetBrowser::update()
     repaint();
 }
 
-const PresetBrowser::Row* PresetBrowser::rowAt (int row) const { return row < 0 || row >= static_cast<int> (shown.size()) ? nullptr : &shown[static_cast<std::size_t> (row)]; }
+const PresetBrowser::Row* PresetBrowser::rowAt (int row) const
+{
+    return row < 0 || row >= static_cast<int> (shown.size()) ? nullptr : &shown[static_cast<std::size_t> (row)];
+}
 
 void PresetBrowser::openRow (int row)
 {
@@ -142,8 +146,8 @@ void PresetBrowser::listBoxItemClicked (int row, const juce::MouseEvent& e)
     const auto* r = rowAt (row);
     if (r == nullptr || r->preset == nullptr) return;
     const auto part = partAt (*r, e.getEventRelativeTo (&list).x);
-    if (part == Part::opens) return openRow (row);
-    if (part == Part::previews) return;   // which goes by the button
+    if (part == Part::name) return openRow (row);
+    if (part == Part::preview) return;   // handled by mouseDown
     settings.toggleFavourite (r->preset->file);
     if (onSettings) onSettings();
     const auto at = list.getVerticalPosition();
@@ -164,22 +168,23 @@ const Preset* PresetBrowser::described() const
 PresetBrowser::Part PresetBrowser::partAt (const Row& row, int x) const
 {
     const int from_right = list.getVisibleRowWidth() - x;
-    if (from_right < star_width) return row.is_own ? Part::opens : Part::stars;
-    return from_right < star_width + play_width && row.preset != nullptr && row.preset->problem.empty() ? Part::previews : Part::opens;
+    if (from_right < star_width) return row.is_own ? Part::name : Part::star;
+    const bool can_play = row.preset != nullptr && row.preset->problem.empty();
+    return can_play && from_right < star_width + play_width ? Part::preview : Part::name;
 }
 
 void PresetBrowser::mouseDown (const juce::MouseEvent& e)
 {
     const auto at = e.getEventRelativeTo (&list).getPosition();
     const auto* r = list.getLocalBounds().contains (at) ? rowAt (list.getRowContainingPosition (at.x, at.y)) : nullptr;
-    if (r == nullptr || r->preset == nullptr || partAt (*r, at.x) != Part::previews || ! onPreview) return;
-    previews = true;
+    if (r == nullptr || r->preset == nullptr || partAt (*r, at.x) != Part::preview || ! onPreview) return;
+    is_previewing = true;
     onPreview (r->preset->file);
 }
 
 void PresetBrowser::mouseUp (const juce::MouseEvent&)
 {
-    if (std::exchange (previews, false) && onPreviewEnd) onPreviewEnd();
+    if (std::exchange (is_previewing, false) && onPreviewEnd) onPreviewEnd();
 }
 
 void PresetBrowser::mouseMove (const juce::MouseEvent& e)
@@ -225,14 +230,16 @@ void PresetBrowser::paint (juce::Graphics& g)
     {
         g.setColour (look.theme().dim);
         g.setFont (look.font (13.0f));
-        const auto text = ! presets.empty() ? juce::String ("No preset has all of this. Take a word or a tag away.") : folder.empty() ? juce::String ("No presets were found beside the program. Set TACTUS_PRESETS to their folder.")
-                                                                                                                                      : "There are no presets in " + juce::String (folder.string()) + ".";
+        auto text = "No presets in " + juce::String (folder.string()) + ".";
+        if (folder.empty()) text = "No preset folder found. Set TACTUS_PRESETS to its path.";
+        if (! presets.empty()) text = "No match. Remove a word or a tag.";
         g.drawFittedText (text, list.getBounds().reduced (8), juce::Justification::topLeft, 6);
     }
     g.setColour (look.theme().hairline);
     g.drawHorizontalLine (footer.getY(), static_cast<float> (footer.getX()), static_cast<float> (footer.getRight()));
     if (const auto* p = described()) return paintFooter (g, *p);
-    drawFittedWords (g, "Point at a preset to read what it feels like. A click opens and runs it; hold its arrow to feel its gesture and come back.", look.font (12.0f), look.theme().dim, footer.withTrimmedTop (8));
+    const auto* hint = "Point at a preset to read what it feels like. Click to open and run it, or hold its arrow to preview it.";
+    drawFittedText (g, hint, look.font (12.0f), look.theme().dim, footer.withTrimmedTop (8));
 }
 
 void PresetBrowser::paintFooter (juce::Graphics& g, const Preset& p)
@@ -250,8 +257,31 @@ void PresetBrowser::paintFooter (juce::Graphics& g, const Preset& p)
     }
     const auto placeholders = placeholderText (p);
     const bool is_fine = p.problem.empty() && placeholders.empty();
-    const auto words = ! p.problem.empty() ? p.problem : (is_fine ? "" : placeholders + ". They give 0. ") + p.about;
-    drawFittedWords (g, words, look.font (12.0f), is_fine ? look.theme().dim : look.theme().warning, area);
+    auto text = is_fine ? p.about : placeholders + ". Their outputs are 0. " + p.about;
+    if (! p.problem.empty()) text = p.problem;
+    drawFittedText (g, text, look.font (12.0f), is_fine ? look.theme().dim : look.theme().warning, area);
+}
+
+void PresetBrowser::paintIcons (juce::Graphics& g, const Row& row, bool is_hovered, juce::Rectangle<int>& area) const
+{
+    const auto& theme = themeOf (*this);
+    const auto& p = *row.preset;
+    const auto all = area;
+    const bool is_favourite = settings.isFavourite (p.file);
+    if (! row.is_own && (is_hovered || is_favourite))
+    {
+        juce::Path star;
+        star.addStar (area.removeFromRight (star_width).toFloat().getCentre(), 5, 3.2f, 7.0f);
+        g.setColour (is_favourite ? theme.warning : theme.dim);
+        is_favourite ? g.fillPath (star) : g.strokePath (star, juce::PathStrokeType (1.2f));
+    }
+    if (! is_hovered || ! p.problem.empty()) return;
+    area = all.withTrimmedRight (star_width);
+    const auto at = area.removeFromRight (play_width).toFloat().getCentre();
+    juce::Path play;
+    play.addTriangle (at.translated (-4.0f, -6.0f), at.translated (-4.0f, 6.0f), at.translated (6.0f, 0.0f));
+    g.setColour (theme.accent);
+    g.fillPath (play);
 }
 
 void PresetBrowser::paintListBoxItem (int row, juce::Graphics& g, int w, int h, bool selected)
@@ -274,22 +304,7 @@ void PresetBrowser::paintListBoxItem (int row, juce::Graphics& g, int w, int h, 
         g.setColour (p.file == open ? theme.accent.withAlpha (0.18f) : theme.raised);
         g.fillRoundedRectangle (area.toFloat().reduced (1.0f), 4.0f);
     }
-    if (! r->is_own && (row == hovered || settings.isFavourite (p.file)))
-    {
-        juce::Path star;
-        star.addStar (area.removeFromRight (star_width).toFloat().getCentre(), 5, 3.2f, 7.0f);
-        g.setColour (settings.isFavourite (p.file) ? theme.warning : theme.dim);
-        settings.isFavourite (p.file) ? g.fillPath (star) : g.strokePath (star, juce::PathStrokeType (1.2f));
-    }
-    if (row == hovered && p.problem.empty())
-    {
-        const auto at = juce::Rectangle<int> (w - star_width - play_width, 0, play_width, h).toFloat().getCentre();
-        juce::Path play;
-        play.addTriangle (at.translated (-4.0f, -6.0f), at.translated (-4.0f, 6.0f), at.translated (6.0f, 0.0f));
-        g.setColour (theme.accent);
-        g.fillPath (play);
-        area.setRight (w - star_width - play_width);
-    }
+    paintIcons (g, *r, row == hovered, area);
     area.reduce (8, 2);
     g.setColour (theme.text);
     g.setFont (look.font (13.0f, true));
@@ -298,9 +313,8 @@ void PresetBrowser::paintListBoxItem (int row, juce::Graphics& g, int w, int h, 
     const auto placeholders = placeholderText (p);
     const bool is_fine = p.problem.empty() && placeholders.empty();
     g.setColour (is_fine ? theme.dim : theme.warning);
-    g.drawText (is_fine ? joined (p.tags) : p.problem.empty() ? juce::String (placeholders)
-                                                              : juce::String ("cannot be read"),
-                area, juce::Justification::centredLeft, true);
+    const auto trouble = p.problem.empty() ? juce::String (placeholders) : juce::String ("cannot be read");
+    g.drawText (is_fine ? joined (p.tags) : trouble, area, juce::Justification::centredLeft, true);
 }
 
 }   // namespace tactus::host

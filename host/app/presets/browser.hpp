@@ -5,34 +5,34 @@
 #include "preset_list.hpp"
 #include "tag_chips.hpp"
 
-#include <host/app/keep/settings.hpp>
+#include <host/app/storage/settings.hpp>
 
 #include <functional>
 
 namespace tactus::host
 {
 
-/// The presets there are and one's own graphs, with what they feel like and how strong they are. A click opens one.
+/// Lists the presets and the user's own graphs, with a description and a force plot. A click opens one.
 class PresetBrowser final : public juce::Component, private juce::ListBoxModel
 {
 public:
     PresetBrowser (const Catalogue&, Settings&, PictureStore&);
 
     std::function<void (const Preset&, bool is_own)> onOpen;
-    std::function<void()> onSettings;   ///< a favourite came or went
+    std::function<void()> onSettings;   ///< the favourites changed
 
-    /// One is to be felt with its own gesture, for as long as the mouse holds its button.
+    /// Preview a preset with its own gesture while the mouse button is held.
     std::function<void (const std::filesystem::path&)> onPreview;
     std::function<void()> onPreviewEnd;
 
-    void showOpen (const std::filesystem::path&);   ///< marks the one that is open
-    void reload();                                  ///< files may have come or gone
-    void refresh();                                 ///< many times a second
+    void showOpen (const std::filesystem::path&);   ///< marks the open one
+    void reload();                                  ///< reads the folders again
+    void refresh();                                 ///< call this many times a second
 
     const std::vector<Preset>& shipped() const noexcept { return presets; }
-    void search (const juce::String&);   ///< as if it was typed
+    void search (const juce::String&);   ///< as if typed
 
-    /// What the list shows: a heading, or a preset.
+    /// A row of the list: a heading or a preset.
     struct Row
     {
         juce::String heading;
@@ -59,27 +59,28 @@ private:
     void openRow (int row);
     const Row* rowAt (int) const;
 
-    /// What a place of a row does.
+    /// The clickable parts of a row.
     enum class Part
     {
-        opens,
-        previews,
-        stars
+        name,
+        preview,
+        star
     };
     Part partAt (const Row&, int x) const;
     const Preset* described() const;
     void paintFooter (juce::Graphics&, const Preset&);
+    void paintIcons (juce::Graphics&, const Row&, bool is_hovered, juce::Rectangle<int>& area) const;
 
     const Catalogue& catalogue;
     Settings& settings;
     PictureStore& pictures;
     const std::filesystem::path folder, own_folder;
     std::filesystem::path open;
-    std::vector<Preset> presets, own, recent;   // all there are
-    std::vector<Preset> found, found_own;       // of these, what was searched for
+    std::vector<Preset> presets, own, recent;   // everything in the folders
+    std::vector<Preset> found, found_own;       // those that match the search
     std::vector<Row> shown;
     int hovered = -1, pictures_done = 0;
-    bool previews = false;
+    bool is_previewing = false;
     juce::Rectangle<int> footer;
     juce::TextEditor query;
     TagChips chips;

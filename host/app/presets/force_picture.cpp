@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "force_picture.hpp"
 
-#include <framework/engine.hpp>
 #include <framework/file/graph_file.hpp>
 #include <framework/plan/compile.hpp>
+#include <framework/run/device/make_device.hpp>
+#include <framework/run/engine.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
-#include <host/devices/make_device.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace
 std::string firstError (const Messages& messages)
 {
     const auto error = std::ranges::find (messages, Message::Severity::error, &Message::severity);
-    return error == messages.end() ? "it cannot run" : error->text;
+    return error == messages.end() ? "the graph cannot run" : error->text;
 }
 }   // namespace
 
@@ -39,10 +39,10 @@ ForcePicture pictureOf (const std::filesystem::path& file, const Catalogue& cata
 
     const auto rate_hz = loaded.graph.rate_hz;
     std::vector<std::string> roles;
-    for (const auto& role : compiled.plan->roles)
+    for (const auto& role : compiled.plan->roles())
         roles.push_back (role.name);
-    if (roles.empty()) return refuse ("it has no device to push");
-    std::vector<MadeDevice> devices;   // which outlive the engine
+    if (roles.empty()) return refuse ("no force device in the graph");
+    std::vector<MadeDevice> devices;   // must outlive the engine
     for (const auto& role : roles)
     {
         const auto described = std::ranges::find (loaded.graph.devices, role, &std::pair<std::string, Json>::first);
@@ -50,7 +50,7 @@ ForcePicture pictureOf (const std::filesystem::path& file, const Catalogue& cata
         if (! devices.back().device) return refuse (firstError (devices.back().messages));
         picture.seconds = std::max (picture.seconds, devices.back().device->duration());
     }
-    if (picture.seconds <= 0.0) return refuse ("its hand does not move by itself");
+    if (picture.seconds <= 0.0) return refuse ("no preview: the hand does not move by itself");
     picture.seconds = std::min (picture.seconds, ForcePicture::longest_s);
 
     Engine engine (std::move (compiled.plan));
@@ -60,7 +60,7 @@ ForcePicture pictureOf (const std::filesystem::path& file, const Catalogue& cata
     const auto ticks = static_cast<std::size_t> (picture.seconds * rate_hz);
     for (std::size_t k = 0; k < ticks; ++k)
     {
-        if (cancelled.load (std::memory_order_relaxed)) return refuse ("it was called off");
+        if (cancelled.load (std::memory_order_relaxed)) return refuse ("cancelled");
         engine.tick();
         const auto column = k * ForcePicture::columns / ticks;
         for (std::size_t i = 0; i < engine.roleCount(); ++i)

@@ -17,7 +17,7 @@ PictureStore::~PictureStore()
 std::shared_ptr<const ForcePicture> PictureStore::get (const std::filesystem::path& file)
 {
     {
-        const std::scoped_lock held (lock);
+        const std::scoped_lock guard (lock);
         if (const auto found = pictures.find (file); found != pictures.end()) return found->second;
         if (! wanted.empty() && wanted.front() == file) return nullptr;
         std::erase (wanted, file);
@@ -34,7 +34,7 @@ void PictureStore::run()
     {
         std::filesystem::path file;
         {
-            const std::scoped_lock held (lock);
+            const std::scoped_lock guard (lock);
             if (! wanted.empty()) file = wanted.front();
         }
         if (file.empty())
@@ -43,7 +43,7 @@ void PictureStore::run()
             continue;
         }
         auto picture = std::make_shared<const ForcePicture> (pictureOf (file, catalogue, cancelled));
-        const std::scoped_lock held (lock);
+        const std::scoped_lock guard (lock);
         pictures[file] = std::move (picture);
         std::erase (wanted, file);
         ++finished;
@@ -57,25 +57,27 @@ void drawPicture (juce::Graphics& g, const Look& look, juce::Rectangle<float> ar
     g.fillRoundedRectangle (area, 4.0f);
     g.setFont (look.font (11.0f));
     g.setColour (theme.dim);
-    const auto words = area.reduced (8.0f, 2.0f);
     if (picture == nullptr || ! picture->problem.empty() || picture->peak <= 0.0)
     {
-        const auto text = picture == nullptr ? juce::String ("Feeling it out ...") : ! picture->problem.empty() ? juce::String (picture->problem)
-                                                                                                                : juce::String ("It gives no force by itself.");
-        g.drawFittedText (text, words.toNearestInt(), juce::Justification::centredLeft, 2);
+        juce::String text ("Computing...");
+        if (picture != nullptr) text = picture->problem.empty() ? juce::String ("No force in this preview.") : juce::String (picture->problem);
+        g.drawFittedText (text, area.reduced (8.0f, 2.0f).toNearestInt(), juce::Justification::centredLeft, 2);
         return;
     }
-    // Words above the plot, or beside it where there is no room above.
+    // The label goes above the plot, or beside it if there is no room above.
     auto peak = juce::String (picture->peak, picture->peak < 0.1 ? 3 : 2) + " " + picture->unit;
     auto plot = area.reduced (6.0f, 4.0f);
     const bool is_low = area.getHeight() < 44.0f;
-    if (! is_low) peak += " at most, " + juce::String (picture->seconds, 1) + " s";
+    if (! is_low) peak += " peak, " + juce::String (picture->seconds, 1) + " s";
     const auto place = is_low ? plot.removeFromRight (56.0f).withTrimmedLeft (8.0f) : plot.removeFromTop (16.0f);
     g.drawText (peak, place, is_low ? juce::Justification::centredRight : juce::Justification::centredLeft, true);
     juce::Path shape;
     shape.startNewSubPath (plot.getBottomLeft());
     for (std::size_t i = 0; i < picture->peaks.size(); ++i)
-        shape.lineTo (plot.getX() + plot.getWidth() * static_cast<float> (i) / static_cast<float> (picture->peaks.size() - 1), plot.getBottom() - plot.getHeight() * picture->peaks[i] / static_cast<float> (picture->peak));
+    {
+        const float x = static_cast<float> (i) / static_cast<float> (picture->peaks.size() - 1), y = picture->peaks[i] / static_cast<float> (picture->peak);
+        shape.lineTo (plot.getX() + plot.getWidth() * x, plot.getBottom() - plot.getHeight() * y);
+    }
     auto outline = shape;
     shape.lineTo (plot.getBottomRight());
     shape.closeSubPath();

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 namespace
 {
-/// Of a file that cannot be read as a graph: it may be one that is damaged, or something else altogether.
-bool saysItIsAGraph (const fs::path& file)
+/// Distinguishes a damaged graph from a file of another kind.
+bool claimsToBeAGraph (const fs::path& file)
 {
     const auto messages = loadGraph (file).messages;
     return std::ranges::count (messages, "file/not_a_graph", &Message::id) == 0;
@@ -57,7 +57,7 @@ std::vector<Preset> presetsIn (const fs::path& folder, const Catalogue& catalogu
     {
         if (entry.path().extension() != ".json") continue;
         auto p = presetOf (entry.path(), catalogue);
-        if (p.problem.empty() || saysItIsAGraph (entry.path())) presets.push_back (std::move (p));
+        if (p.problem.empty() || claimsToBeAGraph (entry.path())) presets.push_back (std::move (p));
     }
     std::ranges::sort (presets, {}, &Preset::name);
     return presets;
@@ -65,8 +65,8 @@ std::vector<Preset> presetsIn (const fs::path& folder, const Catalogue& catalogu
 
 fs::path presetFolder()
 {
-    const auto told = juce::SystemStats::getEnvironmentVariable ("TACTUS_PRESETS", {});
-    if (told.isNotEmpty()) return told.toStdString();
+    const auto given = juce::SystemStats::getEnvironmentVariable ("TACTUS_PRESETS", {});
+    if (given.isNotEmpty()) return given.toStdString();
     const fs::path program = juce::File::getSpecialLocation (juce::File::currentExecutableFile).getFullPathName().toStdString();
     for (const auto* place : { "graphs", "../share/tactus/graphs", "../../../graphs", "../graphs" })
         if (const auto folder = (program.parent_path() / place).lexically_normal(); fs::is_directory (folder)) return folder;
@@ -75,8 +75,8 @@ fs::path presetFolder()
 
 fs::path ownFolder()
 {
-    const auto told = juce::SystemStats::getEnvironmentVariable ("TACTUS_GRAPHS", {});
-    if (told.isNotEmpty()) return told.toStdString();
+    const auto given = juce::SystemStats::getEnvironmentVariable ("TACTUS_GRAPHS", {});
+    if (given.isNotEmpty()) return given.toStdString();
     return juce::File::getSpecialLocation (juce::File::userDocumentsDirectory).getChildFile ("Tactus").getFullPathName().toStdString();
 }
 

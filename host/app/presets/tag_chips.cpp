@@ -20,12 +20,6 @@ void TagChips::show (std::vector<std::string> tags)
     repaint();
 }
 
-void TagChips::clear()
-{
-    selected.clear();
-    repaint();
-}
-
 int TagChips::chipWidth (const juce::String& text) const { return juce::roundToInt (lookOf (*this).font (12.0f).getStringWidthFloat (text)) + 16; }
 
 std::vector<TagChips::Chip> TagChips::layOut (int width, int rows) const
@@ -86,8 +80,8 @@ void TagChips::paint (juce::Graphics& g)
             g.setColour (is_on ? theme.accent : theme.hairline);
             g.drawRoundedRectangle (area, 12.0f, 1.0f);
         }
-        g.setColour (chip.tag.empty() ? theme.accent : is_on ? theme.text
-                                                             : theme.dim);
+        const auto tag_colour = is_on ? theme.text : theme.dim;
+        g.setColour (chip.tag.empty() ? theme.accent : tag_colour);
         g.drawText (chip.tag.empty() ? juce::String (unfolded ? fewer : more) : juce::String (chip.tag), chip.place, juce::Justification::centred, false);
     }
 }

@@ -11,20 +11,19 @@
 namespace tactus::host
 {
 
-/// Tags to filter by, wrapped. A click takes one in or out; what does not fit waits behind "more".
+/// Filter tags, wrapped into rows. A click toggles a tag. Tags that do not fit are behind "more".
 class TagChips final : public juce::Component
 {
 public:
     TagChips() { setTitle ("Tags"); }
 
-    void show (std::vector<std::string> tags);   ///< in this order; those that are chosen come first
+    void show (std::vector<std::string> tags);   ///< in this order, selected ones first
     const std::set<std::string>& chosen() const noexcept { return selected; }
-    void clear();
 
-    int heightFor (int width, int rows) const;   ///< for so many rows at most, or all of them once "more" was clicked
+    int heightFor (int width, int rows) const;   ///< at most this many rows; all rows after a click on "more"
 
     std::function<void()> onChange;
-    std::function<void()> onResize;   ///< another height is wanted
+    std::function<void()> onResize;   ///< the height changed
 
     void paint (juce::Graphics&) override;
     void mouseUp (const juce::MouseEvent&) override;
@@ -32,7 +31,7 @@ public:
 private:
     struct Chip
     {
-        std::string tag;   // empty: more, or fewer
+        std::string tag;   // empty for "more" and "fewer"
         juce::Rectangle<int> place;
     };
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fixes.hpp"
 
-#include <host/devices/make_device.hpp>
+#include <framework/run/device/make_device.hpp>
+#include <host/app/model/patch.hpp>
 
 #include <algorithm>
 #include <vector>
@@ -11,7 +12,7 @@ namespace tactus::host
 
 namespace
 {
-/// "/nodes/drag/params/mu" in parts, unescaped as RFC 6901 has it.
+/// Splits a JSON pointer such as "/nodes/drag/params/mu" into its parts, unescaped (RFC 6901).
 std::vector<std::string> partsOf (const std::string& pointer)
 {
     std::vector<std::string> parts;
@@ -22,9 +23,9 @@ std::vector<std::string> partsOf (const std::string& pointer)
         for (std::size_t i = at + 1; i < end; ++i)
         {
             const bool escaped = pointer[i] == '~' && i + 1 < end;
-            part += ! escaped ? pointer[i] : pointer[i + 1] == '1' ? '/'
-                                                                   : '~';
-            i += escaped ? 1 : 0;
+            if (escaped) ++i;
+            const char unescaped = pointer[i] == '1' ? '/' : '~';
+            part += escaped ? unescaped : pointer[i];
         }
         at = end;
     }
@@ -33,7 +34,7 @@ std::vector<std::string> partsOf (const std::string& pointer)
 
 const graph::Wire* wireOf (const graph::Graph& g, const Culprit& c)
 {
-    const auto* patch = c.patch.empty() ? &g.root : g.find (c.patch);
+    const auto* patch = findPatch (g, c.patch);
     if (patch == nullptr) return nullptr;
     const auto found = std::ranges::find (patch->wires, c.id, &graph::Wire::id);
     return found == patch->wires.end() ? nullptr : &*found;
@@ -49,7 +50,7 @@ Culprit culpritOf (const graph::Graph& g, const Message& m)
         culprit.patch = parts[1];
         parts.erase (parts.begin(), parts.begin() + 2);
     }
-    const auto* patch = culprit.patch.empty() ? &g.root : g.find (culprit.patch);
+    const auto* patch = findPatch (g, culprit.patch);
     if (patch == nullptr || ! m.file.empty() || parts.size() < 2) return culprit;
     if (parts[0] == "devices") culprit.role = parts[1];
     if (parts[0] == "nodes")
@@ -73,14 +74,22 @@ std::optional<Fix> fixOf (const graph::Graph& g, const Message& m)
     {
         auto delayed = *wire;
         delayed.delay = std::max (1, wire->delay);
-        return Fix { "Delay it by a tick", graph::Batch { "break a loop", { graph::ChangeWire { culprit.patch, culprit.id, std::move (delayed) } } } };
+        return Fix { "Delay it by a tick", graph::Batch { "break loop", { graph::ChangeWire { culprit.patch, culprit.id, std::move (delayed) } } } };
     }
     if (m.severity != Message::Severity::error) return std::nullopt;
-    if (wire != nullptr) return Fix { "Remove the wire", graph::Batch { "remove a wire", { graph::RemoveWire { culprit.patch, culprit.id } } } };
-    if (! culprit.param.empty()) return Fix { "Reset " + culprit.param, graph::Batch { "reset " + culprit.param, { graph::SetParam { culprit.patch, culprit.node, culprit.param } } } };
-    if (m.id == "node/no_role" && g.devices.empty()) return Fix { "Make a stylus", graph::Batch { "make a stylus", { graph::SetDevice { "stylus", defaultDevice() }, graph::SetNodeKey { culprit.patch, culprit.node, "role", Json ("stylus") } } } };
-    if (m.id == "node/no_role") return Fix { "Make it " + g.devices.front().first, graph::Batch { "give a role", { graph::SetNodeKey { culprit.patch, culprit.node, "role", Json (g.devices.front().first) } } } };
-    if (! culprit.node.empty() && m.id == "node/unknown_type") return Fix { "Remove the node", graph::Batch { "remove a node", { graph::RemoveNode { culprit.patch, culprit.node } } } };
+    const auto& [patch, id, node, param, role] = culprit;
+    if (wire != nullptr) return Fix { "Remove the wire", graph::Batch { "remove wire", { graph::RemoveWire { patch, id } } } };
+    if (! param.empty()) return Fix { "Reset " + param, graph::Batch { "reset " + param, { graph::SetParam { patch, node, param } } } };
+    if (m.id == "node/no_role")
+    {
+        const bool has_device = ! g.devices.empty();
+        const auto name = has_device ? g.devices.front().first : std::string ("stylus");
+        graph::Batch all { has_device ? "assign role" : "add stylus", {} };
+        if (! has_device) all.commands.push_back (graph::SetDevice { name, defaultDevice() });
+        all.commands.push_back (graph::SetNodeKey { patch, node, "role", Json (name) });
+        return Fix { (has_device ? "Assign to " : "Add a ") + name, std::move (all) };
+    }
+    if (! node.empty() && m.id == "node/unknown_type") return Fix { "Remove the node", graph::Batch { "remove node", { graph::RemoveNode { patch, node } } } };
     return std::nullopt;
 }
 

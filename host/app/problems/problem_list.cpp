@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "problem_list.hpp"
 
+#include <host/app/look/text.hpp>
+
 namespace tactus::host
 {
 
@@ -8,9 +10,7 @@ namespace
 {
 constexpr int row_height = 48, button_width = 144;
 
-juce::String text (const std::string& s) { return juce::String::fromUTF8 (s.c_str()); }
-
-bool alike (const Message& a, const Message& b) { return a.id == b.id && a.where == b.where && a.text == b.text && a.severity == b.severity; }
+bool isSame (const Message& a, const Message& b) { return a.id == b.id && a.where == b.where && a.text == b.text && a.severity == b.severity; }
 }   // namespace
 
 class ProblemList::Row final : public juce::Component
@@ -21,10 +21,10 @@ public:
         setMouseCursor (juce::MouseCursor::PointingHandCursor);
         const auto fix = fixOf (list.document.graph(), message);
         if (! fix) return;
-        button = std::make_unique<juce::TextButton> (text (fix->label));
+        button = std::make_unique<juce::TextButton> (fromUtf8 (fix->label));
         button->onClick = [this]
         {
-            // The graph may be another one than when the button was made.
+            // The graph may have changed since the button was made.
             if (auto now = fixOf (list.document.graph(), message)) list.document.perform (std::move (now->command));
         };
         addAndMakeVisible (*button);
@@ -41,10 +41,10 @@ public:
         g.fillEllipse (area.removeFromLeft (20).withSizeKeepingCentre (8, 8).translated (-6, 0).toFloat());
         g.setColour (theme.text);
         g.setFont (look.font (13.0f));
-        g.drawText (text (message.text), area.removeFromTop (area.getHeight() / 2), juce::Justification::centredLeft, true);
+        g.drawText (fromUtf8 (message.text), area.removeFromTop (area.getHeight() / 2), juce::Justification::centredLeft, true);
         g.setColour (theme.dim);
         g.setFont (look.font (12.0f));
-        g.drawText (text (message.remedy), area, juce::Justification::centredLeft, true);
+        g.drawText (fromUtf8 (message.remedy), area, juce::Justification::centredLeft, true);
         g.setColour (theme.hairline);
         g.drawHorizontalLine (getHeight() - 1, 16.0f, static_cast<float> (getWidth() - 16));
     }
@@ -78,7 +78,7 @@ ProblemList::~ProblemList() = default;
 
 void ProblemList::show (const Messages& messages)
 {
-    if (asked && std::ranges::equal (messages, shown, alike)) return;
+    if (asked && std::ranges::equal (messages, shown, isSame)) return;
     asked = true;
     shown = messages;
     std::ranges::stable_partition (shown, [] (const Message& m)
@@ -98,7 +98,7 @@ void ProblemList::paint (juce::Graphics& g)
     if (! rows.empty()) return;
     g.setFont (look.font (13.0f));
     g.setColour (look.theme().dim);
-    g.drawFittedText ("Nothing is wrong. What does not fit together is listed here, with its remedy.", getLocalBounds().reduced (24), juce::Justification::centred, 2);
+    g.drawFittedText ("No problems. Errors and warnings are listed here with their remedies.", getLocalBounds().reduced (24), juce::Justification::centred, 2);
 }
 
 void ProblemList::resized()

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "fixes.hpp"
+
 #include <host/app/look/look.hpp>
 #include <host/app/model/document.hpp>
-#include <host/app/problems/fixes.hpp>
 
 #include <functional>
 #include <memory>
@@ -12,8 +13,8 @@
 namespace tactus::host
 {
 
-/// What is wrong with the graph, and what is only worth a warning: each in words, with its remedy, and where a remedy is
-/// plain, with a button that applies it. A click on one shows where it is.
+/// The errors and warnings of the graph, each with its remedy and, if there is an obvious fix, a button that applies it. A click
+/// on a message shows its location.
 class ProblemList final : public juce::Component
 {
 public:
@@ -33,7 +34,7 @@ private:
 
     Document& document;
     Messages shown;
-    bool asked = false;   // whether anything was shown yet
+    bool asked = false;   // true after the first show()
     juce::Viewport scroll;
     juce::Component column;
     std::vector<std::unique_ptr<Row>> rows;

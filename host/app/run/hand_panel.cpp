@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hand_panel.hpp"
 
-#include <host/devices/gestures.hpp>
+#include <framework/run/device/gestures.hpp>
+#include <host/app/model/message_text.hpp>
 
 namespace tactus::host
 {
@@ -12,14 +13,14 @@ constexpr int as_described = 1, by_pointer = 2, by_recording = 3, first_gesture 
 constexpr int row_height = 32, margin = 8;
 }   // namespace
 
-/// A triangle while it stands, two bars while it plays.
+/// A triangle while paused, two bars while playing.
 class HandPanel::PlayButton final : public juce::Button
 {
 public:
     PlayButton() : Button ("Play")
     {
         setClickingTogglesState (true);
-        setTooltip ("Plays or stops the gesture. The hand stays where it is.");
+        setTooltip ("Plays or pauses the gesture. The hand stays where it is.");
     }
 
     void paintButton (juce::Graphics& g, bool over, bool) override
@@ -39,11 +40,11 @@ public:
     }
 };
 
-/// A loudspeaker, with waves while it sounds.
+/// A loudspeaker, with waves while it is on.
 class HandPanel::SoundButton final : public juce::Button
 {
 public:
-    SoundButton() : Button ("Sound") { setTooltip ("Lets the force be heard through the sound card."); }
+    SoundButton() : Button ("Sound") { setTooltip ("Plays the force through the sound card."); }
 
     void paintButton (juce::Graphics& g, bool over, bool) override
     {
@@ -52,8 +53,8 @@ public:
         juce::Path p;
         p.addRectangle (at.x - 8.0f, at.y - 3.0f, 4.0f, 6.0f);
         p.addTriangle (at.x - 5.0f, at.y, at.x + 1.0f, at.y - 7.0f, at.x + 1.0f, at.y + 7.0f);
-        g.setColour (getToggleState() ? theme.accent : over ? theme.text
-                                                            : theme.dim);
+        const auto off = over ? theme.text : theme.dim;
+        g.setColour (getToggleState() ? theme.accent : off);
         g.fillPath (p);
         if (! getToggleState()) return;
         for (const float r : { 5.0f, 9.0f })
@@ -65,17 +66,18 @@ public:
     }
 };
 
-HandPanel::HandPanel (Sound& s) : sound (s), play (std::make_unique<PlayButton>()), listen (std::make_unique<SoundButton>())
+HandPanel::HandPanel (Playback& p, Sound& s) : playback (p), sound (s), play (std::make_unique<PlayButton>()), listen (std::make_unique<SoundButton>())
 {
-    who.addItem ("Its own device", as_described);
-    who.addItem ("Mouse or pen", by_pointer);
-    who.addSeparator();
+    source.addItem ("Device of the graph", as_described);
+    source.addItem ("Mouse or pen", by_pointer);
+    source.addSeparator();
     int id = first_gesture;
     for (const auto& gesture : gestures())
-        who.addItem ("Gesture: " + juce::String (std::string (gesture.id)), id++);
-    who.setSelectedId (as_described, juce::dontSendNotification);
-    who.setTooltip ("Who moves the tool. Its own device is what the Devices panel binds it to, or what the graph says. A recording (CSV with t,x,y,z) can be dropped here.");
-    who.onChange = [this]
+        source.addItem ("Gesture: " + juce::String (std::string (gesture.id)), id++);
+    source.setSelectedId (as_described, juce::dontSendNotification);
+    source.setTooltip ("What moves the tool. The device of the graph is the one bound in the Devices panel, or else the one described in the graph. "
+                       "Drop a recording (CSV with t,x,y,z) here to play it.");
+    source.onChange = [this]
     { choose(); };
 
     play->onClick = [this]
@@ -85,7 +87,7 @@ HandPanel::HandPanel (Sound& s) : sound (s), play (std::make_unique<PlayButton>(
     position.setSliderStyle (juce::Slider::LinearBar);
     position.setNumDecimalPlacesToDisplay (2);
     position.setTextValueSuffix (" s");
-    position.setTooltip ("Where in the gesture the hand is. Drag to go elsewhere.");
+    position.setTooltip ("Position in the gesture. Drag to seek.");
     position.onValueChange = [this]
     {
         if (transport != nullptr) transport->seek (position.getValue());
@@ -97,7 +99,7 @@ HandPanel::HandPanel (Sound& s) : sound (s), play (std::make_unique<PlayButton>(
     speed.setTextValueSuffix (" x");
     speed.setValue (1.0, juce::dontSendNotification);
     speed.setDoubleClickReturnValue (true, 1.0);
-    speed.setTooltip ("How fast it is played. A double click brings 1 x back.");
+    speed.setTooltip ("Playback speed. Double-click to reset to 1 x.");
     speed.onValueChange = [this]
     {
         if (transport != nullptr) transport->setSpeed (speed.getValue());
@@ -106,11 +108,11 @@ HandPanel::HandPanel (Sound& s) : sound (s), play (std::make_unique<PlayButton>(
     {
         if (sound.isOn())
             sound.stop();
-        else if (const auto problem = sound.start(); problem && onHint)
-            onHint ("No sound: " + juce::String::fromUTF8 ((problem->text + "; " + problem->remedy).c_str()));
+        else if (const auto started = sound.start(); ! started && onHint)
+            onHint ("No sound: " + juce::String (messageText (started.error())));
     };
     addAndMakeVisible (surface);
-    addAndMakeVisible (who);
+    addAndMakeVisible (source);
     addAndMakeVisible (*listen);
     for (auto* c : std::initializer_list<juce::Component*> { play.get(), &position, &speed })
         addChildComponent (c);
@@ -118,58 +120,74 @@ HandPanel::HandPanel (Sound& s) : sound (s), play (std::make_unique<PlayButton>(
 
 void HandPanel::choose()
 {
-    if (! onHand) return;
-    const int id = who.getSelectedId();
-    if (id == as_described) onHand ({});
-    if (id == by_pointer) onHand (Performance::Hand::pointer());
-    if (const auto i = id - first_gesture; i >= 0 && i < static_cast<int> (gestures().size())) onHand ({ Performance::Hand::Kind::path, std::string (gestures()[static_cast<std::size_t> (i)].id) });
+    const int id = source.getSelectedId();
+    if (id == as_described) playback.start ({});
+    if (id == by_pointer) playback.start (LiveRun::Hand::pointer());
+    if (const auto i = id - first_gesture; i >= 0 && i < static_cast<int> (gestures().size()))
+        playback.start ({ LiveRun::Hand::Kind::path, std::string (gestures()[static_cast<std::size_t> (i)].id) });
 }
 
-void HandPanel::show (Performance& p)
+void HandPanel::refresh()
 {
-    using Kind = Performance::Hand::Kind;
-    surface.show (p);
+    const auto& run = playback.current();
+    surface.refresh();
     listen->setToggleState (sound.isOn(), juce::dontSendNotification);
-    const auto& hand = p.hand();
-    int id = hand.kind == Kind::described ? as_described : hand.kind == Kind::pointer ? by_pointer
-                                                                                      : by_recording;
+    showSource (run.hand());
+    showTransport (run);
+    if (auto text = noteFor (run); text != note)
+    {
+        note = std::move (text);
+        repaint();
+    }
+}
+
+void HandPanel::showSource (const LiveRun::Hand& hand)
+{
+    using Kind = LiveRun::Hand::Kind;
+    int id = by_recording;
+    if (hand.kind == Kind::described) id = as_described;
+    if (hand.kind == Kind::pointer) id = by_pointer;
     for (std::size_t i = 0; i < gestures().size(); ++i)
         if (hand.kind == Kind::path && gestures()[i].id == hand.path) id = first_gesture + static_cast<int> (i);
     if (id == by_recording)
     {
         const auto name = "Recording: " + juce::File (hand.path).getFileName();
-        who.indexOfItemId (by_recording) < 0 ? who.addItem (name, by_recording) : who.changeItemText (by_recording, name);
+        source.indexOfItemId (by_recording) < 0 ? source.addItem (name, by_recording) : source.changeItemText (by_recording, name);
     }
-    if (who.getSelectedId() != id) who.setSelectedId (id, juce::dontSendNotification);
+    if (source.getSelectedId() != id) source.setSelectedId (id, juce::dontSendNotification);
+}
 
-    const auto now = p.isRunning() ? p.transport() : nullptr;
+void HandPanel::showTransport (const LiveRun& run)
+{
+    const auto now = run.isRunning() ? run.transport() : nullptr;
     const bool is_new = now != transport;
     transport = now;
     for (auto* c : std::initializer_list<juce::Component*> { play.get(), &position, &speed })
         c->setVisible (transport != nullptr);
-    auto words = ! p.isRunning() ? juce::String ("Nothing runs. START is at the top right.") : hand.kind == Kind::pointer ? (surface.isHeld() ? "Held " : "Press and drag: ") + juce::String (1000.0 * surface.depth(), 1) + (surface.isHeld() ? " mm deep; H lets go" : " mm deep (wheel); H holds")
-                                                                                                                          : juce::String ("The tool follows its device.");
-    if (words != note)
-    {
-        note = std::move (words);
-        repaint();
-    }
     if (transport == nullptr) return;
     if (is_new)
     {
-        const double lasts = transport->duration();
-        position.setRange (0.0, lasts > 0.0 ? lasts : 1.0);
+        const double length = transport->duration();
+        position.setRange (0.0, length > 0.0 ? length : 1.0);
         transport->setSpeed (speed.getValue());
     }
     play->setToggleState (transport->isPlaying(), juce::dontSendNotification);
     if (! position.isMouseButtonDown()) position.setValue (transport->position(), juce::dontSendNotification);
 }
 
+juce::String HandPanel::noteFor (const LiveRun& run) const
+{
+    if (! run.isRunning()) return "Not running. START is at the top right.";
+    if (run.hand().kind != LiveRun::Hand::Kind::pointer) return "The tool follows its device.";
+    const auto depth = juce::String (1000.0 * surface.depth(), 1) + " mm deep";
+    return surface.isHeld() ? "Held " + depth + "; H releases" : "Press and drag: " + depth + " (wheel); H holds";
+}
+
 bool HandPanel::isInterestedInFileDrag (const juce::StringArray& files) { return files.size() == 1 && files[0].endsWithIgnoreCase (".csv"); }
 
 void HandPanel::filesDropped (const juce::StringArray& files, int, int)
 {
-    if (onHand) onHand ({ Performance::Hand::Kind::path, files[0].toStdString() });
+    playback.start ({ LiveRun::Hand::Kind::path, files[0].toStdString() });
 }
 
 void HandPanel::paint (juce::Graphics& g)
@@ -178,7 +196,7 @@ void HandPanel::paint (juce::Graphics& g)
     g.fillAll (look.theme().panel);
     g.setFont (look.font (13.0f, true));
     g.setColour (look.theme().text);
-    g.drawText ("The hand", getLocalBounds().removeFromTop (row_height).withTrimmedLeft (16), juce::Justification::centredLeft, false);
+    g.drawText ("Hand", getLocalBounds().removeFromTop (row_height).withTrimmedLeft (16), juce::Justification::centredLeft, false);
     if (transport != nullptr) return;
     g.setFont (look.font (12.0f));
     g.setColour (look.theme().dim);
@@ -190,7 +208,7 @@ void HandPanel::resized()
     auto area = getLocalBounds();
     auto head = area.removeFromTop (row_height).reduced (margin, 4);
     listen->setBounds (head.removeFromRight (28));
-    who.setBounds (head.removeFromRight (std::min (200, head.getWidth() - 80)));
+    source.setBounds (head.removeFromRight (std::min (200, head.getWidth() - 80)));
     auto low = area.removeFromBottom (row_height).reduced (margin, 4);
     play->setBounds (low.removeFromLeft (24));
     low.removeFromLeft (4);

@@ -6,18 +6,17 @@
 namespace tactus::host
 {
 
-/// The hand: who moves the tool, the surface it moves on, and, where that is a gesture or a recording, how it is played.
+/// The hand: what moves the tool, the surface it moves on, and the transport of a gesture or recording.
 class HandPanel final : public juce::Component, public juce::FileDragAndDropTarget
 {
 public:
-    explicit HandPanel (Sound&);
+    HandPanel (Playback&, Sound&);
 
-    void show (Performance&);   ///< many times a second
+    void refresh();   ///< call many times a second
 
     HandView& view() noexcept { return surface; }
 
-    std::function<void (const juce::String&)> onHint;   ///< why something cannot be
-    std::function<void (Performance::Hand)> onHand;     ///< another hand is wanted
+    std::function<void (const juce::String&)> onHint;   ///< why something is not possible
 
     void paint (juce::Graphics&) override;
     void resized() override;
@@ -29,13 +28,17 @@ private:
     class SoundButton;
 
     void choose();
+    void showSource (const LiveRun::Hand&);
+    void showTransport (const LiveRun&);
+    juce::String noteFor (const LiveRun&) const;
 
+    Playback& playback;
     Sound& sound;
-    HandView surface;
-    juce::ComboBox who;
+    HandView surface { playback };
+    juce::ComboBox source;
     std::unique_ptr<juce::Button> play, listen;
     juce::Slider position, speed;
-    std::shared_ptr<TransportPath> transport;   // of the last show(); its run may be over since
+    std::shared_ptr<TransportPath> transport;   // of the last refresh(); its run may have ended since
     juce::String note;
 };
 

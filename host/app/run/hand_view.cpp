@@ -9,20 +9,20 @@
 namespace tactus::host
 {
 
-HandView::HandView()
+HandView::HandView (Playback& p) : playback (p)
 {
     setTitle ("Surface");
     setMouseCursor (juce::MouseCursor::CrosshairCursor);
     setWantsKeyboardFocus (true);
 }
 
-void HandView::show (const Performance& p)
+void HandView::refresh()
 {
-    by_pointer = p.hand().kind == Performance::Hand::Kind::pointer;
+    const auto& run = playback.current();
+    by_pointer = run.hand().kind == LiveRun::Hand::Kind::pointer;
     held = held && by_pointer;
-    running = p.isRunning();
-    tool = p.tool();
-    if (tool && ! (isFinite (tool->position) && isFinite (tool->force))) tool.reset();   // a loop that is not stable may throw it anywhere
+    tool = run.tool();
+    if (tool && ! (isFinite (tool->position) && isFinite (tool->force))) tool.reset();   // an unstable loop may throw it anywhere
     if (tool)
     {
         trail.push_back (tool->position);
@@ -46,13 +46,15 @@ juce::Point<float> HandView::toPixels (const Vec3& p) const
 
 void HandView::point (const juce::MouseEvent& e)
 {
-    // A pen says itself how hard it is pressed.
-    if (pressed && e.isPressureValid() && e.pressure > 0.0f && e.pressure < 1.0f) press_depth = least_depth_m + (most_depth_m - least_depth_m) * static_cast<double> (e.pressure);
+    // A pen reports its own pressure.
+    if (pressed && e.isPressureValid() && e.pressure > 0.0f && e.pressure < 1.0f)
+        press_depth = least_depth_m + (most_depth_m - least_depth_m) * static_cast<double> (e.pressure);
     const auto area = surface();
     const double scale = 2.0 * half_width_m / static_cast<double> (area.getWidth());
-    target = { static_cast<double> (e.position.x - area.getCentreX()) * scale, static_cast<double> (area.getCentreY() - e.position.y) * scale, pressed ? -press_depth : hover_m };
-    if (! by_pointer && pressed && onTakesOver) onTakesOver();
-    if (onPoint) onPoint (target);
+    const auto from_centre = e.position - area.getCentre();
+    target = { static_cast<double> (from_centre.x) * scale, -static_cast<double> (from_centre.y) * scale, pressed ? -press_depth : hover_m };
+    if (! by_pointer && pressed) playback.start (LiveRun::Hand::pointer());
+    moveTool();
     repaint();
 }
 
@@ -66,7 +68,7 @@ void HandView::hold()
     if (! by_pointer) return;
     held = ! held;
     target.z() = held || pressed ? -press_depth : hover_m;
-    if (onPoint) onPoint (target);
+    moveTool();
     repaint();
 }
 
@@ -91,7 +93,7 @@ void HandView::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheel
     pressDeeper (-2.0 * static_cast<double> (wheel.deltaY));
     if (held) target.z() = -press_depth;
     if (! held) point (e);
-    if (held && onPoint) onPoint (target);
+    if (held) moveTool();
 }
 
 bool HandView::keyPressed (const juce::KeyPress& key)
@@ -99,7 +101,7 @@ bool HandView::keyPressed (const juce::KeyPress& key)
     if (key != juce::KeyPress::pageDownKey && key != juce::KeyPress::pageUpKey) return false;
     pressDeeper (key == juce::KeyPress::pageDownKey ? 0.25 : -0.25);
     if (pressed || held) target.z() = -press_depth;
-    if (onPoint) onPoint (target);
+    moveTool();
     return true;
 }
 
@@ -114,7 +116,7 @@ void HandView::paint (juce::Graphics& g)
     g.setColour (theme.canvas);
     g.fillRoundedRectangle (area, 4.0f);
 
-    // A grid of centimetres, and how long one is.
+    // A centimetre grid, and a ruler.
     const juce::Graphics::ScopedSaveState clipped (g);
     g.reduceClipRegion (area.toNearestInt());
     g.setColour (theme.dots);
@@ -145,7 +147,9 @@ void HandView::paint (juce::Graphics& g)
     const auto at = toPixels (tool->position);
     constexpr float pixels_per_newton = 40.0f;
     constexpr double longest = 100.0;   // N
-    const juce::Point<float> push { static_cast<float> (std::clamp (tool->force.x(), -longest, longest)) * pixels_per_newton, -static_cast<float> (std::clamp (tool->force.y(), -longest, longest)) * pixels_per_newton };
+    const auto pixels = [&] (double newton)
+    { return static_cast<float> (std::clamp (newton, -longest, longest)) * pixels_per_newton; };
+    const juce::Point<float> push { pixels (tool->force.x()), -pixels (tool->force.y()) };
     g.setColour (theme.of (Quantity::force));
     if (push.getDistanceFromOrigin() > 2.0f) g.drawArrow ({ at, at + push }, 2.5f, 9.0f, 9.0f);
     const bool touches = tool->force.norm() > 1e-6;
@@ -153,7 +157,7 @@ void HandView::paint (juce::Graphics& g)
     g.fillEllipse (juce::Rectangle<float> (9.0f, 9.0f).withCentre (at));
 }
 
-/// How high the tool is, and whether something pushes it up.
+/// The height of the tool. Its colour shows whether a force acts on it.
 void HandView::paintHeight (juce::Graphics& g) const
 {
     const auto& look = lookOf (*this);

@@ -1,36 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "performance.hpp"
+#include "playback.hpp"
 
 #include <host/app/look/look.hpp>
 
 #include <deque>
-#include <functional>
 
 namespace tactus::host
 {
 
-/// The surface from above, with the mouse as the stylus: it hovers, a button presses, the wheel says how deep. Beside it how
-/// high the tool is. While nobody points, the gesture or recording of the graph is shown as it moves.
+/// The surface from above, with the mouse as the stylus: moving hovers, a button presses, the wheel sets the depth. A bar on the right
+/// shows the height of the tool. Without the mouse, the tool is shown as its device, gesture or recording moves it.
 class HandView final : public juce::Component
 {
 public:
     static constexpr double half_width_m = 0.06, height_range_m = 0.012;
     static constexpr double least_depth_m = 0.2e-3, most_depth_m = 8e-3;
 
-    HandView();
+    explicit HandView (Playback&);
 
-    void show (const Performance&);   ///< many times a second
+    void refresh();   ///< call many times a second
 
-    double depth() const noexcept { return press_depth; }   ///< m, of a press
+    double depth() const noexcept { return press_depth; }   ///< depth of a press, in m
 
-    /// Leaves the tool pressed where it is, so that the pointer is free for a knob; or lets it go.
+    /// Holds the tool pressed where it is, which frees the pointer for a knob, or releases it.
     void hold();
     bool isHeld() const noexcept { return held; }
-
-    std::function<void (const Vec3&)> onPoint;   ///< m; where the mouse wants the tool
-    std::function<void()> onTakesOver;           ///< the mouse wants to be the hand
 
     void paint (juce::Graphics&) override;
     void mouseMove (const juce::MouseEvent&) override;
@@ -49,11 +45,13 @@ private:
     void paintHeight (juce::Graphics&) const;
     void point (const juce::MouseEvent&);
     void pressDeeper (double octaves);
+    void moveTool() { playback.run().point (target); }
 
-    bool by_pointer = false, pressed = false, held = false, running = false;
+    Playback& playback;
+    bool by_pointer = false, pressed = false, held = false;
     double press_depth = 1.5e-3;   // m
     Vec3 target = Vec3::Zero();
-    std::optional<Performance::Tool> tool;
+    std::optional<LiveRun::Tool> tool;
     std::deque<Vec3> trail;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "live_feed.hpp"
 
+#include <host/app/model/message_text.hpp>
 #include <host/app/problems/fixes.hpp>
 
 #include <cmath>
@@ -22,14 +23,14 @@ void LiveFeed::showStates (Live& live)
     std::vector<std::string> ports;
     const auto watch = [&] (const std::string& port)
     {
-        const auto whole = canvas.address (port);
-        if (ports.size() < most_ports && std::ranges::count (ports, whole) == 0) ports.push_back (whole);
-        const auto traces = probes.of (whole);
+        const auto full_name = canvas.address (port);
+        if (ports.size() < most_ports && std::ranges::count (ports, full_name) == 0) ports.push_back (full_name);
+        const auto traces = probes.of (full_name);
         return traces.size() == 1 && traces[0]->begin() < traces[0]->end() ? traces[0] : nullptr;
     };
     for (const auto& n : canvas.scene().nodes())
         if (n.face->find (Role::output, "state") != nullptr && ! n.bypass)
-            if (const auto trace = watch (n.name + ".state"); trace && performance.isRunning())
+            if (const auto trace = watch (n.name + ".state"); trace && live_run.isRunning())
                 if (const double state = trace->at (trace->end() - 1); std::isfinite (state)) live.states[n.id] = static_cast<int> (state);
 
     for (const auto& w : canvas.scene().wires())
@@ -54,12 +55,13 @@ void LiveFeed::showCosts (Live& live)
         since_costs = 0;
         latest_costs.clear();
         const auto inside = canvas.address ({});
-        for (const auto& cost : performance.costs())
+        for (const auto& cost : live_run.costs())
         {
             if (! cost.node.starts_with (inside)) continue;
             const auto name = cost.node.substr (inside.size());
             for (const auto& n : canvas.scene().nodes())
-                if (name == n.name || name.starts_with (n.name + '/') || name.starts_with (n.name + '[')) latest_costs[n.id] += cost.mean_s * performance.rate();
+                if (name == n.name || name.starts_with (n.name + '/') || name.starts_with (n.name + '['))
+                    latest_costs[n.id] += cost.mean_s * live_run.rate();
         }
     }
     live.costs = latest_costs;
@@ -67,11 +69,11 @@ void LiveFeed::showCosts (Live& live)
 
 void LiveFeed::showProblems (Live& live) const
 {
-    for (const auto& m : performance.messages())
+    for (const auto& m : live_run.messages())
     {
         if (m.severity != Message::Severity::error) continue;
         const auto culprit = culpritOf (canvas.edited().graph(), m);
-        if (culprit.id != 0 && culprit.patch == canvas.patch()) live.problems[culprit.id] = m.text + (m.remedy.empty() ? "" : "; " + m.remedy);
+        if (culprit.id != 0 && culprit.patch == canvas.patch()) live.problems[culprit.id] = messageText (m);
     }
 }
 

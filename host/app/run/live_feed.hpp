@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "performance.hpp"
+#include "live_run.hpp"
 
 #include <host/app/canvas/canvas.hpp>
 
 namespace tactus::host
 {
 
-/// Shows on a canvas what runs: the state of nodes that have one, hits on their way, what is wrong, and if one likes what
-/// each node costs.
+/// Shows the run on a canvas: the states of nodes, hits as they travel along wires, problems, and optionally what each node costs.
 class LiveFeed
 {
 public:
-    LiveFeed (Canvas& c, Performance& p) : canvas (c), performance (p), probes (p.traces()) {}
+    LiveFeed (Canvas& c, LiveRun& r) : canvas (c), live_run (r), probes (r.traces()) {}
 
-    void refresh();   ///< many times a second
+    void refresh();   ///< call many times a second
 
     bool shows_costs = false;
 
@@ -24,12 +23,12 @@ private:
     void showCosts (Live&);
     void showProblems (Live&) const;
 
-    static constexpr std::size_t most_ports = 12;   ///< of the components that can be probed, the others are for scopes
+    static constexpr std::size_t most_ports = 12;   ///< probed at most; the rest of the probe capacity is left for the scopes
     static constexpr double hit_travels_s = 0.25;
     static constexpr int refreshes_per_cost = 30;
 
     Canvas& canvas;
-    Performance& performance;
+    LiveRun& live_run;
     Traces::Client probes;
     std::map<graph::Id, double> latest_costs;
     int since_costs = refreshes_per_cost;

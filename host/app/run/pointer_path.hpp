@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/devices/path.hpp>
-#include <host/runtime/snapshot.hpp>
+#include <framework/kit/snapshot.hpp>
+#include <framework/run/device/path.hpp>
 
 #include <cmath>
 
 namespace tactus::host
 {
 
-/// Where the mouse or pen wants the tool to be. It comes in 60 times a second, or so, and is made smooth for the tick: the hand
-/// follows it as a critically damped spring does, which is solved exactly from tick to tick.
+/// The position of the mouse or pen as a path. It arrives about 60 times a second and is smoothed for the tick: the hand follows it like
+/// a critically damped spring, solved exactly from tick to tick.
 class PointerPath final : public Path
 {
 public:
-    /// How fast the hand follows: it is nearly there after a twentieth of a second.
+    /// How fast the hand follows: it almost arrives within a twentieth of a second.
     static constexpr double follow_rate = 80.0;   // 1/s
 
     explicit PointerPath (const Vec3& start) : target (Target { { start.x(), start.y(), start.z() } }), now { start, Vec3::Zero() } {}
 
     void moveTo (const Vec3& p) noexcept { target.store ({ { p.x(), p.y(), p.z() } }); }   ///< [main thread]
 
-    /// To be asked with a time that goes on from call to call. [tick thread]
+    /// Call with increasing times. [tick thread]
     Point at (double t) const noexcept override
     {
         const double dt = t - last;
@@ -45,7 +45,7 @@ private:
     };
 
     Snapshot<Target> target;
-    mutable Point now;   // of the tick thread
+    mutable Point now;   // [tick thread]
     mutable double last = 0.0;
 };
 

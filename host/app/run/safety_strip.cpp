@@ -10,31 +10,51 @@ namespace
 {
 constexpr int button_width = 112;
 
-juce::String inNewton (double force) { return juce::String (force, 3) + " N"; }
+juce::String newtonText (double force) { return juce::String (force, 3) + " N"; }
 
-juce::String inNewtonPerMillimetre (double stiffness) { return stiffness >= 1000.0 ? juce::String (stiffness / 1000.0, 1) + " N/mm" : juce::String (std::round (stiffness)) + " N/m"; }
+juce::String stiffnessText (double stiffness)
+{
+    return stiffness >= 1000.0 ? juce::String (stiffness / 1000.0, 1) + " N/mm" : juce::String (std::round (stiffness)) + " N/m";
+}
 
-/// Why a run ended, in words.
-juce::String reason (const RunStatus& s, Performance& p)
+/// Why a run ended.
+juce::String reason (const RunStatus& s, LiveRun& run)
 {
     switch (s.end)
     {
     case RunStatus::End::overrun:
     {
-        const auto costs = p.costs();
-        return "stopped: a tick takes longer than it may" + (costs.empty() ? juce::String() : "; " + juce::String (costs.front().node) + " takes " + juce::String (juce::roundToInt (100.0 * costs.front().share)) + " % of it");
+        const auto costs = run.costs();
+        if (costs.empty()) return "stopped: a tick takes too long";
+        const auto percent = juce::roundToInt (100.0 * costs.front().share);
+        return "stopped: a tick takes too long; " + juce::String (costs.front().node) + " takes " + juce::String (percent) + " % of it";
     }
     case RunStatus::End::length:
-        return "came to its end";
+        return "finished";
     case RunStatus::End::asked:
     case RunStatus::End::none:
         break;
     }
     return "stopped";
 }
+
+juce::String runningText (const LiveRun& run)
+{
+    const auto rate = "running at " + juce::String (run.rate()) + " Hz";
+    return run.clockRole().empty() ? rate : rate + " by " + juce::String (run.clockRole());
+}
+
+juce::String delayText (const LiveRun& run)
+{
+    const auto d = run.delay();
+    if (! d) return "no path from a hand to a motor";
+    const auto delay = "delay " + juce::String (*d) + (*d == 1 ? " tick" : " ticks");
+    const auto stiffness = run.stiffnessLeft();
+    return stiffness ? delay + ", stiff up to " + stiffnessText (*stiffness) : delay;
+}
 }   // namespace
 
-/// Red while it stops, and then the way to start again.
+/// STOP in red, or START or REARM in the accent colour.
 class SafetyStrip::StopButton final : public juce::Button
 {
 public:
@@ -45,8 +65,8 @@ public:
         const auto& look = lookOf (*this);
         const bool stops = getButtonText() == "STOP";
         const auto colour = stops ? look.theme().stop : look.theme().accent;
-        g.setColour (colour.withMultipliedBrightness (down ? 0.8f : over ? 1.15f
-                                                                         : 1.0f));
+        const float lit = over ? 1.15f : 1.0f;
+        g.setColour (colour.withMultipliedBrightness (down ? 0.8f : lit));
         g.fillRoundedRectangle (getLocalBounds().toFloat().reduced (0.5f), 4.0f);
         g.setColour (look.theme().is_dark && ! stops ? look.theme().canvas : juce::Colours::white);
         g.setFont (look.font (14.0f, true));
@@ -54,71 +74,25 @@ public:
     }
 };
 
-SafetyStrip::SafetyStrip() : button (std::make_unique<StopButton>()), rearm (std::make_unique<StopButton>())
+SafetyStrip::SafetyStrip (Playback& p) : playback (p), button (std::make_unique<StopButton>()), rearm (std::make_unique<StopButton>())
 {
     rearm->setButtonText ("REARM");
-    rearm->setTooltip ("Once nobody can be hurt: lets the forces rise again, slowly.");
+    rearm->setTooltip ("Lets the forces rise again, slowly. Press it only once it is safe.");
     rearm->onClick = [this]
-    {
-        if (onRearm) onRearm();
-    };
+    { playback.current().rearm(); };
     addChildComponent (*rearm);
     button->onClick = [this]
-    {
-        const auto& act = shown.running ? onStop : onStart;
-        if (act) act();
-    };
-    button->setTooltip ("Brings all forces to zero at once, smoothly. Esc does the same; Shift+Esc does it and goes on without forces.");
+    { shown.running ? playback.stop() : playback.restart(); };
+    button->setTooltip ("Ramps all forces to zero immediately. Esc does the same. With Shift+Esc, the graph keeps running without forces.");
     addAndMakeVisible (*button);
 }
 
 SafetyStrip::~SafetyStrip() = default;
 
-void SafetyStrip::show (Performance& p)
+void SafetyStrip::refresh()
 {
-    Shown now;
-    const auto status = p.status();
-    now.running = p.isRunning();
-    now.stopped_for_good = p.isStoppedForGood();
-    if (! status)
-    {
-        now.alarmed = hasErrors (p.messages());
-        now.state = now.alarmed ? "cannot run: see Problems" : "stopped";
-    }
-    else
-    {
-        const bool halting = status->phase == RunStatus::Phase::halting;
-        now.state = now.running ? halting ? juce::String ("stopping") : "running at " + juce::String (p.rate()) + " Hz" + (p.clockRole().empty() ? juce::String() : " by " + juce::String (p.clockRole())) : reason (*status, p);
-        now.alarmed = status->end == RunStatus::End::overrun;
-        if (hasErrors (p.messages())) now.state = now.running && ! halting ? "running as before the last edits" : "cannot run: see Problems";
-        now.warned = now.warned || hasErrors (p.messages());
-        if (now.running) now.guard = "guard ready";
-        if (const auto most = p.mostForce(); most && status->peak >= *most * (1.0 - 1e-9))
-        {
-            now.guard = "limited to " + inNewton (*most);
-            now.warned = true;
-        }
-        for (const auto& role : status->shown())
-            if (role.latest != Guard::Stop::none && role.latest != Guard::Stop::halted)
-            {
-                now.guard = juce::String (std::string (role.name)) + ": " + describe (role.latestEvent());
-                now.alarmed = now.alarmed || role.stop != Guard::Stop::none;
-            }
-        if (now.running && status->clock_replaced)
-        {
-            now.guard = juce::String (p.clockRole()) + " does not tick: forces are held at zero";
-            now.alarmed = true;
-        }
-        now.force = inNewton (status->force) + "  |  peak " + inNewton (status->peak);
-        now.misses = juce::String (static_cast<juce::int64> (status->misses)) + " missed";
-        if (const auto d = p.delay())
-        {
-            now.delay = "delay " + juce::String (*d) + (*d == 1 ? " tick" : " ticks");
-            if (const auto k = p.stiffnessLeft()) now.delay += ", stiff up to " + inNewtonPerMillimetre (*k);
-        }
-        else
-            now.delay = "nothing leads from a hand to a motor";
-    }
+    rearm->setEnabled (playback.current().canRearm());
+    auto now = stateOf (playback.current());
     if (now == shown) return;
     button->setButtonText (now.running ? "STOP" : "START");
     rearm->setVisible (now.stopped_for_good);
@@ -126,11 +100,61 @@ void SafetyStrip::show (Performance& p)
     repaint();
 }
 
+SafetyStrip::Shown SafetyStrip::stateOf (LiveRun& run)
+{
+    const bool has_errors = hasErrors (run.messages());
+    Shown now;
+    now.running = run.isRunning();
+    now.stopped_for_good = run.isStoppedForGood();
+    const auto status = run.status();
+    if (! status)
+    {
+        now.alarmed = has_errors;
+        now.state = has_errors ? "cannot run: see Problems" : "stopped";
+        return now;
+    }
+    const bool halting = status->phase == RunStatus::Phase::halting;
+    if (has_errors)
+        now.state = now.running && ! halting ? "running without the latest edits" : "cannot run: see Problems";
+    else if (! now.running)
+        now.state = reason (*status, run);
+    else
+        now.state = halting ? juce::String ("stopping") : runningText (run);
+    now.alarmed = status->end == RunStatus::End::overrun;
+    now.warned = has_errors;
+    showGuards (run, *status, now);
+    now.force = newtonText (status->force) + "  |  peak " + newtonText (status->peak);
+    now.misses = juce::String (static_cast<juce::int64> (status->misses)) + " missed";
+    now.delay = delayText (run);
+    return now;
+}
+
+void SafetyStrip::showGuards (const LiveRun& run, const RunStatus& status, Shown& now)
+{
+    if (now.running) now.guard = "guard ready";
+    if (const auto most = run.mostForce(); most && status.peak >= *most * (1.0 - 1e-9))
+    {
+        now.guard = "limited to " + newtonText (*most);
+        now.warned = true;
+    }
+    for (const auto& role : status.shown())
+        if (role.latest != Guard::Stop::none && role.latest != Guard::Stop::halted)
+        {
+            now.guard = juce::String (std::string (role.name)) + ": " + describe (role.latestEvent());
+            now.alarmed = now.alarmed || role.stop != Guard::Stop::none;
+        }
+    if (now.running && status.clock_replaced)
+    {
+        now.guard = juce::String (run.clockRole()) + " does not tick: forces are held at zero";
+        now.alarmed = true;
+    }
+}
+
 void SafetyStrip::resized()
 {
     auto area = getLocalBounds();
     button->setBounds (area.removeFromRight (button_width).reduced (8, 7));
-    rearm->setBounds (area.removeFromRight (button_width).reduced (8, 7));   // not where STOP is: who clicks there wants no force
+    rearm->setBounds (area.removeFromRight (button_width).reduced (8, 7));   // away from STOP, so that a click meant for STOP cannot rearm
 }
 
 void SafetyStrip::paint (juce::Graphics& g)
@@ -141,15 +165,16 @@ void SafetyStrip::paint (juce::Graphics& g)
     g.setColour (theme.hairline);
     g.drawHorizontalLine (getHeight() - 1, 0.0f, static_cast<float> (getWidth()));
 
+    const auto colourFor = [&] (juce::Colour unless_alarmed)
+    { return shown.alarmed ? theme.stop : unless_alarmed; };
     auto area = getLocalBounds().withTrimmedRight (shown.stopped_for_good ? 2 * button_width : button_width).reduced (16, 0).toFloat();
-    g.setColour (shown.alarmed ? theme.stop : shown.warned ? theme.warning
-                                          : shown.running  ? theme.of (Quantity::energy)
-                                                           : theme.dim);
+    const auto calm = shown.running ? theme.of (Quantity::energy) : theme.dim;
+    g.setColour (colourFor (shown.warned ? theme.warning : calm));
     g.fillEllipse (juce::Rectangle<float> (10.0f, 10.0f).withCentre ({ area.getX() + 5.0f, area.getCentreY() }));
     area.removeFromLeft (22.0f);
 
     constexpr float gap = 24.0f;
-    const auto say = [&] (const juce::String& text, float least, juce::Colour colour, bool bold = false)
+    const auto add = [&] (const juce::String& text, float least, juce::Colour colour, bool bold = false)
     {
         const auto font = look.font (13.0f, bold);
         g.setFont (font);
@@ -158,9 +183,8 @@ void SafetyStrip::paint (juce::Graphics& g)
         g.drawText (text, area.removeFromLeft (std::min (width, area.getWidth())), juce::Justification::centredLeft, true);
         area.removeFromLeft (std::min (gap, area.getWidth()));
     };
-    say (shown.state, 140.0f, theme.text, true);
-    say (shown.guard, 80.0f, shown.alarmed ? theme.stop : shown.warned ? theme.warning
-                                                                       : theme.dim);
+    add (shown.state, 140.0f, theme.text, true);
+    add (shown.guard, 80.0f, colourFor (shown.warned ? theme.warning : theme.dim));
     constexpr float force_width = 200.0f;
     if (shown.force.isNotEmpty() && area.getWidth() > force_width)
     {
@@ -169,8 +193,8 @@ void SafetyStrip::paint (juce::Graphics& g)
         drawNumber (g, shown.force, area.removeFromLeft (force_width));
         area.removeFromLeft (gap);
     }
-    say (shown.misses, 76.0f, theme.dim);
-    say (shown.delay, 0.0f, theme.dim);
+    add (shown.misses, 76.0f, theme.dim);
+    add (shown.delay, 0.0f, theme.dim);
 }
 
 }   // namespace tactus::host

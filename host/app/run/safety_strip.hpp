@@ -1,28 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "performance.hpp"
+#include "playback.hpp"
 
 #include <host/app/look/look.hpp>
-
-#include <functional>
 
 namespace tactus::host
 {
 
-/// What runs and whether it is safe, always in sight: running or why not, force now and the largest so far, ticks that were
-/// missed and what took so long, the delay and the stiffness it leaves, and the stop.
+/// The strip at the top of the window, which is always visible: the state of the run and its guards, the current and peak force, missed
+/// ticks, the delay with the stiffness that it allows, and the STOP button.
 class SafetyStrip final : public juce::Component
 {
 public:
     static constexpr int height = 44;
 
-    SafetyStrip();
+    explicit SafetyStrip (Playback&);
     ~SafetyStrip() override;
 
-    void show (Performance&);   ///< many times a second
-
-    std::function<void()> onStop, onStart, onRearm;
+    void refresh();   ///< call many times a second
 
     void paint (juce::Graphics&) override;
     void resized() override;
@@ -38,6 +34,10 @@ private:
 
     class StopButton;
 
+    static Shown stateOf (LiveRun&);
+    static void showGuards (const LiveRun&, const RunStatus&, Shown&);
+
+    Playback& playback;
     Shown shown;
     std::unique_ptr<StopButton> button, rearm;
 };

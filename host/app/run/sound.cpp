@@ -8,28 +8,31 @@ namespace tactus::host
 {
 namespace
 {
-constexpr double reserve_s = 0.02;   // for ears, which mind a gap more than they mind 10 ms
+constexpr double reserve_s = 0.02;   // a gap is more audible than 10 ms more delay
 
-std::unique_ptr<audio::OutStream> makeStream (double tick_rate) { return std::make_unique<audio::OutStream> (audio::StreamSetup { .lanes = 1, .tick_side_hz = tick_rate, .reserve_s = reserve_s }); }
+std::unique_ptr<audio::OutStream> makeStream (double tick_rate)
+{
+    return std::make_unique<audio::OutStream> (audio::StreamSetup { .lanes = 1, .tick_side_hz = tick_rate, .reserve_s = reserve_s });
+}
 }   // namespace
 
 Sound::Sound (audio::CardSystem& cards) : stream (makeStream (tick_rate)), keeper (cards, *this) {}
 
-std::optional<Message> Sound::start()
+Result<> Sound::start()
 {
-    if (isOn()) return std::nullopt;
-    auto trouble = open();
-    on = ! trouble;
-    if (trouble) keeper.close();
-    return trouble;
+    if (isOn()) return {};
+    auto opened = open();
+    on = opened.has_value();
+    if (! opened) keeper.close();
+    return opened;
 }
 
-/// In stereo if the card has it.
-std::optional<Message> Sound::open()
+/// Opens the card in stereo, or in mono if it has only one channel.
+Result<> Sound::open()
 {
-    auto trouble = keeper.open ({}, 2, 0);
-    if (trouble && trouble->id == "audio/channel") trouble = keeper.open ({}, 1, 0);
-    return trouble;
+    auto opened = keeper.open ({}, 2, 0);
+    if (! opened && opened.error().id == "audio/channel") opened = keeper.open ({}, 1, 0);
+    return opened;
 }
 
 void Sound::stop()
@@ -46,7 +49,7 @@ void Sound::setTickRate (double hz)
     high_pass = { lowest_hz, hz };
     stream = makeStream (hz);
     if (! isOn()) return;
-    on = ! open();
+    on = open().has_value();
     if (! on) keeper.close();
 }
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <framework/text/result.hpp>
 #include <host/audio/card_keeper.hpp>
 #include <host/audio/high_pass.hpp>
 #include <host/audio/stream.hpp>
 
 #include <atomic>
 #include <memory>
-#include <optional>
 
 namespace tactus::host
 {
 
-/// The force on the tool, heard: as a hand feels it from 20 Hz up, through the sound card. What a session plays of a graph is
-/// another matter (audio::AudioRig).
+/// Plays the force on the tool through the sound card, from 20 Hz up, so that what the hand feels can be heard. Independent of the
+/// ports that a session plays (audio::AudioRig).
 class Sound final : private audio::CardUser
 {
 public:
@@ -23,11 +23,11 @@ public:
     explicit Sound (audio::CardSystem& = audio::soundCards());
     ~Sound() override { stop(); }
 
-    /// Opens the sound card, or says why it cannot be. [main thread]
-    std::optional<Message> start();
+    /// Opens the sound card. [main thread]
+    Result<> start();
     void stop();
     bool isOn() const noexcept { return on.load (std::memory_order_relaxed); }
-    void attend() { keeper.attend(); }   ///< many times a second: takes a card again that went away [main thread]
+    void attend() { keeper.attend(); }   ///< call many times a second; reopens a card that was lost [main thread]
 
     void setTickRate (double hz);                                     ///< while nothing ticks [main thread]
     void setVolume (float v) noexcept { volume = v; }                 ///< 0…1
@@ -37,7 +37,7 @@ public:
 private:
     void begin (const audio::OpenedFormat&) override;
     void block (const float* const*, int, float* const* out, int outs, int frames) noexcept override;
-    std::optional<Message> open();
+    Result<> open();
 
     std::atomic<bool> on = false;
     std::atomic<float> volume = 0.8f;
@@ -45,7 +45,7 @@ private:
     audio::HighPass high_pass { lowest_hz, tick_rate };
     std::unique_ptr<audio::OutStream> stream;
     int longest_block = 0;
-    audio::CardKeeper keeper;   // last: its card calls this
+    audio::CardKeeper keeper;   // last: the card calls this
 };
 
 }   // namespace tactus::host

@@ -8,7 +8,8 @@ namespace tactus::host
 {
 
 Trace::Trace (const Tap& tap, double rate)
-    : tap_name (tap.name), what (tap.quantity), si (tap.unit), rate_hz (rate), values (static_cast<std::size_t> (std::max (1.0, seconds * rate)), std::numeric_limits<double>::quiet_NaN())
+    : tap_name (tap.name), what (tap.quantity), si (tap.unit), rate_hz (rate),
+      values (static_cast<std::size_t> (std::max (1.0, seconds * rate)), std::numeric_limits<double>::quiet_NaN())
 {
 }
 
@@ -52,18 +53,17 @@ std::vector<std::shared_ptr<const Trace>> Traces::of (const std::string& port) c
     return found;
 }
 
-void Traces::select (const Plan& plan, double rate_hz, bool anew)
+void Traces::planComes (const Plan& plan)
 {
-    collect();   // what came before is of the plan before
-    if (anew) by_name.clear();
+    collect();   // the frames so far belong to the previous plan
     const auto wanted = ports();
     std::vector<std::size_t> chosen;
     std::vector<std::shared_ptr<Trace>> columns;
     too_many.clear();
-    std::map<std::string, std::shared_ptr<Trace>> kept;
-    for (std::size_t i = 0; i < plan.taps.size(); ++i)
+    std::map<std::string, std::shared_ptr<Trace>> recorded;
+    for (std::size_t i = 0; i < plan.taps().size(); ++i)
     {
-        const auto& tap = plan.taps[i];
+        const auto& tap = plan.taps()[i];
         if (std::ranges::none_of (wanted, [&] (const std::string& port)
                                   { return isPartOf (tap.name, port); })) continue;
         if (chosen.size() == ProbeRing::most)
@@ -71,13 +71,13 @@ void Traces::select (const Plan& plan, double rate_hz, bool anew)
             too_many.push_back (tap.name);
             continue;
         }
-        auto& trace = kept[tap.name];
+        auto& trace = recorded[tap.name];
         if (const auto old = by_name.find (tap.name); old != by_name.end() && old->second->unit() == tap.unit) trace = old->second;
-        if (! trace) trace = std::make_shared<Trace> (tap, rate_hz);
+        if (! trace) trace = std::make_shared<Trace> (tap, plan.rateHz());
         chosen.push_back (i);
         columns.push_back (trace);
     }
-    by_name = std::move (kept);
+    by_name = std::move (recorded);
     if (chosen != taps || columns != in_frame)
     {
         ring.drain ([] (const ProbeRing::Frame&) {});
@@ -86,7 +86,7 @@ void Traces::select (const Plan& plan, double rate_hz, bool anew)
         in_frame = std::move (columns);
         ring.select (taps, 1);
     }
-    selected.push_back (&plan);
+    selected.push_back (plan.serial());
     if (selected.size() > most_plans) selected.erase (selected.begin());
 }
 

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <framework/plan/plan.hpp>
-#include <host/runtime/probe_ring.hpp>
+#include <framework/run/probe_ring.hpp>
+#include <framework/run/run.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -15,12 +16,11 @@
 namespace tactus::host
 {
 
-/// What stood on one component of a port on the latest ticks. A tick that was missed, since the window was busy for long,
-/// is nan. [main thread]
+/// The latest values of one component of a port, one per tick. Ticks that were missed because the window was busy are nan. [main thread]
 class Trace
 {
 public:
-    static constexpr double seconds = 10.0;   ///< how far back it goes
+    static constexpr double seconds = 10.0;   ///< length of a trace
 
     Trace (const Tap& tap, double rate_hz);
 
@@ -33,7 +33,7 @@ public:
     std::uint64_t end() const noexcept { return end_tick; }   ///< one after the latest tick
     double at (std::uint64_t tick) const noexcept { return values[tick % values.size()]; }
 
-    /// f (tick, value) of each tick from one to before another; of those before or after what is held there is none.
+    /// Calls f (tick, value) for each tick in [from, to) that is stored.
     template <typename F>
     void each (std::uint64_t from, std::uint64_t to, F&& f) const
     {
@@ -54,16 +54,15 @@ private:
     Quantity what;
     std::string si;
     double rate_hz;
-    std::vector<double> values;   // a ring
+    std::vector<double> values;   // a ring buffer
     std::uint64_t first_tick = 0, end_tick = 0;
 };
 
-/// The ports that somebody wants to see, and what stood there. Several may want some each; what they have in common is
-/// kept once. [main thread]
-class Traces
+/// Records the ports that its clients ask for. A port that several clients ask for is recorded once. [main thread]
+class Traces final : public RunListener
 {
 public:
-    /// One who wants to see something, for as long as it lives.
+    /// Asks for ports, for as long as it lives.
     class Client
     {
     public:
@@ -72,11 +71,11 @@ public:
         Client (const Client&) = delete;
         Client& operator= (const Client&) = delete;
 
-        /// These ports and no others, as "drag.force". What is not there is left out, and comes when it is.
+        /// Asks for these ports, such as "drag.force", and no others. A port that does not exist is left out until it does.
         void want (std::vector<std::string>);
         const std::vector<std::string>& wanted() const noexcept { return ports; }
 
-        /// The components of a port, in order; none if it is not there or nothing has run yet.
+        /// The components of a port, in order. Empty if the port does not exist, or if nothing has run yet.
         std::vector<std::shared_ptr<const Trace>> of (const std::string& port) const { return traces.of (port); }
 
     private:
@@ -85,29 +84,30 @@ public:
         std::vector<std::string> ports;
     };
 
-    /// All that is wanted, each once.
-    std::vector<std::string> ports() const;
+    /// All ports that are asked for, each once.
+    std::vector<std::string> ports() const override;
 
     std::vector<std::shared_ptr<const Trace>> of (const std::string& port) const;
 
-    std::function<void()> onWanted;   ///< something else is wanted now
+    std::function<void()> onWanted;   ///< the ports asked for have changed
 
-    /// The components that are wanted and there, but too many to be looked at.
+    /// The components that are asked for and exist, but exceed the number that can be recorded.
     const std::vector<std::string>& leftOut() const noexcept { return too_many; }
 
-    /// From the tick that takes it, this plan is looked at; what it has not any more stays as it was.
-    void select (const Plan&, double rate_hz, bool anew);
+    /// Drops the traces of earlier runs.
+    void clear() { by_name.clear(); }
 
-    void note (const Plan& plan, std::uint64_t tick) noexcept { ring.note (plan, tick); }   ///< [tick thread]
-    void collect();                                                                         ///< to be called many times a second
+    void planComes (const Plan&) override;
+    void after (const Plan& plan, std::uint64_t tick, bool) noexcept override { ring.note (plan, tick); }
+    void collect();   ///< call many times a second
 
 private:
-    static constexpr std::size_t most_plans = 64;   ///< whose frames may still be on their way
+    static constexpr std::size_t most_plans = 64;   ///< plans whose frames may still be in the ring
 
     ProbeRing ring;
-    std::vector<const Plan*> selected;   ///< all of which have the same taps; never looked into
+    std::vector<std::uint64_t> selected;   ///< serials of plans that all have the same taps
     std::vector<std::size_t> taps;
-    std::vector<std::shared_ptr<Trace>> in_frame;   ///< by their place in a frame
+    std::vector<std::shared_ptr<Trace>> in_frame;   ///< by index in a frame
     std::map<std::string, std::shared_ptr<Trace>> by_name;
     std::vector<std::string> too_many;
     std::vector<Client*> clients;

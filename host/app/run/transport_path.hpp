@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <host/devices/path.hpp>
+#include <framework/run/device/path.hpp>
 
 #include <atomic>
 #include <cmath>
@@ -10,8 +10,8 @@
 namespace tactus::host
 {
 
-/// A path that is played: stopped, sought and slowed down while a hand follows it. Where the hand is to be never jumps: what a
-/// seek leaves over, it makes up for as a critically damped spring does, and a change of speed takes a moment.
+/// A path with a transport: pause, seek and slow motion while a hand follows it. The position never jumps: after a seek it catches up like
+/// a critically damped spring, and a change of speed takes a moment.
 class TransportPath final : public Path
 {
 public:
@@ -24,11 +24,11 @@ public:
     bool isPlaying() const noexcept { return plays; }
     void setSpeed (double factor) noexcept { speed = factor; }
     void seek (double to_s) noexcept { wanted = to_s; }
-    double position() const noexcept { return told; }   ///< s, from the start of the path's latest round
+    double position() const noexcept { return reported; }   ///< time since the start of the current loop, in s
 
     double duration() const noexcept override { return path->duration(); }
 
-    /// To be asked with a time that goes on from call to call. [tick thread]
+    /// Call with increasing times. [tick thread]
     Point at (double t) const noexcept override
     {
         const double dt = t - last;
@@ -53,8 +53,8 @@ public:
         const auto on_path = path->at (place);
         now.position = on_path.position + offset.position;
         now.velocity = pace * on_path.velocity + offset.velocity;
-        const double round = path->duration();
-        told.store (round > 0.0 ? std::fmod (place, round) : place, std::memory_order_relaxed);
+        const double loop = path->duration();
+        reported.store (loop > 0.0 ? std::fmod (place, loop) : place, std::memory_order_relaxed);
         return now;
     }
 
@@ -65,9 +65,9 @@ private:
     std::shared_ptr<const Path> path;
     std::atomic<bool> plays = true;
     std::atomic<double> speed = 1.0;
-    mutable std::atomic<double> wanted = none, told = 0.0;
+    mutable std::atomic<double> wanted = none, reported = 0.0;
 
-    // Of the tick thread.
+    // [tick thread]
     mutable Point now, offset;
     mutable double last = 0.0, place = 0.0, pace = 1.0;
 };

@@ -11,24 +11,32 @@ namespace tactus::host
 
 namespace
 {
-std::shared_ptr<Trace> traceOf (const char* name, double rate) { return std::make_shared<Trace> (Tap { .name = name, .quantity = Quantity::energy, .unit = "J" }, rate); }
+std::shared_ptr<Trace> traceOf (const char* name, double rate)
+{
+    return std::make_shared<Trace> (Tap { .name = name, .quantity = Quantity::energy, .unit = "J" }, rate);
+}
 
-/// The sum of what stands there on a tick; nan if one of it is missing.
+/// The value at a tick; nan if there is none.
+double at (const Trace& t, std::uint64_t tick) { return tick >= t.begin() && tick < t.end() ? t.at (tick) : std::nan (""); }
+
+/// The sum at a tick; nan if a value is missing.
 double sumAt (const TraceList& traces, std::uint64_t tick)
 {
     double sum = 0.0;
     for (const auto& t : traces)
-        sum += tick >= t->begin() && tick < t->end() ? t->at (tick) : std::nan ("");
+        sum += at (*t, tick);
     return sum;
 }
 
-double at (const TraceList& traces, std::size_t i, std::uint64_t tick) { return tick >= traces[i]->begin() && tick < traces[i]->end() ? traces[i]->at (tick) : std::nan (""); }
+std::array<double, 3> vectorAt (const TraceList& traces, std::uint64_t tick) { return { at (*traces[0], tick), at (*traces[1], tick), at (*traces[2], tick) }; }
+
+bool isWhole (const std::array<double, 3>& v) { return std::isfinite (v[0]) && std::isfinite (v[1]) && std::isfinite (v[2]); }
 }   // namespace
 
 void EnergyMeter::restart()
 {
     now = {};
-    looked_at.clear();
+    read.clear();
     shown.clear();
 }
 
@@ -57,73 +65,70 @@ void EnergyMeter::follow (const Sources& s)
     auto end = all.front()->end();
     for (const auto& t : all)
         end = std::min (end, t->end());
-    if (all != looked_at || all.front()->begin() > next)   // what is not held any more is lost
+    if (all != read || all.front()->begin() > next)   // ticks that are no longer stored are lost
     {
         begin (s);
-        looked_at = std::move (all);
+        read = std::move (all);
     }
-
     for (; next < end; ++next)
-    {
-        std::array<double, 3> p {}, f {};
-        bool is_whole = true;
-        for (std::size_t i = 0; i < 3; ++i)
-        {
-            p[i] = at (s.position, i, next);
-            f[i] = at (s.applied, i, next);
-            is_whole = is_whole && std::isfinite (p[i]) && std::isfinite (f[i]);
-        }
-        const double in = sumAt (s.stored, next), lost = sumAt (s.dissipated, next);
-        if (! is_whole || ! std::isfinite (in) || ! std::isfinite (lost))
-        {
-            now.gaps += has_last;
-            was_gap = true;
-            last_step = {};
-            continue;
-        }
-        if (has_last)
-        {
-            double step = 0.0;
-            for (std::size_t i = 0; i < 3; ++i)
-            {
-                // The force at the end of the step before is known only now: by it the trapezoid differs from what was held.
-                if (! was_gap) now.held -= 0.5 * (f[i] - last_force[i]) * last_step[i];
-                last_step[i] = p[i] - last[i];
-                step -= (was_gap ? 0.5 * (f[i] + last_force[i]) : f[i]) * last_step[i];
-            }
-            now.work += step;
-            now.moved += std::abs (step);
-            now.worst = std::min (now.worst, now.work);
-        }
-        else
-        {
-            now.stored_first = in;
-            lost_first = lost;
-        }
-        now.stored = in;
-        now.dissipated = lost - lost_first;
-        has_last = true;
-        was_gap = false;
-        last = p;
-        last_force = f;
-        work->add (next, now.work);
-        stored->add (next, in - now.stored_first);
-        dissipated->add (next, now.dissipated);
-    }
+        add (vectorAt (s.position, next), vectorAt (s.applied, next), sumAt (s.stored, next), sumAt (s.dissipated, next));
 }
 
-std::string inWords (const EnergyBalance& b)
+void EnergyMeter::add (const std::array<double, 3>& p, const std::array<double, 3>& f, double in, double lost)
+{
+    if (! isWhole (p) || ! isWhole (f) || ! std::isfinite (in) || ! std::isfinite (lost))
+    {
+        now.gaps += has_last;
+        was_gap = true;
+        last_step = {};
+        return;
+    }
+    if (has_last)
+    {
+        double step = 0.0;
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+            // The force at the end of the previous step is known only now. It makes the difference between the trapezoid and the held force.
+            if (! was_gap) now.held -= 0.5 * (f[i] - last_force[i]) * last_step[i];
+            last_step[i] = p[i] - last[i];
+            step -= (was_gap ? 0.5 * (f[i] + last_force[i]) : f[i]) * last_step[i];
+        }
+        now.work += step;
+        now.moved += std::abs (step);
+        now.worst = std::min (now.worst, now.work);
+    }
+    else
+    {
+        now.stored_first = in;
+        lost_first = lost;
+    }
+    now.stored = in;
+    now.dissipated = lost - lost_first;
+    has_last = true;
+    was_gap = false;
+    last = p;
+    last_force = f;
+    work->add (next, now.work);
+    stored->add (next, in - now.stored_first);
+    dissipated->add (next, now.dissipated);
+}
+
+std::string describe (const EnergyBalance& b)
 {
     const auto joule = [] (double v)
     {
         auto text = withPrefix (v, "J", 2);
         const auto gap = text.find (' ');
-        return gap == std::string::npos ? text : text.replace (gap, 1, "\u00a0");   // a number stays with its unit
+        return gap == std::string::npos ? text : text.replace (gap, 1, "\u00a0");   // keeps the number and its unit on one line
     };
-    std::string text = b.isPassive() ? "passive: the hand has put in " + joule (b.work) : "active: " + joule (-b.worst - b.stored_first) + " more came out than went in; work of the hand " + joule (b.work);
-    text += ", " + joule (b.stored) + " are stored, " + joule (b.dissipated) + " dissipated";
-    if (b.held > 0.01 * b.moved && b.held > 1e-7) text += "; holding the force from tick to tick made " + joule (b.held);
-    if (std::abs (b.elsewhere()) > 0.02 * b.moved && std::abs (b.elsewhere()) > 1e-7) text += b.elsewhere() > 0.0 ? ", " + joule (b.elsewhere()) + " elsewhere" : ": " + joule (-b.elsewhere()) + " too much, since the steps of the ticks are coarse";
+    const auto matters = [&] (double v, double share)
+    { return v > share * b.moved && v > 1e-7; };
+    std::string text = b.isPassive() ? "passive" : "active: " + joule (-b.worst - b.stored_first) + " more came out than went in";
+    text += (b.isPassive() ? ": work of the hand " : "; work of the hand ") + joule (b.work);
+    text += ", " + joule (b.stored) + " stored, " + joule (b.dissipated) + " dissipated";
+    if (matters (b.held, 0.01)) text += "; holding the force between ticks created " + joule (b.held);
+    if (matters (b.elsewhere(), 0.02)) text += ", " + joule (b.elsewhere()) + " elsewhere";
+    if (matters (-b.elsewhere(), 0.02)) text += ": " + joule (-b.elsewhere()) + " too much, because each tick moves too far";
     return text;
 }
 

@@ -1,59 +1,60 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "look_at.hpp"
+#include "trace_window.hpp"
 
 #include <string>
 
 namespace tactus::host
 {
 
-/// Where the energy of the hand goes.
+/// The energy balance of the hand.
 struct EnergyBalance
 {
-    double work = 0.0;     ///< J, that the hand has put in
-    double stored = 0.0;   ///< J, in springs and bristles now
-    double stored_first = 0.0;
-    double dissipated = 0.0;   ///< J, turned into heat
-    double held = 0.0;         ///< J, made by holding the force from tick to tick; a force that followed the hand would have cost it that much more
-    double worst = 0.0;        ///< J, the least that the hand had put in at any time
-    double moved = 0.0;        ///< J, that has gone to and fro
-    std::uint64_t gaps = 0;    ///< ticks that were missed, across which the work is an estimate
+    double work = 0.0;           ///< done by the hand, in J
+    double stored = 0.0;         ///< currently in springs and bristles, in J
+    double stored_first = 0.0;   ///< at the start, in J
+    double dissipated = 0.0;     ///< turned into heat, in J
+    double held = 0.0;           ///< created by holding the force between ticks, in J; with a continuous force, the hand would have done that much more work
+    double worst = 0.0;          ///< the lowest value of `work` so far, in J
+    double moved = 0.0;          ///< the sum of all work in either direction, in J
+    std::uint64_t gaps = 0;      ///< missed ticks, across which the work is estimated
 
-    /// What no node accounts for. Less than 0 where nodes count more than there was, which some do on a slip in one coarse step.
+    /// Energy that no node accounts for. Negative if nodes report too much, as some do when they slip within one coarse step.
     double elsewhere() const noexcept { return work + held - (stored - stored_first) - dissipated; }
 
-    /// More can never have come out than was in there to begin with.
+    /// True if the hand never got out more than was stored at the start.
     bool isPassive() const noexcept { return worst + stored_first >= -tolerance(); }
     double tolerance() const noexcept { return std::max (1e-9, 1e-3 * moved); }
 };
 
-/// Adds up the work of the hand tick by tick, W = -sum f . dx, f the force the device has put on the tool over the step dx;
-/// and beside it what nodes say they store and dissipate. It goes on from call to call, so that its window may be short.
+/// Sums the work of the hand tick by tick, W = -sum f . dx, where f is the force of the device on the tool during the step dx, along with the
+/// energy that nodes report as stored and dissipated. It continues from call to call, so the traces may be short.
 class EnergyMeter
 {
 public:
     struct Sources
     {
         TraceList position;   ///< of the tool
-        TraceList applied;    ///< the force that was held until this tick
+        TraceList applied;    ///< the force held until this tick
         TraceList stored, dissipated;
     };
 
-    /// Takes in the ticks that have come since. Starts over if what it looks at is another.
+    /// Processes the new ticks. Restarts if it gets different traces.
     void follow (const Sources&);
     void restart();
 
     const EnergyBalance& balance() const noexcept { return now; }
 
-    /// Over time: the work, what is stored, what is dissipated; empty before the first tick.
+    /// Work, stored and dissipated energy over time. Empty before the first tick.
     const TraceList& traces() const noexcept { return shown; }
 
 private:
     void begin (const Sources&);
+    void add (const std::array<double, 3>& position, const std::array<double, 3>& force, double stored_now, double lost_now);
 
     EnergyBalance now;
-    TraceList looked_at;
+    TraceList read;   // the traces that the last follow() read
     std::shared_ptr<Trace> work, stored, dissipated;
     TraceList shown;
     std::uint64_t next = 0;
@@ -62,7 +63,7 @@ private:
     double lost_first = 0.0;
 };
 
-/// "passive: the hand has put in 3.1 mJ, 0.4 mJ are stored, 2.7 mJ dissipated"
-std::string inWords (const EnergyBalance&);
+/// "passive: work of the hand 3.1 mJ, 0.4 mJ stored, 2.7 mJ dissipated"
+std::string describe (const EnergyBalance&);
 
 }   // namespace tactus::host

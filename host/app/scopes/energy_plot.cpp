@@ -16,7 +16,7 @@ void EnergyPlot::show (const Signals& signals)
     if (! spec.is_frozen)
     {
         EnergyMeter::Sources sources { signals (spec.x), signals (spec.y), {}, {} };
-        for (const auto& port : desk.energies)
+        for (const auto& port : context.energies)
             for (const auto& t : signals (port))
                 (port.ends_with ("stored_energy") ? sources.stored : sources.dissipated).push_back (t);
         meter.follow (sources);
@@ -29,8 +29,8 @@ void EnergyPlot::show (const Signals& signals)
     }
     layOut ({ "J" });
     auto& lane = lanes.front();
-    const float words_width = lookOf (*this).font (12.0f).getStringWidthFloat (juce::String::fromUTF8 (inWords (meter.balance()).c_str()));
-    const int lines = std::clamp (static_cast<int> (std::ceil (1.1f * words_width / std::max (1.0f, static_cast<float> (getWidth()) - 16.0f))), 1, most_lines);
+    const float text_width = lookOf (*this).font (12.0f).getStringWidthFloat (juce::String::fromUTF8 (describe (meter.balance()).c_str()));
+    const int lines = std::clamp (static_cast<int> (std::ceil (1.1f * text_width / std::max (1.0f, static_cast<float> (getWidth()) - 16.0f))), 1, most_lines);
     lane.area.removeFromTop (line_height * static_cast<float> (lines) + legend_height);
     rate_hz = traces.front()->rate();
     const auto seen = windowOf (traces, spec.seconds, {}, 0.0);
@@ -54,7 +54,7 @@ void EnergyPlot::show (const Signals& signals)
 
 void EnergyPlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t)
 {
-    std::vector<juce::Point<double>> floor, heat, top;
+    Points floor, heat, top;
     const auto flush = [&]
     {
         drawBetween (g, lane, floor, heat, theme().of (Quantity::energy).withAlpha (0.35f));
@@ -87,24 +87,27 @@ void EnergyPlot::paintOver (juce::Graphics& g)
     const auto& now = meter.balance();
     g.setFont (look.font (12.0f));
     g.setColour (now.isPassive() ? theme().text : theme().warning);
-    g.drawMultiLineText (juce::String::fromUTF8 (inWords (now).c_str()), 8, 16, getWidth() - 16);
-    paintLegend (g, lane.area.withY (lane.area.getY() - legend_height).withHeight (legend_height), { { theme().text, "hand" }, { theme().of (Quantity::length).withAlpha (0.55f), "stored" }, { theme().of (Quantity::energy).withAlpha (0.45f), "dissipated" } });
+    g.drawMultiLineText (juce::String::fromUTF8 (describe (now).c_str()), 8, 16, getWidth() - 16);
+    const auto legend = lane.area.withY (lane.area.getY() - legend_height).withHeight (legend_height);
+    const auto stored_ink = theme().of (Quantity::length).withAlpha (0.55f), lost_ink = theme().of (Quantity::energy).withAlpha (0.45f);
+    paintLegend (g, legend, { { theme().text, "hand" }, { stored_ink, "stored" }, { lost_ink, "dissipated" } });
     if (now.gaps == 0) return;
     g.setFont (look.font (11.0f));
     g.setColour (theme().dim);
-    g.drawText (juce::String (now.gaps) + (now.gaps == 1 ? " tick was missed" : " ticks were missed"), lane.area.reduced (8.0f, 4.0f).removeFromBottom (14.0f), juce::Justification::bottomLeft, true);
+    const auto line = lane.area.reduced (8.0f, 4.0f).removeFromBottom (14.0f);
+    g.drawText (juce::String (now.gaps) + (now.gaps == 1 ? " missed tick" : " missed ticks"), line, juce::Justification::bottomLeft, true);
 }
 
 std::vector<ScopePlot::Action> EnergyPlot::actions()
 {
-    return { { "from zero", "Counts anew from now on", [this] (juce::Component&)
+    return { { "reset", "Restarts the energy balance from zero", [this] (juce::Component&)
                { meter.restart(); } } };
 }
 
-juce::String EnergyPlot::emptyWords() const
+juce::String EnergyPlot::emptyText() const
 {
-    if (spec.x.empty() || spec.y.empty()) return "Energy needs a device: a Position node for where the hand is, a Force node for what it feels";
-    return "Nothing has run yet";
+    if (spec.x.empty() || spec.y.empty()) return "Energy needs a device.position node for the hand, and a device.force node for the force on it";
+    return not_run_yet;
 }
 
 }   // namespace tactus::host

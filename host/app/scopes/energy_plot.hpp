@@ -7,8 +7,8 @@
 namespace tactus::host
 {
 
-/// What is dissipated, what is stored on top of it, and the work of the hand as a line: where that lies on the edge, all of it
-/// is accounted for.
+/// Plots the dissipated energy, the stored energy stacked on top, and the work of the hand as a line. Where the line is on the upper edge,
+/// all energy is accounted for.
 class EnergyPlot final : public ScopePlot
 {
 public:
@@ -23,7 +23,7 @@ public:
 private:
     void paintLane (juce::Graphics&, const Lane&, std::size_t) override;
     void paintOver (juce::Graphics&) override;
-    juce::String emptyWords() const override;
+    juce::String emptyText() const override;
 
     EnergyMeter meter;
     TraceColumns work, stored, dissipated;

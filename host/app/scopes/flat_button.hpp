@@ -6,18 +6,18 @@
 namespace tactus::host
 {
 
-/// A button without a frame until the mouse is over it: a word, or a picture in a square of 14 that is stroked.
+/// A button whose frame appears only under the mouse. Shows a label, or a line drawing in a 14 by 14 square.
 class FlatButton final : public juce::Button
 {
 public:
     static constexpr int height = 24;
 
-    explicit FlatButton (const juce::String& word) : Button (word) { setWantsKeyboardFocus (false); }
+    explicit FlatButton (const juce::String& label) : Button (label) { setWantsKeyboardFocus (false); }
     FlatButton (const juce::String& name, juce::Path p) : FlatButton (name) { picture = std::move (p); }
 
-    juce::Colour dot = juce::Colours::transparentBlack;   ///< before the word
-    bool is_amiss = false;
-    std::function<void()> onCross;   ///< if there is one, a cross stands behind the word
+    juce::Colour dot = juce::Colours::transparentBlack;   ///< before the label
+    bool is_wrong = false;                                ///< shown in the warning colour
+    std::function<void()> onCross;                        ///< if set, there is a cross after the label
 
     int wantedWidth() const
     {
@@ -43,9 +43,9 @@ public:
             g.setColour (getToggleState() ? theme.accent.withAlpha (0.2f) : theme.raised);
             g.fillRoundedRectangle (area.reduced (0.0f, 1.0f), 4.0f);
         }
-        const auto ink = is_amiss ? theme.warning : getToggleState() ? theme.accent
-                                                : over               ? theme.text
-                                                                     : theme.dim;
+        auto ink = over ? theme.text : theme.dim;
+        if (getToggleState()) ink = theme.accent;
+        if (is_wrong) ink = theme.warning;
         g.setColour (ink);
         if (! picture.isEmpty())
         {
@@ -63,7 +63,7 @@ public:
         {
             g.setColour (dot);
             g.fillEllipse (area.removeFromLeft (12.0f).withSizeKeepingCentre (8.0f, 8.0f).translated (-2.0f, 0.0f));
-            g.setColour (is_amiss ? theme.warning : theme.text);
+            g.setColour (is_wrong ? theme.warning : theme.text);
         }
         g.setFont (look.font (12.0f));
         g.drawText (getButtonText(), area, juce::Justification::centredLeft, true);

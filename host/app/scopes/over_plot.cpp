@@ -15,7 +15,7 @@ constexpr float thickness = 1.5f, column_width = 0.5f;
 
 const std::shared_ptr<const Trace>& pick (const TraceList& l, int component) { return l[std::min (l.size() - 1, static_cast<std::size_t> (component))]; }
 
-/// Position, force and state share a unit of x at most by chance; the ranges are kept apart by this.
+/// The key of the x range. Keeps it apart from the y range, which may have the same unit.
 std::string xKey (const std::string& unit) { return "x " + unit; }
 }   // namespace
 
@@ -27,7 +27,9 @@ void OverPlot::show (const Signals& signals)
             piece = {};
     head.reset();
     lanes.clear();
-    const auto xs = spec.x.empty() ? TraceList {} : signals (spec.x), ys = spec.y.empty() ? TraceList {} : signals (spec.y), states = spec.state.empty() ? TraceList {} : signals (spec.state);
+    const auto tracesOf = [&] (const std::string& port)
+    { return port.empty() ? TraceList {} : signals (port); };
+    const auto xs = tracesOf (spec.x), ys = tracesOf (spec.y), states = tracesOf (spec.state);
     if (xs.empty() || ys.empty()) return;
 
     const auto end = std::min (endOf (xs), endOf (ys));
@@ -37,35 +39,35 @@ void OverPlot::show (const Signals& signals)
         component = spec.component;
     else
     {
-        // The way that moves most; another must be clearly longer, so that it does not change in a turn.
-        const auto way = [&] (std::size_t i)
+        // The component that moves most. To take over, another must move clearly more, so that the choice does not change at every reversal.
+        const auto travel = [&] (std::size_t i)
         {
             const auto e = extentOf (*xs[i], static_cast<double> (from), static_cast<double> (end));
             return e.isEmpty() ? 0.0 : e.size();
         };
         for (std::size_t i = 0; i < xs.size(); ++i)
-            if (way (i) > clearly_more * way (std::min (xs.size() - 1, static_cast<std::size_t> (component)))) component = static_cast<int> (i);
+            if (travel (i) > clearly_more * travel (std::min (xs.size() - 1, static_cast<std::size_t> (component)))) component = static_cast<int> (i);
     }
     const auto &x = *pick (xs, component), &y = *pick (ys, component);
     quantity = y.quantity();
-    tells_state = states.size() == 1;
+    has_state = states.size() == 1;
 
     layOut ({ y.unit() });
     auto& lane = lanes.front();
-    if (tells_state) lane.area.removeFromTop (legend_height);
+    if (has_state) lane.area.removeFromTop (legend_height);
     lane.x_unit = x.unit();
     lane.x = rangeOf (xKey (x.unit()), extentOf (x, static_cast<double> (from), static_cast<double> (end)));
     lane.y = rangeOf (y.unit(), extentOf (y, static_cast<double> (from), static_cast<double> (end)));
-    draw (x, y, tells_state ? states.front().get() : nullptr, from, end);
+    draw (x, y, has_state ? states.front().get() : nullptr, from, end);
 }
 
 OverPlot::Part OverPlot::partAt (const Trace* state, std::uint64_t tick)
 {
     if (state == nullptr) return Part::plain;
     const double s = tick >= state->begin() && tick < state->end() ? state->at (tick) : 0.0;
-    return s < 0.0 ? Part::fault : s < 0.5 ? Part::open
-                               : s < 1.5   ? Part::stuck
-                                           : Part::sliding;
+    if (s < 0.0) return Part::fault;
+    if (s < 0.5) return Part::open;
+    return s < 1.5 ? Part::stuck : Part::sliding;
 }
 
 void OverPlot::draw (const Trace& x, const Trace& y, const Trace* state, std::uint64_t from, std::uint64_t to)
@@ -85,7 +87,11 @@ void OverPlot::draw (const Trace& x, const Trace& y, const Trace* state, std::ui
     const auto flush = [&]
     {
         for (std::size_t part = 0; part < parts; ++part)
-            if (is_spanned[part]) tail[last_age][part].spans.addWithoutMerging ({ column + 0.5f * (column_width - thickness), spans[part].getStart() - 0.5f * thickness, thickness, spans[part].getLength() + thickness });
+            if (is_spanned[part])
+            {
+                const float left = column + 0.5f * (column_width - thickness), top = spans[part].getStart() - 0.5f * thickness;
+                tail[last_age][part].spans.addWithoutMerging ({ left, top, thickness, spans[part].getLength() + thickness });
+            }
         is_spanned = {};
     };
     x.each (first, to, [&] (std::uint64_t tick, double v)
@@ -99,7 +105,7 @@ void OverPlot::draw (const Trace& x, const Trace& y, const Trace* state, std::ui
         }
         const auto p = lane.toPixels (v, height);
         const auto part = static_cast<std::size_t> (partAt (state, tick));
-        const auto age = std::min (ages - 1, static_cast<std::size_t> (static_cast<double> (tick - from) / static_cast<double> (std::max<std::uint64_t> (1, to - from)) * static_cast<double> (ages)));
+        const auto age = std::min<std::uint64_t> (ages - 1, (tick - from) * ages / std::max<std::uint64_t> (1, to - from));
         const auto before = last.value_or (p);
         const float column_now = column_width * std::floor (p.x / column_width);
         if (age != last_age || column_now != column) flush();
@@ -139,7 +145,7 @@ juce::Colour OverPlot::colourOf (Part part) const
 
 void OverPlot::paintLane (juce::Graphics& g, const Lane&, std::size_t)
 {
-    // Sticking over sliding: where it sticks and slips too fast for the eye, it is seen that it sticks at all.
+    // Sticking is drawn over sliding, so that it stays visible when sticking and slipping alternate too fast for the eye.
     for (std::size_t age = 0; age < ages; ++age)
         for (const auto part : { Part::plain, Part::open, Part::sliding, Part::stuck, Part::fault })
         {
@@ -159,14 +165,16 @@ void OverPlot::paintLane (juce::Graphics& g, const Lane&, std::size_t)
 void OverPlot::paintOver (juce::Graphics& g)
 {
     const auto& area = lanes.front().area;
-    if (tells_state) paintLegend (g, area.withY (area.getY() - legend_height).withHeight (legend_height), { { colourOf (Part::stuck), "stuck" }, { colourOf (Part::sliding), "sliding" }, { colourOf (Part::open), "apart" } });
+    if (! has_state) return;
+    const auto legend = area.withY (area.getY() - legend_height).withHeight (legend_height);
+    paintLegend (g, legend, { { colourOf (Part::stuck), "stuck" }, { colourOf (Part::sliding), "sliding" }, { colourOf (Part::open), "no contact" } });
 }
 
 void OverPlot::zoomX (double factor, const Lane& lane, float at)
 {
     const double about = lane.xAt (at);
     const Extent zoomed { about + (lane.x.low - about) * factor, about + (lane.x.high - about) * factor };
-    if (isPlottable (zoomed.low) && isPlottable (zoomed.high) && zoomed.size() > 1e-12) spec.by_hand[xKey (lane.x_unit)] = zoomed;
+    if (isPlottable (zoomed.low) && isPlottable (zoomed.high) && zoomed.size() > 1e-12) spec.zoomed[xKey (lane.x_unit)] = zoomed;
 }
 
 std::vector<ScopePlot::Action> OverPlot::actions()
@@ -176,24 +184,16 @@ std::vector<ScopePlot::Action> OverPlot::actions()
     const auto next = [this] (juce::Component&)
     {
         spec.component = spec.component >= 2 ? -1 : spec.component + 1;
-        spec.by_hand.clear();
-        if (desk.onChange) desk.onChange();
+        spec.zoomed.clear();
+        if (context.onChange) context.onChange();
     };
-    const auto lengths = [this] (juce::Component& below)
-    {
-        juce::PopupMenu menu;
-        for (const double s : { 0.2, 0.5, 1.0, 2.0, 5.0, 10.0 })
-            menu.addItem (juce::String (withPrefix (s, "s", 1)), true, std::abs (spec.seconds - s) < 1e-6 * s, [safe = juce::Component::SafePointer (this), s]
-                          {
-                if (safe == nullptr) return;
-                safe->spec.seconds = s;
-                if (safe->desk.onChange) safe->desk.onChange(); });
-        menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (below));
-    };
-    return { { juce::String (withPrefix (spec.seconds, "s", 1)), "How long the tail is", lengths },
-             { along, "Which component of vectors; auto takes the one that moves most", next } };
+    return { lengthAction ({ 0.2, 0.5, 1.0, 2.0, 5.0, 10.0 }, "Length of the tail"),
+             { along, "Component of vectors; auto shows the one that moves most", next } };
 }
 
-juce::String OverPlot::emptyWords() const { return spec.x.empty() || spec.y.empty() ? "Choose what stands across and what stands up, above: x position, y force" : "Nothing has run yet"; }
+juce::String OverPlot::emptyText() const
+{
+    return spec.x.empty() || spec.y.empty() ? "Choose the x and y axes above, such as position and force" : not_run_yet;
+}
 
 }   // namespace tactus::host

@@ -6,8 +6,8 @@
 namespace tactus::host
 {
 
-/// One thing over another, as force over displacement, with a tail that fades. Where a state is known, sticking and sliding
-/// have colours of their own.
+/// One signal against another, such as force against displacement, with a tail that fades. If the state is known, sticking and
+/// sliding have different colours.
 class OverPlot final : public ScopePlot
 {
 public:
@@ -15,8 +15,6 @@ public:
 
     void show (const Signals&) override;
     std::vector<Action> actions() override;
-
-    int shownComponent() const noexcept { return component; }
 
 private:
     enum class Part
@@ -31,7 +29,7 @@ private:
 
     void paintLane (juce::Graphics&, const Lane&, std::size_t) override;
     void paintOver (juce::Graphics&) override;
-    juce::String emptyWords() const override;
+    juce::String emptyText() const override;
     juce::Colour colourOf (Part) const;
     static Part partAt (const Trace* state, std::uint64_t tick);
     void zoomX (double factor, const Lane&, float at) override;
@@ -39,8 +37,8 @@ private:
 
     int component = 0;
     Quantity quantity = Quantity::force;
-    bool tells_state = false;
-    /// Of one age and state: lines where a tick moves far; where many ticks share a column of pixels, what they span there.
+    bool has_state = false;
+    /// The tail of one age and state: lines where a tick moves far, and vertical spans where many ticks share a column of pixels.
     struct Piece
     {
         juce::Path lines;

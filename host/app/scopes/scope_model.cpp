@@ -67,7 +67,7 @@ void click (std::vector<Cursor>& cursors, const Cursor& c)
     if (cursors.size() >= 2)
         cursors.clear();
     else if (! cursors.empty() && cursors.front().lane != c.lane)
-        cursors = { c };   // a difference of what has two units says nothing
+        cursors = { c };   // a difference between two units is meaningless
     else
         cursors.push_back (c);
 }

@@ -18,7 +18,7 @@ namespace tactus::host
 enum class ScopeKind
 {
     time,   ///< an oscilloscope
-    over,   ///< one thing over another, as force over displacement
+    over,   ///< one signal against another, such as force against displacement
     spectrum,
     energy,
     tool   ///< a friction node seen from above
@@ -34,33 +34,33 @@ struct ScopeTrigger
     };
 
     Edge edge = Edge::off;
-    double level = 0.0;   ///< SI, of the first trace
+    double level = 0.0;   ///< a value of the first trace, in SI units
 };
 
-/// A place that was clicked: in s, Hz or what the abscissa is of, and in the unit of its lane.
+/// A clicked position: x in s, Hz or the unit of the x axis, y in the unit of its lane.
 struct Cursor
 {
     std::size_t lane = 0;
     double x = 0.0, y = 0.0;
 };
 
-/// What one scope shows, and how. Ports are named as `tactus render --record` names them.
+/// What one scope shows, and how. Ports have the same names as in `tactus render --record`.
 struct ScopeSpec
 {
     static constexpr double least_s = 5e-3, most_s = 10.0;
 
     ScopeKind kind = ScopeKind::time;
-    std::vector<std::string> ports;   ///< time, spectrum: what is shown
-    std::string x, y, state;          ///< over: the axes, and what tells sticking from sliding; energy: where the hand is, and the force on it
-    std::string node;                 ///< tool: of friction
-    bool has_normal = false;          ///< tool: something is wired to its normal
-    int component = -1;               ///< over: of vectors; -1 for the one that moves most
-    double seconds = 1.0;             ///< how far back is shown
-    double back_s = 0.0;              ///< time: how far before the newest the window ends, while frozen
+    std::vector<std::string> ports;   ///< time, spectrum: the traces
+    std::string x, y, state;          ///< over: the axes, and the state (stuck or sliding); energy: hand position, and force on the hand
+    std::string node;                 ///< tool: the friction node
+    bool has_normal = false;          ///< tool: its input `normal` is wired
+    int component = -1;               ///< over: component of vectors; -1 for the one that moves most
+    double seconds = 1.0;             ///< length of the window
+    double back_s = 0.0;              ///< time: how long before the newest tick the window ends, while frozen
     ScopeTrigger trigger;
-    bool in_decibels = true;                 ///< spectrum
-    std::map<std::string, Extent> by_hand;   ///< ranges that were zoomed by hand, by unit
-    std::vector<Cursor> cursors;             ///< two at most
+    bool in_decibels = true;                ///< spectrum
+    std::map<std::string, Extent> zoomed;   ///< ranges that the user has zoomed, by unit
+    std::vector<Cursor> cursors;            ///< at most two
     bool is_frozen = false;
 };
 
@@ -68,24 +68,24 @@ struct ScopeSpec
 struct ScopeModel
 {
     std::vector<std::unique_ptr<ScopeSpec>> scopes;
-    const ScopeSpec* active = nullptr;   ///< what a probe goes to, if it can hold one
+    const ScopeSpec* active = nullptr;   ///< gets new probes, if it can show them
 
-    /// Adds a port to the active scope, or to the first that shows any port over time; takes it out if it is there. A new
-    /// scope is made if there is none. True if it is shown now.
+    /// Adds a port to the active scope, or to the first oscilloscope, or to a new one. Removes the port if it is there already. Returns
+    /// true if it is shown now.
     bool probe (const std::string& port);
 
-    /// True if a scope shows it as a trace of its own.
+    /// True if a scope shows the port as a trace.
     bool shows (const std::string& port) const;
 };
 
-/// The ports that a scope needs, some for what it works out from them.
+/// All ports that a scope reads, including those it only computes with.
 std::vector<std::string> portsOf (const ScopeSpec&, const std::vector<std::string>& energies);
 
-/// A click: the first place, the second, and the third takes both away.
+/// Handles a click: the first two set cursors, the third removes both.
 void click (std::vector<Cursor>&, const Cursor&);
 
-/// The range of an axis that follows what is seen: it widens at once, and narrows once that would have been enough for a
-/// while, so that it does not breathe with every stroke.
+/// An automatic axis range. It widens immediately, and narrows only after the narrower range would have been enough for a while, so
+/// that it does not change with every stroke.
 class AutoRange
 {
 public:

@@ -4,7 +4,7 @@
 namespace tactus::host
 {
 
-ScopePanel::ScopePanel (Document& d, Performance& p, const Catalogue& c) : document (d), catalogue (c), traces (p.traces()), client (p.traces())
+ScopePanel::ScopePanel (Document& d, Traces& t, const Catalogue& c) : document (d), catalogue (c), traces (t), client (t)
 {
     setTitle ("Scopes");
     setWantsKeyboardFocus (true);
@@ -17,21 +17,21 @@ ScopePanel::ScopePanel (Document& d, Performance& p, const Catalogue& c) : docum
             if (model.scopes.size() < most_scopes)
                 add (kind);
             else if (onHint)
-                onHint (juce::String (most_scopes) + " scopes at a time; close one first");
+                onHint ("At most " + juce::String (most_scopes) + " scopes; close one first");
         };
         addAndMakeVisible (b);
     }
-    freeze_button.setTooltip ("All scopes show what stood there now, until they go on. The run itself goes on. Key: X");
+    freeze_button.setTooltip ("Freezes all scopes, or lets them continue. The run is not affected. Key: X");
     freeze_button.onClick = [this]
     { freezeAll (! isFrozen()); };
     addAndMakeVisible (freeze_button);
-    offer.onClick = [this]
-    { probe (offer.getName().toStdString()); };
-    addChildComponent (offer);
+    suggestion.onClick = [this]
+    { probe (suggestion.getName().toStdString()); };
+    addChildComponent (suggestion);
 
-    desk.onChange = [this]
+    context.onChange = [this]
     {
-        wantPorts();
+        requestPorts();
         for (auto& v : views)
             v->redraw();
     };
@@ -48,7 +48,7 @@ void ScopePanel::suggest()
         model.scopes.push_back (std::make_unique<ScopeSpec> (std::move (s)));
     for (auto& s : model.scopes)
         showView (*s);
-    wantPorts();
+    requestPorts();
     resized();
 }
 
@@ -56,45 +56,38 @@ ScopePanel::~ScopePanel() { document.remove (*this); }
 
 void ScopePanel::listPorts()
 {
-    desk.ports = scopePorts (document.graph(), catalogue);
-    desk.energies = energyPorts (desk.ports);
+    context.ports = scopePorts (document.graph(), catalogue);
+    context.energies = energyPorts (context.ports);
 }
 
 void ScopePanel::documentChanged()
 {
-    const auto before = desk.ports;
+    const auto before = context.ports;
     listPorts();
-    follow (model, before, desk.ports);
-    wantPorts();
+    follow (model, before, context.ports);
+    requestPorts();
     resized();
 }
 
-void ScopePanel::wantPorts()
+void ScopePanel::requestPorts()
 {
     std::vector<std::string> wanted;
     for (const auto& s : model.scopes)
-        for (const auto& p : portsOf (*s, desk.energies))
-            if (isThere (p, desk.ports) && std::ranges::count (wanted, p) == 0) wanted.push_back (p);
+        for (const auto& p : portsOf (*s, context.energies))
+            if (isThere (p, context.ports) && std::ranges::count (wanted, p) == 0) wanted.push_back (p);
     client.want (std::move (wanted));
-    if (onProbes) onProbes();
-}
-
-std::vector<std::string> ScopePanel::probes() const
-{
-    std::vector<std::string> all;
-    for (const auto& p : desk.ports)
-        if (model.shows (p.name)) all.push_back (p.name);
-    return all;
 }
 
 void ScopePanel::showView (ScopeSpec& s)
 {
-    auto& v = *views.emplace_back (std::make_unique<ScopeView> (s, desk, [this] (const std::string& port)
+    auto& v = *views.emplace_back (std::make_unique<ScopeView> (s, context, [this] (const std::string& port)
                                                                 { return client.of (port); }));
     v.onClose = [this, &s]
-    { juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), which = &s]
-                                       {
-        if (safe != nullptr) safe->close (*which); }); };
+    {
+        juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), which = &s]
+                                         {
+            if (safe != nullptr) safe->close (*which); });
+    };
     v.onFreeze = [this]
     { freeze_button.setToggleState (isFrozen(), juce::dontSendNotification); };
     v.onSave = [this, &v] (juce::Component& below)
@@ -108,7 +101,7 @@ ScopeView& ScopePanel::add (ScopeKind kind)
     model.scopes.push_back (std::make_unique<ScopeSpec> (suggestedScope (kind, document.graph(), catalogue)));
     showView (*model.scopes.back());
     model.active = model.scopes.back().get();
-    wantPorts();
+    requestPorts();
     resized();
     views.back()->refresh();
     return *views.back();
@@ -121,7 +114,7 @@ void ScopePanel::close (const ScopeSpec& s)
     if (model.active == &s) model.active = nullptr;
     views.erase (views.begin() + (at - model.scopes.begin()));
     model.scopes.erase (at);
-    wantPorts();
+    requestPorts();
     resized();
 }
 
@@ -130,7 +123,7 @@ bool ScopePanel::probe (const std::string& port)
     const auto scopes_before = model.scopes.size();
     const bool is_shown = model.probe (port);
     if (model.scopes.size() > scopes_before) showView (*model.scopes.back());
-    wantPorts();
+    requestPorts();
     resized();
     return is_shown;
 }
@@ -152,9 +145,9 @@ juce::String ScopePanel::warning() const
 {
     const auto& too_many = traces.leftOut();
     if (too_many.empty()) return {};
-    auto text = juce::String (ProbeRing::most) + " components at a time; not shown: " + juce::String (too_many.front());
+    auto text = juce::String (ProbeRing::most) + " components at most; not shown: " + juce::String (too_many.front());
     if (too_many.size() > 1) text += " and " + juce::String (too_many.size() - 1) + " more";
-    return text + ". Close a scope or take out a port";
+    return text + ". Close a scope or remove a port";
 }
 
 void ScopePanel::refresh()
@@ -171,24 +164,27 @@ void ScopePanel::refresh()
 void ScopePanel::save (ScopeView& view, juce::Component& below)
 {
     const auto folder = juce::File::getSpecialLocation (juce::File::userDocumentsDirectory).getChildFile ("Tactus");
-    const auto name = (document.graph().name.empty() ? juce::String ("scope") : juce::String (document.graph().name)) + " " + titleOf (view.shown().kind).toLowerCase() + juce::Time::getCurrentTime().formatted (" %Y-%m-%d %H-%M-%S");
+    const auto& graph = document.graph().name;
+    const auto time = juce::Time::getCurrentTime().formatted (" %Y-%m-%d %H-%M-%S");
+    const auto name = juce::String (graph.empty() ? "scope" : graph) + " " + titleOf (view.shown().kind).toLowerCase() + time;
     juce::PopupMenu menu;
-    const auto offers = [&] (const juce::String& words, const char* ending, auto write)
+    const auto add = [&] (const juce::String& label, const char* extension, auto write)
     {
-        menu.addItem (words, [safe = juce::Component::SafePointer (this), which = juce::Component::SafePointer (&view), file = folder.getChildFile (juce::File::createLegalFileName (name + ending)), write]
+        const auto file = folder.getChildFile (juce::File::createLegalFileName (name + extension));
+        menu.addItem (label, [safe = juce::Component::SafePointer (this), which = juce::Component::SafePointer (&view), file, write]
                       {
             if (safe == nullptr || which == nullptr) return;
             file.getParentDirectory().createDirectory();
-            safe->say (write (*which, file.getFullPathName().toStdString()), file); });
+            safe->report (write (*which, file.getFullPathName().toStdString()), file); });
     };
-    offers ("Picture (PNG)", ".png", [] (ScopeView& v, const std::filesystem::path& p)
-            { return v.savePicture (p); });
-    offers ("Numbers (CSV)", ".csv", [] (ScopeView& v, const std::filesystem::path& p)
-            { return v.saveNumbers (p); });
+    add ("Image (PNG)", ".png", [] (ScopeView& v, const std::filesystem::path& p)
+         { return v.saveImage (p); });
+    add ("Data (CSV)", ".csv", [] (ScopeView& v, const std::filesystem::path& p)
+         { return v.saveData (p); });
     menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (below));
 }
 
-void ScopePanel::say (const tl::expected<void, Error>& written, const juce::File& file)
+void ScopePanel::report (const Result<>& written, const juce::File& file)
 {
     if (onHint) onHint (written ? "Saved " + file.getFullPathName() : juce::String (describe (written.error())));
 }
@@ -205,15 +201,17 @@ void ScopePanel::paint (juce::Graphics& g)
         g.drawVerticalLine (views[i]->getX() - 1, static_cast<float> (row_height), static_cast<float> (getHeight()));
     if (warned.isNotEmpty())
     {
-        const int left = adders.back()->getRight() + 12;
+        const auto row = getLocalBounds().removeFromTop (row_height).withLeft (adders.back()->getRight() + 12).withRight (freeze_button.getX() - 8);
         g.setFont (look.font (12.0f));
         g.setColour (theme.warning);
-        g.drawText (warned, getLocalBounds().removeFromTop (row_height).withLeft (left).withRight (freeze_button.getX() - 8), juce::Justification::centredRight, true);
+        g.drawText (warned, row, juce::Justification::centredRight, true);
     }
     if (! views.empty()) return;
     g.setFont (look.font (13.0f));
     g.setColour (theme.dim);
-    g.drawFittedText (offer.isVisible() ? "Nothing is shown. Select a wire and press P, add a scope above, or click here:" : "Nothing is shown. Add nodes to the graph, select a wire, and press P", emptyArea().reduced (24, 16).withTrimmedBottom (32), juce::Justification::centred, 2);
+    const auto* text = suggestion.isVisible() ? "No scopes. Select a wire and press P, add a scope above, or start with this port:"
+                                              : "No scopes. Add nodes to the graph, select a wire, and press P";
+    g.drawFittedText (text, emptyArea().reduced (24, 16).withTrimmedBottom (32), juce::Justification::centred, 2);
 }
 
 void ScopePanel::resized()
@@ -224,15 +222,15 @@ void ScopePanel::resized()
     for (auto& a : adders)
         a->setBounds (row.removeFromLeft (std::min (row.getWidth(), a->wantedWidth())));
 
-    const auto& first = std::ranges::find_if (desk.ports, [] (const ScopePort& p)
+    const auto& first = std::ranges::find_if (context.ports, [] (const ScopePort& p)
                                               { return p.port.role == Role::output && p.port.quantity() == Quantity::force; });
-    offer.setVisible (views.empty() && first != desk.ports.end());
-    if (offer.isVisible())
+    suggestion.setVisible (views.empty() && first != context.ports.end());
+    if (suggestion.isVisible())
     {
-        offer.setName (juce::String (first->name));
-        offer.setButtonText (juce::String (first->name));
-        offer.dot = themeOf (*this).of (Quantity::force);
-        offer.setBounds (emptyArea().withSizeKeepingCentre (offer.wantedWidth(), FlatButton::height).translated (0, 16));
+        suggestion.setName (juce::String (first->name));
+        suggestion.setButtonText (juce::String (first->name));
+        suggestion.dot = themeOf (*this).of (Quantity::force);
+        suggestion.setBounds (emptyArea().withSizeKeepingCentre (suggestion.wantedWidth(), FlatButton::height).translated (0, 16));
     }
     for (std::size_t i = 0; i < views.size(); ++i)
         views[i]->setBounds (area.removeFromLeft (area.getWidth() / static_cast<int> (views.size() - i)).withTrimmedLeft (i == 0 ? 0 : 1));

@@ -4,38 +4,35 @@
 #include "scope_view.hpp"
 
 #include <host/app/model/document.hpp>
-#include <host/app/run/performance.hpp>
 
 namespace tactus::host
 {
 
-/// Scopes side by side, and a row to add some.
+/// Scopes side by side, with a row of buttons to add more.
 class ScopePanel final : public juce::Component, private Document::Listener
 {
 public:
-    ScopePanel (Document&, Performance&, const Catalogue&);
+    ScopePanel (Document&, Traces&, const Catalogue&);
     ~ScopePanel() override;
 
-    /// Takes in what has run since. To be called 30 times a second while it is seen.
+    /// Updates the scopes. Call 30 times a second while visible.
     void refresh();
 
-    /// Shows what suits the graph, in place of what is shown: for one that has just been opened.
+    /// Replaces all scopes with those that suit the graph, which has just been opened.
     void suggest();
 
-    /// Shows a port as a trace, or does not any more. True if it is shown now.
+    /// Toggles a port as a trace. Returns true if it is shown now.
     bool probe (const std::string& port);
     bool isProbed (const std::string& port) const { return model.shows (port); }
-    std::vector<std::string> probes() const;   ///< the ports of the graph that are traces now
 
     ScopeView& add (ScopeKind);
     void freezeAll (bool);
     bool isFrozen() const;
 
-    /// What is amiss with what is shown: too many ports, a scope that waits; "" if nothing is.
+    /// Why some ports are not shown; "" if all are.
     juce::String warning() const;
 
-    std::function<void (const juce::String&)> onHint;   ///< a word for the line below: where a file is
-    std::function<void()> onProbes;                     ///< other ports are traces now: ask probes()
+    std::function<void (const juce::String&)> onHint;   ///< such as the name of a saved file
 
     const ScopeModel& scopes() const noexcept { return model; }
     const std::vector<std::unique_ptr<ScopeView>>& shown() const noexcept { return views; }
@@ -52,22 +49,22 @@ private:
     void documentChanged() override;
     void showView (ScopeSpec&);
     void close (const ScopeSpec&);
-    void wantPorts();
+    void requestPorts();
     void listPorts();
     void save (ScopeView&, juce::Component& below);
-    void say (const tl::expected<void, Error>&, const juce::File&);
+    void report (const Result<>&, const juce::File&);
     juce::Rectangle<int> emptyArea() const;
 
     Document& document;
     const Catalogue& catalogue;
     Traces& traces;
     Traces::Client client;
-    ScopeDesk desk;
+    ScopeContext context;
     ScopeModel model;
-    std::vector<std::unique_ptr<ScopeView>> views;   // as the model's
+    std::vector<std::unique_ptr<ScopeView>> views;   // in the order of the model
     std::vector<std::unique_ptr<FlatButton>> adders;
     FlatButton freeze_button { "Freeze all (X)" };
-    FlatButton offer { "" };   // a port to begin with, where nothing is shown
+    FlatButton suggestion { "" };   // a port to start with, while there is no scope
     juce::String warned;
 };
 

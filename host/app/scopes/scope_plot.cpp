@@ -24,7 +24,7 @@ double Lane::xAt (float pixel) const noexcept
 
 double Lane::yAt (float pixel) const noexcept { return y.low + static_cast<double> ((area.getBottom() - pixel) / area.getHeight()) * y.size(); }
 
-ScopePlot::ScopePlot (ScopeSpec& s, ScopeDesk& d) : spec (s), desk (d) { setMouseCursor (juce::MouseCursor::CrosshairCursor); }
+ScopePlot::ScopePlot (ScopeSpec& s, ScopeContext& c) : spec (s), context (c) { setMouseCursor (juce::MouseCursor::CrosshairCursor); }
 
 void ScopePlot::layOut (const std::vector<std::string>& units)
 {
@@ -39,11 +39,34 @@ void ScopePlot::layOut (const std::vector<std::string>& units)
     }
 }
 
+std::size_t ScopePlot::laneFor (std::vector<std::string>& units, const std::string& unit)
+{
+    const auto at = static_cast<std::size_t> (std::ranges::find (units, unit) - units.begin());
+    if (at == units.size()) units.push_back (unit);
+    return at;
+}
+
 Extent ScopePlot::rangeOf (const std::string& unit, const Extent& seen)
 {
     const auto& followed = ranges[unit].update (seen);
-    const auto by_hand = spec.by_hand.find (unit);
-    return by_hand == spec.by_hand.end() ? followed : by_hand->second;
+    const auto zoomed = spec.zoomed.find (unit);
+    return zoomed == spec.zoomed.end() ? followed : zoomed->second;
+}
+
+ScopePlot::Action ScopePlot::lengthAction (std::vector<double> seconds, const juce::String& about)
+{
+    const auto open = [this, seconds] (juce::Component& below)
+    {
+        juce::PopupMenu menu;
+        for (const double s : seconds)
+            menu.addItem (juce::String (withPrefix (s, "s", 1)), true, std::abs (spec.seconds - s) < 1e-6 * s, [safe = juce::Component::SafePointer (this), s]
+                          {
+                if (safe == nullptr) return;
+                safe->spec.seconds = s;
+                if (safe->context.onChange) safe->context.onChange(); });
+        menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (below));
+    };
+    return { juce::String::fromUTF8 (withPrefix (spec.seconds, "s", 2).c_str()), about, open };
 }
 
 void ScopePlot::paint (juce::Graphics& g)
@@ -54,7 +77,7 @@ void ScopePlot::paint (juce::Graphics& g)
     {
         g.setFont (look.font (12.0f));
         g.setColour (theme().dim);
-        g.drawFittedText (emptyWords(), getLocalBounds().reduced (16, 8), juce::Justification::centred, 4);
+        g.drawFittedText (emptyText(), getLocalBounds().reduced (16, 8), juce::Justification::centred, 4);
         return;
     }
     for (std::size_t i = 0; i < lanes.size(); ++i)
@@ -86,7 +109,8 @@ void ScopePlot::paintScales (juce::Graphics& g, const Lane& lane) const
     auto label = juce::String::fromUTF8 (down.label.c_str()).trim();
     if (label.startsWithChar ('(')) label = label.fromFirstOccurrenceOf ("(", false, false).upToLastOccurrenceOf (")", false, false);
     g.setColour (theme().text);
-    if (lane.shows_y) g.drawText (label, juce::Rectangle<float> (0.0f, lane.area.getY() - 6.0f, gutter - 6.0f, 14.0f), juce::Justification::centredRight, false);
+    const juce::Rectangle<float> label_area (0.0f, lane.area.getY() - 6.0f, gutter - 6.0f, 14.0f);
+    if (lane.shows_y) g.drawText (label, label_area, juce::Justification::centredRight, false);
 
     const auto vertical = [&] (double at, const juce::String& text, bool strong)
     {
@@ -96,7 +120,8 @@ void ScopePlot::paintScales (juce::Graphics& g, const Lane& lane) const
         if (! lane.shows_x) return;
         g.setColour (theme().dim);
         const float width = font.getStringWidthFloat (text) + 2.0f;
-        g.drawText (text, juce::Rectangle<float> (std::min (x - 0.5f * width, static_cast<float> (getWidth()) - width), lane.area.getBottom() + 2.0f, width, 14.0f), juce::Justification::centred, false);
+        const float left = std::min (x - 0.5f * width, static_cast<float> (getWidth()) - width);
+        g.drawText (text, juce::Rectangle<float> (left, lane.area.getBottom() + 2.0f, width, 14.0f), juce::Justification::centred, false);
     };
     if (lane.is_logarithmic)
     {
@@ -110,7 +135,11 @@ void ScopePlot::paintScales (juce::Graphics& g, const Lane& lane) const
     auto unit = juce::String::fromUTF8 (along.label.c_str()).fromFirstOccurrenceOf ("(", false, false).upToLastOccurrenceOf (")", false, false);
     const auto ticks = ticksWithin (along.shown (lane.x), std::max (2, static_cast<int> (lane.area.getWidth() / 52.0f)));
     for (std::size_t i = 0; i < ticks.size(); ++i)
-        vertical (along.origin + ticks[i].at * along.unit, juce::String::fromUTF8 (ticks[i].text.c_str()) + (i + 1 == ticks.size() ? " " + unit : juce::String()), false);
+    {
+        auto text = juce::String::fromUTF8 (ticks[i].text.c_str());
+        if (i + 1 == ticks.size()) text << " " << unit;
+        vertical (along.origin + ticks[i].at * along.unit, text, false);
+    }
 }
 
 void ScopePlot::paintCursors (juce::Graphics& g) const
@@ -209,7 +238,7 @@ void ScopePlot::mouseUp (const juce::MouseEvent& e)
 
 void ScopePlot::mouseDoubleClick (const juce::MouseEvent&)
 {
-    spec.by_hand.clear();
+    spec.zoomed.clear();
     spec.cursors.clear();
     spec.back_s = 0.0;
     repaint();
@@ -223,7 +252,7 @@ void ScopePlot::zoomX (double factor, const Lane&, float)
 void ScopePlot::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWheelDetails& wheel)
 {
     if (lanes.empty()) return;
-    // With shift some systems turn the wheel by x.
+    // With Shift, some systems report the wheel as x.
     const float turned = std::abs (wheel.deltaY) > std::abs (wheel.deltaX) ? wheel.deltaY : wheel.deltaX;
     const double factor = std::exp2 (-2.0 * static_cast<double> (turned));
     const auto& lane = lanes[laneAt (e.position)];
@@ -231,11 +260,11 @@ void ScopePlot::mouseWheelMove (const juce::MouseEvent& e, const juce::MouseWhee
     {
         const double about = lane.yAt (e.position.y);
         const Extent zoomed { about + (lane.y.low - about) * factor, about + (lane.y.high - about) * factor };
-        if (isPlottable (zoomed.low) && isPlottable (zoomed.high) && zoomed.size() > 1e-15) spec.by_hand[lane.unit] = zoomed;
+        if (isPlottable (zoomed.low) && isPlottable (zoomed.high) && zoomed.size() > 1e-15) spec.zoomed[lane.unit] = zoomed;
     }
     else
         zoomX (factor, lane, e.position.x);
-    if (desk.onChange) desk.onChange();
+    if (context.onChange) context.onChange();
 }
 
 juce::Colour traceColour (const Theme& theme, Quantity q, std::size_t nth_port, std::size_t component)

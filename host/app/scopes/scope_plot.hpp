@@ -9,47 +9,47 @@
 namespace tactus::host
 {
 
-/// Where values are drawn, and which.
+/// An area with axes in which values are drawn.
 struct Lane
 {
     juce::Rectangle<float> area;
     Extent x, y;
     std::string unit, x_unit;
-    bool is_logarithmic = false;           ///< along x
-    bool shows_x = true, shows_y = true;   ///< the numbers below, and beside
+    bool is_logarithmic = false;           ///< true if the x axis is logarithmic
+    bool shows_x = true, shows_y = true;   ///< draws the numbers of the axis
 
     juce::Point<float> toPixels (double at_x, double at_y) const noexcept;
     double xAt (float pixel) const noexcept;
     double yAt (float pixel) const noexcept;
 };
 
-/// What the scopes of a panel share.
-struct ScopeDesk
+/// What all scopes of a panel share.
+struct ScopeContext
 {
-    std::vector<ScopePort> ports;        ///< that can be probed
-    std::vector<std::string> energies;   ///< those of them that are energies
-    std::function<void()> onChange;      ///< another port is wanted, or one less
+    std::vector<ScopePort> ports;        ///< all ports that can be probed
+    std::vector<std::string> energies;   ///< the ports that report energies
+    std::function<void()> onChange;      ///< the spec of a scope has changed
 };
 
-/// The drawing of a scope: lanes with their scales, two cursors, the wheel.
+/// The plot of a scope: lanes with axes, two cursors, and zoom with the wheel.
 class ScopePlot : public juce::Component
 {
 public:
-    /// Something in the header that can be clicked.
+    /// A button in the header.
     struct Action
     {
         juce::String text, about;
         std::function<void (juce::Component& below)> onClick;
     };
 
-    ScopePlot (ScopeSpec&, ScopeDesk&);
+    ScopePlot (ScopeSpec&, ScopeContext&);
 
-    /// Takes in what stands on the ports now.
+    /// Updates the plot from the traces.
     virtual void show (const Signals&) = 0;
 
     virtual std::vector<Action> actions() { return {}; }
 
-    /// What it has made itself, to be written with what it reads.
+    /// Traces that the plot has computed, to be saved with those it reads.
     virtual TraceList made() const { return {}; }
 
     const std::vector<Lane>& shownLanes() const noexcept { return lanes; }
@@ -63,17 +63,21 @@ public:
 
 protected:
     static constexpr float gutter = 44.0f, foot = 18.0f, legend_height = 16.0f;
+    static constexpr const char* not_run_yet = "Not run yet";
 
     virtual void paintLane (juce::Graphics&, const Lane&, std::size_t index) = 0;
     virtual void paintOver (juce::Graphics&) {}
-    virtual juce::String emptyWords() const = 0;
+    virtual juce::String emptyText() const = 0;
     virtual void zoomX (double factor, const Lane&, float at);
 
-    /// Lanes one below the other, that share the abscissa.
+    /// Lays out lanes, one per unit, which share the x axis.
     void layOut (const std::vector<std::string>& units);
     Extent rangeOf (const std::string& unit, const Extent& seen);
 
-    /// "■ stuck": small squares of colour and words, at an end of a line.
+    /// The index of the lane for a unit. Adds the lane if there is none.
+    static std::size_t laneFor (std::vector<std::string>& units, const std::string& unit);
+
+    /// An entry of a legend, such as "■ stuck".
     struct Entry
     {
         juce::Colour colour;
@@ -81,13 +85,16 @@ protected:
     };
     void paintLegend (juce::Graphics&, juce::Rectangle<float>, const std::vector<Entry>&, bool at_right = true) const;
 
-    /// One below the other at the top right of a lane.
+    /// Paints lines of text at the top right of a lane.
     void paintReadout (juce::Graphics&, const juce::StringArray&, juce::Rectangle<float>) const;
+
+    /// Shows the length of the window, and changes it by a menu.
+    Action lengthAction (std::vector<double> seconds, const juce::String& about);
 
     const Theme& theme() const { return themeOf (*this); }
 
     ScopeSpec& spec;
-    ScopeDesk& desk;
+    ScopeContext& context;
     std::vector<Lane> lanes;
 
 private:
@@ -99,12 +106,12 @@ private:
     bool dragged = false;
 };
 
-/// The colour of a component of the n-th port of a quantity: the first is the quantity's own, components differ in light.
+/// The colour of a component of the n-th port of a quantity. The first port has the quantity's colour, and components differ in lightness.
 juce::Colour traceColour (const Theme&, Quantity, std::size_t nth_port, std::size_t component);
 
-/// A list of all ports that can be probed, by node, to choose from.
+/// Opens a menu of ports, by node.
 void choosePort (juce::Component& below, const std::vector<ScopePort>&, std::function<void (const std::string&)>);
 
-std::unique_ptr<ScopePlot> makePlot (ScopeSpec&, ScopeDesk&);
+std::unique_ptr<ScopePlot> makePlot (ScopeSpec&, ScopeContext&);
 
 }   // namespace tactus::host

@@ -2,7 +2,7 @@
 #include "scope_ports.hpp"
 
 #include <framework/graph/inside.hpp>
-#include <host/runtime/probe_ring.hpp>
+#include <framework/run/probe_ring.hpp>
 
 namespace tactus::host
 {
@@ -33,7 +33,7 @@ struct Walk
 
 bool isOutput (const ScopePort& p, std::string_view id) { return p.port.role == Role::output && p.port.id == id; }
 
-/// The first port of a node whose type begins so.
+/// The first port with this role and id of a node whose type starts with `type`.
 std::string firstOf (const std::vector<ScopePort>& ports, std::string_view type, Role role, std::string_view id)
 {
     for (const auto& p : ports)
@@ -41,7 +41,7 @@ std::string firstOf (const std::vector<ScopePort>& ports, std::string_view type,
     return {};
 }
 
-/// Of those nodes whose state 1 is stuck and 2 slipping.
+/// True for nodes whose state is 1 for stuck and 2 for sliding.
 bool tellsSliding (std::string_view type) { return type.starts_with ("friction.") || type == "deform.surface"; }
 
 bool isWired (const graph::Patch& patch, const std::string& node, const std::string& port)
@@ -62,7 +62,10 @@ std::vector<std::string> energyPorts (const std::vector<ScopePort>& ports)
 {
     std::vector<std::string> all;
     for (const auto& p : ports)
-        if (! p.type.empty() && ! p.type.starts_with ("graph:") && ! p.type.starts_with ("file:") && (isOutput (p, "stored_energy") || isOutput (p, "dissipated_energy"))) all.push_back (p.name);
+    {
+        const bool is_subgraph = p.type.empty() || p.type.starts_with ("graph:") || p.type.starts_with ("file:");
+        if (! is_subgraph && (isOutput (p, "stored_energy") || isOutput (p, "dissipated_energy"))) all.push_back (p.name);
+    }
     return all;
 }
 
@@ -119,7 +122,8 @@ std::vector<ScopeSpec> suggestedScopes (const graph::Graph& g, const Catalogue& 
     std::vector<ScopeSpec> all;
     if (auto time = suggestedScope (ScopeKind::time, g, c); ! time.ports.empty()) all.push_back (std::move (time));
     if (auto over = suggestedScope (ScopeKind::over, g, c); ! over.x.empty() && ! over.y.empty()) all.push_back (std::move (over));
-    if (auto energy = suggestedScope (ScopeKind::energy, g, c); ! energy.x.empty() && ! energy.y.empty() && ! energyPorts (scopePorts (g, c)).empty()) all.push_back (std::move (energy));
+    if (energyPorts (scopePorts (g, c)).empty()) return all;
+    if (auto energy = suggestedScope (ScopeKind::energy, g, c); ! energy.x.empty() && ! energy.y.empty()) all.push_back (std::move (energy));
     return all;
 }
 

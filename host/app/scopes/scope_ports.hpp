@@ -18,26 +18,25 @@ struct ScopePort
     FacePort port;
 };
 
-/// All that can be probed in a graph, and in its subgraphs, node by node in the order of the file; outputs first.
+/// All ports of a graph and its subgraphs that can be probed, node by node in the order of the file, outputs first.
 std::vector<ScopePort> scopePorts (const graph::Graph&, const Catalogue&);
 
-/// What a newcomer wants to see of a graph: the force of the motor over time, force over displacement, and where the energy
-/// goes; as far as there is such a thing.
+/// The scopes for a newly opened graph: motor force over time, force against displacement, and energy, as far as the graph has them.
 std::vector<ScopeSpec> suggestedScopes (const graph::Graph&, const Catalogue&);
 
-/// A scope of a kind, showing what is next to hand.
+/// A scope of a kind, with suitable ports of the graph.
 ScopeSpec suggestedScope (ScopeKind, const graph::Graph&, const Catalogue&);
 
-/// The ports of all nodes that say what energy they store or dissipate.
+/// The ports of all nodes that report stored or dissipated energy.
 std::vector<std::string> energyPorts (const std::vector<ScopePort>&);
 
-/// The port that tells whether the node of a port sticks or slides, else that of the first friction node; "" if none does.
+/// The state port (stuck or sliding) of the node that a port belongs to, or else of the first friction node; "" if there is none.
 std::string stateFor (const std::string& port, const std::vector<ScopePort>&);
 
-/// Where ports have got to by an edit that renamed, grouped or moved their nodes: ids stay. What is simply gone stays, too.
+/// Updates the port names after an edit that renamed, grouped or moved nodes, by node id. Names of removed nodes are kept.
 void follow (ScopeModel&, const std::vector<ScopePort>& before, const std::vector<ScopePort>& after);
 
-/// A port or a component of one is still in a graph.
+/// True if a port, or a component of one, is among the ports.
 bool isThere (const std::string& port, const std::vector<ScopePort>&);
 
 }   // namespace tactus::host

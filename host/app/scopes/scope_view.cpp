@@ -8,7 +8,7 @@
 #include "tool_plot.hpp"
 #include "trace_file.hpp"
 
-#include <host/io/atomic_file.hpp>
+#include <framework/file/atomic_file.hpp>
 
 namespace tactus::host
 {
@@ -38,7 +38,7 @@ juce::String titleOf (ScopeKind k)
     case ScopeKind::time:
         return "Time";
     case ScopeKind::over:
-        return "Force over displacement";
+        return "Force against displacement";
     case ScopeKind::spectrum:
         return "Spectrum";
     case ScopeKind::energy:
@@ -46,10 +46,10 @@ juce::String titleOf (ScopeKind k)
     case ScopeKind::tool:
         break;
     }
-    return "At the tool";
+    return "Tool view";
 }
 
-std::unique_ptr<ScopePlot> makePlot (ScopeSpec& s, ScopeDesk& d)
+std::unique_ptr<ScopePlot> makePlot (ScopeSpec& s, ScopeContext& d)
 {
     switch (s.kind)
     {
@@ -67,11 +67,11 @@ std::unique_ptr<ScopePlot> makePlot (ScopeSpec& s, ScopeDesk& d)
     return std::make_unique<ToolPlot> (s, d);
 }
 
-ScopeView::ScopeView (ScopeSpec& s, ScopeDesk& d, Signals from) : spec (s), desk (d), live (std::move (from)), drawing (makePlot (s, d))
+ScopeView::ScopeView (ScopeSpec& s, ScopeContext& c, Signals from) : spec (s), context (c), live (std::move (from)), drawing (makePlot (s, c))
 {
     setTitle (titleOf (s.kind));
     freeze_button = std::make_unique<FlatButton> ("Freeze this scope", twoBars());
-    save_button = std::make_unique<FlatButton> ("Save as a picture or as numbers", downArrow());
+    save_button = std::make_unique<FlatButton> ("Save as image or data", downArrow());
     close_button = std::make_unique<FlatButton> ("Close this scope", cross());
     freeze_button->onClick = [this]
     {
@@ -106,7 +106,7 @@ void ScopeView::freeze (bool on)
     if (on == spec.is_frozen) return;
     held.clear();
     if (on)
-        for (const auto& port : portsOf (spec, desk.energies))
+        for (const auto& port : portsOf (spec, context.energies))
             for (const auto& t : live (port))
                 held[port].push_back (std::make_shared<const Trace> (*t));
     spec.is_frozen = on;
@@ -130,35 +130,53 @@ void ScopeView::refresh()
     }
 }
 
-/// All that the header says, so that it is made anew only when that is another.
+/// Everything the header depends on, so that it is rebuilt only if something has changed.
 std::string ScopeView::headerKey()
 {
     std::string key = std::to_string (static_cast<int> (spec.kind)) + std::to_string (reinterpret_cast<std::uintptr_t> (&themeOf (*this)));
     for (const auto& a : drawing->actions())
         key += '|' + a.text.toStdString();
-    for (const auto& p : portsOf (spec, spec.kind == ScopeKind::energy ? std::vector<std::string> {} : desk.energies))
-        key += '|' + p + (isThere (p, desk.ports) ? "" : "!") + std::to_string (of (p).size());
+    for (const auto& p : portsOf (spec, spec.kind == ScopeKind::energy ? std::vector<std::string> {} : context.energies))
+        key += '|' + p + (isThere (p, context.ports) ? "" : "!") + std::to_string (of (p).size());
     return key + '|' + std::to_string (getWidth());
 }
 
-void ScopeView::addChip (const juce::String& text, const std::string& port, juce::Colour dot, std::function<void()> onClick, const juce::String& about, bool is_removable)
+void ScopeView::add (Chip c)
 {
-    const bool is_gone = ! port.empty() && ! isThere (port, desk.ports);
-    auto& chip = *chips.emplace_back (std::make_unique<FlatButton> (is_gone ? juce::String (port) + " is gone" : text));
-    chip.dot = dot;
-    chip.is_amiss = is_gone;
-    chip.setTooltip (about);
-    // The chip may go by what it does; it does it once it has been let go.
-    (is_removable ? chip.onCross : chip.onClick) = [safe = juce::Component::SafePointer (this), onClick = std::move (onClick)]
-    { juce::MessageManager::callAsync ([safe, onClick]
-                                       {
-        if (safe != nullptr) onClick(); }); };
+    const bool is_gone = ! c.port.empty() && ! isThere (c.port, context.ports);
+    auto& chip = *chips.emplace_back (std::make_unique<FlatButton> (is_gone ? juce::String (c.port) + " is gone" : c.text));
+    chip.dot = c.dot;
+    chip.is_wrong = is_gone;
+    chip.setTooltip (c.about);
+    // Asynchronous, because the action may delete the chip.
+    (c.is_removable ? chip.onCross : chip.onClick) = [safe = juce::Component::SafePointer (this), act = std::move (c.onClick)]
+    {
+        juce::MessageManager::callAsync ([safe, act]
+                                         {
+            if (safe != nullptr) act(); });
+    };
     addAndMakeVisible (chip);
+}
+
+void ScopeView::changed()
+{
+    if (context.onChange) context.onChange();
+}
+
+void ScopeView::choosePortFor (std::string ScopeSpec::*field)
+{
+    choosePort (*drawing, context.ports, [safe = juce::Component::SafePointer (this), field] (const std::string& port)
+                {
+        if (safe == nullptr) return;
+        auto& s = safe->spec;
+        s.*field = port;
+        if (field == &ScopeSpec::y) s.state = stateFor (port, safe->context.ports);
+        s.zoomed.clear();
+        safe->changed(); });
 }
 
 void ScopeView::rebuildHeader()
 {
-    const auto& theme = themeOf (*this);
     links.clear();
     chips.clear();
     for (auto& a : drawing->actions())
@@ -169,86 +187,87 @@ void ScopeView::rebuildHeader()
         { click (b); };
         addAndMakeVisible (b);
     }
-    const auto changed = [this]
+    switch (spec.kind)
     {
-        if (desk.onChange) desk.onChange();
-    };
-    const auto choose = [this, changed] (std::string ScopeSpec::*end)
-    {
-        choosePort (*drawing, desk.ports, [safe = juce::Component::SafePointer (this), end, changed] (const std::string& port)
-                    {
-            if (safe == nullptr) return;
-            auto& s = safe->spec;
-            s.*end = port;
-            if (end == &ScopeSpec::y) s.state = stateFor (port, safe->desk.ports);
-            s.by_hand.clear();
-            changed(); });
-    };
-    if (spec.kind == ScopeKind::time || spec.kind == ScopeKind::spectrum)
-    {
-        std::map<std::string, std::size_t> ports_of_unit;
-        for (const auto& port : spec.ports)
-        {
-            const auto traces = of (port);
-            const auto nth = traces.empty() ? 0 : ports_of_unit[traces.front()->unit()]++;
-            const auto dot = traces.empty() ? theme.dim : traceColour (theme, traces.front()->quantity(), nth, 0);
-            addChip (
-                juce::String (port), port, dot, [this, port, changed]
-                {
-                std::erase (spec.ports, port);
-                changed(); },
-                "The cross takes it out of this scope", true);
-        }
-        addChip (
-            "+", {}, {}, [this, changed]
-            { choosePort (*drawing, desk.ports, [safe = juce::Component::SafePointer (this), changed] (const std::string& port)
-                          {
-            if (safe == nullptr || std::ranges::count (safe->spec.ports, port) > 0) return;
-            safe->spec.ports.push_back (port);
-            changed(); }); },
-            "Shows another port here");
-    }
-    if (spec.kind == ScopeKind::over)
-    {
-        addChip (
-            spec.y.empty() ? juce::String ("up: choose") : juce::String (spec.y), spec.y, theme.of (Quantity::force), [choose]
-            { choose (&ScopeSpec::y); },
-            "What stands up; click to choose another");
-        addChip (
-            spec.x.empty() ? juce::String ("across: choose") : "over " + juce::String (spec.x), spec.x, theme.of (Quantity::length), [choose]
-            { choose (&ScopeSpec::x); },
-            "What stands across; click to choose another");
-    }
-    if (spec.kind == ScopeKind::energy && ! spec.x.empty())
-    {
-        addChip (
-            spec.y, spec.y, theme.of (Quantity::force), [choose]
-            { choose (&ScopeSpec::y); },
-            "The force on the tool, which with its way gives the work of the hand; click to choose another");
-        addChip (
-            juce::String (spec.x), spec.x, theme.of (Quantity::length), [choose]
-            { choose (&ScopeSpec::x); },
-            "Where the tool is; click to choose another");
-    }
-    if (spec.kind == ScopeKind::tool && ! spec.node.empty())
-    {
-        const auto port = spec.node + ".deflection";
-        addChip (
-            isThere (port, desk.ports) ? juce::String (spec.node) : juce::String(), port, theme.of (Quantity::force), [this, changed]
-            {
-            juce::PopupMenu menu;
-            for (const auto& p : desk.ports)
-                if (p.port.role == Role::output && p.port.id == "deflection" && p.type.starts_with ("friction."))
-                    menu.addItem (juce::String (p.path), [safe = juce::Component::SafePointer (this), path = p.path, changed]
-                                  {
-                if (safe == nullptr) return;
-                safe->spec.node = path;
-                changed(); });
-            menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (*drawing)); },
-            "Which friction node; click to choose another");
+    case ScopeKind::time:
+    case ScopeKind::spectrum:
+        addTraceChips();
+        break;
+    case ScopeKind::over:
+    case ScopeKind::energy:
+        addAxisChips();
+        break;
+    case ScopeKind::tool:
+        addNodeChip();
+        break;
     }
     resized();
     repaint();
+}
+
+void ScopeView::addTraceChips()
+{
+    const auto& theme = themeOf (*this);
+    std::map<std::string, std::size_t> ports_of_unit;
+    for (const auto& port : spec.ports)
+    {
+        const auto traces = of (port);
+        const auto nth = traces.empty() ? 0 : ports_of_unit[traces.front()->unit()]++;
+        const auto dot = traces.empty() ? theme.dim : traceColour (theme, traces.front()->quantity(), nth, 0);
+        const auto remove = [this, port]
+        {
+            std::erase (spec.ports, port);
+            changed();
+        };
+        add ({ port, port, dot, remove, "Click the cross to remove this port", true });
+    }
+    const auto addPort = [this]
+    {
+        choosePort (*drawing, context.ports, [safe = juce::Component::SafePointer (this)] (const std::string& port)
+                    {
+            if (safe == nullptr || std::ranges::count (safe->spec.ports, port) > 0) return;
+            safe->spec.ports.push_back (port);
+            safe->changed(); });
+    };
+    add ({ .text = "+", .onClick = addPort, .about = "Add a port" });
+}
+
+void ScopeView::addAxisChips()
+{
+    const bool is_energy = spec.kind == ScopeKind::energy;
+    if (is_energy && spec.x.empty()) return;
+    const auto& theme = themeOf (*this);
+    const auto chooseY = [this]
+    { choosePortFor (&ScopeSpec::y); };
+    const auto chooseX = [this]
+    { choosePortFor (&ScopeSpec::x); };
+    if (is_energy)
+    {
+        add ({ spec.y, spec.y, theme.of (Quantity::force), chooseY, "Force on the tool, for the work of the hand; click to change" });
+        add ({ spec.x, spec.x, theme.of (Quantity::length), chooseX, "Position of the tool; click to change" });
+        return;
+    }
+    add ({ spec.y.empty() ? "y: choose" : spec.y, spec.y, theme.of (Quantity::force), chooseY, "y axis; click to change" });
+    add ({ spec.x.empty() ? "x: choose" : "over " + spec.x, spec.x, theme.of (Quantity::length), chooseX, "x axis; click to change" });
+}
+
+void ScopeView::addNodeChip()
+{
+    if (spec.node.empty()) return;
+    const auto choose = [this]
+    {
+        juce::PopupMenu menu;
+        for (const auto& p : context.ports)
+            if (p.port.role == Role::output && p.port.id == "deflection" && p.type.starts_with ("friction."))
+                menu.addItem (juce::String (p.path), [safe = juce::Component::SafePointer (this), path = p.path]
+                              {
+                    if (safe == nullptr) return;
+                    safe->spec.node = path;
+                    safe->changed(); });
+        menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (*drawing));
+    };
+    const auto port = spec.node + ".deflection";
+    add ({ spec.node, port, themeOf (*this).of (Quantity::force), choose, "Friction node; click to change" });
 }
 
 void ScopeView::paint (juce::Graphics& g)
@@ -258,7 +277,8 @@ void ScopeView::paint (juce::Graphics& g)
     const auto font = look.font (12.0f, true);
     g.setFont (font);
     g.setColour (look.theme().text);
-    g.drawText (titleOf (spec.kind), getLocalBounds().removeFromTop (header_height).withTrimmedLeft (8).withTrimmedRight (80), juce::Justification::centredLeft, true);
+    const auto header = getLocalBounds().removeFromTop (header_height).withTrimmedLeft (8).withTrimmedRight (80);
+    g.drawText (titleOf (spec.kind), header, juce::Justification::centredLeft, true);
 }
 
 void ScopeView::resized()
@@ -273,7 +293,7 @@ void ScopeView::resized()
     {
         const int width = l->wantedWidth();
         l->setBounds (header.removeFromLeft (width));
-        l->setVisible (l->getWidth() == width);   // no half of a word
+        l->setVisible (l->getWidth() == width);   // hidden rather than cut off
     }
     auto row = area.removeFromTop (chips_height).withTrimmedLeft (2).reduced (0, 1);
     for (auto& c : chips)
@@ -284,21 +304,22 @@ void ScopeView::resized()
     drawing->setBounds (area.reduced (1, 0));
 }
 
-tl::expected<void, Error> ScopeView::savePicture (const std::filesystem::path& path)
+Result<> ScopeView::saveImage (const std::filesystem::path& path)
 {
     const auto image = createComponentSnapshot (getLocalBounds(), true, 2.0f);
     juce::MemoryOutputStream bytes;
-    if (! juce::PNGImageFormat().writeImageToStream (image, bytes)) return tl::unexpected (Error { "scope/picture", path.string(), "the picture could not be made", "make the scope larger" });
-    auto file = createFile (path);
-    if (! file) return tl::unexpected (file.error());
-    if (! file->stream().write (static_cast<const char*> (bytes.getData()), static_cast<std::streamsize> (bytes.getDataSize()))) return tl::unexpected (writeFailed (*file));
-    return commitFile (*file);
+    if (! juce::PNGImageFormat().writeImageToStream (image, bytes))
+        return Message::error ("scope/picture", path.string(), "the image could not be created", "make the scope larger");
+    auto file = AtomicFile::create (path);
+    if (! file) return file.error();
+    if (! file->stream().write (static_cast<const char*> (bytes.getData()), static_cast<std::streamsize> (bytes.getDataSize()))) return file->writeError();
+    return file->commit();
 }
 
-tl::expected<void, Error> ScopeView::saveNumbers (const std::filesystem::path& path)
+Result<> ScopeView::saveData (const std::filesystem::path& path)
 {
     TraceList all;
-    for (const auto& port : portsOf (spec, desk.energies))
+    for (const auto& port : portsOf (spec, context.energies))
         for (const auto& t : of (port))
             all.push_back (t);
     for (const auto& t : drawing->made())

@@ -4,27 +4,25 @@
 #include "flat_button.hpp"
 #include "scope_plot.hpp"
 
-#include <host/io/error.hpp>
-
-#include <tl/expected.hpp>
+#include <framework/text/result.hpp>
 
 #include <filesystem>
 
 namespace tactus::host
 {
 
-/// One scope: what it is and what it shows, and the drawing below. Frozen, it shows what stood there then.
+/// One scope: a header with its ports, and the plot below. It can be frozen.
 class ScopeView final : public juce::Component
 {
 public:
     static constexpr int header_height = 26, chips_height = 26;
 
-    ScopeView (ScopeSpec&, ScopeDesk&, Signals live);
+    ScopeView (ScopeSpec&, ScopeContext&, Signals live);
 
     std::function<void()> onClose, onFreeze;
-    std::function<void (juce::Component& below)> onSave;   ///< asked for a file
+    std::function<void (juce::Component& below)> onSave;   ///< the save button was clicked
 
-    void refresh();   ///< [not from what the header calls: it may make the header anew]
+    void refresh();   ///< may rebuild the header, so do not call it from a header button
     void redraw();
     void freeze (bool);
     bool isFrozen() const noexcept { return spec.is_frozen; }
@@ -32,11 +30,11 @@ public:
     const ScopeSpec& shown() const noexcept { return spec; }
     ScopePlot& plot() noexcept { return *drawing; }
 
-    /// What is drawn, twice as large as on the screen.
-    [[nodiscard]] tl::expected<void, Error> savePicture (const std::filesystem::path&);
+    /// Saves the scope as an image, at twice its size on the screen. Ids: scope/picture, and those of createFile.
+    Result<> saveImage (const std::filesystem::path&);
 
-    /// All ticks that are held of what it shows.
-    [[nodiscard]] tl::expected<void, Error> saveNumbers (const std::filesystem::path&);
+    /// Saves all stored ticks of the traces. Ids: those of writeTraces.
+    Result<> saveData (const std::filesystem::path&);
 
     void paint (juce::Graphics&) override;
     void resized() override;
@@ -44,20 +42,37 @@ public:
 private:
     TraceList of (const std::string& port) const;
     void rebuildHeader();
-    void addChip (const juce::String& text, const std::string& port, juce::Colour, std::function<void()> onClick, const juce::String& about, bool is_removable = false);
+    void addTraceChips();
+    void addAxisChips();
+    void addNodeChip();
+    void choosePortFor (std::string ScopeSpec::*);
+    void changed();
+
+    /// A button with the name of a port, or of an action if the port is empty.
+    struct Chip
+    {
+        juce::String text;
+        std::string port {};
+        juce::Colour dot {};
+        std::function<void()> onClick {};
+        juce::String about {};
+        bool is_removable = false;   // onClick is for the cross
+    };
+    void add (Chip);
+
     std::string headerKey();
 
     ScopeSpec& spec;
-    ScopeDesk& desk;
+    ScopeContext& context;
     Signals live;
     std::map<std::string, TraceList> held;   // while frozen
     std::unique_ptr<ScopePlot> drawing;
     std::vector<std::unique_ptr<FlatButton>> links, chips;
     std::unique_ptr<FlatButton> freeze_button, save_button, close_button;
-    std::string header_of;   // what the header was built for
+    std::string header_of;   // the headerKey() of the current header
 };
 
-/// Its name in the header and on the button that adds it.
+/// The title in the header, and on the button that adds such a scope.
 juce::String titleOf (ScopeKind);
 
 }   // namespace tactus::host

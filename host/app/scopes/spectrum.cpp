@@ -16,7 +16,7 @@ Spectrum spectrumOf (std::span<const double> samples, double rate_hz)
     constexpr std::size_t padding = 4, fewest = 8;
     if (samples.size() < fewest) return {};
 
-    // The mean under the window, so that it does not leak into the lowest lines.
+    // Removes the windowed mean, so that it does not leak into the lowest lines.
     const auto n = samples.size();
     std::vector<double> window (n), in (padding * std::bit_ceil (n), 0.0);
     double weight = 0.0, mean = 0.0;
@@ -65,9 +65,10 @@ LatestSamples latestSamples (const Trace& trace, double seconds)
     latest.values.reserve (static_cast<std::size_t> (trace.end() - from));
     trace.each (from, trace.end(), [&] (std::uint64_t, double v)
                 {
-        const bool is_there = isPlottable (v);
-        latest.missing += ! is_there;
-        latest.values.push_back (is_there ? v : latest.values.empty() ? 0.0 : latest.values.back()); });
+        const bool is_missing = ! isPlottable (v);
+        latest.missing += is_missing;
+        const double before = latest.values.empty() ? 0.0 : latest.values.back();
+        latest.values.push_back (is_missing ? before : v); });
     return latest;
 }
 

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "look_at.hpp"
+#include "trace_window.hpp"
 
 #include <span>
 
 namespace tactus::host
 {
 
-/// What a signal is made of: a sine of amplitude A reads A at its frequency.
+/// An amplitude spectrum: a sine of amplitude A shows up as A at its frequency.
 ///
-/// The samples stand under a Hann window, without their mean, and are padded with zeros to four times their number: then the
-/// highest of a peak is at most 1.5 % lower than the sine that made it. The window spreads a sine over four times the inverse of its length.
+/// The mean is removed, and the samples are weighted by a Hann window and zero-padded to four times their number. The highest line of a
+/// peak is then at most 1.5 % below the amplitude of the sine. The window spreads a sine over four times the inverse of its length.
 struct Spectrum
 {
     double step_hz = 1.0;
     std::vector<double> amplitude;   ///< at 0, step_hz, … up to half the rate
-    double resolution_hz = 1.0;      ///< two sines closer than this are one peak
+    double resolution_hz = 1.0;      ///< two sines closer than this merge into one peak
 
     double hz (std::size_t i) const noexcept { return static_cast<double> (i) * step_hz; }
 };
@@ -28,10 +28,10 @@ struct Peak
     double hz = 0.0, amplitude = 0.0;
 };
 
-/// The highest peak from a frequency on, found between the lines by a parabola; nothing if all is flat.
+/// The highest peak at or above a frequency, interpolated between lines by a parabola. Empty if there is no peak.
 std::optional<Peak> peakOf (const Spectrum&, double from_hz);
 
-/// The latest samples of a trace, a gap holding what was before it.
+/// The latest samples of a trace. In a gap, the previous value is held.
 struct LatestSamples
 {
     std::vector<double> values;

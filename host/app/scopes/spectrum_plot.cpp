@@ -20,6 +20,17 @@ void SpectrumPlot::show (const Signals& signals)
     if (spec.ports.empty()) lanes.clear();
     if (refreshes++ % every != 0 && ! lanes.empty()) return;
     repaint();
+    const double rate = readLines (signals);
+    layOut (units);
+    for (std::size_t i = 0; i < lanes.size(); ++i)
+        scale (lanes[i], i, rate);
+    for (auto& l : lines)
+        l.path = pathOf (l.spectrum, lanes[l.lane]);
+}
+
+/// Computes the spectra. Returns the rate in Hz.
+double SpectrumPlot::readLines (const Signals& signals)
+{
     lines.clear();
     units.clear();
     highest.reset();
@@ -34,58 +45,47 @@ void SpectrumPlot::show (const Signals& signals)
         for (std::size_t i = 0; i < traces.size(); ++i)
         {
             const auto& t = *traces[i];
-            auto lane = std::ranges::find (units, t.unit());
-            if (lane == units.end()) lane = units.insert (units.end(), t.unit());
+            const auto lane = laneFor (units, t.unit());
             const auto latest = latestSamples (t, std::min (spec.seconds, most_s));
             missing = std::max (missing, latest.missing);
-            lines.push_back ({ static_cast<std::size_t> (lane - units.begin()), traceColour (theme(), t.quantity(), nth, i), spectrumOf (latest.values, t.rate()), {} });
+            lines.push_back ({ lane, traceColour (theme(), t.quantity(), nth, i), spectrumOf (latest.values, t.rate()), {} });
             rate = t.rate();
-            if (lane != units.begin()) continue;
-            if (const auto p = peakOf (lines.back().spectrum, std::max (lowest_hz, 2.0 * lines.back().spectrum.resolution_hz)); p && (! highest || p->amplitude > highest->amplitude)) highest = p;
+            if (lane > 0) continue;
+            const auto& spectrum = lines.back().spectrum;
+            const auto p = peakOf (spectrum, std::max (lowest_hz, 2.0 * spectrum.resolution_hz));
+            if (p && (! highest || p->amplitude > highest->amplitude)) highest = p;
         }
     }
-    layOut (units);
-    for (std::size_t i = 0; i < lanes.size(); ++i)
-    {
-        double top = spec.in_decibels ? quietest_top : 0.0;
-        for (const auto& l : lines)
-            if (l.lane == i)
-                for (const double a : l.spectrum.amplitude)
-                    top = std::max (top, a);
-        const auto key = (spec.in_decibels ? "dB " : "") + units[i];
-        const auto seen = spec.in_decibels ? Extent { height (std::max (top, silence) * std::pow (10.0, -decades_down)), height (top) } : Extent { 0.0, top };
-        lanes[i].y = rangeOf (key, seen);
-        if (! spec.in_decibels && spec.by_hand.count (key) == 0) lanes[i].y.low = 0.0;
-        lanes[i].unit = key;
-        lanes[i].x = { lowest_hz, std::max (10.0, 0.5 * rate) };
-        lanes[i].x_unit = "Hz";
-        lanes[i].is_logarithmic = true;
-    }
-    for (auto& l : lines)
-        l.path = pathOf (l.spectrum, lanes[l.lane]);
+    return rate;
+}
+
+void SpectrumPlot::scale (Lane& lane, std::size_t index, double rate)
+{
+    double top = spec.in_decibels ? quietest_top : 0.0;
+    for (const auto& l : lines)
+        if (l.lane == index)
+            for (const double a : l.spectrum.amplitude)
+                top = std::max (top, a);
+    Extent seen { 0.0, top };
+    if (spec.in_decibels) seen = { height (std::max (top, silence) * std::pow (10.0, -decades_down)), height (top) };
+    lane.unit = (spec.in_decibels ? "dB " : "") + units[index];
+    lane.y = rangeOf (lane.unit, seen);
+    if (! spec.in_decibels && ! spec.zoomed.contains (lane.unit)) lane.y.low = 0.0;
+    lane.x = { lowest_hz, std::max (10.0, 0.5 * rate) };
+    lane.x_unit = "Hz";
+    lane.is_logarithmic = true;
 }
 
 std::vector<ScopePlot::Action> SpectrumPlot::actions()
 {
-    const auto lengths = [this] (juce::Component& below)
-    {
-        juce::PopupMenu menu;
-        for (const double s : { 0.1, 0.2, 0.5, 1.0, 2.0, 4.0 })
-            menu.addItem (juce::String (withPrefix (s, "s", 1)), true, std::abs (spec.seconds - s) < 1e-6 * s, [safe = juce::Component::SafePointer (this), s]
-                          {
-                if (safe == nullptr) return;
-                safe->spec.seconds = s;
-                if (safe->desk.onChange) safe->desk.onChange(); });
-        menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (below));
-    };
     const auto toggle = [this] (juce::Component&)
     {
         spec.in_decibels = ! spec.in_decibels;
         refreshes = 0;
-        if (desk.onChange) desk.onChange();
+        if (context.onChange) context.onChange();
     };
-    return { { juce::String (withPrefix (spec.seconds, "s", 1)), "How much of the past is looked at: longer tells closer frequencies apart", lengths },
-             { spec.in_decibels ? "dB" : "linear", "Decibels of one unit, or amplitudes", toggle } };
+    return { lengthAction ({ 0.1, 0.2, 0.5, 1.0, 2.0, 4.0 }, "Length of the signal that is analysed; longer resolves closer frequencies"),
+             { spec.in_decibels ? "dB" : "linear", "Amplitudes in decibels relative to one unit, or linear", toggle } };
 }
 
 juce::Path SpectrumPlot::pathOf (const Spectrum& spectrum, const Lane& lane) const
@@ -96,7 +96,7 @@ juce::Path SpectrumPlot::pathOf (const Spectrum& spectrum, const Lane& lane) con
     const auto first = static_cast<std::size_t> (std::ceil (0.5 * lowest_hz / spectrum.step_hz));
     for (std::size_t i = std::max<std::size_t> (1, first); i < spectrum.amplitude.size(); ++i)
     {
-        // Of the lines that share a pixel the highest.
+        // Keeps the highest of the lines that share a pixel.
         const auto p = lane.toPixels (spectrum.hz (i), height (spectrum.amplitude[i]));
         if (is_begun && p.x - column < 1.0f)
         {
@@ -124,14 +124,23 @@ void SpectrumPlot::paintLane (juce::Graphics& g, const Lane&, std::size_t index)
 
 void SpectrumPlot::paintOver (juce::Graphics& g)
 {
+    const auto& area = lanes.front().area;
+    const auto text = [] (double v, const std::string& unit)
+    { return juce::String::fromUTF8 (withPrefix (v, unit).c_str()); };
     if (spec.cursors.empty() && highest)
-        paintReadout (g, { "peak " + juce::String::fromUTF8 (withPrefix (highest->hz, "Hz").c_str()), juce::String::fromUTF8 (withPrefix (highest->amplitude, units.front()).c_str()) }, lanes.front().area.withTop (lanes.front().area.getBottom() - 48.0f).withWidth (std::min (132.0f, lanes.front().area.getWidth())));
+    {
+        const auto corner = area.withTop (area.getBottom() - 48.0f).withWidth (std::min (132.0f, area.getWidth()));
+        paintReadout (g, { "peak " + text (highest->hz, "Hz"), text (highest->amplitude, units.front()) }, corner);
+    }
     if (missing == 0) return;
     g.setFont (lookOf (*this).font (11.0f));
     g.setColour (theme().warning);
-    g.drawText (juce::String (missing) + " ticks are missing", lanes.front().area.reduced (8.0f, 4.0f).removeFromTop (14.0f), juce::Justification::topLeft, false);
+    g.drawText (juce::String (missing) + " missed ticks", area.reduced (8.0f, 4.0f).removeFromTop (14.0f), juce::Justification::topLeft, false);
 }
 
-juce::String SpectrumPlot::emptyWords() const { return spec.ports.empty() ? "Select a wire and press P, or click + above: what frequencies are in it is drawn here" : "Nothing has run yet"; }
+juce::String SpectrumPlot::emptyText() const
+{
+    return spec.ports.empty() ? "Select a wire and press P, or click + above, to plot its spectrum" : not_run_yet;
+}
 
 }   // namespace tactus::host

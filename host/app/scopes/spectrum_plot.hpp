@@ -7,7 +7,7 @@
 namespace tactus::host
 {
 
-/// What is in a signal, from 1 Hz to half the rate.
+/// Plots the spectra of signals, from 1 Hz to half the rate.
 class SpectrumPlot final : public ScopePlot
 {
 public:
@@ -26,12 +26,14 @@ private:
         Spectrum spectrum;
         juce::Path path;
     };
-    static constexpr int every = 3;   // refreshes: nobody reads a spectrum faster
+    static constexpr int every = 3;   // refreshes; faster updates could not be read
     static constexpr double lowest_hz = 1.0, decades_down = 5.0, most_s = 4.0;
 
     void paintLane (juce::Graphics&, const Lane&, std::size_t) override;
     void paintOver (juce::Graphics&) override;
-    juce::String emptyWords() const override;
+    juce::String emptyText() const override;
+    double readLines (const Signals&);
+    void scale (Lane&, std::size_t index, double rate);
     double height (double amplitude) const;
     juce::Path pathOf (const Spectrum&, const Lane&) const;
     void zoomX (double factor, const Lane&, float) override { spec.seconds = std::clamp (spec.seconds * factor, 0.1, most_s); }

@@ -13,10 +13,18 @@ namespace
 constexpr double hysteresis = 0.02;   // of the range
 constexpr float grip = 8.0f;
 
-juce::String wordsFor (ScopeTrigger::Edge e)
+using Edge = ScopeTrigger::Edge;
+
+const char* textOf (Edge e)
 {
-    return e == ScopeTrigger::Edge::off ? juce::String ("trigger off") : e == ScopeTrigger::Edge::rising ? juce::String ("trigger rising")
-                                                                                                         : juce::String ("trigger falling");
+    if (e == Edge::off) return "trigger off";
+    return e == Edge::rising ? "trigger rising" : "trigger falling";
+}
+
+Edge nextOf (Edge e)
+{
+    if (e == Edge::off) return Edge::rising;
+    return e == Edge::rising ? Edge::falling : Edge::off;
 }
 }   // namespace
 
@@ -34,9 +42,8 @@ void TimePlot::show (const Signals& signals)
         for (std::size_t i = 0; i < traces.size(); ++i)
         {
             const auto& t = traces[i];
-            auto lane = std::ranges::find (units, t->unit());
-            if (lane == units.end()) lane = units.insert (units.end(), t->unit());
-            lines.push_back ({ static_cast<std::size_t> (lane - units.begin()), traceColour (theme(), t->quantity(), nth, i), traces.size() == 3 ? juce::String (t->name()).fromLastOccurrenceOf (".", false, false) : juce::String(), {} });
+            const auto component = traces.size() == 3 ? juce::String (t->name()).fromLastOccurrenceOf (".", false, false) : juce::String();
+            lines.push_back ({ laneFor (units, t->unit()), traceColour (theme(), t->quantity(), nth, i), component, {} });
             all.push_back (t);
         }
     }
@@ -56,7 +63,8 @@ void TimePlot::show (const Signals& signals)
     for (std::size_t i = 0; i < all.size(); ++i)
     {
         auto& line = lines[i];
-        line.columns = columnsOf (*all[i], seen.from, seen.to, static_cast<std::size_t> (std::max (1.0f, lanes[line.lane].area.getWidth())));
+        const auto width = static_cast<std::size_t> (std::max (1.0f, lanes[line.lane].area.getWidth()));
+        line.columns = columnsOf (*all[i], seen.from, seen.to, width);
         for (const auto& c : line.columns.all)
             if (! c.extent.isEmpty()) extents[line.lane].include (c.extent);
     }
@@ -70,34 +78,23 @@ void TimePlot::show (const Signals& signals)
 
 std::vector<ScopePlot::Action> TimePlot::actions()
 {
-    const auto lengths = [this] (juce::Component& below)
-    {
-        juce::PopupMenu menu;
-        for (const double s : { 5e-3, 10e-3, 20e-3, 50e-3, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0 })
-            menu.addItem (juce::String (withPrefix (s, "s", 1)), true, std::abs (spec.seconds - s) < 1e-6 * s, [safe = juce::Component::SafePointer (this), s]
-                          {
-                if (safe == nullptr) return;
-                safe->spec.seconds = s;
-                if (safe->desk.onChange) safe->desk.onChange(); });
-        menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (below));
-    };
     const auto next = [this] (juce::Component&)
     {
         auto& edge = spec.trigger.edge;
-        if (edge == ScopeTrigger::Edge::off && ! lanes.empty()) spec.trigger.level = 0.5 * (lanes.front().y.low + lanes.front().y.high);
-        edge = edge == ScopeTrigger::Edge::off ? ScopeTrigger::Edge::rising : edge == ScopeTrigger::Edge::rising ? ScopeTrigger::Edge::falling
-                                                                                                                 : ScopeTrigger::Edge::off;
-        if (desk.onChange) desk.onChange();
+        if (edge == Edge::off && ! lanes.empty()) spec.trigger.level = 0.5 * (lanes.front().y.low + lanes.front().y.high);
+        edge = nextOf (edge);
+        if (context.onChange) context.onChange();
     };
-    return { { juce::String::fromUTF8 (withPrefix (spec.seconds, "s", 2).c_str()), "How long the window is; the wheel changes it, too", lengths },
-             { wordsFor (spec.trigger.edge), "Stands still where the first trace passes a level; drag the level", next } };
+    return { lengthAction ({ 5e-3, 10e-3, 20e-3, 50e-3, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0 }, "Length of the window; the wheel changes it too"),
+             { textOf (spec.trigger.edge), "Trigger on an edge of the first trace; drag the marker to set the level", next } };
 }
 
 void TimePlot::mouseDown (const juce::MouseEvent& e)
 {
     ScopePlot::mouseDown (e);
     back_before = spec.back_s;
-    drags_level = hasTrigger() && ! lanes.empty() && std::abs (e.position.y - levelPixel()) < grip && e.position.x > lanes.front().area.getRight() - 4.0f * grip;
+    drags_level = hasTrigger() && ! lanes.empty()
+                  && std::abs (e.position.y - levelPixel()) < grip && e.position.x > lanes.front().area.getRight() - 4.0f * grip;
 }
 
 void TimePlot::mouseDrag (const juce::MouseEvent& e)
@@ -108,7 +105,10 @@ void TimePlot::mouseDrag (const juce::MouseEvent& e)
     if (drags_level)
         spec.trigger.level = lane.yAt (std::clamp (e.position.y, lane.area.getY(), lane.area.getBottom()));
     else if (spec.is_frozen)
-        spec.back_s = std::clamp (back_before + static_cast<double> (e.getOffsetFromDragStart().x) / static_cast<double> (lane.area.getWidth()) * spec.seconds, 0.0, std::max (0.0, Trace::seconds - spec.seconds));
+    {
+        const double dragged_s = static_cast<double> (e.getOffsetFromDragStart().x) / static_cast<double> (lane.area.getWidth()) * spec.seconds;
+        spec.back_s = std::clamp (back_before + dragged_s, 0.0, std::max (0.0, Trace::seconds - spec.seconds));
+    }
     repaint();
 }
 
@@ -117,7 +117,7 @@ void TimePlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t index
     for (const auto& l : lines)
         if (l.lane == index) drawTrace (g, lane, l.columns, zero, rate_hz, l.colour);
 
-    // Components are told apart by their light, which is the same for all vectors of a lane.
+    // Components differ in lightness, in the same way for all vectors of a lane.
     std::vector<Entry> components;
     for (const auto& l : lines)
         if (l.lane == index && l.component.isNotEmpty() && components.size() < 3) components.push_back ({ l.colour, l.component });
@@ -142,9 +142,12 @@ void TimePlot::paintOver (juce::Graphics& g)
     if (seen.trigger) return;
     g.setFont (lookOf (*this).font (11.0f));
     g.setColour (theme().warning);
-    g.drawText ("waits for the trigger", lane.area.reduced (8.0f, 4.0f).removeFromBottom (14.0f), juce::Justification::bottomLeft, false);
+    g.drawText ("waiting for trigger", lane.area.reduced (8.0f, 4.0f).removeFromBottom (14.0f), juce::Justification::bottomLeft, false);
 }
 
-juce::String TimePlot::emptyWords() const { return spec.ports.empty() ? "Select a wire and press P, or click + above: what stands there is drawn over time" : "Nothing has run yet"; }
+juce::String TimePlot::emptyText() const
+{
+    return spec.ports.empty() ? "Select a wire and press P, or click + above, to plot its signal over time" : not_run_yet;
+}
 
 }   // namespace tactus::host

@@ -6,7 +6,7 @@
 namespace tactus::host
 {
 
-/// An oscilloscope: a lane for each unit, all over one time.
+/// An oscilloscope, with a lane for each unit.
 class TimePlot final : public ScopePlot
 {
 public:
@@ -24,13 +24,13 @@ private:
     {
         std::size_t lane = 0;
         juce::Colour colour;
-        juce::String component;   // "x", of a vector
+        juce::String component;   // of a vector, such as "x"
         TraceColumns columns;
     };
 
     void paintLane (juce::Graphics&, const Lane&, std::size_t) override;
     void paintOver (juce::Graphics&) override;
-    juce::String emptyWords() const override;
+    juce::String emptyText() const override;
     bool hasTrigger() const noexcept { return spec.trigger.edge != ScopeTrigger::Edge::off; }
     float levelPixel() const { return lanes.front().toPixels (0.0, spec.trigger.level).y; }
 

@@ -11,7 +11,8 @@ namespace tactus::host
 
 std::optional<ToolPicture> toolPicture (const std::string& node, const Signals& signals)
 {
-    const auto position = signals (node + ".position"), deflection = signals (node + ".deflection"), force = signals (node + ".force"), state = signals (node + ".state");
+    const auto position = signals (node + ".position"), deflection = signals (node + ".deflection");
+    const auto force = signals (node + ".force"), state = signals (node + ".state");
     if (position.size() != 3 || deflection.size() != 3 || force.size() != 3 || state.size() != 1) return std::nullopt;
     const auto d_max = signals (node + ".d_max"), ratio = signals (node + ".static_ratio"), normal = signals (node + ".normal");
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "look_at.hpp"
+#include "trace_window.hpp"
 
-#include <framework/list.hpp>
+#include <framework/kit/vec3.hpp>
 
 #include <functional>
 
@@ -12,13 +12,13 @@ namespace tactus::host
 
 using Signals = std::function<TraceList (const std::string& port)>;
 
-/// A friction node at one moment, as Fig. 4 of the chapter draws it: the tool holds on to an anchor, w there and c here, by a
-/// bristle that is stretched by the deflection, and drags the anchor along once that is as long as d_max.
+/// A friction node at one moment, as in Fig. 4 of the chapter: the tool is attached to an anchor (w there, c in the code) by a bristle that
+/// is stretched by the deflection. Once the bristle is as long as d_max, the tool drags the anchor along.
 struct ToolPicture
 {
     Vec3 tool = Vec3::Zero(), deflection = Vec3::Zero(), force = Vec3::Zero(), normal = Vec3::UnitZ();
-    double d_max = 0.0;     ///< 0 if nobody says
-    double d_stick = 0.0;   ///< where it lets go; d_max unless it sticks more than it slides
+    double d_max = 0.0;     ///< 0 if unknown
+    double d_stick = 0.0;   ///< breakaway deflection; d_max unless static friction exceeds sliding friction
     std::uint64_t tick = 0;
     int state = 0;   ///< -1 fault, 0 apart, 1 stuck, 2 sliding
 
@@ -26,10 +26,10 @@ struct ToolPicture
     bool touches() const noexcept { return state > 0; }
 };
 
-/// Of the newest tick on which all is known; nothing if there is none.
+/// The picture at the newest tick at which all ports are known. Empty if there is none.
 std::optional<ToolPicture> toolPicture (const std::string& node, const Signals&);
 
-/// From above a plane with this normal: x to the right where there is an x in the plane, else y.
+/// The view from above a plane with this normal. To the right is the x axis projected into the plane, or y if x is along the normal.
 struct PlaneView
 {
     Vec3 right = Vec3::UnitX(), up = Vec3::UnitY();

@@ -35,7 +35,7 @@ void ToolPlot::show (const Signals& signals)
         lanes.clear();
         return;
     }
-    if (before == now->tick && lanes.size() == 1 && lanes.front().area == getLocalBounds().toFloat()) return;   // nothing runs
+    if (before == now->tick && lanes.size() == 1 && lanes.front().area == getLocalBounds().toFloat()) return;   // nothing has run since
     tool_trail.push_back (now->tool);
     anchor_trail.push_back (now->touches() ? now->anchor() : Vec3::Constant (std::nan ("")));
     if (tool_trail.size() > longest_trail)
@@ -44,7 +44,7 @@ void ToolPlot::show (const Signals& signals)
         anchor_trail.pop_front();
     }
 
-    // The anchor in the middle: it rests while the tool sticks, and the ground passes by while it slides.
+    // Keeps the anchor in the centre: it rests while the tool sticks, and the ground moves past while the tool slides.
     const Vec3 wanted = now->touches() ? now->anchor() : now->tool;
     const double radius = std::max ({ now->d_stick, now->deflection.norm(), 1e-7 });
     const bool is_first = half_width == 0.0;
@@ -91,7 +91,10 @@ void ToolPlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t)
     if (p.touches())
     {
         const auto circle = [&] (double radius)
-        { return juce::Rectangle<float> (2.0f * per_metre * static_cast<float> (radius), 2.0f * per_metre * static_cast<float> (radius)).withCentre (anchor); };
+        {
+            const float size = 2.0f * per_metre * static_cast<float> (radius);
+            return juce::Rectangle<float> (size, size).withCentre (anchor);
+        };
         const auto state = p.state == 2 ? theme().of (Quantity::force) : theme().of (Quantity::length);
         g.setColour (state.withAlpha (0.10f));
         g.fillEllipse (circle (p.d_max));
@@ -130,24 +133,38 @@ void ToolPlot::paintOver (juce::Graphics& g)
     const auto& look = lookOf (*this);
     const auto& p = *now;
     auto area = getLocalBounds().toFloat().reduced (8.0f, 6.0f);
-    const auto words = p.state < 0 ? juce::String ("fault: an input is no number") : p.state == 0 ? juce::String ("apart: nothing is held")
-                                                                                 : p.state == 1   ? juce::String ("stuck: the anchor rests")
-                                                                                                  : juce::String ("sliding: the anchor is dragged");
     auto line = area.removeFromTop (16.0f);
     g.setFont (look.font (12.0f, true));
-    g.setColour (p.state < 0 ? theme().stop : p.state == 0 ? theme().dim
-                                          : p.state == 1   ? theme().of (Quantity::length)
-                                                           : theme().of (Quantity::force));
-    g.drawText (words, line, juce::Justification::centredLeft, true);
+    const auto draw = [&] (const char* state, juce::Colour colour)
+    {
+        g.setColour (colour);
+        g.drawText (state, line, juce::Justification::centredLeft, true);
+    };
+    if (p.state < 0)
+        draw ("fault: an input is not a number", theme().stop);
+    else if (p.state == 0)
+        draw ("no contact", theme().dim);
+    else if (p.state == 1)
+        draw ("stuck: the anchor rests", theme().of (Quantity::length));
+    else
+        draw ("sliding: the anchor is dragged", theme().of (Quantity::force));
 
     const auto text = [] (double v, const char* unit)
     { return juce::String::fromUTF8 (withPrefix (v, unit).c_str()); };
-    if (p.touches()) paintLegend (g, area.removeFromBottom (16.0f), { { theme().of (Quantity::length), "z " + text (p.deflection.norm(), "m") }, { theme().of (Quantity::force), "f " + text (p.force.norm(), "N") } });
+    if (p.touches())
+    {
+        const Entry deflection { theme().of (Quantity::length), "z " + text (p.deflection.norm(), "m") };
+        const Entry force { theme().of (Quantity::force), "f " + text (p.force.norm(), "N") };
+        paintLegend (g, area.removeFromBottom (16.0f), { deflection, force });
+    }
     g.setFont (look.font (11.0f));
     g.setColour (theme().dim);
     g.drawText ("d_max " + text (p.d_max, "m"), area.removeFromBottom (16.0f), juce::Justification::centredRight, false);
 }
 
-juce::String ToolPlot::emptyWords() const { return spec.node.empty() ? "No friction node is in this graph. Add friction.elasto_plastic, and its anchor and stretch are drawn here" : "Nothing has run yet"; }
+juce::String ToolPlot::emptyText() const
+{
+    return spec.node.empty() ? "No friction node. Add friction.elasto_plastic to see its anchor and bristle here" : not_run_yet;
+}
 
 }   // namespace tactus::host

@@ -8,8 +8,8 @@
 namespace tactus::host
 {
 
-/// Friction at the tool from above, as Fig. 4 of the chapter draws it: the tool, the anchor it holds on to, the stretch
-/// between them, the circle within which it sticks, and the force.
+/// Friction at the tool seen from above, as in Fig. 4 of the chapter: the tool, its anchor, the bristle between them, the circle within which
+/// it sticks, and the force.
 class ToolPlot final : public ScopePlot
 {
 public:
@@ -23,14 +23,14 @@ private:
 
     void paintLane (juce::Graphics&, const Lane&, std::size_t) override;
     void paintOver (juce::Graphics&) override;
-    juce::String emptyWords() const override;
+    juce::String emptyText() const override;
     void zoomX (double, const Lane&, float) override {}
 
     std::optional<ToolPicture> now;
     std::deque<Vec3> tool_trail, anchor_trail;
     Vec3 centre = Vec3::Zero();
-    double half_width = 0.0;   // m, eased
-    double most_force = 0.0;   // N, eased
+    double half_width = 0.0;   // eased, in m
+    double most_force = 0.0;   // eased, in N
 };
 
 }   // namespace tactus::host

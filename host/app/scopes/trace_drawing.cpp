@@ -45,7 +45,7 @@ void drawTrace (juce::Graphics& g, const Lane& lane, const TraceColumns& columns
             continue;
         }
         auto e = own;
-        if (! before.isEmpty()) e = { std::min (e.low, before.high), std::max (e.high, before.low) };   // up to where the last one ended
+        if (! before.isEmpty()) e = { std::min (e.low, before.high), std::max (e.high, before.low) };   // joins the previous column
         before = own;
         const float top = lane.toPixels (lane.x.low, e.high).y, bottom = lane.toPixels (lane.x.low, e.low).y;
         spans.addWithoutMerging ({ x (i), top - 0.5f * thickness, width, bottom - top + thickness });
@@ -53,7 +53,7 @@ void drawTrace (juce::Graphics& g, const Lane& lane, const TraceColumns& columns
     g.fillRectList (spans);
 }
 
-void drawBetween (juce::Graphics& g, const Lane& lane, const std::vector<juce::Point<double>>& low, const std::vector<juce::Point<double>>& high, juce::Colour colour)
+void drawBetween (juce::Graphics& g, const Lane& lane, const Points& low, const Points& high, juce::Colour colour)
 {
     if (low.size() < 2 || low.size() != high.size()) return;
     juce::Path path;

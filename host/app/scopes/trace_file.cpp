@@ -6,7 +6,7 @@
 namespace tactus::host
 {
 
-tl::expected<void, Error> writeTraces (const std::filesystem::path& path, const TraceList& all)
+Result<> writeTraces (const std::filesystem::path& path, const TraceList& all)
 {
     TraceList traces;
     std::vector<std::string> columns { "t" };
@@ -19,10 +19,10 @@ tl::expected<void, Error> writeTraces (const std::filesystem::path& path, const 
         begin = std::min (begin, t->begin());
         end = std::max (end, t->end());
     }
-    if (traces.empty()) return tl::unexpected (Error { "scope/nothing", path.string(), "there is nothing to write yet", "let the graph run" });
+    if (traces.empty()) return Message::error ("scope/nothing", path.string(), "there is nothing to save yet", "run the graph first");
 
     auto writer = TableWriter::create (path, columns);
-    if (! writer) return tl::unexpected (writer.error());
+    if (! writer) return writer.error();
     std::vector<double> row (columns.size());
     for (auto tick = begin; tick < end; ++tick)
     {

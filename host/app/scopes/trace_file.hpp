@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "look_at.hpp"
+#include "trace_window.hpp"
 
-#include <host/io/csv.hpp>
+#include <framework/file/csv.hpp>
 
 namespace tactus::host
 {
 
-/// Writes all that is held of some traces, in the columns of `tactus render --out`: t, then a component each. Where one has
-/// nothing on a tick that another has, stands nan. [errors as of TableWriter; scope/nothing if there is nothing to write]
-[[nodiscard]] tl::expected<void, Error> writeTraces (const std::filesystem::path&, const TraceList&);
+/// Writes all stored ticks of some traces, in the format of `tactus render --out`: column t, then a column per component, with nan where
+/// a trace has no value at a tick. Ids: scope/nothing, and those of TableWriter.
+Result<> writeTraces (const std::filesystem::path&, const TraceList&);
 
 }   // namespace tactus::host

@@ -13,7 +13,7 @@ namespace
 {
 constexpr const char* role = "stylus";
 
-/// Puts a graph together, node by node.
+/// Builds a graph node by node.
 class Builder
 {
 public:
@@ -21,7 +21,7 @@ public:
 
     graph::Graph graph;
 
-    /// Unless it is there.
+    /// Adds a node, unless there is one of that name.
     void add (const std::string& name, const std::string& type)
     {
         if (graph.root.find (name) != nullptr) return;
@@ -47,32 +47,32 @@ private:
     const Catalogue& catalogue;
 };
 
-/// Where an input gets its values from.
-struct Spring
+/// The source of an input.
+struct Source
 {
     const char* node;
     const char* port;
 };
 
-/// By what an input takes; nothing where its own default is better.
-std::optional<Spring> springFor (const FacePort& input)
+/// Chooses a source by the quantity of an input. Empty if the default value of the input is better.
+std::optional<Source> sourceFor (const FacePort& input)
 {
     const auto quantity = input.quantity();
     const bool takes_any = input.unit.kind != UnitRule::Kind::fixed;
     if (input.width == 3)
     {
-        if (quantity == Quantity::length) return Spring { "hand", "position" };
-        if (quantity == Quantity::force) return Spring { "wall", "force" };
-        if (quantity == Quantity::speed) return Spring { "motion", "velocity" };
-        if (takes_any) return Spring { "wall", "force" };
+        if (quantity == Quantity::length) return Source { "hand", "position" };
+        if (quantity == Quantity::force) return Source { "wall", "force" };
+        if (quantity == Quantity::speed) return Source { "motion", "velocity" };
+        if (takes_any) return Source { "wall", "force" };
         return std::nullopt;
     }
-    if (quantity == Quantity::length) return Spring { "wall", "depth" };
-    if (quantity == Quantity::force) return Spring { "wall", "resistance" };
-    if (quantity == Quantity::hit) return Spring { "wall", "hit" };
-    if (quantity == Quantity::speed) return Spring { "motion", "speed" };
-    if (quantity == Quantity::energy) return Spring { "wall", "stored_energy" };
-    if (takes_any) return Spring { "wall", "resistance" };
+    if (quantity == Quantity::length) return Source { "wall", "depth" };
+    if (quantity == Quantity::force) return Source { "wall", "resistance" };
+    if (quantity == Quantity::hit) return Source { "wall", "hit" };
+    if (quantity == Quantity::speed) return Source { "motion", "speed" };
+    if (quantity == Quantity::energy) return Source { "wall", "stored_energy" };
+    if (takes_any) return Source { "wall", "resistance" };
     return std::nullopt;
 }
 
@@ -84,7 +84,9 @@ graph::Graph exampleOf (const NodeType& type, const Catalogue& catalogue)
     Builder b (catalogue);
     b.graph.name = "Example of " + std::string (type.info.id);
     b.graph.about = std::string (type.info.summary);
-    b.graph.devices.emplace_back (role, Json { { "driver", "sim" }, { "mass", "50 g" }, { "damping", "1 N*s/m" }, { "hand", { { "stiffness", "600 N/m" }, { "damping", "6 N*s/m" }, { "path", "stroke" } } }, { "guard", { { "max_force", "6 N" } } } });
+    const Json hand { { "stiffness", "600 N/m" }, { "damping", "6 N*s/m" }, { "path", "stroke" } };
+    const Json guard { { "max_force", "6 N" } };
+    b.graph.devices.emplace_back (role, Json { { "driver", "sim" }, { "mass", "50 g" }, { "damping", "1 N*s/m" }, { "hand", hand }, { "guard", guard } });
     b.add ("hand", "device.position");
     b.add ("wall", "deform.plane");
     b.add (subject, std::string (type.info.id));
@@ -95,17 +97,18 @@ graph::Graph exampleOf (const NodeType& type, const Catalogue& catalogue)
     const auto face = b.faceOf (subject);
     for (const auto& input : face.inputs)
     {
-        const auto spring = springFor (input);
-        if (! spring) continue;
-        if (spring->node == std::string ("motion") && b.graph.root.find ("motion") == nullptr)
+        const auto source = sourceFor (input);
+        if (! source) continue;
+        if (source->node == std::string ("motion") && b.graph.root.find ("motion") == nullptr)
         {
             b.add ("motion", "motion.velocity");
             b.wire ("hand", "position", "motion", *b.faceOf ("motion").find (Role::input, "position"));
         }
-        b.wire (spring->node, spring->port, subject, input);
+        b.wire (source->node, source->port, subject, input);
     }
 
-    // What it gives is felt: a vector as it is, a scalar upwards. What keeps its input's unit was given a force above.
+    // The first force output goes to the motor: a vector as it is, a scalar along z. An output with the unit of an input counts as a force,
+    // because that input was wired to a force above.
     const auto motor = b.faceOf ("motor");
     const auto& into = *motor.find (Role::input, "force");
     const auto isForce = [&] (const FacePort& p, int width)

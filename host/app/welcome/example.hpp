@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/catalogue.hpp>
 #include <framework/graph/graph.hpp>
+#include <framework/node/catalogue.hpp>
 
 #include <string>
 
 namespace tactus::host
 {
 
-/// The smallest graph in which a node of a type can be felt or watched: a hand and a wall before it, as far as its inputs
-/// take what they give, and a motor after it, where something it gives is a force.
+/// The smallest graph in which a node of a type can be felt or watched. Its inputs are wired to a hand and a wall as far as they fit, and
+/// its first force output is wired to a motor.
 graph::Graph exampleOf (const NodeType&, const Catalogue&);
 
 }   // namespace tactus::host

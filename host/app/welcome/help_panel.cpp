@@ -5,7 +5,7 @@
 #include <host/app/look/focus.hpp>
 #include <host/app/model/node_doc.hpp>
 
-#include <framework/number_text.hpp>
+#include <framework/text/number_text.hpp>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +18,9 @@ namespace tactus::host
 namespace
 {
 constexpr int bar_height = 56;
+constexpr auto subgraph_help = "A subgraph: nodes and wires in a box. Double-click to enter it; the bar above the canvas leads back out.";
+constexpr auto placeholder_help = "This node type is not installed. The node is a placeholder that keeps its params and wires, and outputs 0. It works "
+                                  "again where the type is installed.";
 
 juce::String text (std::string_view s) { return juce::String (std::string (s)); }
 
@@ -28,9 +31,9 @@ juce::String unitText (const UnitRule& u)
     case UnitRule::Kind::fixed:
         return u.unit.symbol == "1" ? juce::String ("no unit") : text (u.unit.symbol);
     case UnitRule::Kind::open:
-        return "unit of what is wired";
+        return "unit of the wired port";
     case UnitRule::Kind::each:
-        return "unit of what is wired to each";
+        return "unit of the port wired to each";
     case UnitRule::Kind::same:
         return "unit of " + text (u.a);
     case UnitRule::Kind::product:
@@ -59,24 +62,29 @@ juce::String about (const PortSheet& p)
     }
     else
     {
-        parts.add (p.width == 3 ? "vector" + (unitText (p.unit).isEmpty() ? juce::String() : ", " + unitText (p.unit)) : unitText (p.unit));
+        parts.add ((p.width == 3 ? "vector, " : "") + unitText (p.unit));
         if (p.role == Role::param)
         {
-            parts.add ("at first " + text (numberText (p.initial[0])) + (p.width == 3 ? " " + text (numberText (p.initial[1])) + " " + text (numberText (p.initial[2])) : juce::String()));
+            auto initial = "default " + text (numberText (p.initial[0]));
+            if (p.width == 3) initial << " " << text (numberText (p.initial[1])) << " " << text (numberText (p.initial[2]));
+            parts.add (initial);
             if (const auto usual = rangeText (p.limits.usual); usual.isNotEmpty()) parts.add ("usually " + usual);
             if (const auto hard = rangeText (p.limits.hard); hard.isNotEmpty() && p.limits.hard != p.limits.usual) parts.add ("must be " + hard);
         }
     }
-    if (p.limits.latch) parts.add ("read when contact begins");
+    if (p.limits.latch) parts.add ("read at the start of contact");
     parts.removeEmptyStrings();
     return parts.joinIntoString ("; ");
 }
 
-/// A port: its name and unit, and what it is.
+/// A line about a port: its name, unit and description.
 class PortLine final : public Block
 {
 public:
-    PortLine (juce::String n, juce::String d, juce::String s) : name (std::move (n)), details (std::move (d)), sentence (std::move (s)) { setInterceptsMouseClicks (false, false); }
+    PortLine (juce::String n, juce::String d, juce::String s) : name (std::move (n)), details (std::move (d)), sentence (std::move (s))
+    {
+        setInterceptsMouseClicks (false, false);
+    }
 
     int heightFor (int w) override { return static_cast<int> (std::ceil (layout (w).getHeight())) + 8; }
     void paint (juce::Graphics& g) override { layout (getWidth()).draw (g, getLocalBounds().toFloat()); }
@@ -100,31 +108,31 @@ private:
 void addPorts (Column& column, const char* heading, const std::vector<PortSheet>& ports)
 {
     if (ports.empty()) return;
-    column.add (heading, Words::Kind::heading);
+    column.add (heading, TextBlock::Kind::heading);
     for (const auto& p : ports)
         column.add (std::make_unique<PortLine> (text (p.id) + (p.list ? "[0], [1] ..." : ""), about (p), text (p.about)));
 }
 
 using Keys = std::pair<const char*, const char*>;
 constexpr std::array key_list {
-    Keys { "Esc", "brings all forces to zero; once nothing runs, closes what is open" },
-    Keys { "Shift+Esc", "emergency stop: no forces until REARM, and the graph goes on" },
-    Keys { "1 ... 9", "brings the values of a snapshot back; Ctrl with the digit stores them" },
+    Keys { "Esc", "ramps all forces to zero; if nothing runs, closes the open panel" },
+    Keys { "Shift+Esc", "emergency stop: no forces until REARM, while the graph keeps running" },
+    Keys { "1 ... 9", "recalls a snapshot; with Ctrl, stores it" },
     Keys { "Ctrl+N, Ctrl+O, Ctrl+S, Ctrl+Shift+S", "new, open, save, save as" },
-    Keys { "H", "holds the tool pressed where it is, or lets it go" },
-    Keys { "X", "freezes all scopes, or lets them go on" },
-    Keys { "C", "shows what each node costs" },
-    Keys { "F1 or ?", "help on the selected node; with none selected, this list" },
+    Keys { "H", "holds the tool pressed where it is, or releases it" },
+    Keys { "X", "freezes or unfreezes all scopes" },
+    Keys { "C", "shows the CPU cost of each node" },
+    Keys { "F1 or ?", "help on the selected node, or this list" },
 };
 constexpr std::array mouse_list {
-    Keys { "drag on a number", "changes it; with Shift finely; a double click types it, with its unit" },
-    Keys { "drag from a port", "draws a wire: what fits lights up; let go on nothing, the palette offers what fits" },
-    Keys { "double click on the canvas", "adds a node there" },
-    Keys { "middle or right button, wheel", "pans; zooms to the pointer; a click of the right one opens the menu" },
-    Keys { "press on the surface below", "you are the hand: what the graph does there is pushed against you" },
+    Keys { "drag on a number", "changes it, with Shift in fine steps; double-click to type a value with its unit" },
+    Keys { "drag from a port", "draws a wire: matching ports light up; drop it on the canvas to add a matching node" },
+    Keys { "double-click on the canvas", "adds a node there" },
+    Keys { "middle or right button, wheel", "pans; zooms to the pointer; a right click opens the menu" },
+    Keys { "press on the surface below", "moves the tool with the mouse as your hand; the arrow is the force on it" },
 };
 
-/// What a header says, as it is laid out there.
+/// Adds the documentation from a node header, with its layout.
 void addDoc (Column& column, std::span<const DocPart> parts)
 {
     for (const auto& p : parts)
@@ -132,13 +140,13 @@ void addDoc (Column& column, std::span<const DocPart> parts)
         {
         case DocPart::Kind::formula:
         case DocPart::Kind::text:
-            column.add (text (p.text), p.kind == DocPart::Kind::text ? Words::Kind::text : Words::Kind::small);
+            column.add (text (p.text), p.kind == DocPart::Kind::text ? TextBlock::Kind::text : TextBlock::Kind::small);
             break;
         case DocPart::Kind::heading:
-            column.add (text (p.text), Words::Kind::heading);
+            column.add (text (p.text), TextBlock::Kind::heading);
             break;
         case DocPart::Kind::item:
-            column.add (juce::String::fromUTF8 ("\xe2\x80\x93 ") + text (p.text), Words::Kind::text);
+            column.add (juce::String::fromUTF8 ("\xe2\x80\x93 ") + text (p.text), TextBlock::Kind::text);
             break;
         }
 }
@@ -173,14 +181,14 @@ void HelpPanel::showNode (const std::string& type)
     if (node == nullptr)
     {
         const bool is_subgraph = type.starts_with ("graph:") || type.starts_with ("file:");
-        made->add (juce::String (type), Words::Kind::title);
-        made->add (is_subgraph ? "A subgraph: nodes and wires in a box. Double click it to go inside; the bar above leads back out." : "There is no such type here, so a placeholder stands in for it: it keeps its params and wires, and gives 0. It comes alive where its type is installed.", Words::Kind::text);
+        made->add (juce::String (type), TextBlock::Kind::title);
+        made->add (is_subgraph ? subgraph_help : placeholder_help, TextBlock::Kind::text);
     }
     else
     {
-        made->add (text (node->info.name), Words::Kind::title);
-        made->add (text (node->info.id), Words::Kind::small);
-        made->add (text (node->info.summary), Words::Kind::text);
+        made->add (text (node->info.name), TextBlock::Kind::title);
+        made->add (text (node->info.id), TextBlock::Kind::small);
+        made->add (text (node->info.summary), TextBlock::Kind::text);
         const auto doc = docOf (node->info.id);
         const auto source = std::ranges::find_if (doc, [] (const DocPart& p)
                                                   { return p.text.starts_with ("Source:"); });
@@ -189,7 +197,7 @@ void HelpPanel::showNode (const std::string& type)
         addPorts (*made, "Parameters", node->params);
         if (! node->settings.empty())
         {
-            made->add ("Settings, fixed while it runs", Words::Kind::heading);
+            made->add ("Settings, fixed during a run", TextBlock::Kind::heading);
             for (const auto& s : node->settings)
                 made->add (std::make_unique<PortLine> (text (s.id), text (tactus::name (s.kind)), text (s.about)));
         }
@@ -205,10 +213,10 @@ void HelpPanel::showNode (const std::string& type)
 void HelpPanel::showKeys()
 {
     auto made = std::make_unique<Column>();
-    made->add ("Keys", Words::Kind::title);
+    made->add ("Keyboard shortcuts", TextBlock::Kind::title);
     for (const auto& [key, does] : key_list)
         made->add (std::make_unique<PortLine> (key, does, juce::String()));
-    made->add ("On the canvas", Words::Kind::heading);
+    made->add ("On the canvas", TextBlock::Kind::heading);
     for (const auto& c : canvasCommands())
     {
         juce::StringArray names;
@@ -216,10 +224,10 @@ void HelpPanel::showKeys()
             names.add (juce::KeyPress::createFromDescription (k).getTextDescription());
         made->add (std::make_unique<PortLine> (names.joinIntoString (", "), juce::String (c.name), juce::String()));
     }
-    made->add ("The mouse", Words::Kind::heading);
+    made->add ("Mouse", TextBlock::Kind::heading);
     for (const auto& [way, does] : mouse_list)
         made->add (std::make_unique<PortLine> (way, does, juce::String()));
-    made->add ("Select a node and press F1 to read what it does.", Words::Kind::small);
+    made->add ("Select a node and press F1 to read what it does.", TextBlock::Kind::small);
     shown_type.clear();
     example.setVisible (false);
     keys.setVisible (false);

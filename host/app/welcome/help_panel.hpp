@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/catalogue.hpp>
+#include <framework/node/catalogue.hpp>
 #include <host/app/inspector/block.hpp>
-#include <host/app/window/plain_button.hpp>
+#include <host/app/look/plain_button.hpp>
 
 #include <functional>
 
 namespace tactus::host
 {
 
-/// What a node does, from its datasheet, or which keys there are. Over the canvas, until it is closed.
+/// Help over the canvas: the datasheet of a node, or the keyboard shortcuts.
 class HelpPanel final : public juce::Component
 {
 public:
@@ -22,10 +22,10 @@ public:
     void showKeys();
     void close();
 
-    void setArea (juce::Rectangle<int>);   ///< it is in the middle of its top, as high as it needs to be
+    void setArea (juce::Rectangle<int>);   ///< the panel is centred at the top of the area, and as high as its text
 
     bool isOpen() const { return isVisible(); }
-    const std::string& type() const noexcept { return shown_type; }   ///< empty: the keys
+    const std::string& type() const noexcept { return shown_type; }   ///< empty: keyboard shortcuts
 
     std::function<void (const std::string& type)> onExample;
 
@@ -41,7 +41,7 @@ private:
     std::string shown_type;
     std::unique_ptr<Column> column;
     juce::Viewport scroll;
-    PlainButton example { "Open a small example" }, keys { "All keys" }, done { "Close" };
+    PlainButton example { "Open example" }, keys { "Keyboard shortcuts" }, done { "Close" };
 };
 
 }   // namespace tactus::host

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "welcome_page.hpp"
 
-#include <host/app/presets/fitted_words.hpp>
+#include <host/app/presets/fitted_text.hpp>
 
 #include <algorithm>
 #include <array>
@@ -15,8 +15,8 @@ namespace
 constexpr std::size_t most_cards = 6, most_files = 4;
 constexpr int margin = 32, gap = 12, line_height = 15, low = 420;
 
-/// The first sentence, or what stands before its colon.
-juce::String feel (const std::string& about)
+/// The first sentence.
+juce::String firstSentence (const std::string& about)
 {
     const auto text = juce::String (about);
     const int dot = text.indexOf (". ");
@@ -39,7 +39,7 @@ std::vector<Preset> firstOnes (const std::vector<Preset>& presets, std::size_t m
     return found;
 }
 
-/// One preset: its name, what it feels like, how strong it is.
+/// The card of a preset: its name, what it feels like, and a plot of its force.
 class WelcomePage::Card final : public juce::Button
 {
 public:
@@ -73,7 +73,7 @@ public:
             g.drawText ("Feel it", top, juce::Justification::centredRight, false);
         }
         const int lines = inside.getHeight() > 100 ? 3 : 2;
-        drawFittedWords (g, feel (preset.about), look.font (12.0f), theme.dim, inside.removeFromTop (lines * line_height));
+        drawFittedText (g, firstSentence (preset.about), look.font (12.0f), theme.dim, inside.removeFromTop (lines * line_height));
         drawPicture (g, look, inside.withTrimmedTop (6).toFloat(), pictures.get (preset.file).get());
     }
 
@@ -182,15 +182,15 @@ void WelcomePage::paint (juce::Graphics& g)
     const auto& look = lookOf (*this);
     const auto& theme = look.theme();
     g.fillAll (theme.canvas);
-    auto words = title;
+    auto lines = title;
     g.setColour (theme.text);
     g.setFont (look.font (20.0f, true));
-    g.drawText ("Feel something", words.removeFromTop (28), juce::Justification::centredLeft, false);
+    g.drawText ("Feel something", lines.removeFromTop (28), juce::Justification::centredLeft, false);
     g.setColour (theme.dim);
     g.setFont (look.font (13.0f));
-    g.drawText (all.empty() ? "No presets were found beside the program. Set TACTUS_PRESETS to their folder, or begin with an empty graph."
-                            : "One click opens it and runs it with the mouse as your hand: press on the surface below and drag.",
-                words.removeFromTop (20), juce::Justification::centredLeft, true);
+    g.drawText (all.empty() ? "No presets found next to the program. Set TACTUS_PRESETS to their folder, or start with an empty graph."
+                            : "Click a preset to run it with the mouse as your hand: press on the surface below and drag.",
+                lines.removeFromTop (20), juce::Justification::centredLeft, true);
     if (recent_title.isEmpty()) return;
     g.drawText ("Recent", recent_title, juce::Justification::centredLeft, false);
 }

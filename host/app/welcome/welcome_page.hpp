@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <host/app/look/plain_button.hpp>
 #include <host/app/presets/picture_store.hpp>
 #include <host/app/presets/preset_list.hpp>
-#include <host/app/window/plain_button.hpp>
 
 #include <functional>
 
 namespace tactus::host
 {
 
-/// What one sees while nothing is open: presets to feel at once, and the ways to begin.
+/// The start page: presets to feel immediately, and buttons to open or create a graph.
 class WelcomePage final : public juce::Component
 {
 public:
     explicit WelcomePage (PictureStore&);
     ~WelcomePage() override;
 
-    /// A few of these become cards; `recent` are files.
+    /// Shows a few of the presets as cards, and the recent files.
     void show (const std::vector<Preset>& presets, const std::vector<std::filesystem::path>& recent);
-    void refresh();   ///< many times a second
+    void refresh();   ///< call many times a second
 
     std::function<void (const std::filesystem::path&)> onFeel, onOpenFile;
     std::function<void()> onNew, onOpen;
@@ -39,10 +39,10 @@ private:
     std::vector<std::unique_ptr<Card>> all;
     std::vector<std::unique_ptr<RecentFile>> files;
     juce::Rectangle<int> title, recent_title;
-    PlainButton create { "New empty graph" }, open { "Open a file" };
+    PlainButton create { "New empty graph" }, open { "Open ..." };
 };
 
-/// Those to begin with, of what there is: as different from each other as can be.
+/// The presets to start with, as different from each other as possible.
 std::vector<Preset> firstOnes (const std::vector<Preset>&, std::size_t most);
 
 }   // namespace tactus::host

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "files.hpp"
 
-#include <host/app/keep/carry_files.hpp>
+#include <host/app/model/message_text.hpp>
 #include <host/app/presets/preset_list.hpp>
+#include <host/app/storage/carry_files.hpp>
 
 #include <framework/file/graph_file.hpp>
 
@@ -11,15 +12,10 @@ namespace tactus::host
 
 namespace fs = std::filesystem;
 
-namespace
-{
-juce::String inWords (const Message& m) { return juce::String (m.text + (m.remedy.empty() ? "" : "; " + m.remedy)); }
-}   // namespace
-
-Files::Files (Document& d, Question& q, Settings& s, Ways w)
+Files::Files (Document& d, Question& q, Settings& s, Callbacks c)
     : clock ([]
              { return static_cast<double> (juce::Time::currentTimeMillis()) / 1000.0; }),
-      document (d), question (q), settings (s), ways (std::move (w))
+      document (d), question (q), settings (s), callbacks (std::move (c))
 {
     document.add (*this);
 }
@@ -30,13 +26,13 @@ void Files::beginSession (const fs::path& h)
 {
     home = h;
     session.emplace (home);
-    if (! session->problem().empty()) ways.say (session->problem());
+    if (! session->problem().empty()) callbacks.notify (session->problem());
 }
 
 std::string Files::name() const
 {
     if (! document.graph().name.empty()) return document.graph().name;
-    return document.file().empty() ? "the graph" : document.file().stem().string();
+    return document.file().empty() ? "Untitled graph" : document.file().stem().string();
 }
 
 //==============================================================================
@@ -44,7 +40,9 @@ void Files::whenSaved (const juce::String& why, std::function<void()> act)
 {
     if (question.isOpen()) question.cancel();
     if (! document.isChanged()) return act();
-    question.ask ("Save the changes to '" + juce::String (name()) + "' " + why + "?", document.file().empty() ? juce::String ("It has no file of its own yet; you choose where it goes.") : "They go to " + juce::String (document.file().string()) + ".",
+    const auto text = document.file().empty() ? juce::String ("The graph has no file yet. You will be asked where to save it.")
+                                              : "Saving overwrites " + juce::String (document.file().string()) + ".";
+    question.ask ("Save changes to '" + juce::String (name()) + "' " + why + "?", text,
                   { { "Save", [this, act]
                       { save (act); } },
                     { "Don't save", act },
@@ -53,23 +51,23 @@ void Files::whenSaved (const juce::String& why, std::function<void()> act)
 
 void Files::show (graph::Graph g, Document::Source source, const std::string& step, bool runs, bool by_pointer)
 {
-    ways.stop();
+    callbacks.stop();
     document.open (std::move (g), std::move (source), step);
-    keepNow();
-    if (runs && ! safe) ways.run (by_pointer);
+    autosave();
+    if (runs && ! safe) callbacks.run (by_pointer);
 }
 
 void Files::create()
 {
-    whenSaved ("before a new graph", [this]
+    whenSaved ("before creating a new graph", [this]
                {
         show ({}, {}, "new graph", false, false);
-        ways.say ("A new graph. Space, or a double click on the canvas, adds a node."); });
+        callbacks.notify ("New graph. Press Space or double-click the canvas to add a node."); });
 }
 
 void Files::openGraph (graph::Graph g, const std::string& step)
 {
-    whenSaved ("before another graph is opened", [this, g = std::move (g), step]
+    whenSaved ("before opening another graph", [this, g = std::move (g), step]
                { show (g, {}, step, true, false); });
 }
 
@@ -80,38 +78,38 @@ void Files::load (const fs::path& file, Document::Source source, bool by_pointer
     if (error != loaded.messages.end())
     {
         const auto at = error->line > 0 ? ":" + juce::String (error->line) + ":" + juce::String (error->column) : juce::String();
-        return ways.say (juce::String (file.filename().string()) + at + ": " + inWords (*error));
+        return callbacks.notify (juce::String (file.filename().string()) + at + ": " + juce::String (messageText (*error)));
     }
     if (! source.file.empty())
     {
         settings.noteRecent (file);
-        ways.onSettings();
+        callbacks.onSettings();
     }
     const auto called = loaded.graph.name.empty() ? file.stem().string() : loaded.graph.name;
     show (std::move (loaded.graph), std::move (source), "open " + called, true, by_pointer);
-    ways.say (safe ? juce::String ("Safe mode: nothing runs until you press START.") : juce::String());
+    callbacks.notify (safe ? juce::String ("Safe mode: nothing runs until you press START.") : juce::String());
 }
 
 void Files::open()
 {
     std::error_code failed;
-    const auto begin = ! document.file().empty() ? document.file().parent_path() : fs::is_directory (ownFolder(), failed) ? ownFolder()
-                                                                                                                          : presetFolder();
-    ways.choose (false, begin, [this] (const fs::path& file)
-                 { open (file); });
+    auto begin = document.file().parent_path();
+    if (begin.empty()) begin = fs::is_directory (ownFolder(), failed) ? ownFolder() : presetFolder();
+    callbacks.choose (false, begin, [this] (const fs::path& file)
+                      { open (file); });
 }
 
 void Files::open (const fs::path& file)
 {
     std::error_code failed;
     const auto whole = fs::absolute (file, failed);
-    whenSaved ("before another graph is opened", [this, whole]
+    whenSaved ("before opening another graph", [this, whole]
                { load (whole, { .file = whole }, false); });
 }
 
 void Files::openCopy (const fs::path& preset, bool by_pointer)
 {
-    whenSaved ("before another graph is opened", [this, preset, by_pointer]
+    whenSaved ("before opening another graph", [this, preset, by_pointer]
                { load (preset, { .preset = preset }, by_pointer); });
 }
 
@@ -133,8 +131,8 @@ void Files::saveAs (std::function<void()> then)
         fs::create_directories (folder, failed);
     }
     const auto begin = document.file().empty() ? folder / (called.toStdString() + ".json") : document.file();
-    ways.choose (true, begin, [this, then = std::move (then)] (const fs::path& chosen)
-                 {
+    callbacks.choose (true, begin, [this, then = std::move (then)] (const fs::path& chosen)
+                      {
         auto file = chosen;
         if (file.extension() != ".json") file += ".json";
         saveTo (file, then); });
@@ -144,46 +142,51 @@ void Files::saveTo (const fs::path& file, const std::function<void()>& then)
 {
     std::error_code failed;
     const bool is_shipped = ! presetFolder().empty() && fs::equivalent (file.parent_path(), presetFolder(), failed);
-    if (is_shipped && file != document.file() && fs::exists (file, failed)) return ways.say ("Not saved: " + juce::String (file.filename().string()) + " is a preset that comes with Tactus. Choose another name or folder.");
+    if (is_shipped && file != document.file() && fs::exists (file, failed))
+        return callbacks.notify ("Not saved: " + juce::String (file.filename().string()) + " ships with Tactus. Choose another name or folder.");
     const auto not_carried = carryFiles (document.graph(), file.parent_path());
     const auto messages = document.save (file);
-    if (! messages.empty()) return ways.say ("Not saved: " + inWords (messages.front()));
-    keepNow();
+    if (! messages.empty()) return callbacks.notify ("Not saved: " + juce::String (messageText (messages.front())));
+    autosave();
     settings.noteRecent (file);
-    ways.onSettings();
-    ways.say (not_carried.empty() ? "Saved " + juce::String (file.string()) : "Saved, but this file that it names is not beside it: " + juce::String (not_carried.front()) + ". Copy it there.");
+    callbacks.onSettings();
+    if (not_carried.empty())
+        callbacks.notify ("Saved " + juce::String (file.string()));
+    else
+        callbacks.notify ("Saved, but " + juce::String (not_carried.front()) + ", which the graph uses, was not copied. Copy it next to the saved file.");
     if (then) then();
 }
 
 //==============================================================================
 bool Files::recover()
 {
-    leftovers = leftoversIn (home);
-    if (leftovers.empty()) return false;
+    crashed = findCrashedSessions (home);
+    if (crashed.empty()) return false;
     askAboutNext();
     return true;
 }
 
 void Files::askAboutNext()
 {
-    if (leftovers.empty()) return;
-    const auto q = questionAbout (leftovers.front(), clock());
+    if (crashed.empty()) return;
+    const auto q = questionAbout (crashed.front(), clock());
     const auto forget = [this]
     {
-        leftovers.front().discard();
-        leftovers.erase (leftovers.begin());
+        crashed.front().discard();
+        crashed.erase (crashed.begin());
         askAboutNext();
     };
     const auto later = [this]
-    { leftovers.clear(); };   // the next start asks again
+    { crashed.clear(); };   // the next start asks again
     std::vector<Question::Choice> choices;
-    const Question::Choice at_once { "Recover", [this]
-                                     { restoreNext (true); } },
-        at_rest { "Recover without running", [this]
-                  { restoreNext (false); } };
-    if (q.can_recover && ! safe && ! q.safe_first) choices.push_back (at_once);
-    if (q.can_recover) choices.push_back (at_rest);
-    if (q.can_recover && ! safe && q.safe_first) choices.push_back (at_once);
+    if (q.can_recover)
+    {
+        choices.push_back ({ "Recover without running", [this]
+                             { restoreNext (false); } });
+        if (! safe)
+            choices.insert (q.safe_first ? choices.end() : choices.begin(), { "Recover", [this]
+                                                                              { restoreNext (true); } });
+    }
     choices.push_back ({ "Discard", forget });
     choices.push_back ({ "Later", later });
     question.ask (q.title, q.text, std::move (choices));
@@ -191,51 +194,52 @@ void Files::askAboutNext()
 
 void Files::restoreNext (bool runs)
 {
-    if (leftovers.empty()) return;
-    const auto kept = leftovers.front().kept();
-    auto restored = restore (kept);
+    if (crashed.empty()) return;
+    const auto saved = crashed.front().document();
+    auto restored = restore (saved);
     const auto called = restored.graph.name.empty() ? std::string ("a graph") : restored.graph.name;
-    show (std::move (restored.graph), { kept.file, kept.preset, kept.changed }, "recover " + called, runs, false);
-    if (keepNow()) leftovers.front().discard();   // only now that this session keeps it
-    const auto more = leftovers.size() - 1;
-    leftovers.clear();
-    auto said = runs && ! safe ? juce::String ("Recovered. Save it with Ctrl+S.") : juce::String ("Recovered, and nothing runs: look at it, then press START. Save it with Ctrl+S.");
-    if (more > 0) said += " " + juce::String (static_cast<int> (more)) + " more will be asked about at the next start.";
-    ways.say (said);
+    show (std::move (restored.graph), { saved.file, saved.preset, saved.changed }, "recover " + called, runs, false);
+    if (autosave()) crashed.front().discard();   // only now that this session has an autosave of it
+    const auto more = crashed.size() - 1;
+    crashed.clear();
+    juce::String text = "Recovered. Press Ctrl+S to save.";
+    if (! runs || safe) text << " The graph is not running: check it, then press START.";
+    if (more > 0) text += " The next start offers " + juce::String (static_cast<int> (more)) + " more.";
+    callbacks.notify (text);
 }
 
 //==============================================================================
 void Files::documentChanged()
 {
     if (! session) return;
-    if (! unkept_since) unkept_since = clock();
-    if (ways.isRunning()) beforeRun();   // the change itself may be what ends the program
+    if (! unsaved_since) unsaved_since = clock();
+    if (callbacks.isRunning()) beforeRun();   // the change itself may crash the program
 }
 
-bool Files::keepNow()
+bool Files::autosave()
 {
     if (! session) return false;
-    unkept_since.reset();
-    const auto why = session->keep ({ document.file(), document.preset(), document.isChanged(), clock(), writeGraph (document.graph()) });
-    if (why) ways.say ("Not kept for the case of a crash: " + juce::String (*why) + ". Save often.");
-    return ! why;
+    unsaved_since.reset();
+    const auto saved = session->autosave ({ document.file(), document.preset(), document.isChanged(), clock(), writeGraph (document.graph()) });
+    if (! saved) callbacks.notify ("Autosave failed: " + juce::String (saved.error().text) + ". Save often.");
+    return saved.has_value();
 }
 
 void Files::beforeRun()
 {
     if (! session) return;
     trial_until = clock() + trial_s;
-    if (session->isTrial()) return;
-    keepNow();
-    session->noteTrial();
+    if (session->inTrial()) return;
+    autosave();
+    session->beginTrial();
 }
 
 void Files::attend()
 {
     if (! session) return;
     const auto now = clock();
-    if (unkept_since && now - *unkept_since >= keep_after_s) keepNow();
-    if (session->isTrial() && (now >= trial_until || ! ways.isRunning())) session->noteTrialIsOver();
+    if (unsaved_since && now - *unsaved_since >= autosave_after_s) autosave();
+    if (session->inTrial() && (now >= trial_until || ! callbacks.isRunning())) session->endTrial();
 }
 
 void Files::end()
@@ -248,8 +252,8 @@ void Files::endSuddenly()
 {
     if (! session) return;
     if (! document.isChanged()) return end();
-    keepNow();
-    session->noteTrialIsOver();
+    autosave();
+    session->endTrial();
     session.reset();
 }
 

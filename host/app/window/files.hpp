@@ -3,33 +3,32 @@
 
 #include "question.hpp"
 
-#include <host/app/keep/session.hpp>
-#include <host/app/keep/settings.hpp>
 #include <host/app/model/document.hpp>
+#include <host/app/storage/recovery.hpp>
+#include <host/app/storage/settings.hpp>
 
 #include <functional>
 
 namespace tactus::host
 {
 
-/// New, open, save, and what is kept for a crash. Nothing that was changed goes without a question. [main thread]
+/// New, open, save, autosave and crash recovery. Asks before unsaved changes are lost. [main thread]
 class Files final : private Document::Listener
 {
 public:
-    /// What happens around it.
-    struct Ways
+    struct Callbacks
     {
-        std::function<void (const juce::String&)> say;
-        std::function<void()> stop;                  ///< what runs, before another graph comes
-        std::function<void (bool by_pointer)> run;   ///< the graph that came
+        std::function<void (const juce::String&)> notify;
+        std::function<void()> stop;                  ///< before another graph is opened
+        std::function<void (bool by_pointer)> run;   ///< after a graph was opened
         std::function<bool()> isRunning;
-        std::function<void()> onSettings;   ///< they changed, and are to be saved
+        std::function<void()> onSettings;   ///< the settings have changed and must be saved
 
-        /// Asks for a file to open, or to save in; calls back with it, or not at all.
+        /// Asks for a file to open or save, and calls back with it unless the user cancels.
         std::function<void (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>)> choose;
     };
 
-    Files (Document&, Question&, Settings&, Ways);
+    Files (Document&, Question&, Settings&, Callbacks);
     ~Files() override;
 
     std::function<double()> clock;   ///< s since 1970
@@ -37,30 +36,30 @@ public:
     void beginSession (const std::filesystem::path& home);
 
     void create();
-    void open();   ///< asks which
+    void open();   ///< asks for the file
     void open (const std::filesystem::path&);
     void openCopy (const std::filesystem::path& preset, bool by_pointer);
-    void openGraph (graph::Graph, const std::string& step);   ///< one without a file
+    void openGraph (graph::Graph, const std::string& step);   ///< a graph without a file
     void save (std::function<void()> then = {});
     void saveAs (std::function<void()> then = {});
 
-    /// Does it, once what is not saved is saved or was given up.
+    /// Calls the function once unsaved changes are saved or discarded.
     void whenSaved (const juce::String& why, std::function<void()>);
 
-    void setSafe (bool s) noexcept { safe = s; }   ///< nothing that is opened runs by itself
+    void setSafe (bool s) noexcept { safe = s; }   ///< safe mode: opened graphs do not run until START
     bool isSafe() const noexcept { return safe; }
 
-    /// Asks about what other runs left behind, the latest first. Returns whether there is anything.
+    /// Offers to recover crashed sessions, the latest first. Returns true if there are any.
     bool recover();
 
-    void beforeRun();     ///< to be called before each
-    void attend();        ///< many times a second
-    void end();           ///< the program ends as it was asked to: nothing is left to recover
-    void endSuddenly();   ///< it has to end now: what is not saved is kept
+    void beforeRun();     ///< call before each run
+    void attend();        ///< call many times a second
+    void end();           ///< removes the autosave; call it when the program closes normally
+    void endSuddenly();   ///< autosaves unsaved changes; call it when the program must close now
 
 private:
     void documentChanged() override;
-    bool keepNow();
+    bool autosave();
     void load (const std::filesystem::path&, Document::Source, bool by_pointer);
     void show (graph::Graph, Document::Source, const std::string& step, bool runs, bool by_pointer);
     void saveTo (const std::filesystem::path&, const std::function<void()>& then);
@@ -68,16 +67,16 @@ private:
     void restoreNext (bool runs);
     std::string name() const;
 
-    static constexpr double keep_after_s = 1.0, trial_s = 10.0;
+    static constexpr double autosave_after_s = 1.0, trial_s = 10.0;
 
     Document& document;
     Question& question;
     Settings& settings;
-    Ways ways;
-    std::optional<Session> session;
+    Callbacks callbacks;
+    std::optional<RecoverySession> session;
     std::filesystem::path home;
-    std::vector<Leftover> leftovers;
-    std::optional<double> unkept_since;
+    std::vector<CrashedSession> crashed;
+    std::optional<double> unsaved_since;
     double trial_until = 0.0;
     bool safe = false;
 };

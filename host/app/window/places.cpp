@@ -15,8 +15,10 @@ Json pixel (juce::Point<float> on_screen)
 
 std::string nameOf (const juce::Component& c)
 {
-    if (const auto* button = dynamic_cast<const juce::Button*> (&c); button != nullptr && button->getButtonText().isNotEmpty()) return button->getButtonText().toStdString();
-    if (const auto* text = dynamic_cast<const juce::TextEditor*> (&c); text != nullptr && c.getTitle().isEmpty()) return text->getTextToShowWhenEmpty().toStdString();
+    const auto* button = dynamic_cast<const juce::Button*> (&c);
+    if (button != nullptr && button->getButtonText().isNotEmpty()) return button->getButtonText().toStdString();
+    const auto* editor = dynamic_cast<const juce::TextEditor*> (&c);
+    if (editor != nullptr && c.getTitle().isEmpty()) return editor->getTextToShowWhenEmpty().toStdString();
     return (c.getTitle().isNotEmpty() ? c.getTitle() : c.getName()).toStdString();
 }
 

@@ -3,13 +3,13 @@
 
 #include <host/app/canvas/canvas.hpp>
 
-#include <framework/json.hpp>
+#include <framework/text/json.hpp>
 
 namespace tactus::host
 {
 
-/// Where everything is on the screen that a script may want to click on: nodes, ports, params and wires of a canvas by their
-/// names, and whatever in the window has a name, in pixels of the screen.
+/// The positions of everything a script may want to click, in screen pixels: the nodes, ports, params and wires of a canvas, and all
+/// named components of the window.
 Json placesOf (juce::Component& window, const Canvas&);
 
 }   // namespace tactus::host

@@ -17,14 +17,14 @@ Question::Question()
 void Question::ask (const juce::String& title, const juce::String& text, std::vector<Choice> all)
 {
     heading = title;
-    words = text;
+    body = text;
     choices = std::move (all);
     setTitle (title);
     setDescription (text);
     buttons.clear();
     for (std::size_t i = 0; i < choices.size(); ++i)
     {
-        auto& b = *buttons.emplace_back (std::make_unique<PlainButton> (choices[i].words));
+        auto& b = *buttons.emplace_back (std::make_unique<PlainButton> (choices[i].label));
         b.onClick = [this, i]
         { answer (i); };
         addAndMakeVisible (b);
@@ -40,7 +40,7 @@ void Question::ask (const juce::String& title, const juce::String& text, std::ve
 void Question::answer (std::size_t choice)
 {
     if (! isOpen() || choice >= choices.size()) return;
-    const auto act = choices[choice].act;   // which may ask the next question
+    const auto act = choices[choice].act;   // may ask the next question
     setVisible (false);
     if (auto* parent = getParentComponent()) takeFocus (*parent);
     if (act) act();
@@ -62,7 +62,7 @@ juce::TextLayout Question::layout (int w) const
 {
     const auto& look = lookOf (*this);
     juce::AttributedString s;
-    s.append (words, look.font (13.0f), look.theme().text);
+    s.append (body, look.font (13.0f), look.theme().text);
     juce::TextLayout l;
     l.createLayout (s, static_cast<float> (w));
     return l;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "plain_button.hpp"
+#include <host/app/look/plain_button.hpp>
 
 #include <functional>
 #include <memory>
@@ -10,14 +10,14 @@
 namespace tactus::host
 {
 
-/// A question over the window that has to be answered before anything else is done in it. Return takes the first choice
-/// or the one that the arrows lead to; Esc, which the window passes on, the last.
+/// A modal question over the window. Return picks the marked choice: the first one, or the one the arrow keys moved to. Esc, which
+/// the window passes on, picks the last one.
 class Question final : public juce::Component
 {
 public:
     struct Choice
     {
-        juce::String words;
+        juce::String label;
         std::function<void()> act;
     };
 
@@ -25,8 +25,8 @@ public:
 
     void ask (const juce::String& title, const juce::String& text, std::vector<Choice>);
     bool isOpen() const { return isVisible(); }
-    void cancel();                      ///< the last choice
-    void answer (std::size_t choice);   ///< as a click on its button
+    void cancel();                      ///< picks the last choice
+    void answer (std::size_t choice);   ///< like a click on its button
     const juce::String& title() const noexcept { return heading; }
     std::size_t size() const noexcept { return choices.size(); }
 
@@ -39,7 +39,7 @@ private:
     juce::TextLayout layout (int width) const;
 
     static constexpr int width = 560, margin = 24;
-    juce::String heading, words;
+    juce::String heading, body;
     std::vector<Choice> choices;
     std::vector<std::unique_ptr<PlainButton>> buttons;
     std::size_t marked = 0;

@@ -8,8 +8,7 @@
 namespace tactus::host
 {
 
-/// The edge between two panels: a hairline that can be dragged, wider to the pointer than to the eye. A double click folds
-/// the panel away and back.
+/// The draggable edge of a panel: drawn as a hairline, but wider for the mouse. A double click folds or unfolds the panel.
 class Splitter final : public juce::Component
 {
 public:
@@ -17,43 +16,56 @@ public:
 
     enum class Edge
     {
-        left,    ///< of a panel at the right
-        right,   ///< of a panel at the left
+        left,    ///< of a panel on the right
+        right,   ///< of a panel on the left
         top      ///< of a panel at the bottom
     };
 
     Splitter (Edge e, int initial, int least) : edge (e), extent (initial), least_extent (least), unfolded (initial)
     {
         setMouseCursor (edge == Edge::top ? juce::MouseCursor::UpDownResizeCursor : juce::MouseCursor::LeftRightResizeCursor);
-        setTitle ("Edge of a panel");
+        setTitle ("Panel edge");
     }
 
-    /// How wide, or high, the panel is; 0 if it is folded away.
+    /// The panel's width or height; 0 if it is folded.
     int size() const noexcept { return extent; }
     void setSize (int s) { extent = s <= 0 ? 0 : std::max (s, least_extent); }
     bool isFolded() const noexcept { return extent == 0; }
 
     std::function<void()> onMove;
 
-    /// Takes the panel's part of an area, and puts itself on the edge.
-    juce::Rectangle<int> take (juce::Rectangle<int>& area, int left_for_others)
+    /// Cuts the panel's part off an area, and moves the splitter to its edge. Leaves at least `least_rest` pixels of the area.
+    juce::Rectangle<int> take (juce::Rectangle<int>& area, int least_rest)
     {
         const int room = edge == Edge::top ? area.getHeight() : area.getWidth();
-        const int n = std::clamp (extent, 0, std::max (0, room - left_for_others));
-        const auto panel = edge == Edge::left ? area.removeFromRight (n) : edge == Edge::right ? area.removeFromLeft (n)
-                                                                                               : area.removeFromBottom (n);
-        if (edge == Edge::top)
+        const int n = std::clamp (extent, 0, std::max (0, room - least_rest));
+        juce::Rectangle<int> panel;
+        switch (edge)
+        {
+        case Edge::left:
+            panel = area.removeFromRight (n);
+            setBounds (panel.getX() - thickness / 2, panel.getY(), thickness, panel.getHeight());
+            break;
+        case Edge::right:
+            panel = area.removeFromLeft (n);
+            setBounds (panel.getRight() - thickness / 2, panel.getY(), thickness, panel.getHeight());
+            break;
+        case Edge::top:
+            panel = area.removeFromBottom (n);
             setBounds (panel.getX(), panel.getY() - thickness / 2, panel.getWidth(), thickness);
-        else
-            setBounds ((edge == Edge::left ? panel.getX() : panel.getRight()) - thickness / 2, panel.getY(), thickness, panel.getHeight());
+            break;
+        }
         return panel;
     }
 
     void paint (juce::Graphics& g) override
     {
         const auto& theme = themeOf (*this);
+        const int line = isMouseOverOrDragging() ? 2 : 1;
+        const bool is_level = edge == Edge::top;
         g.setColour (isMouseOverOrDragging() ? theme.accent : theme.hairline);
-        g.fillRect (edge == Edge::top ? getLocalBounds().withSizeKeepingCentre (getWidth(), isMouseOverOrDragging() ? 2 : 1) : getLocalBounds().withSizeKeepingCentre (isMouseOverOrDragging() ? 2 : 1, getHeight()));
+        const auto area = getLocalBounds();
+        g.fillRect (is_level ? area.withSizeKeepingCentre (getWidth(), line) : area.withSizeKeepingCentre (line, getHeight()));
     }
 
     void mouseEnter (const juce::MouseEvent&) override { repaint(); }
@@ -63,8 +75,8 @@ public:
     void mouseDrag (const juce::MouseEvent& e) override
     {
         const auto way = e.getEventRelativeTo (getParentComponent()).getOffsetFromDragStart();
-        const int wanted = grabbed + (edge == Edge::left ? -way.x : edge == Edge::right ? way.x
-                                                                                        : -way.y);
+        const int grown = edge == Edge::top ? -way.y : way.x;
+        const int wanted = grabbed + (edge == Edge::left ? -grown : grown);
         setSize (wanted < least_extent / 2 ? 0 : wanted);
         if (onMove) onMove();
     }

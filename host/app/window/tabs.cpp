@@ -4,7 +4,7 @@
 namespace tactus::host
 {
 
-void Tabs::add (const juce::String& name, std::unique_ptr<juce::Component> panel)
+void Tabs::insert (const juce::String& name, std::unique_ptr<juce::Component> panel)
 {
     addChildComponent (*panel);
     tabs.push_back ({ name, std::move (panel) });
@@ -12,9 +12,7 @@ void Tabs::add (const juce::String& name, std::unique_ptr<juce::Component> panel
     resized();
 }
 
-void Tabs::clear() { tabs.clear(); }
-
-void Tabs::name (const juce::Component& panel, const juce::String& name, bool alarms)
+void Tabs::rename (const juce::Component& panel, const juce::String& name, bool alarms)
 {
     for (auto& t : tabs)
         if (t.panel.get() == &panel && t.name != name)
@@ -65,9 +63,9 @@ void Tabs::paint (juce::Graphics& g)
     {
         const auto& [name, place] = all[i];
         const bool is_current = static_cast<int> (i) == current;
+        const auto colour = is_current ? theme.text : theme.dim;
         g.setFont (look.font (13.0f, true));
-        g.setColour (tabs[i].alarms ? theme.stop : is_current ? theme.text
-                                                              : theme.dim);
+        g.setColour (tabs[i].alarms ? theme.stop : colour);
         g.drawText (name, place, juce::Justification::centred, false);
         if (! is_current) continue;
         g.setColour (theme.accent);

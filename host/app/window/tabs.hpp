@@ -9,21 +9,29 @@
 namespace tactus::host
 {
 
-/// Panels of which one is seen at a time, and a row of their names.
+/// Tabbed panels, with a row of titles.
 class Tabs final : public juce::Component
 {
 public:
     static constexpr int row_height = 32;
 
-    void add (const juce::String& name, std::unique_ptr<juce::Component>);
-    void clear();
-    void name (const juce::Component& panel, const juce::String&, bool alarms = false);   ///< alarms: something there wants to be seen
+    /// Creates a panel from the arguments, and adds a tab for it.
+    template <typename Panel, typename... Args>
+    Panel& add (const juce::String& name, Args&&... args)
+    {
+        auto panel = std::make_unique<Panel> (std::forward<Args> (args)...);
+        auto& added = *panel;
+        insert (name, std::move (panel));
+        return added;
+    }
+
+    void rename (const juce::Component& panel, const juce::String&, bool alarms = false);   ///< alarms: the title is drawn in red
 
     void show (int index);
     void show (const juce::Component& panel);
     int shown() const noexcept { return current; }
 
-    /// The names, and where they are.
+    /// The titles and their bounds.
     std::vector<std::pair<juce::String, juce::Rectangle<float>>> titles() const;
 
     void paint (juce::Graphics&) override;
@@ -31,6 +39,8 @@ public:
     void mouseDown (const juce::MouseEvent&) override;
 
 private:
+    void insert (const juce::String& name, std::unique_ptr<juce::Component>);
+
     struct Tab
     {
         juce::String name;

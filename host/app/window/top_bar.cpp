@@ -6,7 +6,7 @@ namespace tactus::host
 
 namespace
 {
-juce::Path turnBack (bool forth)
+juce::Path curvedArrow (bool to_the_right)
 {
     juce::Path p;
     p.startNewSubPath (3.0f, 6.0f);
@@ -17,7 +17,7 @@ juce::Path turnBack (bool forth)
     p.startNewSubPath (6.0f, 2.5f);
     p.lineTo (2.5f, 6.0f);
     p.lineTo (6.0f, 9.5f);
-    if (forth) p.applyTransform (juce::AffineTransform (-1.0f, 0.0f, 16.0f, 0.0f, 1.0f, 0.0f));
+    if (to_the_right) p.applyTransform (juce::AffineTransform (-1.0f, 0.0f, 16.0f, 0.0f, 1.0f, 0.0f));
     return p;
 }
 
@@ -43,7 +43,7 @@ juce::Path bars()
 }
 }   // namespace
 
-/// One snapshot: filled if there is something in it.
+/// A snapshot button, filled if the snapshot is in use.
 class TopBar::Slot final : public juce::Button
 {
 public:
@@ -52,8 +52,9 @@ public:
     void setStored (bool s)
     {
         is_stored = s;
-        setTooltip (s ? "Snapshot " + juce::String (number) + ": click or press " + juce::String (number) + " to bring its values back, Shift-click or Ctrl+" + juce::String (number) + " to store over it"
-                      : "Snapshot " + juce::String (number) + " is empty: click or press Ctrl+" + juce::String (number) + " to store all values in it");
+        const juce::String n (number);
+        setTooltip (s ? "Snapshot " + n + ": click or press " + n + " to recall it, Shift-click or press Ctrl+" + n + " to overwrite it"
+                      : "Snapshot " + n + " is empty: click or press Ctrl+" + n + " to store all values in it");
         repaint();
     }
     bool isStored() const noexcept { return is_stored; }
@@ -65,8 +66,8 @@ public:
         const auto area = getLocalBounds().toFloat().reduced (1.5f);
         if (is_stored)
         {
-            g.setColour (theme.accent.withAlpha (down ? 0.6f : over ? 0.45f
-                                                                    : 0.3f));
+            const float alpha = over ? 0.45f : 0.3f;
+            g.setColour (theme.accent.withAlpha (down ? 0.6f : alpha));
             g.fillRoundedRectangle (area, 4.0f);
         }
         g.setColour (over ? theme.dim : theme.hairline);
@@ -81,8 +82,12 @@ private:
     bool is_stored = false;
 };
 
-TopBar::TopBar()
-    : undo (std::make_unique<IconButton> ("Undo", turnBack (false))), redo (std::make_unique<IconButton> ("Redo", turnBack (true))), help (std::make_unique<IconButton> ("Help (F1)", questionMark())), menu (std::make_unique<IconButton> ("Menu", bars()))
+TopBar::TopBar (Document& d)
+    : document (d),
+      undo (std::make_unique<IconButton> ("Undo", curvedArrow (false))),
+      redo (std::make_unique<IconButton> ("Redo", curvedArrow (true))),
+      help (std::make_unique<IconButton> ("Help (F1)", questionMark())),
+      menu (std::make_unique<IconButton> ("Menu", bars()))
 {
     for (int n = 1; n <= snapshot_count; ++n)
     {
@@ -95,36 +100,35 @@ TopBar::TopBar()
         };
         addAndMakeVisible (*slot);
     }
-    const auto calls = [] (const std::function<void()>& f)
+    undo->onClick = [this]
+    { document.undo(); };
+    redo->onClick = [this]
+    { document.redo(); };
+    help->onClick = [this]
     {
-        return [&f]
-        {
-            if (f) f();
-        };
+        if (onHelp) onHelp();
     };
-    undo->onClick = calls (onUndo);
-    redo->onClick = calls (onRedo);
-    help->onClick = calls (onHelp);
     menu->onClick = [this]
     {
         if (onMenu) onMenu (*menu);
     };
     for (auto* b : { undo.get(), redo.get(), help.get(), menu.get() })
         addAndMakeVisible (*b);
-    show ({});
 }
 
 TopBar::~TopBar() = default;
 
-void TopBar::show (State s)
+void TopBar::show (std::vector<juce::String> t)
 {
-    state = std::move (s);
-    for (std::size_t i = 0; i < slots.size(); ++i)
-        slots[i]->setStored (state.snapshots[i]);
-    undo->setEnabled (state.undo.isNotEmpty());
-    undo->setTooltip (state.undo.isEmpty() ? juce::String ("Nothing to undo") : "Undo: " + state.undo + " (Ctrl+Z)");
-    redo->setEnabled (state.redo.isNotEmpty());
-    redo->setTooltip (state.redo.isEmpty() ? juce::String ("Nothing to redo") : "Redo: " + state.redo + " (Ctrl+Y)");
+    trail = std::move (t);
+    for (int n = 1; n <= snapshot_count; ++n)
+        slots[static_cast<std::size_t> (n - 1)]->setStored (hasSnapshot (document.graph(), n));
+    const auto steps = document.history().names();
+    const auto done = document.history().position();
+    undo->setEnabled (done > 0);
+    undo->setTooltip (done == 0 ? juce::String ("Nothing to undo") : "Undo: " + juce::String (steps[done - 1]) + " (Ctrl+Z)");
+    redo->setEnabled (done < steps.size());
+    redo->setTooltip (done == steps.size() ? juce::String ("Nothing to redo") : "Redo: " + juce::String (steps[done]) + " (Ctrl+Y)");
     repaint();
 }
 
@@ -150,7 +154,7 @@ std::vector<juce::Rectangle<float>> TopBar::places() const
     std::vector<juce::Rectangle<float>> all;
     const auto font = lookOf (*this).font (14.0f, true);
     float x = 16.0f;
-    for (const auto& name : state.way)
+    for (const auto& name : trail)
     {
         const float width = std::min (font.getStringWidthFloat (name), std::max (0.0f, static_cast<float> (room) - x - 60.0f));
         all.push_back ({ x, 0.0f, width, static_cast<float> (getHeight()) });
@@ -171,7 +175,7 @@ void TopBar::paint (juce::Graphics& g)
     {
         g.setFont (look.font (14.0f, true));
         g.setColour (i + 1 == all.size() ? theme.text : theme.dim);
-        g.drawText (state.way[i], all[i].expanded (4.0f, 0.0f), juce::Justification::centred, true);
+        g.drawText (trail[i], all[i].expanded (4.0f, 0.0f), juce::Justification::centred, true);
         if (i + 1 == all.size()) continue;
         juce::Path arrow;
         const auto at = juce::Point<float> (all[i].getRight() + 12.0f, all[i].getCentreY());
@@ -180,7 +184,7 @@ void TopBar::paint (juce::Graphics& g)
         arrow.lineTo (at.translated (0.0f, 4.0f));
         g.strokePath (arrow, juce::PathStrokeType (1.3f));
     }
-    if (! state.changed || all.empty()) return;
+    if (! document.isChanged() || all.empty()) return;
     g.setFont (look.font (12.0f));
     g.setColour (theme.dim);
     g.drawText ("edited", all.back().withX (all.back().getRight() + 14.0f).withWidth (60.0f), juce::Justification::centredLeft, false);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "plain_button.hpp"
+#include <host/app/look/plain_button.hpp>
+#include <host/app/model/document.hpp>
 
-#include <host/app/keep/snapshots.hpp>
+#include <host/app/storage/snapshots.hpp>
 
 #include <array>
 #include <functional>
@@ -13,29 +14,21 @@
 namespace tactus::host
 {
 
-/// Where one is: the name of the graph, and the subgraphs that were entered, each a button that leads back out. At the right
-/// the snapshots, undo and redo, help and the menu.
+/// The bar above the canvas. On the left, a breadcrumb trail: the graph and the subgraphs that were entered, each one a button that
+/// leads back to it. On the right, snapshots, undo and redo, help, and the menu.
 class TopBar final : public juce::Component
 {
 public:
     static constexpr int height = 40;
 
-    struct State
-    {
-        std::vector<juce::String> way;
-        bool changed = false;
-        juce::String undo, redo;   ///< the steps that these would take; empty: none
-        std::array<bool, snapshot_count> snapshots {};
-    };
-
-    TopBar();
+    explicit TopBar (Document&);
     ~TopBar() override;
 
-    void show (State);
+    void show (std::vector<juce::String> trail);   ///< call after each change of the document or the trail
 
     std::function<void (std::size_t depth)> onLeave;
     std::function<void (int number)> onRecall, onStore;   ///< of a snapshot, from 1
-    std::function<void()> onUndo, onRedo, onHelp;
+    std::function<void()> onHelp;
     std::function<void (juce::Component& at)> onMenu;
 
     void paint (juce::Graphics&) override;
@@ -47,8 +40,9 @@ private:
     class Slot;
     std::vector<juce::Rectangle<float>> places() const;
 
-    State state;
-    int room = 0;   // pixels, at the left
+    Document& document;
+    std::vector<juce::String> trail;
+    int room = 0;   // pixels, for the trail
     std::array<std::unique_ptr<Slot>, snapshot_count> slots;
     std::unique_ptr<IconButton> undo, redo, help, menu;
 };

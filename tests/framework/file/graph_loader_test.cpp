@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <framework/file/graph_file.hpp>
 
+#include <support/temporary_folder.hpp>
+
 #include <catch2/catch.hpp>
 
 #include <fstream>
-#include <random>
 #include <sstream>
 
 using namespace tactus;
@@ -13,26 +14,18 @@ namespace fs = std::filesystem;
 
 namespace
 {
-/// A folder of its own for a test, gone at its end.
-class Folder
+/// A temporary folder of graphs.
+class Folder : public TemporaryFolder
 {
 public:
-    Folder()
-    {
-        std::random_device random;
-        path = fs::temp_directory_path() / ("tactus_file_test_" + std::to_string (random()));
-        fs::create_directories (path);
-    }
-    ~Folder() { fs::remove_all (path); }
-
     fs::path put (const std::string& name, const std::string& text) const
     {
-        fs::create_directories ((path / name).parent_path());
-        std::ofstream (path / name, std::ios::binary) << text;
-        return path / name;
+        fs::create_directories ((*this / name).parent_path());
+        write (name, text);
+        return *this / name;
     }
 
-    /// A graph that includes others.
+    /// A graph that includes other graphs.
     fs::path putIncluding (const std::string& name, std::initializer_list<const char*> others) const
     {
         std::string nodes;
@@ -41,9 +34,7 @@ public:
         return put (name, R"({ "format": "tactus-graph", "version": 1, "nodes": {)" + nodes + " } }");
     }
 
-    std::size_t files() const { return static_cast<std::size_t> (std::distance (fs::directory_iterator (path), {})); }
-
-    fs::path path;
+    std::size_t files() const { return static_cast<std::size_t> (std::distance (fs::directory_iterator (path()), {})); }
 };
 
 std::string contents (const fs::path& path)
@@ -54,7 +45,7 @@ std::string contents (const fs::path& path)
 }
 }   // namespace
 
-TEST_CASE ("files that are included are found beside the file that includes them")
+TEST_CASE ("included files are found relative to the file that includes them")
 {
     const Folder folder;
     folder.put ("parts/wave.json", R"({ "format": "tactus-graph", "version": 1, "name": "wave" })");
@@ -65,19 +56,19 @@ TEST_CASE ("files that are included are found beside the file that includes them
     REQUIRE (files.size() == 2);
     CHECK (files.at ("parts/wave.json")->name == "wave");
     CHECK (files.at ("parts/grain.json")->files.at ("wave.json") == files.at ("parts/wave.json"));
-    CHECK (fs::path (loaded.graph.folder) == folder.path);
+    CHECK (fs::path (loaded.graph.folder) == folder.path());
 }
 
-TEST_CASE ("a file that cannot be read is named with the reason")
+TEST_CASE ("a graph file that cannot be read is reported with the reason")
 {
     const Folder folder;
-    auto loaded = loadGraph (folder.path / "missing.json");
+    auto loaded = loadGraph (folder / "missing.json");
     REQUIRE (loaded.messages.size() == 1);
     CHECK (loaded.messages[0].id == "file/unreadable");
     CHECK_THAT (loaded.messages[0].text, Contains ("missing.json") && Contains ("No such file"));
     CHECK_THAT (loaded.messages[0].file, Contains ("missing.json"));
 
-    loaded = loadGraph (folder.path);
+    loaded = loadGraph (folder.path());
     REQUIRE (loaded.messages.size() == 1);
     CHECK_THAT (loaded.messages[0].text, Contains ("folder"));
 
@@ -89,7 +80,7 @@ TEST_CASE ("a file that cannot be read is named with the reason")
     CHECK_THAT (loaded.messages[0].file, Contains ("main.json"));
 }
 
-TEST_CASE ("problems inside an included file carry its name and their place in it")
+TEST_CASE ("problems in an included file are reported with its name and the place in it")
 {
     const Folder folder;
     folder.put ("part.json", "{ \"format\": \"tactus-graph\", \"version\": 1,\n \"rate_hz\": 0 }");
@@ -103,12 +94,12 @@ TEST_CASE ("problems inside an included file carry its name and their place in i
     CHECK_THAT (loaded.messages[1].file, Contains ("broken.json"));
 }
 
-TEST_CASE ("files that contain each other are refused with the chain")
+TEST_CASE ("files that include each other are refused, and the chain is shown")
 {
     const Folder folder;
     folder.putIncluding ("b.json", { "sub/../c.json" });
     folder.putIncluding ("c.json", { "b.json" });
-    fs::create_directory (folder.path / "sub");
+    fs::create_directory (folder / "sub");
     const auto loaded = loadGraph (folder.putIncluding ("a.json", { "b.json" }));
     REQUIRE (loaded.messages.size() == 1);
     CHECK (loaded.messages[0].id == "file/cycle");
@@ -120,50 +111,50 @@ TEST_CASE ("files that contain each other are refused with the chain")
     CHECK_THAT (itself.messages[0].text, Contains ("self.json -> self.json"));
 }
 
-TEST_CASE ("a chain of files has an end")
+TEST_CASE ("the length of a chain of included files is limited")
 {
     const Folder folder;
     for (int i = 0; i < 50; ++i)
         folder.putIncluding (std::to_string (i) + ".json", { (std::to_string (i + 1) + ".json").c_str() });
-    const auto loaded = loadGraph (folder.path / "0.json");
+    const auto loaded = loadGraph (folder / "0.json");
     REQUIRE (loaded.messages.size() == 1);
     CHECK (loaded.messages[0].id == "file/too_deep");
 }
 
-TEST_CASE ("a graph is saved whole or not at all")
+TEST_CASE ("a graph is saved completely or not at all")
 {
     const Folder folder;
     graph::Graph g;
     g.name = "Saved";
-    const auto path = folder.path / "graph.json";
-    CHECK (saveGraph (g, path).empty());
+    const auto path = folder / "graph.json";
+    CHECK (saveGraph (g, path));
     CHECK (contents (path) == writeGraph (g));
     CHECK (folder.files() == 1);
 
-    SECTION ("over an older file, whose permissions and link stay")
+    SECTION ("replaces an older file, keeping its permissions and links")
     {
         fs::permissions (path, fs::perms::owner_read | fs::perms::owner_write);
-        fs::create_symlink (path, folder.path / "link.json");
+        fs::create_symlink (path, folder / "link.json");
         g.name = "Again";
-        CHECK (saveGraph (g, folder.path / "link.json").empty());
+        CHECK (saveGraph (g, folder / "link.json"));
         CHECK (contents (path) == writeGraph (g));
-        CHECK (fs::is_symlink (folder.path / "link.json"));
+        CHECK (fs::is_symlink (folder / "link.json"));
         CHECK (fs::status (path).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
         CHECK (folder.files() == 2);
     }
-    SECTION ("not where there is no folder")
+    SECTION ("fails if the folder does not exist")
     {
-        const auto messages = saveGraph (g, folder.path / "nowhere" / "graph.json");
-        REQUIRE (messages.size() == 1);
-        CHECK (messages[0].id == "output/unwritable");
-        CHECK_THAT (messages[0].text, Contains ("nowhere") && Contains ("there is no folder"));
+        const auto done = saveGraph (g, folder / "nowhere/graph.json");
+        REQUIRE_FALSE (done);
+        CHECK (done.error().id == "output/unwritable");
+        CHECK_THAT (done.error().text, Contains ("nowhere") && Contains ("there is no folder"));
     }
-    SECTION ("not over a folder, and nothing is left behind")
+    SECTION ("fails over a folder, and nothing is left behind")
     {
-        fs::create_directory (folder.path / "folder");
-        const auto messages = saveGraph (g, folder.path / "folder");
-        REQUIRE (messages.size() == 1);
-        CHECK_THAT (messages[0].text, Contains ("it is a folder"));
+        fs::create_directory (folder / "folder");
+        const auto done = saveGraph (g, folder / "folder");
+        REQUIRE_FALSE (done);
+        CHECK_THAT (done.error().text, Contains ("it is a folder"));
         CHECK (folder.files() == 2);
     }
 }

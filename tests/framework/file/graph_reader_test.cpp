@@ -2,7 +2,7 @@
 #include <framework/file/graph_file.hpp>
 #include <framework/file/migrate.hpp>
 #include <framework/graph/text.hpp>
-#include <framework/near_miss.hpp>
+#include <framework/text/closest_match.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -33,7 +33,7 @@ void rename (Json& file, const char* from, const char* to)
 }
 }   // namespace
 
-TEST_CASE ("a graph file is read into plain data, values as they are written")
+TEST_CASE ("a graph file is read into plain data, with values as written")
 {
     const auto loaded = readGraph (R"({
   "format": "tactus-graph", "version": 1,
@@ -80,7 +80,7 @@ TEST_CASE ("a graph file is read into plain data, values as they are written")
     CHECK (loaded.positionOf ("/wires/1").line == 12);
 }
 
-TEST_CASE ("what is not a graph of this version is refused before anything else")
+TEST_CASE ("anything other than a graph of this version is refused first")
 {
     CHECK (complaints ("[]") == "file/not_a_graph ");
     CHECK (complaints ("{}") == "file/not_a_graph ");
@@ -93,14 +93,14 @@ TEST_CASE ("what is not a graph of this version is refused before anything else"
     CHECK (complaints ("{") == "file/syntax ");
 }
 
-TEST_CASE ("a newer version is refused in one sentence")
+TEST_CASE ("a newer version is refused with a single message")
 {
     const auto messages = readGraph (R"({ "format": "tactus-graph", "version": 7 })").messages;
     REQUIRE (messages.size() == 1);
-    CHECK (messages[0].text == "the file is of version 7, and this Tactus reads versions up to 1");
+    CHECK (messages[0].text == "the file is version 7, but this Tactus reads only versions up to 1");
 }
 
-TEST_CASE ("old versions are brought up to date step by step")
+TEST_CASE ("old versions are migrated step by step")
 {
     static constexpr std::array<Migration, 2> steps { {
         { 2, [] (Json& f)
@@ -128,7 +128,7 @@ TEST_CASE ("old versions are brought up to date step by step")
     CHECK (loaded.messages[0].id == "file/unknown_version");
 }
 
-TEST_CASE ("each kind of mistake has its id and its place")
+TEST_CASE ("each kind of mistake is reported with its own id and place")
 {
     CHECK (complaints (file (R"("name": 3)")) == "file/wrong_kind /name");
     CHECK (complaints (file (R"("tags": ["a", 1])")) == "file/wrong_kind /tags/1");
@@ -154,16 +154,19 @@ TEST_CASE ("each kind of mistake has its id and its place")
            == "file/bad_value /nodes/a/count, file/bad_value /nodes/a/every, file/wrong_kind /nodes/a/times, file/bad_value /nodes/a/hold");
     CHECK (complaints (inNode (R"("count": 3, "every": 2, "hold": "linear", "times": 4)")).empty());
     CHECK (complaints (file (R"("wires": ["a -> b", 3, {}, { "wire": "a.x -> b.y", "gain": "much" }, { "wire": "a.x -> b.y", "gain": [], "enabled": 1 }])"))
-           == "wire/syntax /wires/0, file/wrong_kind /wires/1, file/missing_key /wires/2, unit/syntax /wires/3/gain, file/wrong_kind /wires/4/gain, file/wrong_kind /wires/4/enabled");
+           == "wire/syntax /wires/0, file/wrong_kind /wires/1, file/missing_key /wires/2, unit/syntax /wires/3/gain, file/wrong_kind /wires/4/gain, "
+              "file/wrong_kind /wires/4/enabled");
     CHECK (complaints (file (R"("controls": { "c": { "value": 1.5, "to": { "mu": [0, 1], "a.mu": [0], "b.mu": [0, "x"] } } })"))
            == "file/bad_value /controls/c/value, graph/bad_path /controls/c/to/mu, file/wrong_kind /controls/c/to/a.mu, unit/syntax /controls/c/to/b.mu/1");
     CHECK (complaints (file (R"("graphs": { "g": { "nodes": { "a": {} }, "expose": { "inputs": { "x": "a", "Y": "a.y" }, "outputs": [] } } })"))
-           == "file/missing_key /graphs/g/nodes/a, graph/bad_path /graphs/g/expose/inputs/x, graph/bad_id /graphs/g/expose/inputs/Y, file/wrong_kind /graphs/g/expose/outputs");
+           == "file/missing_key /graphs/g/nodes/a, graph/bad_path /graphs/g/expose/inputs/x, graph/bad_id /graphs/g/expose/inputs/Y, file/wrong_kind "
+              "/graphs/g/expose/outputs");
 }
 
-TEST_CASE ("all problems of a file are reported at once, in its order, with line and column")
+TEST_CASE ("all problems of a file are reported together, in file order, with line and column")
 {
-    const auto loaded = readGraph ("{ \"format\": \"tactus-graph\", \"version\": 1,\n\"wires\": [\"a\"],\n\"nodes\": { \"a\": {},\n  \"a\": {} },\n\"rate_hz\": -1 }");
+    const auto loaded =
+        readGraph ("{ \"format\": \"tactus-graph\", \"version\": 1,\n\"wires\": [\"a\"],\n\"nodes\": { \"a\": {},\n  \"a\": {} },\n\"rate_hz\": -1 }");
     REQUIRE (loaded.messages.size() == 5);
     CHECK (loaded.messages[0].id == "wire/syntax");
     CHECK (loaded.messages[0].line == 2);
@@ -183,7 +186,7 @@ TEST_CASE ("a file with a million mistakes lists the first thousand")
     CHECK (loaded.messages.back().id == "file/more");
 }
 
-TEST_CASE ("a misspelt key is kept, with a warning that proposes the right one")
+TEST_CASE ("a misspelt key is kept, with a warning that suggests the correct one")
 {
     const auto loaded = readGraph (file (R"("wire": [], "my_wires": 1, "nodes": { "a": { "type": "x", "parms": {}, "at": 3 } })"));
     REQUIRE (loaded.messages.size() == 2);
@@ -196,7 +199,7 @@ TEST_CASE ("a misspelt key is kept, with a warning that proposes the right one")
     CHECK (loaded.graph.root.find ("a")->extra.contains ("parms"));
 }
 
-TEST_CASE ("distances between words count slips of the hand")
+TEST_CASE ("the distance between words counts typing errors")
 {
     CHECK (editDistance ("", "abc") == 3);
     CHECK (editDistance ("wires", "wires") == 0);

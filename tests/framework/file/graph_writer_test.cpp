@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <framework/file/graph_file.hpp>
-#include <framework/file/json_writer.hpp>
+#include <framework/text/json_writer.hpp>
 
-#include <tests/framework/graph/wild_graph.hpp>
+#include <framework/graph/wild_graph.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -12,9 +12,10 @@
 
 using namespace tactus;
 
-TEST_CASE ("a graph is written in one order, a node and a wire a line")
+TEST_CASE ("a graph is written in a fixed order, with one node or wire per line")
 {
-    const auto loaded = readGraph (R"({ "ui": {}, "format": "tactus-graph", "wires": [ { "wire": "a.out->b.in" }, { "gain": 0.5, "wire": "a.out -> b.in", "note": 1 } ],
+    const auto loaded =
+        readGraph (R"({ "ui": {}, "format": "tactus-graph", "wires": [ { "wire": "a.out->b.in" }, { "gain": 0.5, "wire": "a.out -> b.in", "note": 1 } ],
         "nodes": { "b": { "ui": { "at": [1, 2] }, "note": "kept", "params": { "gain": "2 N" }, "type": "signal.gain" }, "a": { "type": "signal.lfo" } },
         "version": 1, "author": "me", "name": "Two" })");
     REQUIRE (loaded.messages.empty());
@@ -37,7 +38,7 @@ TEST_CASE ("a graph is written in one order, a node and a wire a line")
 )");
 }
 
-TEST_CASE ("what does not fit on a line is broken, numbers are packed")
+TEST_CASE ("long lines are broken, and numbers are packed")
 {
     Json table = Json::array(), rows = Json::array();
     for (int i = 0; i < 60; ++i)
@@ -78,7 +79,7 @@ TEST_CASE ("numbers are short and read back to the same double")
                   RC_ASSERT (Json::parse (text).is_number_float()); });
 }
 
-TEST_CASE ("files are stable under load and save, byte for byte")
+TEST_CASE ("files do not change when loaded and saved, byte for byte")
 {
     rc::prop ("random graphs", []
               {

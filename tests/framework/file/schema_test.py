@@ -1,24 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks framework/file/graph.schema.json: every preset and good example fits it, and each bad example does not.
+"""Checks framework/file/graph.schema.json: it accepts every preset and a good example, and refuses each bad example.
 
 Usage: schema_test.py SOURCE_FOLDER. Exit status 77 means skipped: python3-jsonschema is not installed."""
 
-import copy
-import json
 import pathlib
 import sys
 
-try:
-    import jsonschema
-except ImportError:
-    print("skipped: python3-jsonschema is not installed")
-    sys.exit(77)
-
 source = pathlib.Path(sys.argv[1])
-schema = json.loads((source / "framework/file/graph.schema.json").read_text(encoding="utf-8"))
-jsonschema.Draft202012Validator.check_schema(schema)
-validator = jsonschema.Draft202012Validator(schema)
+sys.path.insert(0, str(source / "tests/support"))
+sys.dont_write_bytecode = True
+from schema_check import SchemaCheck, read_json   # noqa: E402
+
+check = SchemaCheck(source / "framework/file/graph.schema.json")
 
 good = {
     "format": "tactus-graph", "version": 1, "name": "Dry wood", "tags": ["wood"], "rate_hz": 4000,
@@ -37,7 +31,7 @@ good = {
     "ui": {},
 }
 
-# A path into the good example, and what makes it bad there; None removes the key.
+# A path into the good example and the bad value there; None removes the key.
 bad = [
     (["format"], "other"), (["format"], None), (["version"], 2), (["version"], None), (["name"], 3), (["tags"], "wood"),
     (["rate_hz"], 0), (["rate_hz"], "4 kHz"), (["devices", "Left"], {}), (["devices", "stylus"], "sim"), (["nodes"], []),
@@ -52,37 +46,13 @@ bad = [
     (["graphs", "Grain"], {}), (["ui"], 3),
 ]
 
-failures = 0
-
-
-def complain(text):
-    global failures
-    failures += 1
-    print(text)
-
-
-for error in validator.iter_errors(good):
-    complain(f"the good example: {error.json_path}: {error.message}")
-
-for path, value in bad:
-    example = copy.deepcopy(good)
-    inner = example
-    for key in path[:-1]:
-        inner = inner[key]
-    if value is None:
-        del inner[path[-1]]
-    else:
-        inner[path[-1]] = value
-    if validator.is_valid(example):
-        complain(f"fits although it is wrong: {path} = {value!r}")
+check.must_fit("the good example", good)
+check.must_refuse("the good example with", good, bad)
 
 presets = sorted((source / "graphs").rglob("*.json"))
 for preset in presets:
-    content = json.loads(preset.read_text(encoding="utf-8"))
-    if content.get("format") != "tactus-graph":
-        continue   # an asset of a preset, such as a table
-    for error in validator.iter_errors(content):
-        complain(f"{preset}: {error.json_path}: {error.message}")
+    content = read_json(preset)
+    if content.get("format") == "tactus-graph":   # all other files are assets of a preset, such as tables
+        check.must_fit(preset, content)
 
-print(f"{len(presets)} files in graphs/, {len(bad)} bad examples, {failures} failures")
-sys.exit(1 if failures else 0)
+check.finish(f"{len(presets)} files in graphs/, {len(bad)} bad examples")

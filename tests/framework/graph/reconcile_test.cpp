@@ -21,7 +21,7 @@ namespace
 {
 Id idOf (const Patch& patch, std::string_view node) { return patch.find (node)->id; }
 
-Wire wire (const std::string& text) { return std::get<Wire> (parseWire (text)); }
+Wire wire (const std::string& text) { return *parseWire (text); }
 
 std::vector<Id> ids (const Patch& patch)
 {
@@ -33,7 +33,7 @@ std::vector<Id> ids (const Patch& patch)
     return all;
 }
 
-/// Ids by what they are given for, in whatever order it stands in the file.
+/// Ids by the name of their node or the text of their wire, regardless of the order in the file.
 std::multimap<std::string, Id> identities (const Patch& patch)
 {
     std::multimap<std::string, Id> all;
@@ -45,7 +45,7 @@ std::multimap<std::string, Id> identities (const Patch& patch)
 }
 }   // namespace
 
-TEST_CASE ("a node of the same name and type is the same, whatever else was changed about it", "[graph]")
+TEST_CASE ("a node with the same name and type keeps its id, no matter what else has changed", "[graph]")
 {
     const auto before = Sketch {}.node ("a", "signal.gain").node ("b", "signal.abs").node ("c", "signal.gain").graph;
     auto now = Sketch {}.node ("new", "signal.gain").node ("c", "signal.abs").node ("a", "signal.gain", { { "gain", 3.0 } }).graph;
@@ -56,7 +56,7 @@ TEST_CASE ("a node of the same name and type is the same, whatever else was chan
     CHECK (idOf (now.root, "new") == fresh);
 }
 
-TEST_CASE ("wires go by their text and in order, then by their ends", "[graph]")
+TEST_CASE ("wires are matched by text and order, then by their ends", "[graph]")
 {
     Graph before, now;
     for (const auto* text : { "a.out -> b.in", "a.out -> [3] -> b.in", "a.out -> b.in", "a.out -> (+) b.gain" })
@@ -73,7 +73,7 @@ TEST_CASE ("wires go by their text and in order, then by their ends", "[graph]")
     CHECK (is[4].id == own[4]);
 }
 
-TEST_CASE ("a delayed wire of the same text goes before one with another delay", "[graph]")
+TEST_CASE ("a delayed wire with the same text is preferred to one with a different delay", "[graph]")
 {
     Graph before, now;
     before.root.wires = { wire ("a.out -> [2] -> b.in"), wire ("a.out -> [3] -> b.in") };
@@ -83,7 +83,7 @@ TEST_CASE ("a delayed wire of the same text goes before one with another delay",
     CHECK (now.root.wires[1].id == before.root.wires[0].id);
 }
 
-TEST_CASE ("a file that is read again and shuffled has all its ids back, subgraphs too, and none twice", "[graph]")
+TEST_CASE ("a file that is shuffled and read again gets all its ids back, including in subgraphs, and none twice", "[graph]")
 {
     rc::prop ("any graph", [] (std::uint64_t seed)
               {
@@ -101,7 +101,7 @@ TEST_CASE ("a file that is read again and shuffled has all its ids back, subgrap
         RC_ASSERT (std::set (all.begin(), all.end()).size() == all.size()); });
 }
 
-TEST_CASE ("whatever two graphs have to do with each other, no id is given twice", "[graph]")
+TEST_CASE ("for any two graphs, no id is assigned twice", "[graph]")
 {
     rc::prop ("any two", [] (std::uint64_t a, std::uint64_t b)
               {
@@ -124,7 +124,7 @@ TEST_CASE ("whatever two graphs have to do with each other, no id is given twice
         RC_ASSERT (all.size() == count); });
 }
 
-TEST_CASE ("included files keep their ids as well, and one that is included twice stays one", "[graph]")
+TEST_CASE ("included files keep their ids too, and a file that is included twice remains a single file", "[graph]")
 {
     const auto grain = [] (double gain)
     {
@@ -149,12 +149,13 @@ TEST_CASE ("included files keep their ids as well, and one that is included twic
     CHECK (leafOf (now, "a.json") == leafOf (now, "b.json"));
 }
 
-TEST_CASE ("a plan made from a file read again goes on where the one before stands, to the bit", "[graph]")
+TEST_CASE ("a plan compiled from a file that was read again continues the previous plan bit for bit", "[graph]")
 {
     const auto text = [] (const std::string& more)
     {
         return R"({ "format": "tactus-graph", "version": 1, "nodes": { "one": { "type": "signal.constant", "params": { "value": 1 } }, )" + more
-               + R"( "count": { "type": "signal.add" }, "late": { "type": "signal.gain" } }, "wires": [ "one.out -> count.in[0]", "count.out -> [1] -> count.in[1]", "count.out -> [4] -> late.in" ] })";
+               + R"( "count": { "type": "signal.add" }, "late": { "type": "signal.gain" } },
+                   "wires": [ "one.out -> count.in[0]", "count.out -> [1] -> count.in[1]", "count.out -> [4] -> late.in" ] })";
     };
     const auto before = readGraph (text ("")).graph;
     CompileOptions options { .records = { "count.out", "late.out" } };
@@ -167,6 +168,6 @@ TEST_CASE ("a plan made from a file read again goes on where the one before stan
     options.before = &engine.newest();
     engine.submit (compile (now, catalogue(), options).plan);
     engine.tick();
-    CHECK (*engine.plan().taps[0].value == 11.0);
-    CHECK (*engine.plan().taps[1].value == 7.0);
+    CHECK (*engine.plan().taps()[0].value == 11.0);
+    CHECK (*engine.plan().taps()[1].value == 7.0);
 }

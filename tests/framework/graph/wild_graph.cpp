@@ -28,7 +28,8 @@ public:
 
     std::string text()
     {
-        static const char* const parts[] = { "", "a", "Holz", "木目", "grain é", "😀", "\"quoted\"", "\\", "\n\t", "/~", "\x01", "a long text that makes a line too long to fit, " };
+        static const char* const parts[] = { "", "a", "Holz", "木目", "grain é", "😀",
+                                             "\"quoted\"", "\\", "\n\t", "/~", "\x01", "a long text that makes a line too long to fit, " };
         std::string result;
         for (int i = upTo (3); i > 0; --i)
             result += oneOf (parts);
@@ -37,7 +38,9 @@ public:
 
     Json number()
     {
-        static const double edges[] = { 0.0, -0.0, 1.0, 0.1, 1e-5, 0.0001, 1e15, 1e16, 1e22, 1.7976931348623157e308, 5e-324, 2.2250738585072014e-308, 0.30000000000000004, -123456.789 };
+        static const double edges[] = {
+            0.0, -0.0, 1.0, 0.1, 1e-5, 0.0001, 1e15, 1e16, 1e22, 1.7976931348623157e308, 5e-324, 2.2250738585072014e-308, 0.30000000000000004, -123456.789
+        };
         switch (upTo (3))
         {
         case 0:
@@ -148,7 +151,8 @@ private:
     {
         graph::Node n;
         n.name = std::move (name);
-        n.type = ! g.graphs.empty() && dice.oneIn (2) ? "graph:" + g.graphs[0].first : dice.oneOf ({ "signal.gain", "friction.elasto_plastic", "unbekannt 型" });
+        n.type = ! g.graphs.empty() && dice.oneIn (2) ? "graph:" + g.graphs[0].first
+                                                      : dice.oneOf ({ "signal.gain", "friction.elasto_plastic", "unbekannt 型" });
         if (dice.oneIn (4)) n.role = "stylus";
         n.params = dice.object ({ "mu", "gain", "position" });
         n.settings = dice.object ({ "curve", "table" });

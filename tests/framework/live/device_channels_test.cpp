@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Axes and signals on their way between nodes and devices.
+// Axes and signals between nodes and devices.
 
 #include "support/no_allocation.hpp"
 #include "support/sketch.hpp"
 
-#include <framework/live.hpp>
+#include "support/live.hpp"
 #include <framework/plan/missing_parts.hpp>
 
 #include <catch2/catch.hpp>
@@ -20,7 +20,7 @@ namespace
 {
 constexpr double rate_hz = 1000.0;
 
-/// Has axes, buttons and signals, and remembers what it was asked for.
+/// Has axes, buttons and signals, and records the efforts it receives.
 struct Pad final : Device
 {
     void prepare (double) override {}
@@ -37,13 +37,15 @@ struct Pad final : Device
 Sketch padSketch()
 {
     Sketch s;
-    s.node ("trigger", "device.axis", {}, { { "axis", "trigger" } }).node ("spring", "signal.gain", { { "gain", -3.0 } }).node ("push", "device.effort", {}, { { "axis", "trigger" } });
+    s.node ("trigger", "device.axis", {}, { { "axis", "trigger" } })
+        .node ("spring", "signal.gain", { { "gain", -3.0 } })
+        .node ("push", "device.effort", {}, { { "axis", "trigger" } });
     s.node ("grip", "device.button", {}, { { "button", "grip" } }).node ("tip", "device.signal_in").node ("out", "device.signal_out", {}, { { "channel", 2 } });
     return s.wire ("trigger.axis -> spring.in").wire ("spring.out -> push.effort").wire ("grip.pressed -> out.in").wire ("tip.out -> out.in");
 }
 }   // namespace
 
-TEST_CASE ("axes, buttons and signals of a device reach the graph, and efforts and signals the device, by name", "[live]")
+TEST_CASE ("axes, buttons and signals of a device reach the graph by name, and efforts and signals reach the device by name", "[live]")
 {
     const auto [plan, messages] = padSketch().compile ({ .rate_hz = rate_hz, .records = { "trigger.axis" } });
     INFO (test::text (messages));
@@ -60,18 +62,20 @@ TEST_CASE ("axes, buttons and signals of a device reach the graph, and efforts a
         engine.tick();
         CHECK (watch.allocations() + watch.locks() == 0);
     }
-    CHECK (*plan->taps[0].value == 0.5);
+    CHECK (*plan->taps()[0].value == 0.5);
     CHECK (pad.last.axes.size() == 2);
     CHECK (pad.last.axes[0] == 0.0);
     CHECK (pad.last.axes[1] == -1.5);
-    CHECK (pad.last.signals[1] == 1.25);   // both wires
+    CHECK (pad.last.signals[1] == 1.25);   // the sum of both wires
     CHECK (pad.last.force.isZero (0.0));
 }
 
-TEST_CASE ("what a device has not is said once for each role and name, with what there is", "[live]")
+TEST_CASE ("a missing part of a device is reported once per role and name, with the parts that exist", "[live]")
 {
     auto s = padSketch();
-    s.node ("again", "device.axis", {}, { { "axis", "triger" } }).node ("other", "device.axis", {}, { { "axis", "triger" } }).node ("third", "device.signal_out", {}, { { "channel", 3 } });
+    s.node ("again", "device.axis", {}, { { "axis", "triger" } })
+        .node ("other", "device.axis", {}, { { "axis", "triger" } })
+        .node ("third", "device.signal_out", {}, { { "channel", 3 } });
     s.node ("left", "device.axis", {}, { { "axis", "trigger" } });
     s.graph.root.nodes.back().role = "left";
     const auto plan = s.compile ({ .rate_hz = rate_hz }).plan;
@@ -87,14 +91,16 @@ TEST_CASE ("what a device has not is said once for each role and name, with what
                                 { return m.id == "device/missing_part" && m.severity == Message::Severity::warning; }));
     const auto all = test::text (messages);
     INFO (all);
-    CHECK (all.find ("/nodes/left: 'left' (device.axis): the device of the role 'left' has no axis 'trigger'; it has no axes at all; until then it reads 0") != std::string::npos);
+    CHECK (all.find ("/nodes/left: 'left' (device.axis): the device of the role 'left' has no axis 'trigger'; it has no axes at all; it reads 0 until you set")
+           != std::string::npos);
     CHECK (all.find ("the device of the role 'stylus' has no axis 'triger' (did you mean 'trigger'?); its axes: 'stick', 'trigger'") != std::string::npos);
-    CHECK (all.find ("'third' (device.signal_out): the device of the role 'stylus' has no signal output 3; it has 2; until then it acts on nothing") != std::string::npos);
+    CHECK (all.find ("'third' (device.signal_out): the device of the role 'stylus' has no signal output 3; it has 2; it has no effect until you set")
+           != std::string::npos);
     engine.tick();
     CHECK (pad.last.signals.size() == 2);
 }
 
-TEST_CASE ("efforts and signals of several nodes add up to the same bits, in whatever order they are written", "[live][property]")
+TEST_CASE ("efforts and signals of several nodes have bit-identical sums in any order", "[live][property]")
 {
     rc::prop ("any values", []
               {
@@ -106,7 +112,9 @@ TEST_CASE ("efforts and signals of several nodes add up to the same bits, in wha
             for (const auto i : order)
             {
                 const auto n = std::to_string (i);
-                s.node ("c" + n, "signal.constant", { { "value", values[i] } }).node ("e" + n, "device.effort", {}, { { "axis", "trigger" } }).node ("s" + n, "device.signal_out");
+                s.node ("c" + n, "signal.constant", { { "value", values[i] } })
+                    .node ("e" + n, "device.effort", {}, { { "axis", "trigger" } })
+                    .node ("s" + n, "device.signal_out");
                 s.wire ("c" + n + ".out -> e" + n + ".effort").wire ("c" + n + ".out -> s" + n + ".in");
             }
             Engine engine { s.compile ({ .rate_hz = rate_hz }).plan };
@@ -121,11 +129,14 @@ TEST_CASE ("efforts and signals of several nodes add up to the same bits, in wha
         RC_ASSERT (first.first == first.second); });
 }
 
-TEST_CASE ("a plan that takes over steps neither axes nor signals", "[live]")
+TEST_CASE ("a plan that takes over causes no step in axes or signals", "[live]")
 {
-    auto s = Sketch {}.node ("one", "signal.constant", { { "value", 2.0 } }).node ("push", "device.effort", {}, { { "axis", "brake" } }).node ("out", "device.signal_out");
+    auto s = Sketch {}
+                 .node ("one", "signal.constant", { { "value", 2.0 } })
+                 .node ("push", "device.effort", {}, { { "axis", "brake" } })
+                 .node ("out", "device.signal_out");
     s.wire ("one.out -> push.effort").wire ("one.out -> out.in");
-    Live live { s.graph, catalogue(), { .rate_hz = rate_hz }, s.compile ({ .rate_hz = rate_hz }).plan };
+    test::Live live { s.graph, catalogue(), { .rate_hz = rate_hz }, s.compile ({ .rate_hz = rate_hz }).plan };
     Pad pad;
     live.engine().attach ("stylus", pad);
     for (int k = 0; k < 10; ++k)
@@ -147,7 +158,7 @@ TEST_CASE ("a plan that takes over steps neither axes nor signals", "[live]")
     CHECK (largest < 2.0 * 3.1416 / (2.0 * Bumpless::fade_s * rate_hz) + 1e-9);
 }
 
-TEST_CASE ("nodes that were there before learn what a device has that joins", "[live]")
+TEST_CASE ("existing nodes are given the parts of a device that joins", "[live]")
 {
     auto s = Sketch {}.node ("trigger", "device.axis", {}, { { "axis", "trigger" } });
     s.node ("push", "device.effort", {}, { { "axis", "trigger" } }).wire ("trigger.axis -> push.effort");
@@ -169,7 +180,7 @@ TEST_CASE ("nodes that were there before learn what a device has that joins", "[
     CHECK (pad.last.axes[1] == 0.5);
 }
 
-TEST_CASE ("an emergency stop from another thread takes all efforts off until it is ended, also of roles that come up meanwhile", "[live]")
+TEST_CASE ("an emergency stop from another thread holds all efforts at zero until rearmed, including those of new roles", "[live]")
 {
     auto s = Sketch {}.node ("one", "signal.constant", { { "value", 2.0 } }).node ("push", "device.effort", {}, { { "axis", "trigger" } });
     s.wire ("one.out -> push.effort");
@@ -181,7 +192,7 @@ TEST_CASE ("an emergency stop from another thread takes all efforts off until it
     REQUIRE (right.last.axes[1] == 2.0);
 
     engine.emergencyStop();
-    engine.resume();   // ends no emergency
+    engine.resume();   // does not end the emergency stop
     for (int k = 0; k < 6; ++k)
         engine.tick();
     CHECK (engine.isAtRest());

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Devices of roles that come up while a graph runs.
+// Devices for roles that appear while a graph runs.
 
 #include "support/chance_hand.hpp"
 #include "support/no_allocation.hpp"
 #include "support/sketch.hpp"
 
-#include <framework/live.hpp>
+#include "support/live.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -18,7 +18,7 @@ namespace
 {
 constexpr double rate_hz = 4000.0;
 
-/// A hand on a wall that is below it nowhere, so that it is pushed from the first tick.
+/// A hand inside a wall, so it is pushed from the first tick.
 test::Sketch pushed()
 {
     test::Sketch s;
@@ -26,7 +26,7 @@ test::Sketch pushed()
     return s.wire ("hand.position -> wall.position").wire ("wall.force -> motor.force");
 }
 
-/// And a thumb on another one.
+/// A thumb inside another wall.
 test::Sketch& addThumb (test::Sketch& s)
 {
     s.node ("thumb", "device.position").node ("nail", "deform.plane", { { "offset", "2 cm" } }).node ("thimble", "device.force");
@@ -35,7 +35,7 @@ test::Sketch& addThumb (test::Sketch& s)
     return s.wire ("thumb.position -> nail.position").wire ("nail.force -> thimble.force");
 }
 
-/// Knows when it was read first.
+/// Records when it was first read.
 struct Thumb final : Device
 {
     void prepare (double dt_s) override { dt = dt_s; }
@@ -54,7 +54,7 @@ struct Thumb final : Device
 std::shared_ptr<Plan> after (const test::Sketch& s, Engine& engine) { return s.compile ({ .rate_hz = rate_hz, .before = &engine.newest() }).plan; }
 }   // namespace
 
-TEST_CASE ("a device joins on the tick that takes the plan with its role, and its force rises without a step", "[live]")
+TEST_CASE ("a device joins on the tick that picks up the plan with its role, and its force rises without a step", "[live]")
 {
     auto sketch = pushed();
     Engine engine { sketch.compile ({ .rate_hz = rate_hz }).plan }, alone { sketch.compile ({ .rate_hz = rate_hz }).plan };
@@ -88,11 +88,11 @@ TEST_CASE ("a device joins on the tick that takes the plan with its role, and it
     for (std::size_t k = 1; k < thumb.efforts.size(); ++k)
         largest = std::max (largest, std::abs (thumb.efforts[k] - thumb.efforts[k - 1]));
     CHECK (largest <= 20.0 * std::numbers::pi / (2.0 * Bumpless::fade_s * rate_hz) * (1.0 + 1e-9));
-    CHECK (thumb.efforts.back() == Approx (15.0));   // of 20, what its guard lets through
+    CHECK (thumb.efforts.back() == Approx (15.0));   // of 20; the guard cuts off the rest
     CHECK (hand.digest == other.digest);
 }
 
-TEST_CASE ("a role that ran without a device can be given one, with its plan or a later one", "[live]")
+TEST_CASE ("a role that ran without a device can be given one, with its own plan or a later one", "[live]")
 {
     auto sketch = pushed();
     Engine engine { addThumb (sketch).compile ({ .rate_hz = rate_hz }).plan };
@@ -110,14 +110,14 @@ TEST_CASE ("a role that ran without a device can be given one, with its plan or 
     CHECK (engine.role (1).name == "thumb");
 }
 
-TEST_CASE ("a role that comes with an edit is given its device then, though the edit itself has not run yet", "[live]")
+TEST_CASE ("a role added by an edit can get its device before the edit has run", "[live]")
 {
     auto sketch = pushed();
-    Live live { sketch.graph, catalogue(), { .rate_hz = rate_hz }, sketch.compile ({ .rate_hz = rate_hz }).plan };
+    test::Live live { sketch.graph, catalogue(), { .rate_hz = rate_hz }, sketch.compile ({ .rate_hz = rate_hz }).plan };
     auto thimble = test::Sketch::makeNode ("thimble", "device.force");
     thimble.role = "thumb";
     CHECK_FALSE (hasErrors (live.perform (graph::AddNode { "", thimble })));
-    CHECK_FALSE (hasErrors (live.perform (graph::AddWire { "", std::get<graph::Wire> (graph::parseWire ("wall.force -> thimble.force")) })));
+    CHECK_FALSE (hasErrors (live.perform (graph::AddWire { "", *graph::parseWire ("wall.force -> thimble.force") })));
     Thumb thumb;
     const Engine::Joining joining { "thumb", thumb };
     CHECK_FALSE (hasErrors (live.join (std::span (&joining, 1))));
@@ -127,7 +127,7 @@ TEST_CASE ("a role that comes with an edit is given its device then, though the 
     CHECK (thumb.efforts.back() == Approx (10.0));
 }
 
-TEST_CASE ("a device stays with its role when the plan it joined with never ran", "[live]")
+TEST_CASE ("a device keeps its role if the plan it joined with never runs", "[live]")
 {
     auto sketch = pushed();
     Engine engine { sketch.compile ({ .rate_hz = rate_hz }).plan };
@@ -143,7 +143,7 @@ TEST_CASE ("a device stays with its role when the plan it joined with never ran"
     CHECK (thumb.reads == 1);
 }
 
-TEST_CASE ("nobody joins a role that the plan does not have, or that has a device", "[live]")
+TEST_CASE ("joining a role that does not exist, or that already has a device, is refused", "[live]")
 {
     auto sketch = pushed();
     Engine engine { addThumb (sketch).compile ({ .rate_hz = rate_hz }).plan };

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What a journal is told makes a run repeatable.
+// The calls to a journal, which make a run repeatable.
 
 #include "support/random_graph.hpp"
 #include "support/sketch.hpp"
 
+#include "support/live.hpp"
 #include <framework/graph/ids.hpp>
-#include <framework/live.hpp>
 #include <framework/plan/find_param.hpp>
 
 #include <catch2/catch.hpp>
@@ -16,13 +16,19 @@ using test::Sketch;
 
 namespace
 {
-/// Writes down what it is told, in words.
+/// Records the calls as text.
 struct Notes final : Journal
 {
-    void tookOver (const Plan& plan) noexcept override { add ("plan " + std::to_string (plan.serial)); }
-    void turned (std::size_t instance, std::size_t knob, double target) noexcept override { add ("turn " + std::to_string (instance) + " " + std::to_string (knob) + " " + std::to_string (target)); }
+    void tookOver (const Plan& plan) noexcept override { add ("plan " + std::to_string (plan.serial())); }
+    void turned (std::size_t instance, std::size_t knob, double target) noexcept override
+    {
+        add ("turn " + std::to_string (instance) + " " + std::to_string (knob) + " " + std::to_string (target));
+    }
     void outdone (std::size_t instance, std::size_t knob) noexcept override { add ("outdone " + std::to_string (instance) + " " + std::to_string (knob)); }
-    void struck (std::size_t instance, std::size_t input, double speed) noexcept override { add ("hit " + std::to_string (instance) + " " + std::to_string (input) + " " + std::to_string (speed)); }
+    void struck (std::size_t instance, std::size_t input, double speed) noexcept override
+    {
+        add ("hit " + std::to_string (instance) + " " + std::to_string (input) + " " + std::to_string (speed));
+    }
     void late (std::uint64_t question) noexcept override { add ("late " + std::to_string (question)); }
     void halted() noexcept override { add ("halt"); }
     void resumed() noexcept override { add ("resume"); }
@@ -37,29 +43,29 @@ struct Notes final : Journal
 };
 }   // namespace
 
-TEST_CASE ("a journal is told what takes effect, on the tick on which it does", "[live]")
+TEST_CASE ("a journal gets each event on the tick on which it takes effect", "[live]")
 {
     const auto sketch = Sketch {}.node ("one", "signal.constant").node ("amp", "signal.gain").wire ("one.out -> amp.in");
-    Live live { sketch.graph, catalogue(), {}, sketch.compile().plan };
+    test::Live live { sketch.graph, catalogue(), {}, sketch.compile().plan };
     auto& engine = live.engine();
     Notes notes;
     engine.report (notes);
     const auto plan = [&]
-    { return "plan " + std::to_string (engine.newest().serial); };
+    { return "plan " + std::to_string (engine.newest().serial()); };
     CHECK (notes.taken() == std::vector<std::string> { plan() });
 
-    live.set ("amp.gain", 2.0);
-    live.set ("amp.gain", 3.0);   // the last one counts
+    REQUIRE (live.set ("amp.gain", 2.0));
+    REQUIRE (live.set ("amp.gain", 3.0));   // the last one counts
     CHECK (notes.taken().empty());
     engine.tick();
     CHECK (notes.taken() == std::vector<std::string> { "turn 1 0 3.000000", "tick" });
     engine.tick();
     CHECK (notes.taken() == std::vector<std::string> { "tick" });
 
-    const auto before = engine.newest().serial;
+    const auto before = engine.newest().serial();
     live.perform (graph::AddNode { .patch = {}, .node = Sketch::makeNode ("more", "signal.abs") });
-    CHECK (engine.newest().serial > before);
-    live.set ("one.value", 7.0);
+    CHECK (engine.newest().serial() > before);
+    REQUIRE (live.set ("one.value", 7.0));
     engine.tick();
     CHECK (notes.taken() == std::vector<std::string> { plan(), "turn 0 0 7.000000", "tick" });
     engine.halt();
@@ -71,7 +77,7 @@ TEST_CASE ("a journal is told what takes effect, on the tick on which it does", 
     engine.emergencyStop();
     CHECK (notes.taken().empty());
     engine.tick();
-    engine.emergencyStop();   // as good as pressed
+    engine.emergencyStop();   // like pressing the button
     engine.tick();
     CHECK (notes.taken() == std::vector<std::string> { "emergency", "tick", "tick" });
     engine.rearm();
@@ -82,27 +88,27 @@ TEST_CASE ("a journal is told what takes effect, on the tick on which it does", 
     CHECK (notes.taken() == std::vector<std::string> { "rearm", "emergency", "tick", "rearm", "tick" });
 }
 
-TEST_CASE ("a journal is told when a turn outdoes an edit that came before it", "[live]")
+TEST_CASE ("a journal is notified when a turn takes precedence over an earlier edit", "[live]")
 {
     auto sketch = Sketch {}.node ("amp", "signal.gain");
     Engine engine { sketch.compile().plan };
     engine.tick();
     sketch.graph.root.nodes[0].params["gain"] = 5.0;
     const auto edited = sketch.compile ({ .before = &engine.newest() }).plan;
-    engine.set (std::get<plan::ParamRef> (engine.param ("amp.gain")), 2.0);
+    engine.set (*engine.param ("amp.gain"), 2.0);
     engine.tick();
     Notes notes;
     engine.report (notes);
     notes.taken();
     engine.submit (edited);
     engine.tick();
-    CHECK (notes.taken() == std::vector<std::string> { "plan " + std::to_string (edited->serial), "outdone 0 0", "tick" });
+    CHECK (notes.taken() == std::vector<std::string> { "plan " + std::to_string (edited->serial()), "outdone 0 0", "tick" });
 }
 
-TEST_CASE ("a plan can be taken before its tick, and what is set afterwards is set for it", "[live]")
+TEST_CASE ("a plan can be picked up before its tick, and values set later apply to it", "[live]")
 {
     const auto sketch = Sketch {}.node ("one", "signal.constant", { { "value", 1.0 } });
-    Live live { sketch.graph, catalogue(), { .records = { "one.out" } }, sketch.compile ({ .records = { "one.out" } }).plan };
+    test::Live live { sketch.graph, catalogue(), { .records = { "one.out" } }, sketch.compile ({ .records = { "one.out" } }).plan };
     auto& engine = live.engine();
     engine.tick();
     const auto* first = &engine.plan();
@@ -110,12 +116,12 @@ TEST_CASE ("a plan can be taken before its tick, and what is set afterwards is s
     CHECK (&engine.plan() == first);
     engine.takeSubmitted();
     CHECK (&engine.plan() != first);
-    live.set ("one.value", 2.0);
+    REQUIRE (live.set ("one.value", 2.0));
     for (int k = 0; k < 100; ++k)
         engine.tick();
-    CHECK (*engine.plan().taps[0].value == 2.0);
-    engine.takeSubmitted();   // nothing waits
-    CHECK (engine.newest().serial == engine.plan().serial);
+    CHECK (*engine.plan().taps()[0].value == 2.0);
+    engine.takeSubmitted();   // no plan is waiting
+    CHECK (engine.newest().serial() == engine.plan().serial());
 }
 
 TEST_CASE ("every knob of a graph is found by its name", "[plan][property]")
@@ -125,18 +131,18 @@ TEST_CASE ("every knob of a graph is found by its name", "[plan][property]")
         const auto graph = test::randomGraph (*rc::gen::arbitrary<unsigned>(), 15);
         const auto plan = compile (graph, catalogue()).plan;
         RC_ASSERT (plan);
-        for (std::size_t i = 0; i < plan->instances.size(); ++i)
+        for (std::size_t i = 0; i < plan->instances().size(); ++i)
         {
-            const auto& instance = plan->instances[i];
+            const auto& instance = plan->instances()[i];
             if (! instance.knobs) continue;
-            const auto& node = plan->flat.nodes[i];
+            const auto& node = plan->flat().nodes[i];
             std::size_t first = 0;
             for (std::size_t p = 0; p < node.type->params.size(); first += plan::Knobs::roomOf (node.type->params[p++]))
-                for (std::size_t c = 0; c < plan->flat.param (static_cast<int> (i), p).size(); ++c)
+                for (std::size_t c = 0; c < plan->flat().param (static_cast<int> (i), p).size(); ++c)
                 {
                     const auto found = plan::findParams (*plan, plan::nameOf (*plan, i, first + c));
-                    RC_ASSERT (std::holds_alternative<std::vector<plan::ParamRef>> (found));
-                    const auto& refs = std::get<std::vector<plan::ParamRef>> (found);
+                    RC_ASSERT (found.has_value());
+                    const auto& refs = *found;
                     RC_ASSERT (refs.size() == 1u);
                     RC_ASSERT (refs[0].knobs == instance.knobs);
                     RC_ASSERT (refs[0].index == first + c);
@@ -144,7 +150,7 @@ TEST_CASE ("every knob of a graph is found by its name", "[plan][property]")
         } });
 }
 
-TEST_CASE ("a graph that is read again can be given the ids it had", "[graph]")
+TEST_CASE ("a graph that is read again can get its ids back", "[graph]")
 {
     auto graph = Sketch {}.node ("one", "signal.constant").node ("amp", "signal.gain").wire ("one.out -> amp.in").graph;
     auto& part = graph.graphs.emplace_back ("part", graph::Patch {}).second;
@@ -162,7 +168,8 @@ TEST_CASE ("a graph that is read again can be given the ids it had", "[graph]")
     REQUIRE (graph::giveIds (again, Json::parse (ids.dump())));
     CHECK (graph::idsOf (again) == ids);
     CHECK (again.graphs[0].second.nodes[0].origin == std::vector<graph::Ancestor> { { 7, 0 }, { 8, 2 } });
-    for (const auto* wrong : { "[1,2,3]", "[1,2,3,4,5]", "{}", "[1,2,3,-4]", "[1,2,3,[4]]", "[1,2,3,[4,5]]", "[1,2,3,[4,[5,-1]]]", "[1,2,3,[4,\"x\"]]", "[1,2,3,null]" })
+    for (const auto* wrong :
+         { "[1,2,3]", "[1,2,3,4,5]", "{}", "[1,2,3,-4]", "[1,2,3,[4]]", "[1,2,3,[4,5]]", "[1,2,3,[4,[5,-1]]]", "[1,2,3,[4,\"x\"]]", "[1,2,3,null]" })
         CHECK_FALSE (graph::giveIds (again, Json::parse (wrong)));
     CHECK (graph::idsOf (again) == ids);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is felt while a graph is edited under the hand.
+// What the hand feels while a graph is edited.
 
 #include "support/chance_hand.hpp"
 #include "support/interpreter.hpp"
@@ -8,7 +8,7 @@
 #include "support/random_graph.hpp"
 #include "support/sketch.hpp"
 
-#include <framework/live.hpp>
+#include "support/live.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -23,29 +23,42 @@ namespace
 constexpr double rate_hz = 4000.0;
 constexpr std::size_t ten_seconds = 40000;
 
-/// A hand on a wall that rubs and rings in six places, three in each of two branches, two of these alike; all with a
-/// memory and all felt; and beside it whatever chance drew.
+/// A hand on a wall that rubs and rings in six places, three in each of two branches, two of them equal. All of them have
+/// memory, and all contribute to the force. In addition there is a random graph.
 graph::Graph touchable (unsigned seed, int size)
 {
     test::Sketch s;
     s.graph = test::randomGraph (seed, size);
     auto& leaf = s.subgraph ("leaf");
-    s.add (leaf, "drag", "friction.elasto_plastic").add (leaf, "bar", "vibration.modal", Json::object(), { { "modes", { { { "frequency", 180.0 }, { "decay", 20.0 }, { "amplitude", 0.5 } } } } }).add (leaf, "sum", "vector.add").add (leaf, "shake", "vector.join");
+    s.add (leaf, "drag", "friction.elasto_plastic")
+        .add (leaf, "bar", "vibration.modal", Json::object(), { { "modes", { { { "frequency", 180.0 }, { "decay", 20.0 }, { "amplitude", 0.5 } } } } })
+        .add (leaf, "sum", "vector.add")
+        .add (leaf, "shake", "vector.join");
     s.add (leaf, "bar.value -> [5] -> shake.z").add (leaf, "shake.out -> sum.in[0]").add (leaf, "drag.force -> [2] -> sum.in[1]");
-    leaf.expose = { { { "position", { "drag", "position" } }, { "push", { "drag", "normal_force" } }, { "hit", { "bar", "hit" } } }, { { "force", { "sum", "out" } } }, { { "mu", { "drag", "mu" } } } };
+    leaf.expose = { { { "position", { "drag", "position" } }, { "push", { "drag", "normal_force" } }, { "hit", { "bar", "hit" } } },
+                    { { "force", { "sum", "out" } } },
+                    { { "mu", { "drag", "mu" } } } };
 
     auto& branch = s.subgraph ("branch");
-    s.add (branch, "wall", "deform.plane").add (branch, "a", "graph:leaf", { { "mu", 0.3 } }).add (branch, "b", "graph:leaf").add (branch, "all", "vector.add", Json::object(), { { "inputs", 3 } });
+    s.add (branch, "wall", "deform.plane")
+        .add (branch, "a", "graph:leaf", { { "mu", 0.3 } })
+        .add (branch, "b", "graph:leaf")
+        .add (branch, "all", "vector.add", Json::object(), { { "inputs", 3 } });
     branch.nodes[2].extra["count"] = 2;
     branch.nodes[2].overrides["[1]/drag.mu"] = 0.9;
     for (const std::string which : { "a", "b" })
         s.add (branch, "wall.resistance -> " + which + ".push").add (branch, "wall.hit -> " + which + ".hit");
     s.add (branch, "a.force -> all.in[0]").add (branch, "b.force -> [1] -> all.in[1]").add (branch, "wall.force -> all.in[2]");
-    branch.expose = { { { "position", { "wall", "position" } }, { "at_a", { "a", "position" } }, { "at_b", { "b", "position" } } }, { { "force", { "all", "out" } } }, { { "offset", { "wall", "offset" } }, { "mu", { "b/drag", "mu" } } } };
+    branch.expose = { { { "position", { "wall", "position" } }, { "at_a", { "a", "position" } }, { "at_b", { "b", "position" } } },
+                      { { "force", { "all", "out" } } },
+                      { { "offset", { "wall", "offset" } }, { "mu", { "b/drag", "mu" } } } };
 
     branch.nodes[2].extra["every"] = 3;
     branch.nodes[2].extra["hold"] = "linear";
-    s.node ("hand", "device.position").node ("left", "graph:branch").node ("right", "graph:branch", { { "offset", "1 mm" }, { "mu", 0.5 } }).node ("motor", "device.force");
+    s.node ("hand", "device.position")
+        .node ("left", "graph:branch")
+        .node ("right", "graph:branch", { { "offset", "1 mm" }, { "mu", 0.5 } })
+        .node ("motor", "device.force");
     for (const std::string which : { "left", "right" })
     {
         for (const std::string port : { "position", "at_a", "at_b" })
@@ -56,7 +69,7 @@ graph::Graph touchable (unsigned seed, int size)
     return s.graph;
 }
 
-/// What both hands felt, and the bits of all that was recorded.
+/// The efforts of both hands, and the bits of everything recorded.
 struct Felt
 {
     std::vector<Effort> left, right;
@@ -64,13 +77,13 @@ struct Felt
     int taken = 0, refused = 0;
 };
 
-/// The largest step that the bumpless rule does not allow, over the size of what steps.
+/// The largest step beyond what the bumpless rule allows, relative to the size of the signal.
 class BumplessRule
 {
 public:
     void look (const Plan& plan, bool taken_over, const Effort& applied, bool stopped)
     {
-        const auto role = std::ranges::find (plan.roles, "right", &Plan::RoleUse::name);
+        const auto role = std::ranges::find (plan.roles(), "right", &Plan::RoleUse::name);
         Effort wanted;
         for (const auto& sink : role->sinks)
         {
@@ -78,9 +91,9 @@ public:
             wanted.force += e.force;
             wanted.torque += e.torque;
         }
-        const auto tick = plan.number - 1;
+        const auto tick = plan.nextTick() - 1;
         if (taken_over && ! role->untouched) touched_at = tick;
-        const bool comes_late = std::ranges::any_of (plan.rests, [&] (std::uint64_t rests)
+        const bool comes_late = std::ranges::any_of (plan.rests(), [&] (std::uint64_t rests)
                                                      { return tick % rests == 0 && tick > touched_at && tick < touched_at + rests; });
         if ((taken_over && ! role->untouched) || comes_late)
         {
@@ -94,7 +107,8 @@ public:
         const bool fading = since > 0 && since <= static_cast<int> (Bumpless::fade_s * rate_hz);
         const Vec3 allowed = own.force.cwiseAbs() + own.torque.cwiseAbs() + (fading ? per_tick : 0.0) * difference;
         const Vec3 step = (applied.force - last.force).cwiseAbs() + (applied.torque - last.torque).cwiseAbs();
-        const double size = std::max ({ 1e-3, difference.maxCoeff(), applied.force.cwiseAbs().maxCoeff(), last_wanted.force.cwiseAbs().maxCoeff(), wanted.force.cwiseAbs().maxCoeff() });
+        const double size = std::max (
+            { 1e-3, difference.maxCoeff(), applied.force.cwiseAbs().maxCoeff(), last_wanted.force.cwiseAbs().maxCoeff(), wanted.force.cwiseAbs().maxCoeff() });
         if (! stopped && ! was_stopped && isFinite (step, allowed)) worst = std::max (worst, (step - allowed).maxCoeff() / size);
         was_stopped = stopped;
         last = applied;
@@ -112,7 +126,7 @@ private:
     bool was_stopped = false;
 };
 
-/// Ten seconds; before a tick, `edit` may do what it likes.
+/// Runs for ten seconds. Calls `edit` before each tick.
 template <typename Edit>
 Felt play (const graph::Graph& g, const std::vector<std::string>& records, unsigned seed, std::size_t ticks, BumplessRule* rule, Edit edit)
 {
@@ -120,13 +134,13 @@ Felt play (const graph::Graph& g, const std::vector<std::string>& records, unsig
     auto [plan, messages] = compile (g, catalogue(), options);
     INFO (test::text (messages));
     REQUIRE (plan);
-    Live live { g, catalogue(), options, plan };
+    test::Live live { g, catalogue(), options, plan };
     test::ChanceHand left { seed, ticks }, right { seed + 1, ticks };
     live.engine().attach ("left", left);
     live.engine().attach ("right", right);
 
     Felt felt;
-    felt.recorded.reserve (ticks * plan->taps.size());
+    felt.recorded.reserve (ticks * plan->taps().size());
     int unclean = 0;
     for (std::size_t k = 0; k < ticks; ++k)
     {
@@ -140,7 +154,7 @@ Felt play (const graph::Graph& g, const std::vector<std::string>& records, unsig
         const bool taken = before != &live.engine().plan();
         felt.taken += taken;
         if (rule) rule->look (live.engine().plan(), taken, right.last, live.engine().guardOf ("right").stop() != Guard::Stop::none);
-        for (const auto& tap : live.engine().plan().taps)
+        for (const auto& tap : live.engine().plan().taps())
             felt.recorded.push_back (*tap.value == *tap.value ? std::bit_cast<std::uint64_t> (*tap.value) : ~0ull);
     }
     CHECK (unclean == 0);
@@ -166,12 +180,12 @@ std::size_t differing (const std::vector<Effort>& a, const std::vector<Effort>& 
 }
 }   // namespace
 
-TEST_CASE ("ten seconds of edits on one side are not felt on the other, and without steps on their own", "[live]")
+TEST_CASE ("ten seconds of edits on one side do not affect the other side, and cause no steps on their own side", "[live]")
 {
     for (const unsigned seed : { 1u, 2u, 3u, 4u })
     {
         const auto steady = test::prefixed (touchable (seed, 20), "s_", "left"), wild = test::prefixed (touchable (seed + 100, 30), "e_", "right");
-        const auto both = test::besides (steady, wild);
+        const auto both = test::sideBySide (steady, wild);
         const auto records = everyOutput (steady);
         const bool is_long = seed == 1;
         const auto ticks = is_long ? ten_seconds : ten_seconds / 32;
@@ -179,17 +193,18 @@ TEST_CASE ("ten seconds of edits on one side are not felt on the other, and with
         std::mt19937 random { seed };
         BumplessRule rule;
         int failing = 0;
-        const auto edited = play (both, records, seed, ticks, &rule, [&] (Live& live, Felt& felt)
+        const auto edited = play (both, records, seed, ticks, &rule, [&] (test::Live& live, Felt& felt)
                                   {
             for (auto edits = random() % (is_long ? 48 : 8) == 0 ? 1 + random() % 3 : 0; edits > 0; --edits)
             {
-                const auto messages = random() % 8 == 0 ? (random() % 2 ? live.undo() : live.redo()) : live.perform (test::randomEdit (random, live.graph(), "e_", "right"));
+                const auto messages =
+                    random() % 8 == 0 ? (random() % 2 ? live.undo() : live.redo()) : live.perform (test::randomEdit (random, live.graph(), "e_", "right"));
                 felt.refused += hasErrors (messages);
                 failing = hasErrors (messages) ? failing + 1 : 0;
                 while (failing > 1)
                     failing = hasErrors (live.undo()) ? failing : 0;
             } });
-        const auto quiet = play (both, records, seed, ticks, nullptr, [] (Live&, Felt&) {});
+        const auto quiet = play (both, records, seed, ticks, nullptr, [] (test::Live&, Felt&) {});
 
         INFO ("seed " << seed << ", " << edited.taken << " plans taken, " << edited.refused << " refused");
         CHECK (edited.taken > (is_long ? 300 : 50));
@@ -200,21 +215,21 @@ TEST_CASE ("ten seconds of edits on one side are not felt on the other, and with
     }
 }
 
-TEST_CASE ("renamed, collapsed and expanded while they play, graphs give the same bits at all sinks and in all nodes", "[live]")
+TEST_CASE ("renaming, collapsing and expanding while a graph runs leaves all sinks and all nodes bit-identical", "[live]")
 {
     for (unsigned seed = 1; seed <= 10; ++seed)
     {
-        const auto g = test::besides (test::prefixed (touchable (seed, 30), "s_", "left"), test::prefixed (touchable (seed + 100, 30), "e_", "right"));
+        const auto g = test::sideBySide (test::prefixed (touchable (seed, 30), "s_", "left"), test::prefixed (touchable (seed + 100, 30), "e_", "right"));
         constexpr std::size_t ticks = 1000;
         std::mt19937 random { seed };
         int done = 0, broken = 0, collapsed = 0, expanded = 0;
-        const auto regroup = [&] (Live& live, Felt&)
+        const auto regroup = [&] (test::Live& live, Felt&)
         {
             if (random() % 8 != 0) return;
             const bool back = random() % 8 == 0;
             const auto command = test::randomRegrouping (random, live.graph());
             const auto messages = back ? live.undo() : live.perform (command);
-            if (test::has (messages, "wire/two_into_one"))   // instances that came apart, whose sum went where one wire may go
+            if (test::has (messages, "wire/two_into_one"))   // the instances became separate nodes, whose sum went into a port that accepts only one wire
             {
                 live.undo();
                 return;
@@ -229,7 +244,7 @@ TEST_CASE ("renamed, collapsed and expanded while they play, graphs give the sam
                 while (live.history().position() > 0)
                     live.undo();
         };
-        const auto regrouped = play (g, {}, seed, ticks, nullptr, regroup), quiet = play (g, {}, seed, ticks, nullptr, [] (Live&, Felt&) {});
+        const auto regrouped = play (g, {}, seed, ticks, nullptr, regroup), quiet = play (g, {}, seed, ticks, nullptr, [] (test::Live&, Felt&) {});
         INFO ("seed " << seed << ", " << done << " edits, " << collapsed << " collapsed, " << expanded << " expanded");
         CHECK (broken == 0);
         CHECK (regrouped.taken > 60);

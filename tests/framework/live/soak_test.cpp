@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A long run with edits without end. TACTUS_SOAK_TICKS makes it longer.
+// A long run with continuous edits. TACTUS_SOAK_TICKS makes it longer.
 
 #include "support/chance_hand.hpp"
 #include "support/no_allocation.hpp"
 #include "support/random_edit.hpp"
 #include "support/sketch.hpp"
 
-#include <framework/live.hpp>
+#include "support/live.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -20,7 +20,7 @@ using namespace tactus;
 
 namespace
 {
-/// Resident memory in bytes; 0 where the system does not say.
+/// Resident memory in bytes; 0 if the system does not report it.
 std::size_t memory()
 {
     std::ifstream statm ("/proc/self/statm");
@@ -29,26 +29,30 @@ std::size_t memory()
     return resident * static_cast<std::size_t> (sysconf (_SC_PAGESIZE));
 }
 
-/// A small model whose every bit is felt, and something beside it.
+/// A small model in which every bit affects the force, and a separate node.
 test::Sketch wood()
 {
     test::Sketch s;
     s.node ("hand", "device.position").node ("wall", "deform.plane").node ("drag", "friction.elasto_plastic").node ("motor", "device.force");
-    s.wire ("hand.position -> wall.position").wire ("hand.position -> drag.position").wire ("wall.resistance -> drag.normal_force").wire ("wall.force -> motor.force").wire ("drag.force -> motor.force");
+    s.wire ("hand.position -> wall.position")
+        .wire ("hand.position -> drag.position")
+        .wire ("wall.resistance -> drag.normal_force")
+        .wire ("wall.force -> motor.force")
+        .wire ("drag.force -> motor.force");
     s.node ("e_a", "signal.noise").node ("e_b", "filter.one_pole").node ("e_motor", "device.force").wire ("e_a.out -> e_b.in");
     s.graph.root.nodes.back().role = "right";
     return s;
 }
 }   // namespace
 
-TEST_CASE ("a million ticks with edits beside it give the same bits, and no memory is lost", "[live][soak]")
+TEST_CASE ("a million ticks with edits of other nodes leave the model bit-identical, and memory does not grow", "[live][soak]")
 {
     const auto* wanted = std::getenv ("TACTUS_SOAK_TICKS");
     const auto ticks = wanted ? std::strtoull (wanted, nullptr, 10) : 1'000'000ull;
     constexpr std::uint64_t step = 500;   // ticks between edits
 
     const auto sketch = wood();
-    Live live { sketch.graph, catalogue(), {}, sketch.compile().plan };
+    test::Live live { sketch.graph, catalogue(), {}, sketch.compile().plan };
     Engine alone { sketch.compile().plan };
     test::ChanceHand hand { 1 }, other { 1 };
     live.engine().attach ("stylus", hand);
@@ -61,7 +65,7 @@ TEST_CASE ("a million ticks with edits beside it give the same bits, and no memo
     {
         if (k % step == 0)
         {
-            // What is done is undone after a while, so that the graph and its history stay of one size.
+            // Edits are undone after a while, so that the graph and its history do not grow.
             if (live.history().position() > 20)
                 while (live.history().position() > 0)
                     live.undo();
@@ -77,5 +81,5 @@ TEST_CASE ("a million ticks with edits beside it give the same bits, and no memo
     CHECK (hand.digest == other.digest);
     const auto grown = static_cast<double> (memory()) - static_cast<double> (settled);
     if (wanted) std::cout << ticks << " ticks, " << edits << " edits, memory " << settled << " bytes at half time, " << grown << " bytes more at the end\n";
-    if (NoAllocation::watches) CHECK (grown < 2e6);   // a sanitizer keeps what was freed
+    if (NoAllocation::watches) CHECK (grown < 2e6);   // a sanitizer keeps freed memory
 }

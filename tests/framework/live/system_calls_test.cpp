@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a tick asks of the system: nothing.
+// A tick makes no system calls.
 
 #include "support/chance_hand.hpp"
 #include "support/no_system_calls.hpp"
@@ -7,7 +7,7 @@
 #include "support/random_graph.hpp"
 #include "support/sketch.hpp"
 
-#include <framework/live.hpp>
+#include "support/live.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -19,11 +19,11 @@
 
 using namespace tactus;
 
-TEST_CASE ("who forbids system calls would notice one", "[live]")
+TEST_CASE ("a forbidden system call is detected", "[live]")
 {
     if (! test::canForbidSystemCalls())
     {
-        WARN ("skipped: no seccomp filter here");
+        WARN ("skipped: seccomp filters are not available here");
         return;
     }
     CHECK (test::inChild ([]
@@ -40,19 +40,19 @@ TEST_CASE ("who forbids system calls would notice one", "[live]")
            == SIGSYS);
 }
 
-TEST_CASE ("in free run, under edits as fast as they come, ticks make no system call", "[live]")
+TEST_CASE ("in a free run with edits at full speed, ticks make no system calls", "[live]")
 {
     if (! test::canForbidSystemCalls())
     {
-        WARN ("skipped: no seccomp filter here");
+        WARN ("skipped: seccomp filters are not available here");
         return;
     }
-    const auto graph = test::besides (test::prefixed (test::randomGraph (5, 40), "s_", "left"), test::prefixed (test::randomGraph (6, 40), "e_", "right"));
+    const auto graph = test::sideBySide (test::prefixed (test::randomGraph (5, 40), "s_", "left"), test::prefixed (test::randomGraph (6, 40), "e_", "right"));
     const auto end = test::inChild ([&]
                                     {
         auto [plan, messages] = compile (graph, catalogue(), { .rate_hz = 4000.0 });
         if (! plan) return 1;
-        Live live { graph, catalogue(), { .rate_hz = 4000.0 }, plan };
+        test::Live live { graph, catalogue(), { .rate_hz = 4000.0 }, plan };
         test::ChanceHand left { 1 }, right { 2 };
         live.engine().attach ("left", left);
         live.engine().attach ("right", right);
@@ -64,13 +64,13 @@ TEST_CASE ("in free run, under edits as fast as they come, ticks make no system 
                 if (live.history().position() > 50)
                     while (live.history().position() > 0)
                         live.undo();
-                auto said = live.perform (test::randomEdit (random, live.graph(), "e_", "right"));
-                while (hasErrors (said))
-                    said = live.undo();
+                auto found = live.perform (test::randomEdit (random, live.graph(), "e_", "right"));
+                while (hasErrors (found))
+                    found = live.undo();
                 live.engine().clear();
             } } };
 
-        test::forbidSystemCalls();   // on this thread
+        test::forbidSystemCalls();   // applies to this thread
         int taken = 0;
         const Plan* last = nullptr;
         for (std::uint64_t k = 0; taken < 50 || k < 100000; ++k)

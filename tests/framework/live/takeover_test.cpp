@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What lives on when a plan takes over from another, one case at a time.
+// State that survives when a plan takes over from another one, case by case.
 
 #include "support/chance_hand.hpp"
 #include "support/sketch.hpp"
 
-#include <framework/live.hpp>
+#include "support/live.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -19,9 +19,9 @@ using test::Sketch;
 
 namespace
 {
-graph::Wire wire (const std::string& text) { return std::get<graph::Wire> (graph::parseWire (text)); }
+graph::Wire wire (const std::string& text) { return *graph::parseWire (text); }
 
-/// A graph under edit, with one port watched.
+/// A graph under edits, with one port watched.
 struct Bench
 {
     explicit Bench (const Sketch& s, std::vector<std::string> records = {}) : Bench (s, CompileOptions { .records = std::move (records) }) {}
@@ -34,7 +34,7 @@ struct Bench
             live.engine().tick();
     }
 
-    /// Edits that must compile.
+    /// Carries out an edit that must compile.
     void edit (graph::Command command)
     {
         const auto messages = live.perform (std::move (command));
@@ -44,50 +44,58 @@ struct Bench
 
     void edit (std::vector<graph::Command> commands) { edit (graph::Batch { "several", std::move (commands) }); }
 
-    double value (std::size_t tap = 0) { return *live.engine().plan().taps.at (tap).value; }
+    double value (std::size_t tap = 0) { return *live.engine().plan().taps().at (tap).value; }
     graph::Id wireId (std::size_t i) { return live.graph().root.wires.at (i).id; }
 
-    Live live;
+    test::Live live;
 };
 
-/// A ramp up by 1 a tick, counted by a loop through a delayed wire, and something behind it.
+/// A ramp that rises by 1 per tick, counted by a loop through a delayed wire, followed by a node.
 Sketch counting()
 {
-    return Sketch {}.node ("count", "signal.add").node ("one", "signal.constant", { { "value", 1.0 } }).wire ("one.out -> count.in[0]").wire ("count.out -> [1] -> count.in[1]");
+    return Sketch {}
+        .node ("count", "signal.add")
+        .node ("one", "signal.constant", { { "value", 1.0 } })
+        .wire ("one.out -> count.in[0]")
+        .wire ("count.out -> [1] -> count.in[1]");
 }
 
-/// A bar that is struck on the first tick.
+/// A bar that is hit on the first tick.
 Sketch struck()
 {
     auto mode = [] (double f)
     { return Json { { "frequency", f }, { "decay", 5.0 }, { "amplitude", 1.0 } }; };
-    return Sketch {}.node ("bar", "vibration.modal", Json::object(), { { "modes", Json::array ({ mode (100.0) }) } }).node ("motor", "device.force").wire ("bar.value -> motor.force.x");
+    return Sketch {}
+        .node ("bar", "vibration.modal", Json::object(), { { "modes", Json::array ({ mode (100.0) }) } })
+        .node ("motor", "device.force")
+        .wire ("bar.value -> motor.force.x");
 }
 
-const Json two_modes = Json::array ({ { { "frequency", 100.0 }, { "decay", 5.0 }, { "amplitude", 1.0 } }, { { "frequency", 250.0 }, { "decay", 5.0 }, { "amplitude", 1.0 } } });
+const Json two_modes =
+    Json::array ({ { { "frequency", 100.0 }, { "decay", 5.0 }, { "amplitude", 1.0 } }, { { "frequency", 250.0 }, { "decay", 5.0 }, { "amplitude", 1.0 } } });
 }   // namespace
 
-TEST_CASE ("what is on its way along a delayed wire goes on, also when the wire is made longer or shorter", "[live]")
+TEST_CASE ("values in transit on a delayed wire survive, even if the delay changes", "[live]")
 {
     Bench bench { counting().node ("late", "signal.gain").wire ("count.out -> [4] -> late.in"), { "count.out", "late.out" } };
     bench.tick (10);
     CHECK (bench.value (1) == 6.0);
 
-    SECTION ("when something else is edited")
+    SECTION ("if something else is edited")
     {
         bench.edit (graph::AddNode { "", Sketch::makeNode ("idle", "signal.abs") });
         bench.tick();
         CHECK (bench.value (0) == 11.0);
         CHECK (bench.value (1) == 7.0);
     }
-    SECTION ("shorter: the newest stay")
+    SECTION ("shorter: the newest values remain")
     {
         bench.edit (graph::ChangeWire { "", bench.wireId (2), wire ("count.out -> [2] -> late.in") });
         bench.tick();
         CHECK (bench.value (0) == 11.0);
         CHECK (bench.value (1) == 9.0);
     }
-    SECTION ("longer: the oldest is held until the next has come all the way")
+    SECTION ("longer: the oldest value is held until the next one arrives")
     {
         bench.edit (graph::ChangeWire { "", bench.wireId (2), wire ("count.out -> [6] -> late.in") });
         for (const double expected : { 7.0, 7.0, 7.0, 8.0, 9.0 })
@@ -96,7 +104,7 @@ TEST_CASE ("what is on its way along a delayed wire goes on, also when the wire 
             CHECK (bench.value (1) == expected);
         }
     }
-    SECTION ("drawn anew it begins with nothing")
+    SECTION ("a new wire starts empty")
     {
         bench.edit ({ graph::RemoveWire { "", bench.wireId (2) }, graph::AddWire { "", wire ("count.out -> [4] -> late.in") } });
         bench.tick();
@@ -104,7 +112,7 @@ TEST_CASE ("what is on its way along a delayed wire goes on, also when the wire 
     }
 }
 
-TEST_CASE ("a mode added to a bar that rings does not click, and the bar rings on", "[live]")
+TEST_CASE ("adding a mode to a ringing bar does not click, and the bar keeps ringing", "[live]")
 {
     const CompileOptions options { .feeds = { "bar.hit" }, .records = { "bar.value" } };
     Bench bench { struck(), options }, plain { struck(), options };
@@ -112,10 +120,10 @@ TEST_CASE ("a mode added to a bar that rings does not click, and the bar rings o
     for (int k = 0; k < 400; ++k)
     {
         if (k == 200) bench.edit (SetSetting { "", "bar", "modes", two_modes });
-        bench.live.engine().plan().feeds[0] = plain.live.engine().plan().feeds[0] = k == 3 ? 1.0 : 0.0;
+        bench.live.engine().plan().feeds()[0] = plain.live.engine().plan().feeds()[0] = k == 3 ? 1.0 : 0.0;
         bench.tick();
         plain.tick();
-        CHECK (bench.value() == Approx (plain.value()).margin (1e-12));   // the second mode is silent until struck
+        CHECK (bench.value() == Approx (plain.value()).margin (1e-12));   // the second mode is silent until the next hit
         if (k > 4) step = std::max (step, std::abs (bench.value() - last));
         last = bench.value();
     }
@@ -124,24 +132,24 @@ TEST_CASE ("a mode added to a bar that rings does not click, and the bar rings o
 
     bench.edit (SetSetting { "", "bar", "modes", Json::array ({ two_modes[1] }) });
     bench.tick();
-    CHECK (bench.live.engine().plan().feeds[0] == 0.0);
+    CHECK (bench.live.engine().plan().feeds()[0] == 0.0);
 }
 
-TEST_CASE ("another setting of the same content is none, and the node goes on untouched", "[live]")
+TEST_CASE ("a setting with the same content is not a change, and the node continues untouched", "[live]")
 {
     Bench bench { struck() };
-    const auto* node = bench.live.engine().plan().instances[0].node.get();
+    const auto* node = bench.live.engine().plan().instances()[0].node.get();
     bench.edit (SetSetting { "", "bar", "modes", Json::array ({ { { "frequency", "0.1 kHz" }, { "decay", 5 }, { "amplitude", 1 } } }) });
     bench.tick();
-    CHECK (bench.live.engine().plan().instances[0].node.get() == node);
-    CHECK (bench.live.engine().plan().roles[0].untouched);
+    CHECK (bench.live.engine().plan().instances()[0].node.get() == node);
+    CHECK (bench.live.engine().plan().roles()[0].untouched);
     bench.edit (SetSetting { "", "bar", "modes", two_modes });
     bench.tick();
-    CHECK (bench.live.engine().plan().instances[0].node.get() != node);
-    CHECK_FALSE (bench.live.engine().plan().roles[0].untouched);
+    CHECK (bench.live.engine().plan().instances()[0].node.get() != node);
+    CHECK_FALSE (bench.live.engine().plan().roles()[0].untouched);
 }
 
-TEST_CASE ("a node that becomes another type begins afresh under its name, and wires stay on it", "[live]")
+TEST_CASE ("a node whose type changes starts from scratch under its name, and keeps its wires", "[live]")
 {
     Bench bench { counting().node ("tail", "signal.gain", { { "gain", 2.0 } }).wire ("count.out -> tail.in"), { "tail.out", "count.out" } };
     bench.tick (5);
@@ -152,9 +160,12 @@ TEST_CASE ("a node that becomes another type begins afresh under its name, and w
     CHECK (bench.value (1) == 6.0);
 }
 
-TEST_CASE ("a node that stood bypassed begins afresh, and does not go on where it stopped long ago", "[live]")
+TEST_CASE ("a node that was bypassed starts from scratch instead of resuming its old state", "[live]")
 {
-    auto sketch = Sketch {}.node ("one", "signal.constant", { { "value", 1.0 } }).node ("late", "signal.delay", Json::object(), { { "ticks", 3 } }).wire ("one.out -> late.in");
+    auto sketch = Sketch {}
+                      .node ("one", "signal.constant", { { "value", 1.0 } })
+                      .node ("late", "signal.delay", Json::object(), { { "ticks", 3 } })
+                      .wire ("one.out -> late.in");
     Bench bench { sketch, { "late.out" } };
     bench.tick (5);
     CHECK (bench.value() == 1.0);
@@ -165,9 +176,13 @@ TEST_CASE ("a node that stood bypassed begins afresh, and does not go on where i
     CHECK (bench.value() == 0.0);
 }
 
-TEST_CASE ("the last sink of a role goes, and comes back, without a step", "[live]")
+TEST_CASE ("the last sink of a role is removed and restored without a step", "[live]")
 {
-    auto sketch = Sketch {}.node ("push", "signal.constant", { { "value", "2 N" } }).node ("hand", "device.position").node ("motor", "device.force").wire ("push.out -> motor.force.x");
+    auto sketch = Sketch {}
+                      .node ("push", "signal.constant", { { "value", "2 N" } })
+                      .node ("hand", "device.position")
+                      .node ("motor", "device.force")
+                      .wire ("push.out -> motor.force.x");
     Bench bench { sketch };
     test::ChanceHand hand { 1, 1000 };
     bench.live.engine().attach ("stylus", hand);
@@ -197,7 +212,7 @@ TEST_CASE ("the last sink of a role goes, and comes back, without a step", "[liv
     CHECK (step <= 2.0 * std::numbers::pi / 80.0);
 }
 
-TEST_CASE ("a second takeover while the first still fades begins anew from what is on the device", "[live]")
+TEST_CASE ("a second takeover during a fade starts a new fade from the current effort on the device", "[live]")
 {
     auto sketch = Sketch {}.node ("push", "signal.constant", { { "value", "2 N" } }).node ("motor", "device.force").wire ("push.out -> motor.force.x");
     Bench bench { sketch };
@@ -205,7 +220,7 @@ TEST_CASE ("a second takeover while the first still fades begins anew from what 
     bench.edit (graph::RemoveWire { "", bench.wireId (0) });
     bench.tick (21);
     const auto applied = [&]
-    { return bench.live.engine().plan().roles[0].state->applied.force.x(); };
+    { return bench.live.engine().plan().roles()[0].state->applied.force.x(); };
     CHECK (applied() == Approx (1.0));
     bench.live.undo();
     bench.tick();
@@ -217,7 +232,7 @@ TEST_CASE ("a second takeover while the first still fades begins anew from what 
     CHECK (applied() == 0.0);
 }
 
-TEST_CASE ("what does not compile is told, and the plan before goes on", "[live]")
+TEST_CASE ("an edit that does not compile is reported, and the previous plan keeps running", "[live]")
 {
     Bench bench { counting(), { "count.out" } };
     bench.tick (3);
@@ -237,7 +252,7 @@ TEST_CASE ("what does not compile is told, and the plan before goes on", "[live]
     CHECK (bench.value() == 5.0);
 }
 
-TEST_CASE ("a good plan that no tick has taken yet survives an edit that does not compile", "[live]")
+TEST_CASE ("a valid plan that no tick has picked up yet survives an edit that does not compile", "[live]")
 {
     Bench bench { counting(), { "count.out" } };
     bench.tick (3);
@@ -247,14 +262,14 @@ TEST_CASE ("a good plan that no tick has taken yet survives an edit that does no
     CHECK (bench.value() == 3.0);
 }
 
-TEST_CASE ("another rate is for the next start, and is said so", "[live]")
+TEST_CASE ("a changed rate applies at the next start, with a warning", "[live]")
 {
     Bench bench { counting(), { "count.out" } };
     bench.tick (3);
-    CHECK (test::has (bench.live.perform (graph::SetHeader { .rate_hz = 1000.0 }), "live/rate"));
+    CHECK (test::has (bench.live.perform (graph::SetHeader { .rate_hz = 1000.0 }), "watch/rate"));
     bench.tick();
     CHECK (bench.value() == 4.0);
-    CHECK (bench.live.engine().plan().rate_hz == 4000.0);
+    CHECK (bench.live.engine().plan().rateHz() == 4000.0);
     CHECK (bench.live.undo().empty());
 
     auto slow = bench.live.graph();
@@ -262,14 +277,14 @@ TEST_CASE ("another rate is for the next start, and is said so", "[live]")
     CHECK_THROWS_AS (bench.live.engine().submit (compile (slow, catalogue()).plan), std::invalid_argument);
 }
 
-TEST_CASE ("plans that are used no more are freed, and never more than three are kept", "[live]")
+TEST_CASE ("unused plans are freed, and never more than three are kept", "[live]")
 {
     Bench bench { counting() };
-    std::vector<std::weak_ptr<void>> plans;
+    std::vector<std::weak_ptr<Plan>> plans;
     for (int i = 0; i < 50; ++i)
     {
         bench.edit (SetParam { "", "one", "value", Json (0.5 * i) });
-        plans.push_back (bench.live.engine().newest().storage);
+        plans.push_back (bench.live.engine().newestShared());
         CHECK (bench.live.engine().clear() <= 3);
         if (i % 3) bench.tick();
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <framework/turn.hpp>
+#include <framework/run/turn.hpp>
 
 #include "support/sketch.hpp"
 
@@ -14,26 +14,26 @@ namespace
 {
 graph::Graph wood() { return loadGraph (TACTUS_SOURCE_DIR "/graphs/dry_wood.json").graph; }
 
-/// Where a parameter stands once it has arrived.
+/// The value of a parameter after its ramp.
 double arrived (Engine& engine, const std::string& name)
 {
     for (int k = 0; k < 200; ++k)
         engine.tick();
-    const auto param = std::get<plan::ParamRef> (engine.param (name));
+    const auto param = *engine.param (name);
     return param.knobs->all[param.index].value;
 }
 
-/// Where it stands in a plan that was compiled with the value.
+/// The value of the parameter in a plan that was compiled with this value.
 double compiled (const graph::Graph& graph, const std::string& set, const Json& value, const std::string& name)
 {
     Engine engine { compile (graph, catalogue(), { .overrides = { { set, value } } }).plan };
     return arrived (engine, name);
 }
 
-std::string idOf (const std::optional<Message>& m) { return m ? m->id : ""; }
+std::string idOf (const Result<>& result) { return result ? "" : result.error().id; }
 }   // namespace
 
-TEST_CASE ("a parameter turned live arrives where --set would have put it, to the bit", "[turn]")
+TEST_CASE ("a parameter turned live becomes bit-identical to one given with --set", "[turn]")
 {
     const auto graph = wood();
     Engine engine { compile (graph, catalogue()).plan };
@@ -52,12 +52,12 @@ TEST_CASE ("a parameter turned live arrives where --set would have put it, to th
     same ("grain.angle", "30 deg", "grain.angle");
 }
 
-TEST_CASE ("a control turned live takes all its targets where the file would have put them", "[turn]")
+TEST_CASE ("a control turned live moves all its targets to the same values as the same setting in the file", "[turn]")
 {
     const auto graph = wood();
     Engine engine { compile (graph, catalogue()).plan };
     engine.tick();
-    rc::prop ("any place of the control", [&]
+    rc::prop ("any value of the control", [&]
               {
         const double at = *rc::gen::inRange (0, 1001) / 1000.0;
         RC_ASSERT (idOf (turnControl (engine, graph, "roughness", at)) == "");
@@ -65,7 +65,7 @@ TEST_CASE ("a control turned live takes all its targets where the file would hav
             RC_ASSERT (arrived (engine, target) == compiled (graph, "roughness", at, target)); });
 }
 
-TEST_CASE ("what cannot be turned is refused with a reason, and nothing moves", "[turn]")
+TEST_CASE ("an impossible turn is refused with a reason and has no effect", "[turn]")
 {
     const auto graph = wood();
     Engine engine { compile (graph, catalogue()).plan };

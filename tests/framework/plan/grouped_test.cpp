@@ -8,12 +8,13 @@
 
 using namespace tactus::plan;
 
-TEST_CASE ("grouped: each group has its items in the order they came in", "[plan][grouped]")
+TEST_CASE ("grouped: each group keeps its items in order", "[plan][grouped]")
 {
-    rc::prop ("as a list for each would have them", []
+    rc::prop ("like a list per group", []
               {
                   constexpr std::size_t groups = 7;
-                  const auto items = *rc::gen::container<std::vector<std::pair<std::size_t, int>>> (rc::gen::pair (rc::gen::inRange<std::size_t> (0, groups), rc::gen::arbitrary<int>()));
+                  const auto items = *rc::gen::container<std::vector<std::pair<std::size_t, int>>> (
+                      rc::gen::pair (rc::gen::inRange<std::size_t> (0, groups), rc::gen::arbitrary<int>()));
                   std::vector<std::vector<int>> wanted (groups);
                   for (const auto& [group, item] : items)
                       wanted[group].push_back (item);

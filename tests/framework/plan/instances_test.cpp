@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Subgraphs in several instances: what a name stands for, and what comes out.
+// Subgraphs with several instances: the meaning of names, and the outputs.
 
 #include "support/sketch.hpp"
 
@@ -11,7 +11,7 @@ using namespace tactus;
 
 namespace
 {
-/// Three walls in a row under one hand, each of which can be wired, turned and felt by itself.
+/// Three walls in a row under one hand. Each one can be wired, turned and measured separately.
 graph::Graph fingers (const std::string& finger = R"("count": 3)", const std::string& more_wires = "", const std::string& more = "")
 {
     auto loaded = readGraph (R"({ "format": "tactus-graph", "version": 1, "nodes": {
@@ -24,17 +24,19 @@ graph::Graph fingers (const std::string& finger = R"("count": 3)", const std::st
     "wires": [ "finger.force -> motor.force")"
                              + more_wires + R"( ],
     "graphs": { "finger": {
-      "nodes": { "wall": { "type": "deform.plane", "params": { "offset": "1 mm" } }, "amp": { "type": "signal.gain" }, "device": { "type": "device.pressure", "role": "tip" } },
+      "nodes": { "wall": { "type": "deform.plane", "params": { "offset": "1 mm" } }, "amp": { "type": "signal.gain" },
+                 "device": { "type": "device.pressure", "role": "tip" } },
       "wires": [],
       "expose": { "inputs": { "position": "wall.position", "in": "amp.in" }, "params": { "offset": "wall.offset", "gain": "amp.gain" },
-                  "outputs": { "force": "wall.force", "resistance": "wall.resistance", "depth": "wall.depth", "out": "amp.out", "pressure": "device.force" } } } })"
+                  "outputs": { "force": "wall.force", "resistance": "wall.resistance", "depth": "wall.depth",
+                              "out": "amp.out", "pressure": "device.force" } } } })"
                              + more + " }");
     INFO (test::text (loaded.messages));
     REQUIRE_FALSE (hasErrors (loaded.messages));
     return std::move (loaded.graph);
 }
 
-/// What stands on the recorded ports after one tick.
+/// The values of the recorded ports after one tick.
 std::vector<double> values (const graph::Graph& g, std::vector<std::string> records, std::vector<plan::Override> overrides = {})
 {
     auto [plan, messages] = compile (g, catalogue(), { .records = std::move (records), .overrides = std::move (overrides) });
@@ -42,7 +44,7 @@ std::vector<double> values (const graph::Graph& g, std::vector<std::string> reco
     REQUIRE (plan);
     Engine { plan }.tick();
     std::vector<double> all;
-    for (const auto& tap : plan->taps)
+    for (const auto& tap : plan->taps())
         all.push_back (*tap.value);
     return all;
 }
@@ -53,7 +55,7 @@ std::vector<std::string> columns (const graph::Graph& g, std::vector<std::string
     INFO (test::text (messages));
     REQUIRE (plan);
     std::vector<std::string> names;
-    for (const auto& tap : plan->taps)
+    for (const auto& tap : plan->taps())
         names.push_back (tap.name);
     return names;
 }
@@ -76,24 +78,26 @@ using Doubles = std::vector<double>;
 const Strings gains { "finger[0]/amp.gain", "finger[1]/amp.gain", "finger[2]/amp.gain" };
 }   // namespace
 
-TEST_CASE ("a wire to a subgraph feeds every instance, to one of them that one", "[instances]")
+TEST_CASE ("a wire to a subgraph feeds every instance; a wire to one instance feeds that one", "[instances]")
 {
     for (const auto* every : { "finger.in", "finger[*].in", "finger/amp.in", "finger[*]/amp.in" })
         CHECK (values (fingers (R"("count": 3)", std::string (R"(, "level.out -> )") + every + '"'), { "finger.out" }) == Doubles { 2.0, 2.0, 2.0 });
     for (const auto* one : { "finger[1].in", "finger[1]/amp.in" })
         CHECK (values (fingers (R"("count": 3)", std::string (R"(, "level.out -> )") + one + '"'), { "finger.out" }) == Doubles { 0.0, 2.0, 0.0 });
     CHECK (values (fingers (R"("count": 3)", R"(, "level.out -> finger.gain", "level.out -> finger.in")"), { "finger.out" }) == Doubles { 4.0, 4.0, 4.0 });
-    CHECK (values (fingers (R"("count": 3)", R"(, "level.out -> (+) finger[2].gain", "level.out -> finger.in")"), { "finger.out" }) == Doubles { 2.0, 2.0, 6.0 });
+    CHECK (values (fingers (R"("count": 3)", R"(, "level.out -> (+) finger[2].gain", "level.out -> finger.in")"), { "finger.out" })
+           == Doubles { 2.0, 2.0, 6.0 });
 }
 
-TEST_CASE ("forces of all instances add up, also in a port that takes a single wire, and one by itself is not summed", "[instances]")
+TEST_CASE ("forces of all instances are summed, even in a port that accepts only one wire, and a single instance is not summed", "[instances]")
 {
     const auto overrides = R"("count": 3, "overrides": { "wall.offset": "1 mm", "[1]/wall.offset": "2 mm", "[2]/wall.offset": "4 mm" })";
     CHECK (values (fingers (overrides), { "finger.resistance" }) == Doubles { 1.0, 2.0, 4.0 });
     CHECK (values (fingers (overrides), { "motor.force.z" }) == Doubles { 7.0 });
     CHECK (values (fingers (overrides, R"(, "finger.resistance -> sum.in")"), { "sum.out" }) == Doubles { 7.0 });
     CHECK (values (fingers (overrides, R"(, "finger.force -> vsum.in")"), { "vsum.out.z" }) == Doubles { 7.0 });
-    CHECK (values (fingers (overrides, R"(, { "wire": "finger.resistance -> sum.gain", "gain": "1 1/N" }, "level.out -> sum.in")"), { "sum.out" }) == Doubles { 14.0 });
+    CHECK (values (fingers (overrides, R"(, { "wire": "finger.resistance -> sum.gain", "gain": "1 1/N" }, "level.out -> sum.in")"), { "sum.out" })
+           == Doubles { 14.0 });
     CHECK (values (fingers (overrides, R"(, "finger[2].resistance -> sum.in")"), { "sum.out" }) == Doubles { 4.0 });
     CHECK (values (fingers (overrides, R"(, "finger[1].depth -> sum.in")"), { "sum.out" }) == Doubles { 0.002 });
     CHECK (errors (fingers (overrides, R"(, "finger.depth -> sum.in")")) == Strings { "wire/which_instance at /wires/1" });
@@ -102,7 +106,7 @@ TEST_CASE ("forces of all instances add up, also in a port that takes a single w
     CHECK (errors (fingers (R"("count": 1)", R"(, "finger.depth -> sum.in")")).empty());
 }
 
-TEST_CASE ("of several values for a parameter the one that names its instance holds, wherever it stands", "[instances]")
+TEST_CASE ("if a parameter is given several values, the one that names its instance takes precedence in any order", "[instances]")
 {
     CHECK (values (fingers (R"("count": 3, "params": { "gain": 3 })"), gains) == Doubles { 3.0, 3.0, 3.0 });
     CHECK (values (fingers (R"("count": 3, "params": { "gain": 3 }, "overrides": { "[1]/amp.gain": 5 })"), gains) == Doubles { 3.0, 5.0, 3.0 });
@@ -114,20 +118,22 @@ TEST_CASE ("of several values for a parameter the one that names its instance ho
     CHECK (values (plain, gains, { { "finger.gain", 7 } }) == Doubles { 7.0, 7.0, 7.0 });
     CHECK (values (plain, gains, { { "finger/amp.gain", 7 }, { "finger[0].gain", 8 } }) == Doubles { 8.0, 7.0, 7.0 });
     CHECK (values (plain, gains, { { "finger[*]/amp.gain", 7 }, { "finger[2]/amp.gain", 9 } }) == Doubles { 7.0, 7.0, 9.0 });
-    const auto controlled = fingers (R"("count": 3)", "", R"(, "controls": { "a": { "value": 0.5, "to": { "finger.gain": [0, 2], "finger[2]/amp.gain": [0, 8] } } })");
+    const auto controlled =
+        fingers (R"("count": 3)", "", R"(, "controls": { "a": { "value": 0.5, "to": { "finger.gain": [0, 2], "finger[2]/amp.gain": [0, 8] } } })");
     CHECK (values (controlled, gains) == Doubles { 1.0, 1.0, 4.0 });
 }
 
-TEST_CASE ("what is recorded of all instances stands in a column for each", "[instances]")
+TEST_CASE ("recording all instances gives one column per instance", "[instances]")
 {
     CHECK (columns (fingers(), { "finger.resistance" }) == Strings { "finger[0].resistance", "finger[1].resistance", "finger[2].resistance" });
-    CHECK (columns (fingers(), { "finger[*].force.z", "finger[1].force" }) == Strings { "finger[0].force.z", "finger[1].force.z", "finger[2].force.z", "finger[1].force.x", "finger[1].force.y" });
+    CHECK (columns (fingers(), { "finger[*].force.z", "finger[1].force" })
+           == Strings { "finger[0].force.z", "finger[1].force.z", "finger[2].force.z", "finger[1].force.x", "finger[1].force.y" });
     CHECK (columns (fingers (R"("count": 1)"), { "finger/amp.out" }) == Strings { "finger[0]/amp.out" });
     CHECK (errors (fingers(), { .records = { "finger[3].force" } }) == Strings { "port/no_instance at record finger[3].force" });
     CHECK (errors (fingers(), { .records = { "finger.farce" } }) == Strings { "port/unknown at record finger.farce" });
 }
 
-TEST_CASE ("a feed column drives all instances, but for those that have their own", "[instances]")
+TEST_CASE ("a feed column drives all instances except those with their own column", "[instances]")
 {
     for (const bool first : { true, false })
     {
@@ -135,24 +141,24 @@ TEST_CASE ("a feed column drives all instances, but for those that have their ow
         if (! first) std::swap (options.feeds[0], options.feeds[1]);
         const auto plan = compile (fingers(), catalogue(), options).plan;
         REQUIRE (plan);
-        plan->feeds[0] = first ? 3.0 : 4.0;
-        plan->feeds[1] = first ? 4.0 : 3.0;
+        plan->feeds()[0] = first ? 3.0 : 4.0;
+        plan->feeds()[1] = first ? 4.0 : 3.0;
         plan->tick();
-        CHECK (*plan->taps[0].value == 3.0);
-        CHECK (*plan->taps[1].value == 4.0);
-        CHECK (*plan->taps[2].value == 3.0);
+        CHECK (*plan->taps()[0].value == 3.0);
+        CHECK (*plan->taps()[1].value == 4.0);
+        CHECK (*plan->taps()[2].value == 3.0);
     }
     CHECK (errors (fingers(), { .feeds = { "finger.position" } }) == Strings { "feed/width at feed column finger.position" });
 }
 
-TEST_CASE ("roles are given to all instances, or one to each", "[instances]")
+TEST_CASE ("a role is given to all instances, or one role to each", "[instances]")
 {
     const auto rolesOf = [] (const std::string& finger)
     {
         std::vector<std::string> names;
         const auto plan = compile (fingers (finger), catalogue()).plan;
         REQUIRE (plan);
-        for (const auto& role : plan->roles)
+        for (const auto& role : plan->roles())
             names.push_back (role.name);
         return names;
     };
@@ -165,15 +171,15 @@ TEST_CASE ("roles are given to all instances, or one to each", "[instances]")
 
     auto plan = compile (fingers (R"("count": 2, "roles": { "tip": [ "thumb", "index" ] })"), catalogue(), { .records = { "finger.pressure" } }).plan;
     REQUIRE (plan);
-    for (auto& role : plan->roles)
+    for (auto& role : plan->roles())
         role.state->reading.pressure = role.name == "thumb" ? 1.0 : role.name == "index" ? 2.0
                                                                                          : 9.0;
     plan->tick();
-    CHECK (*plan->taps[0].value == 1.0);
-    CHECK (*plan->taps[1].value == 2.0);
+    CHECK (*plan->taps()[0].value == 1.0);
+    CHECK (*plan->taps()[1].value == 2.0);
 }
 
-TEST_CASE ("instances within instances are named one by one, or all", "[instances]")
+TEST_CASE ("instances inside instances can be addressed individually or all together", "[instances]")
 {
     auto g = fingers (R"("count": 3, "overrides": { "[1]/wall.offset": "2 mm" })");
     test::Sketch s;
@@ -192,24 +198,29 @@ TEST_CASE ("instances within instances are named one by one, or all", "[instance
         return values (s.graph, { "palm/finger/wall.offset" });
     };
     CHECK (offsets (Json::object()) == Doubles { 0.001, 0.002, 0.001, 0.001, 0.002, 0.001 });
-    CHECK (columns (s.graph, { "palm[1]/finger/wall.depth" }) == Strings { "palm[1]/finger[0]/wall.depth", "palm[1]/finger[1]/wall.depth", "palm[1]/finger[2]/wall.depth" });
-    CHECK (columns (s.graph, { "palm[1].resistance" }) == Strings { "palm[1]/finger[0]/wall.resistance", "palm[1]/finger[1]/wall.resistance", "palm[1]/finger[2]/wall.resistance" });
+    CHECK (columns (s.graph, { "palm[1]/finger/wall.depth" })
+           == Strings { "palm[1]/finger[0]/wall.depth", "palm[1]/finger[1]/wall.depth", "palm[1]/finger[2]/wall.depth" });
+    CHECK (columns (s.graph, { "palm[1].resistance" })
+           == Strings { "palm[1]/finger[0]/wall.resistance", "palm[1]/finger[1]/wall.resistance", "palm[1]/finger[2]/wall.resistance" });
     CHECK (values (s.graph, { "motor.force.z" })[0] == Approx (8.0));
     CHECK (offsets ({ { "finger.offset", 0.004 } }) == Doubles { 0.004, 0.004, 0.004, 0.004, 0.004, 0.004 });
-    CHECK (offsets ({ { "[1]/finger[2].offset", 0.005 }, { "finger[2]/wall.offset", 0.003 }, { "[0]/finger/wall.offset", 0.004 } }) == Doubles { 0.004, 0.004, 0.004, 0.001, 0.002, 0.005 });
+    CHECK (offsets ({ { "[1]/finger[2].offset", 0.005 }, { "finger[2]/wall.offset", 0.003 }, { "[0]/finger/wall.offset", 0.004 } })
+           == Doubles { 0.004, 0.004, 0.004, 0.001, 0.002, 0.005 });
     s.graph.root.nodes[4].overrides = Json::object();
-    CHECK (values (s.graph, { "palm/finger/wall.offset" }, { { "palm[1].offset", 0.003 }, { "palm.last", 0.004 } }) == Doubles { 0.001, 0.002, 0.004, 0.003, 0.003, 0.004 });
-    CHECK (values (s.graph, { "palm/finger/wall.offset" }, { { "palm[1]/finger[*]/wall.offset", 0.003 } }) == Doubles { 0.001, 0.002, 0.001, 0.003, 0.003, 0.003 });
+    CHECK (values (s.graph, { "palm/finger/wall.offset" }, { { "palm[1].offset", 0.003 }, { "palm.last", 0.004 } })
+           == Doubles { 0.001, 0.002, 0.004, 0.003, 0.003, 0.004 });
+    CHECK (values (s.graph, { "palm/finger/wall.offset" }, { { "palm[1]/finger[*]/wall.offset", 0.003 } })
+           == Doubles { 0.001, 0.002, 0.001, 0.003, 0.003, 0.003 });
 }
 
-TEST_CASE ("bypassed, each instance passes its own inputs on", "[instances]")
+TEST_CASE ("when bypassed, each instance passes on its own inputs", "[instances]")
 {
     auto g = fingers (R"("count": 2, "bypass": true)", R"(, "level.out -> finger[1].in", "finger[1].out -> sum.in")");
     g.find ("finger");
     for (auto& [name, patch] : g.graphs)
         patch.expose.outputs.front() = { "in", { "amp", "out" } };
     g.root.wires.erase (g.root.wires.begin());
-    g.root.wires.back() = std::get<graph::Wire> (graph::parseWire ("finger[1].in -> sum.in"));
+    g.root.wires.back() = *graph::parseWire ("finger[1].in -> sum.in");
     CHECK (values (g, { "finger.in", "sum.out" }) == Doubles { 0.0, 2.0, 2.0 });
 }
 
@@ -232,13 +243,14 @@ TEST_CASE ("a wrong count is refused with its place", "[instances]")
     CHECK (errors (g) == Strings { "node/needless_count at /nodes/level/count" });
 }
 
-TEST_CASE ("an instance that is not there is refused, whoever names it", "[instances]")
+TEST_CASE ("an instance that does not exist is refused wherever it is named", "[instances]")
 {
     CHECK (errors (fingers (R"("count": 3)", R"(, "level.out -> finger[3].in")")) == Strings { "port/no_instance at /wires/1" });
     CHECK (errors (fingers (R"("count": 3)", R"(, "finger[99999].resistance -> sum.in")")) == Strings { "port/no_instance at /wires/1" });
     for (const auto* brackets : { "[0]", "[*]" })
     {
-        CHECK (errors (fingers (R"("bypass": false)", std::string (R"(, "level.out -> finger)") + brackets + R"(.in")")) == Strings { "port/not_counted at /wires/1" });
+        CHECK (errors (fingers (R"("bypass": false)", std::string (R"(, "level.out -> finger)") + brackets + R"(.in")"))
+               == Strings { "port/not_counted at /wires/1" });
         CHECK (errors (fingers (R"("count": 2)", std::string (R"(, "level)") + brackets + R"(.out -> sum.in")")) == Strings { "port/not_counted at /wires/1" });
     }
     CHECK (errors (fingers (R"("count": 3, "overrides": { "[3]/amp.gain": 1 })")) == Strings { "port/no_instance at /nodes/finger/overrides/[3]~1amp.gain" });
@@ -247,14 +259,14 @@ TEST_CASE ("an instance that is not there is refused, whoever names it", "[insta
     CHECK (errors (fingers(), { .feeds = { "finger[7].in" } }) == Strings { "port/no_instance at feed column finger[7].in" });
 }
 
-TEST_CASE ("a mistake inside a subgraph is told once, however many instances there are", "[instances]")
+TEST_CASE ("a mistake inside a subgraph is reported once, for any number of instances", "[instances]")
 {
     auto g = fingers (R"("count": 50, "overrides": { "amp.gain": "3 kg" })");
     for (auto& [name, patch] : g.graphs)
     {
         patch.nodes[0].params["offset"] = "1 s";
-        patch.wires.push_back (std::get<graph::Wire> (graph::parseWire ("wall.force -> amp.in")));
-        patch.wires.push_back (std::get<graph::Wire> (graph::parseWire ("wall.nothing -> amp.in")));
+        patch.wires.push_back (*graph::parseWire ("wall.force -> amp.in"));
+        patch.wires.push_back (*graph::parseWire ("wall.nothing -> amp.in"));
     }
     CHECK (errors (g).size() == 4);
 }

@@ -11,13 +11,16 @@ namespace
 {
 Sketch shock (const Json& damping, const Json& stiffness = { { "power", { 5e5, 1.5 } } })
 {
-    return Sketch {}.node ("one", "signal.constant", { { "value", 0.0 } }).node ("tap", "shock.hunt_crossley", Json::object(), { { "stiffness", stiffness }, { "damping", damping } }).wire ("one.out -> tap.hit");
+    return Sketch {}
+        .node ("one", "signal.constant", { { "value", 0.0 } })
+        .node ("tap", "shock.hunt_crossley", Json::object(), { { "stiffness", stiffness }, { "damping", damping } })
+        .wire ("one.out -> tap.hit");
 }
 
 Messages problems (const Sketch& sketch, CompileOptions options = {}) { return sketch.compile (std::move (options)).messages; }
 }   // namespace
 
-TEST_CASE ("a law of damping may be a dissipation, any other law may not", "[plan]")
+TEST_CASE ("a damping law may be a dissipation, but other laws may not", "[plan]")
 {
     CHECK (problems (shock ({ { "dissipation", 0.8 } })).empty());
     CHECK (problems (shock ({ { "dissipation", "0.8 s/m" } })).empty());
@@ -29,10 +32,10 @@ TEST_CASE ("a law of damping may be a dissipation, any other law may not", "[pla
 
     const auto messages = problems (shock ({ { "power", { 5e5, 1.5 } } }, { { "dissipation", 0.8 } }));
     REQUIRE (has (messages, "setting/value"));
-    CHECK (messages[0].text.find ("dissipation\"") == std::string::npos);   // it does not propose what it refuses
+    CHECK (messages[0].text.find ("dissipation\"") == std::string::npos);   // it does not suggest a form that it refuses
 }
 
-TEST_CASE ("what a node warns of does not keep the graph from running", "[plan]")
+TEST_CASE ("a warning of a node does not keep the graph from running", "[plan]")
 {
     const auto sketch = shock ({ { "dissipation", 1.0 } }, { { "power", { 1e9, 1.5 } } });
     const auto compiled = sketch.compile();

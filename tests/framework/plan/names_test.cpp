@@ -8,9 +8,9 @@
 
 using namespace tactus::plan;
 
-TEST_CASE ("names: each keeps its number, and what was not added is not found", "[plan][names]")
+TEST_CASE ("names: each name keeps its number, and a name that was not added is not found", "[plan][names]")
 {
-    rc::prop ("as a map would number them", []
+    rc::prop ("numbers are the same as in a map", []
               {
                   const auto word = rc::gen::container<std::string> (rc::gen::elementOf (std::string ("ab/")));
                   const auto added = *rc::gen::container<std::vector<std::string>> (word), asked = *rc::gen::container<std::vector<std::string>> (word);
@@ -25,7 +25,7 @@ TEST_CASE ("names: each keeps its number, and what was not added is not found", 
                           RC_ASSERT (names.find (name) == (numbers.contains (name) ? numbers[name] : Names::none)); });
 }
 
-TEST_CASE ("names: thousands of them are told apart", "[plan][names]")
+TEST_CASE ("names: thousands of names are distinguished", "[plan][names]")
 {
     Names names;
     for (std::size_t i = 0; i < 5000; ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Subgraphs that run on every k-th tick, or m times a tick.
+// Subgraphs that run on every k-th tick, or m times per tick.
 
 #include "support/parted.hpp"
 
@@ -14,11 +14,15 @@ using namespace tactus::test;
 
 namespace
 {
-/// Hits before, in and behind a section: only a bar at the end says that they are hits.
+/// Hits before, inside and after a section. Only the bar at the end reveals that they are hits.
 Parted knocking (Json rate)
 {
     Parted sketch { std::move (rate) };
-    sketch.add (sketch.part(), "amp", "signal.gain").node ("before", "signal.gain").node ("bar", "vibration.modal").wire ("before.out -> sec.in").wire ("sec.out -> bar.hit");
+    sketch.add (sketch.part(), "amp", "signal.gain")
+        .node ("before", "signal.gain")
+        .node ("bar", "vibration.modal")
+        .wire ("before.out -> sec.in")
+        .wire ("sec.out -> bar.hit");
     return sketch;
 }
 
@@ -34,14 +38,17 @@ std::vector<double> randomHits (int size)
                                                                                                     { return std::max (i, 0); }));
 }
 
-/// Counts the ticks of where it stands.
+/// Counts the ticks of the section it is in.
 void addCounter (Sketch& sketch, graph::Patch& patch)
 {
-    sketch.add (patch, "one", "signal.constant", { { "value", 1.0 } }).add (patch, "count", "signal.add").add (patch, "one.out -> count.in[0]").add (patch, "count.out -> [1] -> count.in[1]");
+    sketch.add (patch, "one", "signal.constant", { { "value", 1.0 } })
+        .add (patch, "count", "signal.add")
+        .add (patch, "one.out -> count.in[0]")
+        .add (patch, "count.out -> [1] -> count.in[1]");
 }
 }   // namespace
 
-TEST_CASE ("`every k` runs on what stands on each k-th tick, and holds what it gave", "[plan][rates][property]")
+TEST_CASE ("`every k` runs on the inputs of every k-th tick, and holds its outputs", "[plan][rates][property]")
 {
     rc::prop ("for any signal", []
               {
@@ -52,11 +59,11 @@ TEST_CASE ("`every k` runs on what stands on each k-th tick, and holds what it g
         {
             const auto held = in[n - n % static_cast<std::size_t> (k)];
             RC_ASSERT (*run.tick ({ in[n] }).value == 2.0 * held);
-            RC_ASSERT (*run.plan->taps[1].value == held);
+            RC_ASSERT (*run.plan->taps()[1].value == held);
         } });
 }
 
-TEST_CASE ("`every k` is prepared for its own rate: a filter in it is that filter on every k-th sample", "[plan][rates][property]")
+TEST_CASE ("`every k` prepares nodes for its own rate: a filter inside is that filter on every k-th sample", "[plan][rates][property]")
 {
     rc::prop ("for any signal", []
               {
@@ -70,11 +77,11 @@ TEST_CASE ("`every k` is prepared for its own rate: a filter in it is that filte
         {
             const auto value = *run.tick ({ in[n] }).value;
             if (n % static_cast<std::size_t> (k) == 0) reference.tick ({ in[n] });
-            RC_ASSERT (value == *reference.plan->taps[0].value);
+            RC_ASSERT (value == *reference.plan->taps()[0].value);
         } });
 }
 
-TEST_CASE ("`linear` is exact on ramps, k ticks late", "[plan][rates][property]")
+TEST_CASE ("`linear` is exact on ramps, delayed by k ticks", "[plan][rates][property]")
 {
     rc::prop ("for any slope", []
               {
@@ -100,10 +107,14 @@ TEST_CASE ("`linear` ends each line on the value itself", "[plan][rates][propert
         } });
 }
 
-TEST_CASE ("states are held, also where the rest goes in lines", "[plan][rates]")
+TEST_CASE ("states are held, even with linear hold", "[plan][rates]")
 {
     Parted sketch { every (4, "linear"), { { "position", "drag.position" } }, { { "state", "drag.state" }, { "force", "drag.force" } } };
-    sketch.add (sketch.part(), "drag", "friction.elasto_plastic").node ("state", "signal.gain").node ("force", "vector.length").wire ("sec.state -> state.in").wire ("sec.force -> force.in");
+    sketch.add (sketch.part(), "drag", "friction.elasto_plastic")
+        .node ("state", "signal.gain")
+        .node ("force", "vector.length")
+        .wire ("sec.state -> state.in")
+        .wire ("sec.force -> force.in");
     Run run { sketch, { "sec.position.x" }, { "state.out", "force.amount" } };
     int between = 0;
     double last = 0.0;
@@ -111,14 +122,14 @@ TEST_CASE ("states are held, also where the rest goes in lines", "[plan][rates]"
     {
         const double state = *run.tick ({ 1e-5 * n }).value;
         CHECK (state == std::floor (state));
-        between += n % 4 != 0 && *run.plan->taps[1].value != last;
-        last = *run.plan->taps[1].value;
+        between += n % 4 != 0 && *run.plan->taps()[1].value != last;
+        last = *run.plan->taps()[1].value;
     }
-    CHECK (*run.plan->taps[0].value == 2.0);
+    CHECK (*run.plan->taps()[0].value == 2.0);
     CHECK (between > 10);
 }
 
-TEST_CASE ("each hit crosses into and out of a section once, and none is lost", "[plan][rates][property]")
+TEST_CASE ("each hit enters and leaves a section once, and none is lost", "[plan][rates][property]")
 {
     rc::prop ("every k", []
               {
@@ -139,12 +150,12 @@ TEST_CASE ("each hit crosses into and out of a section once, and none is lost", 
         for (const double hit : randomHits (40))
         {
             RC_ASSERT (*run.tick ({ hit }).value == hit);
-            const auto& inside = run.plan->taps[1];
+            const auto& inside = run.plan->taps()[1];
             RC_ASSERT (inside.per_tick == m);
             for (int i = 0; i < m; ++i)
                 RC_ASSERT (inside.samples[i] == (i == 0 ? hit : 0.0));
         } });
-    rc::prop ("from several of its ticks one hit comes out", []
+    rc::prop ("several ticks of a section deliver one hit", []
               {
         const int m = *rc::gen::inRange (2, 5), k = *rc::gen::inRange (2, 5);
         Parted sketch { times (m), Json::object(), Json::object() };
@@ -168,12 +179,13 @@ TEST_CASE ("each hit crosses into and out of a section once, and none is lost", 
         RC_ASSERT (in == out); });
 }
 
-TEST_CASE ("a bar that runs `times m` is the bar at m times the rate, hit on the first of m samples", "[plan][rates][property]")
+TEST_CASE ("a bar inside `times m` equals a bar at m times the rate, hit on the first of m samples", "[plan][rates][property]")
 {
-    rc::prop ("to the bit", []
+    rc::prop ("bit for bit", []
               {
         const int m = *rc::gen::inRange (2, 7);
-        const Json modes = Json::array ({ { { "frequency", 180.0 }, { "decay", 20.0 }, { "amplitude", 0.5 } }, { { "frequency", 2900.0 }, { "decay", 90.0 }, { "amplitude", 0.2 } } });
+        const Json modes = Json::array (
+            { { { "frequency", 180.0 }, { "decay", 20.0 }, { "amplitude", 0.5 } }, { { "frequency", 2900.0 }, { "decay", 90.0 }, { "amplitude", 0.2 } } });
         Parted sketch { times (m), { { "hit", "bar.hit" } }, { { "value", "bar.value" } } };
         sketch.add (sketch.part(), "bar", "vibration.modal", Json::object(), { { "modes", modes } });
         const auto plain = Sketch {}.node ("bar", "vibration.modal", Json::object(), { { "modes", modes } });
@@ -195,7 +207,7 @@ TEST_CASE ("a bar that runs `times m` is the bar at m times the rate, hit on the
         RC_ASSERT (loudest > 0.0); });
 }
 
-TEST_CASE ("into `times m` signals go in straight lines that end on the value of the tick; the first is level", "[plan][rates][property]")
+TEST_CASE ("signals enter `times m` as straight lines that end on the value of the tick; the first line is level", "[plan][rates][property]")
 {
     rc::prop ("for any signal", []
               {
@@ -209,11 +221,11 @@ TEST_CASE ("into `times m` signals go in straight lines that end on the value of
             for (int i = 0; i < m; ++i)
                 RC_ASSERT (std::abs (tap.samples[i] - 2.0 * (before + (in[n] - before) * (i + 1) / m)) < 1e-9);
             RC_ASSERT (tap.samples[m - 1] == 2.0 * in[n]);
-            RC_ASSERT (*run.plan->taps[1].value == 2.0 * in[n]);
+            RC_ASSERT (*run.plan->taps()[1].value == 2.0 * in[n]);
         } });
 }
 
-TEST_CASE ("sections in sections multiply, also one kind in the other", "[plan][rates]")
+TEST_CASE ("factors of nested sections multiply, for both kinds", "[plan][rates]")
 {
     const auto [outer, inner, ticks, expected] = GENERATE (table<Json, Json, int, double> ({ { every (2), every (3), 12, 2.0 },
                                                                                              { times (2), times (3), 4, 24.0 },
@@ -235,26 +247,26 @@ TEST_CASE ("sections in sections multiply, also one kind in the other", "[plan][
     CHECK (counted == expected);
 }
 
-TEST_CASE ("a factor of 1 is none", "[plan][rates]")
+TEST_CASE ("a factor of 1 makes no section", "[plan][rates]")
 {
     for (const auto& rate : { every (1), every (1, "linear"), times (1) })
     {
         Run run { doubling (rate), { "sec.in" }, { "after.out", "sec.out" } };
         CHECK (*run.tick ({ 1.0 }).value == 2.0);
         CHECK (*run.tick ({ 2.0 }).value == 4.0);
-        CHECK (run.plan->taps[1].per_tick == 1);
-        CHECK (run.plan->flat.sections.size() == 1);
+        CHECK (run.plan->taps()[1].per_tick == 1);
+        CHECK (run.plan->flat().sections.size() == 1);
         CHECK (run.messages.empty());
     }
 }
 
-TEST_CASE ("delays in a section are in its ticks, and known in ticks of the graph", "[plan][rates]")
+TEST_CASE ("delays in a section count its own ticks, and are reported in ticks of the graph", "[plan][rates]")
 {
     const auto delays = [] (Json rate, const std::string& inside, const std::string& outside)
     {
         Run run { fromHandToMotor (std::move (rate), inside, outside), {}, {} };
-        REQUIRE (run.plan->delays.size() == 1);
-        return std::pair { run.plan->delays[0].shortest, run.plan->delays[0].longest };
+        REQUIRE (run.plan->delays().size() == 1);
+        return std::pair { run.plan->delays()[0].shortest, run.plan->delays()[0].longest };
     };
     using Ticks = std::pair<std::int64_t, std::int64_t>;
     CHECK (delays (Json::object(), "split.x -> late.in", "sec.out -> motor.force.x") == Ticks { 0, 0 });
@@ -269,7 +281,7 @@ TEST_CASE ("a loop through a section is refused, with its chain and the reason",
     Parted sketch { every (2), { { "a", "a.in" }, { "b", "b.in" } }, { { "x", "a.out" }, { "y", "b.out" } } };
     sketch.add (sketch.part(), "a", "signal.gain").add (sketch.part(), "b", "signal.gain").node ("between", "signal.gain").wire ("sec.x -> between.in");
 
-    SECTION ("though nothing inside joins its ends")
+    SECTION ("even if nothing inside connects its ends")
     {
         sketch.wire ("between.out -> sec.b");
         const auto messages = sketch.compile().messages;
@@ -277,7 +289,7 @@ TEST_CASE ("a loop through a section is refused, with its chain and the reason",
         CHECK (messages[0].text.find ("between.out -> sec/b.in, then sec/a.out -> between.in; 'sec' runs as a whole") != std::string::npos);
         CHECK (messages[0].remedy.find ("between.out -> [1] -> sec/b.in") != std::string::npos);
     }
-    SECTION ("a delay opens it, in ticks of the graph")
+    SECTION ("a delay in ticks of the graph opens the loop")
     {
         sketch.wire ("between.out -> [1] -> sec.b");
         Run run { sketch, { "sec.a" }, { "sec.y" } };
@@ -285,12 +297,12 @@ TEST_CASE ("a loop through a section is refused, with its chain and the reason",
         run.tick ({ 2.0 });
         CHECK (*run.tick ({ 3.0 }).value == 1.0);
     }
-    SECTION ("straight from its output to its input")
+    SECTION ("directly from its output to its input")
     {
         sketch.wire ("sec.y -> sec.b");
         CHECK (has (sketch.compile().messages, "graph/loop"));
     }
-    SECTION ("a delay inside does not help: what leaves waits for the whole")
+    SECTION ("a delay inside does not help: outputs wait for the whole section")
     {
         sketch.add (sketch.part(), "late", "signal.delay").add (sketch.part(), "b.out -> late.in");
         sketch.expose ("part", { { "b", "b.in" } }, { { "x", "late.out" } });
@@ -302,14 +314,18 @@ TEST_CASE ("a loop through a section is refused, with its chain and the reason",
 TEST_CASE ("`times` that returns to the hand is refused, port by port", "[plan][rates]")
 {
     Parted sketch { times (4), { { "hit", "bar.hit" } }, { { "value", "bar.value" } } };
-    sketch.add (sketch.part(), "bar", "vibration.modal").node ("wall", "deform.plane").node ("hand", "device.position").node ("mix", "signal.add").node ("motor", "device.force");
+    sketch.add (sketch.part(), "bar", "vibration.modal")
+        .node ("wall", "deform.plane")
+        .node ("hand", "device.position")
+        .node ("mix", "signal.add")
+        .node ("motor", "device.force");
     sketch.wire ("hand.position -> wall.position").wire ("wall.hit -> sec.hit").wire ("wall.force -> motor.force");
     const auto fine = sketch.compile();
     INFO (test::text (fine.messages));
     REQUIRE (fine.plan);
     CHECK (fine.messages.empty());
 
-    SECTION ("by a node in between, however late")
+    SECTION ("through a node in between, no matter how much later")
     {
         sketch.wire ("sec.value -> mix.in[0]").wire ("mix.out -> [3] -> motor.force.z");
         const auto messages = sketch.compile().messages;
@@ -319,13 +335,13 @@ TEST_CASE ("`times` that returns to the hand is refused, port by port", "[plan][
         CHECK (m.where == "/nodes/sec/times");
         CHECK_FALSE (m.remedy.empty());
     }
-    SECTION ("by a parameter")
+    SECTION ("through a parameter")
     {
         sketch.wire ("sec.value -> (+) wall.offset");
         sketch.graph.root.wires.back().gain = "1 m/N";
         CHECK (has (sketch.compile().messages, "rate/to_the_hand"));
     }
-    SECTION ("by a motor inside")
+    SECTION ("through a motor inside")
     {
         sketch.add (sketch.part(), "motor", "device.force");
         CHECK (has (sketch.compile().messages, "rate/to_the_hand"));
@@ -346,7 +362,7 @@ TEST_CASE ("`times` that returns to the hand is refused, port by port", "[plan][
     }
 }
 
-TEST_CASE ("what is wrong with a rate is said, each with its id and place", "[plan][rates]")
+TEST_CASE ("mistakes with rates are reported, each with its own id and place", "[plan][rates]")
 {
     const auto problem = [] (Json rate)
     { return doubling (std::move (rate)).compile().messages; };
@@ -367,7 +383,7 @@ TEST_CASE ("what is wrong with a rate is said, each with its id and place", "[pl
     CHECK (is (plain.compile().messages, "rate/no_subgraph", "/nodes/amp/every"));
 }
 
-TEST_CASE ("a node's own warning is asked for the rate it runs at", "[plan][rates]")
+TEST_CASE ("a node's own warning refers to the rate at which the node runs", "[plan][rates]")
 {
     const auto knock = [] (Json rate)
     {
@@ -379,12 +395,12 @@ TEST_CASE ("a node's own warning is asked for the rate it runs at", "[plan][rate
     CHECK (has (knock (every (8)), "node/warning"));
 }
 
-TEST_CASE ("a tap in a `times` section has all samples of the tick, and at other rates what stands at their ends", "[plan][rates]")
+TEST_CASE ("a tap in a `times` section has all samples of the tick, or at a different rate, those at the ends of equal parts of the tick", "[plan][rates]")
 {
     Run run { doubling (times (4)), { "sec.in" }, { "sec.out", "after.out" } };
     run.tick ({ 0.0 });
     const auto& tap = run.tick ({ 2.0 });
-    const auto& plain = run.plan->taps[1];
+    const auto& plain = run.plan->taps()[1];
     CHECK (std::vector (tap.samples, tap.samples + 4) == std::vector { 1.0, 2.0, 3.0, 4.0 });
     CHECK (tap.sample (2, 4) == 3.0);
     CHECK (tap.sample (0, 2) == 2.0);

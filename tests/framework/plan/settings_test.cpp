@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/sketch.hpp"
 
-#include <framework/catalogue.hpp>
+#include <framework/node/catalogue.hpp>
 #include <framework/plan/settings.hpp>
 
 #include <catch2/catch.hpp>
@@ -72,7 +72,7 @@ struct Wanting
     static constexpr std::tuple ports {
         setting (&Settings::length, "length", unit::metre, "a length", { .hard = { 0, 1 } }),
         setting (&Settings::number, "number", unit::count, "a whole number", { .hard = { 1, 10 } }),
-        setting (&Settings::text, "text", unit::count, "a text"),
+        setting (&Settings::text, "text", unit::count, "a string"),
         setting (&Settings::vector, "vector", unit::metre, "a vector"),
         setting (&Settings::numbers, "numbers", unit::newton, "a list of numbers", { .hard = { 0, 5 } }),
         setting (&Settings::curve, "curve", unit::metre, unit::newton, "a curve"),
@@ -92,7 +92,7 @@ struct Wanting
     Outputs tick (const Inputs&) noexcept { return {}; }
 };
 
-/// A disk with one file of each kind, which remembers what it was asked for.
+/// A fake disk with one file of each kind. It records all requests.
 struct Disk final : Assets
 {
     std::vector<std::string> asked;
@@ -105,7 +105,7 @@ struct Disk final : Assets
     Loaded<T> give (const std::string& path, const std::shared_ptr<const T>& content)
     {
         asked.push_back (path);
-        if (path.find ("gone") != std::string::npos) return path + ": there is no such file";
+        if (path.find ("gone") != std::string::npos) return Message::error ("asset/unreadable", path, "there is no such file");
         return content;
     }
     Loaded<Signal> signal (const std::string& path) override { return give (path, one_signal); }
@@ -128,7 +128,7 @@ Messages messagesFor (const char* id, const Json& value, Assets* assets, const s
     return compile (sketch.graph, Catalogue { { describe<Wanting>() } }, { .assets = assets }).messages;
 }
 
-/// The settings of a node whose graph has this one.
+/// The settings of a node in a graph that has this setting.
 Wanting::Settings reads (const char* id, const Json& value)
 {
     Disk disk;
@@ -140,13 +140,13 @@ Wanting::Settings reads (const char* id, const Json& value)
     std::string where;
     Disk again;
     const auto read = plan::readSetting (value, *sheet, { &again, "" }, where);
-    REQUIRE (std::holds_alternative<SettingValue> (read));
+    REQUIRE (read.has_value());
     const auto node = type().make();
-    sheet->set (node.get(), std::get<SettingValue> (read));
+    sheet->set (node.get(), *read);
     return static_cast<Wanting*> (node.get())->settings;
 }
 
-/// "pointer: sentence" of the one error, the pointer from the setting on.
+/// "pointer: text" of the only error, with the pointer relative to the setting.
 std::string refusal (const char* id, const Json& value, bool with_files = true)
 {
     Disk disk;
@@ -156,20 +156,21 @@ std::string refusal (const char* id, const Json& value, bool with_files = true)
     const auto base = std::string ("/nodes/it/settings/") + id, lead = std::string ("setting '") + id + "' of 'it': ";
     CHECK (messages[0].where.starts_with (base));
     CHECK (messages[0].text.starts_with (lead));
-    return messages[0].where.substr (std::min (base.size(), messages[0].where.size())) + ": " + messages[0].text.substr (std::min (lead.size(), messages[0].text.size()));
+    return messages[0].where.substr (std::min (base.size(), messages[0].where.size())) + ": "
+           + messages[0].text.substr (std::min (lead.size(), messages[0].text.size()));
 }
 
 bool contains (const std::string& text, const std::string& part) { return text.find (part) != std::string::npos; }
 }   // namespace
 
-TEST_CASE ("a number is SI or has a unit, and stays in range", "[plan][settings]")
+TEST_CASE ("a number is SI or has a unit, and must be in range", "[plan][settings]")
 {
     CHECK (reads ("length", 0.2).length == 0.2);
     CHECK (reads ("length", "20 mm").length == Approx (0.02));
-    CHECK (refusal ("length", "20 mN") == ": its unit is N, but m belongs here");
+    CHECK (refusal ("length", "20 mN") == ": its unit is N, but it must be m");
     CHECK (refusal ("length", 2) == ": 2 is out of range: it must be from 0 to 1");
-    CHECK (contains (refusal ("length", Json::array ({ 1 })), "is not a number"));
-    CHECK (contains (refusal ("length", nullptr), "is not a number"));
+    CHECK (contains (refusal ("length", Json::array ({ 1 })), "neither a number nor text"));
+    CHECK (contains (refusal ("length", nullptr), "neither a number nor text"));
 
     CHECK (reads ("number", 4).number == 4);
     CHECK (refusal ("number", 4.5) == ": 4.5 is not a whole number");
@@ -177,21 +178,21 @@ TEST_CASE ("a number is SI or has a unit, and stays in range", "[plan][settings]
     CHECK (contains (refusal ("number", 1e300), "is out of range"));
 }
 
-TEST_CASE ("a text is a text", "[plan][settings]")
+TEST_CASE ("a text must be a string", "[plan][settings]")
 {
     CHECK (reads ("text", "a b").text == "a b");
-    CHECK (refusal ("text", 4) == ": it must be text");
+    CHECK (refusal ("text", 4) == ": it must be a string");
 }
 
-TEST_CASE ("a vector has three numbers, each perhaps with a unit", "[plan][settings]")
+TEST_CASE ("a vector has three numbers, each with an optional unit", "[plan][settings]")
 {
     CHECK (reads ("vector", { 1, 2, "30 mm" }).vector.isApprox (Vec3 (1, 2, 0.03)));
-    CHECK (refusal ("vector", { 1, 2 }) == ": it must be three numbers, as in [0, 0, 1], but it is a list of 2");
-    CHECK (refusal ("vector", 3) == ": it must be three numbers, as in [0, 0, 1], but it is 3");
-    CHECK (refusal ("vector", { 1, 2, "1 N" }) == "/2: its unit is N, but m belongs here");
+    CHECK (refusal ("vector", { 1, 2 }) == ": it must be three numbers, such as [0, 0, 1], but it is a list of 2");
+    CHECK (refusal ("vector", 3) == ": it must be three numbers, such as [0, 0, 1], but it is 3");
+    CHECK (refusal ("vector", { 1, 2, "1 N" }) == "/2: its unit is N, but it must be m");
 }
 
-TEST_CASE ("numbers are a list, which may be empty", "[plan][settings]")
+TEST_CASE ("`numbers` is a list, which may be empty", "[plan][settings]")
 {
     CHECK (reads ("numbers", { 1, "2 mN" }).numbers == std::vector { 1.0, 0.002 });
     CHECK (reads ("numbers", Json::array()).numbers.empty());
@@ -200,7 +201,7 @@ TEST_CASE ("numbers are a list, which may be empty", "[plan][settings]")
     CHECK (contains (refusal ("numbers", { 1, "x" }), "/1: "));
 }
 
-TEST_CASE ("a curve has two lists, and its x rises", "[plan][settings]")
+TEST_CASE ("a curve has two lists, and its x must increase", "[plan][settings]")
 {
     const auto curve = reads ("curve", { { 0, "10 mm" }, { 1, 2 } }).curve;
     CHECK (curve.x == std::vector { 0.0, 0.01 });
@@ -209,10 +210,10 @@ TEST_CASE ("a curve has two lists, and its x rises", "[plan][settings]")
     CHECK (contains (refusal ("curve", { { 0, 1 }, { 1 } }), ": both lists need the same length"));
     CHECK (contains (refusal ("curve", { Json::array(), Json::array() }), ": both lists need the same length, at least 1"));
     CHECK (refusal ("curve", { { 0, 0 }, { 1, 1 } }) == "/0/1: x must increase, but 0 follows 0");
-    CHECK (refusal ("curve", { { 0, 1 }, { 1, "1 m" } }) == "/1/1: its unit is m, but N belongs here");
+    CHECK (refusal ("curve", { { 0, 1 }, { 1, "1 m" } }) == "/1/1: its unit is m, but it must be N");
 }
 
-TEST_CASE ("a law is of a known shape", "[plan][settings]")
+TEST_CASE ("a law must have a known form", "[plan][settings]")
 {
     CHECK (reads ("law", { { "power", { 100, 1 } } }).law (0.01) == Approx (1.0));
     CHECK (contains (refusal ("law", 3), ": it must be {\"power\""));
@@ -220,10 +221,10 @@ TEST_CASE ("a law is of a known shape", "[plan][settings]")
     CHECK (refusal ("law", { { "power", { 100 } } }) == "/power: it must be a list of two numbers");
     CHECK (contains (refusal ("law", { { "power", { -1, 1 } } }), "/power/0: -1 is out of range"));
     CHECK (contains (refusal ("law", { { "table", { { -1, 1 }, { 0, 1 } } } }), "/table/0/0: "));
-    CHECK (contains (refusal ("law", { { "table", { { 0, 1 }, { 1, 1 } } } }), "/table/1/0: a law starts from (0, 0)"));
+    CHECK (contains (refusal ("law", { { "table", { { 0, 1 }, { 1, 1 } } } }), "/table/1/0: a law must start at (0, 0)"));
 }
 
-TEST_CASE ("a record keeps the defaults of what is not said", "[plan][settings]")
+TEST_CASE ("a record keeps the defaults of missing fields", "[plan][settings]")
 {
     const auto mode = reads ("record", { { "frequency", "2 kHz" } }).record;
     CHECK (mode.frequency == 2000.0);
@@ -235,10 +236,10 @@ TEST_CASE ("a record keeps the defaults of what is not said", "[plan][settings]"
     CHECK (refusal ("record", { { "frequncy", 3 } }) == "/frequncy: it has no 'frequncy' (did you mean 'frequency'?); it takes frequency, count, name");
     CHECK (contains (refusal ("record", { { "frequency", -3 } }), "/frequency: -3 is out of range"));
     CHECK (refusal ("record", { { "count", 1.5 } }) == "/count: 1.5 is not a whole number");
-    CHECK (refusal ("record", { { "name", 1 } }) == "/name: it must be text");
+    CHECK (refusal ("record", { { "name", 1 } }) == "/name: it must be a string");
 }
 
-TEST_CASE ("records hold lists, vectors and records of their own", "[plan][settings]")
+TEST_CASE ("records can hold lists, vectors and other records", "[plan][settings]")
 {
     const auto models = reads ("records", { { { "coefficients", { 1, -0.9 } }, { "mode", { { "count", 5 } } } }, { { "direction", { 1, 0, 0 } } } }).records;
     REQUIRE (models.size() == 2);
@@ -259,7 +260,7 @@ TEST_CASE ("records hold lists, vectors and records of their own", "[plan][setti
     CHECK (contains (refusal ("records", { { { "direction", { 1, 2 } } } }), "/0/direction: it must be three numbers"));
 }
 
-TEST_CASE ("files are found from the folder of the graph, and read as what the setting is", "[plan][settings]")
+TEST_CASE ("files are found relative to the folder of the graph, and read as the setting needs", "[plan][settings]")
 {
     CHECK (reads ("signal", "tap.wav").signal->rate_hz == 8000.0);
     CHECK (reads ("image", "bark.png").image.grid->values[0] == 0.5);
@@ -287,7 +288,10 @@ const Json axes = { linear, linear, linear };
 /// A square of two triangles.
 Json square()
 {
-    return { { "nodes", { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, "10 mm" } } }, { "triangles", { { 0, 1, 2 }, { 0, 2, 3 } } }, { "curves", { axes } }, { "mu", 0.3 } };
+    return { { "nodes", { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, "10 mm" } } },
+             { "triangles", { { 0, 1, 2 }, { 0, 2, 3 } } },
+             { "curves", { axes } },
+             { "mu", 0.3 } };
 }
 
 Json with (Json surface, const char* key, Json value)
@@ -305,7 +309,7 @@ Json without (Json surface, const char* key)
 Json four (const Json& one) { return { one, one, one, one }; }
 }   // namespace
 
-TEST_CASE ("a surface stands in the graph, or takes its mesh from a file", "[plan][settings]")
+TEST_CASE ("a surface is written in the graph or takes its mesh from a file", "[plan][settings]")
 {
     const auto s = reads ("surface", square()).surface;
     REQUIRE (s->mesh->points.size() == 4);
@@ -324,7 +328,7 @@ TEST_CASE ("a surface stands in the graph, or takes its mesh from a file", "[pla
     CHECK (from_file->mu[2](0.001) == Approx (1.0));
 }
 
-TEST_CASE ("a surface may have frames, and curves and ratios of each node", "[plan][settings]")
+TEST_CASE ("a surface may have frames, and curves and ratios for each node", "[plan][settings]")
 {
     const Json frame = { { 0, 1, 0 }, { 1, 0, 0 }, { 0, 0, -1 } };
     auto json = with (with (square(), "frames", four (frame)), "curves", { four (axes), axes });
@@ -340,7 +344,7 @@ TEST_CASE ("a surface may have frames, and curves and ratios of each node", "[pl
     CHECK (s->mu[3](0.5) == 1.0);
 }
 
-TEST_CASE ("every fault of a surface is shown where it is", "[plan][settings]")
+TEST_CASE ("every error in a surface is reported at its place", "[plan][settings]")
 {
     const auto fault = [] (const char* key, const Json& value)
     { return refusal ("surface", with (square(), key, value)); };
@@ -352,12 +356,12 @@ TEST_CASE ("every fault of a surface is shown where it is", "[plan][settings]")
     CHECK (contains (fault ("nodes", 3), "/nodes: it must be a list of points"));
     CHECK (fault ("nodes", Json::array()) == "/nodes: it needs at least three nodes");
     CHECK (contains (fault ("nodes", { { 0, 0, 0 }, { 0, 0 }, { 0, 0, 0 } }), "/nodes/1: it must be three numbers"));
-    CHECK (fault ("nodes", { { 0, 0, 0 }, { 0, "1 N", 0 }, { 0, 0, 0 } }) == "/nodes/1/1: its unit is N, but m belongs here");
+    CHECK (fault ("nodes", { { 0, 0, 0 }, { 0, "1 N", 0 }, { 0, 0, 0 } }) == "/nodes/1/1: its unit is N, but it must be m");
 
     CHECK (refusal ("surface", without (square(), "triangles")) == ": it needs `triangles`");
     CHECK (contains (fault ("triangles", 3), "/triangles: it must be a list of triangles"));
     CHECK (fault ("triangles", Json::array()) == "/triangles: it needs at least one triangle");
-    CHECK (contains (fault ("triangles", { { 0, 1 } }), "/triangles/0: it must be three numbers of nodes"));
+    CHECK (contains (fault ("triangles", { { 0, 1 } }), "/triangles/0: it must be three node numbers, such as [0, 1, 2]"));
     CHECK (fault ("triangles", { { 0, 1, 2 }, { 0, 1, 4 } }) == "/triangles/1/2: 4 is out of range: it must be from 0 to 3");
     CHECK (contains (fault ("triangles", { { 0, 1, -1 } }), "/triangles/0/2: -1 is out of range"));
     CHECK (fault ("triangles", { { 0, 1, 1.5 } }) == "/triangles/0/2: 1.5 is not a whole number");
@@ -381,11 +385,11 @@ TEST_CASE ("every fault of a surface is shown where it is", "[plan][settings]")
     CHECK (contains (fault ("mu", { 0.1, 0.2 }), "/mu: it must be one ratio for each of the 4 nodes, or one for all"));
     CHECK (contains (fault ("mu", { 0.1, 0.2, -1, 0.3 }), "/mu/2: -1 is out of range"));
     CHECK (contains (fault ("mu", { { "power", 3 } }), "/mu/power: it must be a list of two numbers"));
-    CHECK (contains (fault ("mu", "3 N"), "/mu: its unit is N, but 1 belongs here"));
+    CHECK (contains (fault ("mu", "3 N"), "/mu: its unit is N, but it must be 1"));
 
     const Json file = { { "mesh", "liver.obj" }, { "curves", { axes } }, { "mu", 0 } };
-    CHECK (refusal ("surface", with (file, "nodes", Json::array())) == "/nodes: `mesh` and `nodes` exclude each other");
-    CHECK (refusal ("surface", with (file, "frames", Json::array())) == "/frames: `mesh` and `frames` exclude each other");
+    CHECK (refusal ("surface", with (file, "nodes", Json::array())) == "/nodes: give either `mesh` or `nodes`, not both");
+    CHECK (refusal ("surface", with (file, "frames", Json::array())) == "/frames: give either `mesh` or `frames`, not both");
     CHECK (refusal ("surface", with (file, "mesh", "gone.obj")) == "/mesh: gone.obj: there is no such file");
     CHECK (contains (refusal ("surface", with (file, "mesh", 3)), "/mesh: it must be the path of a file"));
     CHECK (contains (refusal ("surface", file, false), "/mesh: this program cannot read 'liver.obj'"));
@@ -394,8 +398,23 @@ TEST_CASE ("every fault of a surface is shown where it is", "[plan][settings]")
 
 TEST_CASE ("no value of a setting breaks the reader", "[plan][settings]")
 {
-    const std::vector<Json> scraps { nullptr, true, 3, -1, 1e308, "", "1 m", "a.wav", Json::array(), Json::object(), linear, axes, square(), { 0, 0, 0 }, { { "mesh", "m" } }, { { "frequency", 1 } } };
-    rc::prop ("any nesting of scraps", [&]
+    const std::vector<Json> scraps { nullptr,
+                                     true,
+                                     3,
+                                     -1,
+                                     1e308,
+                                     "",
+                                     "1 m",
+                                     "a.wav",
+                                     Json::array(),
+                                     Json::object(),
+                                     linear,
+                                     axes,
+                                     square(),
+                                     { 0, 0, 0 },
+                                     { { "mesh", "m" } },
+                                     { { "frequency", 1 } } };
+    rc::prop ("any nesting of fragments", [&]
               {
         Json value = *rc::gen::elementOf (scraps);
         for (int depth = *rc::gen::inRange (0, 5); depth > 0; --depth)
@@ -414,9 +433,9 @@ TEST_CASE ("no value of a setting breaks the reader", "[plan][settings]")
             Disk disk;
             std::string where;
             const auto read = plan::readSetting (value, sheet, { &disk, "" }, where);
-            if (const auto* made = std::get_if<SettingValue> (&read))
-                sheet.set (type().make().get(), *made);
+            if (read)
+                sheet.set (type().make().get(), *read);
             else
-                RC_ASSERT_FALSE (std::get<std::string> (read).empty());
+                RC_ASSERT_FALSE (read.error().text.empty());
         } });
 }

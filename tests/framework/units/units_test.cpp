@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <framework/units.hpp>
+#include <framework/text/units.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -13,20 +13,20 @@ namespace
 Measure read (std::string_view text)
 {
     const auto result = parseMeasure (text);
-    if (const auto* wrong = std::get_if<std::string> (&result)) FAIL (*wrong);
-    return std::get<Measure> (result);
+    if (! result) FAIL (result.error().text);
+    return *result;
 }
 
 std::string refusal (std::string_view text)
 {
     const auto result = parseMeasure (text);
-    return std::holds_alternative<Measure> (result) ? "" : std::get<std::string> (result);
+    return result ? "" : result.error().text;
 }
 
 constexpr Dimension none {};
 }   // namespace
 
-TEST_CASE ("a value in any unit is the same double as the value in SI")
+TEST_CASE ("a value in any unit reads to the same double as the value in SI")
 {
     CHECK (read ("0.4 mm").value == 0.0004);
     CHECK (read ("0.7 mm").value == 0.0007);
@@ -70,7 +70,7 @@ TEST_CASE ("units carry their dimension")
     CHECK (read ("1 kPa").dimension == (Dimension { -1, 1, -2 }));
 }
 
-TEST_CASE ("what is no value is refused with a sentence that says why")
+TEST_CASE ("text that is not a value is refused with the reason")
 {
     CHECK_THAT (refusal (""), Contains ("empty"));
     CHECK_THAT (refusal ("   "), Contains ("empty"));
@@ -82,24 +82,24 @@ TEST_CASE ("what is no value is refused with a sentence that says why")
     CHECK_THAT (refusal ("1e999"), Contains ("too large"));
     CHECK_THAT (refusal ("1e308 km"), Contains ("too large"));
     CHECK_THAT (refusal ("0,4 mm"), Contains ("decimal point"));
-    CHECK_THAT (refusal ("0.4 foo"), Contains ("unknown unit 'foo'; known are m, g, s,"));
+    CHECK_THAT (refusal ("0.4 foo"), Contains ("unknown unit 'foo'; the known units are m, g, s,"));
     CHECK_THAT (refusal ("3 min"), Contains ("unknown unit 'min'"));
     CHECK_THAT (refusal ("3 kdeg"), Contains ("unknown unit 'kdeg'"));
     CHECK_THAT (refusal ("3 m²"), Contains ("unknown unit 'm²'"));
     CHECK_THAT (refusal ("-6 dB"), Contains ("bare number"));
-    CHECK_THAT (refusal ("3 N/"), Contains ("a unit should follow"));
-    CHECK_THAT (refusal ("3 N//m"), Contains ("a unit should stand before '/m'"));
-    CHECK_THAT (refusal ("3 4"), Contains ("a unit should stand before"));
-    CHECK_THAT (refusal ("3 N/4"), Contains ("a unit should stand before"));
+    CHECK_THAT (refusal ("3 N/"), Contains ("a unit is missing at the end"));
+    CHECK_THAT (refusal ("3 N//m"), Contains ("a unit is missing before '/m'"));
+    CHECK_THAT (refusal ("3 4"), Contains ("a unit is missing before"));
+    CHECK_THAT (refusal ("3 N/4"), Contains ("a unit is missing before"));
     CHECK_THAT (refusal ("3 m2s"), Contains ("side by side"));
     CHECK_THAT (refusal ("3 m^x"), Contains ("integer"));
     CHECK_THAT (refusal ("3 m99999999999"), Contains ("integer"));
-    CHECK_THAT (refusal ("3 m9 m9"), Contains ("more than any physical quantity"));
+    CHECK_THAT (refusal ("3 m9 m9"), Contains ("higher than in any physical quantity"));
     CHECK_THAT (refusal (std::string (100000, '1')), Contains ("too long"));
     CHECK_THAT (refusal ("1 \xFF\x01"), Contains ("'\\xFF\\x01'"));
 }
 
-TEST_CASE ("a dimension is written in a way that reads back")
+TEST_CASE ("a dimension is written so that it can be read back")
 {
     CHECK (symbolOf (none) == "1");
     CHECK (symbolOf (unit::newton.dimension) == "N");

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Holds `tactus render` to an independent implementation of the models.
+"""Compares `tactus render` with an independent implementation of the models.
 
 compare.py --program PATH [--seeds N] [--first SEED] [--model NAME]...
-    random sets, each a graph and a feed, of each model;
+    random sets (a graph and a feed) for each model;
 compare.py --golden
-    the implementation itself, against the golden sets.
+    compares the implementation itself with the golden sets.
 
-Prints a line a model: number of sets, worst error in units of its tolerance.
-A model that the program does not have yet is skipped.
-Exit status 1 if anything differs; its graph and feed are kept and named.
+Prints one line per model: the number of sets, and the worst error in units of its tolerance.
+A model that the program lacks is skipped.
+Exits with status 1 if anything differs, and prints where the graph and the feed are stored.
 """
 
 import argparse
@@ -45,7 +45,7 @@ def write_feed(set_, path):
 
 
 def render(program, set_, folder):
-    """The recorded columns; a sentence instead where the program refuses."""
+    """Returns the recorded columns, or a message if the program refuses the graph."""
     graph, feed, table = (folder / f for f in ("graph.json", "feed.csv", "out.csv"))
     write_graph(set_, graph)
     command = [program, "render", str(graph), "--out", str(table), "--record",
@@ -66,7 +66,7 @@ def render(program, set_, folder):
 
 
 def restless(set_, got):
-    """A sentence on an output that changes while all inputs of its node repeat."""
+    """Describes the first output that changes while all inputs of its node repeat, if there is one."""
     for name in set_.nodes:
         fed = list(zip(*(column for port, column in set_.feed.items()
                          if port.startswith(name + "."))))
@@ -77,12 +77,12 @@ def restless(set_, got):
             for k in rests:
                 if column[k] != column[k - 1]:
                     return (f"{port} row {k}: {column[k]!r} after "
-                            f"{column[k - 1]!r}, though the sample repeats")
+                            f"{column[k - 1]!r}, although the sample repeats")
     return ""
 
 
 def judge(set_, got):
-    """(error in units of its tolerance, sentence) of the worst column."""
+    """Returns (error in units of its tolerance, message) for the worst column."""
     if isinstance(got, str):
         return float("inf"), got
     found = (0.0, "")
@@ -100,28 +100,28 @@ def judge(set_, got):
 
 
 def one(program, model, seed):
-    """Renders and compares one set; keeps its folder where it differs."""
+    """Renders and compares one set. Keeps its folder if the results differ."""
     set_ = sets.make(model, seed)
     folder = pathlib.Path(tempfile.mkdtemp(prefix=f"tactus_{model}_{seed}_"))
     error, sentence = judge(set_, render(program, set_, folder))
     if error <= 1.0:
         shutil.rmtree(folder)
         return error, None
-    return error, f"  seed {seed}: {sentence}\n    kept in {folder}"
+    return error, f"  seed {seed}: {sentence}\n    stored in {folder}"
 
 
 def unknown_type(program, model):
-    """A node type of the model that the program does not have."""
+    """Returns a node type of the model that the program does not have, or None."""
     types = {node["type"] for node in sets.make(model, 1).nodes.values()}
     return next((kind for kind in sorted(types) if subprocess.run(
         [program, "nodes", kind], capture_output=True).returncode), None)
 
 
 def compare(program, model, seeds):
-    """Whether all sets of a model agree."""
+    """Returns whether all sets of a model agree."""
     missing = unknown_type(program, model)
     if missing:
-        print(f"skipped: {model}, for there is no {missing}")
+        print(f"skipped: {model}: the program has no {missing}")
         return True
     results = [one(program, model, seed) for seed in seeds]
     wrong = [sentence for _, sentence in results if sentence]
@@ -134,7 +134,7 @@ def compare(program, model, seeds):
 
 
 def compare_golden():
-    """Whether the implementation meets every golden set."""
+    """Returns whether the implementation reproduces every golden set."""
     right = True
     for name in golden.MODELS:
         most, column, row = golden.check(name)
@@ -147,14 +147,14 @@ def compare_golden():
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--program", help="path of tactus")
-    parser.add_argument("--seeds", type=int, default=20, help="sets a model (20)")
-    parser.add_argument("--first", type=int, default=1, help="first seed (1)")
+    parser.add_argument("--seeds", type=int, default=20, help="number of sets per model; default: 20")
+    parser.add_argument("--first", type=int, default=1, help="first seed; default: 1")
     parser.add_argument("--model", action="append", choices=sorted(sets.MODELS))
     parser.add_argument("--golden", action="store_true",
                         help="check the implementation on the golden sets")
     given = parser.parse_args()
     if not given.golden and not given.program:
-        parser.error("--program or --golden is needed")
+        parser.error("either --program or --golden is required")
     right = compare_golden() if given.golden else True
     if given.program:
         seeds = range(given.first, given.first + given.seeds)

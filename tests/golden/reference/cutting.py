@@ -16,7 +16,7 @@ DEFAULTS = {"depth": 0.0, "width": 0.02, "toughness": 200.0,
 
 
 def first_crack(g0, g1, d_r, e_c, resistance):
-    """Length of the crack at rupture, and the energy that is left over."""
+    """Length of the crack at rupture, and the remaining energy."""
     given = laws.energy(g0, d_r)
 
     def missing(c):
@@ -32,7 +32,7 @@ def first_crack(g0, g1, d_r, e_c, resistance):
 
 
 def steps(params, feed):
-    """The latched parameters are those of params; a feed holds the depth alone."""
+    """Latched parameters come from params; a feed contains only the depth."""
     now = {**DEFAULTS, **params}
     g0, g1 = now["law"], now["cracked_law"] or now["law"]
     resistance = now["toughness"] * now["width"]

@@ -7,8 +7,8 @@ d^nu = d . u^nu, f^nu = sum n_i f_i^nu(d^nu), the force on the tool is
 the ticks after a slip may still carry it on. Without friction c is always the
 nearest point, and -sum grad n_i Phi_i is added.
 
-The chapter has no end of a surface. Here a contact on the rim of an open mesh is
-over once p lies further beyond it, along the triangle, than above or below.
+The chapter does not treat the rim of a surface. Here a contact on the rim of an
+open mesh ends once p is further beyond it, along the triangle, than above or below.
 """
 
 import math
@@ -24,7 +24,7 @@ ZERO = (0.0, 0.0, 0.0)
 
 
 def placed(settings):
-    """The surface in the world, its curves as [tool][node][axis]."""
+    """The surface in world coordinates, with its curves as [tool][node][axis]."""
     surface = settings["surface"]
     turn = vec.rotation(tuple(settings.get("rotation", ZERO)))
     origin = tuple(settings.get("origin", ZERO))
@@ -69,7 +69,7 @@ def nearest_weights(a, b, c, p):
 
 
 def projections(surface, p):
-    """(distance, triangle, weights, point) of every triangle, nearest first."""
+    """Returns (distance, triangle, weights, point) for every triangle, the nearest first."""
     found = []
     for index, corners in enumerate(surface["triangles"]):
         at = [surface["nodes"][i] for i in corners]
@@ -123,7 +123,7 @@ def gradients(surface, triangle):
 
 
 def touch(surface, p, near, latched):
-    """The contact at the nearest point of near, and the deflection in its frame."""
+    """The contact at the nearest point in `near`, and the deflection in its frame."""
     _, triangle, weights, c = near
     axes = frame(surface, triangle, weights)
     contact = {"triangle": triangle, "weights": weights, "c": c, "axes": axes,
@@ -178,20 +178,20 @@ def slipped(surface, contact, d, p):
 
 
 def on_edge(surface, contact):
-    """Whether c is on the rim of its triangle, where the gradient is left open."""
+    """Whether c is on the rim of its triangle, where the gradient is not defined."""
     heights = (1.0 / vec.norm(g) for g in
                gradients(surface, contact["triangle"]))
     return any(w * h < ON_EDGE for w, h in zip(contact["weights"], heights))
 
 
 def shared(surface, contact):
-    """Whether c is so near a second triangle that either may be meant."""
+    """Whether c is so close to a second triangle that either one is correct."""
     near = projections(surface, contact["c"])
     return len(near) > 1 and near[1][0] < ON_EDGE
 
 
 def beyond_rim(surface, contact, p):
-    """Whether c is on the rim and p past it, further along than up or down."""
+    """Whether c is on the rim and p is past it: farther from c along the triangle's plane than above or below it."""
     c, away = contact["c"], vec.sub(p, contact["c"])
     here = surface["triangles"][contact["triangle"]]
     corner = [i for i, w in zip(here, contact["weights"]) if w == 1.0]
@@ -214,7 +214,7 @@ def beyond_rim(surface, contact, p):
 
 
 def leaves(surface, contact, d, p, slips, frictionless):
-    """Whether the contact has gone over the rim on this tick."""
+    """Whether the contact has left the surface over the rim on this tick."""
     if frictionless:
         return beyond_rim(surface, contact, p)
     held = math.hypot(d[0], d[1]) > bound(surface, contact, d[2]) * (1.0 + PAST_RIM)

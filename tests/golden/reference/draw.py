@@ -9,7 +9,7 @@ BAD = (math.nan, math.inf, -math.inf)
 
 
 def spread(rng, low, high):
-    """A number with an even chance in each decade."""
+    """A log-uniform random number."""
     return math.exp(rng.uniform(math.log(low), math.log(high)))
 
 
@@ -22,7 +22,7 @@ def chance(rng, share):
 
 
 def stroke(rng, rows, size):
-    """A smooth motion to and fro of about the size."""
+    """A smooth back-and-forth motion of about this size."""
     waves = [(rng.uniform(0.3, 1.0) * size / (i + 1),
               rng.uniform(0.3, 3.0) * (i + 1), rng.uniform(0.0, 2.0 * math.pi))
              for i in range(3)]
@@ -31,14 +31,14 @@ def stroke(rng, rows, size):
 
 
 def ramps(rng, rows, size):
-    """To and fro at a steady speed, so that sliding becomes steady too."""
+    """Back and forth at a constant speed, so that sliding becomes steady too."""
     top, count = rng.uniform(0.3, 1.0) * size, rng.randint(1, 4)
     return [top * abs((4.0 * count * k / rows) % 4.0 - 2.0) - top
             for k in range(rows)]
 
 
 def steps_in(rng, rows, size, count):
-    """A staircase of random jumps, some a hundred times the size."""
+    """A staircase of random jumps, some of them a hundred times this size."""
     level, out = 0.0, []
     at = set(rng.sample(range(1, rows), count))
     for k in range(rows):
@@ -50,7 +50,7 @@ def steps_in(rng, rows, size, count):
 
 
 def hold(rng, columns, pauses=4):
-    """Repeats samples: for a while, all columns stay where they are."""
+    """Repeats samples: all columns keep their values for a while."""
     rows = len(columns[0])
     for _ in range(rng.randint(0, pauses)):
         start = rng.randrange(rows - 1)
@@ -60,7 +60,7 @@ def hold(rng, columns, pauses=4):
 
 
 def spoil(rng, column, most=3):
-    """Puts nan or inf into a column here and there."""
+    """Puts nan or inf into a column now and then."""
     for _ in range(rng.randint(0, most)):
         at = rng.randrange(len(column))
         value = rng.choice(BAD)
@@ -71,7 +71,7 @@ def spoil(rng, column, most=3):
 
 
 def motion(rng, rows, size, pauses=4):
-    """A stroke on a line, with tremor, jumps, repeats and quanta in some."""
+    """A stroke on a line, sometimes with tremor, jumps, repeats and quanta."""
     out = rng.choice((stroke, stroke, ramps))(rng, rows, size)
     if chance(rng, 0.4):
         out = [x + rng.gauss(0.0, 0.02 * size) for x in out]
@@ -99,7 +99,7 @@ def direction(rng):
 
 
 def normals(rng, rows):
-    """A direction that turns, of any length, and now and then jumps."""
+    """A vector of any length that rotates, and jumps now and then."""
     start, axis = direction(rng), direction(rng)
     wobble = stroke(rng, rows, rng.choice((0.0, 0.3, 1.5)))
     length = rng.choice((1.0, 1.0, 7.5, 0.02))
@@ -113,7 +113,7 @@ def normals(rng, rows):
 
 
 def hits(rng, rows, share):
-    """Impact speeds, most ticks 0; some negative, nan or infinite."""
+    """Impact speeds: 0 on most ticks; some are negative, nan or infinite."""
     out = [0.0] * rows
     for k in range(rows):
         if chance(rng, share):
@@ -124,7 +124,7 @@ def hits(rng, rows, share):
 
 
 def law(rng, force, depth, kinds=("power", "exponential", "table")):
-    """A rising law that gives about the force at about the depth."""
+    """A rising law that gives about this force at about this depth."""
     kind = rng.choice(kinds)
     if kind == "power":
         n = rng.uniform(1.0, 2.0)
@@ -145,7 +145,7 @@ def law(rng, force, depth, kinds=("power", "exponential", "table")):
 
 
 def weaker(law_, share):
-    """The same law with a share of its force."""
+    """The same law, with its force multiplied by a factor."""
     if "power" in law_:
         k, n = law_["power"]
         return {"power": [k * share, n]}

@@ -179,7 +179,7 @@ EXACT_ROWS = {"wallsim": 300}
 
 
 def check(name):
-    """(worst error in units of its tolerance, column, row) of one golden set."""
+    """Returns (worst error in units of its tolerance, column, row) for one golden set."""
     set_, about = read(name), tolerance.about(name)
     out = MODELS[name](set_, about)
     rows = EXACT_ROWS.get(name, about["rows"])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Laws of force over depth, their energies and inverses.
+"""Laws of force against depth, their energies and inverses.
 
 power k e^n; exponential a (e^(b e) - 1); table from (0, 0), linear, the last
 slope continued. All are 0 for e <= 0.
@@ -15,7 +15,7 @@ def points(law):
 
 
 def pieces(law):
-    """(start, force there, slope, end) of each straight piece of a table."""
+    """(start, force at the start, slope, end) of each straight piece of a table."""
     at = points(law)
     for i in range(len(at) - 1):
         (e0, f0), (e1, f1) = at[i], at[i + 1]
@@ -57,7 +57,7 @@ def energy(law, e):
 
 
 def inverse(law, f):
-    """The depth of a force, for a law that rises."""
+    """The depth at which a rising law gives this force."""
     if "power" in law:
         k, n = law["power"]
         return (f / k) ** (1.0 / n)
@@ -74,7 +74,7 @@ def odd(law, d):
 
 
 def linear(curve, x):
-    """A curve [[x...], [y...]]: linear, ends held."""
+    """A curve [[x...], [y...]]: linear in between, held beyond the ends."""
     xs, ys = curve
     if x <= xs[0]:
         return ys[0]

@@ -8,7 +8,7 @@ SIZE = 0.04
 
 
 def grid(rng, bumpy):
-    """A patch of cells, flat or a height field, of triangles that face up."""
+    """A patch of triangles that face up, flat or a height field."""
     across, along = rng.randint(1, 3), rng.randint(1, 3)
     height = rng.uniform(0.0, 0.004) if bumpy else 0.0
     nodes = [(SIZE * i / across, SIZE * j / along, rng.uniform(-height, height))
@@ -24,7 +24,7 @@ def grid(rng, bumpy):
 
 
 def octahedron(rng):
-    """A closed body of eight faces, somewhat out of shape."""
+    """A slightly distorted closed body with eight faces."""
     reach = [0.5 * SIZE * rng.uniform(0.8, 1.2) for _ in range(6)]
     nodes = [(reach[0], 0.0, 0.0), (-reach[1], 0.0, 0.0), (0.0, reach[2], 0.0),
              (0.0, -reach[3], 0.0), (0.0, 0.0, reach[4]), (0.0, 0.0, -reach[5])]
@@ -34,7 +34,7 @@ def octahedron(rng):
 
 
 def tilted(rng, inward):
-    """A frame (ux, uy, uz) about the inward normal, somewhat out of true."""
+    """A frame (ux, uy, uz) about the inward normal, slightly tilted."""
     z = vec.unit(vec.add(inward, vec.scale(rng.uniform(0.0, 0.15),
                                            draw.direction(rng))))
     x = draw.direction(rng)
@@ -45,7 +45,7 @@ def tilted(rng, inward):
 
 
 def frames(rng, inward):
-    """Frames that turn but little from node to node, save by the normal."""
+    """Frames that rotate little from node to node, apart from following the normal."""
     start = tilted(rng, inward[0])
     out = []
     for normal in inward:
@@ -59,7 +59,7 @@ def frames(rng, inward):
 
 
 def curves(rng, count, deep):
-    """Curves of one tool: of each node, or one triple for all."""
+    """Curves of one tool: a triple for each node, or one for all."""
     def axes():
         return [draw.law(rng, rng.uniform(0.5, 1.5), 2e-3, ("power", "table")),
                 draw.law(rng, rng.uniform(0.5, 1.5), 2e-3, ("power", "table")),
@@ -83,7 +83,7 @@ def placement(rng):
 
 
 def path(rng, rows, closed):
-    """Positions about the body before it is placed, in and out of it."""
+    """Positions inside and outside the body, before the body is placed."""
     if closed:
         xs = [draw.stroke(rng, rows, 0.3 * SIZE) for _ in range(3)]
     else:
@@ -102,7 +102,7 @@ def path(rng, rows, closed):
 
 
 def body(rng, rows):
-    """Settings of a random surface, and positions of a tool."""
+    """Settings for a random surface, and tool positions."""
     closed = draw.chance(rng, 0.3)
     nodes, triangles, inward = (octahedron(rng) if closed
                                 else grid(rng, draw.chance(rng, 0.6)))

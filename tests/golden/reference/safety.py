@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Passivity controller, virtual coupling and predictive hold.
 
-Hannaford & Ryu 2002, the force paired as it is held, E_n = E_(n-1) - f_out(n-1).dp_n,
-or backward, E_n = E_(n-1) - f_n.dp_n + alpha_(n-1) |dp_(n-1)|^2 / T;
+Hannaford & Ryu 2002: E_n = E_(n-1) - f_out(n-1).dp_n pairs each step with the force held during it;
+E_n = E_(n-1) - f_n.dp_n + alpha_(n-1) |dp_(n-1)|^2 / T is the backward pairing;
 Adams & Hannaford 1999: kc e + bc (e - e^-)/T = sigma x_v in the wall;
 Ellis et al. 1997: 1.5 f_k - 0.5 f_(k-1).
 """
@@ -47,7 +47,7 @@ def braking(params, feed, dt):
 
 
 def coupling_tick(dt):
-    """A virtual coupling that is asked tick by tick."""
+    """A virtual coupling, evaluated tick by tick."""
     e = None
 
     def tick(now):

@@ -3,8 +3,8 @@
 
 delta = h/2 - x tan(theta/2), U = k delta^2/2, T = k delta x/(2 cos^2(theta/2));
 the crack front x grows where k delta tan(theta/2) would pass J_c h. The front
-that an angle allows is largest at tan(theta/2) = 4 J_c/k: a jump over this
-angle cuts as a slow motion does.
+that an angle allows is largest at tan(theta/2) = 4 J_c/k. A jump over this
+angle cuts like a slow motion.
 """
 
 import math
@@ -23,7 +23,7 @@ def peak(toughness, stiffness):
 
 
 def steps(params, feed):
-    """The latched parameters are those of params; a feed holds the angle alone."""
+    """Latched parameters come from params; a feed contains only the angle."""
     now = {**DEFAULTS, **params}
     h, k, x = now["thickness"], now["stiffness"], now["pivot_distance"]
     cost, longest = now["toughness"] * h, peak(now["toughness"], k)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""One random set of each model: a graph, what is fed, what is to come out."""
+"""One random set for each model: a graph, its feed, and the expected output."""
 
 import dataclasses
 import math
@@ -23,7 +23,7 @@ import wall
 
 @dataclasses.dataclass
 class Expected:
-    """A recorded column; free holds the rows that the model leaves open."""
+    """A recorded column. `free` lists the rows that the model leaves undefined."""
     column: str
     values: list
     tolerance: dict
@@ -32,9 +32,9 @@ class Expected:
 
 @dataclasses.dataclass
 class Set:
-    """clock is where the program reads the rate: the graph, the option --rate, or
-    the times of the feed. What is time-free stays as it is, bit by bit, while
-    its samples repeat."""
+    """`clock` says where the program reads the rate: the graph, the option --rate, or
+    the times of the feed. Time-free outputs stay bit-identical while
+    their inputs repeat."""
     rate: float
     rows: int
     clock: str = "graph"
@@ -50,7 +50,7 @@ class Set:
         return 1.0 / self.rate
 
     def node(self, name, kind, params=None, settings=None, feed=None):
-        """Adds a node, its inputs and parameters driven by the columns of a feed."""
+        """Adds a node, with inputs and parameters driven by columns of a feed."""
         self.nodes[name] = {"type": kind, "params": params or {},
                             "settings": settings or {}}
         for port, column in (feed or {}).items():
@@ -60,14 +60,14 @@ class Set:
         self.feed.update(parts(port, column))
 
     def expect(self, port, column, golden, like, free=()):
-        """Holds a port to a column as closely as a golden column."""
+        """Compares a port with a column, using the tolerance of a golden column."""
         allowed = tolerance.entry(tolerance.about(golden), like)
         for name, values in parts(port, column).items():
             self.expected.append(Expected(name, values, allowed, set(free)))
 
 
 def parts(port, column):
-    """A column of vectors as three of numbers."""
+    """A column of vectors as three columns of numbers."""
     if not isinstance(column[0], tuple):
         return {port: column}
     return {f"{port}.{axis}": [v[i] for v in column]
@@ -99,8 +99,8 @@ def friction_params(rng):
 
 
 def moving(rng, params, name, rows):
-    """A parameter that moves. Two cases are left open by the specification: what
-    a falling d_max does to a stretch that is solved by eq. (2), and whether
+    """A parameter that moves. The specification leaves two cases open: what
+    a falling d_max does to a step solved by eq. (2), and whether
     load "scale" applies to a given stiffness."""
     out = [params[name] * (1.0 + 0.5 * math.tanh(x))
            for x in draw.stroke(rng, rows, 1.0)]
@@ -144,7 +144,7 @@ def friction_set(rng):
 
 
 def latch(rng, value, states):
-    """A feed that may be anything while contact lasts, for it holds through."""
+    """A feed with arbitrary values during contact, because the parameter is latched."""
     out = [value]
     for before in states[:-1]:
         wild = before > 0 and draw.chance(rng, 0.3)
@@ -182,8 +182,8 @@ def cutting_set(rng):
 
 
 def slow_opening(params, feed):
-    """Makes blades that open stop at the angle that the crack is longest at: what
-    a jump over it cuts on opening is left open by the specification."""
+    """Stops opening blades at the angle of the longest crack: the specification
+    does not say what a jump over this angle cuts on opening."""
     peak = scissors.peak(params["toughness"], params["stiffness"])
     out = feed[:1]
     for theta in feed[1:]:
@@ -217,8 +217,8 @@ def scissors_set(rng):
 
 
 def texture_set(rng):
-    """A grating in the plane; one on a line through guard, window and filter;
-    friction whose d_max is a grating."""
+    """A grating in the plane; a grating on a line, with guard, window and filter;
+    friction with a grating as d_max."""
     rows = 400
     set_ = Set(draw.rate(rng), rows)
     k = draw.spread(rng, 20.0, 3000.0)
@@ -305,7 +305,7 @@ def modes(rng, rate):
 
 
 def factors(rng, rows, names):
-    """Constants or columns around 1 for the named parameters."""
+    """Constants or columns with values around 1 for these parameters."""
     params, feed = {}, {}
     for name in names:
         if draw.chance(rng, 0.3):
@@ -330,8 +330,8 @@ def modal_set(rng):
 
 
 def low(mode, rate):
-    """The mode an octave or two down, unless it is mute: what else is mute when
-    the pitch is raised is left open by the specification."""
+    """The mode an octave or two down, unless it is mute. The specification leaves open
+    what else becomes mute when the pitch is raised."""
     mute = mode["frequency"] >= 0.5 * rate
     return mode if mute else {**mode, "frequency": 0.4 * mode["frequency"]}
 
@@ -361,7 +361,7 @@ def contacts(rng, rows):
 
 
 def passivity_set(rng):
-    """A held spring, which gives energy, and a force of any kind."""
+    """A held spring, which generates energy, and an arbitrary force."""
     rows = 500
     set_ = Set(draw.rate(rng), rows)
     size = draw.spread(rng, 1e-4, 1e-2)
@@ -463,7 +463,7 @@ def plane_set(rng):
 
 
 def wall_set(rng):
-    """The closed loop of a simulated tool and a wall, or a coupling to one."""
+    """The closed loop of a simulated tool with a wall, or with a coupling to one."""
     rows = 300
     set_ = Set(draw.rate(rng), rows)
     normal, mass = draw.direction(rng), draw.spread(rng, 0.02, 0.3)
@@ -506,7 +506,7 @@ def wall_set(rng):
 
 
 def past_tie(positions, quantum, rows):
-    """The rows after one so near half a quantum that rounding decides."""
+    """The rows after a value that is so close to half a quantum that rounding decides."""
     if not quantum:
         return ()
     for k, p in enumerate(positions):

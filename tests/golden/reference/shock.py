@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The push of an impact: Hayward 2007, eq. (10) with the sign of Hunt & Crossley 1975.
+"""The force of an impact: Hayward 2007, eq. (10) with the sign of Hunt & Crossley 1975.
 
 N = K(d) + D(d) d', never below 0, -m d'' = N; S semi-implicit substeps a tick.
 """
@@ -24,7 +24,7 @@ def push(now, d, v):
 
 
 def advance(now, voice, dt):
-    """The voice one tick later, or None where it has left the object."""
+    """The voice one tick later, or None if the tool has left the object."""
     d, v, mass = voice
     h = dt / now["substeps"]
     for _ in range(now["substeps"]):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""What drives a reference (columns of a feed, else constants) and what it gives.
+"""Inputs of a reference model (columns of a feed, or constants) and its outputs.
 
-A column is a list with one number (or vector) a tick; it replaces the
-parameter of its name for that tick.
+A column is a list with one number (or vector) per tick. It replaces the
+parameter of the same name.
 """
 
 
@@ -18,7 +18,7 @@ def row(defaults, params, feed, k):
 
 
 def collect(steps):
-    """Columns from the dictionaries that a model gives, one a tick."""
+    """Columns from the dictionaries that a model returns, one per tick."""
     out = {}
     for step in steps:
         for name, value in step.items():
@@ -27,6 +27,6 @@ def collect(steps):
 
 
 def each(tick, defaults, params, feed):
-    """Columns from a model that is asked tick by tick."""
+    """Columns from a model that is evaluated tick by tick."""
     return collect(tick(row(defaults, params, feed, k))
                    for k in range(rows(feed)))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Gratings, their guard against aliases, and what they are played through.
+"""Gratings, their anti-alias guard, and the windows and filters after them.
 
 Hayward 2007, section 5: f = A sin(2 pi k x + phi), k in cycles per metre.
 """
@@ -58,7 +58,7 @@ def guards(params, feed, dt):
 
 
 def window(depths, width):
-    """clamp(depth / width, 0, 1): no step where contact begins."""
+    """clamp(depth / width, 0, 1): avoids a step when contact begins."""
     return [min(max(d / width, 0.0), 1.0) if math.isfinite(d) else 0.0
             for d in depths]
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""How closely a column is to be met.
+"""Tolerances of the golden columns.
 
-The entry of the golden JSON with the longest prefix that fits.
+The entry of the golden JSON with the longest matching prefix applies.
 """
 
 import json
@@ -16,7 +16,7 @@ def about(name):
 
 
 def entry(golden, column):
-    """The tolerance of a column; {} where it is to be exact."""
+    """The tolerance of a column; {} if it must be exact."""
     table = golden["tolerance"]
     fitting = [p for p in table if p == "*" or column.startswith(p)]
     best = max(fitting, key=lambda p: 0 if p == "*" else len(p), default=None)
@@ -25,7 +25,7 @@ def entry(golden, column):
 
 
 def error(expected, actual, allowed, peak):
-    """The error in units of what is allowed; above 1 is too far."""
+    """The error in units of the tolerance; more than 1 is too large."""
     if math.isnan(expected) and math.isnan(actual):
         return 0.0
     off = abs(expected - actual)
@@ -38,7 +38,7 @@ def error(expected, actual, allowed, peak):
 
 
 def worst(expected, actual, allowed, skip=()):
-    """The largest error of a column, and its row."""
+    """The largest error in a column, and its row."""
     peak = max((abs(x) for x in expected if math.isfinite(x)), default=0.0)
     errors = [(error(x, y, allowed, peak), -k)
               for k, (x, y) in enumerate(zip(expected, actual)) if k not in skip]

@@ -18,7 +18,7 @@ def struck(hit):
 
 
 def turn(mode, now, dt):
-    """The phasor's factor of one tick, 0 for a mute mode."""
+    """The factor of the phasor for one tick; 0 for a mute mode."""
     b = -mode["decay"] * now["damping"]
     w = 2.0 * math.pi * mode["frequency"] * now["pitch"]
     return 0.0 if w * dt >= math.pi or b >= 0.0 else cmath.exp(complex(b, w) * dt)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A plane, and a simulated tool that is pushed against an object.
+"""A plane, and a simulated tool pushed against an object.
 
 N = max(0, K(depth) (1 + dissipation rate) + damping rate), Hayward 2007,
 eq. (10). The tool is a mass with damping under a force that is held over each
@@ -21,7 +21,7 @@ DEVICE = {"mass": 0.05, "damping": 0.0, "quantum": 0.0, "delay": 0,
 
 
 def plane_tick(dt):
-    """A plane that is asked tick by tick."""
+    """A plane, evaluated tick by tick."""
     before = None
 
     def tick(now):
@@ -65,7 +65,7 @@ def moved(device, x, v, f, dt):
 
 
 def simulate(device, tick, defaults, params, count, dt):
-    """A tool from its first state, against an object that is asked tick by tick."""
+    """A tool from its initial state, against an object evaluated tick by tick."""
     device, fixed = {**DEVICE, **device}, {**defaults, **params}
     x, v = device["position"], device["velocity"]
     forces, out = [], []

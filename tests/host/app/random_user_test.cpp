@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Somebody who does anything at all, in any order, and a check after each of it. TACTUS_UI_ACTIONS: how many actions there
-// are in the whole; TACTUS_UI_SEED: this seed alone, and each action is printed before it is done.
-#include "host/io/temporary_folder.hpp"
+// A monkey test of the window: random actions in random order, with checks after each one. TACTUS_UI_ACTIONS sets the total
+// number of actions. TACTUS_UI_SEED runs one seed only and prints each action before it is performed.
 #include "support/stage.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <framework/file/graph_file.hpp>
 #include <framework/graph/endpoints.hpp>
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace
 {
 constexpr int usual_actions = 10000, actions_of_a_seed = 500;
-constexpr std::size_t told_actions = 30;
+constexpr std::size_t reported_actions = 30;
 
 int numberFrom (const char* variable, int otherwise)
 {
@@ -29,11 +29,15 @@ int numberFrom (const char* variable, int otherwise)
     return text == nullptr ? otherwise : std::atoi (text);
 }
 
-/// What a program finds in its environment, for as long as this lives.
+/// Sets an environment variable for the lifetime of this object.
 class Environment
 {
 public:
-    Environment (const char* n, const fs::path& value) : name (n), before (juce::SystemStats::getEnvironmentVariable (n, {})) { setenv (name, value.c_str(), 1); }
+    Environment (const char* n, const fs::path& value) : name (n), before (juce::SystemStats::getEnvironmentVariable (n, {}))
+    {
+        setenv (name, value.c_str(), 1);
+    }
+
     ~Environment() { before.isEmpty() ? unsetenv (name) : setenv (name, before.toRawUTF8(), 1); }
 
     Environment (const Environment&) = delete;
@@ -44,17 +48,17 @@ private:
     const juce::String before;
 };
 
-/// All of a window: begun in a home of its own, among presets that may be written over.
-class World
+/// The whole window, with its own home folder and a copy of the presets that may be overwritten.
+class Monkey
 {
 public:
-    explicit World (unsigned seed) : dice (seed)
+    explicit Monkey (unsigned seed) : dice (seed)
     {
         fs::copy (TACTUS_SOURCE_DIR "/graphs", presets, fs::copy_options::recursive);
         fs::create_directories (own);
         folder.write ("damaged.json", R"({ "format": "tactus-graph", "nodes": { "a": )");
         folder.write ("stroke.csv", "t,x,y,z\n0,0,0,0.005\n1,0.02,0,-0.001\n2,0,0,0.005\n");
-        folder.write ("words.csv", "so it is\n");
+        folder.write ("text.csv", "no numbers\n");
         for (const auto& entry : fs::directory_iterator (presets))
             if (entry.path().extension() == ".json") shipped.push_back (entry.path());
         std::ranges::sort (shipped);
@@ -63,54 +67,54 @@ public:
         begin();
     }
 
-    ~World()
+    ~Monkey()
     {
         view.reset();
         stage.reset();
-        juce::PopupMenu::dismissAllActiveMenus();   // a menu goes with the next messages only, and still has the look
+        juce::PopupMenu::dismissAllActiveMenus();   // later messages delete the menus, which use the look until then
         juce::MessageManager::getInstance()->runDispatchLoopUntil (20);
         juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
         juce::Desktop::getInstance().setGlobalScaleFactor (1.0f);
         juce::SystemClipboard::copyTextToClipboard ({});
     }
 
-    /// One action, of any kind. Returns what it was.
+    /// Performs a random action. Returns its description.
     std::string act()
     {
-        static constexpr std::pair<int, std::string (World::*)()> ways[] {
-            { 8, &World::clickAnywhere },
-            { 14, &World::clickSomething },
-            { 6, &World::dragAnywhere },
-            { 6, &World::dragSomething },
-            { 12, &World::drawWire },
-            { 10, &World::dragOnNode },
-            { 8, &World::clickOnCanvas },
-            { 18, &World::canvasKey },
-            { 10, &World::windowKey },
-            { 6, &World::addByPalette },
-            { 6, &World::addAtOnce },
-            { 10, &World::typeSomewhere },
-            { 4, &World::wheel },
-            { 6, &World::wait },
-            { 3, &World::group },
-            { 2, &World::enter },
-            { 3, &World::rename },
-            { 1, &World::resize },
-            { 1, &World::openFile },
-            { 1, &World::preview },
-            { 3, &World::startOrStop },
-            { 2, &World::goInHistory },
-            { 1, &World::drop },
-            { 1, &World::beginAgain },
+        static constexpr std::pair<int, std::string (Monkey::*)()> actions[] {
+            { 8, &Monkey::clickAnywhere },
+            { 14, &Monkey::clickSomething },
+            { 6, &Monkey::dragAnywhere },
+            { 6, &Monkey::dragSomething },
+            { 12, &Monkey::drawWire },
+            { 10, &Monkey::dragOnNode },
+            { 8, &Monkey::clickOnCanvas },
+            { 18, &Monkey::canvasKey },
+            { 10, &Monkey::windowKey },
+            { 6, &Monkey::addByPalette },
+            { 6, &Monkey::addDirectly },
+            { 10, &Monkey::typeSomewhere },
+            { 4, &Monkey::wheel },
+            { 6, &Monkey::wait },
+            { 3, &Monkey::group },
+            { 2, &Monkey::enter },
+            { 3, &Monkey::rename },
+            { 1, &Monkey::resize },
+            { 1, &Monkey::openFile },
+            { 1, &Monkey::preview },
+            { 3, &Monkey::startOrStop },
+            { 2, &Monkey::goInHistory },
+            { 1, &Monkey::drop },
+            { 1, &Monkey::beginAgain },
         };
         if (juce::ModalComponentManager::getInstance()->getNumModalComponents() > 0 && upTo (4) != 0) return chooseInMenu();
         if (view->asked().isOpen() && upTo (3) != 0) return answer();
         int sum = 0;
-        for (const auto& [weight, way] : ways)
+        for (const auto& [weight, action] : actions)
             sum += weight;
         int left = upTo (sum);
-        for (const auto& [weight, way] : ways)
-            if ((left -= weight) < 0) return (this->*way)();
+        for (const auto& [weight, action] : actions)
+            if ((left -= weight) < 0) return (this->*action)();
         return {};
     }
 
@@ -119,14 +123,14 @@ public:
         juce::MessageManager::getInstance()->runDispatchLoopUntil (ms);
         juce::ModifierKeys::currentModifiers = {};
         test::Stage::plugIn();
-        // A dialog of JUCE's own, which is another window: it is closed.
+        // Close dialogs of JUCE, which are separate windows.
         for (int i = juce::Desktop::getInstance().getNumComponents(); --i >= 0;)
             if (auto* c = juce::Desktop::getInstance().getComponent (i); c != &*stage) c->exitModalState (0);
     }
 
     void paint() { stage->createComponentSnapshot (stage->getLocalBounds()); }
 
-    /// Closes what waits for an answer.
+    /// Closes all menus and dialogs.
     void settle()
     {
         for (int i = 0; i < 20 && juce::ModalComponentManager::getInstance()->getNumModalComponents() > 0; ++i)
@@ -154,7 +158,7 @@ public:
     std::unique_ptr<MainView> view;
 
 private:
-    int upTo (int n) { return n <= 0 ? 0 : static_cast<int> (dice() % static_cast<unsigned> (n)); }   // not n itself
+    int upTo (int n) { return n <= 0 ? 0 : static_cast<int> (dice() % static_cast<unsigned> (n)); }   // 0…n-1
     float part() { return static_cast<float> (upTo (1000)) / 1000.0f; }
 
     template <typename C>
@@ -168,7 +172,7 @@ private:
         view = std::make_unique<MainView> (catalogue());
         view->chooseFile = [this] (bool saves, const fs::path& from, const std::function<void (const fs::path&)>& chosen)
         {
-            if (! isAtHome (from)) throw std::runtime_error ("a file is looked for in " + from.string());
+            if (! isAtHome (from)) throw std::runtime_error ("the window looks for a file in " + from.string());
             const auto file = someFile (saves);
             if (upTo (4) == 0) return;
             if (upTo (4) != 0) return chosen (file);
@@ -195,13 +199,13 @@ private:
 
     //==========================================================================
     juce::Point<float> anywhere() { return { part() * static_cast<float> (stage->getWidth()), part() * static_cast<float> (stage->getHeight()) }; }
-    static juce::String words (juce::Point<float> p) { return juce::String (juce::roundToInt (p.x)) + "," + juce::String (juce::roundToInt (p.y)); }
+    static juce::String coordinates (juce::Point<float> p) { return juce::String (juce::roundToInt (p.x)) + "," + juce::String (juce::roundToInt (p.y)); }
 
     int someButton()
     {
         const int n = upTo (8);
-        return n == 0 ? juce::ModifierKeys::rightButtonModifier : n == 1 ? juce::ModifierKeys::middleButtonModifier
-                                                                         : juce::ModifierKeys::leftButtonModifier;
+        if (n == 0) return juce::ModifierKeys::rightButtonModifier;
+        return n == 1 ? juce::ModifierKeys::middleButtonModifier : juce::ModifierKeys::leftButtonModifier;
     }
 
     int someKeys()
@@ -210,7 +214,7 @@ private:
         return upTo (4) == 0 ? oneOf (keys) : 0;
     }
 
-    /// A component that is seen and has nothing inside.
+    /// A random visible component without children.
     juce::Component* something()
     {
         std::vector<juce::Component*> all;
@@ -229,13 +233,17 @@ private:
         return all.empty() ? nullptr : oneOf (all);
     }
 
-    juce::Point<float> in (juce::Component& c) { return stage->getLocalPoint (&c, juce::Point<float> (part() * static_cast<float> (c.getWidth()), part() * static_cast<float> (c.getHeight()))); }
+    juce::Point<float> in (juce::Component& c)
+    {
+        const float x = part() * static_cast<float> (c.getWidth()), y = part() * static_cast<float> (c.getHeight());
+        return stage->getLocalPoint (&c, juce::Point<float> (x, y));
+    }
 
-    static std::string called (juce::Component& c)
+    static std::string describe (juce::Component& c)
     {
         const auto* button = dynamic_cast<juce::Button*> (&c);
-        const auto name = button != nullptr && button->getButtonText().isNotEmpty() ? button->getButtonText() : c.getTitle().isNotEmpty() ? c.getTitle()
-                                                                                                                                          : c.getName();
+        auto name = c.getTitle().isNotEmpty() ? c.getTitle() : c.getName();
+        if (button != nullptr && button->getButtonText().isNotEmpty()) name = button->getButtonText();
         return std::string (typeid (c).name()) + " '" + name.toStdString() + "'";
     }
 
@@ -243,14 +251,14 @@ private:
     {
         const int how = upTo (8), button = someButton(), keys = someKeys();
         how == 0 ? stage->doubleClick (at) : stage->click (at, button, keys);
-        return ((how == 0 ? "double click " : "click ") + words (at) + " button " + juce::String (button) + " keys " + juce::String (keys)).toStdString();
+        return ((how == 0 ? "double click " : "click ") + coordinates (at) + " button " + juce::String (button) + " keys " + juce::String (keys)).toStdString();
     }
 
     std::string dragFromTo (juce::Point<float> from, juce::Point<float> to)
     {
         const int button = someButton(), keys = someKeys();
         stage->drag (from, to, button, keys);
-        return ("drag " + words (from) + " to " + words (to) + " button " + juce::String (button) + " keys " + juce::String (keys)).toStdString();
+        return ("drag " + coordinates (from) + " to " + coordinates (to) + " button " + juce::String (button) + " keys " + juce::String (keys)).toStdString();
     }
 
     std::string clickAnywhere() { return clickAt (anywhere()); }
@@ -260,7 +268,7 @@ private:
     {
         auto* c = something();
         if (c == nullptr) return "nothing to click";
-        const auto name = called (*c);
+        const auto name = describe (*c);
         return name + ": " + clickAt (in (*c));
     }
 
@@ -268,26 +276,31 @@ private:
     {
         auto* c = something();
         if (c == nullptr) return "nothing to drag";
-        const auto name = called (*c);
+        const auto name = describe (*c);
         const auto from = in (*c);
         return name + ": " + dragFromTo (from, from + juce::Point<float> (part() - 0.5f, part() - 0.5f) * 300.0f);
     }
 
     //==========================================================================
     juce::Point<float> onCanvas (juce::Point<float> of_scene) { return stage->getLocalPoint (&view->canvas(), view->canvas().view().toPixels (of_scene)); }
+    juce::Point<float> onNode (const SceneNode& n, bool title)
+    {
+        if (title) return onCanvas (n.at + juce::Point<float> (30.0f, 12.0f));
+        return onCanvas (n.at + juce::Point<float> (n.box.width - 16.0f, oneOf (n.box.sockets).at.y));
+    }
     const SceneNode* someNode() { return view->canvas().scene().nodes().empty() ? nullptr : &oneOf (view->canvas().scene().nodes()); }
 
     std::string drawWire()
     {
         const auto *a = someNode(), *b = someNode();
         if (a == nullptr || a->box.sockets.empty() || b->box.sockets.empty()) return "no port to draw from";
-        // Mostly what may fit, or hardly a wire would ever be drawn.
+        // Prefer ports that may fit, or hardly any wire would be drawn.
         const auto &from = oneOf (a->box.sockets), *to = &oneOf (b->box.sockets);
         for (int i = 0; i < 6 && (from.port->role == Role::output) == (to->port->role == Role::output); ++i)
             to = &oneOf (b->box.sockets);
-        const auto said = "from " + a->name + "." + from.port->id + " to " + b->name + "." + to->port->id + ": ";
+        const auto wire = "from " + a->name + "." + from.port->id + " to " + b->name + "." + to->port->id + ": ";
         const auto start = onCanvas (a->placeOf (from));
-        return said + dragFromTo (start, upTo (8) == 0 ? anywhere() : onCanvas (b->placeOf (*to)));
+        return wire + dragFromTo (start, upTo (8) == 0 ? anywhere() : onCanvas (b->placeOf (*to)));
     }
 
     std::string dragOnNode()
@@ -295,7 +308,7 @@ private:
         const auto* n = someNode();
         if (n == nullptr) return "no node to drag";
         const bool by_title = n->box.sockets.empty() || upTo (2) == 0;
-        const auto from = by_title ? onCanvas (n->at + juce::Point<float> (30.0f, 12.0f)) : onCanvas (n->at + juce::Point<float> (n->box.width - 16.0f, oneOf (n->box.sockets).at.y));
+        const auto from = onNode (*n, by_title);
         const auto name = n->name;
         return name + ": " + dragFromTo (from, from + juce::Point<float> (part() - 0.5f, part() - 0.5f) * 200.0f);
     }
@@ -314,13 +327,14 @@ private:
         if (what == 1 && ! scene.notes().empty())
         {
             const auto area = oneOf (scene.notes()).area;
-            return "note: " + (upTo (2) == 0 ? clickAt (onCanvas (area.getTopLeft() + juce::Point<float> (12.0f, 10.0f))) : dragFromTo (onCanvas (area.getBottomRight().translated (-3.0f, -3.0f)), anywhere()));
+            if (upTo (2) == 0) return "note: " + clickAt (onCanvas (area.getTopLeft().translated (12.0f, 10.0f)));
+            return "note: " + dragFromTo (onCanvas (area.getBottomRight().translated (-3.0f, -3.0f)), anywhere());
         }
         const auto* n = someNode();
         if (n == nullptr) return "canvas: " + clickAt (in (view->canvas()));
         const auto name = n->name;
         const bool by_title = n->box.sockets.empty() || upTo (2) == 0;
-        return name + ": " + clickAt (by_title ? onCanvas (n->at + juce::Point<float> (30.0f, 12.0f)) : onCanvas (n->at + juce::Point<float> (n->box.width - 16.0f, oneOf (n->box.sockets).at.y)));
+        return name + ": " + clickAt (onNode (*n, by_title));
     }
 
     std::string canvasKey()
@@ -366,7 +380,7 @@ private:
         return "nothing to enter";
     }
 
-    /// Of any patch, as the history and the inspector may while another is shown.
+    /// Renames a node in any patch, which the history and the inspector can do while another patch is shown.
     std::string rename()
     {
         const auto& g = view->document().graph();
@@ -381,7 +395,11 @@ private:
 
     std::string windowKey()
     {
-        static const char* const keys[] { "escape", "escape", "1", "2", "3", "4", "5", "ctrl + 1", "ctrl + 2", "ctrl + 3", "F1", "ctrl + n", "ctrl + o", "ctrl + s", "ctrl + shift + s", "ctrl + z", "ctrl + z", "ctrl + y", "c", "h", "x", "tab", "shift + tab", "return", "spacebar", "cursor up", "cursor down", "cursor left", "cursor right", "page up", "home", "end", "delete", "backspace", "ctrl + a", "ctrl + v", "ctrl + x", "?" };
+        static const char* const keys[] {
+            "escape", "escape", "1", "2", "3", "4", "5", "ctrl + 1", "ctrl + 2", "ctrl + 3", "F1", "ctrl + n", "ctrl + o", "ctrl + s",
+            "ctrl + shift + s", "ctrl + z", "ctrl + z", "ctrl + y", "c", "h", "x", "tab", "shift + tab", "return", "spacebar", "cursor up",
+            "cursor down", "cursor left", "cursor right", "page up", "home", "end", "delete", "backspace", "ctrl + a", "ctrl + v", "ctrl + x", "?"
+        };
         const auto* k = oneOf (keys);
         stage->key (k);
         return std::string ("key ") + k;
@@ -410,14 +428,14 @@ private:
         return "palette: " + query + (end == 1 ? ", escape" : ", return");
     }
 
-    std::string addAtOnce()
+    std::string addDirectly()
     {
         const std::string type (someType().info.id);
-        NodeWish wish { { part() * 800.0f - 400.0f, part() * 600.0f - 300.0f } };
+        NodeRequest request { { part() * 800.0f - 400.0f, part() * 600.0f - 300.0f } };
         const auto& wires = view->canvas().scene().wires();
-        if (! wires.empty() && upTo (3) == 0) wish.wire = oneOf (wires).id;
-        view->canvas().addNodeAt (type, wish);
-        return "add " + type + (wish.wire != 0 ? " into a wire" : "");
+        if (! wires.empty() && upTo (3) == 0) request.wire = oneOf (wires).id;
+        view->canvas().addNodeAt (type, request);
+        return "add " + type + (request.wire != 0 ? " into a wire" : "");
     }
 
     std::string typeSomewhere()
@@ -438,7 +456,11 @@ private:
             const auto at = in (*oneOf (all));
             upTo (2) == 0 ? stage->click (at) : stage->doubleClick (at);
         }
-        static const juce::String texts[] { "0.4 mm", "3 N", "nan", "", juce::CharPointer_UTF8 ("\xc3\xa4\xe2\x82\xac \xf0\x9f\x98\x80"), "1e999", "-1", "0", "1e-320", "a", "grain", "x y", "12 %", "(0, 0, 1)", "[1, 2, 3]", "{\"a\": 1}", "400 N/m", "0.5", "2 2 2", "friction", "../stroke.csv", "stroke.csv", "/", "not.there.wav", "drag", "graph", "inf", "99999999999999999999", "#", "7:7", "\"", "\\", juce::String::repeatedString ("long ", 60) };
+        static const juce::String texts[] {
+            "0.4 mm", "3 N", "nan", "", juce::CharPointer_UTF8 ("\xc3\xa4\xe2\x82\xac \xf0\x9f\x98\x80"), "1e999", "-1", "0", "1e-320", "a", "grain",
+            "x y", "12 %", "(0, 0, 1)", "[1, 2, 3]", "{\"a\": 1}", "400 N/m", "0.5", "2 2 2", "friction", "../stroke.csv", "stroke.csv", "/",
+            "not.there.wav", "drag", "graph", "inf", "99999999999999999999", "#", "7:7", "\"", "\\", juce::String::repeatedString ("long ", 60)
+        };
         const auto text = oneOf (texts);
         const bool replaces = upTo (4) != 0;
         if (replaces) stage->key (juce::String ("ctrl + a"));
@@ -447,7 +469,7 @@ private:
         const juce::String end = oneOf (ends);
         if (end.isNotEmpty()) stage->key (end);
         auto* focus = juce::Component::getCurrentlyFocusedComponent();
-        return "type '" + text.substring (0, 40).toStdString() + "' " + end.toStdString() + ", focus " + (focus != nullptr ? called (*focus) : "none");
+        return "type '" + text.substring (0, 40).toStdString() + "' " + end.toStdString() + ", focus " + (focus != nullptr ? describe (*focus) : "none");
     }
 
     std::string wheel()
@@ -456,7 +478,7 @@ private:
         const float up = part() - 0.5f;
         const int keys = someKeys();
         stage->wheel (at, up, upTo (2) == 0, keys);
-        return ("wheel " + words (at) + " by " + juce::String (up) + " keys " + juce::String (keys)).toStdString();
+        return ("wheel " + coordinates (at) + " by " + juce::String (up) + " keys " + juce::String (keys)).toStdString();
     }
 
     std::string wait()
@@ -481,7 +503,7 @@ private:
 
     std::string preview()
     {
-        if (view->previews() || upTo (3) == 0)
+        if (view->isPreviewing() || upTo (3) == 0)
         {
             view->endPreview();
             return "end of the preview";
@@ -525,7 +547,7 @@ private:
             for (int i = 0; i < c.getNumChildComponents(); ++i)
                 self (self, *c.getChildComponent (i));
         };
-        // Mostly near where one is: who always goes far never patches.
+        // Mostly small jumps, so that there is something left to patch.
         if (upTo (4) == 0)
             look_in (look_in, *view);
         else
@@ -539,14 +561,14 @@ private:
 
     std::string drop()
     {
-        static const char* const names[] { "stroke.csv", "words.csv", "not there.csv", "damaged.json", "graphs/dry_wood.json" };
+        static const char* const names[] { "stroke.csv", "text.csv", "not there.csv", "damaged.json", "graphs/dry_wood.json" };
         const auto file = folder / oneOf (names);
         const auto at = anywhere();
         stage->drop (file.string(), at);
-        return "drop " + file.filename().string() + " at " + words (at).toStdString();
+        return "drop " + file.filename().string() + " at " + coordinates (at).toStdString();
     }
 
-    /// The window closes and opens again: as it was asked to, or suddenly, so that there is something to recover.
+    /// Closes and reopens the window: either normally, or by a simulated crash with something to recover.
     std::string beginAgain()
     {
         if (upTo (4) != 0) return "stays";
@@ -561,7 +583,7 @@ private:
         }
         view.reset();
         begin();
-        return is_sudden ? "closes suddenly and begins again" : "closes and begins again";
+        return is_sudden ? "crashes and restarts" : "closes and restarts";
     }
 
     std::string chooseInMenu()
@@ -573,7 +595,7 @@ private:
         {
             const auto at = in (*menu);
             stage->click (at);
-            return "menu: click " + words (at).toStdString();
+            return "menu: click " + coordinates (at).toStdString();
         }
         if (how == 3)
         {
@@ -581,8 +603,14 @@ private:
             return "menu: escape";
         }
         for (int i = 1 + upTo (8); --i >= 0;)
-            stage->key (juce::String (upTo (4) == 0 ? "cursor up" : upTo (4) == 0 ? "cursor right"
-                                                                                  : "cursor down"));
+        {
+            juce::String arrow ("cursor down");
+            if (upTo (4) == 0)
+                arrow = "cursor up";
+            else if (upTo (4) == 0)
+                arrow = "cursor right";
+            stage->key (arrow);
+        }
         stage->key (juce::String ("return"));
         return "menu: some item";
     }
@@ -597,37 +625,41 @@ private:
 };
 
 //==============================================================================
-/// What does not agree; "" if all does.
+/// What is inconsistent between graph and canvas; "" if nothing is.
 std::string disagreement (MainView& view)
 {
     auto& canvas = view.canvas();
     const auto& graph = view.document().graph();
     const auto* patch = &graph.root;
     std::string here;
-    for (const auto& [node, subgraph] : canvas.way())
+    for (const auto& [node, subgraph] : canvas.breadcrumbs())
     {
         const auto* entered = patch->find (node);
-        if (entered == nullptr) return "the way leads through '" + node + "', which is not in '" + here + "'";
-        if (entered->type != "graph:" + subgraph) return "the way leads through '" + node + "' into '" + subgraph + "', and it is a " + entered->type;
+        if (entered == nullptr) return "the breadcrumbs contain '" + node + "', which is not in '" + here + "'";
+        if (entered->type != "graph:" + subgraph) return "the breadcrumbs contain '" + node + "' of '" + subgraph + "', but it is a " + entered->type;
         patch = graph.find (subgraph);
-        if (patch == nullptr) return "the way leads into '" + subgraph + "', which is not there";
+        if (patch == nullptr) return "the breadcrumbs contain '" + subgraph + "', which does not exist";
         here = subgraph;
     }
 
     const auto& scene = canvas.scene();
-    if (! std::ranges::equal (scene.nodes(), patch->nodes, [] (const SceneNode& s, const graph::Node& n)
-                              { return s.id == n.id && s.name == n.name && s.type == n.type && s.bypass == n.bypass; })) return "the canvas shows other nodes than '" + here + "' has";
+    const auto isSame = [] (const SceneNode& s, const graph::Node& n)
+    { return s.id == n.id && s.name == n.name && s.type == n.type && s.bypass == n.bypass; };
+    if (! std::ranges::equal (scene.nodes(), patch->nodes, isSame)) return "the nodes on the canvas are not those of '" + here + "'";
     std::vector<graph::Id> wires, drawn;
     for (const auto& w : patch->wires)
         if (patch->find (graph::firstNameOf (w.from.node)) != nullptr && patch->find (graph::firstNameOf (w.to.node)) != nullptr) wires.push_back (w.id);
     for (const auto& w : scene.wires())
         drawn.push_back (w.id);
-    if (wires != drawn) return "the canvas shows other wires than '" + here + "' has";
-    if (scene.notes().size() != notesOf (graph, here).size()) return "the canvas shows other notes";
+    if (wires != drawn) return "the wires on the canvas are not those of '" + here + "'";
+    if (scene.notes().size() != notesOf (graph, here).size()) return "the notes on the canvas are not those of '" + here + "'";
 
     for (const auto id : canvas.selection())
-        if (isNote (id) ? noteOf (id) >= scene.notes().size() : scene.find (id) == nullptr && scene.findWire (id) == nullptr) return "something is selected that is not there";
-    if (view.document().history().position() > view.document().history().names().size()) return "the history stands beyond its end";
+    {
+        const bool exists = isNote (id) ? noteOf (id) < scene.notes().size() : scene.find (id) != nullptr || scene.findWire (id) != nullptr;
+        if (! exists) return "the selection contains something that does not exist";
+    }
+    if (view.document().history().position() > view.document().history().names().size()) return "the history position is beyond its end";
     return {};
 }
 
@@ -635,7 +667,10 @@ std::set<std::string> errorsOf (const Messages& messages)
 {
     std::set<std::string> found;
     for (const auto& m : messages)
-        if (m.severity == Message::Severity::error && ! m.where.starts_with ("/devices") && ! m.where.starts_with ("/hand")) found.insert (m.id + " at " + m.where);
+    {
+        const bool is_device = m.where.starts_with ("/devices") || m.where.starts_with ("/hand");
+        if (m.severity == Message::Severity::error && ! is_device) found.insert (m.id + " at " + m.where);
+    }
     return found;
 }
 
@@ -647,21 +682,22 @@ std::string joined (const std::set<std::string>& all)
     return text;
 }
 
-/// Whether what runs says the same of the graph as compiling it by itself does.
+/// Checks that the live run reports the same errors as compiling the graph separately.
 std::string disagreementWithCompile (MainView& view, FileAssets& assets)
 {
     const auto& graph = view.document().graph();
-    const auto expected = errorsOf (compile (graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } }).messages), said = errorsOf (view.run().messages());
-    if (expected == said) return {};
-    return "compile says:" + joined (expected) + "\n  and the run:" + joined (said);
+    const auto compiled = compile (graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } });
+    const auto expected = errorsOf (compiled.messages), reported = errorsOf (view.run().messages());
+    if (expected == reported) return {};
+    return "compile reports:" + joined (expected) + "\n  and the run:" + joined (reported);
 }
 
 std::string instability (const graph::Graph& g)
 {
     const auto text = writeGraph (g);
     const auto again = readGraph (text);
-    if (hasErrors (again.messages)) return "what was written cannot be read: " + again.messages.front().text + " at " + again.messages.front().where;
-    return writeGraph (again.graph) == text ? std::string() : std::string ("what was written is written otherwise the next time");
+    if (hasErrors (again.messages)) return "the written graph cannot be read: " + again.messages.front().text + " at " + again.messages.front().where;
+    return writeGraph (again.graph) == text ? std::string() : std::string ("writing the graph again gives different text");
 }
 
 std::string historyFault (Document& d)
@@ -672,44 +708,44 @@ std::string historyFault (Document& d)
     const auto last = writeGraph (d.graph());
     d.goTo (0);
     d.goTo (all);
-    if (writeGraph (d.graph()) != last) return "all undone and redone is not as it was at the end";
+    if (writeGraph (d.graph()) != last) return "undoing and redoing everything changes the graph";
     d.goTo (at);
-    return writeGraph (d.graph()) == here ? std::string() : std::string ("there and back again is not as it was");
+    return writeGraph (d.graph()) == here ? std::string() : std::string ("jumping through the history and back changes the graph");
 }
 
 void play (unsigned seed, int actions, bool prints)
 {
-    World world (seed);
+    Monkey monkey (seed);
     FileAssets assets;
     std::deque<std::string> done;
     const auto check = [&] (const std::string& fault)
     {
         if (fault.empty()) return;
-        std::string told;
+        std::string log;
         for (const auto& action : done)
-            told += "\n  " + action;
-        FAIL ("TACTUS_UI_SEED=" << seed << ": " << fault << "\nafter" << told);
+            log += "\n  " + action;
+        FAIL ("TACTUS_UI_SEED=" << seed << ": " << fault << "\nafter" << log);
     };
     for (int n = 1; n <= actions; ++n)
     {
         if (prints) std::cerr << n << ": " << std::flush;
-        done.push_back (std::to_string (n) + ": " + world.act());
+        done.push_back (std::to_string (n) + ": " + monkey.act());
         if (prints) std::cerr << done.back().substr (done.back().find (' ') + 1) << std::endl;
-        if (done.size() > told_actions) done.pop_front();
-        if (n % 3 == 0) world.attend (1);
-        check (disagreement (*world.view));
-        if (n % 20 == 0) check (disagreementWithCompile (*world.view, assets));
-        if (n % 50 == 0) world.paint();
-        if (n % 100 == 0) check (instability (world.view->document().graph()));
+        if (done.size() > reported_actions) done.pop_front();
+        if (n % 3 == 0) monkey.attend (1);
+        check (disagreement (*monkey.view));
+        if (n % 20 == 0) check (disagreementWithCompile (*monkey.view, assets));
+        if (n % 50 == 0) monkey.paint();
+        if (n % 100 == 0) check (instability (monkey.view->document().graph()));
     }
-    world.settle();
-    check (historyFault (world.view->document()));
-    check (disagreement (*world.view));
-    check (disagreementWithCompile (*world.view, assets));
+    monkey.settle();
+    check (historyFault (monkey.view->document()));
+    check (disagreement (*monkey.view));
+    check (disagreementWithCompile (*monkey.view, assets));
 }
 }   // namespace
 
-TEST_CASE ("whatever anybody does in the window, graph, plan and view agree", "[app][random]")
+TEST_CASE ("graph, plan and view stay consistent under random user actions", "[app][random]")
 {
     const int all = numberFrom ("TACTUS_UI_ACTIONS", usual_actions);
     if (const int seed = numberFrom ("TACTUS_UI_SEED", -1); seed >= 0) return play (static_cast<unsigned> (seed), std::min (all, actions_of_a_seed), true);

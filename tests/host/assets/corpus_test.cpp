@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/corpus.hpp"
 
-#include <tests/fuzz/image_target.hpp>
-#include <tests/fuzz/mesh_target.hpp>
-#include <tests/fuzz/table_target.hpp>
+#include <fuzz/image_target.hpp>
+#include <fuzz/mesh_target.hpp>
+#include <fuzz/table_target.hpp>
 
 #include <catch2/catch.hpp>
 

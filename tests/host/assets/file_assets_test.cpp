@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/assets/file_assets.hpp>
 
-#include "host/io/temporary_folder.hpp"
 #include "pictures.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <host/io/wav.hpp>
 
@@ -19,15 +19,14 @@ namespace
 template <typename T>
 std::shared_ptr<const T> content (const Assets::Loaded<T>& loaded)
 {
-    if (const auto* why = std::get_if<std::string> (&loaded)) FAIL (*why);
-    return std::get<std::shared_ptr<const T>> (loaded);
+    if (! loaded) FAIL (sentence (loaded.error()));
+    return *loaded;
 }
 
 template <typename T>
 std::string refusal (const Assets::Loaded<T>& loaded)
 {
-    const auto* why = std::get_if<std::string> (&loaded);
-    return why ? *why : "";
+    return loaded ? "" : sentence (loaded.error());
 }
 
 void writeWav (const TemporaryFolder& folder, const std::string& name, const std::vector<double>& samples)
@@ -59,7 +58,7 @@ TEST_CASE ("each kind of file is read", "[host][assets]")
     CHECK (signal->channels == std::vector<std::vector<double>> { { 0.5, -2.0 } });
 }
 
-TEST_CASE ("a file is read once while somebody uses it, and again when it has changed", "[host][assets]")
+TEST_CASE ("a file is read once while it is in use, and again after a change", "[host][assets]")
 {
     const TemporaryFolder folder;
     folder.write ("a.csv", "1,2,3\n");
@@ -67,7 +66,7 @@ TEST_CASE ("a file is read once while somebody uses it, and again when it has ch
     auto first = content (files.table (folder / "a.csv"));
     CHECK (content (files.table (folder / "a.csv")) == first);
 
-    folder.write ("a.csv", "7,8,9\n");   // as long as before
+    folder.write ("a.csv", "7,8,9\n");   // same length as before
     std::filesystem::last_write_time (folder / "a.csv", std::filesystem::last_write_time (folder / "a.csv") + std::chrono::seconds (1));
     const auto second = content (files.table (folder / "a.csv"));
     CHECK (first->values[0] == 1.0);
@@ -75,10 +74,10 @@ TEST_CASE ("a file is read once while somebody uses it, and again when it has ch
 
     const std::weak_ptr<const Grid> watch = first;
     first.reset();
-    CHECK (watch.expired());   // nobody else keeps it
+    CHECK (watch.expired());   // no other owner
 }
 
-TEST_CASE ("a picture and a table of one name are two things", "[host][assets]")
+TEST_CASE ("an image and a table with the same name are separate", "[host][assets]")
 {
     const TemporaryFolder folder;
     folder.write ("a", "1,2,3\n");
@@ -87,7 +86,7 @@ TEST_CASE ("a picture and a table of one name are two things", "[host][assets]")
     CHECK (contains (refusal (files.image (folder / "a")), "neither a PNG nor a JPEG"));
 }
 
-TEST_CASE ("a file that cannot be had is refused with path, cause and remedy", "[host][assets]")
+TEST_CASE ("a file that cannot be read is refused with path, cause and remedy", "[host][assets]")
 {
     const TemporaryFolder folder;
     const auto nan = std::numeric_limits<double>::quiet_NaN();
@@ -106,7 +105,7 @@ TEST_CASE ("a file that cannot be had is refused with path, cause and remedy", "
     CHECK (contains (refusal (files.table (folder / "large.csv")), "64 MB"));
     CHECK (contains (refusal (files.table (folder / "bad.csv")), "bad.csv:2: "));
     CHECK (contains (refusal (files.table (std::string ("a\0b", 3))), "NUL"));
-    CHECK (contains (refusal (files.signal (folder / "bad.csv")), "not a WAV"));
+    CHECK (contains (refusal (files.signal (folder / "bad.csv")), "not a supported WAV"));
     CHECK (contains (refusal (files.signal (folder / "empty.wav")), "no samples"));
     CHECK (contains (refusal (files.signal (folder / "nan.wav")), "not finite"));
 }

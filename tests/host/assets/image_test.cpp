@@ -29,13 +29,14 @@ std::string problem (const std::string& bytes)
 }
 }   // namespace
 
-TEST_CASE ("every grey of a 16-bit PNG is kept, row after row from the top", "[host][assets][image]")
+TEST_CASE ("a 16-bit PNG keeps every grey value, row by row from the top", "[host][assets][image]")
 {
     rc::prop ("any picture", []
               {
         const int rows = *rc::gen::inRange (1, 6), columns = *rc::gen::inRange (1, 6);
         const auto values = *rc::gen::container<Words> (static_cast<std::size_t> (rows * columns), rc::gen::arbitrary<std::uint16_t>());
-        const auto grid = readImage (test::png (static_cast<std::uint32_t> (columns), static_cast<std::uint32_t> (rows), SPNG_COLOR_TYPE_GRAYSCALE, values), "a.png");
+        const auto grid =
+            readImage (test::png (static_cast<std::uint32_t> (columns), static_cast<std::uint32_t> (rows), SPNG_COLOR_TYPE_GRAYSCALE, values), "a.png");
         RC_ASSERT (grid);
         RC_ASSERT (grid->rows == rows);
         RC_ASSERT (grid->columns == columns);
@@ -43,7 +44,7 @@ TEST_CASE ("every grey of a 16-bit PNG is kept, row after row from the top", "[h
             RC_ASSERT (grid->values[i] == values[i] / 65535.0); });
 }
 
-TEST_CASE ("8-bit greys go from 0 to 1, colours become their luminance, and transparency means nothing", "[host][assets][image]")
+TEST_CASE ("8-bit greys map to the range 0 to 1, colours map to their luminance, and transparency is ignored", "[host][assets][image]")
 {
     CHECK (greys (test::png (3, 1, SPNG_COLOR_TYPE_GRAYSCALE, Bytes { 0, 51, 255 })) == std::vector { 0.0, 0.2, 1.0 });
     CHECK (greys (test::png (2, 1, SPNG_COLOR_TYPE_GRAYSCALE_ALPHA, Bytes { 255, 0, 0, 255 })) == std::vector { 1.0, 0.0 });
@@ -57,7 +58,7 @@ TEST_CASE ("8-bit greys go from 0 to 1, colours become their luminance, and tran
     CHECK (greys (test::png (1, 1, SPNG_COLOR_TYPE_TRUECOLOR_ALPHA, Words { 1, 1, 1, 7 })) == std::vector { 1 / 65535.0 });
 }
 
-TEST_CASE ("a JPEG is read as the greys it holds", "[host][assets][image]")
+TEST_CASE ("a JPEG is read with its grey values", "[host][assets][image]")
 {
     std::vector<unsigned char> ramp;
     for (int row = 0; row < 16; ++row)
@@ -71,7 +72,7 @@ TEST_CASE ("a JPEG is read as the greys it holds", "[host][assets][image]")
         CHECK (grid->values[i] == Approx (ramp[i] / 255.0).margin (0.01));
 }
 
-TEST_CASE ("a picture that cannot be read is refused with a reason", "[host][assets][image]")
+TEST_CASE ("an unreadable image is refused with a reason", "[host][assets][image]")
 {
     const auto whole = test::png (64, 64, SPNG_COLOR_TYPE_GRAYSCALE, Bytes (64 * 64, 7));
     const auto photo = test::jpeg (64, 64, std::vector<unsigned char> (64 * 64, 7));
@@ -80,18 +81,20 @@ TEST_CASE ("a picture that cannot be read is refused with a reason", "[host][ass
     CHECK (problem (whole.substr (0, whole.size() / 2)) == "image/unreadable");
     CHECK (problem (photo.substr (0, photo.size() / 2)) == "image/unreadable");
 
-    // 60000 by 60000 pixels, says a header with a right checksum.
+    // A header with a correct checksum claims 60000 by 60000 pixels.
     CHECK (problem ({ "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\xea\x60\0\0\xea\x60\x08\0\0\0\0\xa5\xb9\x2a\x9e", 33 }) == "image/too_large");
 
-    // And 4000 by 4000 in a file of 100 bytes.
+    // Another header claims 4000 by 4000 pixels in a file of 100 bytes.
     const auto small = test::png (4000, 4000, SPNG_COLOR_TYPE_GRAYSCALE, Bytes (16'000'000, 7));
     CHECK (problem (small.substr (0, 100)) == "image/unreadable");
 }
 
-TEST_CASE ("no damage to a picture crashes its reader", "[host][assets][image]")
+TEST_CASE ("no damaged image crashes the reader", "[host][assets][image]")
 {
-    const std::vector<std::string> all { test::png (9, 7, SPNG_COLOR_TYPE_TRUECOLOR_ALPHA, Words (9 * 7 * 4, 300)), test::png (9, 7, SPNG_COLOR_TYPE_GRAYSCALE, Bytes (9 * 7, 3)), test::jpeg (9, 7, std::vector<unsigned char> (9 * 7, 3)) };
-    rc::prop ("any bytes changed, or cut off", [&]
+    const std::vector<std::string> all { test::png (9, 7, SPNG_COLOR_TYPE_TRUECOLOR_ALPHA, Words (9 * 7 * 4, 300)),
+                                         test::png (9, 7, SPNG_COLOR_TYPE_GRAYSCALE, Bytes (9 * 7, 3)),
+                                         test::jpeg (9, 7, std::vector<unsigned char> (9 * 7, 3)) };
+    rc::prop ("any bytes changed or cut off", [&]
               {
         auto bytes = *rc::gen::elementOf (all);
         for (const auto& [at, value] : *rc::gen::container<std::vector<std::pair<std::uint16_t, char>>> (rc::gen::arbitrary<std::pair<std::uint16_t, char>>()))

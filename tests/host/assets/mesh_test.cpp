@@ -14,7 +14,7 @@ namespace
 {
 using Triangles = std::vector<std::array<int, 3>>;
 
-/// A tetrahedron, whose four faces share its four corners.
+/// A tetrahedron: four faces that share four corners.
 const std::vector<Vec3> corners { { 0, 0, 0 }, { 0.5, 0, 0 }, { 0, 0.25, 0 }, { 0, 0, -0.125 } };
 const Triangles faces { { 0, 1, 2 }, { 0, 3, 1 }, { 0, 2, 3 }, { 1, 3, 2 } };
 
@@ -33,7 +33,8 @@ std::string obj()
         text += "v " + textOf (p) + "\n";
     text += "vn 0 0 1\nvt 0 0\ng one\n";
     for (const auto& f : faces)
-        text += "f " + std::to_string (f[0] + 1) + "/1/1 " + std::to_string (f[1] - 4) + "//1 " + std::to_string (f[2] + 1) + " # from the front, from the end\ng other\nusemtl none\n";
+        text += "f " + std::to_string (f[0] + 1) + "/1/1 " + std::to_string (f[1] - 4) + "//1 " + std::to_string (f[2] + 1)
+                + " # from the front, from the end\ng other\nusemtl none\n";
     return text;
 }
 
@@ -121,7 +122,16 @@ struct Sample
 };
 std::vector<Sample> samples()
 {
-    return { { "a.obj", obj() }, { "a.OFF", off ("OFF\n4 4 6\n") }, { "b.off", off ("# first\nCOFF 4 4 0\n") }, { "c.off", off ("4 4 0\n") }, { "a.ply", plyText() }, { "b.ply", plyBinary (std::endian::little) }, { "c.ply", plyBinary (std::endian::big) }, { "a.stl", stlText() }, { "b.stl", stlBinary ("made by a test") }, { "c.stl", stlBinary ("solid, or so it says") } };
+    return { { "a.obj", obj() },
+             { "a.OFF", off ("OFF\n4 4 6\n") },
+             { "b.off", off ("# first\nCOFF 4 4 0\n") },
+             { "c.off", off ("4 4 0\n") },
+             { "a.ply", plyText() },
+             { "b.ply", plyBinary (std::endian::little) },
+             { "c.ply", plyBinary (std::endian::big) },
+             { "a.stl", stlText() },
+             { "b.stl", stlBinary ("made by a test") },
+             { "c.stl", stlBinary ("solid, or so it says") } };
 }
 
 std::string problem (const std::string& bytes, const std::string& name)
@@ -131,7 +141,7 @@ std::string problem (const std::string& bytes, const std::string& name)
 }
 }   // namespace
 
-TEST_CASE ("a tetrahedron is the same mesh out of every kind of file", "[host][assets][mesh]")
+TEST_CASE ("a tetrahedron gives the same mesh from every kind of file", "[host][assets][mesh]")
 {
     for (const auto& [name, bytes] : samples())
     {
@@ -139,7 +149,7 @@ TEST_CASE ("a tetrahedron is the same mesh out of every kind of file", "[host][a
         const auto mesh = readMesh (bytes, name);
         INFO ((mesh ? "" : describe (mesh.error())));
         REQUIRE (mesh);
-        if (name.ends_with (".stl"))   // which names no points: they come as the triangles use them
+        if (name.ends_with (".stl"))   // STL has no point indices: points come in the order of the triangles
         {
             REQUIRE (mesh->points.size() == 4);
             for (std::size_t t = 0; t < faces.size(); ++t)
@@ -152,15 +162,15 @@ TEST_CASE ("a tetrahedron is the same mesh out of every kind of file", "[host][a
     }
 }
 
-TEST_CASE ("points at the same place are one, polygons are cut, and what has no area left is dropped", "[host][assets][mesh]")
+TEST_CASE ("identical points are merged, polygons are split, and triangles without area are dropped", "[host][assets][mesh]")
 {
     const auto mesh = readMesh ("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv -0 0 0\nv 2 0 0\nf 1 2 3 4\nf 5 6 2\nf 1 2 5\nf 1 2\nl 1 2\n", "a.obj");
     REQUIRE (mesh);
     CHECK (mesh->points.size() == 5);
-    CHECK (mesh->triangles == Triangles { { 0, 1, 2 }, { 0, 2, 3 } });   // 5 6 2 lie on a line
+    CHECK (mesh->triangles == Triangles { { 0, 1, 2 }, { 0, 2, 3 } });   // 5 6 2 are collinear
 }
 
-TEST_CASE ("corners that differ in their last digit are one, so that a mesh has no cracks", "[host][assets][mesh]")
+TEST_CASE ("corners that differ in their last digit are merged, so that a mesh has no cracks", "[host][assets][mesh]")
 {
     const auto mesh = readMesh ("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1.0000000001 0 0\nv 1 1 0\nv 0 0.9999999999 0\nf 1 2 3\nf 4 5 6\n", "a.obj");
     REQUIRE (mesh);
@@ -168,7 +178,7 @@ TEST_CASE ("corners that differ in their last digit are one, so that a mesh has 
     CHECK (mesh->triangles == Triangles { { 0, 1, 2 }, { 1, 3, 2 } });
 }
 
-TEST_CASE ("a mesh that cannot be read says where and why", "[host][assets][mesh]")
+TEST_CASE ("an unreadable mesh gives an error with a position", "[host][assets][mesh]")
 {
     CHECK (problem ("v 0 0 0\n", "a.gltf") == "mesh/unknown_kind at a.gltf");
     CHECK (problem ("v 0 0 0\nv 1 0\n", "a.obj") == "mesh/syntax at a.obj:2");
@@ -191,7 +201,7 @@ TEST_CASE ("a mesh that cannot be read says where and why", "[host][assets][mesh
     CHECK (problem ("solid\nvertex 0 0 0\n", "a.stl") == "mesh/truncated at a.stl:2");
 }
 
-TEST_CASE ("no damage to a mesh crashes its reader", "[host][assets][mesh]")
+TEST_CASE ("no damaged mesh crashes the reader", "[host][assets][mesh]")
 {
     const auto all = samples();
     rc::prop ("any bytes changed, doubled or cut off", [&]

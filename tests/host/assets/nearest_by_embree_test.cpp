@@ -15,7 +15,7 @@ namespace
 {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// A patch of n by n squares with bumps on it, 10 cm wide: the meshes of presets are of this size.
+/// A bumpy patch of n by n squares, 10 cm wide, like the meshes of presets.
 Mesh bumpyPatch (int n)
 {
     Mesh mesh;
@@ -36,9 +36,9 @@ Mesh bumpyPatch (int n)
 std::shared_ptr<const Mesh> shared (Mesh mesh) { return std::make_shared<const Mesh> (std::move (mesh)); }
 }   // namespace
 
-TEST_CASE ("Embree finds the very triangle that a look at all of them finds", "[host][assets][nearest]")
+TEST_CASE ("Embree finds exactly the triangle that a search through all of them finds", "[host][assets][nearest]")
 {
-    rc::prop ("any mesh, of any size and place, from near and far", []
+    rc::prop ("any mesh, of any size and at any place, from near and far", []
               {
         std::mt19937 dice (*rc::gen::arbitrary<unsigned>());
         std::normal_distribution<double> normal;
@@ -52,7 +52,8 @@ TEST_CASE ("Embree finds the very triangle that a look at all of them finds", "[
         for (int i = 0; i < points; ++i)
             mesh.points.push_back (place + any (size));
         for (int i = *rc::gen::inRange (1, 200); i > 0; --i)
-            mesh.triangles.push_back ({ static_cast<int> (dice() % static_cast<unsigned> (points)), static_cast<int> (dice() % static_cast<unsigned> (points)), static_cast<int> (dice() % static_cast<unsigned> (points)) });
+            mesh.triangles.push_back ({ static_cast<int> (dice() % static_cast<unsigned> (points)), static_cast<int> (dice() % static_cast<unsigned> (points)),
+                                        static_cast<int> (dice() % static_cast<unsigned> (points)) });
 
         const auto all = shared (std::move (mesh));
         const auto nearest = host::nearestByEmbree (all);
@@ -65,7 +66,7 @@ TEST_CASE ("Embree finds the very triangle that a look at all of them finds", "[
             RC_ASSERT ((*nearest) (corner) == nearestOfAll (*all, corner)); });
 }
 
-TEST_CASE ("among a hundred thousand triangles Embree finds the right one, without allocating", "[host][assets][nearest]")
+TEST_CASE ("Embree finds the right triangle among a hundred thousand, without allocating", "[host][assets][nearest]")
 {
     const auto mesh = shared (bumpyPatch (224));
     REQUIRE (mesh->triangles.size() > 100'000);
@@ -90,7 +91,7 @@ TEST_CASE ("among a hundred thousand triangles Embree finds the right one, witho
     }
 }
 
-TEST_CASE ("Embree answers something for a point that is nowhere", "[host][assets][nearest]")
+TEST_CASE ("Embree gives an answer even for a point that is not finite", "[host][assets][nearest]")
 {
     const auto mesh = shared (bumpyPatch (4));
     const auto nearest = host::nearestByEmbree (mesh);

@@ -13,7 +13,7 @@
 namespace tactus::test
 {
 
-/// The bytes of a PNG; colour is of enum spng_color_type. T has 8 or 16 bits.
+/// The bytes of a PNG; `colour` is an enum spng_color_type. T has 8 or 16 bits.
 template <typename T>
 std::string png (std::uint32_t columns, std::uint32_t rows, std::uint8_t colour, const std::vector<T>& values)
 {
@@ -28,7 +28,7 @@ std::string png (std::uint32_t columns, std::uint32_t rows, std::uint8_t colour,
     return { static_cast<const char*> (bytes.get()), size };
 }
 
-/// The bytes of a JPEG, in grey.
+/// The bytes of a greyscale JPEG.
 inline std::string jpeg (int columns, int rows, const std::vector<unsigned char>& greys)
 {
     const std::unique_ptr<void, int (*) (tjhandle)> made (tjInitCompress(), tjDestroy);

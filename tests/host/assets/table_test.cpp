@@ -3,7 +3,7 @@
 
 #include "host/cli/program.hpp"
 
-#include <framework/number_text.hpp>
+#include <framework/text/number_text.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -31,7 +31,7 @@ std::string problem (const std::string& text)
 }
 }   // namespace
 
-TEST_CASE ("a table is read as spreadsheets, instruments and programs write it", "[host][assets][table]")
+TEST_CASE ("tables from spreadsheets, instruments and programs are read", "[host][assets][table]")
 {
     const std::vector<double> six { 1, -2.5, 3e-3, 4, 5, 6 };
     checkGrid ("1,-2.5,3e-3\n4,5,6\n", 2, 3, six);
@@ -45,14 +45,14 @@ TEST_CASE ("a table is read as spreadsheets, instruments and programs write it",
     checkGrid ("1\n2\n3\n", 3, 1, { 1, 2, 3 });
 }
 
-TEST_CASE ("positions and heights become a row of heights, if the positions are even", "[host][assets][table]")
+TEST_CASE ("positions and heights become a row of heights if the positions are evenly spaced", "[host][assets][table]")
 {
     checkGrid ("Lateral um,Raw Micrometer,\n0.0,-9,,\n0.2,-7,,\n0.3,-6,,\n0.5,1,,\n", 1, 4, { -9, -7, -6, 1 });
     checkGrid ("0 5\n0 6\n0 7\n", 3, 2, { 0, 5, 0, 6, 0, 7 });   // two columns of heights
     CHECK (problem ("x y\n0 1\n1 2\n2 3\n7 4\n") == "table/uneven at a.csv:2");
 }
 
-TEST_CASE ("a table that cannot be read says where and why", "[host][assets][table]")
+TEST_CASE ("an unreadable table gives an error with a position", "[host][assets][table]")
 {
     CHECK (problem ("") == "table/empty at a.csv:0");
     CHECK (problem ("a,b\nc,d\n") == "table/empty at a.csv:2");
@@ -70,7 +70,7 @@ TEST_CASE ("a table that cannot be read says where and why", "[host][assets][tab
     CHECK (commas.error().remedy == "write decimal points instead of commas");
 }
 
-TEST_CASE ("what is written as text is read back to the bit", "[host][assets][table]")
+TEST_CASE ("numbers written as text are read back bit for bit", "[host][assets][table]")
 {
     rc::prop ("any grid, any separator", []
               {
@@ -92,7 +92,7 @@ TEST_CASE ("what is written as text is read back to the bit", "[host][assets][ta
         RC_ASSERT (grid->values == values); });
 }
 
-TEST_CASE ("files of profilometers are read as they come", "[host][assets][table][data]")
+TEST_CASE ("profilometer files are read unchanged", "[host][assets][table][data]")
 {
     const auto folder = test::sharedData ("topography_contactengineering");
     if (folder.empty()) return;

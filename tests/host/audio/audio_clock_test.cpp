@@ -3,8 +3,8 @@
 
 #include "support/sketch.hpp"
 
+#include <framework/run/runner.hpp>
 #include <host/audio/audio_clock.hpp>
-#include <host/runtime/runner.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -27,7 +27,7 @@ struct Counted final : Ticked
     int most = 1 << 30;
 };
 
-/// A device that is pushed.
+/// A device whose tool is pushed in.
 struct Pushed final : Device
 {
     void prepare (double) override {}
@@ -50,7 +50,7 @@ bool soon (const std::function<bool()>& isSo)
 }
 }   // namespace
 
-TEST_CASE ("blocks tick as often as they are long, whatever the rates", "[audio]")
+TEST_CASE ("blocks trigger as many ticks as fit into their length, at any rates", "[audio]")
 {
     rc::prop ("no tick is lost or made up",
               []
@@ -61,7 +61,7 @@ TEST_CASE ("blocks tick as often as they are long, whatever the rates", "[audio]
                   std::jthread driver ([&]
                                        { clock.drive (ticked); });
                   int frames = 0;
-                  while (ticked.count == 0)   // until it is driven
+                  while (ticked.count == 0)   // waits until it is driven
                   {
                       clock.block (1000, card_hz);
                       std::this_thread::yield();
@@ -81,10 +81,15 @@ TEST_CASE ("blocks tick as often as they are long, whatever the rates", "[audio]
               });
 }
 
-TEST_CASE ("when a card that ticks is gone a timer ticks with all forces at zero, and when it is back they rise by the ramp", "[audio][safety]")
+TEST_CASE ("if the card that ticks the run goes away, a timer ticks with all forces at zero; when the card is back, they ramp up", "[audio][safety]")
 {
     constexpr double rate_hz = 1000.0, ramp_s = 0.05;
-    const auto sketch = test::Sketch {}.node ("push", "signal.constant", { { "value", 2.0 } }).node ("join", "vector.join").node ("motor", "device.force").wire ("push.out -> join.z").wire ("join.out -> motor.force");
+    const auto sketch = test::Sketch {}
+                            .node ("push", "signal.constant", { { "value", 2.0 } })
+                            .node ("join", "vector.join")
+                            .node ("motor", "device.force")
+                            .wire ("push.out -> join.z")
+                            .wire ("join.out -> motor.force");
     Engine engine { sketch.compile ({ .rate_hz = rate_hz }).plan };
     Pushed device;
     engine.attach ("stylus", device, { .ramp = ramp_s });
@@ -125,7 +130,7 @@ TEST_CASE ("when a card that ticks is gone a timer ticks with all forces at zero
     CHECK (device.largest_step <= 2.0 / (Guard::fade_s * rate_hz) + 1e-9);
 }
 
-TEST_CASE ("a run that a card should tick ends when it is asked to, also where no block ever comes", "[audio]")
+TEST_CASE ("a run ticked by a card stops on request even if no block ever arrives", "[audio]")
 {
     Engine engine { test::Sketch {}.node ("a", "signal.constant").compile ({ .rate_hz = 1000.0 }).plan };
     AudioClock clock { 1000.0 };

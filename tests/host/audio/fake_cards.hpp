@@ -8,7 +8,7 @@
 namespace tactus::test
 {
 
-/// A sound card made of nothing: a test asks it for blocks.
+/// A virtual sound card: the test triggers its blocks.
 class FakeCards final : public host::audio::CardSystem
 {
 public:
@@ -16,18 +16,18 @@ public:
     int outputs = 4, inputs = 2, block = 64;
     double rate_hz = 48'000.0;
     int opened = 0;
-    std::vector<std::vector<float>> played { 4 }, spoken { 2 };   ///< by channel; what is spoken is repeated
+    std::vector<std::vector<float>> played { 4 }, spoken { 2 };   ///< by channel; `spoken` is repeated
 
     std::vector<std::string> types() override { return { "JACK", "ALSA" }; }
     std::vector<host::audio::ListedCard> list() override { return {}; }
 
-    std::variant<std::unique_ptr<host::audio::OpenCard>, Message> open (const host::audio::CardWanted& w, int outs, int ins, host::audio::CardUser& u) override
+    Result<std::unique_ptr<host::audio::OpenCard>> open (const host::audio::CardWanted& w, int outs, int ins, host::audio::CardUser& u) override
     {
         const auto refused = [] (const char* id)
         {
             Message m;
             m.id = id;
-            m.text = "the fake card cannot";
+            m.text = "the fake card does not open";
             return m;
         };
         wanted = w;
@@ -41,11 +41,12 @@ public:
         return std::make_unique<Card> (*this);
     }
 
-    /// A block, if the card is there and open.
+    /// Plays one block, if the card is there and open.
     void play()
     {
         if (user == nullptr || ! there) return;
-        std::vector<std::vector<float>> out (static_cast<std::size_t> (has_out), std::vector<float> (static_cast<std::size_t> (block))), in (static_cast<std::size_t> (has_in), std::vector<float> (static_cast<std::size_t> (block)));
+        std::vector<std::vector<float>> out (static_cast<std::size_t> (has_out), std::vector<float> (static_cast<std::size_t> (block))),
+            in (static_cast<std::size_t> (has_in), std::vector<float> (static_cast<std::size_t> (block)));
         std::vector<float*> outs;
         std::vector<const float*> ins;
         for (auto& channel : out)

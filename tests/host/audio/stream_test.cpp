@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What goes from ticks to a sound card and back: kept together where the clocks differ, without a click, whatever happens.
+// Streams from ticks to a sound card and back stay in sync although the clocks differ, and play without clicks.
 
 #include "two_clocks.hpp"
 
@@ -18,7 +18,7 @@ using tactus::test::TwoClocks;
 
 namespace
 {
-/// A sine from the ticks, as a card would play it.
+/// A sine made by the ticks, as played by the card.
 struct Played
 {
     explicit Played (const TwoClocks& c, double frequency, double reserve_s = 0.01)
@@ -57,8 +57,8 @@ struct Played
     std::int64_t time = 0;
 };
 
-/// How far a sound is from a sine whose amplitude and phase only move slowly: the rest beside the sine that fits each
-/// stretch of `period` samples, the largest in all. A click is as large as its step.
+/// The deviation of a sound from a sine whose amplitude and phase change slowly: the largest residual of the best-fitting
+/// sine in each stretch of `period` samples. A click is as large as its step.
 double largestResidual (std::span<const float> sound, double cycles_per_sample, std::size_t period)
 {
     double largest = 0.0;
@@ -97,7 +97,7 @@ double loudest (std::span<const float> sound)
 }
 }   // namespace
 
-TEST_CASE ("clocks 200 ppm apart play a sine for ten minutes without a click, and by how much they differ is said", "[audio]")
+TEST_CASE ("clocks 200 ppm apart play a sine for ten minutes without a click, and the difference is learned", "[audio]")
 {
     const double faster = GENERATE (200e-6, -200e-6);
     Played played { { .tick_hz = 1000.0, .card_hz = 8000.0, .block = 64, .card_is_faster = faster, .jitter_s = 0.0005 }, 100.0 };
@@ -114,9 +114,9 @@ TEST_CASE ("clocks 200 ppm apart play a sine for ten minutes without a click, an
     CHECK (loudest (sound) == Approx (1.0).margin (1e-3));
 }
 
-TEST_CASE ("whatever the rates, blocks and clocks, nothing runs dry and a sine keeps its height", "[audio]")
+TEST_CASE ("at any rates, block sizes and clocks, nothing runs dry and a sine keeps its amplitude", "[audio]")
 {
-    rc::prop ("sines in the lower 0.3 of the ticks' rate",
+    rc::prop ("sines below 0.3 of the tick rate",
               []
               {
                   const double tick_hz = *rc::gen::element (500.0, 1000.0, 4000.0, 10'000.0, 48'000.0);
@@ -140,7 +140,7 @@ TEST_CASE ("whatever the rates, blocks and clocks, nothing runs dry and a sine k
               });
 }
 
-TEST_CASE ("ticks that stop fade out within milliseconds, and in again: no click", "[audio]")
+TEST_CASE ("if ticks stop, the sound fades out within milliseconds; when they resume it fades in, without a click", "[audio]")
 {
     Played played { { .tick_hz = 4000.0, .card_hz = 48000.0, .block = 64 }, 50.0 };
     played.run (1.0);
@@ -148,19 +148,19 @@ TEST_CASE ("ticks that stop fade out within milliseconds, and in again: no click
     played.ticks = false;
     played.run (0.5);
     const auto report = played.stream.report();
-    CHECK (report.underruns == 0);   // perhaps it is the end
+    CHECK (report.underruns == 0);   // this may be the end of the run
     CHECK (report.flows == 0);
-    const auto silent = std::span (played.heard).subspan (before + 48u * 25u);   // what waited, and 3 ms
+    const auto silent = std::span (played.heard).subspan (before + 48u * 25u);   // the waiting samples, and 3 ms
     CHECK (loudest (silent) == 0.0);
     played.ticks = true;
     played.run (1.0);
     CHECK (played.stream.report().flows == 1);
     CHECK (played.stream.report().underruns == 1);
     CHECK (loudest (std::span (played.heard).last (4800)) > 0.99);
-    CHECK (largestStep (played.heard) < 0.04);   // the way out takes 1 in 144 samples, 1.6 at its steepest, and the sine 2 pi 50/48000
+    CHECK (largestStep (played.heard) < 0.04);   // the fade takes 144 samples, at most 1.6/144 per sample, and the sine changes by 2 pi 50/48000
 }
 
-TEST_CASE ("a card that stood still is not heard late, and not with a click", "[audio]")
+TEST_CASE ("a card that paused does not play late, and does not click", "[audio]")
 {
     Played played { { .tick_hz = 1000.0, .card_hz = 48000.0, .block = 256 }, 50.0 };
     played.run (1.0);
@@ -178,9 +178,9 @@ TEST_CASE ("a card that stood still is not heard late, and not with a click", "[
     CHECK (largestStep (after) < 0.04);
 }
 
-TEST_CASE ("where blocks tick the run, what is ticked is what is played", "[audio]")
+TEST_CASE ("if blocks tick the run, every tick's sample is played unchanged", "[audio]")
 {
-    rc::prop ("at the card's rate to the bit, a block late",
+    rc::prop ("bit for bit at the card's rate, a block late",
               []
               {
                   const int block = *rc::gen::inRange (1, 300);
@@ -208,12 +208,12 @@ TEST_CASE ("where blocks tick the run, what is ticked is what is played", "[audi
                                                            { return v >= 1.0f; });
                   RC_ASSERT (stream.report().underruns == 0u);
                   RC_ASSERT (back.report().underruns == 0u);
-                  for (auto at = first + 240; at < heard.end(); ++at)   // when it has faded in
+                  for (auto at = first + 240; at < heard.end(); ++at)   // after the fade-in
                       RC_ASSERT (*at == *(at - 1) + 1.0f);
               });
 }
 
-TEST_CASE ("an input keeps its pitch and height, and fades where none comes", "[audio]")
+TEST_CASE ("an input keeps its pitch and amplitude, and fades out if it stops", "[audio]")
 {
     for (const double faster : { 300e-6, -300e-6 })
     {
@@ -245,7 +245,7 @@ TEST_CASE ("an input keeps its pitch and height, and fades where none comes", "[
         CHECK (loudest (tail) == Approx (1.0).margin (5e-3));
 
         run (0.2, false);
-        CHECK (stream.report().underruns == 0);   // nobody has said so yet
+        CHECK (stream.report().underruns == 0);   // not counted yet
         CHECK (loudest (std::span (read).last (200)) == 0.0);
         CHECK (largestStep (read) < 0.4);
         run (1.0, true);
@@ -254,7 +254,7 @@ TEST_CASE ("an input keeps its pitch and height, and fades where none comes", "[
     }
 }
 
-TEST_CASE ("streams allocate nothing and take no lock while they run", "[audio]")
+TEST_CASE ("running streams neither allocate nor lock", "[audio]")
 {
     if (! NoAllocation::watches) return;
     TwoClocks clocks { .tick_hz = 1000.0, .card_hz = 44'100.0, .block = 64, .card_is_faster = 100e-6, .jitter_s = 0.001 };

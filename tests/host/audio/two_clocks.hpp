@@ -11,7 +11,7 @@
 namespace tactus::test
 {
 
-/// Ticks and blocks of a sound card in virtual time, each by a clock of its own.
+/// Ticks and blocks of a sound card in virtual time, each with its own clock.
 struct TwoClocks
 {
     double tick_hz = 1000.0, card_hz = 48000.0;
@@ -19,7 +19,7 @@ struct TwoClocks
     double card_is_faster = 0.0;   ///< relative
     double jitter_s = 0.0;         ///< how late a tick or a block may be
 
-    /// Until so many seconds have gone by, or on from where it was.
+    /// Runs for this many seconds, continuing from the last call.
     void run (double seconds, const std::function<void()>& tick, const std::function<void()>& play)
     {
         end += seconds;
@@ -50,7 +50,7 @@ struct TwoClocks
     }
 
     std::int64_t ticks = 0, blocks = 0;
-    double end = 0.0, tick_late = -1.0, block_late = -1.0;   // s; how late the next one is, below 0 where nobody has asked
+    double end = 0.0, tick_late = -1.0, block_late = -1.0;   // in s; the latenesses are for the next tick and block, below 0 if not generated yet
     std::mt19937 random { 1 };
 };
 

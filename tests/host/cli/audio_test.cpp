@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Sound cards on the command line, where there is none of this name: ./test.sh --sound has one.
+// Sound cards on the command line, on a machine without a card of this name. ./test.sh --sound uses one.
 
 #include "program.hpp"
 
-#include <framework/json.hpp>
+#include <framework/text/json.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -27,7 +27,7 @@ std::string errorOf (std::vector<std::string> more)
 }
 }   // namespace
 
-TEST_CASE ("what cannot be played is said on the command line, with what would be right", "[cli][audio]")
+TEST_CASE ("an audio option that cannot work is refused with a remedy", "[cli][audio]")
 {
     const auto absent = errorOf ({ "--route", "drag.force.x=1@4 N", "--audio", "nobody has this card" });
     CHECK (holds (absent, "audio/no_card"));
@@ -42,7 +42,7 @@ TEST_CASE ("what cannot be played is said on the command line, with what would b
     CHECK (holds (errorOf ({ "--device", "stylus=audio:one", "--audio", "another" }), "audio/two_cards"));
 }
 
-TEST_CASE ("a render takes no sound card, and a graph that names one is valid wherever it is read", "[cli][audio]")
+TEST_CASE ("a render uses no sound card, and a graph that names one is valid on any machine", "[cli][audio]")
 {
     const auto refused = runTactus ({ "render", wood, "--duration", "1", "--device", "stylus=audio" });
     CHECK (refused.status == 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is wrong is said with its id, the place and a remedy; the exit status tells whose fault it is; nothing is left
-// half written.
+// Problems are reported with their id, their place and a remedy. The exit status shows whether the input or the usage
+// is wrong. No output file is left half written.
 
 #include "program.hpp"
 
@@ -70,10 +70,12 @@ TEST_CASE ("each kind of bad file is refused with its id and its place", "[cli]"
     CHECK (ran.err.find (file + place) != std::string::npos);
 }
 
-TEST_CASE ("all that is wrong with all files is said at once", "[cli]")
+TEST_CASE ("all problems in all files are reported in one go", "[cli]")
 {
     const Scratch scratch;
-    const auto a = scratch.write ("a.json", graph (R"("a": { "type": "signal.gian" }, "b": { "type": "signal.gain", "params": { "gain": "loud", "gian": 2 } })", R"("a.out => b.in", "x.out -> b.in")"));
+    const auto a = scratch.write ("a.json",
+                                  graph (R"("a": { "type": "signal.gian" }, "b": { "type": "signal.gain", "params": { "gain": "loud", "gian": 2 } })",
+                                         R"("a.out => b.in", "x.out -> b.in")"));
     const auto b = scratch.write ("b.json", "{");
     const auto fine = scratch.write ("fine.json", graph (amp));
     const auto ran = runTactus ({ "validate", a, b, fine, scratch.path ("missing.json") });
@@ -84,16 +86,17 @@ TEST_CASE ("all that is wrong with all files is said at once", "[cli]")
     CHECK (ran.out.find ("fine.json: ok") != std::string::npos);
 }
 
-TEST_CASE ("a command used wrongly exits with 2 and says how it is used", "[cli]")
+TEST_CASE ("a command that is used wrongly exits with status 2 and prints its usage", "[cli]")
 {
     const auto arguments = GENERATE (std::vector<std::string> {}, std::vector<std::string> { "fly" }, std::vector<std::string> { "render" },
-                                     std::vector<std::string> { "render", "x.json", "--rate", "fast" }, std::vector<std::string> { "render", "x.json", "--wings" });
+                                     std::vector<std::string> { "render", "x.json", "--rate", "fast" },
+                                     std::vector<std::string> { "render", "x.json", "--wings" });
     const auto ran = runTactus (arguments);
     CHECK (ran.status == 2);
     CHECK_FALSE (ran.err.empty());
 }
 
-TEST_CASE ("every command explains itself with examples", "[cli]")
+TEST_CASE ("the help of every command has examples", "[cli]")
 {
     for (const auto* command : { "nodes", "validate", "render", "play" })
     {
@@ -104,7 +107,7 @@ TEST_CASE ("every command explains itself with examples", "[cli]")
     CHECK (runTactus ({ "--help" }).out.find ("Examples:") != std::string::npos);
 }
 
-TEST_CASE ("what render cannot do is said, and no file is left", "[cli]")
+TEST_CASE ("a render that cannot run reports the reason and leaves no file", "[cli]")
 {
     const Scratch scratch;
     const auto file = scratch.write ("g.json", graph (hand + "," + motor + "," + drag, R"("hand.position -> drag.position", "drag.force -> motor.force")"));
@@ -116,7 +119,7 @@ TEST_CASE ("what render cannot do is said, and no file is left", "[cli]")
 
     using Case = std::pair<std::string, std::vector<std::string>>;
     const auto [id, options] = GENERATE (values<Case> ({
-        // @ is the scratch folder
+        //  is the temporary folder
         { "run/no_length", {} },
         { "output/unwritable", { "--duration", "0.1", "--out", "/nowhere/at/all.csv" } },
         { "output/unwritable", { "--duration", "0.1", "--out", "/nowhere/at/all.wav" } },

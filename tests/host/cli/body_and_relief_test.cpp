@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bodies and reliefs that others have measured or drawn, where they are present: a liver to press and stroke, a line of
-// a profilometer. Pictures go to build/figures/.
+// Bodies and reliefs from published data sets, if these are present: a liver to press and stroke, and one line of a
+// profilometer scan. Plots go to build/figures/.
 
 #include "program.hpp"
 
-#include <framework/mesh_walk.hpp>
+#include <framework/file/csv.hpp>
+#include <framework/kit/mesh_walk.hpp>
 #include <host/assets/file_assets.hpp>
-#include <host/io/csv.hpp>
 #include <host/io/plot.hpp>
 
 #include <catch2/catch.hpp>
@@ -23,14 +23,14 @@ namespace
 {
 constexpr double rate = 4000.0;
 
-host::Table rendered (const std::string& path)
+Table rendered (const std::string& path)
 {
-    auto table = host::readTable (std::filesystem::path (path));
+    auto table = readTable (std::filesystem::path (path));
     REQUIRE (table);
     return std::move (*table);
 }
 
-std::vector<double> column (const host::Table& table, const std::string& name)
+std::vector<double> column (const Table& table, const std::string& name)
 {
     const auto at = table.column (name);
     INFO (name);
@@ -44,14 +44,14 @@ std::vector<double> column (const host::Table& table, const std::string& name)
 void writeTrace (const std::string& path, const std::vector<Vec3>& positions)
 {
     const std::string names[] { "t", "x", "y", "z" };
-    auto trace = host::TableWriter::create (path, names);
+    auto trace = TableWriter::create (path, names);
     REQUIRE (trace);
     for (std::size_t k = 0; k < positions.size(); ++k)
         REQUIRE (trace->row (std::vector { static_cast<double> (k) / rate, positions[k].x(), positions[k].y(), positions[k].z() }));
     REQUIRE (trace->commit());
 }
 
-/// A tip that comes down on a body, strokes along it by `way` at a depth of 2 mm, and leaves.
+/// A tip that comes down on a body, strokes it along `way` at a depth of 2 mm, and leaves.
 std::vector<Vec3> strokeOver (const MeshWalk& body, const Vec3& from, const Vec3& way)
 {
     const auto normals = normalsOf (body.mesh());
@@ -78,7 +78,7 @@ double largestStep (const std::vector<double>& values)
     return most;
 }
 
-/// How much of a signal's energy lies at or above a frequency, after a Hann window, mean removed.
+/// The part of a signal's energy at or above a frequency, with the mean removed and a Hann window.
 double shareAbove (double frequency, const std::vector<double>& signal)
 {
     const auto n = signal.size();
@@ -104,7 +104,8 @@ double shareAbove (double frequency, const std::vector<double>& signal)
 }
 }   // namespace
 
-TEST_CASE ("a liver drawn by others is pressed and stroked live, with the search on, and rendering repeats it to the bit", "[data]")
+// Long because it is one scenario: a stroke, a live run over it, a render of the same run, and checks of its recording.
+TEST_CASE ("a published liver mesh is pressed and stroked live, with the search on, and a render repeats it bit for bit", "[data]")
 {
     const auto folder = test::sharedData ("meshes");
     if (folder.empty()) return;
@@ -112,8 +113,8 @@ TEST_CASE ("a liver drawn by others is pressed and stroked live, with the search
 
     host::FileAssets assets;
     auto loaded = assets.mesh (mesh);
-    REQUIRE (std::holds_alternative<std::shared_ptr<const Mesh>> (loaded));
-    auto metres = *std::get<std::shared_ptr<const Mesh>> (loaded);
+    REQUIRE (loaded);
+    auto metres = **loaded;
     for (auto& p : metres.points)
         p *= 0.01;
     const MeshWalk body { metres };
@@ -123,7 +124,7 @@ TEST_CASE ("a liver drawn by others is pressed and stroked live, with the search
     const test::Scratch scratch;
     const auto tip = strokeOver (body, top + Vec3 (-0.006, 0.0, 0.0), Vec3 (0.016, 0.0, 0.0));
     for (std::size_t k = 1; k < tip.size(); ++k)
-        REQUIRE ((tip[k] - tip[k - 1]).norm() < 1e-4);   // else the nearest point jumped, and the hand with it
+        REQUIRE ((tip[k] - tip[k - 1]).norm() < 1e-4);   // otherwise the nearest point, and thus the hand, has jumped
     writeTrace (scratch.path ("stroke.csv"), tip);
     const std::string records = "liver.force,liver.depth,liver.triangle,liver.state,liver.stored_energy,liver.dissipated_energy,hand.position";
     const auto arguments = [&] (const std::string& command, int search_ticks, const std::string& out) -> std::vector<std::string>
@@ -140,7 +141,7 @@ TEST_CASE ("a liver drawn by others is pressed and stroked live, with the search
         return { command, graph, "--device", "tip=trace:" + scratch.path ("stroke.csv"), "--record", records, "--out", scratch.path (out) };
     };
 
-    for (const int search_ticks : { 20, 100, 400 })   // on a machine that is too busy to answer in time it gets more
+    for (const int search_ticks : { 20, 100, 400 })   // a machine that is too busy to answer in time gets more ticks
     {
         const auto live = test::runTactus (arguments ("play", search_ticks, "live.csv"));
         INFO (live.err);
@@ -155,7 +156,8 @@ TEST_CASE ("a liver drawn by others is pressed and stroked live, with the search
     }
 
     const auto table = rendered (scratch.path ("again.csv"));
-    const auto depth = column (table, "liver.depth"), state = column (table, "liver.state"), triangle = column (table, "liver.triangle"), lost = column (table, "liver.dissipated_energy");
+    const auto depth = column (table, "liver.depth"), state = column (table, "liver.state"), triangle = column (table, "liver.triangle"),
+               lost = column (table, "liver.dissipated_energy");
     const auto touched = std::ranges::count_if (state, [] (double s)
                                                 { return s > 0.0; });
     CHECK (touched > 3000);
@@ -175,14 +177,14 @@ TEST_CASE ("a liver drawn by others is pressed and stroked live, with the search
     {
         force[c] = column (table, std::string ("liver.force.") + "xyz"[c]);
         position[c] = column (table, std::string ("hand.position.") + "xyz"[c]);
-        CHECK (largestStep (force[c]) < 0.01);   // N in 0.25 ms, no step where a triangle ends
+        CHECK (largestStep (force[c]) < 0.01);   // N in 0.25 ms: no step at the edge of a triangle
         for (std::size_t k = 1; k < force[c].size(); ++k)
             work -= 0.5 * (force[c][k] + force[c][k - 1]) * (position[c][k] - position[c][k - 1]);
     }
     CHECK (work > 0.0);
 }
 
-TEST_CASE ("a line of a profilometer is felt as it was measured, and never above its guard", "[data]")
+TEST_CASE ("a line of a profilometer scan is felt as measured, and the force never exceeds the guard's limit", "[data]")
 {
     const auto folder = test::sharedData ("topography_contactengineering");
     if (folder.empty()) return;
@@ -190,8 +192,8 @@ TEST_CASE ("a line of a profilometer is felt as it was measured, and never above
 
     host::FileAssets assets;
     auto loaded = assets.table (folder + "/dektak-1.csv");
-    REQUIRE (std::holds_alternative<std::shared_ptr<const Grid>> (loaded));
-    const auto& line = *std::get<std::shared_ptr<const Grid>> (loaded);
+    REQUIRE (loaded);
+    const auto& line = **loaded;
     REQUIRE (line.rows == 1);
     REQUIRE (line.columns > 9000);
 
@@ -201,14 +203,16 @@ TEST_CASE ("a line of a profilometer is felt as it was measured, and never above
         const auto graph = scratch.write ("relief.json", R"({ "format": "tactus-graph", "version": 1, "name": "Relief", "rate_hz": 4000, "nodes": {
             "relief": { "type": "texture.height_map", "params": { "gain": "2 N" }, "settings": { "map": { "csv": ")"
                                                              + folder
-                                                             + R"(/dektak-1.csv", "pitch": )" + std::to_string (pitch * 1e6) + R"(e-6, "height": "1 um" } } } }, "wires": [] })");
+                                                             + R"(/dektak-1.csv", "pitch": )" + std::to_string (pitch * 1e6)
+                                                             + R"(e-6, "height": "1 um" } } } }, "wires": [] })");
         const std::string names[] { "t", "relief.position.x" };
-        auto feed = host::TableWriter::create (scratch.path ("feed.csv"), names);
+        auto feed = TableWriter::create (scratch.path ("feed.csv"), names);
         REQUIRE (feed);
         for (int k = 0; k < static_cast<int> (seconds * rate); ++k)
             REQUIRE (feed->row (std::vector { k / rate, 0.2e-3 + speed * k / rate }));
         REQUIRE (feed->commit());
-        const auto ran = test::runTactus ({ "render", graph, "--feed", scratch.path ("feed.csv"), "--record", "relief.value,relief.force.x", "--out", scratch.path ("felt.csv") });
+        const auto ran = test::runTactus ({ "render", graph, "--feed", scratch.path ("feed.csv"),
+                                            "--record", "relief.value,relief.force.x", "--out", scratch.path ("felt.csv") });
         INFO (ran.err);
         REQUIRE (ran.status == 0);
         return rendered (scratch.path ("felt.csv"));
@@ -224,7 +228,7 @@ TEST_CASE ("a line of a profilometer is felt as it was measured, and never above
         { return 1e-6 * line (0, static_cast<int> (index)); };
         const double there = std::lerp (measured (whole), measured (whole + 1.0), at - whole);
         error2 += std::pow (value[k] - there, 2);
-        roughness2 += std::pow (there - 0.5 * (measured (whole - 60.0) + measured (whole + 60.0)), 2);   // against 20 um of line
+        roughness2 += std::pow (there - 0.5 * (measured (whole - 60.0) + measured (whole + 60.0)), 2);   // against 20 um of the line
     }
     CHECK (error2 < 0.01 * roughness2);
     double most = 0.0, off = 0.0;

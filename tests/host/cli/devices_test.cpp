@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Real devices on the command line, where there is none: ./test.sh --devices has some.
+// Real devices on the command line, on a machine without any. ./test.sh --devices uses some.
 
 #include "program.hpp"
 
-#include <framework/json.hpp>
+#include <framework/text/json.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -18,18 +18,18 @@ const std::string wood = TACTUS_SOURCE_DIR "/graphs/dry_wood.json";
 bool holds (const std::string& text, const std::string& part) { return text.find (part) != std::string::npos; }
 }   // namespace
 
-TEST_CASE ("the list of devices says something, and is JSON if asked", "[cli][hid]")
+TEST_CASE ("the list of devices is never empty, and is JSON on request", "[cli][hid]")
 {
     const auto plain = runTactus ({ "devices" });
     CHECK (plain.status == 0);
-    CHECK (plain.err.empty());   // all profiles that come with Tactus can be read
+    CHECK (plain.err.empty());   // all profiles that come with Tactus are readable
     CHECK_FALSE (plain.out.empty());
     const auto json = runTactus ({ "devices", "--json" });
     CHECK (json.status == 0);
     CHECK (Json::parse (json.out).is_array());
 }
 
-TEST_CASE ("a run with a device that is not there says so, and what is", "[cli][hid]")
+TEST_CASE ("a run with an absent device reports it, and lists the devices that are present", "[cli][hid]")
 {
     Scratch scratch;
     const auto device = scratch.write ("device.json", R"({"driver": "hid", "profile": "tactus_board", "serial": "nobody has this"})");
@@ -48,7 +48,7 @@ TEST_CASE ("a run with a device that is not there says so, and what is", "[cli][
     CHECK (holds (no_clock.err, "run/no_clock"));
 }
 
-TEST_CASE ("a render takes no real device, and says what to do instead", "[cli][hid]")
+TEST_CASE ("a render refuses a real device, and says what to do instead", "[cli][hid]")
 {
     const auto refused = runTactus ({ "render", wood, "--duration", "1", "--device", "stylus=hid:auto" });
     CHECK (refused.status == 1);
@@ -56,7 +56,7 @@ TEST_CASE ("a render takes no real device, and says what to do instead", "[cli][
     CHECK (holds (refused.err, "sim"));
 }
 
-TEST_CASE ("a graph that names a real device is valid wherever it is read", "[cli][hid]")
+TEST_CASE ("a graph that names a real device is valid on any machine", "[cli][hid]")
 {
     Scratch scratch;
     const auto graphWith = [&] (const std::string& profile)
@@ -64,7 +64,8 @@ TEST_CASE ("a graph that names a real device is valid wherever it is read", "[cl
         return scratch.write ("graph.json", R"({ "format": "tactus-graph", "version": 1, "rate_hz": 1000,
             "devices": { "tool": { "driver": "hid", "profile": ")"
                                                 + profile + R"(", "guard": { "max_force": "1 N" } } },
-            "nodes": { "hand": { "type": "device.position", "role": "tool" }, "wall": { "type": "deform.plane" }, "motor": { "type": "device.force", "role": "tool" } },
+            "nodes": { "hand": { "type": "device.position", "role": "tool" }, "wall": { "type": "deform.plane" },
+                "motor": { "type": "device.force", "role": "tool" } },
             "wires": ["hand.position -> wall.position", "wall.force -> motor.force"] })");
     };
     CHECK (runTactus ({ "validate", graphWith ("tactus_board") }).status == 0);

@@ -3,8 +3,8 @@
 
 #include "running.hpp"
 
-#include <framework/json.hpp>
-#include <host/io/csv.hpp>
+#include <framework/file/csv.hpp>
+#include <host/osc/osc_port.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -18,29 +18,49 @@ using namespace tactus;
 using test::Running;
 using test::Scratch;
 
-TEST_CASE ("a signal is the emergency stop of a play: no force, the ticks go on, another signal rearms", "[cli]")
+TEST_CASE ("SIGUSR1 triggers the emergency stop of a play: no force, the ticks continue, and only a person rearms", "[cli]")
 {
     const Scratch scratch;
-    const Json graph { { "format", "tactus-graph" }, { "version", 1 }, { "rate_hz", 1000 },   //
-                       { "nodes", { { "hand", { { "type", "device.position" }, { "role", "tip" } } }, { "push", { { "type", "signal.constant" }, { "params", { { "value", 2.0 } } } } }, { "motor", { { "type", "device.force" }, { "role", "tip" } } } } },
-                       { "wires", { "push.out -> motor.force.x" } } };
+    const auto graph = R"({ "format": "tactus-graph", "version": 1, "rate_hz": 1000,
+      "nodes": { "hand": { "type": "device.position", "role": "tip" }, "push": { "type": "signal.constant", "params": { "value": 2.0 } },
+        "motor": { "type": "device.force", "role": "tip" } },
+      "wires": [ "push.out -> motor.force.x" ] })";
     const auto recorded = scratch.path ("applied.csv");
-    Running play { { "play", scratch.write ("g.json", graph.dump()), "--device", "tip=sim", "--osc", "off", "--record", "motor.applied.x", "--out", recorded } };
+    Running play { { "play", scratch.write ("g.json", graph), "--device", "tip=sim", "--osc", "0", "--record", "motor.applied.x",
+                     "--out", recorded } };
     REQUIRE (play.says ("Ctrl-C stops"));
-    for (const int number : { SIGUSR1, SIGUSR2 })
+    const auto said = play.err();
+    const auto behind = [&] (const std::string& words)
+    { return said.substr (said.find (words) + words.size()); };
+    const int port = std::stoi (behind ("OSC on 127.0.0.1:"));
+    const auto token = behind ("token to rearm: ").substr (0, 6);
+    const auto us = std::move (*host::OscPort::open (0));
+    const auto rearm = [&]
     {
-        std::this_thread::sleep_for (std::chrono::milliseconds (300));
-        play.signal (number);
-    }
+        us->send (port, juce::OSCMessage ("/tactus/rearm", juce::String (token), us->number()));
+        const auto answer = us->next (std::chrono::seconds (20));
+        REQUIRE (answer);
+        return answer->getAddressPattern().toString().toStdString();
+    };
+
+    std::this_thread::sleep_for (std::chrono::milliseconds (300));
+    play.signal (SIGUSR1);
+    const auto stopped = std::chrono::steady_clock::now();
+    play.signal (SIGUSR2);
+    CHECK (play.says ("SIGUSR2 does not rearm"));
+    const auto first = rearm();
+    if (std::chrono::steady_clock::now() < stopped + std::chrono::milliseconds (900)) CHECK (first == "/tactus/error");
+    std::this_thread::sleep_until (stopped + std::chrono::milliseconds (1100));
+    CHECK (rearm() == "/tactus/done");
     std::this_thread::sleep_for (std::chrono::milliseconds (300));
     const auto ran = play.stop();
     INFO (ran.err);
     CHECK (ran.status == 0);
     CHECK (ran.err.find ("the emergency stop was pressed") != std::string::npos);
 
-    const auto table = host::readTable (std::filesystem::path (recorded));
+    const auto table = readTable (std::filesystem::path (recorded));
     REQUIRE (table);
-    std::vector<std::size_t> lengths;   // of what is on, off, on again
+    std::vector<std::size_t> lengths;   // length of each phase in ticks: on, off, on
     for (std::size_t k = 1; k < table->rows(); ++k)
     {
         const auto is_off = [&] (std::size_t row)

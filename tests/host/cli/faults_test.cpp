@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What goes wrong around a run does not reach the force: docs/safety.md.
+// Faults around a run do not affect the force: docs/safety.md.
 
 #include "running.hpp"
 
@@ -24,7 +24,7 @@ namespace
 const std::string wood = TACTUS_SOURCE_DIR "/graphs/dry_wood.json";
 const std::string ports = "drag.force,drag.state,motor.force,motor.applied";
 
-/// The most memory that a process has had, in kB.
+/// The peak memory of a process, in kB.
 long peakOf (long process)
 {
     std::ifstream status ("/proc/" + std::to_string (process) + "/status");
@@ -33,7 +33,7 @@ long peakOf (long process)
     return -1;
 }
 
-/// Throws 20 000 packets a second at a port, half of them OSC that asks for nothing new, until it is told to stop.
+/// Sends 20 000 packets per second to a port until it is stopped. Half of them are OSC messages that change nothing.
 class Flood
 {
 public:
@@ -76,33 +76,35 @@ private:
 };
 }   // namespace
 
-TEST_CASE ("a disk that is full ends a recording, and neither the run nor the other recording", "[cli][safety]")
+TEST_CASE ("a full disk ends a recording, but neither the run nor the other recording", "[cli][safety]")
 {
     const Scratch scratch;
     const auto csv = scratch.path ("live.csv"), wav = scratch.path ("live.wav");
-    // A limit to the size of files fails as a full disk does, and needs no disk: the CSV is four times as large as the WAV.
-    const auto ran = test::runProgram ("sh", { "-c", "ulimit -f 600; exec " TACTUS_PROGRAM " play " + wood + " --osc off --duration 1 --record " + ports + " --out " + csv + " --out " + wav });
+    // A limit on file size fails like a full disk and needs no disk. The CSV is four times as large as the WAV.
+    const auto options = " --osc off --duration 1 --record " + ports + " --out " + csv + " --out " + wav;
+    const auto ran = test::runProgram ("sh", { "-c", "ulimit -f 600; exec " TACTUS_PROGRAM " play " + wood + options });
     INFO (ran.err);
     CHECK (ran.status == 1);
     CHECK (ran.err.find (csv + ": warning: cannot be written: ") != std::string::npos);
-    CHECK (ran.err.find ("the run goes on [output/unwritable]") != std::string::npos);
+    CHECK (ran.err.find ("the run continues [output/unwritable]") != std::string::npos);
     for (const auto& left : std::filesystem::directory_iterator (scratch.path (".")))
-        CHECK (left.path().filename() == "live.wav");   // and nothing half-written
+        CHECK (left.path().filename() == "live.wav");   // and there is no half-written file
 
     CHECK (runTactus ({ "render", wood, "--duration", "1", "--record", ports, "--out", scratch.path ("offline.wav") }).status == 0);
     CHECK (std::filesystem::file_size (wav) > 4000 * 4 * 10);
     CHECK ((textOf (wav) == textOf (scratch.path ("offline.wav"))));
 }
 
-TEST_CASE ("a disk that is full ends a log after a whole line, and not the run", "[cli][safety]")
+TEST_CASE ("a full disk ends a log after a complete line, but does not end the run", "[cli][safety]")
 {
     const Scratch scratch;
     const auto log = scratch.path ("run.jsonl"), wav = scratch.path ("live.wav");
-    const auto ran = test::runProgram ("sh", { "-c", "ulimit -f 200; exec " TACTUS_PROGRAM " play " + wood + " --osc off --duration 1 --record drag.state --log " + log + " --out " + wav });
+    const auto options = " --osc off --duration 1 --record drag.state --log " + log + " --out " + wav;
+    const auto ran = test::runProgram ("sh", { "-c", "ulimit -f 200; exec " TACTUS_PROGRAM " play " + wood + options });
     INFO (ran.err);
     CHECK (ran.status == 1);
     CHECK (ran.err.find (log + ": warning: cannot be written: ") != std::string::npos);
-    CHECK (ran.err.find ("the run goes on [output/unwritable]") != std::string::npos);
+    CHECK (ran.err.find ("the run continues [output/unwritable]") != std::string::npos);
     CHECK (runTactus ({ "render", wood, "--duration", "1", "--record", "drag.state", "--out", scratch.path ("offline.wav") }).status == 0);
     CHECK ((textOf (wav) == textOf (scratch.path ("offline.wav"))));
 
@@ -113,7 +115,7 @@ TEST_CASE ("a disk that is full ends a log after a whole line, and not the run",
     CHECK (textOf (scratch.path ("again.csv")).size() > 1000);
 }
 
-TEST_CASE ("a flood of OSC changes no bit of the force, and takes no memory", "[cli][osc][safety]")
+TEST_CASE ("a flood of OSC changes no bit of the force and uses no memory", "[cli][osc][safety]")
 {
     const Scratch scratch;
     Running play { { "play", wood, "--osc", "0", "--duration", "2", "--record", ports, "--out", scratch.path ("live.csv") } };

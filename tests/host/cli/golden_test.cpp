@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The reference vectors, through the whole program: a graph file, a feed, `tactus render`, the table it writes.
+// The reference vectors, passed through the whole program: a graph file, a feed, `tactus render`, and the table that it writes.
 
 #include "program.hpp"
 
-#include <framework/json.hpp>
+#include <framework/file/csv.hpp>
+#include <framework/text/json.hpp>
 #include <golden/golden.hpp>
-#include <host/io/csv.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -20,9 +20,9 @@ using test::Golden;
 
 namespace
 {
-using Map = std::map<std::string, std::string>;   // port to column
+using Map = std::map<std::string, std::string>;   // maps ports to columns
 
-/// Renders the graph, its ports fed from columns of the set, and holds what it records to other columns.
+/// Renders the graph with ports fed from columns of the set, and compares what it records with other columns.
 void reproduce (const std::string& set, const std::string& graph, const Map& feeds, const Map& records, std::size_t rows = 0)
 {
     const test::Scratch scratch;
@@ -34,7 +34,7 @@ void reproduce (const std::string& set, const std::string& graph, const Map& fee
         std::vector<std::string> names { "t" };
         for (const auto& [port, column] : feeds)
             names.push_back (port);
-        auto feed = host::TableWriter::create (scratch.path ("feed.csv"), names);
+        auto feed = TableWriter::create (scratch.path ("feed.csv"), names);
         REQUIRE (feed);
         for (std::size_t r = 0; r < golden.rows(); ++r)
         {
@@ -55,7 +55,7 @@ void reproduce (const std::string& set, const std::string& graph, const Map& fee
     INFO (ran.err);
     REQUIRE (ran.status == 0);
 
-    const auto table = host::readTable (std::filesystem::path (scratch.path ("out.csv")));
+    const auto table = readTable (std::filesystem::path (scratch.path ("out.csv")));
     REQUIRE (table);
     REQUIRE (table->rows() == golden.rows());
     for (const auto& [port, column] : records)
@@ -112,7 +112,11 @@ TEST_CASE ("render reproduces the friction of a point on a line", "[golden]")
 TEST_CASE ("render reproduces the friction of a point on a turning surface", "[golden]")
 {
     const std::string common = R"("mu": 0.6, "d_max": "50 um", "load": "scale")";
-    const Map nodes { { "eq3", common }, { "euler2", common + R"(, "adhesion": "dupont", "integrator": "euler")" }, { "etd4", common + R"(, "adhesion": "dahl")" } };
+    const Map nodes {
+        { "eq3", common },
+        { "euler2", common + R"(, "adhesion": "dupont", "integrator": "euler")" },
+        { "etd4", common + R"(, "adhesion": "dahl")" },
+    };
     std::string all;
     Map feeds, records { { "eq3.state", "state_eq3" } };
     for (const auto& [name, params] : nodes)
@@ -130,14 +134,14 @@ TEST_CASE ("render reproduces the friction of a point on a turning surface", "[g
     reproduce ("friction_3d", graph (all), feeds, records);
 }
 
-TEST_CASE ("render reproduces modes that are hit", "[golden]")
+TEST_CASE ("render reproduces modes excited by hits", "[golden]")
 {
     reproduce ("modal", graph (R"("bar": { "type": "vibration.modal", "settings": { "modes": [
         { "frequency": 100, "decay": 80, "amplitude": 1 }, { "frequency": 230, "decay": 30, "amplitude": 0.4 } ] } })"),
                { { "bar.hit", "hit_v" } }, { { "bar.value", "y_modal" } });
 }
 
-TEST_CASE ("render reproduces a wavetable that is hit", "[golden]")
+TEST_CASE ("render reproduces a wavetable excited by hits", "[golden]")
 {
     reproduce ("modal", graph (R"("bar": { "type": "vibration.wavetable", "settings": { "table": { "modes": [
         { "frequency": 100, "decay": 80, "amplitude": 1 }, { "frequency": 230, "decay": 30, "amplitude": 0.4 } ], "rate": 8000, "length": 1200 } } })"),
@@ -148,9 +152,16 @@ TEST_CASE ("render reproduces gratings on a line and in the plane", "[golden]")
 {
     reproduce ("texture", graph (R"("line": { "type": "texture.grating", "params": { "amplitude": "0.3 N", "spatial_frequency": "200 1/m" } },
                                     "guard": { "type": "texture.antialias", "params": { "spatial_frequency": "200 1/m", "f_max": "100 Hz" } },
-                                    "plane": { "type": "texture.grating", "params": { "amplitude": "0.3 N", "spatial_frequency": "500 1/m", "angle": 0.9272952180016122 } })"),
+                                    "plane": { "type": "texture.grating",
+                                        "params": { "amplitude": "0.3 N", "spatial_frequency": "500 1/m", "angle": 0.9272952180016122 } })"),
                { { "line.position.x", "x" }, { "guard.position.x", "x" }, { "plane.position.x", "x" }, { "plane.position.y", "y" } },
-               { { "line.value", "grating1d" }, { "guard.gain", "guard" }, { "guard.speed", "v_diff" }, { "plane.force.x", "grating2d_x" }, { "plane.force.y", "grating2d_y" } });
+               {
+                   { "line.value", "grating1d" },
+                   { "guard.gain", "guard" },
+                   { "guard.speed", "v_diff" },
+                   { "plane.force.x", "grating2d_x" },
+                   { "plane.force.y", "grating2d_y" },
+               });
 }
 
 TEST_CASE ("render reproduces a texture that fades in with depth, is filtered, and modulates friction", "[golden]")
@@ -162,17 +173,30 @@ TEST_CASE ("render reproduces a texture that fades in with depth, is filtered, a
                                     "smooth": { "type": "filter.butterworth2", "params": { "cutoff": "120 Hz" } },
                                     "wave": { "type": "texture.grating", "params": { "amplitude": "1 N", "spatial_frequency": "200 1/m" } },
                                     "drag": { "type": "friction.elasto_plastic", "params": { "d_max": "0.1 mm", "stiffness": "4 N/mm" } })",
-                                 R"("wires": [ "grain.value -> layer.in[0]", "guard.gain -> layer.in[1]", "window.gain -> layer.in[2]", "layer.out -> smooth.in",
+                                 R"("wires": [ "grain.value -> layer.in[0]", "guard.gain -> layer.in[1]", "window.gain -> layer.in[2]",
+                                               "layer.out -> smooth.in",
                                                { "wire": "wave.value -> (+) drag.d_max", "gain": "35 um/N" } ])"),
-               { { "grain.position.x", "x" }, { "guard.position.x", "x" }, { "window.depth", "dz" }, { "wave.position.x", "x" }, { "drag.position.x", "x" }, { "drag.normal_force", "dz" } },
+               {
+                   { "grain.position.x", "x" },
+                   { "guard.position.x", "x" },
+                   { "window.depth", "dz" },
+                   { "wave.position.x", "x" },
+                   { "drag.position.x", "x" },
+                   { "drag.normal_force", "dz" },
+               },
                { { "layer.out", "windowed" }, { "smooth.out", "filtered" }, { "drag.force.x", "f_friction_mod" } });
 }
 
 TEST_CASE ("render reproduces an uneven patch that is pressed and stroked, with and without friction", "[golden]")
 {
     std::ifstream file (std::string (TACTUS_SOURCE_DIR) + "/tests/golden/deformation.json");
-    const auto params = Json::parse (file)["params"];
-    Json surface { { "nodes", params["nodes"] }, { "triangles", params["triangles"] }, { "frames", params["frames_rows_ux_uy_uz"] }, { "mu", params["mu_deflection"] } };
+    const auto params = Json::parse (std::string { std::istreambuf_iterator<char> (file), {} })["params"];
+    Json surface {
+        { "nodes", params["nodes"] },
+        { "triangles", params["triangles"] },
+        { "frames", params["frames_rows_ux_uy_uz"] },
+        { "mu", params["mu_deflection"] },
+    };
     for (const auto& tool : params["curves_tool_node_axis"])
     {
         auto& nodes = surface["curves"].emplace_back();
@@ -185,7 +209,8 @@ TEST_CASE ("render reproduces an uneven patch that is pressed and stroked, with 
     }
     const auto patch = [&] (const std::string& name, const std::string& friction)
     {
-        return "\"" + name + R"(": { "type": "deform.surface", "params": { "friction": ")" + friction + R"(" }, "settings": { "surface": )" + surface.dump() + " } }";
+        return "\"" + name + R"(": { "type": "deform.surface", "params": { "friction": ")" + friction + R"(" }, "settings": { "surface": )"
+               + surface.dump() + " } }";
     };
 
     Map feeds { { "rough.tool", "tool_weight" }, { "smooth.tool", "tool_weight" } };
@@ -209,7 +234,8 @@ TEST_CASE ("render reproduces a tool pushed against a sampled wall", "[golden]")
                          "wall": { "type": "deform.plane", "params": { "normal": [-1, 0, 0], )"
                           + params + R"( } }, "motor": { "type": "device.force", "role": "tool" })",
                       R"("wires": [ "hand.position -> wall.position", "wall.force -> motor.force" ],
-                         "devices": { "tool": { "driver": "sim", "mass": 0.1, "damping": 2, "position": [-1e-3, 0, 0], "velocity": [0.1, 0, 0], "hand_force": [0.5, 0, 0])"
+                         "devices": { "tool": { "driver": "sim", "mass": 0.1, "damping": 2, "position": [-1e-3, 0, 0],
+                             "velocity": [0.1, 0, 0], "hand_force": [0.5, 0, 0])"
                           + device + "} }");
     };
     const auto records = [] (const std::string& name) -> Map
@@ -220,7 +246,8 @@ TEST_CASE ("render reproduces a tool pushed against a sampled wall", "[golden]")
                          "wall": { "type": "coupling.virtual", "params": { "normal": [-1, 0, 0], "stiffness": 2400, "damping": 0.2, "wall_stiffness": 1e6 } },
                          "motor": { "type": "device.force", "role": "tool" })",
                                        R"("wires": [ "hand.position -> wall.position", "wall.force -> motor.force" ],
-                         "devices": { "tool": { "driver": "sim", "mass": 0.1, "damping": 2, "position": [-1e-3, 0, 0], "velocity": [0.1, 0, 0], "hand_force": [0.5, 0, 0] } })");
+                         "devices": { "tool": { "driver": "sim", "mass": 0.1, "damping": 2, "position": [-1e-3, 0, 0],
+                             "velocity": [0.1, 0, 0], "hand_force": [0.5, 0, 0] } })");
     constexpr std::size_t compared_tightly = 300;
     reproduce ("wallsim", coupled, {}, records ("vc"), compared_tightly);
     reproduce ("wallsim", wall ("", R"("stiffness": 3600)"), {}, records ("smooth"), compared_tightly);
@@ -243,21 +270,35 @@ TEST_CASE ("render reproduces the passivity controller in both pairings, and the
         records[name + ".energy"] = "E_" + name;
         records[name + ".alpha"] = "alpha_" + name;
     }
-    reproduce ("passivity", graph (controller ("zoh", "zoh") + ", " + controller ("hr", "backward") + R"(, "ahead": { "type": "hold.predictive" })"), feeds, records);
+    const auto nodes = controller ("zoh", "zoh") + ", " + controller ("hr", "backward") + R"(, "ahead": { "type": "hold.predictive" })";
+    reproduce ("passivity", graph (nodes), feeds, records);
 }
 
 TEST_CASE ("render reproduces a blade that ruptures a potato and cuts it", "[golden]")
 {
-    reproduce ("cutting", graph (R"("blade": { "type": "cut.blade", "params": { "width": 0.02, "toughness": 200, "rupture_force": 6 }, "settings": { "law": { "power": [2000, 1] } } })"),
+    reproduce ("cutting", graph (R"("blade": { "type": "cut.blade", "params": { "width": 0.02, "toughness": 200, "rupture_force": 6 },
+        "settings": { "law": { "power": [2000, 1] } } })"),
                { { "blade.depth", "delta" } },
-               { { "blade.resistance", "f" }, { "blade.crack", "crack" }, { "blade.stored_energy", "U" }, { "blade.dissipated_energy", "dissipated" }, { "blade.state", "state" } });
+               {
+                   { "blade.resistance", "f" },
+                   { "blade.crack", "crack" },
+                   { "blade.stored_energy", "U" },
+                   { "blade.dissipated_energy", "dissipated" },
+                   { "blade.state", "state" },
+               });
 }
 
 TEST_CASE ("render reproduces scissors that close on a plate", "[golden]")
 {
-    reproduce ("scissors", graph (R"("scissors": { "type": "cut.scissors", "params": { "thickness": "1 mm", "toughness": "2800 J/m2", "stiffness": 1e6, "pivot_distance": "1.5 mm" } })"),
+    reproduce ("scissors", graph (R"("scissors": { "type": "cut.scissors", "params": { "thickness": "1 mm", "toughness": "2800 J/m2",
+        "stiffness": 1e6, "pivot_distance": "1.5 mm" } })"),
                { { "scissors.angle", "theta" } },
-               { { "scissors.torque", "torque" }, { "scissors.crack_front", "crack" }, { "scissors.stored_energy", "U" }, { "scissors.dissipated_energy", "dissipated" } });
+               {
+                   { "scissors.torque", "torque" },
+                   { "scissors.crack_front", "crack" },
+                   { "scissors.stored_energy", "U" },
+                   { "scissors.dissipated_energy", "dissipated" },
+               });
 }
 
 TEST_CASE ("render reproduces impacts on a hard object", "[golden]")

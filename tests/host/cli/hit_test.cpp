@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// `tactus hit` strikes what a play runs, and what was hit is hit again in a replay.
+// `tactus hit` triggers hits in a running play, and a replay triggers them again.
 
 #include "running.hpp"
 
-#include <host/io/csv.hpp>
+#include <framework/file/csv.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -14,14 +14,16 @@ using test::Running;
 using test::runTactus;
 using test::Scratch;
 
-TEST_CASE ("a hit is felt on one tick, is in the log, and is repeated to the byte", "[cli][osc][hit]")
+TEST_CASE ("a hit lasts one tick, is logged, and is repeated byte for byte", "[cli][osc][hit]")
 {
     const Scratch scratch;
     const auto graph = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 1, "name": "Bell", "rate_hz": 1000,
       "devices": { "stylus": { "driver": "sim" } },
-      "nodes": { "ring": { "type": "vibration.modal", "settings": { "modes": [ { "frequency": 100, "decay": 10, "amplitude": 0.5 } ] } }, "motor": { "type": "device.force", "role": "stylus" } },
+      "nodes": { "ring": { "type": "vibration.modal", "settings": { "modes": [ { "frequency": 100, "decay": 10, "amplitude": 0.5 } ] } },
+          "motor": { "type": "device.force", "role": "stylus" } },
       "wires": [ "ring.value -> motor.force.z" ] })");
-    Running play { { "play", graph, "--osc", "0", "--watch", "--duration", "600", "--record", "ring.hit,ring.value,motor.applied", "--out", scratch.path ("live.csv"), "--log", scratch.path ("run.jsonl") } };
+    Running play { { "play", graph, "--osc", "0", "--watch", "--duration", "600", "--record", "ring.hit,ring.value,motor.applied",
+                     "--out", scratch.path ("live.csv"), "--log", scratch.path ("run.jsonl") } };
     REQUIRE (play.says ("Ctrl-C stops"));
     const auto text = play.err();
     const std::string before = "OSC on 127.0.0.1:";
@@ -50,7 +52,7 @@ TEST_CASE ("a hit is felt on one tick, is in the log, and is repeated to the byt
     CHECK (hit ("ring.hit=0.25").status == 0);
     CHECK (play.stop().status == 0);
 
-    const auto live = host::readTable (std::filesystem::path (scratch.path ("live.csv")));
+    const auto live = readTable (std::filesystem::path (scratch.path ("live.csv")));
     REQUIRE (live);
     std::vector<double> hits;
     double loudest = 0.0;
@@ -62,7 +64,8 @@ TEST_CASE ("a hit is felt on one tick, is in the log, and is repeated to the byt
     CHECK (hits == std::vector<double> { 1.0, 0.5, 0.25 });
     CHECK (loudest > 0.1);
 
-    const auto again = runTactus ({ "render", "--replay", scratch.path ("run.jsonl"), "--record", "ring.hit,ring.value,motor.applied", "--out", scratch.path ("again.csv") });
+    const auto again = runTactus ({ "render", "--replay", scratch.path ("run.jsonl"), "--record", "ring.hit,ring.value,motor.applied",
+                                    "--out", scratch.path ("again.csv") });
     INFO (again.err);
     CHECK (again.status == 0);
     CHECK (test::textOf (scratch.path ("live.csv")) == test::textOf (scratch.path ("again.csv")));

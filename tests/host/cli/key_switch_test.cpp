@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Keys: force curves of real ones made into graphs, and the made-up one among the presets. Pictures go to build/figures/.
+// Keys: measured force curves of real switches turned into graphs, and the invented key among the presets. Plots go to
+// build/figures/.
 
 #include "program.hpp"
 
+#include "support/rig.hpp"
 #include "support/sketch.hpp"
 
-#include <framework/engine.hpp>
+#include <framework/file/csv.hpp>
 #include <framework/file/graph_file.hpp>
-#include <host/io/csv.hpp>
+#include <framework/run/engine.hpp>
 #include <host/io/plot.hpp>
 #include <host/tools/switch_loop.hpp>
-#include <nodes/deform/plane.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -25,7 +26,7 @@ using host::SwitchLoop;
 
 namespace
 {
-constexpr double noise = 2e-3;   // N, of the gauge that measured the switches
+constexpr double noise = 2e-3;   // noise of the gauge that measured the switches, in N
 constexpr double um = 1e-6, mN = 1e-3, mJ = 1e-3, gram_force = 9.80665e-3;
 
 std::string figure (const std::string& name)
@@ -35,7 +36,7 @@ std::string figure (const std::string& name)
     return (folder / name).string();
 }
 
-/// A finger that is wherever it is put, and feels.
+/// A finger at a given depth; it records the force on it.
 class Finger final : public Device
 {
 public:
@@ -51,7 +52,7 @@ public:
     void write (const Effort& e) noexcept override { force = e.force.z(); }
 };
 
-/// A key under a finger, which follows a path in small steps.
+/// A key under a finger that moves in small steps.
 class PressedKey
 {
 public:
@@ -65,7 +66,7 @@ public:
         engine->tick();
     }
 
-    /// Steps are all of one length, so that they meet the kinks of laws that lie on them, and the sum below is exact there.
+    /// All steps have the same length, so that they hit the kinks of the laws exactly and the sum below is exact.
     void to (long place)
     {
         while (at != place)
@@ -79,7 +80,7 @@ public:
         }
     }
 
-    /// Strokes, and back to above the key.
+    /// Presses the key and returns to above it.
     void follow (const std::vector<long>& places)
     {
         for (const long place : places)
@@ -89,8 +90,8 @@ public:
 
     double force() const noexcept { return finger.force; }
 
-    double work = 0.0;    ///< J that the finger has spent
-    double least = 0.0;   ///< N; below 0 the key would pull
+    double work = 0.0;    ///< work done by the finger, in J
+    double least = 0.0;   ///< least force in N; below 0 the key would pull
 
 private:
     Finger finger;
@@ -99,20 +100,20 @@ private:
     long at = 0;   // steps
 };
 
-/// Places that a restless finger goes to one after another, in steps.
+/// Positions that a restless finger visits in turn, in steps.
 std::vector<long> randomStrokes (double deepest, double step)
 {
     const int count = *rc::gen::inRange (1, 12);
     return *rc::gen::container<std::vector<long>> (static_cast<std::size_t> (count), rc::gen::inRange (-10L, std::lround (deepest / step)));
 }
 
-/// What a sum over steps may miss: the kink where the bristle of that stiffness begins to slip, once a stroke.
+/// The error that a sum over steps may have: it misses the kink where the bristle of this stiffness begins to slip, once per stroke.
 double missed (std::size_t strokes, double stiffness, double step) { return static_cast<double> (strokes + 1) * stiffness * step * step / 8.0 + 1e-12; }
 
-/// A bound is never quite 0, but as narrow as d_max can be.
+/// A bound is never exactly 0, but as narrow as d_max allows.
 double narrowest (double stiffness) { return 1e-9 * stiffness; }
 
-/// A key that nobody built: kinks anywhere, falling force, any loss that leaves the way up above 0.
+/// An invented key with kinks anywhere, falling force, and any loss that leaves the force on the way up above 0.
 SwitchLoop randomLoop()
 {
     SwitchLoop loop { { 0.0 }, { 0.0 }, { 0.0 } };
@@ -143,7 +144,7 @@ struct Measured
 
 Measured readMeasured (const std::filesystem::path& path)
 {
-    const auto table = host::readTable (path);
+    const auto table = readTable (path);
     REQUIRE (table);
     Measured m;
     for (std::size_t r = 0; r < table->rows(); ++r)
@@ -155,7 +156,7 @@ Measured readMeasured (const std::filesystem::path& path)
     return m;
 }
 
-/// The work of a finger that goes where the key was measured.
+/// The work of a finger that follows the measured positions.
 double workAlong (const std::vector<double>& x, const std::vector<double>& force)
 {
     double w = 0.0;
@@ -165,7 +166,8 @@ double workAlong (const std::vector<double>& x, const std::vector<double>& force
 }
 }   // namespace
 
-TEST_CASE ("three key switches, measured both ways, are felt as measured wherever a key without a motor can be", "[data]")
+// Long because each key is one scenario: import, stroke, comparison with the measurement, and a plot of both.
+TEST_CASE ("three key switches, measured both ways, are felt as measured wherever a passive key can follow", "[data]")
 {
     const auto folder = test::sharedData ("buttons_switchcurves");
     if (folder.empty()) return;
@@ -182,16 +184,17 @@ TEST_CASE ("three key switches, measured both ways, are felt as measured whereve
 
         const auto measured = readMeasured (curve);
         const int deepest = static_cast<int> (std::lround (*std::ranges::max_element (measured.x) / um));
-        auto hand = host::TableWriter::create (scratch.path ("hand.csv"), std::vector<std::string> { "t", "x", "y", "z" });
+        auto hand = TableWriter::create (scratch.path ("hand.csv"), std::vector<std::string> { "t", "x", "y", "z" });
         REQUIRE (hand);
         for (int i = 0; i <= 2 * deepest; ++i)
             REQUIRE (hand->row (std::vector { i / 4000.0, 0.0, 0.0, -um * (i <= deepest ? i : 2 * deepest - i) }));
         REQUIRE (hand->commit());
 
-        const auto ran = test::runTactus ({ "render", key, "--device", "finger=trace:" + scratch.path ("hand.csv"), "--record", "key.depth,motor.force.z", "--out", scratch.path ("out.csv") });
+        const auto ran = test::runTactus ({ "render", key, "--device", "finger=trace:" + scratch.path ("hand.csv"),
+                                            "--record", "key.depth,motor.force.z", "--out", scratch.path ("out.csv") });
         INFO (ran.err);
         REQUIRE (ran.status == 0);
-        const auto table = host::readTable (std::filesystem::path (scratch.path ("out.csv")));
+        const auto table = readTable (std::filesystem::path (scratch.path ("out.csv")));
         REQUIRE (table);
         REQUIRE (table->rows() == static_cast<std::size_t> (2 * deepest + 1));
         std::vector<double> depth, force;
@@ -201,8 +204,8 @@ TEST_CASE ("three key switches, measured both ways, are felt as measured whereve
             force.push_back (table->at (r, 2));
         }
 
-        // Where more was measured on the way up than on the way down, the meter was not where it said it was: no passive
-        // key can follow both.
+        // Where the force was higher on the way up than on the way down, the meter's position was wrong: no passive key
+        // can follow both.
         const auto down_x = measured.part (measured.x, false), down = measured.part (measured.force, false);
         auto up_x = measured.part (measured.x, true), up = measured.part (measured.force, true);
         std::ranges::reverse (up_x);
@@ -225,8 +228,10 @@ TEST_CASE ("three key switches, measured both ways, are felt as measured whereve
         const auto rows = static_cast<double> (measured.x.size());
         const double rms = std::sqrt (squares / followed), all_rms = std::sqrt (all_squares / rows);
         const double loss = workAlong (depth, force), measured_loss = workAlong (measured.x, measured.force);
-        WARN (name << ": within " << rms / mN << " mN rms, " << worst / mN << " mN at most over " << 100.0 * followed / rows << " % of the rows (" << all_rms / mN << " mN rms over all); loses " << loss / mJ << " mJ, measured "
-                   << measured_loss / mJ << " mJ, of that " << passive_loss / mJ << " mJ where it loses and " << (measured_loss - passive_loss) / mJ << " mJ where it gives");
+        WARN (name << ": within " << rms / mN << " mN rms, " << worst / mN << " mN at most over " << 100.0 * followed / rows
+                   << " % of the rows (" << all_rms / mN << " mN rms over all); loses " << loss / mJ << " mJ, measured "
+                   << measured_loss / mJ << " mJ, of that " << passive_loss / mJ << " mJ where it loses and "
+                   << (measured_loss - passive_loss) / mJ << " mJ where it gives");
         CHECK (followed > 0.9 * rows);
         CHECK (rms < 4 * mN);
         CHECK (worst < 12 * mN);
@@ -243,18 +248,18 @@ TEST_CASE ("three key switches, measured both ways, are felt as measured whereve
     REQUIRE (host::writePng (picture, figure ("key_switches.png")));
 }
 
-TEST_CASE ("a measured key gives no energy, whatever the finger does with it", "[data]")
+TEST_CASE ("a measured key releases no energy, whatever the finger does", "[data]")
 {
     const auto folder = test::sharedData ("buttons_switchcurves");
     if (folder.empty()) return;
     for (const std::string name : { "Cherry-MX-Red", "Cherry-MX-Blue-RGB", "Cherry-MX-Hyperglide-Brown" })
     {
-        const auto table = host::readTable (std::filesystem::path (folder + "/" + name + ".csv"));
+        const auto table = readTable (std::filesystem::path (folder + "/" + name + ".csv"));
         REQUIRE (table);
         const auto measured = host::switchFrom (*table, name);
         REQUIRE (measured);
         const auto recording = readMeasured (folder + "/" + name + ".csv");
-        CHECK (host::loss (*measured) == Approx (workAlong (recording.x, recording.force)).epsilon (0.005));   // of a gauge that reads -2 mN
+        CHECK (host::loss (*measured) == Approx (workAlong (recording.x, recording.force)).epsilon (0.005));   // the gauge has an offset of -2 mN
         const double stiffness = 1e4, step = 5 * um;
         const auto key = host::keyFrom (host::simplified (host::withoutGain (*measured), 10 * mN), name, stiffness);
         rc::prop (name, [&]
@@ -267,9 +272,9 @@ TEST_CASE ("a measured key gives no energy, whatever the finger does with it", "
     }
 }
 
-TEST_CASE ("any two ways, down above up, make a key that follows both, gives no energy and never pulls", "[cli]")
+TEST_CASE ("any two curves, if down is above up, make a key that follows both, releases no energy and never pulls", "[cli]")
 {
-    rc::prop ("a closed path never gives energy", []
+    rc::prop ("no closed path releases energy", []
               {
                   const auto loop = host::simplified (randomLoop(), 1 * mN);
                   const double stiffness = *rc::gen::element (2e3, 1e4, 1e5), step = 1 * um;
@@ -279,7 +284,7 @@ TEST_CASE ("any two ways, down above up, make a key that follows both, gives no 
                   RC_ASSERT (pressed.work >= -missed (strokes.size(), stiffness, step));
                   RC_ASSERT (pressed.least >= -narrowest (stiffness)); });
 
-    rc::prop ("a stroke follows both ways, where the bristle is stiff enough for their difference", []
+    rc::prop ("a stroke follows both curves if the bristle is stiff enough for their difference", []
               {
                   const auto loop = host::simplified (randomLoop(), 1 * mN);
                   const double stiffness = 1e5, step = 1 * um;
@@ -290,7 +295,7 @@ TEST_CASE ("any two ways, down above up, make a key that follows both, gives no 
                       pressed.to (std::lround (loop.travel[i] / step));
                       RC_ASSERT (std::abs (pressed.force() - loop.press[i]) < 0.2 * mN + 1e-9 * stiffness);
                   }
-                  pressed.to (std::lround (loop.travel.back() / step) + 20);   // 2 bounds turn the bristle
+                  pressed.to (std::lround (loop.travel.back() / step) + 20);   // 2 bounds reverse the bristle
                   for (std::size_t i = loop.travel.size() - 1; i > 0; --i)
                   {
                       pressed.to (std::lround (loop.travel[i] / step));
@@ -298,7 +303,7 @@ TEST_CASE ("any two ways, down above up, make a key that follows both, gives no 
                   } });
 }
 
-TEST_CASE ("a curve is drawn with fewer points, and both ways stay within the tolerance", "[cli]")
+TEST_CASE ("a curve is simplified, and both directions stay within the tolerance", "[cli]")
 {
     rc::prop ("for any curve and tolerance", []
               {
@@ -320,15 +325,18 @@ TEST_CASE ("a curve is drawn with fewer points, and both ways stay within the to
                    } });
 }
 
-TEST_CASE ("the law of a plane may fall with depth: it stays a potential, and never pulls", "[cli]")
+TEST_CASE ("the law of a plane may fall with depth: it is still a potential, and never pulls", "[cli]")
 {
-    rc::prop ("the work is what is stored, on any path", []
+    rc::prop ("the work equals the stored energy, on any path", []
               {
                   const auto loop = randomLoop();
-                  nodes::Plane plane;
-                  plane.settings.law = { .kind = Law::Kind::table, .table = { loop.travel, loop.press } };
-                  plane.prepare ({});
-                  plane.update();
+                  Rig plane { "deform.plane" };
+                  plane.set ("law", Law { .kind = Law::Kind::table, .table = { loop.travel, loop.press } }).prepare();
+                  const auto number = [&] (std::string_view id)
+                  { return static_cast<std::size_t> (std::ranges::find (plane.outputs, id, [] (const auto& c)
+                                                                        { return c.port->id; })
+                                                     - plane.outputs.begin()); };
+                  const auto resistance = number ("resistance"), stored = number ("stored_energy");
 
                   long at = 0;
                   double work = 0.0, force = 0.0;
@@ -337,15 +345,16 @@ TEST_CASE ("the law of a plane may fall with depth: it stays a potential, and ne
                       {
                           const int way = at < place ? 1 : -1;
                           at += way;
-                          const auto out = plane.tick ({ .position = { 0.0, 0.0, -um * static_cast<double> (at) } });
-                          work += 0.5 * (out.resistance + force) * way * um;
-                          force = out.resistance;
+                          plane.in.back() = -um * static_cast<double> (at);
+                          plane.tick();
+                          work += 0.5 * (plane.out (resistance) + force) * way * um;
+                          force = plane.out (resistance);
                           RC_ASSERT (force >= 0.0);
-                          RC_ASSERT (std::abs (work - out.stored_energy) < 1e-12);
+                          RC_ASSERT (std::abs (work - plane.out (stored)) < 1e-12);
                       } });
 }
 
-TEST_CASE ("the key among the presets clicks, comes back softer than it went, and gives no energy", "[graphs]")
+TEST_CASE ("the preset key clicks, returns with less force than it was pressed, and releases no energy", "[graphs]")
 {
     const auto loaded = loadGraph (std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs" / "tactile_key.json");
     REQUIRE (loaded.messages.empty());
@@ -376,7 +385,7 @@ TEST_CASE ("the key among the presets clicks, comes back softer than it went, an
                   RC_ASSERT (pressed.least >= -narrowest (stiffness)); });
 }
 
-TEST_CASE ("a curve of a key may be written in any unit, and what is wrong with one is said", "[cli]")
+TEST_CASE ("a key's curve may be in any unit, and errors in it are reported", "[cli]")
 {
     const test::Scratch scratch;
     const auto import = [&] (const std::string& text, const std::vector<std::string>& options = {})
@@ -394,7 +403,7 @@ TEST_CASE ("a curve of a key may be written in any unit, and what is wrong with 
     CHECK (compile (read.graph, catalogue()).messages.empty());
     CHECK (import ("force_N,x_mm,actuated\n0,0,0\n0.3,0.1,0\n0.6,4,1\n0.5,3.9,1\n0.2,0.1,0\n0,0,0\n").out == made.out);
 
-    // Of a meter with 100 um of play the way up seems to lie 100 um too high.
+    // With a meter that has 100 um of play, the way up appears 100 um too high.
     CHECK (import ("x_um,force_mN\n0,0\n100,300\n4000,600\n3900,600\n3800,500\n0,200\n-100,0\n", { "--backlash", "0.1 mm" }).out == made.out);
 
     const auto refused = [&] (const std::string& text, const std::string& id)

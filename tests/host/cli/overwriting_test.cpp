@@ -13,14 +13,16 @@ namespace
 constexpr auto part = R"({ "format": "tactus-graph", "version": 1, "nodes": { "one": { "type": "signal.constant" } }, "wires": [] })";
 constexpr auto whole = R"({ "format": "tactus-graph", "version": 1, "rate_hz": 1000,
   "devices": { "stylus": { "driver": "trace", "path": "pen.csv" } },
-  "nodes": { "part": { "type": "file:part.json" }, "hand": { "type": "device.position", "role": "stylus" }, "wall": { "type": "deform.plane" }, "motor": { "type": "device.force", "role": "stylus" } },
+  "nodes": { "part": { "type": "file:part.json" }, "hand": { "type": "device.position", "role": "stylus" },
+      "wall": { "type": "deform.plane" }, "motor": { "type": "device.force", "role": "stylus" } },
   "wires": ["hand.position -> wall.position", "wall.force -> motor.force"] })";
 }   // namespace
 
-TEST_CASE ("what a run reads is not written over, whatever it is called, and nothing is written twice", "[cli]")
+TEST_CASE ("a file that a run reads is never overwritten under any name, and no file is written twice", "[cli]")
 {
     const Scratch scratch;
-    const auto graph = scratch.write ("g.json", whole), inside = scratch.write ("part.json", part), pen = scratch.write ("pen.csv", "t,x,y,z\n0,0,0,0\n0.1,0.01,0,-0.001\n"), feed = scratch.write ("feed.csv", "wall.stiffness\n1000\n900\n");
+    const auto graph = scratch.write ("g.json", whole), inside = scratch.write ("part.json", part),
+               pen = scratch.write ("pen.csv", "t,x,y,z\n0,0,0,0\n0.1,0.01,0,-0.001\n"), feed = scratch.write ("feed.csv", "wall.stiffness\n1000\n900\n");
     const auto link = scratch.path ("link.csv");
     std::filesystem::create_symlink (pen, link);
 

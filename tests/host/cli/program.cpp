@@ -3,8 +3,6 @@
 
 #include <catch2/catch.hpp>
 
-#include <atomic>
-#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -20,27 +18,13 @@ namespace fs = std::filesystem;
 
 namespace
 {
-/// What somebody has bound their devices to is not to change what tests see.
-[[maybe_unused]] const bool has_no_home = setenv ("TACTUS_HOME", (fs::temp_directory_path() / "tactus_test_nobody").c_str(), 1) == 0;
+/// The user's own device bindings must not affect the tests.
+[[maybe_unused]] const bool has_no_home = setenv ("TACTUS_HOME", (fs::temp_directory_path() / "tactus_test_no_home").c_str(), 1) == 0;
 }   // namespace
-
-Scratch::Scratch()
-{
-    static std::atomic<int> count { 0 };
-    const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
-    folder = fs::temp_directory_path() / ("tactus_test_" + std::to_string (now) + "_" + std::to_string (++count));
-    fs::create_directories (folder);
-}
-
-Scratch::~Scratch()
-{
-    std::error_code ignored;
-    fs::remove_all (folder, ignored);
-}
 
 std::string Scratch::write (const std::string& name, const std::string& text) const
 {
-    std::ofstream (folder / name, std::ios::binary) << text;
+    folder.write (name, text);
     return path (name);
 }
 
@@ -73,7 +57,7 @@ std::string sharedData (const std::string& name)
 {
     const auto path = fs::path (TACTUS_SHARED_DATA) / name;
     if (fs::exists (path)) return path.string();
-    WARN ("skipped: " << path.string() << " is not there");
+    WARN ("skipped: " << path.string() << " does not exist");
     return "";
 }
 

@@ -1,43 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <filesystem>
+#include <support/temporary_folder.hpp>
+
 #include <string>
 #include <vector>
 
 namespace tactus::test
 {
 
-/// A folder of its own for a test, gone with it.
+/// A temporary folder whose paths are arguments of a program.
 class Scratch
 {
 public:
-    Scratch();
-    ~Scratch();
-    Scratch (const Scratch&) = delete;
-    Scratch& operator= (const Scratch&) = delete;
-
     std::string path (const std::string& name) const { return (folder / name).string(); }
     std::string write (const std::string& name, const std::string& text) const;
 
 private:
-    std::filesystem::path folder;
+    TemporaryFolder folder;
 };
 
-/// What a run of a program left behind.
+/// The result of a program run.
 struct Ran
 {
     int status;
     std::string out, err;
 };
 
-/// Runs the program `tactus`, or another one, with these arguments.
+/// Runs `tactus` or another program with these arguments.
 Ran runTactus (const std::vector<std::string>& arguments);
 Ran runProgram (const std::string& program, const std::vector<std::string>& arguments);
 
 std::string textOf (const std::string& path);
 
-/// ../shared/data, or "" with a warning that the test is skipped where it is absent.
+/// The folder ../shared/data; "" if it does not exist, with a warning that the test is skipped.
 std::string sharedData (const std::string& folder);
 
 }   // namespace tactus::test

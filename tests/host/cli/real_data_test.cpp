@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recordings made by others, where they are present. Pictures go to build/figures/.
+// Published recordings, if they are present. Plots go to build/figures/.
 
 #include "program.hpp"
 
-#include <host/io/csv.hpp>
+#include <framework/file/csv.hpp>
 #include <host/io/plot.hpp>
 
 #include <catch2/catch.hpp>
@@ -48,7 +48,7 @@ Presliding readPresliding (const std::string& path)
     return p;
 }
 
-/// What a force on the tool takes from the hand that moves it.
+/// The energy that a force on the tool takes from the hand.
 double work (const std::vector<double>& force, const std::vector<double>& position, std::size_t from)
 {
     double w = 0.0;
@@ -67,20 +67,21 @@ TEST_CASE ("presliding friction measured under 5 N is reproduced: loop energy wi
 
     const test::Scratch scratch;
     const std::vector<std::string> columns { "t", "drag.position.x", "drag.normal_force" };
-    auto feed = host::TableWriter::create (scratch.path ("feed.csv"), columns);
+    auto feed = TableWriter::create (scratch.path ("feed.csv"), columns);
     REQUIRE (feed);
     for (std::size_t i = 0; i < measured.t.size(); ++i)
         REQUIRE (feed->row (std::vector { measured.t[i], measured.position[i], measured.load[i] }));
     REQUIRE (feed->commit());
 
-    // Fitted by hand over mu, d_max and break_away: mu is the measured plateau, d_max the width of the loop's shoulders.
+    // Fitted manually in mu, d_max and break_away: mu is the measured plateau, and d_max is the width of the loop's
+    // shoulders.
     const auto graph = scratch.write ("graph.json", R"({ "format": "tactus-graph", "version": 1, "name": "Presliding", "nodes": {
         "drag": { "type": "friction.elasto_plastic", "params": { "mu": 0.472, "d_max": "60 um", "adhesion": "dupont", "break_away": 0.9 } } }, "wires": [] })");
     const auto ran = test::runTactus ({ "render", graph, "--feed", scratch.path ("feed.csv"), "--record", "drag.force.x", "--out", scratch.path ("out.csv") });
     INFO (ran.err);
     REQUIRE (ran.status == 0);
 
-    const auto table = host::readTable (std::filesystem::path (scratch.path ("out.csv")));
+    const auto table = readTable (std::filesystem::path (scratch.path ("out.csv")));
     REQUIRE (table);
     REQUIRE (table->rows() == measured.t.size());
     std::vector<double> made;
@@ -129,23 +130,25 @@ TEST_CASE ("strokes drawn on a tablet drive the wood preset with position and pr
         INFO (converted.err);
         REQUIRE (converted.status == 0);
 
-        const auto ran = test::runTactus ({ "render", TACTUS_SOURCE_DIR "/graphs/dry_wood.json", "--device", "stylus=trace:" + scratch.path ("trace.csv"), "--record", "hand.position,board.resistance,drag.force",
+        const auto ran = test::runTactus ({ "render", TACTUS_SOURCE_DIR "/graphs/dry_wood.json",
+                                            "--device", "stylus=trace:" + scratch.path ("trace.csv"),
+                                            "--record", "hand.position,board.resistance,drag.force",
                                             "--out", scratch.path ("out.csv"), "--plot", figure ("wood_" + entry.path().stem().string() + ".png") });
         INFO (ran.err);
         REQUIRE (ran.status == 0);
 
-        const auto table = host::readTable (std::filesystem::path (scratch.path ("out.csv")));
+        const auto table = readTable (std::filesystem::path (scratch.path ("out.csv")));
         REQUIRE (table);
         double resistance = 0.0, drag = 0.0, step = 0.0;
         for (std::size_t r = 0; r < table->rows(); ++r)
         {
             resistance = std::max (resistance, table->at (r, *table->column ("board.resistance")));
             drag = std::max (drag, std::abs (table->at (r, *table->column ("drag.force.x"))) + std::abs (table->at (r, *table->column ("drag.force.y"))));
-            if (r > 0) step = std::max (step, std::abs (table->at (r, *table->column ("hand.position.x")) - table->at (r - 1, *table->column ("hand.position.x"))));
+            if (const auto x = *table->column ("hand.position.x"); r > 0) step = std::max (step, std::abs (table->at (r, x) - table->at (r - 1, x)));
         }
         CHECK (resistance > 0.1);
         CHECK (resistance < 20.0);
-        CHECK (step < 0.02);   // a hand, not the tablet's jump to 0, 0
+        CHECK (step < 0.02);   // a hand moves by less per row; the tablet's jump to 0, 0 is larger
         if (entry.path().string().find ("drag") != std::string::npos) CHECK (drag > 0.05);
     }
     CHECK (strokes >= 2);

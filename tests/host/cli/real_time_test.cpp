@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What `tactus play` says about its own ticks.
+// What `tactus play` reports about its ticks.
 
 #include "program.hpp"
 
-#include <framework/json.hpp>
-#include <host/io/csv.hpp>
+#include <framework/file/csv.hpp>
+#include <framework/text/json.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -14,7 +14,7 @@ using namespace tactus;
 using test::runTactus;
 using test::Scratch;
 
-TEST_CASE ("play ends with how late its ticks were, and how many it missed", "[cli]")
+TEST_CASE ("play ends with a report of late and missed ticks", "[cli]")
 {
     const auto ran = runTactus ({ "play", TACTUS_SOURCE_DIR "/graphs/dry_wood.json", "--duration", "0.2", "--osc", "off", "--core", "0" });
     INFO (ran.err);
@@ -30,7 +30,7 @@ TEST_CASE ("play ends with how late its ticks were, and how many it missed", "[c
     CHECK (ticks >= 800);
 }
 
-TEST_CASE ("asked for, what the costliest nodes take stands at the end", "[cli]")
+TEST_CASE ("on request, play ends with the most expensive nodes", "[cli]")
 {
     const auto ran = runTactus ({ "play", TACTUS_SOURCE_DIR "/graphs/dry_wood.json", "--duration", "1", "--osc", "off", "--costs" });
     INFO (ran.err);
@@ -46,19 +46,23 @@ TEST_CASE ("asked for, what the costliest nodes take stands at the end", "[cli]"
     CHECK (ran.err.find ("(friction.elasto_plastic)", line) != std::string::npos);
 }
 
-TEST_CASE ("a graph that takes longer than its ticks last is stopped, its costliest node named, its recording kept", "[cli]")
+TEST_CASE ("a graph that takes longer than a tick period is stopped, its most expensive node is named, and its recording is kept", "[cli]")
 {
     const Scratch scratch;
     auto modes = Json::array();
     for (int i = 0; i < 20000; ++i)
         modes.push_back ({ { "frequency", 100.0 + i }, { "decay", 5.0 }, { "amplitude", 1.0 } });
-    const Json graph { { "format", "tactus-graph" }, { "version", 1 }, { "name", "Heavy" }, { "rate_hz", 200000 }, { "nodes", { { "idle", { { "type", "signal.abs" } } }, { "bar", { { "type", "vibration.modal" }, { "settings", { { "modes", modes } } } } } } }, { "wires", { "idle.out -> bar.hit" } } };
-    const auto ran = runTactus ({ "play", scratch.write ("g.json", graph.dump()), "--duration", "60", "--osc", "off", "--record", "idle.out", "--out", scratch.path ("p.csv") });
+    const auto graph = R"({ "format": "tactus-graph", "version": 1, "name": "Heavy", "rate_hz": 200000,
+      "nodes": { "idle": { "type": "signal.abs" }, "bar": { "type": "vibration.modal", "settings": { "modes": )"
+                       + modes.dump() + R"( } } },
+      "wires": [ "idle.out -> bar.hit" ] })";
+    const auto ran = runTactus ({ "play", scratch.write ("g.json", graph), "--duration", "60", "--osc", "off",
+                                  "--record", "idle.out", "--out", scratch.path ("p.csv") });
     INFO (ran.err);
     CHECK (ran.status == 1);
     CHECK (ran.err.find ("[run/overrun]") != std::string::npos);
     CHECK (ran.err.find ("'bar' (vibration.modal)") != std::string::npos);
-    const auto table = host::readTable (std::filesystem::path (scratch.path ("p.csv")));
+    const auto table = readTable (std::filesystem::path (scratch.path ("p.csv")));
     REQUIRE (table);
     CHECK (table->rows() < 12'000'000);
 }

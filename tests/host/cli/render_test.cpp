@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "program.hpp"
 
-#include <framework/json.hpp>
-#include <host/io/csv.hpp>
+#include <framework/file/csv.hpp>
+#include <framework/text/json.hpp>
 #include <host/io/wav.hpp>
 
 #include <catch2/catch.hpp>
@@ -21,20 +21,20 @@ const std::string wood = TACTUS_SOURCE_DIR "/graphs/dry_wood.json";
 const std::string amplifier = R"({ "format": "tactus-graph", "version": 1, "name": "Amplifier", "rate_hz": 500,
   "nodes": { "amp": { "type": "signal.gain", "params": { "gain": 2 } } }, "wires": [] })";
 
-host::Table render (const Scratch& scratch, std::vector<std::string> arguments)
+Table render (const Scratch& scratch, std::vector<std::string> arguments)
 {
     arguments.insert (arguments.begin(), "render");
     arguments.insert (arguments.end(), { "--out", scratch.path ("out.csv") });
     const auto ran = runTactus (arguments);
     INFO (ran.err);
     REQUIRE (ran.status == 0);
-    auto table = host::readTable (std::filesystem::path (scratch.path ("out.csv")));
+    auto table = readTable (std::filesystem::path (scratch.path ("out.csv")));
     REQUIRE (table);
     return *table;
 }
 }   // namespace
 
-TEST_CASE ("a feed without times is a row a tick, at the graph's rate or the one asked for", "[cli]")
+TEST_CASE ("a feed without times has one row per tick, at the graph's rate or the requested rate", "[cli]")
 {
     const Scratch scratch;
     const auto graph = scratch.write ("g.json", amplifier), feed = scratch.write ("f.csv", "amp.in\n1\nnan\ninf\n4\n");
@@ -51,7 +51,7 @@ TEST_CASE ("a feed without times is a row a tick, at the graph's rate or the one
     CHECK (render (scratch, { graph, "--feed", feed, "--record", "amp.out", "--rate", "100" }).at (3, 0) == 0.03);
 }
 
-TEST_CASE ("a feed with times sets the rate, or is held to the grid of the rate asked for", "[cli]")
+TEST_CASE ("a feed with times sets the rate, or is resampled by holding at the requested rate", "[cli]")
 {
     const Scratch scratch;
     const auto graph = scratch.write ("g.json", amplifier), feed = scratch.write ("f.csv", "t,amp.in\n5,1\n5.01,2\n5.02,3\n");
@@ -67,7 +67,7 @@ TEST_CASE ("a feed with times sets the rate, or is held to the grid of the rate 
         CHECK (held.at (k, 1) == expected[k]);
 }
 
-TEST_CASE ("a feed outranks the wire, the parameter and --set; --duration ends it early", "[cli]")
+TEST_CASE ("a feed takes precedence over wires, parameters and --set; --duration ends it early", "[cli]")
 {
     const Scratch scratch;
     const auto graph = scratch.write ("g.json", amplifier), feed = scratch.write ("f.csv", "amp.in,amp.gain\n1,5\n1,6\n1,7\n");
@@ -85,14 +85,15 @@ TEST_CASE ("the same run gives the same bytes", "[cli]")
     CHECK (a.out == b.out);
 }
 
-TEST_CASE ("a run may write a table, a wave and a picture at once, one channel a component", "[cli]")
+TEST_CASE ("a run may write a table, a WAV and a plot together, with one channel per component", "[cli]")
 {
     const Scratch scratch;
-    const auto ran = runTactus ({ "render", wood, "--record", "drag.force,drag.state", "--duration", "0.8", "--out", scratch.path ("w.csv"), "--out", scratch.path ("w.wav"), "--plot", scratch.path ("w.png") });
+    const auto ran = runTactus ({ "render", wood, "--record", "drag.force,drag.state", "--duration", "0.8",
+                                  "--out", scratch.path ("w.csv"), "--out", scratch.path ("w.wav"), "--plot", scratch.path ("w.png") });
     INFO (ran.err);
     REQUIRE (ran.status == 0);
     CHECK (ran.out.empty());
-    const auto table = host::readTable (std::filesystem::path (scratch.path ("w.csv")));
+    const auto table = readTable (std::filesystem::path (scratch.path ("w.csv")));
     const auto wave = host::readWav (scratch.path ("w.wav"));
     REQUIRE (table);
     REQUIRE (wave);
@@ -132,19 +133,19 @@ TEST_CASE ("the option --set takes numbers, units, choices, vectors and controls
     }
 }
 
-TEST_CASE ("play runs in real time and brings the force to zero at its end", "[cli]")
+TEST_CASE ("play runs in real time and brings the force to zero at the end", "[cli]")
 {
     const Scratch scratch;
     const auto ran = runTactus ({ "play", wood, "--duration", "1", "--record", "drag.force", "--out", scratch.path ("p.csv") });
     INFO (ran.err);
     CHECK (ran.status == 0);
     CHECK (ran.err.find ("force  0.000 N") != std::string::npos);
-    const auto table = host::readTable (std::filesystem::path (scratch.path ("p.csv")));
+    const auto table = readTable (std::filesystem::path (scratch.path ("p.csv")));
     REQUIRE (table);
     CHECK (table->rows() == 4000);
 }
 
-TEST_CASE ("play records to the bit what render computes", "[cli]")
+TEST_CASE ("play records the same bits as render", "[cli]")
 {
     const Scratch scratch;
     CHECK (runTactus ({ "play", wood, "--duration", "0.8", "--out", scratch.path ("p.csv") }).status == 0);
@@ -152,7 +153,7 @@ TEST_CASE ("play records to the bit what render computes", "[cli]")
     CHECK (test::textOf (scratch.path ("p.csv")) == test::textOf (scratch.path ("r.csv")));
 }
 
-TEST_CASE ("the catalogue is listed for people and for programs", "[cli]")
+TEST_CASE ("the catalogue is printed as text and as JSON", "[cli]")
 {
     CHECK (runTactus ({ "nodes" }).out.find ("friction.elasto_plastic") != std::string::npos);
     CHECK (runTactus ({ "nodes", "friction.elasto_plastic" }).out.find ("d_max") != std::string::npos);
@@ -165,31 +166,33 @@ TEST_CASE ("the catalogue is listed for people and for programs", "[cli]")
             CHECK (node.contains (key));
 }
 
-TEST_CASE ("a run that is stopped leaves no file, not even a hidden one, and says so", "[cli]")
+TEST_CASE ("an interrupted render leaves no file, not even a hidden one, and reports this", "[cli]")
 {
     const Scratch scratch;
-    const auto ran = test::runProgram ("timeout", { "-s", "INT", "0.5", TACTUS_PROGRAM, "render", wood, "--duration", "100000", "--out", scratch.path ("w.csv") });
+    const auto ran = test::runProgram ("timeout", { "-s", "INT", "0.5", TACTUS_PROGRAM, "render", wood, "--duration", "100000",
+                                                    "--out", scratch.path ("w.csv") });
     INFO (ran.err);
     CHECK (ran.err.find ("[run/interrupted]") != std::string::npos);
     CHECK (std::filesystem::is_empty (std::filesystem::path (scratch.path ("w.csv")).parent_path()));
 }
 
-TEST_CASE ("play that is stopped, or whose terminal is closed, brings the force to zero and keeps its recording", "[cli]")
+TEST_CASE ("an interrupted play brings the force to zero and keeps its recording, even if its terminal is closed", "[cli]")
 {
     const auto signal = GENERATE (std::string ("INT"), std::string ("TERM"), std::string ("HUP"));
     const Scratch scratch;
     const auto ran = test::runProgram ("timeout", { "-s", signal, "0.9", TACTUS_PROGRAM, "play", wood, "--duration", "60", "--out", scratch.path ("p.csv") });
     INFO (ran.err);
     CHECK (ran.err.find ("force  0.000 N") != std::string::npos);
-    const auto table = host::readTable (std::filesystem::path (scratch.path ("p.csv")));
+    const auto table = readTable (std::filesystem::path (scratch.path ("p.csv")));
     REQUIRE (table);
     CHECK (table->rows() > 1000);
 }
 
-TEST_CASE ("a force that is not a number is withheld by the guard, and said", "[cli]")
+TEST_CASE ("the guard withholds a force that is not a number, and the run reports it", "[cli]")
 {
     const Scratch scratch;
-    const auto graph = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 1, "name": "Nan", "rate_hz": 1000, "devices": { "tip": { "driver": "sim" } },
+    const auto graph = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 1, "name": "Nan", "rate_hz": 1000,
+        "devices": { "tip": { "driver": "sim" } },
         "nodes": { "motor": { "type": "device.force", "role": "tip" } }, "wires": [] })");
     const auto feed = scratch.write ("f.csv", "motor.force.x\n1\nnan\n1\n");
     const auto ran = runTactus ({ "render", graph, "--feed", feed });
@@ -197,13 +200,13 @@ TEST_CASE ("a force that is not a number is withheld by the guard, and said", "[
     CHECK (ran.err.find ("the guard withheld the force") != std::string::npos);
 }
 
-TEST_CASE ("what the standard output cannot take is an error", "[cli]")
+TEST_CASE ("a failed write to standard output is an error", "[cli]")
 {
     if (! std::filesystem::exists ("/dev/full")) return;
     CHECK (test::runProgram ("sh", { "-c", std::string (TACTUS_PROGRAM) + " nodes > /dev/full" }).status == 1);
 }
 
-TEST_CASE ("ports of a section that runs `times` a tick are recorded at its rate if all do, else as they stand", "[cli][rates]")
+TEST_CASE ("a WAV has the rate of a faster section if all its ports are in that section, else the rate of the graph", "[cli][rates]")
 {
     const Scratch scratch;
     const auto graph = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 1, "name": "Fast", "rate_hz": 1000,
@@ -213,7 +216,7 @@ TEST_CASE ("ports of a section that runs `times` a tick are recorded at its rate
                             "expose": { "inputs": { "in": "twice.in" }, "outputs": { "out": "twice.out" } } } } })"),
                feed = scratch.write ("f.csv", "sec.in,amp.in\n0,1\n4,2\n0,3\n");
 
-    const auto column = [] (const host::Table& table, std::size_t c)
+    const auto column = [] (const Table& table, std::size_t c)
     {
         std::vector<double> values;
         for (std::size_t r = 0; r < table.rows(); ++r)
@@ -222,10 +225,11 @@ TEST_CASE ("ports of a section that runs `times` a tick are recorded at its rate
     };
     const auto recorded = [&] (const std::string& ports)
     {
-        const auto ran = runTactus ({ "render", graph, "--feed", feed, "--record", ports, "--out", scratch.path ("out.csv"), "--out", scratch.path ("out.wav") });
+        const auto ran = runTactus ({ "render", graph, "--feed", feed, "--record", ports, "--out", scratch.path ("out.csv"),
+                                      "--out", scratch.path ("out.wav") });
         INFO (ran.err);
         REQUIRE (ran.status == 0);
-        const auto table = host::readTable (std::filesystem::path (scratch.path ("out.csv")));
+        const auto table = readTable (std::filesystem::path (scratch.path ("out.csv")));
         REQUIRE (table);
         const auto wave = host::readWav (scratch.path ("out.wav"));
         REQUIRE (wave);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `tactus play --log` writes down what comes in, and `tactus render --replay` gives the same bits.
+// `tactus play --log` records the inputs of a run, and `tactus render --replay` repeats the run bit for bit.
 
 #include "running.hpp"
 
-#include <framework/json.hpp>
+#include <framework/text/json.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -27,11 +27,12 @@ std::string portOf (Running& play)
     return std::to_string (std::stoi (text.substr (text.find (before) + before.size())));
 }
 
-/// A stroke over a board, with a part from another file, and noise that somebody turns.
+/// A stroke over a board, with a part from another file and adjustable noise.
 std::string board (const std::string& more_nodes = "", const std::string& more_wires = "", double mu = 0.4)
 {
     return R"({ "format": "tactus-graph", "version": 1, "name": "Board", "rate_hz": 2000,
-      "devices": { "stylus": { "driver": "sim", "mass": "50 g", "damping": 2.0, "hand": { "stiffness": 100.0, "damping": 2.0, "path": "stroke" }, "guard": { "max_force": 3.0, "ramp": 0.05 } } },
+      "devices": { "stylus": { "driver": "sim", "mass": "50 g", "damping": 2.0,
+          "hand": { "stiffness": 100.0, "damping": 2.0, "path": "stroke" }, "guard": { "max_force": 3.0, "ramp": 0.05 } } },
       "nodes": { )"
            + more_nodes + R"("hand": { "type": "device.position", "role": "stylus" },
         "board": { "type": "deform.plane", "params": { "stiffness": "2 N/mm" } },
@@ -64,7 +65,7 @@ std::size_t linesWith (const std::string& file, const std::string& what)
     return n;
 }
 
-/// Files that must be the same to the byte; compared so, a failure does not print them.
+/// Compares files that must be identical byte for byte. Comparing them this way does not print them on failure.
 bool same (const Scratch& scratch, const std::string& a, const std::string& b)
 {
     const auto left = textOf (scratch.path (a)), right = textOf (scratch.path (b));
@@ -72,16 +73,22 @@ bool same (const Scratch& scratch, const std::string& a, const std::string& b)
 }
 }   // namespace
 
-TEST_CASE ("a run with edits, turned parameters and probes is repeated to the byte", "[cli][replay]")
+TEST_CASE ("a run with edits, parameter changes and probes is repeated byte for byte", "[cli][replay]")
 {
     const Scratch scratch;
     const auto file = scratch.write ("g.json", board());
     scratch.write ("grain.json", grain (800.0));
-    Running play { { "play", file, "--watch", "--osc", "0", "--set", "drag.break_away=0.6", "--record", recorded, "--out", scratch.path ("live.csv"), "--out", scratch.path ("live.wav"), "--log", scratch.path ("run.jsonl") } };
+    Running play { { "play", file, "--watch", "--osc", "0", "--set", "drag.break_away=0.6", "--record", recorded,
+                     "--out", scratch.path ("live.csv"), "--out", scratch.path ("live.wav"), "--log", scratch.path ("run.jsonl") } };
     const auto port = portOf (play);
     CHECK (runTactus ({ "set", "rough=0.9", "--osc", port }).status == 0);
     CHECK (runTactus ({ "probe", "drag.deflection", "--osc", port, "--duration", "0.1" }).status == 0);
-    scratch.write ("g.json", board (R"("trill": { "type": "signal.lfo", "params": { "frequency": 40, "amplitude": 0.1 } }, "join": { "type": "vector.join" }, "lift": { "type": "device.force", "role": "thumb" }, "there": { "type": "device.position", "role": "thumb" }, "far": { "type": "texture.grating" },)", R"("trill.out -> join.x", "join.out -> motor.force", "join.out -> lift.force", "there.position -> far.position", "far.force -> motor.force",)"));
+    const auto nodes = R"("trill": { "type": "signal.lfo", "params": { "frequency": 40, "amplitude": 0.1 } }, "join": { "type": "vector.join" },
+        "lift": { "type": "device.force", "role": "thumb" }, "there": { "type": "device.position", "role": "thumb" },
+        "far": { "type": "texture.grating" },)";
+    const auto wires = R"("trill.out -> join.x", "join.out -> motor.force", "join.out -> lift.force",
+        "there.position -> far.position", "far.force -> motor.force",)";
+    scratch.write ("g.json", board (nodes, wires));
     CHECK (play.says (": taken over"));
     CHECK (runTactus ({ "set", "drag.mu=0.3", "trill.frequency=60", "board.normal=[0.05,0,1]", "drag.adhesion=dahl", "--osc", port }).status == 0);
     scratch.write ("grain.json", grain (900.0));
@@ -97,9 +104,10 @@ TEST_CASE ("a run with edits, turned parameters and probes is repeated to the by
     CHECK (linesWith (scratch.path ("run.jsonl"), "\"turn\"") >= 3);
     CHECK (linesWith (scratch.path ("run.jsonl"), "\"halt\"") == 1);
 
-    std::filesystem::remove (file);   // the log holds what was edited
+    std::filesystem::remove (file);   // the log contains the edited graph
     std::filesystem::remove (scratch.path ("grain.json"));
-    const auto again = runTactus ({ "render", "--replay", scratch.path ("run.jsonl"), "--record", recorded, "--out", scratch.path ("again.csv"), "--out", scratch.path ("again.wav") });
+    const auto again = runTactus ({ "render", "--replay", scratch.path ("run.jsonl"), "--record", recorded,
+                                    "--out", scratch.path ("again.csv"), "--out", scratch.path ("again.wav") });
     INFO (again.err);
     CHECK (again.status == 0);
     CHECK (again.err.empty());
@@ -107,7 +115,7 @@ TEST_CASE ("a run with edits, turned parameters and probes is repeated to the by
     CHECK (same (scratch, "live.wav", "again.wav"));
 }
 
-TEST_CASE ("a run whose slow answers were late is repeated to the byte", "[cli][replay]")
+TEST_CASE ("a run with late answers of async queries is repeated byte for byte", "[cli][replay]")
 {
     const Scratch scratch;
     std::filesystem::copy (TACTUS_SOURCE_DIR "/graphs/assets/liver.obj", scratch.path ("liver.obj"));
@@ -143,22 +151,26 @@ TEST_CASE ("a run whose slow answers were late is repeated to the byte", "[cli][
     CHECK (runTactus (replay).err.find ("[log/asset_missing]") != std::string::npos);
 }
 
-TEST_CASE ("a run that was fed is repeated to the byte", "[cli][replay]")
+TEST_CASE ("a run with a feed is repeated byte for byte", "[cli][replay]")
 {
     const Scratch scratch;
-    const auto file = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 1, "rate_hz": 500, "nodes": { "a": { "type": "signal.gain" }, "b": { "type": "filter.one_pole" } }, "wires": [ "a.out -> b.in" ] })");
+    const auto file = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 1, "rate_hz": 500,
+      "nodes": { "a": { "type": "signal.gain" }, "b": { "type": "filter.one_pole" } },
+      "wires": [ "a.out -> b.in" ] })");
     std::string rows = "a.in,a.gain\n";
     for (int i = 0; i < 300; ++i)
         rows += (i % 50 == 7 ? "nan" : std::to_string (0.01 * i)) + "," + std::to_string (1 + i % 3) + "\n";
     const auto feed = scratch.write ("feed.csv", rows);
-    const auto live = runTactus ({ "play", file, "--osc", "off", "--feed", feed, "--record", "a.in,b.out", "--out", scratch.path ("live.csv"), "--log", scratch.path ("run.jsonl") });
+    const auto live = runTactus ({ "play", file, "--osc", "off", "--feed", feed, "--record", "a.in,b.out",
+                                   "--out", scratch.path ("live.csv"), "--log", scratch.path ("run.jsonl") });
     INFO (live.err);
     REQUIRE (live.status == 0);
     CHECK (runTactus ({ "render", "--replay", scratch.path ("run.jsonl"), "--record", "a.in,b.out", "--out", scratch.path ("again.csv") }).status == 0);
     CHECK (same (scratch, "live.csv", "again.csv"));
 }
 
-TEST_CASE ("a log is replayed as far as it goes, on another graph, or refused with a reason", "[cli][replay]")
+// Long because it is a series of logs, all derived from the log of one run.
+TEST_CASE ("a damaged log is replayed as far as possible, even with another graph, or refused with a reason", "[cli][replay]")
 {
     const Scratch scratch;
     const auto file = scratch.write ("g.json", board());
@@ -199,8 +211,11 @@ TEST_CASE ("a log is replayed as far as it goes, on another graph, or refused wi
     other_program.replace (other_program.find ("tactus 0"), 8, "tactus 9");
     CHECK (replay (other_program).err.find ("[log/other_program]") != std::string::npos);
 
-    // What another graph would have felt.
-    const auto wall = scratch.write ("wall.json", R"({ "format": "tactus-graph", "version": 1, "nodes": { "hand": { "type": "device.position", "role": "stylus" }, "wall": { "type": "deform.plane" }, "motor": { "type": "device.force", "role": "stylus" }, "other": { "type": "device.force", "role": "thumb" } }, "wires": [ "hand.position -> wall.position", "wall.force -> motor.force" ] })");
+    // The output of another graph with the same inputs.
+    const auto wall = scratch.write ("wall.json", R"({ "format": "tactus-graph", "version": 1,
+      "nodes": { "hand": { "type": "device.position", "role": "stylus" }, "wall": { "type": "deform.plane" },
+        "motor": { "type": "device.force", "role": "stylus" }, "other": { "type": "device.force", "role": "thumb" } },
+      "wires": [ "hand.position -> wall.position", "wall.force -> motor.force" ] })");
     const auto felt = replay (log, { wall });
     INFO (felt.err);
     CHECK (felt.status == 0);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A board that was struck and rang, where its recording is present, and the mode that sounds like it. Pictures go to
+// A recording of a board that rang after a shock, if it is present, and the mode fitted to it. Plots go to
 // build/figures/.
 
 #include "program.hpp"
 
-#include <framework/number_text.hpp>
-#include <host/io/csv.hpp>
+#include <framework/file/csv.hpp>
+#include <framework/text/number_text.hpp>
 #include <host/io/plot.hpp>
 
 #include <catch2/catch.hpp>
@@ -31,10 +31,11 @@ namespace
 {
 constexpr double turn = 2.0 * std::numbers::pi;
 
-/// One decaying tone: amplitude e^(-decay t) sin (2 pi frequency t + phase), t from the start of what it was found in.
+/// One decaying tone: amplitude e^(-decay t) sin (2 pi frequency t + phase), with t from the start of the analysed
+/// window.
 struct Tone
 {
-    double frequency, decay, amplitude, phase;   // Hz, 1/s, as the signal, rad
+    double frequency, decay, amplitude, phase;   // in Hz, 1/s, the unit of the signal, and rad
 
     double operator() (double t) const { return amplitude * std::exp (-decay * t) * std::sin (turn * frequency * t + phase); }
 };
@@ -42,19 +43,20 @@ struct Tone
 struct Identified
 {
     Tone tone;
-    std::vector<double> drift;   // of the gauge, as long as the signal
+    std::vector<double> drift;   // drift of the gauge, of the same length as the signal
 };
 
-/// The signal as the sum of a decaying tone and a slow polynomial. Frequency and decay are what is sought; for any two of
-/// them the rest is linear.
+/// Fits the signal as the sum of a decaying tone and a slow polynomial. The unknowns are frequency and decay; for given
+/// values of these, the rest is linear.
 class ToneFit
 {
 public:
     static constexpr int slow_terms = 7;
 
-    ToneFit (std::span<const double> signal, double dt_s) : dt (dt_s), y (Eigen::Map<const Eigen::VectorXd> (signal.data(), static_cast<Index> (signal.size()))) {}
+    ToneFit (std::span<const double> signal, double dt_s)
+        : dt (dt_s), y (Eigen::Map<const Eigen::VectorXd> (signal.data(), static_cast<Index> (signal.size()))) {}
 
-    // What Eigen's optimiser wants to know.
+    // Required by Eigen's optimiser.
     using Scalar = double;
     using InputType = Eigen::VectorXd;
     using ValueType = Eigen::VectorXd;
@@ -103,7 +105,7 @@ private:
     Eigen::VectorXd y;
 };
 
-/// The strongest frequency above 200 Hz, between two lines of the spectrum by a parabola through their logarithms.
+/// The strongest frequency above 200 Hz, interpolated between spectral lines by a parabola through their logarithms.
 double strongest (std::span<const double> signal, double dt)
 {
     std::vector<double> windowed (signal.begin(), signal.end());
@@ -120,7 +122,7 @@ double strongest (std::span<const double> signal, double dt)
     return step * (static_cast<double> (peak) + 0.5 * (below - above) / (below - 2.0 * here + above));
 }
 
-/// By the logarithm of the energy in the first and the second half.
+/// An estimate of the decay: the logarithm of the energy ratio of the first and second halves.
 double decayBetweenHalves (std::span<const double> signal, double dt)
 {
     const auto energy = [] (std::span<const double> part)
@@ -153,11 +155,11 @@ double rms (std::span<const double> signal)
     return std::sqrt (squares / static_cast<double> (signal.size()));
 }
 
-/// The ring of one mode that `tactus render` makes, struck once on tick `at`.
+/// Renders the ring of one mode with `tactus render`; the mode is hit once, on tick `at`.
 std::vector<double> rendered (const Tone& tone, double hit, std::size_t at, std::size_t ticks, double dt)
 {
     const test::Scratch scratch;
-    auto feed = host::TableWriter::create (scratch.path ("feed.csv"), std::vector<std::string> { "ring.hit" });
+    auto feed = TableWriter::create (scratch.path ("feed.csv"), std::vector<std::string> { "ring.hit" });
     REQUIRE (feed);
     for (std::size_t i = 0; i < ticks; ++i)
         REQUIRE (feed->row (std::vector { i == at ? hit : 0.0 }));
@@ -165,11 +167,13 @@ std::vector<double> rendered (const Tone& tone, double hit, std::size_t at, std:
 
     const auto graph = scratch.write ("graph.json", R"({ "format": "tactus-graph", "version": 1, "name": "Board", "nodes": {
         "ring": { "type": "vibration.modal", "settings": { "modes": [{ "frequency": )"
-                                                        + numberText (tone.frequency) + R"(, "decay": )" + numberText (tone.decay) + R"(, "amplitude": 1 }] } } }, "wires": [] })");
-    const auto ran = test::runTactus ({ "render", graph, "--feed", scratch.path ("feed.csv"), "--rate", std::to_string (std::lround (1.0 / dt)), "--record", "ring.value", "--out", scratch.path ("out.csv") });
+                                                        + numberText (tone.frequency) + R"(, "decay": )" + numberText (tone.decay)
+                                                        + R"(, "amplitude": 1 }] } } }, "wires": [] })");
+    const auto ran = test::runTactus ({ "render", graph, "--feed", scratch.path ("feed.csv"),
+                                        "--rate", std::to_string (std::lround (1.0 / dt)), "--record", "ring.value", "--out", scratch.path ("out.csv") });
     INFO (ran.err);
     REQUIRE (ran.status == 0);
-    const auto table = host::readTable (std::filesystem::path (scratch.path ("out.csv")));
+    const auto table = readTable (std::filesystem::path (scratch.path ("out.csv")));
     REQUIRE (table);
     REQUIRE (table->rows() == ticks);
 
@@ -209,11 +213,12 @@ std::string figure (const std::string& name)
 }
 }   // namespace
 
-TEST_CASE ("a decaying tone is found again under noise and drift", "[cli]")
+TEST_CASE ("the fit recovers a decaying tone under noise and drift", "[cli]")
 {
     rc::prop ("frequency within 0.1 %, decay within 2 %, amplitude within 2 %", []
               {
-                  const Tone tone { .frequency = 1.0 * *rc::gen::inRange (400, 3000), .decay = 1.0 * *rc::gen::inRange (15, 90), .amplitude = 100.0, .phase = 0.1 * *rc::gen::inRange (-30, 30) };
+                  const Tone tone { .frequency = 1.0 * *rc::gen::inRange (400, 3000), .decay = 1.0 * *rc::gen::inRange (15, 90),
+                      .amplitude = 100.0, .phase = 0.1 * *rc::gen::inRange (-30, 30) };
                   std::mt19937 random { *rc::gen::arbitrary<std::uint32_t>() };
                   std::normal_distribution<double> noise { 0.0, 1.0 };
                   const double dt = 5e-5, slant = 0.1 * *rc::gen::inRange (-100, 100);
@@ -227,7 +232,8 @@ TEST_CASE ("a decaying tone is found again under noise and drift", "[cli]")
                   RC_ASSERT (std::abs (found.amplitude / tone.amplitude - 1.0) < 0.02); });
 }
 
-TEST_CASE ("a board that rang after a shock rings as one mode of vibration.modal", "[data]")
+// Long because it is one scenario whose steps depend on each other: window, fit, render, comparison and plot.
+TEST_CASE ("a board that rang after a shock matches one mode of vibration.modal", "[data]")
 {
     const auto folder = test::sharedData ("shock_highrate_shm");
     if (folder.empty()) return;
@@ -237,8 +243,7 @@ TEST_CASE ("a board that rang after a shock rings as one mode of vibration.modal
     REQUIRE (signal.size() > 5000);
     REQUIRE (dt == Approx (2e-5));
 
-    // While it rings at more than half of what the gauge can tell it is no single mode yet; under a twentieth it is lost in
-    // the drift.
+    // Above half of the peak, the ring is not a single mode yet; below a twentieth, it is lost in the drift.
     const double most = *std::ranges::max_element (signal);
     const auto lastAbove = [&signal] (double level)
     { return static_cast<std::size_t> (std::find_if (signal.rbegin(), signal.rend(), [level] (double v)
@@ -252,7 +257,7 @@ TEST_CASE ("a board that rang after a shock rings as one mode of vibration.modal
     CHECK (tone.frequency == Approx (805.0).epsilon (0.02));
     CHECK (tone.decay == Approx (44.0).epsilon (0.20));
 
-    // A hit starts a sine at its zero: of the last ten of them before the window the one that lies nearest to a tick.
+    // A hit starts a sine at a zero crossing. Of the last ten crossings before the window, take the one nearest to a tick.
     const double period = 1.0 / tone.frequency;
     double zero = 0.0, apart = 1.0;
     for (int i = 0; i < 10; ++i)
@@ -272,10 +277,11 @@ TEST_CASE ("a board that rang after a shock rings as one mode of vibration.modal
         left.push_back (recorded.back() - ring[from + i]);
     }
     const double part = rms (left) / rms (recorded);
-    WARN ("ring-down: " << tone.frequency << " Hz, decay " << tone.decay << " 1/s, over " << 1e3 * dt * static_cast<double> (window.size()) << " ms from " << 1e3 * dt * static_cast<double> (from) << " ms; left over " << 100.0 * part << " % rms");
+    WARN ("ring-down: " << tone.frequency << " Hz, decay " << tone.decay << " 1/s, over " << 1e3 * dt * static_cast<double> (window.size())
+                        << " ms from " << 1e3 * dt * static_cast<double> (from) << " ms; residual " << 100.0 * part << " % rms");
     CHECK (part < 0.06);
 
-    // What was rendered is found to have the same tone.
+    // A fit of the rendered ring gives the same tone.
     const auto again = identify (std::span (ring).subspan (from, to - from), dt).tone;
     CHECK (again.frequency == Approx (tone.frequency).epsilon (1e-4));
     CHECK (again.decay == Approx (tone.decay).epsilon (1e-3));
@@ -302,8 +308,13 @@ TEST_CASE ("a board that rang after a shock rings as one mode of vibration.modal
     picture.panels.back().series = { series ("recorded", at, signal.size(), 0, heard), series ("vibration.modal", at, signal.size(), 0, made) };
     for (const std::size_t first : { from, from + (to - from) / 2, to - cycles })
     {
-        picture.panels.push_back ({ .title = "six cycles from " + std::to_string (std::lround (1e3 * dt * static_cast<double> (first))) + " ms, without drift", .x = { "time from there", "s" }, .y = { "acceleration", "g" }, .series = {} });
-        picture.panels.back().series = { series ("recorded", first, first + cycles, first, level), series ("vibration.modal", first, first + cycles, first, made) };
+        picture.panels.push_back ({ .title = "six cycles from " + std::to_string (std::lround (1e3 * dt * static_cast<double> (first)))
+                                             + " ms, without drift",
+                                    .x = { "time from there", "s" },
+                                    .y = { "acceleration", "g" },
+                                    .series = {} });
+        picture.panels.back().series = { series ("recorded", first, first + cycles, first, level),
+                                         series ("vibration.modal", first, first + cycles, first, made) };
         picture.panels.back().series[0].style = host::Series::Style::points;
     }
     REQUIRE (host::writePng (picture, figure ("ring_down.png")));

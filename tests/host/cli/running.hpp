@@ -8,7 +8,7 @@
 namespace tactus::test
 {
 
-/// A program that runs beside the test. Ended with it.
+/// A program that runs at the same time as the test. It is ended when this object is destroyed.
 class Running
 {
 public:
@@ -21,16 +21,17 @@ public:
     std::string err() const { return textOf (scratch.path ("err")); }
     std::string out() const { return textOf (scratch.path ("out")); }
 
-    /// Waits until the program has said this on stderr (so often), on however busy a machine. False if it never does.
+    /// Waits until the program has printed this text to stderr the given number of times, even on a busy machine. Returns
+    /// false if it never does.
     bool says (const std::string& text, int times = 1);
 
     void signal (int number);
-    long id() const noexcept { return process; }   ///< as the system numbers it
+    long id() const noexcept { return process; }   ///< process id
 
-    /// Asks it to stop, as Ctrl-C does, and waits until it has.
+    /// Stops it as Ctrl-C does, and waits until it ends.
     Ran stop();
 
-    /// Waits until it ends by itself.
+    /// Waits until it ends on its own.
     Ran finish();
 
 private:
@@ -38,7 +39,7 @@ private:
     long process = -1;
 };
 
-/// True as soon as it is; false if it has not come true after half a minute.
+/// Returns true as soon as the condition holds; false if it does not hold within half a minute.
 bool eventually (const std::function<bool()>&);
 
 }   // namespace tactus::test

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `tactus session`, and what a run makes of it.
+// `tactus session`, and how a run uses the session.
 
 #include "program.hpp"
 
-#include <framework/json.hpp>
+#include <framework/text/json.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -29,7 +29,7 @@ test::Ran play (const std::string& session, std::vector<std::string> more = {})
 }
 }   // namespace
 
-TEST_CASE ("a role is bound, shown with what the graph needs of it, and let go", "[sessions][cli]")
+TEST_CASE ("a role is bound, shown with what the graph needs from it, and unbound", "[sessions][cli]")
 {
     const Scratch scratch;
     const auto file = scratch.path ("desk/session.json");
@@ -44,7 +44,8 @@ TEST_CASE ("a role is bound, shown with what the graph needs of it, and let go",
     CHECK (has (ran.out, "position, force"));
     CHECK (has (ran.out, "hid tactus_board (session)"));
     CHECK (has (ran.out, "yes, once it is connected"));
-    CHECK (has (runTactus ({ "session", wood, "--file", scratch.write ("none.json", R"({"format": "tactus-session", "version": 1})") }).out, "sim in a hand that follows stroke (graph)"));
+    const auto none = scratch.write ("none.json", R"({"format": "tactus-session", "version": 1})");
+    CHECK (has (runTactus ({ "session", wood, "--file", none }).out, "sim with a hand that follows stroke (graph)"));
 
     ran = runTactus ({ "session", wood, "--file", file, "--bind", "stylus=hid:spacemouse", "--json" });
     REQUIRE (ran.status == 0);
@@ -54,10 +55,11 @@ TEST_CASE ("a role is bound, shown with what the graph needs of it, and let go",
 
     ran = runTactus ({ "session", "--file", file, "--unbind", "stylus", "--clock", "first" });
     CHECK (ran.status == 0);
-    CHECK (Json::parse (test::textOf (file)) == Json { { "format", "tactus-session" }, { "version", 1 }, { "roles", { { "thumb", { { "driver", "gesture" }, { "path", "tap" } } } } } });
+    const auto left = R"({"format": "tactus-session", "version": 1, "roles": {"thumb": {"driver": "gesture", "path": "tap"}}})";
+    CHECK (Json::parse (test::textOf (file)) == Json::parse (left));
 }
 
-TEST_CASE ("what cannot be bound is refused, and the session is as it was", "[sessions][cli]")
+TEST_CASE ("a bad binding is refused, and the session stays unchanged", "[sessions][cli]")
 {
     const Scratch scratch;
     const std::string before = R"({"format": "tactus-session", "version": 1})";
@@ -78,11 +80,11 @@ TEST_CASE ("what cannot be bound is refused, and the session is as it was", "[se
     refuses ({ "--bind", "stylus=trace:nowhere.csv" }, 1, "csv/");
     refuses ({ "--bind", "stylus=" + scratch.write ("device.json", R"({"driver": "sim", "workspace": {"scale": 0}})") }, 1, "device/out_of_range");
     refuses ({ "--unbind", "stylus" }, 1, "session/not_bound");
-    refuses ({ "--clock", "The clock" }, 2, "is no role");
+    refuses ({ "--clock", "The clock" }, 2, "is not a role name");
     CHECK (runTactus ({ "session", "--file", scratch.path ("nowhere.json") }).status == 1);
 }
 
-TEST_CASE ("a recording is found again from wherever the session lies", "[sessions][cli]")
+TEST_CASE ("a recording is found, wherever the session file is", "[sessions][cli]")
 {
     const Scratch scratch;
     const auto trace = scratch.write ("pen.csv", "t,x,y,z\n0,0,0,0\n0.05,0.01,0,-0.001\n");
@@ -93,10 +95,11 @@ TEST_CASE ("a recording is found again from wherever the session lies", "[sessio
     CHECK (has (test::textOf (scratch.path ("out.csv")), "\n0.05,0.01,0,-0.001\n"));
 }
 
-TEST_CASE ("a run goes by an option, else by the session, else by the graph, and a render never by a session", "[sessions][cli]")
+TEST_CASE ("a run uses the option, then the session, then the graph; a render never uses a session", "[sessions][cli]")
 {
     const Scratch scratch;
-    const auto bound = scratch.write ("session.json", R"({"format": "tactus-session", "version": 1, "roles": {"stylus": {"driver": "gesture", "path": "tap", "workspace": {"scale": 2, "offset": [1, 0, 0]}}}})");
+    const auto bound = scratch.write ("session.json", R"({"format": "tactus-session", "version": 1,
+        "roles": {"stylus": {"driver": "gesture", "path": "tap", "workspace": {"scale": 2, "offset": [1, 0, 0]}}}})");
     const auto firstX = [&] (const std::string& session, std::vector<std::string> more)
     {
         const auto out = scratch.path ("out.csv");
@@ -114,10 +117,12 @@ TEST_CASE ("a run goes by an option, else by the session, else by the graph, and
     CHECK (runTactus ({ "render", wood, "--session", bound }).status == 2);
 }
 
-TEST_CASE ("a device of the session that is not there holds its role at rest, or ends a strict run", "[sessions][cli]")
+TEST_CASE ("an absent device of the session keeps its role at rest, or ends a strict run", "[sessions][cli]")
 {
     const Scratch scratch;
-    const auto desk = scratch.write ("session.json", "{\"format\": \"tactus-session\", \"version\": 1,\n\"clock\": \"stylus\",\n\"roles\": {\"stylus\": {\"driver\": \"hid\", \"profile\": \"tactus_board\"}, \"other\": {\"driver\": \"nonsense\"}}}");
+    const auto desk = scratch.write ("session.json", R"({"format": "tactus-session", "version": 1,
+"clock": "stylus",
+"roles": {"stylus": {"driver": "hid", "profile": "tactus_board"}, "other": {"driver": "nonsense"}}})");
     auto ran = play (desk);
     INFO (ran.err);
     CHECK (ran.status == 0);
@@ -136,13 +141,14 @@ TEST_CASE ("a device of the session that is not there holds its role at rest, or
     CHECK (play (desk, { "--clock", "timer" }).err.find ("ticked by") == std::string::npos);
     CHECK (has (play (desk, { "--clock", "stylus", "--rate", "4000" }).err, "run/two_rates"));
 
-    ran = play (scratch.write ("wrong.json", "{\"format\": \"tactus-session\", \"version\": 1,\n\"roles\": {\"stylus\": {\"driver\": \"sim\", \"mass\": \"1 N\"}}}"));
+    ran = play (scratch.write ("wrong.json", R"({"format": "tactus-session", "version": 1,
+"roles": {"stylus": {"driver": "sim", "mass": "1 N"}}})"));
     CHECK (ran.status == 1);
     CHECK (has (ran.err, "wrong.json:2:"));
     CHECK (has (ran.err, "device/unit"));
 }
 
-TEST_CASE ("a session that cannot be read keeps a run from beginning, if somebody named it", "[sessions][cli]")
+TEST_CASE ("an unreadable session prevents a run if it was named on the command line", "[sessions][cli]")
 {
     const Scratch scratch;
     CHECK (has (play (scratch.path ("nowhere.json")).err, "session/unreadable"));
@@ -155,13 +161,14 @@ TEST_CASE ("a session that cannot be read keeps a run from beginning, if somebod
     CHECK (test::textOf (half) == "{\"format\": ");
 }
 
-TEST_CASE ("a damaged session of the user's ends no run, pushes nobody and is kept, and the next run says no more of it", "[sessions][cli]")
+TEST_CASE ("a user's damaged session file neither ends a run nor causes a force; it is set aside, and the next run does not mention it", "[sessions][cli]")
 {
     const Scratch home;
     const std::string before = std::getenv ("TACTUS_HOME");
     setenv ("TACTUS_HOME", home.path ("").c_str(), 1);
     home.write ("session.json", R"({"format": "tactus-session", "version": 1, "roles": {"stylus": {"driver": "hid", "profile": "tactus_board"})");
-    const auto first = runTactus ({ "play", wood, "--osc", "off", "--duration", "0.1" }), second = runTactus ({ "play", wood, "--osc", "off", "--duration", "0.1" });
+    const std::vector<std::string> arguments { "play", wood, "--osc", "off", "--duration", "0.1" };
+    const auto first = runTactus (arguments), second = runTactus (arguments);
     setenv ("TACTUS_HOME", before.c_str(), 1);
     CHECK (first.status == 0);
     CHECK (has (first.err, "[session/set_aside]"));
@@ -171,10 +178,13 @@ TEST_CASE ("a damaged session of the user's ends no run, pushes nobody and is ke
     CHECK_FALSE (has (second.err, "session"));
 }
 
-TEST_CASE ("a run on a session is repeated to the byte from its log, in its workspace and while its clock is away", "[sessions][cli][replay]")
+TEST_CASE ("a run with a session is repeated from its log byte for byte, in its workspace and while its clock is absent", "[sessions][cli][replay]")
 {
     const Scratch scratch;
-    const auto binding = GENERATE (as<std::string> {}, R"({"driver": "gesture", "path": "stroke", "workspace": {"scale": 0.5, "offset": [0, 0, "-1 mm"]}, "guard": {"max_force": 1, "max_speed": "0.2 m/s"}})", R"({"driver": "hid", "profile": "tactus_board"})");
+    const auto binding = GENERATE (as<std::string> {},
+                                   R"({"driver": "gesture", "path": "stroke", "workspace": {"scale": 0.5, "offset": [0, 0, "-1 mm"]},
+                                       "guard": {"max_force": 1, "max_speed": "0.2 m/s"}})",
+                                   R"({"driver": "hid", "profile": "tactus_board"})");
     const auto desk = scratch.write ("session.json", R"({"format": "tactus-session", "version": 1, "clock": "stylus", "roles": {"stylus": )" + binding + "}}");
     const std::string ports = "hand.position,hand.valid,motor.force,motor.applied";
     CHECK (play (desk, { "--duration", "0.4", "--log", scratch.path ("run.jsonl"), "--record", ports, "--out", scratch.path ("live.csv") }).status == 0);

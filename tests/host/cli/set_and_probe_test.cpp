@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `tactus set` and `tactus probe`, while `tactus play` runs.
+// `tactus set` and `tactus probe` on a running `tactus play`.
 
 #include "running.hpp"
 
-#include <host/io/csv.hpp>
+#include <framework/file/csv.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -18,7 +18,7 @@ namespace
 {
 const std::string wood = TACTUS_SOURCE_DIR "/graphs/dry_wood.json";
 
-/// The port that a `play` says it listens on.
+/// The port that a `play` reports.
 std::string portOf (Running& play)
 {
     REQUIRE (play.says ("Ctrl-C stops"));
@@ -29,15 +29,15 @@ std::string portOf (Running& play)
     return std::to_string (std::stoi (text.substr (at + before.size())));
 }
 
-host::Table recorded (const Scratch& scratch, const std::string& name)
+Table recorded (const Scratch& scratch, const std::string& name)
 {
-    auto table = host::readTable (std::filesystem::path (scratch.path (name)));
+    auto table = readTable (std::filesystem::path (scratch.path (name)));
     REQUIRE (table);
     return *table;
 }
 }   // namespace
 
-TEST_CASE ("a running graph is turned from another program, and its ports are watched", "[cli][osc]")
+TEST_CASE ("another program can set parameters of a running graph and watch its ports", "[cli][osc]")
 {
     const Scratch scratch;
     const auto graph = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 1, "name": "Knobs", "rate_hz": 500,
@@ -57,7 +57,7 @@ TEST_CASE ("a running graph is turned from another program, and its ports are wa
     const auto probe = runTactus ({ "probe", "count.out", "--osc", port, "--rate", "100", "--duration", "0.2" });
     INFO (probe.out + probe.err);
     CHECK (probe.status == 0);
-    const auto seen = host::readTable (scratch.write ("seen.csv", probe.out));
+    const auto seen = readTable (scratch.write ("seen.csv", probe.out));
     REQUIRE (seen);
     CHECK (seen->columns == std::vector<std::string> { "t", "count.out" });
     REQUIRE (seen->rows() > 5);
@@ -70,10 +70,10 @@ TEST_CASE ("a running graph is turned from another program, and its ports are wa
     std::size_t breaks = 0;
     for (std::size_t r = 0; r < table.rows(); ++r)
         breaks += table.at (r, 1) != static_cast<double> (r + 1);
-    CHECK (breaks == 0);   // of probing, nobody notices anything
+    CHECK (breaks == 0);   // probing disturbs nothing
 }
 
-TEST_CASE ("set and probe report what the running program has against them", "[cli][osc]")
+TEST_CASE ("set and probe report the errors of the running program", "[cli][osc]")
 {
     Running play { { "play", wood, "--osc", "0", "--duration", "600" } };
     const auto port = portOf (play);
@@ -102,7 +102,7 @@ TEST_CASE ("set and probe report what the running program has against them", "[c
     refused ({ "probe", "drag.force" }, "osc/nothing_runs");
 }
 
-TEST_CASE ("probing does not change a bit of what is recorded", "[cli][osc]")
+TEST_CASE ("probing does not change a single bit of the recording", "[cli][osc]")
 {
     const Scratch scratch;
     CHECK (runTactus ({ "render", wood, "--duration", "1", "--out", scratch.path ("r.csv") }).status == 0);
@@ -114,11 +114,12 @@ TEST_CASE ("probing does not change a bit of what is recorded", "[cli][osc]")
     CHECK (test::textOf (scratch.path ("p.csv")) == test::textOf (scratch.path ("r.csv")));
 }
 
-TEST_CASE ("a probe goes on when the graph is edited, and ends when its port is gone", "[cli][osc][watch]")
+TEST_CASE ("a probe continues when the graph is edited, and ends when its port is removed", "[cli][osc][watch]")
 {
     const Scratch scratch;
     const auto text = [] (const std::string& more)
-    { return R"({ "format": "tactus-graph", "version": 1, "name": "G", "rate_hz": 500, "nodes": { )" + more + R"( "last": { "type": "signal.constant" } }, "wires": [] })"; };
+    { return R"({ "format": "tactus-graph", "version": 1, "name": "G", "rate_hz": 500, "nodes": { )" + more
+             + R"( "last": { "type": "signal.constant" } }, "wires": [] })"; };
     const auto graph = scratch.write ("g.json", text (R"("one": { "type": "signal.constant" },)"));
     Running play { { "play", graph, "--osc", "0", "--watch", "--duration", "600" } };
     const auto port = portOf (play);
@@ -137,11 +138,12 @@ TEST_CASE ("a probe goes on when the graph is edited, and ends when its port is 
     CHECK (play.stop().status == 0);
 }
 
-TEST_CASE ("a window is taken around an edge, with every tick of it", "[cli][osc]")
+TEST_CASE ("a window around an edge contains every tick", "[cli][osc]")
 {
     const Scratch scratch;
     const auto graph = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 1, "name": "Saw", "rate_hz": 500,
-      "nodes": { "one": { "type": "signal.constant", "params": { "value": 1 } }, "count": { "type": "signal.add" }, "saw": { "type": "signal.lfo", "params": { "frequency": 5, "shape": "saw" } }, "turn": { "type": "signal.constant" } },
+      "nodes": { "one": { "type": "signal.constant", "params": { "value": 1 } }, "count": { "type": "signal.add" },
+          "saw": { "type": "signal.lfo", "params": { "frequency": 5, "shape": "saw" } }, "turn": { "type": "signal.constant" } },
       "wires": [ "one.out -> count.in[0]", "count.out -> [1] -> count.in[1]" ] })");
     Running play { { "play", graph, "--osc", "0", "--duration", "600" } };
     const auto port = portOf (play);
@@ -156,11 +158,11 @@ TEST_CASE ("a window is taken around an edge, with every tick of it", "[cli][osc
     INFO (ran.err);
     REQUIRE (ran.status == 0);
     CHECK (ran.err.starts_with ("triggered at "));
-    const auto window = host::readTable (scratch.write ("window.csv", ran.out));
+    const auto window = readTable (scratch.write ("window.csv", ran.out));
     REQUIRE (window);
     CHECK (window->columns == std::vector<std::string> { "t", "count.out" });
     REQUIRE (window->rows() == 631);
-    const double edge = std::stod (ran.err.substr (13)) * 500.0;   // tick, from which count.out is 1 away
+    const double edge = std::stod (ran.err.substr (13)) * 500.0;   // the tick of the edge; count.out is one more
     int wrong = 0;
     for (std::size_t r = 0; r < window->rows(); ++r)
     {

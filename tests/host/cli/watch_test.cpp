@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `tactus play --watch`: a graph file is edited while it runs.
+// `tactus play --watch`: the graph file is edited during a run.
 
 #include "running.hpp"
 
-#include <host/io/csv.hpp>
+#include <framework/file/csv.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -15,19 +15,20 @@ using test::Scratch;
 
 namespace
 {
-/// Counts the ticks in a loop, and pulls at a tool that nobody holds.
+/// A graph that counts the ticks in a loop and pulls on a tool that no hand holds.
 std::string counter (const std::string& more_nodes = "", const std::string& value = "1", const std::string& more_devices = "")
 {
     return R"({ "format": "tactus-graph", "version": 1, "name": "Counter", "rate_hz": 500,
       "devices": { )"
            + more_devices + R"( "tip": { "driver": "sim" } },
       "nodes": { )"
-           + more_nodes + R"( "one": { "type": "signal.constant", "params": { "value": )" + value + R"( } }, "count": { "type": "signal.add" }, "motor": { "type": "device.force", "role": "tip" } },
+           + more_nodes + R"( "one": { "type": "signal.constant", "params": { "value": )" + value
+           + R"( } }, "count": { "type": "signal.add" }, "motor": { "type": "device.force", "role": "tip" } },
       "wires": [ "one.out -> count.in[0]", "count.out -> [1] -> count.in[1]" ] })";
 }
 }   // namespace
 
-TEST_CASE ("an edited graph is taken over live: not a tick is lost, and what counted goes on counting", "[cli][watch]")
+TEST_CASE ("an edited graph is swapped in live: no tick is lost, and a counter continues counting", "[cli][watch]")
 {
     const Scratch scratch;
     const auto file = scratch.write ("g.json", counter());
@@ -35,13 +36,13 @@ TEST_CASE ("an edited graph is taken over live: not a tick is lost, and what cou
     REQUIRE (play.says ("Ctrl-C stops"));
     scratch.write ("g.json", counter (R"("idle": { "type": "signal.abs" },)"));
     REQUIRE (play.says (": taken over"));
-    std::filesystem::rename (scratch.write ("new.json", counter()), file);   // as many editors save
+    std::filesystem::rename (scratch.write ("new.json", counter()), file);   // many editors save in this way
     REQUIRE (play.says (": taken over", 2));
     const auto ran = play.stop();
     INFO (ran.err);
     CHECK (ran.status == 0);
 
-    const auto table = host::readTable (std::filesystem::path (scratch.path ("p.csv")));
+    const auto table = readTable (std::filesystem::path (scratch.path ("p.csv")));
     REQUIRE (table);
     REQUIRE (table->rows() > 100);
     std::size_t breaks = 0;
@@ -50,7 +51,7 @@ TEST_CASE ("an edited graph is taken over live: not a tick is lost, and what cou
     CHECK (breaks == 0);
 }
 
-TEST_CASE ("a value in the edited file is headed for while it runs", "[cli][watch]")
+TEST_CASE ("a value changed in the file is approached gradually", "[cli][watch]")
 {
     const Scratch scratch;
     const auto file = scratch.write ("g.json", counter());
@@ -58,10 +59,10 @@ TEST_CASE ("a value in the edited file is headed for while it runs", "[cli][watc
     REQUIRE (play.says ("Ctrl-C stops"));
     scratch.write ("g.json", counter ("", "5"));
     REQUIRE (play.says (": taken over"));
-    scratch.write ("g.json", counter (R"("idle": { "type": "signal.abs" },)", "5"));   // by then it has arrived
+    scratch.write ("g.json", counter (R"("idle": { "type": "signal.abs" },)", "5"));   // by then the value has arrived
     REQUIRE (play.says (": taken over", 2));
     CHECK (play.stop().status == 0);
-    const auto table = host::readTable (std::filesystem::path (scratch.path ("p.csv")));
+    const auto table = readTable (std::filesystem::path (scratch.path ("p.csv")));
     REQUIRE (table);
     double last = 1.0, step = 0.0;
     for (std::size_t r = 0; r < table->rows(); ++r)
@@ -73,7 +74,7 @@ TEST_CASE ("a value in the edited file is headed for while it runs", "[cli][watc
     CHECK (step < 0.5);   // 4 in 20 ms, which are 10 ticks
 }
 
-TEST_CASE ("a file with errors is reported with its place, and the graph before goes on", "[cli][watch]")
+TEST_CASE ("a file with errors is reported with its place, and the previous graph keeps running", "[cli][watch]")
 {
     const Scratch scratch;
     const auto file = scratch.write ("g.json", counter());
@@ -90,7 +91,8 @@ TEST_CASE ("a file with errors is reported with its place, and the graph before 
     };
     refused ("{ \"format\": \"tactus-graph\", ", "file/syntax", "1:");
     refused (counter (R"("idle": { "type": "signal.abss" },)"), "node/unknown_type", "3:");
-    refused (counter (R"("idle": { "type": "device.force", "role": "thumb" },)", "1", R"("thumb": { "driver": "sim", "mass": -1 },)"), "device/out_of_range", "2:");
+    refused (counter (R"("idle": { "type": "device.force", "role": "thumb" },)", "1", R"("thumb": { "driver": "sim", "mass": -1 },)"),
+             "device/out_of_range", "2:");
     auto misspelt = counter();
     refused (misspelt.replace (misspelt.find ("count.in[0]"), 11, "count.on[0]"), "port/unknown", "4:");
 
@@ -98,18 +100,19 @@ TEST_CASE ("a file with errors is reported with its place, and the graph before 
     CHECK (play.says (": taken over"));
     const auto ran = play.stop();
     CHECK (ran.status == 0);
-    const auto table = host::readTable (std::filesystem::path (scratch.path ("p.csv")));
+    const auto table = readTable (std::filesystem::path (scratch.path ("p.csv")));
     REQUIRE (table);
     CHECK (table->at (table->rows() - 1, 1) == static_cast<double> (table->rows()));
 }
 
-TEST_CASE ("a role that the edited file has first gets its device, and is felt", "[cli][watch]")
+TEST_CASE ("a role that is new in the edited file gets its device, and is felt", "[cli][watch]")
 {
     const Scratch scratch;
     const auto file = scratch.write ("g.json", counter());
     Running play { { "play", file, "--watch", "--duration", "60", "--record", "count.out", "--out", scratch.path ("p.csv") } };
     REQUIRE (play.says ("Ctrl-C stops"));
-    const std::string thumb = R"("thumb": { "type": "device.position", "role": "thumb" }, "wall": { "type": "deform.plane" }, "thimble": { "type": "device.force", "role": "thumb" },)";
+    const std::string thumb = R"("thumb": { "type": "device.position", "role": "thumb" }, "wall": { "type": "deform.plane" },)"
+                              R"("thimble": { "type": "device.force", "role": "thumb" },)";
     auto edited = counter (thumb, "1", R"("thumb": { "driver": "sim", "position": [0, 0, "-5 mm"], "mass": 1000 },)");
     edited.replace (edited.find (R"("wires": [)"), 10, R"("wires": [ "thumb.position -> wall.position", "wall.force -> thimble.force",)");
     scratch.write ("g.json", edited);
@@ -122,13 +125,13 @@ TEST_CASE ("a role that the edited file has first gets its device, and is felt",
     const auto ran = play.stop();
     INFO (ran.err);
     CHECK (ran.status == 0);
-    CHECK (ran.err.find ("peak  5.000 N") != std::string::npos);   // N: 5 mm into 1000 N/m
-    const auto table = host::readTable (std::filesystem::path (scratch.path ("p.csv")));
+    CHECK (ran.err.find ("peak  5.000 N") != std::string::npos);   // in N: 5 mm into 1000 N/m
+    const auto table = readTable (std::filesystem::path (scratch.path ("p.csv")));
     REQUIRE (table);
     CHECK (table->at (table->rows() - 1, 1) == static_cast<double> (table->rows()));
 }
 
-TEST_CASE ("what is not taken over live is said: another device, another rate", "[cli][watch]")
+TEST_CASE ("edits that cannot be applied live are reported: another device, another rate", "[cli][watch]")
 {
     const Scratch scratch;
     const auto file = scratch.write ("g.json", counter());
@@ -144,13 +147,17 @@ TEST_CASE ("what is not taken over live is said: another device, another rate", 
     CHECK (play.stop().status == 0);
 }
 
-TEST_CASE ("a file that the graph includes is watched too", "[cli][watch]")
+TEST_CASE ("a file included by the graph is watched too", "[cli][watch]")
 {
     const Scratch scratch;
     const auto inner = [&] (const std::string& value)
-    { return scratch.write ("inner.json", R"({ "format": "tactus-graph", "version": 1, "nodes": { "one": { "type": "signal.constant", "params": { "value": )" + value + R"( } } }, "wires": [], "expose": { "outputs": { "out": "one.out" } } })"); };
+    { return scratch.write ("inner.json",
+                            R"({ "format": "tactus-graph", "version": 1, "nodes": { "one": { "type": "signal.constant", "params": { "value": )" + value
+                                + R"( } } }, "wires": [], "expose": { "outputs": { "out": "one.out" } } })"); };
     inner ("1");
-    const auto file = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 1, "rate_hz": 500, "nodes": { "part": { "type": "file:inner.json" }, "last": { "type": "signal.abs" } }, "wires": [ "part.out -> last.in" ] })");
+    const auto file = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 1, "rate_hz": 500,
+      "nodes": { "part": { "type": "file:inner.json" }, "last": { "type": "signal.abs" } },
+      "wires": [ "part.out -> last.in" ] })");
     Running play { { "play", file, "--watch", "--duration", "60", "--record", "last.out", "--out", scratch.path ("p.csv") } };
     REQUIRE (play.says ("Ctrl-C stops"));
     inner ("3");
@@ -159,7 +166,7 @@ TEST_CASE ("a file that the graph includes is watched too", "[cli][watch]")
     inner ("3.0");
     CHECK (play.says (": taken over", 2));
     CHECK (play.stop().status == 0);
-    const auto table = host::readTable (std::filesystem::path (scratch.path ("p.csv")));
+    const auto table = readTable (std::filesystem::path (scratch.path ("p.csv")));
     REQUIRE (table);
     CHECK (table->at (table->rows() - 1, 1) == 3.0);
 }

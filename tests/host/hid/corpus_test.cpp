@@ -2,8 +2,8 @@
 #include "hid.hpp"
 #include "support/corpus.hpp"
 
-#include <tests/fuzz/descriptor_target.hpp>
-#include <tests/fuzz/profile_target.hpp>
+#include <fuzz/descriptor_target.hpp>
+#include <fuzz/profile_target.hpp>
 
 using namespace tactus;
 

@@ -2,7 +2,7 @@
 #include "hid.hpp"
 #include "pid_wheel.hpp"
 
-#include <tests/fuzz/descriptor_target.hpp>
+#include <fuzz/descriptor_target.hpp>
 
 #include <rapidcheck/catch.h>
 
@@ -43,7 +43,7 @@ const DescribedField* fieldOf (const ReportDescriptor& d, Kind kind, Usage usage
     return it == d.fields.end() ? nullptr : &*it;
 }
 
-/// The numbers of a cap of Windows' preparsed data, as hidapi's tests write them: "pp_data->cap[3]->BitSize = 8".
+/// The numbers of a "cap" in Windows' preparsed data, in the format of hidapi's tests: "pp_data->cap[3]->BitSize = 8".
 using Cap = std::map<std::string, long>;
 
 std::vector<Cap> capsOf (const std::string& text, std::array<long, 3>& lengths, std::array<std::size_t, 3>& firsts)
@@ -72,7 +72,7 @@ std::vector<Cap> capsOf (const std::string& text, std::array<long, 3>& lengths, 
 }
 }   // namespace
 
-TEST_CASE ("a descriptor tells where each number of a report lies")
+TEST_CASE ("a descriptor gives the place of each number in a report")
 {
     const auto d = good (test::wheel());
     CHECK (d.has_ids);
@@ -101,12 +101,12 @@ TEST_CASE ("a descriptor tells where each number of a report lies")
     CHECK_FALSE (d.lies (time->collection, usageOf (0x0f, 0x73)));
 }
 
-TEST_CASE ("pushed states, long usages, alternatives and unsigned maxima mean what the standard says")
+TEST_CASE ("pushed states, long usages, alternatives and unsigned maxima follow the standard")
 {
     const auto d = good (test::bytes (
         "05 01 15 00 25 7f 75 08 95 01 a4 05 09 75 01 b4 09 30 81 02 "   // push, change, pop: still x of 8 bits
         "0b 05 00 0c 00 81 02 "                                          // a usage with its own page
-        "a9 01 09 31 09 32 a9 00 81 02 "                                 // of alternatives the first
+        "a9 01 09 31 09 32 a9 00 81 02 "                                 // the first of a set of alternatives
         "26 ff ff 75 10 09 33 81 02 fe 02 00 11 22 09 34 91 02"));       // 65535, a long item, an output
     REQUIRE (d.fields.size() == 5);
     CHECK (d.fields[0].usage (0) == usageOf (1, 0x30));
@@ -120,7 +120,7 @@ TEST_CASE ("pushed states, long usages, alternatives and unsigned maxima mean wh
     CHECK_FALSE (d.has_ids);
 }
 
-TEST_CASE ("a descriptor that is broken or wants too much is refused with its place, and costs little")
+TEST_CASE ("a broken or oversized descriptor is refused at little cost, and the error has a position")
 {
     const auto idOf = [] (const Bytes& bytes)
     {
@@ -154,13 +154,13 @@ TEST_CASE ("a descriptor that is broken or wants too much is refused with its pl
     };
     CHECK (idOf (repeated ("a1 00", 33)) == "descriptor/too_deep");
     CHECK (idOf (repeated ("a1 00 c0", 300)) == "");
-    auto many = test::bytes ("75 01 95 01");   // fields of one bit, 4500 of them
+    auto many = test::bytes ("75 01 95 01");   // 4500 one-bit fields
     for (int i = 0; i < 10; ++i)
         std::ranges::copy (repeated ("81 02", 450), std::back_inserter (many));
     CHECK (idOf (many) == "descriptor/too_many");
 }
 
-TEST_CASE ("any bytes are a descriptor or errors, and a force feedback device drives whatever it says")
+TEST_CASE ("any bytes give either a descriptor or errors, and any descriptor with force feedback can be driven")
 {
     rc::prop ("any bytes", []
               { fuzz::tryDescriptor (*rc::gen::container<std::string> (rc::gen::arbitrary<char>())); });
@@ -171,7 +171,7 @@ TEST_CASE ("any bytes are a descriptor or errors, and a force feedback device dr
         fuzz::tryDescriptor ({ reinterpret_cast<const char*> (bytes.data()), bytes.size() }); });
 }
 
-TEST_CASE ("a force feedback wheel is driven by one constant force that ends by itself")
+TEST_CASE ("a force feedback wheel is driven by one constant force that ends on its own")
 {
     Messages messages;
     const auto device = PidDevice::from (good (test::wheel()), messages);
@@ -180,14 +180,14 @@ TEST_CASE ("a force feedback wheel is driven by one constant force that ends by 
     CHECK (hexOf (device->createEffect()) == "06 01");
     CHECK (hexOf (device->blockLoad()) == "07 00 00");
     const auto blockOf = [&] (const PidDevice& of, const char* answer)
-    { return numberIn (of.answer(), test::bytes (answer)).value_or (std::nullopt); };
+    { return numberIn (of.answer(), test::bytes (answer)).value(); };
     CHECK (blockOf (*device, "07 05 01") == 5u);
     CHECK (numberIn (device->answer(), test::bytes ("07 05 02")).error().id == "pid/full");
     CHECK (numberIn (device->answer(), test::bytes ("07 05 03")).error().id == "pid/refused");
     for (const auto* no_answer : { "07 00 01", "07 05 00", "07 05", "06 05 01", "07", "" })
         CHECK (numberIn (device->answer(), test::bytes (no_answer)).value() == std::nullopt);
 
-    // Others have a bit for each status.
+    // Other devices have one bit for each status.
     auto bits = hexOf (test::wheel());
     const std::string array = "09 8e 25 03 b1 00";
     bits.replace (bits.find (array), array.size(), "09 8e 15 00 25 01 75 01 95 03 b1 02 75 05 95 01 b1 03");
@@ -198,10 +198,10 @@ TEST_CASE ("a force feedback wheel is driven by one constant force that ends by 
 
     HidModel model (std::make_shared<Profile> (device->profile()));
     REQUIRE (model.init().size() == 5);
-    CHECK (hexOf (model.init()[0].bytes) == "06 01");                        // make a constant force
-    CHECK (hexOf (model.init()[1].bytes) == "07 00 00");                     // where is it
+    CHECK (hexOf (model.init()[0].bytes) == "06 01");                        // create a constant force
+    CHECK (hexOf (model.init()[1].bytes) == "07 00 00");                     // request its block
     CHECK (hexOf (model.init()[2].bytes) == "05 01");                        // actuators on
-    CHECK (hexOf (model.init()[3].bytes) == "02 01 01 f4 01 ff 01 5a 00");   // the block, constant, 500 ms, all gain, from 90 of 360
+    CHECK (hexOf (model.init()[3].bytes) == "02 01 01 f4 01 ff 01 5a 00");   // block 1, constant, 500 ms, full gain, from 90 of 360
     CHECK (hexOf (model.init()[4].bytes) == "03 01 00 00");
     for (const auto i : { 3u, 4u })
         CHECK (model.init()[i].given->at == 8);
@@ -214,12 +214,12 @@ TEST_CASE ("a force feedback wheel is driven by one constant force that ends by 
         effort.efforts[0] = share;
         return hexOf (model.encode (0, effort));
     };
-    CHECK (sent (-0.5) == "03 01 88 13");   // what comes from the right pushes to the left
+    CHECK (sent (-0.5) == "03 01 88 13");   // a force from the right pushes left
     CHECK (sent (1.0) == "03 01 f0 d8");
     CHECK (sent (-7.0) == "03 01 10 27");
     CHECK (sent (std::numeric_limits<double>::quiet_NaN()) == "03 01 00 00");
     CHECK (hexOf (model.neutral (0)) == "03 01 00 00");
-    CHECK (hexOf (model.encode (1, {})) == "04 01 01 01");   // started, once
+    CHECK (hexOf (model.encode (1, {})) == "04 01 01 01");   // started once
     CHECK (hexOf (model.neutral (1)) == "04 01 03 00");      // stopped
     CHECK (model.profile().outputs[1].keepalive < model.profile().limits.device_watchdog);
 
@@ -230,7 +230,7 @@ TEST_CASE ("a force feedback wheel is driven by one constant force that ends by 
     CHECK (model.decode (test::bytes ("01 00 40 00")).axes[0] == Approx (16384.0 / 32767.0));
 }
 
-TEST_CASE ("a joystick without force feedback says what it lacks")
+TEST_CASE ("a joystick without force feedback gives errors that name what is missing")
 {
     Messages messages;
     CHECK_FALSE (PidDevice::from (good (test::bytes ("05 01 09 04 a1 01 09 30 15 00 26 ff 00 75 08 95 01 81 02 c0")), messages));
@@ -238,7 +238,7 @@ TEST_CASE ("a joystick without force feedback says what it lacks")
     for (const auto& m : messages)
         CHECK (m.id == "pid/missing");
 
-    // A constant force whose block is told in one report and its magnitude in another.
+    // A constant force with its block in one report and its magnitude in another.
     auto spread = hexOf (test::wheel());
     const std::string force = "09 70 16 f0 d8";
     spread.insert (spread.find (force), "85 08 ");
@@ -248,7 +248,7 @@ TEST_CASE ("a joystick without force feedback says what it lacks")
     CHECK (messages[0].text == "the device has no Set Constant Force with a magnitude");
 }
 
-TEST_CASE ("the descriptor that docs/devices.md gives a board of one's own is that of its profile")
+TEST_CASE ("the board descriptor in docs/devices.md matches the profile")
 {
     const auto d = good (test::bytes ("06 ab ff 0a 00 02 a1 01 75 08 15 00 26 ff 00 95 40 09 01 81 02 95 40 09 02 91 02 c0"));
     const auto profile = test::profileOf ("tactus_board");
@@ -258,13 +258,13 @@ TEST_CASE ("the descriptor that docs/devices.md gives a board of one's own is th
     CHECK (d.collections[0].usage == usageOf (*profile->match[0].usage_page, *profile->match[0].usage));
 }
 
-TEST_CASE ("OpenFFBoard's descriptor gives its reports, and the force that the standard's drivers send")
+TEST_CASE ("OpenFFBoard's descriptor gives its reports, and the same force as standard drivers")
 {
     const auto bytes = fileOf (data / "hid_ffb" / "openffboard_1axis.bin");
     if (bytes.empty())
     {
         WARN ("skipped: " << data / "hid_ffb"
-                          << " is not there");
+                          << " does not exist");
         return;
     }
     const auto d = good (bytes);
@@ -292,14 +292,14 @@ TEST_CASE ("OpenFFBoard's descriptor gives its reports, and the force that the s
     Bytes resting (25);
     resting[0] = 1;
     REQUIRE (model.decode (resting).refusal == Refusal::none);
-    resting[10] = 0x40;   // x, after 64 buttons
-    resting[12] = 0x80;   // y, which a stick has towards the person
+    resting[10] = 0x40;   // x, which follows 64 buttons
+    resting[12] = 0x80;   // y, which a stick counts positive towards the user
     CHECK (model.decode (resting).position.x() == Approx (0.05).epsilon (1e-4));
     CHECK (model.reading().position.y() == Approx (0.05).epsilon (1e-4));
     CHECK (sent (-4.0) == "05 01 ff 7f");
     CHECK (sent (2.0) == "05 01 01 c0");                // -16383, half of -32767 towards 0
-    CHECK (hexOf (model.init()[0].bytes) == "0c 08");   // Device Control is a row of bits here: reset is the fourth,
-    CHECK (hexOf (model.exit()[1].bytes) == "0c 04");   // stop all the third
+    CHECK (hexOf (model.init()[0].bytes) == "0c 08");   // Device Control is a bit field here: reset is the fourth bit,
+    CHECK (hexOf (model.exit()[1].bytes) == "0c 04");   // "stop all" the third
     CHECK (hexOf (model.exit()[2].bytes) == "0b 01");   // and the block is freed
     CHECK (model.axisNames().size() == 8);
     CHECK (model.buttonNames().size() == 32);   // of 64
@@ -310,13 +310,13 @@ TEST_CASE ("OpenFFBoard's descriptor gives its reports, and the force that the s
     CHECK ((set[3] | set[4] << 8) == 500);
 }
 
-TEST_CASE ("a SpaceNavigator's own descriptor and the profile agree on its reports and on what a count is")
+TEST_CASE ("a SpaceNavigator's descriptor and the profile agree on reports and scale")
 {
     const auto bytes = fileOf (data / "hid_spacemouse" / "spacenavigator_046d_c626_217.bin");
     if (bytes.empty())
     {
         WARN ("skipped: " << data / "hid_spacemouse"
-                          << " is not there");
+                          << " does not exist");
         return;
     }
     const auto d = good (bytes);
@@ -328,7 +328,7 @@ TEST_CASE ("a SpaceNavigator's own descriptor and the profile agree on its repor
     const auto* x = fieldOf (d, Kind::input, usageOf (1, 0x30));
     REQUIRE (x != nullptr);
     CHECK (x->count == 3);
-    CHECK (x->relative);       // though it is not
+    CHECK (x->relative);       // declared relative, although it is absolute
     CHECK (x->unit == 0x11);   // cm
     const double metre = static_cast<double> (x->physical_max) / static_cast<double> (x->logical_max) * std::pow (10.0, x->unit_exponent) * 1e-2;
     for (std::size_t i = 0; i < 3; ++i)
@@ -339,13 +339,13 @@ TEST_CASE ("a SpaceNavigator's own descriptor and the profile agree on its repor
     }
 }
 
-TEST_CASE ("SpaceMouse profiles read the bytes that PySpaceMouse reads, with its signs")
+TEST_CASE ("SpaceMouse profiles read the same bytes as PySpaceMouse, with the same signs")
 {
     std::ifstream file (data / "hid_pyspacemouse" / "devices.toml");
     if (! file)
     {
         WARN ("skipped: " << data / "hid_pyspacemouse"
-                          << " is not there");
+                          << " does not exist");
         return;
     }
 
@@ -397,12 +397,12 @@ TEST_CASE ("SpaceMouse profiles read the bytes that PySpaceMouse reads, with its
     CHECK (axes == 6 * devices);
 }
 
-TEST_CASE ("descriptors of real devices give the fields that Windows makes of them")
+TEST_CASE ("descriptors of real devices give the same fields as on Windows")
 {
     if (! std::filesystem::exists (data / "hid_hidapi"))
     {
         WARN ("skipped: " << data / "hid_hidapi"
-                          << " is not there");
+                          << " does not exist");
         return;
     }
     int compared = 0;
@@ -417,7 +417,7 @@ TEST_CASE ("descriptors of real devices give the fields that Windows makes of th
 
         for (const auto* which : { "_real.rpt_desc", "_expected.rpt_desc" })
         {
-            // A list of bytes in C, with comments; some are written otherwise and are left out.
+            // A list of bytes in C, with comments; files in any other format are skipped.
             Bytes bytes;
             std::ifstream lines (data / "hid_hidapi" / (name + which));
             for (std::string line; std::getline (lines, line);)
@@ -431,14 +431,19 @@ TEST_CASE ("descriptors of real devices give the fields that Windows makes of th
             {
                 auto cap = caps[i];
                 if (cap.empty() || cap["IsPadding"] != 0) continue;
-                const auto kind = i >= firsts[2] ? Kind::feature : i >= firsts[1] ? Kind::output
-                                                                                  : Kind::input;
-                const auto usage = usageOf (static_cast<unsigned> (cap["UsagePage"]), static_cast<unsigned> (cap["IsRange"] != 0 ? cap["Range.UsageMin"] : cap["NotRange.Usage"]));
+                auto kind = i >= firsts[1] ? Kind::output : Kind::input;
+                if (i >= firsts[2]) kind = Kind::feature;
+                const auto usage = usageOf (static_cast<unsigned> (cap["UsagePage"]),
+                                            static_cast<unsigned> (cap["IsRange"] != 0 ? cap["Range.UsageMin"] : cap["NotRange.Usage"]));
                 const auto bit = static_cast<std::size_t> (8 * (cap["BytePosition"] - 1) + cap["BitPosition"]);
-                const bool found = std::ranges::any_of (d.fields, [&] (const DescribedField& f)
+                const bool found = std::ranges::any_of (d.fields,
+                                                        [&] (const DescribedField& f)
                                                         {
-                    const auto n = f.placeOf (usage);
-                    return n && f.kind == kind && f.report == cap["ReportID"] && f.size == static_cast<std::size_t> (cap["BitSize"]) && f.bit + (f.variable ? *n * f.size : 0) == bit; });
+                                                            const auto n = f.placeOf (usage);
+                                                            return n && f.kind == kind && f.report == cap["ReportID"]
+                                                                   && f.size == static_cast<std::size_t> (cap["BitSize"])
+                                                                   && f.bit + (f.variable ? *n * f.size : 0) == bit;
+                                                        });
                 INFO ("cap " << i << " usage " << std::hex << usage << " bit " << std::dec << bit);
                 CHECK (found);
                 ++compared;

@@ -2,6 +2,7 @@
 #include "hid.hpp"
 
 #include <host/hid/match.hpp>
+#include <support/temporary_folder.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,7 @@ using test::profiles;
 
 namespace
 {
-/// "x", "y" or "z" of a vector, where a name means one.
+/// The component of a vector, if the name is one.
 std::optional<double> componentOf (const std::string& name, std::string_view of, const Vec3& v)
 {
     if (name.size() != of.size() + 2 || ! name.starts_with (of) || name[of.size()] != '.') return {};
@@ -27,10 +28,11 @@ double told (const HidModel& model, std::uint64_t lost, const std::string& name)
     if (const auto v = componentOf (name, "position", s.position)) return *v;
     if (const auto v = componentOf (name, "rotation", s.rotation)) return *v;
     const auto& axes = model.axisNames();
-    if (const auto it = std::ranges::find (axes, name); name != "time" && it != axes.end()) return name == "pressure" ? s.pressure : s.axes[static_cast<std::size_t> (it - axes.begin())];
+    if (const auto it = std::ranges::find (axes, name); name != "time" && it != axes.end())
+        return name == "pressure" ? s.pressure : s.axes[static_cast<std::size_t> (it - axes.begin())];
     if (name == "time") return s.time;
     if (name == "lost") return static_cast<double> (lost);
-    FAIL ("nothing is called " << name);
+    FAIL ("no value is called " << name);
     return 0.0;
 }
 
@@ -53,7 +55,7 @@ HidEffort asked (const HidModel& model, const GoldenSample& sample)
     return effort;
 }
 
-/// The profile that docs/devices.md shows.
+/// The example profile in docs/devices.md.
 std::string exampleOfTheManual()
 {
     std::ostringstream manual;
@@ -65,7 +67,7 @@ std::string exampleOfTheManual()
     return text.substr (at + begin.size(), text.find ("```", at + begin.size()) - at - begin.size());
 }
 
-/// The report without the 0 that hidapi wants before one that has no id.
+/// The report without the 0 that hidapi requires before a report without an id.
 std::string reportIn (std::span<const std::uint8_t> wire, const OutputReport& report) { return hexOf (report.id ? wire : wire.subspan (1)); }
 
 int decodeSamples (const std::shared_ptr<const Profile>& profile)
@@ -118,7 +120,7 @@ int encodeSamples (const std::shared_ptr<const Profile>& profile)
 }
 }   // namespace
 
-TEST_CASE ("every profile decodes its reports to the values computed by hand")
+TEST_CASE ("every profile decodes its reports to the manually computed values")
 {
     int decoded = 0;
     for (const auto& profile : profiles())
@@ -126,7 +128,7 @@ TEST_CASE ("every profile decodes its reports to the values computed by hand")
     CHECK (decoded >= 12);
 }
 
-TEST_CASE ("every profile encodes what is asked to the bytes computed by hand")
+TEST_CASE ("every profile encodes efforts to the manually computed bytes")
 {
     int encoded = 0;
     for (const auto& profile : profiles())
@@ -134,7 +136,7 @@ TEST_CASE ("every profile encodes what is asked to the bytes computed by hand")
     CHECK (encoded >= 10);
 }
 
-TEST_CASE ("every profile has a sample of each of its reports, names its sources, and says why what is not verified is believed")
+TEST_CASE ("every profile has a sample of each report, names its sources, and gives a reason for each report that is not verified")
 {
     for (const auto& profile : profiles())
     {
@@ -151,7 +153,7 @@ TEST_CASE ("every profile has a sample of each of its reports, names its sources
             { return ! report.id || b.front() == *report.id; };
             const auto decodes = [&] (const GoldenSample& s)
             { return s.output.empty() && std::ranges::any_of (s.input, of_this); };
-            // A second report of the same layout needs no sample of its own.
+            // A second report with the same layout needs no sample.
             const auto same_layout = [&] (const InputReport& other)
             { return &other != &report && other.fields.size() >= report.fields.size() && other.length == report.length; };
             INFO ("report " << int (report.id.value_or (0)));
@@ -163,7 +165,7 @@ TEST_CASE ("every profile has a sample of each of its reports, names its sources
     }
 }
 
-TEST_CASE ("every profile that can push has a report that makes it do nothing, and rests there")
+TEST_CASE ("every profile with efforts has a neutral report, and rest efforts encode to it")
 {
     for (const auto& profile : profiles())
     {
@@ -177,7 +179,7 @@ TEST_CASE ("every profile that can push has a report that makes it do nothing, a
             const auto sent = model.neutral (i);
             CHECK (sent.size() == neutral.size() + (profile->outputs[i].id ? 0 : 1));
 
-            // At rest, all fields of efforts are as in the neutral report.
+            // At rest, all effort fields have the values of the neutral report.
             const auto at_rest = other.encode (i, rest);
             for (const auto& field : profile->outputs[i].fields)
                 if (field.source == OutputField::Source::effort)
@@ -190,7 +192,7 @@ TEST_CASE ("every profile that can push has a report that makes it do nothing, a
     }
 }
 
-TEST_CASE ("of the profiles that fit, the one that says most about a device comes first")
+TEST_CASE ("the most specific of the matching profiles comes first")
 {
     const auto idsOf = [] (const DeviceInfo& device)
     {
@@ -204,11 +206,11 @@ TEST_CASE ("of the profiles that fit, the one that says most about a device come
     CHECK (idsOf ({ .vid = 0x054c, .pid = 0x0ce6, .bus = Bus::bluetooth, .product = {} }) == Ids { "dualsense_bluetooth", "dualsense_bluetooth_samples" });
     CHECK (idsOf ({ .vid = 0x256f, .pid = 0xc62e, .product = {} }) == Ids { "spacemouse_wireless" });
     CHECK (idsOf ({ .vid = 0x16c0, .pid = 0x0486, .usage_page = 0xffab, .usage = 0x0200, .product = {} }) == Ids { "tactus_board" });
-    CHECK (idsOf ({ .vid = 0x16c0, .pid = 0x0486, .usage_page = 0xffc9, .usage = 0x0004, .product = {} }).empty());   // its serial emulation
-    CHECK (idsOf ({ .vid = 0x16c0, .pid = 0x0486, .product = {} }) == Ids { "tactus_board" });                        // where nobody tells usages
+    CHECK (idsOf ({ .vid = 0x16c0, .pid = 0x0486, .usage_page = 0xffc9, .usage = 0x0004, .product = {} }).empty());   // the board's serial emulation
+    CHECK (idsOf ({ .vid = 0x16c0, .pid = 0x0486, .product = {} }) == Ids { "tactus_board" });                        // if usages are unknown
     CHECK (idsOf ({ .vid = 0x046d, .pid = 0xffff, .product = {} }).empty());
 
-    // Two for one board: the one that names its product wins.
+    // With two profiles for one board, the one that names its product wins.
     Profile any, mine;
     any.id = "a_board";
     any.match = { { .vid = { 0x16c0 }, .pid = { 0x0486 }, .usage_page = {}, .usage = {}, .interface_number = {}, .bus = {}, .product = {} } };
@@ -220,19 +222,17 @@ TEST_CASE ("of the profiles that fit, the one that says most about a device come
     CHECK (matching (both, { .vid = 0x16c0, .pid = 0x0486, .product = "Wheel" }).size() == 1);
 }
 
-TEST_CASE ("a new device is added by a JSON file alone")
+TEST_CASE ("a new device needs only a JSON file")
 {
-    const auto folder = std::filesystem::temp_directory_path() / "tactus_new_device";
-    std::filesystem::remove_all (folder);
-    std::filesystem::create_directories (folder);
+    const TemporaryFolder folder;
     for (const auto& entry : std::filesystem::directory_iterator (test::profile_folder))
-        std::filesystem::copy (entry.path(), folder / entry.path().filename());
+        std::filesystem::copy (entry.path(), folder / entry.path().filename().string());
     std::ofstream (folder / "paddle.json") << exampleOfTheManual();
     std::ofstream (folder / "broken.json") << R"({ "format": "tactus-profile", "id": "broken" )";
     std::ofstream (folder / "twice.json") << std::ifstream (folder / "paddle.json").rdbuf();
 
-    const auto loaded = loadProfiles (folder);
-    CHECK (loaded.profiles.size() == profiles().size() + 1);   // the bad ones do not keep the others away
+    const auto loaded = loadProfiles (folder.path());
+    CHECK (loaded.profiles.size() == profiles().size() + 1);   // bad profiles do not affect the others
     REQUIRE (loaded.messages.size() == 2);
     CHECK (loaded.messages[0].file == (folder / "broken.json").string());
     CHECK (loaded.messages[0].line == 1);
@@ -246,18 +246,17 @@ TEST_CASE ("a new device is added by a JSON file alone")
     CHECK (model.limits().max_force == 1.0);
     CHECK (model.limits().watchdog == 0.01);
 
-    const auto& s = model.decode (test::bytes ("fc 18 07 00"));   // -1000 counts: 15 mm away from the person
+    const auto& s = model.decode (test::bytes ("fc 18 07 00"));   // -1000 counts: 15 mm away from the user
     CHECK (s.position.isApprox (Vec3 { 0.0, 0.015, 0.0 }));
     CHECK (s.buttons == 0);
     CHECK (model.buttonNames() == std::vector<std::string> { "trigger" });
 
-    // 1 N towards the person on a handle of 75 mm: 75 mN m, and 128 is none.
+    // 1 N towards the user on a handle of 75 mm: 75 mN m; 128 is zero.
     HidEffort effort;
     effort.efforts = model.restEfforts();
     effort.force = { 0.0, -1.0, 0.0 };
     CHECK (hexOf (model.encode (0, effort)) == "00 cb 00");
     CHECK (hexOf (model.neutral (0)) == "00 80 00");
-    std::filesystem::remove_all (folder);
 
-    CHECK (loadProfiles (folder).messages.front().id == "profile/unreadable");
+    CHECK (loadProfiles (folder / "none").messages.front().id == "profile/unreadable");
 }

@@ -14,7 +14,7 @@ namespace tactus::test
 
 inline const std::filesystem::path profile_folder = std::filesystem::path (TACTUS_SOURCE_DIR) / "host" / "profiles";
 
-/// The profiles that come with Tactus, which are all good.
+/// The profiles that come with Tactus; they have no errors.
 inline const std::vector<std::shared_ptr<const host::hid::Profile>>& profiles()
 {
     static const auto loaded = host::hid::loadProfiles (profile_folder);

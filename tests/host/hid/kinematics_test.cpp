@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hid.hpp"
 
+#include <Eigen/LU>
 #include <rapidcheck/catch.h>
 
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <variant>
 
 using namespace tactus;
 using namespace tactus::host::hid;
@@ -13,7 +16,7 @@ namespace
 {
 constexpr double pi = std::numbers::pi;
 
-/// A number between two, never quite at the ends.
+/// A random number between two limits, never quite at either limit.
 rc::Gen<double> between (double low, double high)
 {
     return rc::gen::map (rc::gen::inRange (1, 999'999), [=] (int i)
@@ -22,7 +25,7 @@ rc::Gen<double> between (double low, double high)
 
 SerialArm woody() { return std::get<SerialArm> (test::profileOf ("woodenhaptics_usb")->kinematics); }
 
-/// As large as the Pantograph Mk-II: driven links of 63 mm, passive ones of 75 mm, pivots 25 mm apart.
+/// The size of the Pantograph Mk-II: driven links of 63 mm, passive ones of 75 mm, pivots 25 mm apart.
 FiveBar pantograph()
 {
     FiveBar bar;
@@ -34,10 +37,10 @@ FiveBar pantograph()
     return bar;
 }
 
-/// What a mechanism can be asked for, and the joints it can take, far from where it is singular.
+/// A mechanism and joint ranges that stay far from singular poses.
 struct Mechanism
 {
-    std::string name;   // a property runs once for each name
+    std::string name;   // rapidcheck runs a property once per name
     KinematicsModel model;
     Vec3 low, high;
 };
@@ -62,11 +65,61 @@ Vec3 anyJoints (const Mechanism& m)
 }
 
 Vec3 anyVector (double size) { return { *between (-size, size), *between (-size, size), *between (-size, size) }; }
+
+// The inverse of each pose: the joint angles for a tool position. Empty if the position is out of reach.
+
+std::optional<Vec3> inverse (const Direct&, const Vec3& p) { return p; }
+
+std::optional<Vec3> inverse (const LinearMap& map, const Vec3& p)
+{
+    const Eigen::FullPivLU<Mat3> lu (map.matrix);
+    if (! lu.isInvertible()) return {};
+    return lu.solve (p - map.origin);
+}
+
+/// The angle between a link of length a and the line from its start to a point at this distance, at which a link of length
+/// b ends.
+std::optional<double> cornerOf (double a, double b, double distance)
+{
+    const double cosine = (a * a + distance * distance - b * b) / (2.0 * a * distance);
+    if (! (std::abs (cosine) <= 1.0)) return {};
+    return std::acos (cosine);
+}
+
+std::optional<Vec3> inverse (const SerialArm& arm, const Vec3& p)
+{
+    // In the plane of the links, seen from the shoulder, with angles from the vertical; the lower link points at pi - c.
+    const Vec3 at = p + arm.origin;
+    const double across = std::hypot (at.x(), at.y()), up = at.z() - arm.links[0];
+    const auto corner = cornerOf (arm.links[1], arm.links[2], std::hypot (across, up));
+    if (! corner) return {};
+
+    const double b = std::atan2 (across, up) - *corner;
+    const double c = std::numbers::pi - std::atan2 (across - arm.links[1] * std::sin (b), up - arm.links[1] * std::cos (b));
+    return Vec3 { std::atan2 (at.y(), at.x()), b, c };
+}
+
+std::optional<Vec3> inverse (const FiveBar& bar, const Vec3& p)
+{
+    // The elbows point outwards.
+    const Vec3 at = p + bar.origin;
+    const auto right = cornerOf (bar.links[0], bar.links[1], std::hypot (at.x(), at.y()));
+    const auto left = cornerOf (bar.links[3], bar.links[2], std::hypot (at.x() + bar.base, at.y()));
+    if (! right || ! left) return {};
+    return Vec3 { std::atan2 (at.y(), at.x()) - *right, std::atan2 (at.y(), at.x() + bar.base) + *left, 0.0 };
+}
+
+std::optional<Vec3> jointsAt (const KinematicsModel& model, const Vec3& position)
+{
+    return std::visit ([&] (const auto& m)
+                       { return inverse (m, position); },
+                       model);
+}
 }   // namespace
 
-TEST_CASE ("the work of the joints is the work of the tool")
+TEST_CASE ("the work of the joints equals the work of the tool")
 {
-    // tau · dq = F · dx for any small step, by central differences: no derivative of ours takes part.
+    // tau · dq = F · dx for any small step. Central differences avoid any derivative from the code under test.
     for (const auto& m : mechanisms())
         rc::prop (m.name + ": any pose, force and step", [&]
                   {
@@ -83,9 +136,9 @@ TEST_CASE ("the work of the joints is the work of the tool")
             RC_ASSERT (std::abs (of_joints - of_tool) <= 1e-6 * (force.norm() * dx.norm() + 1e-6)); });
 }
 
-TEST_CASE ("the work of the motors is the work of the tool, with gears and encoders that turn either way")
+TEST_CASE ("the work of the motors equals the work of the tool, for gears and encoders of either direction")
 {
-    // A motor of constant K gives K I, and turns 2 pi for counts_per_turn of its encoder.
+    // A motor of constant K gives K I, and one turn (2 pi) is counts_per_turn of its encoder.
     for (const auto& m : mechanisms())
     {
         if (! std::holds_alternative<SerialArm> (m.model) && ! std::holds_alternative<FiveBar> (m.model)) continue;
@@ -108,7 +161,7 @@ TEST_CASE ("the work of the motors is the work of the tool, with gears and encod
     }
 }
 
-TEST_CASE ("where the tool is tells the joints, and the joints tell where it is")
+TEST_CASE ("joints to position and back are inverse")
 {
     for (const auto& m : mechanisms())
         rc::prop (m.name + ": any pose", [&]
@@ -118,39 +171,39 @@ TEST_CASE ("where the tool is tells the joints, and the joints tell where it is"
             RC_ASSERT (k.joints (k.counts (q)).isApprox (q, 1e-12));
             const auto pose = k.pose (q);
             RC_PRE (pose.problem == PoseProblem::none);
-            const auto back = k.jointsAt (pose.position);
+            const auto back = jointsAt (m.model, pose.position);
             RC_ASSERT (back.has_value());
             RC_ASSERT (k.pose (*back).position.isApprox (pose.position, 1e-9));
             const Vec3 away = *back - q;
             RC_ASSERT ((std::holds_alternative<FiveBar> (m.model) ? away.head<2>().norm() : away.norm()) < 1e-6); });
 
-    CHECK_FALSE (Kinematics (woody()).jointsAt ({ 5.0, 0.0, 0.0 }));
-    CHECK_FALSE (Kinematics (pantograph()).jointsAt ({ 0.0, 1.0, 0.0 }));
+    CHECK_FALSE (jointsAt (woody(), { 5.0, 0.0, 0.0 }));
+    CHECK_FALSE (jointsAt (pantograph(), { 0.0, 1.0, 0.0 }));
     LinearMap flat;
     flat.matrix.row (2).setZero();
-    CHECK_FALSE (Kinematics (flat).jointsAt ({ 0.0, 0.0, 0.0 }));
-    CHECK_FALSE (Kinematics (woody()).jointsAt ({ std::nan (""), 0.0, 0.0 }));
+    CHECK_FALSE (jointsAt (flat, { 0.0, 0.0, 0.0 }));
 }
 
-TEST_CASE ("a pantograph is where its links say")
+TEST_CASE ("a pantograph is where its links put it")
 {
-    // Both driven links up: elbows at (0, 63) and (-25, 63) mm, the tool above their middle by sqrt (75² - 12.5²).
+    // Both driven links point up: the elbows are at (0, 63) and (-25, 63) mm, and the tool is sqrt (75² - 12.5²) mm above their middle.
     const auto pose = Kinematics (pantograph()).pose ({ pi / 2.0, pi / 2.0, 0.0 });
     CHECK (pose.position.isApprox (Vec3 { 0.0, 0.063 + std::sqrt (0.075 * 0.075 - 0.0125 * 0.0125) - 0.1, 0.0 }));
     CHECK (pose.problem == PoseProblem::none);
 }
 
-TEST_CASE ("in every pose, also a singular one, forces give efforts that are finite and bounded")
+TEST_CASE ("in every pose, even a singular one, forces give finite and bounded efforts")
 {
     for (const auto& m : mechanisms())
     {
         const Kinematics k (m.model);
         rc::prop (m.name + ": any joints and force", [&]
                   {
-            // Straight angles as often as others: there the links are in line.
+            // Straight angles, at which the links are in line, occur as often as other angles.
             Vec3 q;
             for (int i = 0; i < 3; ++i)
-                q[i] = *rc::gen::oneOf (between (-4.0, 4.0), rc::gen::element (0.0, pi / 2.0, pi, -pi, 1e-9, pi - 1e-9), rc::gen::element (1e9, -1e300, 1e-300));
+                q[i] =
+                    *rc::gen::oneOf (between (-4.0, 4.0), rc::gen::element (0.0, pi / 2.0, pi, -pi, 1e-9, pi - 1e-9), rc::gen::element (1e9, -1e300, 1e-300));
             const Vec3 force = anyVector (10.0);
             const auto pose = k.pose (q);
             const Vec3 torques = Kinematics::torques (pose, force);
@@ -169,7 +222,7 @@ TEST_CASE ("in every pose, also a singular one, forces give efforts that are fin
     }
 }
 
-TEST_CASE ("a force fades towards a singular pose and is gone in it, with its reason")
+TEST_CASE ("a force fades to zero towards a singular pose, and the problem is reported")
 {
     const Kinematics arm (woody());
     const auto in_line = arm.pose ({ 0.0, pi / 4.0, 3.0 * pi / 4.0 });
@@ -177,12 +230,12 @@ TEST_CASE ("a force fades towards a singular pose and is gone in it, with its re
     CHECK (in_line.strength == 0.0);
     CHECK (arm.pose ({ 0.0, 0.0, pi / 2.0 }).strength == 1.0);
 
-    // The tool on the axis of the column, which can push it no way sideways.
+    // The tool is on the axis of the column, which cannot push it sideways.
     const auto over_column = arm.pose ({ 0.3, -pi / 4.0, std::asin (0.205 * std::sin (pi / 4.0) / 0.2) });
     CHECK (over_column.problem == PoseProblem::singular);
     CHECK (over_column.strength == 0.0);
 
-    // The passive links of the pantograph in line: elbows 150 mm apart.
+    // The passive links of the pantograph are in line: elbows 150 mm apart.
     const Kinematics bar (pantograph());
     const double open = std::acos ((0.075 - 0.0125) / 0.063);
     const auto stretched = bar.pose ({ open - 1e-9, pi - open + 1e-9, 0.0 });
@@ -190,7 +243,7 @@ TEST_CASE ("a force fades towards a singular pose and is gone in it, with its re
     CHECK (stretched.strength == 0.0);
     CHECK (bar.pose ({ open - 0.1, pi - open + 0.1, 0.0 }).problem == PoseProblem::unreachable);
 
-    FiveBar flat;   // in whole numbers, so that the links are in line to the last bit
+    FiveBar flat;   // whole numbers, so that the links are in line to the last bit
     flat.base = 2.0;
     flat.links = { 3.0, 4.0, 4.0, 3.0 };
     const auto dead = Kinematics (flat).pose ({ 0.0, pi, 0.0 });
@@ -202,7 +255,7 @@ TEST_CASE ("a force fades towards a singular pose and is gone in it, with its re
     for (double q = open + 0.3; q > open; q -= 1e-3)
     {
         const auto pose = bar.pose ({ q, pi - q, 0.0 });
-        CHECK (last - pose.strength < 0.3);   // never a step
+        CHECK (last - pose.strength < 0.3);   // the strength never jumps
         faded = faded || (pose.strength > 0.0 && pose.strength < 1.0);
         last = pose.strength;
     }
@@ -210,7 +263,7 @@ TEST_CASE ("a force fades towards a singular pose and is gone in it, with its re
     CHECK (last < 0.2);
 }
 
-TEST_CASE ("where one motor cannot give what is asked, all give less, and the force keeps its direction")
+TEST_CASE ("if one motor saturates, all are reduced and the force keeps its direction")
 {
     const auto arm = woody();
     const Kinematics k (arm);
@@ -227,10 +280,10 @@ TEST_CASE ("where one motor cannot give what is asked, all give less, and the fo
         if (wanted.cwiseAbs().maxCoeff() <= 3.0) RC_ASSERT (currents.isApprox (wanted, 1e-12)); });
 }
 
-TEST_CASE ("a push in Tactus' axes does work on the place that is told in Tactus' axes")
+TEST_CASE ("a force in Tactus axes does work along positions in Tactus axes")
 {
-    // The whole way: currents in the report, times what each motor turns, is the work of the force on the tool.
-    rc::prop ("any place of a WoodenHaptics", []
+    // The whole chain: currents in the report times motor rotation equals the work of the force on the tool.
+    rc::prop ("any position of a WoodenHaptics", []
               {
         HidModel model (test::profileOf ("woodenhaptics_usb"));
         const auto report = [] (const Vec3& counts)
@@ -251,7 +304,7 @@ TEST_CASE ("a push in Tactus' axes does work on the place that is told in Tactus
         effort.force = anyVector (1.0);
         const auto sent = model.encode (0, effort);
 
-        const double turns[] = { -2.0 * pi / 4096.0, 2.0 * pi / 2000.0, 2.0 * pi / 2000.0 };   // rad of a motor for one count
+        const double turns[] = { -2.0 * pi / 4096.0, 2.0 * pi / 2000.0, 2.0 * pi / 2000.0 };   // motor angle per count, in rad
         for (int i = 0; i < 3; ++i)
         {
             const auto raw = static_cast<std::int16_t> (sent[static_cast<std::size_t> (1 + 2 * i)] | sent[static_cast<std::size_t> (2 + 2 * i)] << 8);

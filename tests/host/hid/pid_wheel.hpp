@@ -6,7 +6,7 @@
 namespace tactus::test
 {
 
-/// A wheel of our own: one axis, eight buttons, and what one constant force needs. Device Control is an array here.
+/// An invented wheel: one axis, eight buttons, and everything that one constant force needs. Device Control is an array here.
 inline const host::hid::Bytes& wheel()
 {
     static const host::hid::Bytes all = bytes (

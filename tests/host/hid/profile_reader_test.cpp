@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hid.hpp"
 
-#include <framework/file/json_text.hpp>
-#include <tests/fuzz/profile_target.hpp>
+#include <framework/text/json_text.hpp>
+#include <fuzz/profile_target.hpp>
 
 #include <rapidcheck/catch.h>
 
@@ -15,7 +15,7 @@ using namespace tactus::host::hid;
 
 namespace
 {
-/// A whole profile with a bit of everything, which is good.
+/// A complete, valid profile with a bit of everything.
 const Json& good()
 {
     static const Json json = Json::parse (R"({
@@ -24,13 +24,16 @@ const Json& good()
       "init": [{ "kind": "feature", "bytes": "01 02", "delay": "5 ms" }],
       "inputs": [
         { "id": 1, "length": 12, "verified": true, "timestamp": "when", "sequence": "count",
-          "fields": [ { "name": "x", "at": 1, "type": "s16be", "scale": "1 um" }, { "name": "count", "at": 3, "type": "u4" }, { "name": "when", "at": 4, "type": "u32le", "scale": "1 us" },
+          "fields": [ { "name": "x", "at": 1, "type": "s16be", "scale": "1 um" }, { "name": "count", "at": 3, "type": "u4" },
+                      { "name": "when", "at": 4, "type": "u32le", "scale": "1 us" },
                       { "name": "rx", "at": 8, "type": "f32le", "scale": "1 deg" } ] },
         { "id": 2, "length": 2, "longest": 8, "verified": true, "fields": [{ "buttons": ["a", "", "b"], "at": 1, "type": "u3" }] } ],
       "tables": { "curve": { "x": [0, 1], "y": [0, 200] } },
       "outputs": [
-        { "name": "push", "id": 3, "body": "03 01 00*8", "neutral": "03 00*9", "verified": true, "sequences": [{ "byte": 1, "shift": 4 }], "crc32": { "prefix": "a2", "at": 6 },
-          "fields": [ { "name": "fx", "at": 2, "type": "s16le", "scale": "1 mN", "min": -2, "max": 2 }, { "name": "hum", "at": 4, "type": "u8", "table": "curve" },
+        { "name": "push", "id": 3, "body": "03 01 00*8", "neutral": "03 00*9", "verified": true,
+          "sequences": [{ "byte": 1, "shift": 4 }], "crc32": { "prefix": "a2", "at": 6 },
+          "fields": [ { "name": "fx", "at": 2, "type": "s16le", "scale": "1 mN", "min": -2, "max": 2 },
+                      { "name": "hum", "at": 4, "type": "u8", "table": "curve" },
                       { "name": "pitch", "at": 5, "type": "u8", "log2": { "steps": 12, "reference": 20 } } ] } ],
       "position": ["x", null, null], "rotation": ["rx", null, null], "force": ["fx", null, null],
       "limits": { "max_force": "2 N" },
@@ -38,17 +41,17 @@ const Json& good()
     return json;
 }
 
-/// The good one with another value somewhere; null takes the entry away.
+/// The valid profile with one value replaced; null removes the entry.
 Json with (const std::string& pointer, const Json& value)
 {
     Json json = good();
-    const Json::json_pointer at (pointer);
+    const JsonPointer at (pointer);
     if (! value.is_null())
         json[at] = value;
-    else if (auto& parent = json[at.parent_pointer()]; parent.is_array())
-        parent.erase (std::stoul (at.back()));
+    else if (auto& parent = json[at.parent()]; parent.is_array())
+        parent.erase (std::stoul (at.parts().back()));
     else
-        parent.erase (at.back());
+        parent.erase (at.parts().back());
     return json;
 }
 
@@ -60,7 +63,7 @@ struct Mistake
 };
 }   // namespace
 
-TEST_CASE ("a good profile is read without a word")
+TEST_CASE ("a valid profile gives no messages")
 {
     const auto loaded = readProfile (good());
     for (const auto& m : loaded.messages)
@@ -68,14 +71,15 @@ TEST_CASE ("a good profile is read without a word")
     REQUIRE (loaded.profile);
     const auto& p = *loaded.profile;
     CHECK (p.match[0].pid == std::vector<std::uint16_t> { 1, 2 });
-    CHECK (p.inputs[0].fields[2].unwrap);   // a clock goes on
+    CHECK (p.inputs[0].fields[2].unwrap);   // a clock is unwrapped
     CHECK (p.inputs[0].fields[3].unit == "rad");
     CHECK (p.outputs[0].fields[0].unit == "N");
     CHECK (p.init[0].delay == 0.005);
     CHECK (p.limits.guard.max_force == 2.0);
 }
 
-TEST_CASE ("every mistake in a profile is named where it is")
+// Long because it is one table of cases.
+TEST_CASE ("every error in a profile is reported with its position")
 {
     const Json null;
     const Mistake mistakes[] = {
@@ -134,6 +138,8 @@ TEST_CASE ("every mistake in a profile is named where it is")
         { "/outputs/0/neutral", null, "profile/no_neutral" },
         { "/outputs/0/neutral", "03", "profile/beyond" },
         { "/outputs/0/neutral", "04 00*9", "profile/format" },
+        { "/outputs/0/neutral", "03 00 00 01 00*6", "profile/neutral" },
+        { "/signals", Json::parse (R"([{ "amplitude": "fx" }])"), "profile/signal_on_force" },
         { "/outputs/0/body", "04 01 00*8", "profile/format" },
         { "/outputs/0/name", null, "profile/missing" },
         { "/outputs/0/kind", "input", "profile/kind" },
@@ -169,8 +175,12 @@ TEST_CASE ("every mistake in a profile is named where it is")
         { "/kinematics", Json::object(), "profile/kinematics" },
         { "/kinematics", Json ({ { "linear", { { "matrix", { 1, 2, 3 } } } } }), "profile/kinematics" },
         { "/kinematics", Json ({ { "five_bar", { { "drives", Json::array() }, { "links", { 1, 1, 1, 1 } } } } }), "profile/kinematics" },
-        { "/kinematics", Json ({ { "five_bar", { { "drives", { { { "counts_per_turn", 0 } }, { { "counts_per_turn", 1 } } } }, { "links", { 1, 1, 1, 1 } } } } }), "profile/out_of_range" },
-        { "/kinematics", Json ({ { "five_bar", { { "drives", { { { "counts_per_turn", 1 } }, { { "counts_per_turn", 1 } } } }, { "links", { 1, 1, 0, 1 } } } } }), "profile/kinematics" },
+        { "/kinematics",
+          Json ({ { "five_bar", { { "drives", { { { "counts_per_turn", 0 } }, { { "counts_per_turn", 1 } } } }, { "links", { 1, 1, 1, 1 } } } } }),
+          "profile/out_of_range" },
+        { "/kinematics",
+          Json ({ { "five_bar", { { "drives", { { { "counts_per_turn", 1 } }, { { "counts_per_turn", 1 } } } }, { "links", { 1, 1, 0, 1 } } } } }),
+          "profile/kinematics" },
         { "/limits/max_force", "-1 N", "profile/out_of_range" },
         { "/limits/max_forse", "1 N", "profile/unknown_key" },
         { "/samples/0/gives", Json ({ { "position.w", 1 } }), "profile/unknown_name" },
@@ -193,7 +203,7 @@ TEST_CASE ("every mistake in a profile is named where it is")
     }
 }
 
-TEST_CASE ("too much of anything is refused")
+TEST_CASE ("too many items of any kind are refused")
 {
     Json many = Json::array();
     for (int i = 0; i < 33; ++i)
@@ -209,10 +219,12 @@ TEST_CASE ("too much of anything is refused")
     CHECK (loaded.messages.size() < 300);
 }
 
-TEST_CASE ("all mistakes of a text are told at once, with line and column")
+TEST_CASE ("all errors in a profile are reported together, with line and column")
 {
-    const auto loaded = readProfileText ("{\n  \"format\": \"tactus-profile\", \"version\": 1, \"id\": \"a\", \"name\": \"A\",\n  \"match\": [{ \"vid\": -1 }],\n  \"sources\": [\"a test\"], \"rate\": \"1 m\",\n"
-                                         "  \"inputs\": [{ \"length\": 0, \"verified\": true }] }");
+    const auto loaded = readProfileText (
+        "{\n  \"format\": \"tactus-profile\", \"version\": 1, \"id\": \"a\", \"name\": \"A\",\n"
+        "  \"match\": [{ \"vid\": -1 }],\n  \"sources\": [\"a test\"], \"rate\": \"1 m\",\n"
+        "  \"inputs\": [{ \"length\": 0, \"verified\": true }] }");
     CHECK_FALSE (loaded.profile);
     const auto lineOf = [&] (const std::string& where)
     {
@@ -235,7 +247,7 @@ TEST_CASE ("hexadecimal bytes read back as written")
         CHECK_FALSE (bytesOf (bad));
 }
 
-TEST_CASE ("profiles with any value anywhere are read or refused, and what is read takes any report")
+TEST_CASE ("profiles with any value anywhere are read or refused, and those that are read decode any report")
 {
     std::vector<std::string> texts;
     for (const auto& entry : std::filesystem::directory_iterator (test::profile_folder))
@@ -248,13 +260,24 @@ TEST_CASE ("profiles with any value anywhere are read or refused, and what is re
     std::vector<std::string> pointers;
     for (const auto& [pointer, value] : flat.items())
         pointers.push_back (pointer);
-    const std::vector<Json> values { nullptr, true, -1, 0, 1, 1e300, 4294967296.0, "", "x", "fx", "0xff", "00", "u32le", "1 m", Json::array(), Json::object(), { 1, 2, 3 }, { "x", "x", "x" } };
+    const std::vector<Json> values { nullptr, true, -1, 0, 1, 1e300, 4294967296.0,   // no strings
+                                     "",
+                                     "x",
+                                     "fx",
+                                     "0xff",
+                                     "00",
+                                     "u32le",
+                                     "1 m",
+                                     Json::array(),
+                                     Json::object(),
+                                     { 1, 2, 3 },
+                                     { "x", "x", "x" } };
 
-    rc::prop ("one value is another", [&]
+    rc::prop ("one value replaced by another", [&]
               {
         const auto json = with (*rc::gen::elementOf (pointers), *rc::gen::elementOf (values));
         fuzz::tryProfile (json.dump()); });
-    rc::prop ("a piece of a text is gone", [&]
+    rc::prop ("a piece of the text removed", [&]
               {
         auto text = *rc::gen::elementOf (texts);
         const auto at = *rc::gen::inRange<std::size_t> (0, text.size());

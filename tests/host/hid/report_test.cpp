@@ -2,9 +2,9 @@
 #include "hid.hpp"
 #include "support/no_allocation.hpp"
 
+#include <fuzz/report_target.hpp>
 #include <host/hid/bits.hpp>
 #include <host/hid/crc32.hpp>
-#include <tests/fuzz/report_target.hpp>
 
 #include <rapidcheck/catch.h>
 
@@ -16,7 +16,7 @@ using namespace tactus::host::hid;
 
 namespace
 {
-/// A device whose one report has the fields given.
+/// A device whose only report has these fields.
 std::shared_ptr<Profile> deviceWith (std::vector<InputField> fields, std::size_t length)
 {
     auto profile = std::make_shared<Profile>();
@@ -51,7 +51,7 @@ rc::Gen<Bits> anyBits()
 }
 }   // namespace
 
-TEST_CASE ("what is put into bits is found there, and nothing beside it changes")
+TEST_CASE ("bits read back as written, and their neighbours do not change")
 {
     rc::prop ("any bits of any report", []
               {
@@ -74,7 +74,7 @@ TEST_CASE ("what is put into bits is found there, and nothing beside it changes"
     CHECK (numberOf ({ .at = 4, .size = 12 }, bitsAt ({ .at = 4, .size = 12 }, report)) == 0x341);
 }
 
-TEST_CASE ("a counter of any size goes on beyond its end, as long as it moves by less than half its range at a time")
+TEST_CASE ("a counter of any size is unwrapped if each step is less than half its range")
 {
     rc::prop ("any walk", []
               {
@@ -95,7 +95,7 @@ TEST_CASE ("a counter of any size goes on beyond its end, as long as it moves by
         } });
 }
 
-TEST_CASE ("reports that were lost are counted, repeated ones are not, and a restart is no loss")
+TEST_CASE ("lost reports are counted; repeated reports and restarts are not")
 {
     auto profile = deviceWith ({ fieldOf ("n", { .size = 8 }) }, 1);
     profile->inputs[0].sequence = "n";
@@ -107,7 +107,7 @@ TEST_CASE ("reports that were lost are counted, repeated ones are not, and a res
     CHECK (lost (251) == 0);
     CHECK (lost (254) == 2);
     CHECK (lost (1) == 2);   // 255 and 0
-    CHECK (lost (0) == 0);   // back: it began again
+    CHECK (lost (0) == 0);   // backwards: a restart
     CHECK (lost (200) == 0);
     CHECK (model.counts().lost == 4);
     CHECK (model.counts().restarts == 2);
@@ -125,7 +125,7 @@ TEST_CASE ("reports that were lost are counted, repeated ones are not, and a res
         } });
 }
 
-TEST_CASE ("a device's clock counts on in seconds from its first report")
+TEST_CASE ("a device's clock is converted to seconds since its first report")
 {
     auto time = fieldOf ("time", { .size = 16 });
     time.scale = 1e-6;
@@ -146,7 +146,7 @@ TEST_CASE ("a device's clock counts on in seconds from its first report")
     CHECK (model.decode (Bytes { 9, 9 }).time == 0.0);
 }
 
-TEST_CASE ("a report that is too short, too long, of an unknown kind, unmarked or not finite changes nothing and is counted by its reason")
+TEST_CASE ("a report that is too short, too long, unknown, unmarked or not finite changes nothing and is counted by reason")
 {
     HidModel board (test::profileOf ("tactus_board"));
     const auto good = test::profileOf ("tactus_board")->samples[0].input[0];
@@ -170,7 +170,7 @@ TEST_CASE ("a report that is too short, too long, of an unknown kind, unmarked o
     bad[0] ^= 1;
     refused (board, bad, Refusal::wrong_mark);
     bad = good;
-    bad[1] = 2;   // another version
+    bad[1] = 2;   // a different version
     refused (board, bad, Refusal::wrong_mark);
     CHECK (board.sample().position == place);
     CHECK (board.sample().valid);
@@ -194,11 +194,11 @@ TEST_CASE ("a report that is too short, too long, of an unknown kind, unmarked o
     CHECK (floating.counts().taken == 1);
 }
 
-TEST_CASE ("a board that has not found its place, or says so, is not valid")
+TEST_CASE ("a board that is not homed is not valid")
 {
     HidModel board (test::profileOf ("tactus_board"));
     auto report = test::profileOf ("tactus_board")->samples[0].input[0];
-    CHECK_FALSE (board.sample().valid);   // nothing came yet
+    CHECK_FALSE (board.sample().valid);   // no report yet
     CHECK (board.decode (report).valid);
     CHECK (board.reading().valid);
     report[2] = 0;
@@ -206,7 +206,7 @@ TEST_CASE ("a board that has not found its place, or says so, is not valid")
     CHECK_FALSE (board.reading().valid);
 }
 
-TEST_CASE ("a report of buttons alone tells no time")
+TEST_CASE ("a report with only buttons does not change the time")
 {
     HidModel mouse (test::profileOf ("spacemouse"));
     CHECK_FALSE (mouse.hasTime());
@@ -228,7 +228,7 @@ TEST_CASE ("a hat presses one button or two")
         CHECK (model.decode (Bytes { value }).buttons == expected[value]);
 }
 
-TEST_CASE ("an effort becomes the nearest number its field can hold, and one that is not finite leaves it neutral")
+TEST_CASE ("an effort is encoded as the nearest number of its field; if it is not finite, the field stays neutral")
 {
     rc::prop ("any effort", []
               {
@@ -255,7 +255,7 @@ TEST_CASE ("an effort becomes the nearest number its field can hold, and one tha
         } });
 }
 
-TEST_CASE ("a sample that is not a number is silence")
+TEST_CASE ("a sample that is not a number is encoded as silence")
 {
     HidModel pad (test::profileOf ("dualsense_bluetooth_samples"));
     const float samples[] = { std::nanf (""), HUGE_VALF, 0.5f };
@@ -265,7 +265,7 @@ TEST_CASE ("a sample that is not a number is silence")
     CHECK (sent[15] == 64);
 }
 
-TEST_CASE ("a force that is not a number becomes no force")
+TEST_CASE ("a force that is not a number is encoded as zero")
 {
     HidModel board (test::profileOf ("tactus_board"));
     board.decode (test::profileOf ("tactus_board")->samples[0].input[0]);
@@ -277,7 +277,7 @@ TEST_CASE ("a force that is not a number becomes no force")
         CHECK (sent[i] == 0);
 }
 
-TEST_CASE ("counters in output reports go round and never stop")
+TEST_CASE ("counters in output reports wrap around")
 {
     HidModel pad (test::profileOf ("dualsense_bluetooth_samples"));
     for (unsigned i = 0; i < 600; ++i)
@@ -289,14 +289,14 @@ TEST_CASE ("counters in output reports go round and never stop")
     }
 }
 
-TEST_CASE ("the checksum is CRC-32, over the bytes before it and a prefix")
+TEST_CASE ("the checksum is a CRC-32 over a prefix and the bytes before it")
 {
     const std::string_view digits = "123456789";
     const Bytes bytes (digits.begin(), digits.end());
     CHECK (crc32 (bytes) == 0xcbf43926u);
     CHECK (crc32 (std::span (bytes).subspan (4), crc32 (std::span (bytes).first (4))) == 0xcbf43926u);
 
-    // The remainder over a message and its own checksum is the same for all messages.
+    // The remainder over a message and its checksum is the same for all messages.
     rc::prop ("any efforts", []
               {
         HidModel pad (test::profileOf ("dualsense_bluetooth"));
@@ -307,11 +307,11 @@ TEST_CASE ("the checksum is CRC-32, over the bytes before it and a prefix")
         RC_ASSERT (crc32 (sent, crc32 (Bytes { 0xa2 })) == 0x2144df1cu); });
 }
 
-TEST_CASE ("nothing is allocated, and no lock taken, while reports come and go")
+TEST_CASE ("decoding and encoding neither allocate nor lock")
 {
     if (! NoAllocation::watches)
     {
-        WARN ("skipped: a sanitizer has its own allocator");
+        WARN ("skipped: sanitizers have their own allocators");
         return;
     }
     for (const auto& profile : test::profiles())
@@ -341,7 +341,7 @@ TEST_CASE ("nothing is allocated, and no lock taken, while reports come and go")
     }
 }
 
-TEST_CASE ("every profile takes any bytes")
+TEST_CASE ("every profile decodes or refuses any bytes")
 {
     rc::prop ("any bytes, for any profile", []
               {

@@ -4,7 +4,7 @@
 #include <host/hid/profile_reader.hpp>
 #include <host/hid_link/hid_device.hpp>
 
-#include <framework/json.hpp>
+#include <framework/text/json.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -23,7 +23,7 @@ namespace tactus::test
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// A board on a wire that is not there: reports of 24 bytes, without ids. In: mark, flags (bit 0: valid), sequence u16,
+/// A board on a virtual wire, with reports of 24 bytes, without ids. In: mark, flags (bit 0: valid), sequence u16,
 /// x, y, z as s32 in nm. Out: mark, enable, echoed sequence u16, force as s32 in uN.
 struct BoardProfile
 {
@@ -34,7 +34,8 @@ struct BoardProfile
     {
         const auto number = [] (double v)
         { return Json (v).dump(); };
-        auto loaded = host::hid::readProfileText (R"({"format": "tactus-profile", "version": 1, "id": "board", "name": "Board", "match": [{"vid": "0x1209", "pid": "0x0001"}], )" + steps + R"(
+        auto loaded = host::hid::readProfileText (
+            R"({"format": "tactus-profile", "version": 1, "id": "board", "name": "Board", "match": [{"vid": "0x1209", "pid": "0x0001"}], )" + steps + R"(
             "inputs": [{"length": 24, "verified": false, "why_not": "made up", "sequence": "count", "fields": [
                 {"name": "mark", "at": 0, "type": "u8", "expect": "0x54"}, {"name": "homed", "at": 1, "type": "u1"},
                 {"name": "count", "at": 2, "type": "u16le"}, {"name": "x", "at": 4, "type": "s32le", "scale": "1 nm"},
@@ -43,11 +44,10 @@ struct BoardProfile
                 {"source": "enable", "at": 1, "type": "u1"}, {"name": "count", "at": 2, "type": "u16le", "source": "echo"},
                 {"name": "fx", "at": 4, "type": "s32le", "scale": "1 uN"}, {"name": "fy", "at": 8, "type": "s32le", "scale": "1 uN"},
                 {"name": "fz", "at": 12, "type": "s32le", "scale": "1 uN"}], "max_rate": )"
-                                                  + number (max_rate) + (keepalive > 0.0 ? R"(, "keepalive": )" + number (keepalive) : "") + R"(}],
+            + number (max_rate) + (keepalive > 0.0 ? R"(, "keepalive": )" + number (keepalive) : "") + R"(}],
             "position": ["x", "y", "z"], "valid": "homed", "force": ["fx", "fy", "fz"],
             "limits": {"max_force": 3.0, "ramp": )"
-                                                  + number (ramp)
-                                                  + R"(, "stale_input": )" + number (watchdog) + R"(}, "rate": )" + number (rate) + R"(, "sources": ["made up"]})");
+            + number (ramp) + R"(, "stale_input": )" + number (watchdog) + R"(}, "rate": )" + number (rate) + R"(, "sources": ["made up"]})");
         std::string wrong;
         for (const auto& m : loaded.messages)
             wrong += m.where + ": " + m.text + "\n";
@@ -69,21 +69,21 @@ inline Bytes boardReport (std::uint16_t count, std::int32_t x = 0, std::int32_t 
     return b;
 }
 
-/// What a board was told.
+/// A report that the board received.
 struct Told
 {
     enum class How
     {
         output,
         feature,
-        will
+        failsafe
     };
 
     Bytes bytes;
     How how = How::output;
     std::chrono::steady_clock::time_point at;
 
-    // Of an output, which begins with a 0.
+    // An output report begins with a 0.
     bool isEffort() const { return how == How::output && bytes.size() == 25; }
     bool isDriven() const { return isEffort() && bytes[2] == 1; }
     bool isNeutral() const { return isEffort() && bytes[2] == 0; }
@@ -110,7 +110,7 @@ public:
 
     host::hid::ConnectedDevice what;
 
-    /// Called with each output, without a lock, before it is noted.
+    /// Called with each output, without a lock, before it is logged.
     std::function<void (const Bytes&)> on_write;
 
     void send (Bytes report)
@@ -148,7 +148,7 @@ public:
         return opened;
     }
 
-    /// True once what is asked for is so; false if it is not so after a long time.
+    /// True as soon as the condition holds; false if it still does not hold after a long time.
     template <typename F>
     bool until (F&& so) const
     {
@@ -168,11 +168,11 @@ public:
         return { what };
     }
 
-    tl::expected<std::unique_ptr<host::hid::Transport>, host::hid::OpenFailure> open (const host::hid::ConnectedDevice&) override
+    Result<std::unique_ptr<host::hid::Transport>> open (const host::hid::ConnectedDevice&) override
     {
         const std::lock_guard lock (mutex);
-        if (forbidden) return tl::unexpected (host::hid::OpenFailure { true, "Permission denied" });
-        if (! plugged) return tl::unexpected (host::hid::OpenFailure { false, "No such device" });
+        if (forbidden) return Message::error ("hid/not_permitted", what.path, "Permission denied");
+        if (! plugged) return Message::error ("hid/not_opened", what.path, "No such device");
         ++opened;
         return std::make_unique<Wire> (*this, plugging);
     }
@@ -183,12 +183,12 @@ private:
     public:
         Wire (FakeBoard& b, int p) : board (b), plugging (p) {}
 
-        tl::expected<std::size_t, std::string> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override
+        Result<std::size_t> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override
         {
             std::unique_lock lock (board.mutex);
             board.changed.wait_for (lock, timeout, [&]
                                     { return gone() || ! board.waiting.empty(); });
-            if (gone()) return tl::unexpected (std::string ("Input/output error"));
+            if (gone()) return host::hid::transferError ("Input/output error");
             if (board.waiting.empty()) return std::size_t { 0 };
             const auto report = std::move (board.waiting.front());
             board.waiting.pop_front();
@@ -197,27 +197,28 @@ private:
             return size;
         }
 
-        std::optional<std::string> write (std::span<const std::uint8_t> report) override { return tell (report, Told::How::output); }
-        std::optional<std::string> sendFeature (std::span<const std::uint8_t> report) override { return tell (report, Told::How::feature); }
-        std::optional<std::string> getFeature (std::span<std::uint8_t>) override { return std::nullopt; }
-        std::optional<std::string> leaveWill (const std::vector<host::hid::OutgoingReport>& reports) override
+        Result<> write (std::span<const std::uint8_t> report) override { return tell (report, Told::How::output); }
+        Result<> sendFeature (std::span<const std::uint8_t> report) override { return tell (report, Told::How::feature); }
+        Result<> getFeature (std::span<std::uint8_t>) override { return {}; }
+        Result<> armFailsafe (const std::vector<host::hid::OutgoingReport>& reports) override
         {
+            Result<> armed;
             for (const auto& r : reports)
-                tell (r.bytes, Told::How::will);
-            return std::nullopt;
+                armed = tell (r.bytes, Told::How::failsafe);
+            return armed;
         }
 
     private:
         bool gone() const { return ! board.plugged || board.plugging != plugging; }
 
-        std::optional<std::string> tell (std::span<const std::uint8_t> report, Told::How how)
+        Result<> tell (std::span<const std::uint8_t> report, Told::How how)
         {
             const Bytes bytes (report.begin(), report.end());
             if (board.on_write && how == Told::How::output) board.on_write (bytes);
             const std::lock_guard lock (board.mutex);
-            if (gone() || board.failing) return "Input/output error";
+            if (gone() || board.failing) return host::hid::transferError ("Input/output error");
             board.log.push_back ({ bytes, how, std::chrono::steady_clock::now() });
-            return std::nullopt;
+            return {};
         }
 
         FakeBoard& board;
@@ -246,10 +247,9 @@ inline std::unique_ptr<host::hid::HidDevice> openBoard (FakeBoard& board, const 
 {
     const host::hid::HidPort::Options options { .look_again = std::chrono::milliseconds (5), .real_time = false };
     auto opened = host::hid::HidPort::open (board, board.what, profile.make(), options);
-    const auto* message = std::get_if<Message> (&opened);
-    INFO ((message != nullptr ? message->text : std::string()));
-    REQUIRE (message == nullptr);
-    auto device = std::make_unique<host::hid::HidDevice> (std::move (std::get<0> (opened)));
+    INFO ((opened ? std::string() : opened.error().text));
+    REQUIRE (opened);
+    auto device = std::make_unique<host::hid::HidDevice> (std::move (*opened));
     device->prepare (1e-3);
     return device;
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// A joystick or wheel that nobody wrote a profile for, driven by what its own descriptor says.
+// A joystick or wheel without a profile, driven according to its own report descriptor.
 
-#include "../hid/pid_wheel.hpp"
+#include "host/hid/pid_wheel.hpp"
 
 #include <host/hid_link/force_feedback.hpp>
 #include <host/hid_link/hid_device.hpp>
 #include <host/hid_link/open_device.hpp>
 
-#include <framework/guard.hpp>
-#include <framework/json.hpp>
+#include <framework/run/guard.hpp>
+#include <framework/text/json.hpp>
 
 #include <rapidcheck/catch.h>
 
@@ -25,7 +25,7 @@ using namespace std::chrono_literals;
 
 namespace
 {
-/// The wheel of pid_wheel.hpp, with a memory for effects.
+/// The wheel of pid_wheel.hpp, with memory for effects.
 class Wheel final : public HidSystem
 {
 public:
@@ -40,14 +40,14 @@ public:
 
     ConnectedDevice what;
     Bytes descriptor = test::wheel();
-    std::uint8_t free_block = 5;              // that the next effect gets; 0: no room
-    int busy = 0;                             // times that it has no answer yet
-    std::optional<std::uint8_t> refused {};   // id of a report that it does not take
+    std::uint8_t free_block = 5;              // assigned to the next effect; 0: no room
+    int busy = 0;                             // how many more requests stay without an answer
+    std::optional<std::uint8_t> refused {};   // id of a report that it rejects
 
     struct Told
     {
         Bytes bytes;
-        char how = 'o';   // o output, f feature, g asked for a feature, w will
+        char how = 'o';   // o output, f feature, g feature request, w failsafe
     };
 
     std::vector<Told> told() const
@@ -87,7 +87,7 @@ public:
         return { what };
     }
     Bytes reportDescriptor (const ConnectedDevice&) override { return descriptor; }
-    tl::expected<std::unique_ptr<Transport>, OpenFailure> open (const ConnectedDevice&) override
+    Result<std::unique_ptr<Transport>> open (const ConnectedDevice&) override
     {
         const std::lock_guard lock (mutex);
         return std::make_unique<Wire> (*this, plugging);
@@ -98,42 +98,43 @@ private:
     {
         Wire (Wheel& w, int p) : wheel (w), plugging (p) {}
 
-        tl::expected<std::size_t, std::string> read (std::span<std::uint8_t> into, std::chrono::milliseconds) override
+        Result<std::size_t> read (std::span<std::uint8_t> into, std::chrono::milliseconds) override
         {
             std::this_thread::sleep_for (500us);
             const std::lock_guard lock (wheel.mutex);
-            if (gone()) return tl::unexpected (std::string ("Input/output error"));
+            if (gone()) return transferError ("Input/output error");
             const auto report = std::exchange (wheel.input, {});
             std::ranges::copy (report, into.begin());
             return report.size();
         }
-        std::optional<std::string> write (std::span<const std::uint8_t> report) override { return tell (report, 'o'); }
-        std::optional<std::string> sendFeature (std::span<const std::uint8_t> report) override { return tell (report, 'f'); }
-        std::optional<std::string> getFeature (std::span<std::uint8_t> report) override
+        Result<> write (std::span<const std::uint8_t> report) override { return tell (report, 'o'); }
+        Result<> sendFeature (std::span<const std::uint8_t> report) override { return tell (report, 'f'); }
+        Result<> getFeature (std::span<std::uint8_t> report) override
         {
-            if (auto why = tell (report, 'g')) return why;
+            if (auto told = tell (report, 'g'); ! told) return told;
             const std::lock_guard lock (wheel.mutex);
-            if (report.size() != 3 || report[0] != 7) return "Protocol error";
+            if (report.size() != 3 || report[0] != 7) return transferError ("Protocol error");
             report[1] = wheel.busy > 0 ? 0 : wheel.free_block;
-            report[2] = wheel.busy > 0 ? 0 : wheel.free_block > 0 ? 1
-                                                                  : 2;
+            report[2] = 0;
+            if (wheel.busy == 0) report[2] = wheel.free_block > 0 ? 1 : 2;
             wheel.busy = std::max (0, wheel.busy - 1);
-            return std::nullopt;
+            return {};
         }
-        std::optional<std::string> leaveWill (const std::vector<OutgoingReport>& reports) override
+        Result<> armFailsafe (const std::vector<OutgoingReport>& reports) override
         {
+            Result<> armed;
             for (const auto& r : reports)
-                tell (r.bytes, 'w');
-            return std::nullopt;
+                armed = tell (r.bytes, 'w');
+            return armed;
         }
 
         bool gone() const { return ! wheel.plugged || wheel.plugging != plugging; }
-        std::optional<std::string> tell (std::span<const std::uint8_t> report, char how)
+        Result<> tell (std::span<const std::uint8_t> report, char how)
         {
             const std::lock_guard lock (wheel.mutex);
-            if (gone() || (how != 'w' && wheel.refused == report[0])) return "Broken pipe";
+            if (gone() || (how != 'w' && wheel.refused == report[0])) return transferError ("Broken pipe");
             wheel.log.push_back ({ { report.begin(), report.end() }, how });
-            return std::nullopt;
+            return {};
         }
 
         Wheel& wheel;
@@ -152,10 +153,10 @@ const Json of_4_newton { { "driver", "hid" }, { "profile", "pid" }, { "calibrati
 
 std::string idOf (const MadeDevice& made) { return made.messages.empty() ? "" : made.messages.front().id; }
 
-/// A run at 1 kHz that asks for one force.
-struct Run
+/// A run at 1 kHz with one requested force.
+struct Driven
 {
-    explicit Run (MadeDevice& made) : device (*made.device)
+    explicit Driven (MadeDevice& made) : device (*made.device)
     {
         device.prepare (1e-3);
         guard.prepare (made.limits, 1e-3);
@@ -167,7 +168,7 @@ struct Run
         device.write (guard (wanted, reading));
     }
 
-    /// Ticks until something is so, at most some seconds.
+    /// Ticks until a condition holds, for a few seconds at most.
     template <typename F>
     bool until (const Effort& wanted, F&& so)
     {
@@ -188,7 +189,7 @@ struct Run
 Effort push (double newton) { return { .force = { newton, 0.0, 0.0 } }; }
 }   // namespace
 
-TEST_CASE ("a device with force feedback is woken up, driven in newtons and let go without a profile of its own", "[hid]")
+TEST_CASE ("a force feedback device without a profile is initialised, driven in newtons and released", "[hid]")
 {
     Wheel wheel;
     wheel.busy = 2;
@@ -203,18 +204,18 @@ TEST_CASE ("a device with force feedback is woken up, driven in newtons and let 
     for (const auto& t : woken)
         order += t.how;
     CHECK (order == "wfgggooowwww");
-    CHECK (wheel.last (2).at (1) == 5);   // the block that it gave
+    CHECK (wheel.last (2).at (1) == 5);   // the block that the wheel assigned
     CHECK (wheel.last (3) == Bytes { 3, 5, 0, 0 });
 
-    Run run (made);
+    Driven run (made);
     for (int i = 0; i < 50; ++i)
         run.tick (push (2.0));
-    CHECK_FALSE (run.reading.valid);   // it has not said anything yet
+    CHECK_FALSE (run.reading.valid);   // it has not sent anything yet
     CHECK (wheel.magnitude() == 0);
 
     wheel.moveTo (16384);
     CHECK (run.until (push (2.0), [&]
-                      { return wheel.magnitude() == -5000; }));   // half of 4 N, and what pushes to the right comes from the left
+                      { return wheel.magnitude() == -5000; }));   // half of 4 N; a push to the right comes from the left
     CHECK (run.reading.position.x() == Approx (0.03).epsilon (1e-3));
     CHECK (wheel.last (4) == Bytes { 4, 5, 1, 1 });
     CHECK (run.until (push (-100.0), [&]
@@ -227,12 +228,12 @@ TEST_CASE ("a device with force feedback is woken up, driven in newtons and let 
     CHECK (wheel.last (4) == Bytes { 4, 5, 3, 0 });
 }
 
-TEST_CASE ("the effect is started again and again, since it ends by itself", "[hid]")
+TEST_CASE ("the effect is restarted repeatedly, since it ends on its own", "[hid]")
 {
     Wheel wheel;
     auto made = openDevice (of_4_newton, {}, wheel, {});
     REQUIRE (made.device);
-    Run run (made);
+    Driven run (made);
     wheel.moveTo (1);
     const auto starts = [&]
     {
@@ -244,12 +245,12 @@ TEST_CASE ("the effect is started again and again, since it ends by itself", "[h
                       { return starts() >= 3; }));
 }
 
-TEST_CASE ("a force feedback device that comes back may put the effect elsewhere", "[hid]")
+TEST_CASE ("a force feedback device that comes back may assign a different effect block", "[hid]")
 {
     Wheel wheel;
     auto made = openDevice (of_4_newton, {}, wheel, {});
     REQUIRE (made.device);
-    Run run (made);
+    Driven run (made);
     wheel.moveTo (1);
     REQUIRE (run.until (push (2.0), [&]
                         { return wheel.magnitude() == -5000; }));
@@ -273,7 +274,7 @@ TEST_CASE ("a force feedback device that comes back may put the effect elsewhere
     CHECK (told.back().bytes == Bytes { 5, 3 });
 }
 
-TEST_CASE ("without a calibration a device gives a tenth of what it can, and says so", "[hid]")
+TEST_CASE ("an uncalibrated device uses a tenth of its force, with a warning", "[hid]")
 {
     Wheel wheel;
     auto made = openDevice (any, {}, wheel, {});
@@ -281,14 +282,18 @@ TEST_CASE ("without a calibration a device gives a tenth of what it can, and say
     REQUIRE (idOf (made) == "pid/uncalibrated");
     CHECK (made.messages.front().severity == Message::Severity::warning);
     CHECK (made.limits.max_force == Approx (1.0));
-    Run run (made);
+    Driven run (made);
     wheel.moveTo (1);
     int most = 0;
-    run.until (push (1000.0), [&]
-               { most = std::max (most, std::abs (wheel.magnitude())); return most == 1000 && run.guard.stop() == Guard::Stop::none && wheel.magnitude() == -1000; });
+    run.until (push (1000.0),
+               [&]
+               {
+                   most = std::max (most, std::abs (wheel.magnitude()));
+                   return most == 1000 && run.guard.stop() == Guard::Stop::none && wheel.magnitude() == -1000;
+               });
     CHECK (most == 1000);
 
-    // Neither by the effort of the axis, whatever the guard lets through.
+    // The effort of an axis cannot exceed a tenth either, whatever the guard passes.
     made.device->write ({ .axes = { 50.0 } });
     for (int i = 0; i < 50; ++i)
     {
@@ -299,13 +304,16 @@ TEST_CASE ("without a calibration a device gives a tenth of what it can, and say
     CHECK (std::abs (wheel.magnitude()) <= 1000);
 }
 
-TEST_CASE ("a wheel turns and is turned", "[hid]")
+TEST_CASE ("a wheel reports its angle and takes a torque", "[hid]")
 {
     Wheel wheel;
-    auto made = openDevice ({ { "driver", "hid" }, { "profile", "pid" }, { "calibration", { { "full_force", "2.5 N*m" }, { "travel", { { "x", "900 deg" } } }, { "reversed", true } } } }, {}, wheel, {});
+    auto made = openDevice ({ { "driver", "hid" },
+                              { "profile", "pid" },
+                              { "calibration", { { "full_force", "2.5 N*m" }, { "travel", { { "x", "900 deg" } } }, { "reversed", true } } } },
+                            {}, wheel, {});
     REQUIRE (made.messages.empty());
     CHECK (made.limits.max_torque == 2.5);
-    Run run (made);
+    Driven run (made);
     wheel.moveTo (-16384);
     CHECK (run.until ({ .torque = { 0.0, 1.25, 0.0 } }, [&]
                       { return wheel.magnitude() == 5000; }));
@@ -313,7 +321,7 @@ TEST_CASE ("a wheel turns and is turned", "[hid]")
     CHECK (run.reading.position.isZero (0.0));
 }
 
-TEST_CASE ("why a force feedback device is not driven is said with the way out", "[hid]")
+TEST_CASE ("a force feedback device that cannot be driven gives an error with a remedy", "[hid]")
 {
     const auto attempt = [] (Wheel& wheel, const Json& description)
     {
@@ -345,11 +353,11 @@ TEST_CASE ("why a force feedback device is not driven is said with the way out",
         CHECK (attempt (refuses, of_4_newton) == "hid/init");
     }
 
-    Wheel plain;   // joystick without force feedback
+    Wheel plain;   // a joystick without force feedback
     plain.descriptor = test::bytes ("05 01 09 04 a1 01 09 30 15 00 26 ff 00 75 08 95 01 81 02 c0");
     CHECK (attempt (plain, of_4_newton) == "hid/not_connected");
 
-    Wheel springs;   // of force feedback, nothing but a report of its state
+    Wheel springs;   // force feedback with only a state report
     springs.descriptor = test::bytes ("05 01 09 04 a1 01 09 30 15 00 26 ff 00 75 08 95 01 81 02 05 0f 09 92 a1 02 09 9f 81 02 c0 c0");
     CHECK (attempt (springs, of_4_newton) == "pid/missing");
 
@@ -367,9 +375,9 @@ TEST_CASE ("why a force feedback device is not driven is said with the way out",
     CHECK (attempt (wheel, { { "driver", "hid" }, { "calibration", 3 } }) == "device/kind");
 }
 
-TEST_CASE ("no force that is asked for is more than the calibration allows", "[hid]")
+TEST_CASE ("no force exceeds what the calibration allows", "[hid]")
 {
-    rc::prop ("whatever is asked for", []
+    rc::prop ("any requested force", []
               {
         Messages messages;
         const auto pid = PidDevice::from (readDescriptor (test::wheel()).descriptor, messages);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A device as the clock of a run, and the loop through it.
+// A device as the clock of a run, and the loop through the device.
 
 #include "fake_board.hpp"
 
-#include <framework/engine.hpp>
 #include <framework/file/graph_file.hpp>
 #include <framework/plan/compile.hpp>
-#include <host/devices/sim.hpp>
+#include <framework/run/device/sim.hpp>
+#include <framework/run/engine.hpp>
+#include <framework/run/runner.hpp>
 #include <host/hid_link/hid_clock.hpp>
 #include <host/hid_link/open_device.hpp>
-#include <host/runtime/runner.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -28,7 +28,7 @@ using namespace std::chrono_literals;
 
 namespace
 {
-struct Each final : host::Ticked
+struct Each final : Ticked
 {
     explicit Each (std::function<bool (double)> f) : what (std::move (f)) {}
     bool tick (double late_s) noexcept override { return what (late_s); }
@@ -36,14 +36,15 @@ struct Each final : host::Ticked
     std::function<bool (double)> what;
 };
 
-/// A stroke over the board, in nm: pressed down, back and forth.
+/// A stroke over the board, in nm: pressed down, moved back and forth.
 std::array<std::int32_t, 3> placeAt (int k)
 {
     const double t = 1e-3 * k;
-    return { static_cast<std::int32_t> (2e7 * std::sin (6.0 * t)), static_cast<std::int32_t> (5e6 * std::sin (1.3 * t)), static_cast<std::int32_t> (-1e6 * std::min (1.0, 4.0 * t) * (1.0 + 0.2 * std::sin (9.0 * t))) };
+    return { static_cast<std::int32_t> (2e7 * std::sin (6.0 * t)), static_cast<std::int32_t> (5e6 * std::sin (1.3 * t)),
+             static_cast<std::int32_t> (-1e6 * std::min (1.0, 4.0 * t) * (1.0 + 0.2 * std::sin (9.0 * t))) };
 }
 
-/// Says what others said, tick by tick.
+/// Plays back readings, tick by tick.
 struct Recorded final : Device
 {
     explicit Recorded (const std::vector<Reading>& r) : readings (r) {}
@@ -60,7 +61,7 @@ struct Recorded final : Device
     std::size_t k = 0;
 };
 
-/// Notes what goes through a device.
+/// Records the readings of a device.
 struct Listening final : Device
 {
     explicit Listening (Device& d) : device (d) {}
@@ -85,7 +86,7 @@ std::shared_ptr<Plan> dryWood()
 }
 }   // namespace
 
-TEST_CASE ("reports drive the ticks, a timer does while none come, and reports do again", "[hid]")
+TEST_CASE ("reports drive the ticks, a timer takes over while none arrive, then reports drive them again", "[hid]")
 {
     FakeBoard board;
     const auto device = openBoard (board);
@@ -116,7 +117,8 @@ TEST_CASE ("reports drive the ticks, a timer does while none come, and reports d
     CHECK (driven_again);
 }
 
-TEST_CASE ("a run over dry wood through a device gives it the forces that it would have given offline, bit for bit", "[hid]")
+// Long because it is one scenario: a live run, the same readings offline, and a comparison of the two.
+TEST_CASE ("a live run over dry wood sends the same forces as the offline run, bit for bit", "[hid]")
 {
     FakeBoard board;
     constexpr int length = 1500;
@@ -128,7 +130,7 @@ TEST_CASE ("a run over dry wood through a device gives it the forces that it wou
         const auto [x, y, z] = placeAt (k);
         board.send (boardReport (static_cast<std::uint16_t> (k), x, y, z));
     };
-    board.on_write = [&] (const Bytes& b)   // each answer brings the next report
+    board.on_write = [&] (const Bytes& b)   // each answer triggers the next report
     {
         if (b.size() == 25 && b[2] == 1) sendNext();
     };
@@ -143,7 +145,7 @@ TEST_CASE ("a run over dry wood through a device gives it the forces that it wou
         engine.attach ("stylus", listening, limits);
         HidClock clock { device->port(), 1000.0 };
         sendNext();
-        host::Runner runner { engine, clock, 1000.0, { .length = length } };
+        Runner runner { engine, clock, 1000.0, { .length = length } };
         runner.start();
         runner.wait();
         readings = std::move (listening.readings);
@@ -151,7 +153,7 @@ TEST_CASE ("a run over dry wood through a device gives it the forces that it wou
         CHECK (device->port().counts().dropped <= clock.ticksByTimer());
     }
 
-    // The same readings, offline; encoded by the same profile.
+    // Run the same readings offline.
     Recorded recorded { readings };
     Engine engine { dryWood() };
     engine.attach ("stylus", recorded, limits);
@@ -166,14 +168,14 @@ TEST_CASE ("a run over dry wood through a device gives it the forces that it wou
     };
     const auto micro = [] (double newton)
     { return static_cast<std::int32_t> (std::floor (newton / 1e-6 + 0.5)); };
-    std::map<int, std::set<std::array<std::int32_t, 3>>> offline;   // where the timer ticked, a number has several
+    std::map<int, std::set<std::array<std::int32_t, 3>>> offline;   // several forces per number where the timer ticked
     for (std::size_t i = 0; i < readings.size(); ++i)
     {
         const Vec3 f = recorded.asked[i].force;
         offline[numberOf (readings[i])].insert ({ micro (f.x()), micro (f.y()), micro (f.z()) });
     }
 
-    // After its length a run halts, which nobody asked of the other one.
+    // At its end the live run halts; the offline one does not.
     const int end = numberOf (readings.at (length - 1));
     std::size_t compared = 0, different = 0, with_force = 0;
     for (const auto& told : board.told())

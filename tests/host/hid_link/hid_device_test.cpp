@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A HID device in a run, on a wire that can be cut: what comes in, what is sent, and when nothing must be.
+// A HID device in a run, on a wire that can be cut: what is read, what is sent, and when nothing may be sent.
 
 #include "fake_board.hpp"
 
 #include "support/no_allocation.hpp"
 #include "support/no_system_calls.hpp"
 
-#include <framework/guard.hpp>
+#include <framework/run/guard.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 
 namespace
 {
-/// Sends, and waits until the port has it.
+/// Sends a report and waits until the port has it.
 void deliver (FakeBoard& board, HidDevice& device, Bytes report)
 {
     const auto before = device.port().counts().reports;
@@ -35,7 +35,7 @@ Reading tell (FakeBoard& board, HidDevice& device, Bytes report)
     return device.read();
 }
 
-/// A device with its guard, as an engine has them, and a hand that pulls for all it is worth.
+/// A device with its guard, as in an engine, and a graph that requests a constant force.
 struct Driven
 {
     explicit Driven (HidDevice& d, const GuardLimits& limits = {}) : device (d) { guard.prepare (limits, 1e-3); }
@@ -43,7 +43,12 @@ struct Driven
     Effort tick (double wanted = 1.0)
     {
         reading = device.read();
-        const auto effort = guard ({ { wanted, 0.0, 0.0 }, Vec3::Zero() }, reading);
+        return tick (Effort { { wanted, 0.0, 0.0 }, Vec3::Zero() });
+    }
+
+    Effort tick (const Effort& wanted)
+    {
+        const auto effort = guard (wanted, reading);
         device.write (effort);
         return effort;
     }
@@ -59,15 +64,15 @@ std::size_t driven (const FakeBoard& board)
 }
 }   // namespace
 
-TEST_CASE ("what a device is told on opening and on closing stands in its profile", "[hid]")
+TEST_CASE ("on opening and closing, a device gets the steps of its profile", "[hid]")
 {
     FakeBoard board;
     openBoard (board).reset();
     const auto told = board.told();
     REQUIRE (told.size() == 6);
-    CHECK (told[0].how == test::Told::How::will);   // before anything else, the neutral report and the exit
+    CHECK (told[0].how == test::Told::How::failsafe);   // first the failsafe: the neutral report and the exit
     CHECK (told[0].bytes.at (1) == 0x54);
-    CHECK (told[1].how == test::Told::How::will);
+    CHECK (told[1].how == test::Told::How::failsafe);
     CHECK (told[1].bytes == Bytes { 0, 0xaa, 0x03 });
     CHECK (told[2].bytes == Bytes { 0, 0xaa, 0x01 });
     CHECK (told[3].bytes == Bytes { 0, 0xaa, 0x02 });
@@ -76,13 +81,13 @@ TEST_CASE ("what a device is told on opening and on closing stands in its profil
     CHECK (told[5].bytes == Bytes { 0, 0xaa, 0x03 });
 }
 
-TEST_CASE ("reports that are no good change no value, stop the reading and are counted by what is wrong with them", "[hid]")
+TEST_CASE ("bad reports change no value, invalidate the reading and are counted by reason", "[hid]")
 {
     FakeBoard board;
     const auto device = openBoard (board);
     Driven run { *device };
     run.tick();
-    CHECK_FALSE (run.reading.valid);   // nothing has come
+    CHECK_FALSE (run.reading.valid);   // no report has arrived
 
     REQUIRE (tell (board, *device, boardReport (1, 1'000'000)).valid);
     auto wrong_mark = boardReport (2, 7);
@@ -101,26 +106,63 @@ TEST_CASE ("reports that are no good change no value, stop the reading and are c
 
     const auto counts = device->counts();
     CHECK (counts.taken == 2);
-    CHECK (counts.lost == 1);   // number 2, which was sent with a wrong mark
+    CHECK (counts.lost == 1);   // number 2, which had a wrong mark
     CHECK (counts.refused[static_cast<std::size_t> (Refusal::wrong_mark)] == 1);
     CHECK (counts.refused[static_cast<std::size_t> (Refusal::too_short)] == 1);
     CHECK (counts.refused[static_cast<std::size_t> (Refusal::too_long)] == 2);
 }
 
-TEST_CASE ("sequence numbers tell what was lost and what came out of order, also around their end", "[hid]")
+TEST_CASE ("a motor of the force cannot be reached by an axis effort, whatever a graph asks for", "[hid]")
+{
+    FakeBoard board;
+    const auto device = openBoard (board, { .watchdog = 10.0 });   // so that the port never sends neutral reports on a busy machine
+    CHECK (device->layout().efforts.empty());
+    const GuardLimits limits { .max_force = 2.0, .max_slew = 100.0, .ramp = 0.01, .watchdog = 0.02 };
+    Driven run { *device, limits };
+    std::uint16_t count = 0;
+    const auto efforts = [&]
+    { return std::ranges::count_if (board.told(), &test::Told::isEffort); };
+    for (int k = 0; k < 200; ++k)
+    {
+        deliver (board, *device, boardReport (++count));
+        run.reading = device->read();
+        Effort wanted { { k % 3 == 0 ? -5.0 : 5.0, 0.0, 0.0 }, Vec3::Zero() };
+        wanted.axes = k % 50 < 40 ? Channels { 1000.0, -300.0, k % 7 == 0 ? -1e9 : 1e9 } : Channels {};   // fx, fy, fz
+        const auto before = efforts();
+        run.tick (wanted);
+        REQUIRE (board.until ([&]
+                              { return efforts() > before; }));   // so that no report replaces an earlier one
+    }
+    CHECK (driven (board) > 150);
+
+    Vec3 last = Vec3::Zero();
+    double most = 0.0;
+    for (const auto& told : board.told())
+        if (told.isEffort())
+        {
+            const Vec3 now = 1e-6 * Vec3 { double (told.force (0)), double (told.force (1)), double (told.force (2)) };
+            CHECK (now.norm() <= 2.0 + 2e-6);
+            CHECK ((now - last).norm() <= 0.1 + 4e-6);
+            most = std::max (most, now.norm());
+            last = now;
+        }
+    CHECK (most > 1.5);
+}
+
+TEST_CASE ("sequence numbers reveal lost and reordered reports, even across the wrap-around", "[hid]")
 {
     FakeBoard board;
     const auto device = openBoard (board);
-    for (const int count : { 65533, 65534, 1, 2, 0, 3 })   // 65535 and 0 are lost, 0 comes late, 1 and 2 are taken for lost then
+    for (const int count : { 65533, 65534, 1, 2, 0, 3 })   // 65535 and 0 are lost, then 0 arrives late, and 1 and 2 count as lost
         deliver (board, *device, boardReport (static_cast<std::uint16_t> (count)));
     device->read();
     CHECK (device->counts().lost == 4);
     CHECK (device->counts().restarts == 1);
     CHECK (device->counts().taken == 6);
-    CHECK (device->counts().skipped == 5);   // one tick looked at all of them
+    CHECK (device->counts().skipped == 5);   // a single tick read all of them
 }
 
-TEST_CASE ("a device that falls silent under force is without force within its watchdog", "[hid]")
+TEST_CASE ("a device that falls silent under force gets no force after its watchdog", "[hid]")
 {
     FakeBoard board;
     const auto device = openBoard (board);
@@ -137,15 +179,15 @@ TEST_CASE ("a device that falls silent under force is without force within its w
     int ticks = 1;
     while (run.tick().force.x() > 0.0 && ticks < 100)
         ++ticks;
-    CHECK (ticks <= 20 + 5 + 1);   // the watchdog, and the guard's way down
+    CHECK (ticks <= 20 + 5 + 1);   // the watchdog and the guard's fade
     CHECK (run.guard.stop() == Guard::Stop::stale);
     CHECK (run.reading.age > 0.02);
 
     deliver (board, *device, boardReport (++count));
-    CHECK (run.tick().force.x() < 0.2);   // and rises as the ramp has it
+    CHECK (run.tick().force.x() < 0.2);   // then the force rises along the ramp
 }
 
-TEST_CASE ("a device unplugged under force is told to rest, and driven again from zero when it is back", "[hid]")
+TEST_CASE ("a device unplugged under force goes to rest, and starts from zero when it is back", "[hid]")
 {
     FakeBoard board;
     const auto device = openBoard (board);
@@ -170,14 +212,14 @@ TEST_CASE ("a device unplugged under force is told to rest, and driven again fro
     CHECK (run.guard.isAtRest());
     const auto before = board.told().size();
 
-    // It comes back as another file, as devices do.
+    // It comes back under a different path, as real devices do.
     board.what.path = "fake/1";
     board.plug (true);
     REQUIRE (board.until ([&]
                           { return device->port().isConnected(); }));
     CHECK (board.openings() == 2);
     CHECK (device->port().counts().departures == 1);
-    CHECK (board.told().at (before + 2).bytes == Bytes { 0, 0xaa, 0x01 });   // the init again
+    CHECK (board.told().at (before + 2).bytes == Bytes { 0, 0xaa, 0x01 });   // the init steps again
     count = 5000;
     CHECK (tickOn() < 0.2);
     double largest_step = 0.0, last = 0.0;
@@ -189,10 +231,10 @@ TEST_CASE ("a device unplugged under force is told to rest, and driven again fro
     }
     CHECK (last == 1.0);
     CHECK (largest_step < 0.21);
-    CHECK (device->counts().lost == 0);   // another connection counts anew
+    CHECK (device->counts().lost == 0);   // counting starts again with the new connection
 }
 
-TEST_CASE ("an effort from before a device went away never reaches it afterwards", "[hid]")
+TEST_CASE ("an effort from before a device went away is never sent afterwards", "[hid]")
 {
     FakeBoard board;
     const auto device = openBoard (board);
@@ -207,7 +249,7 @@ TEST_CASE ("an effort from before a device went away never reaches it afterwards
     board.plug (false);
     REQUIRE (board.until ([&]
                           { return ! device->port().isConnected(); }));
-    device->write (push);   // it was on its way
+    device->write (push);   // this effort is still on its way
     const auto before = driven (board);
     board.plug (true);
     REQUIRE (board.until ([&]
@@ -216,7 +258,7 @@ TEST_CASE ("an effort from before a device went away never reaches it afterwards
     for (int i = 0; i < 20; ++i)
     {
         tell (board, *device, boardReport (static_cast<std::uint16_t> (i)));
-        device->write (push);   // a guard would be at zero by now
+        device->write (push);   // a real guard would be at zero by now
     }
     std::this_thread::sleep_for (5ms);
     CHECK (driven (board) == before);
@@ -228,7 +270,7 @@ TEST_CASE ("an effort from before a device went away never reaches it afterwards
                         { return driven (board) > before; }));
 }
 
-TEST_CASE ("a port that is given no more efforts lets its device rest, and what comes later begins at zero", "[hid]")
+TEST_CASE ("a port without new efforts sends its device to rest, and later efforts start from zero", "[hid]")
 {
     FakeBoard board;
     const auto device = openBoard (board, { .watchdog = 0.1 });
@@ -245,9 +287,9 @@ TEST_CASE ("a port that is given no more efforts lets its device rest, and what 
     CHECK (told.back().at - offered > 99ms);
 
     const auto before = driven (board);
-    device->write (push);                                         // the ticks go on where they were
-    CHECK_FALSE (tell (board, *device, boardReport (2)).valid);   // the guard is to stop,
-    device->write (push);                                         // but is not at zero yet
+    device->write (push);                                         // the ticks continue as before
+    CHECK_FALSE (tell (board, *device, boardReport (2)).valid);   // so the guard must stop,
+    device->write (push);                                         // but it is not at zero yet
     std::this_thread::sleep_for (5ms);
     CHECK (driven (board) == before);
     device->write (none);
@@ -257,7 +299,7 @@ TEST_CASE ("a port that is given no more efforts lets its device rest, and what 
                         { return driven (board) > before; }));
 }
 
-TEST_CASE ("of what is offered while a device is slow to listen only the latest is sent", "[hid]")
+TEST_CASE ("while a device is slow to take reports, only the latest effort is kept and sent", "[hid]")
 {
     FakeBoard board;
     std::atomic<bool> slow = false;
@@ -275,8 +317,7 @@ TEST_CASE ("of what is offered while a device is slow to listen only the latest 
 
     slow = true;
     device->write ({ { 0.5, 0.0, 0.0 }, Vec3::Zero() });
-    device->port().kick();
-    std::this_thread::sleep_for (5ms);   // it is on its way
+    std::this_thread::sleep_for (5ms);   // the report is on its way
     for (int i = 1; i <= 100; ++i)
         device->write ({ { 1e-3 * i, 0.0, 0.0 }, Vec3::Zero() });
     slow = false;
@@ -291,7 +332,7 @@ TEST_CASE ("of what is offered while a device is slow to listen only the latest 
     CHECK (device->port().counts().latency_max >= 5e-3);
 }
 
-TEST_CASE ("reports are not sent faster than a device takes them, but again while nothing changes", "[hid]")
+TEST_CASE ("reports are sent no faster than the maximum rate, and repeated while nothing changes", "[hid]")
 {
     FakeBoard board;
     const auto device = openBoard (board, { .max_rate = 100.0, .keepalive = 0.03, .watchdog = 10.0 });
@@ -311,7 +352,20 @@ TEST_CASE ("reports are not sent faster than a device takes them, but again whil
                         { return driven (board) >= busy + 2; }));
 }
 
-TEST_CASE ("writes that the system does not take are counted, told, and do not keep later ones away", "[hid]")
+TEST_CASE ("an effort is sent as soon as it is written, whichever clock drives the run", "[hid]")
+{
+    FakeBoard board;
+    const auto device = openBoard (board, { .max_rate = 0.01, .watchdog = 3600.0 });   // on its own, the writing thread looks every 50 s
+    tell (board, *device, boardReport (1));
+    for (std::size_t sent = 1; sent <= 3; ++sent)
+    {
+        device->write ({});
+        CHECK (board.until ([&]
+                            { return driven (board) == sent; }));   // gives up after 10 s
+    }
+}
+
+TEST_CASE ("failed writes are counted and reported, and later writes still work", "[hid]")
 {
     FakeBoard board;
     const auto device = openBoard (board);
@@ -329,7 +383,7 @@ TEST_CASE ("writes that the system does not take are counted, told, and do not k
                         { return driven (board) > 0; }));
 }
 
-TEST_CASE ("a reading grows old when the reader found no room, however many old reports there are to take", "[hid]")
+TEST_CASE ("a reading ages when the ring overflows, however many old reports it holds", "[hid]")
 {
     FakeBoard board;
     const auto device = openBoard (board);
@@ -340,10 +394,10 @@ TEST_CASE ("a reading grows old when the reader found no room, however many old 
     CHECK (device->read().age > 0.0);
     CHECK (device->port().counts().overflown == 36);
     CHECK (tell (board, *device, boardReport (room + 39)).age == 0.0);
-    CHECK (device->counts().lost == 2);   // by the device; the others were there
+    CHECK (device->counts().lost == 2);   // lost by the device; the other reports arrived but did not fit
 }
 
-TEST_CASE ("reading and driving a device neither allocates nor locks nor calls the system", "[hid]")
+TEST_CASE ("reading and driving a device neither allocates nor locks, and only wakes the writing thread", "[hid]")
 {
     FakeBoard board;
     const auto device = openBoard (board);
@@ -362,7 +416,7 @@ TEST_CASE ("reading and driving a device neither allocates nor locks nor calls t
     if (! test::canForbidSystemCalls()) return;
     const auto end = test::inChild ([&]
                                     {
-        test::forbidSystemCalls();
+        test::forbidSystemCalls (test::Allow::waking_threads);
         for (int i = 0; i < 100; ++i)
         {
             device->read();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a description becomes a real device, and what is said where it cannot.
+// How a description becomes a real device, and the errors if this fails.
 
 #include "fake_board.hpp"
 
@@ -18,7 +18,7 @@ namespace
 struct Several final : HidSystem
 {
     std::vector<ConnectedDevice> connected() override { return devices; }
-    tl::expected<std::unique_ptr<Transport>, OpenFailure> open (const ConnectedDevice&) override { return tl::unexpected (OpenFailure { false, "nobody is there" }); }
+    Result<std::unique_ptr<Transport>> open (const ConnectedDevice&) override { return Message::error ("hid/not_opened", {}, "no such device"); }
 
     std::vector<ConnectedDevice> devices;
 };
@@ -39,12 +39,14 @@ LoadedProfiles profiles() { return { .profiles = { test::BoardProfile {}.make() 
 std::string idOf (const Messages& messages) { return messages.empty() ? "" : messages.front().id; }
 }   // namespace
 
-TEST_CASE ("a description opens the device that its profile fits, with limits that can only be tightened", "[hid]")
+TEST_CASE ("a description opens the device that its profile fits, and can only tighten its limits", "[hid]")
 {
     FakeBoard there;
     for (const auto* profile : { "board", "auto" })
     {
-        const auto made = openDevice ({ { "driver", "hid" }, { "profile", profile }, { "guard", { { "max_force", 1.0 }, { "watchdog", 5.0 }, { "ramp", 0.5 } } } }, {}, there, profiles());
+        const auto made =
+            openDevice ({ { "driver", "hid" }, { "profile", profile }, { "guard", { { "max_force", 1.0 }, { "watchdog", 5.0 }, { "ramp", 0.5 } } } }, {}, there,
+                        profiles());
         CHECK (idOf (made.messages).empty());
         REQUIRE (made.device);
         CHECK (made.limits.max_force == 1.0);
@@ -55,17 +57,17 @@ TEST_CASE ("a description opens the device that its profile fits, with limits th
     CHECK (loose.limits.max_force == 3.0);
 }
 
-TEST_CASE ("a profile that takes efforts and says nothing of ramp and watchdog gets both", "[hid]")
+TEST_CASE ("a profile with efforts but without a ramp and watchdog gets the defaults", "[hid]")
 {
     auto profile = *test::BoardProfile {}.make();
     profile.limits.guard = {};
     CHECK (limitsOf (profile, {}).ramp > 0.0);
-    CHECK (limitsOf (profile, {}).watchdog <= 0.1);
+    CHECK (limitsOf (profile, {}).watchdog == GuardLimits::default_watchdog);
     profile.outputs.clear();
     CHECK (limitsOf (profile, {}).watchdog == GuardLimits::none);
 }
 
-TEST_CASE ("what keeps a device from being opened is said with the way out", "[hid]")
+TEST_CASE ("a device that cannot be opened gives an error with a remedy", "[hid]")
 {
     Several none, two, one_twice;
     two.devices = { board ("/dev/hidraw0", "A"), board ("/dev/hidraw1", "B") };
@@ -91,10 +93,11 @@ TEST_CASE ("what keeps a device from being opened is said with the way out", "[h
     const auto made = openDevice (plain, {}, forbidden, profiles());
     CHECK_FALSE (made.device);
     CHECK (idOf (made.messages) == "hid/not_permitted");
-    CHECK (made.messages.front().remedy.find ("KERNEL==\"hidraw*\", ATTRS{idVendor}==\"1209\", ATTRS{idProduct}==\"0001\", TAG+=\"uaccess\"") != std::string::npos);
+    CHECK (made.messages.front().remedy.find ("KERNEL==\"hidraw*\", ATTRS{idVendor}==\"1209\", ATTRS{idProduct}==\"0001\", TAG+=\"uaccess\"")
+           != std::string::npos);
 }
 
-TEST_CASE ("a description is checked without the device, and made elsewhere only for simulated ones", "[hid]")
+TEST_CASE ("a description is checked without the device; without HID support only simulated devices open", "[hid]")
 {
     CHECK (checkDevice ({ { "driver", "hid" }, { "profile", "board" } }, {}, profiles()).empty());
     CHECK (idOf (checkDevice ({ { "driver", "hid" }, { "profile", "brd" } }, {}, profiles())) == "hid/unknown_profile");

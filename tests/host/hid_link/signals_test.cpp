@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Signals for what shakes: samples, block by block, or an amplitude and a frequency.
+// Signals for vibration motors: blocks of samples, or an amplitude and a frequency.
 
-#include "../hid/hid.hpp"
 #include "fake_board.hpp"
+#include "host/hid/hid.hpp"
 #include "support/no_allocation.hpp"
 
 #include <host/hid/crc32.hpp>
-#include <host/hid_link/shaking.hpp>
 #include <host/hid_link/stream_feed.hpp>
+#include <host/hid_link/vibration_tracker.hpp>
 
 #include <rapidcheck/catch.h>
 
@@ -23,13 +23,13 @@ namespace
 std::unique_ptr<HidDevice> open (FakeBoard& board, const char* profile, double dt_s)
 {
     auto opened = HidPort::open (board, board.what, test::profileOf (profile), { .look_again = std::chrono::milliseconds (5), .real_time = false });
-    REQUIRE (std::holds_alternative<std::unique_ptr<HidPort>> (opened));
-    auto device = std::make_unique<HidDevice> (std::move (std::get<0> (opened)));
+    REQUIRE (opened);
+    auto device = std::make_unique<HidDevice> (std::move (*opened));
     device->prepare (dt_s);
     return device;
 }
 
-/// All output reports of this id that were sent so far.
+/// All output reports with this id sent so far.
 std::vector<test::Bytes> sent (const FakeBoard& board, std::uint8_t id)
 {
     std::vector<test::Bytes> reports;
@@ -45,7 +45,7 @@ void tick (HidDevice& device, const Channels& signals)
 }
 }   // namespace
 
-TEST_CASE ("a stream gets its frames at its own rate, in straight lines from tick to tick", "[hid]")
+TEST_CASE ("a stream gets its frames at its own rate, interpolated linearly between ticks", "[hid]")
 {
     rc::prop ("any two rates", []
               {
@@ -65,36 +65,36 @@ TEST_CASE ("a stream gets its frames at its own rate, in straight lines from tic
                     RC_ASSERT (std::abs (static_cast<double> (block[2 * i + 1]) + 2.0 * got.back()) < 1e-5);
                 } });
         for (std::size_t i = 0; i < got.size(); ++i)
-            RC_ASSERT (std::abs (got[i] - static_cast<double> (i + 1) / rate) < 1e-5);   // a ramp of 1 per s, at the time of the frame
+            RC_ASSERT (std::abs (got[i] - static_cast<double> (i + 1) / rate) < 1e-5);   // the ramp of 1 per s, at the time of the frame
         RC_ASSERT (std::abs (static_cast<double> (got.size()) - ticks * dt * rate) <= static_cast<double> (frames) + 1.0); });
 }
 
-TEST_CASE ("how strong and how fast a tone shakes is seen whatever the rate", "[hid]")
+TEST_CASE ("the amplitude and frequency of a tone are found at any rate", "[hid]")
 {
     rc::prop ("any tone", []
               {
         const double hertz = *rc::gen::inRange (41, 600), dt = 1.0 / *rc::gen::inRange (4000, 10000), loud = *rc::gen::inRange (1, 100) * 0.01;
-        Shaking shaking;
-        shaking.prepare (dt, 12.5e-3);
+        VibrationTracker tracker;
+        tracker.prepare (dt, 12.5e-3);
         for (int k = 0; k < 2000; ++k)
-            shaking.tick (loud * std::sin (2.0 * std::numbers::pi * hertz * k * dt));
-        RC_ASSERT (shaking.amplitude() <= loud);
-        RC_ASSERT (shaking.amplitude() > 0.88 * loud);
-        RC_ASSERT (std::abs (shaking.frequency() - hertz) < 0.05 * hertz);
+            tracker.tick (loud * std::sin (2.0 * std::numbers::pi * hertz * k * dt));
+        RC_ASSERT (tracker.amplitude() <= loud);
+        RC_ASSERT (tracker.amplitude() > 0.88 * loud);
+        RC_ASSERT (std::abs (tracker.frequency() - hertz) < 0.05 * hertz);
         for (int k = 0; k < 2000; ++k)
-            shaking.tick (0.0);
-        RC_ASSERT (shaking.amplitude() == 0.0);
-        RC_ASSERT (shaking.frequency() == 0.0); });
+            tracker.tick (0.0);
+        RC_ASSERT (tracker.amplitude() == 0.0);
+        RC_ASSERT (tracker.frequency() == 0.0); });
 }
 
-TEST_CASE ("a DualSense gets samples over Bluetooth, counted and with their sum", "[hid]")
+TEST_CASE ("a DualSense gets samples over Bluetooth, with a counter and a checksum", "[hid]")
 {
     FakeBoard pad;
     const auto device = open (pad, "dualsense_bluetooth_samples", 1.0 / 3000.0);
     CHECK (device->layout().signal_outputs == 2);
     const auto reports = [&]
     { return sent (pad, 0x32); };
-    // A machine that stands still for longer than the watchdog has the port send rest in between, so that some ticks more are needed.
+    // If the machine pauses for longer than the watchdog, the port sends neutral reports in between, and more ticks are needed.
     const auto isSent = [&] (const Channels& signals, const char* frame)
     {
         return pad.until ([&]
@@ -118,16 +118,16 @@ TEST_CASE ("a DualSense gets samples over Bluetooth, counted and with their sum"
             return report == expected; });
     };
     tick (*device, {});
-    // By hand: 0.5 of 127 is 64, -0.25 is -32; what is too much is all there is.
+    // Computed manually: 0.5 of 127 is 64, -0.25 is -32; values out of range are clipped.
     CHECK (isSent ({}, "00 00"));
     CHECK (isSent ({ 0.5, -0.25 }, "40 e0"));
     CHECK (isSent ({ 2.0, -2.0 }, "7f 81"));
     CHECK (reports().back().at (10) >= 2);   // each report is counted
 }
 
-TEST_CASE ("rumble motors get the amplitude of their signal, and HD rumble its frequency, too", "[hid]")
+TEST_CASE ("rumble motors get the amplitude of their signal, and HD rumble motors its frequency too", "[hid]")
 {
-    const auto shaken = [] (const char* profile, std::uint8_t id, auto&& isIt)
+    const auto vibrates = [] (const char* profile, std::uint8_t id, auto&& matches)
     {
         FakeBoard pad;
         const auto device = open (pad, profile, 1e-3);
@@ -137,23 +137,23 @@ TEST_CASE ("rumble motors get the amplitude of their signal, and HD rumble its f
                           {
             for (int i = 0; i < 20; ++i, ++k)
                 tick (*device, { 0.5 * std::sin (2.0 * std::numbers::pi * 100.0 * 1e-3 * k) });
-            if (k % 200 == 0) tick (*device, {});   // should the machine have stood still: at rest, it may begin again
+            if (k % 200 == 0) tick (*device, {});   // if the machine paused, a tick at rest lets it start again
             const auto reports = sent (pad, id);
-            return ! reports.empty() && isIt (reports.back()); }));
+            return ! reports.empty() && matches (reports.back()); }));
         tick (*device, {});
         return device->layout().signal_outputs;
     };
     // 0.5 of 255 is 128; a sine of 100 Hz at 1 kHz has its largest samples at 0.951.
-    CHECK (shaken ("dualsense_usb", 0x02, [] (const test::Bytes& r)
-                   { return r[4] == std::lround (0.5 * std::sin (0.4 * std::numbers::pi) * 255.0) && r[3] == 0; })
+    CHECK (vibrates ("dualsense_usb", 0x02, [] (const test::Bytes& r)
+                     { return r[4] == std::lround (0.5 * std::sin (0.4 * std::numbers::pi) * 255.0) && r[3] == 0; })
            == 2);
     // 100 Hz: round (32 log2 (100/10)) - 0x40 = 106 - 64 = 42 in the low band of the left motor.
-    CHECK (shaken ("switch_controllers", 0x10, [] (const test::Bytes& r)
-                   { return (r[4] & 0x7f) == 42 && r[5] > 0x40 && r[5] <= 0x72 && (r[6] << 8 | r[7]) == 0x0001; })
+    CHECK (vibrates ("switch_controllers", 0x10, [] (const test::Bytes& r)
+                     { return (r[4] & 0x7f) == 42 && r[5] > 0x40 && r[5] <= 0x72 && (r[6] << 8 | r[7]) == 0x0001; })
            == 4);
 }
 
-TEST_CASE ("signals cost the tick no allocation and no lock", "[hid]")
+TEST_CASE ("signals neither allocate nor lock on the tick thread", "[hid]")
 {
     FakeBoard pad;
     const auto device = open (pad, "dualsense_bluetooth_samples", 1e-3);

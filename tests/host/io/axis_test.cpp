@@ -24,7 +24,7 @@ std::string textOf (const std::vector<Tick>& ticks)
 }
 }   // namespace
 
-TEST_CASE ("axis: the prefix makes numbers short", "[host][io][plot]")
+TEST_CASE ("axis: the prefix keeps numbers short", "[host][io][plot]")
 {
     CHECK (labelFor (-3e-4, 3e-4, "m") == "q (mm)");
     CHECK (labelFor (0, 2e-6, "m") == "q (µm)");
@@ -48,12 +48,12 @@ TEST_CASE ("axis: a unit without prefixes takes a power of ten", "[host][io][plo
 {
     CHECK (labelFor (0, 200, "1/m") == "q (1/m)");
     CHECK (labelFor (0, 2e7, "1/m") == "q (×10⁶ 1/m)");
-    CHECK (labelFor (0, 1e-4, "m2") == "q (×10⁻⁶ m²)");   // mm2 would be read as a thousandth of m2
+    CHECK (labelFor (0, 1e-4, "m2") == "q (×10⁻⁶ m²)");   // mm2 could be mistaken for a thousandth of m2
     CHECK (labelFor (0, 0.5, "1") == "q");
     CHECK (labelFor (0, 5e-5, "") == "q (×10⁻⁶)");
 }
 
-TEST_CASE ("axis: what varies little beside its size is shown as a difference", "[host][io][plot]")
+TEST_CASE ("axis: values that vary little relative to their size are shown as a difference", "[host][io][plot]")
 {
     const auto scale = axisScale ({ 1.200298, 1.200302 }, "position", "m");
 
@@ -62,7 +62,7 @@ TEST_CASE ("axis: what varies little beside its size is shown as a difference", 
     CHECK (labelFor (-1.200302, -1.200298, "m") == "q + 1.20031 m (µm)");
 }
 
-TEST_CASE ("axis: ticks stand at multiples of 1, 2 or 5 with equally many decimals", "[host][io][plot]")
+TEST_CASE ("axis: ticks are at multiples of 1, 2 or 5, with the same number of decimals", "[host][io][plot]")
 {
     CHECK (textOf (ticksWithin ({ 0.0, 1.0 }, 5)) == "0.0 0.2 0.4 0.6 0.8 1.0 ");
     CHECK (textOf (ticksWithin ({ -1.2, 1.2 }, 4)) == "−1 0 1 ");
@@ -71,7 +71,7 @@ TEST_CASE ("axis: ticks stand at multiples of 1, 2 or 5 with equally many decima
     CHECK (textOf (ticksWithin ({ -0.06, 0.0 }, 3)) == "−0.06 −0.04 −0.02 0.00 ");
 }
 
-TEST_CASE ("axis: a time that ends one sample before a round number ends at it", "[host][io][plot]")
+TEST_CASE ("axis: a time axis that ends one sample before a round number is extended to it", "[host][io][plot]")
 {
     const auto rounded = roundedOutwards ({ 0.0, 1.999 }, 10);
 
@@ -80,7 +80,7 @@ TEST_CASE ("axis: a time that ends one sample before a round number ends at it",
     CHECK (roundedOutwards ({ 0.0, 1.9 }, 10).high == 1.9);
 }
 
-TEST_CASE ("axis: a range is never empty, and ticks and scale are finite whatever is shown", "[host][io][plot]")
+TEST_CASE ("axis: a range is never empty, and ticks and scale are finite for any values", "[host][io][plot]")
 {
     CHECK (widened ({}, 0.05).size() == 2.0);
     CHECK (widened ({ 0.0, 0.0 }, 0.05).size() == 2.0);

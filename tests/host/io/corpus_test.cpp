@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/corpus.hpp"
 
-#include <tests/fuzz/csv_target.hpp>
+#include <fuzz/csv_target.hpp>
 
 #include <catch2/catch.hpp>
 

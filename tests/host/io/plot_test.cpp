@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/io/plot.hpp>
 
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -71,7 +71,7 @@ TEST_CASE ("plot: a quantity has the same colour in print as on its port", "[hos
     CHECK (pixelsOf (image, colourFor ("force")) > 1000);
 }
 
-TEST_CASE ("plot: seven traces of one panel have seven colours, its own first", "[host][io][plot]")
+TEST_CASE ("plot: seven traces in one panel have seven colours, starting with the quantity's own", "[host][io][plot]")
 {
     for (const auto* quantity : { "force", "position", "gain", "state" })
     {
@@ -86,7 +86,7 @@ TEST_CASE ("plot: seven traces of one panel have seven colours, its own first", 
     CHECK (colourFor ("force", 0) == colourFor ("force"));
 }
 
-TEST_CASE ("plot: yellow is darkened on paper, the others stay", "[host][io][plot]")
+TEST_CASE ("plot: yellow is darkened on paper, other colours are not", "[host][io][plot]")
 {
     CHECK_FALSE (onPaper (colourFor ("hit")) == colourFor ("hit"));
     for (const auto* quantity : { "position", "force", "value", "gain", "energy", "torque", "rate" })
@@ -94,7 +94,7 @@ TEST_CASE ("plot: yellow is darkened on paper, the others stay", "[host][io][plo
     CHECK_FALSE (onPaper ({ 255, 255, 255 }) == Colour { 255, 255, 255 });
 }
 
-TEST_CASE ("plot: a figure has the size asked for, or one that suits its panels", "[host][io][plot]")
+TEST_CASE ("plot: a figure has the given size, or one that suits its panels", "[host][io][plot]")
 {
     const auto axes = forceOverTime ({ sine ("x", 1.0), sine ("y", 2.0) });
 
@@ -108,7 +108,7 @@ TEST_CASE ("plot: a figure has the size asked for, or one that suits its panels"
     CHECK (four.getHeight() > one.getHeight());
 }
 
-TEST_CASE ("plot: the same figure is the same file", "[host][io][plot]")
+TEST_CASE ("plot: equal figures give equal files", "[host][io][plot]")
 {
     const TemporaryFolder folder;
     const Figure figure { .title = "Twice", .panels = { forceOverTime ({ sine ("x", 1.0) }) } };
@@ -118,7 +118,7 @@ TEST_CASE ("plot: the same figure is the same file", "[host][io][plot]")
     CHECK (folder.textOf ("one.png") == folder.textOf ("two.png"));
 }
 
-TEST_CASE ("plot: a peak of one sample among a million is seen", "[host][io][plot]")
+TEST_CASE ("plot: a one-sample peak among a million samples is visible", "[host][io][plot]")
 {
     Series series;
     for (int k = 0; k < 1'000'000; ++k)
@@ -128,11 +128,11 @@ TEST_CASE ("plot: a peak of one sample among a million is seen", "[host][io][plo
     }
     const auto image = draw ({ .panels = { forceOverTime ({ series }) } });
 
-    // The flat line is some pixels thick; only the peak colours the upper half.
+    // The flat line is a few pixels thick, so only the peak colours the upper half.
     CHECK (pixelsOf (image.getClippedImage ({ 0, 0, image.getWidth(), image.getHeight() / 2 }), colourFor ("force")) > 300);
 }
 
-TEST_CASE ("plot: nothing, constants, gaps and extremes are drawn without complaint", "[host][io][plot]")
+TEST_CASE ("plot: empty series, constants, gaps and extremes are drawn without errors", "[host][io][plot]")
 {
     const auto inf = std::numeric_limits<double>::infinity();
     const auto nan = std::nan ("");
@@ -157,7 +157,7 @@ TEST_CASE ("plot: nothing, constants, gaps and extremes are drawn without compla
     }
 }
 
-TEST_CASE ("plot: no text breaks a figure", "[host][io][plot]")
+TEST_CASE ("plot: any text can be drawn", "[host][io][plot]")
 {
     const std::vector<std::string> texts {
         std::string (5000, 'm'),
@@ -174,7 +174,7 @@ TEST_CASE ("plot: no text breaks a figure", "[host][io][plot]")
     }
 }
 
-TEST_CASE ("plot: any values are drawn", "[host][io][plot]")
+TEST_CASE ("plot: any values can be drawn", "[host][io][plot]")
 {
     const auto drawn = [] (const std::vector<std::pair<std::uint64_t, std::uint64_t>>& bits)
     {
@@ -190,7 +190,7 @@ TEST_CASE ("plot: any values are drawn", "[host][io][plot]")
     rc::prop ("any bit pattern", drawn);
 }
 
-TEST_CASE ("plot: a figure that cannot be drawn is refused, each fault with its id", "[host][io][plot]")
+TEST_CASE ("plot: invalid figures are refused, each error with its id", "[host][io][plot]")
 {
     const TemporaryFolder folder;
     const auto axes = forceOverTime ({ sine ("x", 1.0) });

@@ -34,7 +34,7 @@ float highestIn (const std::vector<Polyline>& lines)
 }
 }   // namespace
 
-TEST_CASE ("polyline: a million points become a few a column, and the one peak stays", "[host][io][plot]")
+TEST_CASE ("polyline: a million points are reduced to a few per column, and the only peak is kept", "[host][io][plot]")
 {
     std::vector<double> x, y;
     for (int k = 0; k < 1'000'000; ++k)
@@ -50,14 +50,14 @@ TEST_CASE ("polyline: a million points become a few a column, and the one peak s
     CHECK (highestIn (lines) == to_y (1.0));
 }
 
-TEST_CASE ("polyline: in every column of pixels the first, lowest, highest and last point are kept", "[host][io][plot]")
+TEST_CASE ("polyline: every pixel column keeps its first, lowest, highest and last point", "[host][io][plot]")
 {
     const auto kept = [] (const std::vector<std::uint16_t>& heights)
     {
         std::vector<double> x, y;
         for (std::size_t k = 0; k < heights.size(); ++k)
         {
-            x.push_back (static_cast<double> (k) / 8000.0);   // ten a column
+            x.push_back (static_cast<double> (k) / 8000.0);   // ten per column
             y.push_back (heights[k] / 65536.0);
         }
         const auto lines = linesThrough (x, y, to_x, to_y);
@@ -96,7 +96,7 @@ TEST_CASE ("polyline: nan and inf are gaps", "[host][io][plot]")
     CHECK (dotsAt (x, y, to_x, to_y).size() == 5);
 }
 
-TEST_CASE ("polyline: a loop run a thousand times is drawn once", "[host][io][plot]")
+TEST_CASE ("polyline: a loop repeated a thousand times is drawn once", "[host][io][plot]")
 {
     std::vector<double> x, y;
     for (int k = 0; k < 1'000'000; ++k)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <host/io/wav.hpp>
 
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -60,7 +60,7 @@ std::string createError (const std::filesystem::path& path, double sample_rate_h
 }
 }   // namespace
 
-TEST_CASE ("wav: every float comes back bit for bit, however large, in any number of channels", "[host][io][wav]")
+TEST_CASE ("wav: every float reads back bit for bit, at any size and number of channels", "[host][io][wav]")
 {
     const TemporaryFolder folder;
 
@@ -119,10 +119,10 @@ TEST_CASE ("wav: forces beyond 1 N are neither clipped nor scaled", "[host][io][
     CHECK (read->channels[0][3] == Approx (3.0e38));
     CHECK (read->channels[0][5] == infinity);
     CHECK (read->channels[0][6] == -infinity);
-    CHECK (read->channels[0][7] == infinity);   // beyond what a float holds
+    CHECK (read->channels[0][7] == infinity);   // out of the range of a float
 }
 
-TEST_CASE ("wav: the header says 32-bit float, and its sizes are those of the file", "[host][io][wav]")
+TEST_CASE ("wav: the header has format 32-bit float and the right sizes", "[host][io][wav]")
 {
     const TemporaryFolder folder;
     const std::size_t channels = 3, frames = 2500;   // more than one block
@@ -147,7 +147,7 @@ TEST_CASE ("wav: the header says 32-bit float, and its sizes are those of the fi
     CHECK (bytes.size() == data + 8 + channels * frames * 4);
 }
 
-TEST_CASE ("wav: a recording without samples is a whole file", "[host][io][wav]")
+TEST_CASE ("wav: a recording without samples is a complete file", "[host][io][wav]")
 {
     const TemporaryFolder folder;
     auto writer = WavWriter::create (folder / "out.wav", 1000.0, 2);
@@ -160,7 +160,7 @@ TEST_CASE ("wav: a recording without samples is a whole file", "[host][io][wav]"
     CHECK (read->channels[0].empty());
 }
 
-TEST_CASE ("wav: a recording that is not finished leaves nothing behind", "[host][io][wav]")
+TEST_CASE ("wav: an unfinished recording leaves no file", "[host][io][wav]")
 {
     const TemporaryFolder folder;
     {
@@ -171,13 +171,13 @@ TEST_CASE ("wav: a recording that is not finished leaves nothing behind", "[host
     CHECK (folder.isEmpty());
 }
 
-TEST_CASE ("wav: a rate or a width the format cannot hold is refused", "[host][io][wav]")
+TEST_CASE ("wav: unsupported sample rates and channel counts are refused", "[host][io][wav]")
 {
     const TemporaryFolder folder;
 
     for (const double rate : { 0.0, -48'000.0, 999.5, 1e300, std::nan (""), std::numeric_limits<double>::infinity() })
         CHECK (createError (folder / "out.wav", rate, 1) == "wav/sample_rate");
-    CHECK (createError (folder / "out.wav", 1e6, 1000) == "wav/sample_rate");   // bytes a second overflow
+    CHECK (createError (folder / "out.wav", 1e6, 1000) == "wav/sample_rate");   // bytes per second overflow
     CHECK (createError (folder / "out.wav", 1000.0, 0) == "wav/channels");
     CHECK (createError (folder / "out.wav", 1000.0, 1441) == "wav/channels");
     CHECK (createError (folder / "out.wav", 1000.0, 1440).empty());
@@ -185,7 +185,7 @@ TEST_CASE ("wav: a rate or a width the format cannot hold is refused", "[host][i
     CHECK (folder.isEmpty());
 }
 
-TEST_CASE ("wav: the widest file that can be written can be read", "[host][io][wav]")
+TEST_CASE ("wav: a file with the maximum number of channels can be written and read", "[host][io][wav]")
 {
     const TemporaryFolder folder;
     auto writer = WavWriter::create (folder / "out.wav", 1000.0, 1440);
@@ -206,7 +206,7 @@ TEST_CASE ("wav: a full disk is an error", "[host][io][wav]")
 
     auto writer = WavWriter::create ("/dev/full", 1000.0, 1);
     REQUIRE (writer.has_value());
-    tl::expected<void, Error> written;
+    tactus::Result<> written;
     for (int k = 0; k < 100'000 && written; ++k)
         written = writer->frame (std::vector { 1.0 });
 
@@ -214,7 +214,7 @@ TEST_CASE ("wav: a full disk is an error", "[host][io][wav]")
     CHECK (written.error().id == "output/unwritable");
 }
 
-TEST_CASE ("wav: integers are read as -1 to 1", "[host][io][wav]")
+TEST_CASE ("wav: integer samples are read as -1 to 1", "[host][io][wav]")
 {
     const TemporaryFolder folder;
     folder.write ("int16.wav", wavOf (1, 1, 16, Bytes().u16 (0x8000).u16 (0x4000).u16 (1).u16 (0).text, 8));
@@ -224,7 +224,7 @@ TEST_CASE ("wav: integers are read as -1 to 1", "[host][io][wav]")
     CHECK (readWav (folder / "int32.wav")->channels[0] == std::vector { -1.0, std::ldexp (1.0, -31) });
 }
 
-TEST_CASE ("wav: what is not a recording is refused, each fault with its id", "[host][io][wav]")
+TEST_CASE ("wav: a file that is not a recording is refused, each error with its id", "[host][io][wav]")
 {
     const TemporaryFolder folder;
     const std::string samples (64, '\0');
@@ -247,7 +247,7 @@ TEST_CASE ("wav: what is not a recording is refused, each fault with its id", "[
     CHECK (readWav (folder / "wide.wav").error().id == "wav/too_many_channels");
 }
 
-TEST_CASE ("wav: no damage to a header crashes the reader", "[host][io][wav]")
+TEST_CASE ("wav: no damaged header crashes the reader", "[host][io][wav]")
 {
     const TemporaryFolder folder;
     const auto whole = wavOf (3, 2, 32, std::string (64, 'x'), 64);

@@ -25,7 +25,7 @@ std::unique_ptr<OscPort> anyPort()
 
 std::string addressOf (const std::optional<OSCMessage>& m) { return m ? m->getAddressPattern().toString().toStdString() : ""; }
 
-/// Throws bytes at a port.
+/// Sends raw bytes to a port.
 struct Attacker
 {
     explicit Attacker (int port) : to (port) { socket.bindToPort (0, "127.0.0.1"); }
@@ -52,7 +52,7 @@ std::string padded (std::string s)
     return s;
 }
 
-/// Bundles in bundles, as many as fit into a datagram.
+/// Nested bundles, as many as fit into a datagram.
 std::string nested (std::size_t size)
 {
     const auto head = padded ("#bundle") + std::string (8, '\0');
@@ -76,7 +76,7 @@ TEST_CASE ("a message arrives with all its arguments", "[osc]")
     CHECK_FALSE (b->next());
 }
 
-TEST_CASE ("a port that is taken is refused, and known to be taken", "[osc]")
+TEST_CASE ("a port in use is refused, and reported as taken", "[osc]")
 {
     auto first = anyPort();
     const auto number = first->number();
@@ -89,7 +89,7 @@ TEST_CASE ("a port that is taken is refused, and known to be taken", "[osc]")
     CHECK (OscPort::open (number));
 }
 
-TEST_CASE ("a bundle is taken apart, in order", "[osc]")
+TEST_CASE ("a bundle is unpacked in order", "[osc]")
 {
     const auto port = anyPort();
     const auto message = [] (const std::string& address)
@@ -103,9 +103,10 @@ TEST_CASE ("a bundle is taken apart, in order", "[osc]")
         CHECK (addressOf (port->next (patience)) == address);
 }
 
-TEST_CASE ("any bytes are a packet or none, and nothing beyond their end is looked at", "[osc]")
+TEST_CASE ("any bytes are either a packet or refused, and nothing beyond their end is read", "[osc]")
 {
-    const auto right = padded ("#bundle") + std::string (8, '\0') + word (36) + padded ("/tactus/param") + padded (",sif") + padded ("ab") + word (7) + word (0x3f000000);
+    const auto right =
+        padded ("#bundle") + std::string (8, '\0') + word (36) + padded ("/tactus/param") + padded (",sif") + padded ("ab") + word (7) + word (0x3f000000);
     CHECK (readPacket (right).right);
     rc::prop ("any damage", [&] (std::vector<std::pair<std::uint16_t, char>> changes, std::uint16_t cut, std::string more)
               {
@@ -114,18 +115,19 @@ TEST_CASE ("any bytes are a packet or none, and nothing beyond their end is look
             bytes[place % bytes.size()] = c;
         bytes.resize (bytes.size() - cut % bytes.size());
         bytes += more;
-        const std::vector<char> exact (bytes.begin(), bytes.end());   // so that ASan sees what is read beyond
+        const std::vector<char> exact (bytes.begin(), bytes.end());   // so that ASan detects reads beyond the end
         const auto packet = readPacket ({ exact.data(), exact.size() });
         RC_ASSERT (packet.messages.size() <= bytes.size() / 8); });
     CHECK_FALSE (readPacket (nested (65000)).right);
     CHECK (readPacket (nested (160)).right);
 }
 
-TEST_CASE ("whatever else is sent to a port does no harm, and is counted", "[osc]")
+// Long because it is one table of malformed packets.
+TEST_CASE ("malformed packets are harmless and counted", "[osc]")
 {
     const auto port = anyPort(), good = anyPort();
     Attacker attack { port->number() };
-    const auto alive = [&]   // said until it is heard: a queue may be full
+    const auto alive = [&]   // repeated until it arrives, since the queue may be full
     {
         for (int i = 0; i < 1000; ++i)
         {
@@ -136,7 +138,7 @@ TEST_CASE ("whatever else is sent to a port does no harm, and is counted", "[osc
         return false;
     };
 
-    SECTION ("texts, sizes and types that are none")
+    SECTION ("invalid strings, sizes and types")
     {
         const std::vector<std::string> hostile {
             "",
@@ -176,7 +178,7 @@ TEST_CASE ("whatever else is sent to a port does no harm, and is counted", "[osc
         }
         CHECK (port->dropped() > 10);
     }
-    SECTION ("what is nearly right")
+    SECTION ("packets that are almost right")
     {
         const auto right = padded ("/tactus/param") + padded (",sfib") + padded ("drag.mu") + word (0x3f000000) + word (7) + word (4) + "abcd";
         rc::prop ("any damage", [&] (std::vector<std::pair<std::uint16_t, char>> changes, std::uint16_t cut)
@@ -187,7 +189,7 @@ TEST_CASE ("whatever else is sent to a port does no harm, and is counted", "[osc
             attack (bytes.substr (0, bytes.size() - cut % bytes.size())); });
         CHECK (alive());
     }
-    SECTION ("more than anybody fetches")
+    SECTION ("more messages than are taken out of the queue")
     {
         for (int i = 0; i < 1'000'000 && port->dropped() == 0; ++i)
             attack (padded ("/flood") + padded (","));
@@ -196,7 +198,7 @@ TEST_CASE ("whatever else is sent to a port does no harm, and is counted", "[osc
     }
 }
 
-TEST_CASE ("where to listen is a port, or an address with a port, and nothing else", "[osc]")
+TEST_CASE ("the listening address is a port, or an address with a port", "[osc]")
 {
     CHECK (readListen ("7770")->port == 7770);
     CHECK (readListen ("7770")->isLoopback());
@@ -204,7 +206,8 @@ TEST_CASE ("where to listen is a port, or an address with a port, and nothing el
     CHECK (readListen ("192.168.1.5:9000")->address == "192.168.1.5");
     CHECK (readListen ("0.0.0.0:9000")->port == 9000);
     CHECK_FALSE (readListen ("0.0.0.0:9000")->isLoopback());
-    for (const auto* wrong : { "", ":", "65536", "-1", "+1", "1.2.3.4", "1.2.3:5", "1.2.3.4.5:6", "256.0.0.1:5", "a.b.c.d:5", "1.2.3.4:", "::1:5", "localhost:5", "7770 ", "0x10", "1..2.3:4", "0000.0.0.0:1" })
+    for (const auto* wrong : { "", ":", "65536", "-1", "+1", "1.2.3.4", "1.2.3:5", "1.2.3.4.5:6", "256.0.0.1:5", "a.b.c.d:5", "1.2.3.4:", "::1:5",
+                               "localhost:5", "7770 ", "0x10", "1..2.3:4", "0000.0.0.0:1" })
     {
         INFO (wrong);
         CHECK_FALSE (readListen (wrong));
@@ -217,7 +220,7 @@ TEST_CASE ("where to listen is a port, or an address with a port, and nothing el
         if (const auto listen = readListen (text)) RC_ASSERT (listen->port >= 0 && listen->port <= 65535 && isAddress (listen->address)); });
 }
 
-TEST_CASE ("a port that others reach answers this machine and the one that is named, and nobody else", "[osc]")
+TEST_CASE ("a port that other machines can reach answers only this machine and the named one", "[osc]")
 {
     const auto open = [] (const std::string& answered)
     { return std::move (*OscPort::open (OscListen { .address = "0.0.0.0", .port = 0, .answered = answered })); };
@@ -233,13 +236,13 @@ TEST_CASE ("a port that others reach answers this machine and the one that is na
     };
     const auto alone = open ("");
     CHECK (receive (*alone, "127.0.0.1") == "127.0.0.1");
-    CHECK (receive (*alone, "127.0.0.2") == "127.0.0.1");   // this machine, too
+    CHECK (receive (*alone, "127.0.0.2") == "127.0.0.1");   // this is the same machine too
 
     juce::Array<juce::IPAddress> all;
     juce::IPAddress::findAllAddresses (all);
     const auto* card = std::find_if (all.begin(), all.end(), [] (const auto& a)
                                      { return ! a.isIPv6 && ! a.toString().startsWith ("127."); });
-    if (card == all.end()) return;   // a machine without a network
+    if (card == all.end()) return;   // this machine is not on a network
     const auto address = card->toString().toStdString();
     const auto from_card = [&] (OscPort& port)
     {

@@ -4,7 +4,9 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
+#include <thread>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -14,30 +16,30 @@ using juce::String;
 
 namespace
 {
-/// Notes what it is told.
+/// Records the calls it gets.
 struct Puppet : Controlled
 {
-    std::optional<Message> setParam (const std::string& name, const Json& value) override
+    Result<> setParam (const std::string& name, const Json& value) override
     {
         said = name + " = " + value.dump();
         if (name != "drag.mu") return Message { .id = "param/unknown", .where = {}, .text = "no such parameter", .remedy = "try drag.mu" };
-        return std::nullopt;
+        return {};
     }
 
-    std::optional<Message> turnControl (const std::string& id, double value) override
+    Result<> turnControl (const std::string& id, double value) override
     {
         said = id + " at " + std::to_string (value);
-        return std::nullopt;
+        return {};
     }
 
-    std::optional<Message> strike (const std::string& input, double speed) override
+    Result<> strike (const std::string& input, double speed) override
     {
         said = input + " hit at " + std::to_string (speed);
         if (input != "ring.hit") return Message { .id = "hit/unknown", .where = {}, .text = "no such input", .remedy = "try ring.hit" };
-        return std::nullopt;
+        return {};
     }
 
-    std::variant<std::vector<std::string>, Message> probe (const std::vector<std::string>& ports) override
+    Result<std::vector<std::string>> probe (const std::vector<std::string>& ports) override
     {
         std::vector<std::string> names;
         const auto add = [&] (const std::string& name)
@@ -56,7 +58,7 @@ struct Puppet : Controlled
         return names;
     }
 
-    std::variant<std::vector<std::string>, Message> capture (const std::string& port, const std::string& watched, const Trigger& trigger) override
+    Result<std::vector<std::string>> capture (const std::string& port, const std::string& watched, const Trigger& trigger) override
     {
         if (watched == "drag.nothing") return Message { .id = "port/unknown", .where = {}, .text = "no such port", .remedy = "" };
         said = port + " by " + watched + " at " + std::to_string (trigger.level);
@@ -70,29 +72,35 @@ struct Puppet : Controlled
     Status status() override { return { "Puppet", 1000.0, 2.5, 0.5, 1.5, 2500, 3 }; }
     std::vector<NodeCost> costs() override { return std::vector<NodeCost> (20, { "wood/drag", "friction.elasto_plastic", 2e-6, 0.05 }); }
     std::vector<Role> roles() override { return { { "stylus", true, 0.25, 0.0, "the last reading is 31 ms old" }, { "thumb", false, 0.0, 0.0, {} } }; }
-    std::optional<Message> transport (const Transport& t) override
+    Result<> transport (const Transport& t) override
     {
-        said = "plays " + std::to_string (t.plays.value_or (true)) + ", to " + std::to_string (t.seek.value_or (-1.0)) + ", at " + std::to_string (t.speed.value_or (-1.0));
-        return std::nullopt;
+        said = "plays " + std::to_string (t.plays.value_or (true)) + ", to " + std::to_string (t.seek.value_or (-1.0)) + ", at "
+               + std::to_string (t.speed.value_or (-1.0));
+        return {};
     }
-    std::optional<Message> start() override { return Message { .id = "osc/start", .where = {}, .text = "it runs already", .remedy = "" }; }
+    Result<> start() override { return Message { .id = "osc/start", .where = {}, .text = "it is already running", .remedy = "" }; }
     void stop() override { stopped = true; }
     void emergencyStop() override { emergency = true; }
-    void rearm() override { emergency = false; }
+    void emergencyNow() noexcept override { ++emergencies_now; }
+    Result<> rearm() override
+    {
+        emergency = false;
+        return {};
+    }
 
     std::string said;
     std::vector<std::string> probed;
     bool stopped = false, emergency = false, force_is_gone = false;
+    std::atomic<int> emergencies_now = 0;
     Trigger wanted;
     std::unique_ptr<TriggeredCapture> capturing;
 };
 
-/// Ticks a capture with x = k, and y = 1 from a tick on.
+/// Feeds a capture with x = k, and y = 1 from tick `edge`.
 void run (TriggeredCapture& capture, int ticks, int edge)
 {
-    Plan plan;
     double values[2] {};
-    plan.taps = { { .name = "x", .unit = {}, .value = &values[0] }, { .name = "y", .unit = {}, .value = &values[1] } };
+    const Plan plan ({ { .name = "x", .unit = {}, .value = &values[0] }, { .name = "y", .unit = {}, .value = &values[1] } });
     for (int k = 0; k < ticks; ++k)
     {
         values[0] = k;
@@ -103,9 +111,9 @@ void run (TriggeredCapture& capture, int ticks, int edge)
 
 struct Stage
 {
-    explicit Stage (const OscListen& where = {}) : port (std::move (*OscPort::open (where))), other (std::move (*OscPort::open (0))), control (*port, puppet) {}
+    explicit Stage (const OscListen& where = {}) : port (std::move (*OscPort::open (where))), other (std::move (*OscPort::open (0))), control (*port, puppet, "a1b2c3") {}
 
-    /// Sends, lets it be carried out, and returns the answer; the answering thread of the port is waited for.
+    /// Sends a message, lets it be handled, and returns the answer. Waits for the receiving thread of the port.
     template <typename... Args>
     OSCMessage ask (const char* address, Args... args)
     {
@@ -115,7 +123,7 @@ struct Stage
         return *answer;
     }
 
-    /// A message that is answered goes after, so that this one has been carried out.
+    /// Sends a message, and then a second one that is answered, which shows that the first one has been handled.
     template <typename... Args>
     void send (const char* address, Args... args)
     {
@@ -127,7 +135,7 @@ struct Stage
             control.attend (now);
             if (marker->next (5ms)) return;
         }
-        FAIL ("nothing came");
+        FAIL ("no message arrived");
     }
 
     int me() const { return other->number(); }
@@ -143,7 +151,7 @@ std::string address (const OSCMessage& m) { return m.getAddressPattern().toStrin
 std::string text (const OSCMessage& m, int i) { return m[i].getString().toStdString(); }
 }   // namespace
 
-TEST_CASE ("parameters are set by numbers and by texts, which are doubles to the bit", "[osc]")
+TEST_CASE ("parameters are set by numbers, and by strings that give exact doubles", "[osc]")
 {
     Stage stage;
     const auto said = [&] (auto value)
@@ -165,14 +173,14 @@ TEST_CASE ("parameters are set by numbers and by texts, which are doubles to the
     CHECK (text (refused, 2) == "param/unknown");
     CHECK (text (refused, 4) == "try drag.mu");
 
-    stage.send ("/tactus/param", String ("drag.mu"), 0.25f);   // nobody is answered
+    stage.send ("/tactus/param", String ("drag.mu"), 0.25f);   // no answer
     CHECK (stage.puppet.said == "drag.mu = 0.25");
     CHECK_FALSE (stage.other->next());
     CHECK (text (stage.ask ("/tactus/control", String ("rough"), 0.75f, stage.me()), 1) == "rough");
     CHECK (stage.puppet.said == "rough at 0.750000");
 }
 
-TEST_CASE ("arguments that do not belong are refused, and do nothing", "[osc]")
+TEST_CASE ("wrong arguments are refused and have no effect", "[osc]")
 {
     Stage stage;
     stage.puppet.said.clear();
@@ -193,7 +201,7 @@ TEST_CASE ("arguments that do not belong are refused, and do nothing", "[osc]")
         CHECK (text (stage.ask ("/tactus/probe", String ("drag.force"), stage.me(), bad), 2) == "osc/arguments");
 }
 
-TEST_CASE ("it says how it goes, and stops when asked to", "[osc]")
+TEST_CASE ("a run reports its status, and stops on request", "[osc]")
 {
     Stage stage;
     const auto status = stage.ask ("/tactus/status", stage.me());
@@ -207,22 +215,43 @@ TEST_CASE ("it says how it goes, and stops when asked to", "[osc]")
     CHECK (stage.puppet.stopped);
 }
 
-TEST_CASE ("the emergency stop is within reach, and so is what ends it", "[osc]")
+TEST_CASE ("the emergency stop works, and rearm ends it", "[osc]")
 {
     Stage stage;
     CHECK (text (stage.ask ("/tactus/emergency", stage.me()), 0) == "/tactus/emergency");
     CHECK (stage.puppet.emergency);
     CHECK_FALSE (stage.puppet.stopped);
-    CHECK (text (stage.ask ("/tactus/rearm", stage.me()), 0) == "/tactus/rearm");
+    CHECK (text (stage.ask ("/tactus/rearm", stage.me()), 2) == "osc/rearm");   // it needs the token
+    CHECK (text (stage.ask ("/tactus/rearm", String ("a1b2c4"), stage.me()), 2) == "osc/rearm");
+    CHECK (stage.puppet.emergency);
+    CHECK (text (stage.ask ("/tactus/rearm", String ("a1b2c3"), stage.me()), 0) == "/tactus/rearm");
     CHECK_FALSE (stage.puppet.emergency);
 
-    Stage open { OscListen { .address = "0.0.0.0" } };   // to whoever cannot see the device
+    Stage open { OscListen { .address = "0.0.0.0" } };   // open to other machines, whose users cannot see the device
     open.ask ("/tactus/emergency", open.me());
-    CHECK (text (open.ask ("/tactus/rearm", open.me()), 2) == "osc/rearm");
+    CHECK (text (open.ask ("/tactus/rearm", String ("a1b2c3"), open.me()), 2) == "osc/rearm");
     CHECK (open.puppet.emergency);
 }
 
-TEST_CASE ("a probe sends what was asked for, as often as asked, and ends when its time is over", "[osc]")
+TEST_CASE ("an emergency stop over OSC passes all messages that wait, and needs no room among them", "[osc]")
+{
+    Stage stage;
+    constexpr int flood = 5000;   // more than fit; nothing handles them
+    for (int i = 0; i < flood; ++i)
+    {
+        stage.other->send (stage.port->number(), OSCMessage ("/tactus/param", String ("drag.mu"), 0.5f));
+        if (i % 100 == 99) stage.other->send (stage.port->number(), OSCMessage ("/tactus/emergency"));
+    }
+    for (int i = 0; i < 4000 && stage.puppet.emergencies_now == 0; ++i)
+    {
+        stage.other->send (stage.port->number(), OSCMessage ("/tactus/emergency"));
+        std::this_thread::sleep_for (5ms);
+    }
+    CHECK (stage.puppet.emergencies_now > 0);
+    CHECK_FALSE (stage.puppet.emergency);   // the main thread has not handled a single message
+}
+
+TEST_CASE ("a probe sends the requested values at the requested rate, and ends in time", "[osc]")
 {
     Stage stage;
     const auto done = stage.ask ("/tactus/probe", String ("drag.force"), stage.me(), 100.0f, 2.0f);
@@ -251,7 +280,7 @@ TEST_CASE ("a probe sends what was asked for, as often as asked, and ends when i
     stage.now += 1900ms;
     stage.control.attend (stage.now);
     CHECK (stage.control.isProbing());
-    stage.ask ("/tactus/probe", String ("drag.force"), stage.me(), 100.0f, 2.0f);   // goes on
+    stage.ask ("/tactus/probe", String ("drag.force"), stage.me(), 100.0f, 2.0f);   // continues
     stage.now += 200ms;
     stage.control.attend (stage.now);
     stage.control.values (9000, std::vector<double> { 1.0, 2.0, 3.0 });
@@ -263,7 +292,7 @@ TEST_CASE ("a probe sends what was asked for, as often as asked, and ends when i
     CHECK (stage.puppet.probed.empty());
 }
 
-TEST_CASE ("asked for, what the costliest nodes take is told, node by node", "[osc]")
+TEST_CASE ("on request, the costs of the most expensive nodes are sent, node by node", "[osc]")
 {
     Stage stage;
     const auto told = [&] (auto... how_many)
@@ -288,7 +317,7 @@ TEST_CASE ("asked for, what the costliest nodes take is told, node by node", "[o
     CHECK (text (stage.ask ("/tactus/costs", stage.me(), 0), 2) == "osc/arguments");
 }
 
-TEST_CASE ("a probe of what is not there, or one too many, is refused and the others go on", "[osc]")
+TEST_CASE ("a probe of an unknown port, or one too many, is refused, and the others continue", "[osc]")
 {
     Stage stage;
     stage.ask ("/tactus/probe", String ("drag.state"), stage.me());
@@ -302,7 +331,7 @@ TEST_CASE ("a probe of what is not there, or one too many, is refused and the ot
     CHECK (stage.puppet.probed.size() == 16);
 }
 
-TEST_CASE ("when the graph is another one, probes go on as far as their ports are there", "[osc]")
+TEST_CASE ("after a change of the graph, probes continue if their ports still exist", "[osc]")
 {
     Stage stage;
     stage.ask ("/tactus/probe", String ("drag.force"), stage.me());
@@ -320,7 +349,7 @@ TEST_CASE ("when the graph is another one, probes go on as far as their ports ar
     CHECK ((*value)[2].getFloat32() == 7.0f);
 }
 
-TEST_CASE ("a trigger sends its window whole, and then is over", "[osc]")
+TEST_CASE ("a trigger sends its complete window, then ends", "[osc]")
 {
     Stage stage;
     const auto done = stage.ask ("/tactus/trigger", String ("drag.force"), stage.me(), String ("drag.state"), 0.5f, String ("either"), 20, 1000);
@@ -336,7 +365,7 @@ TEST_CASE ("a trigger sends its window whole, and then is over", "[osc]")
     run (*stage.puppet.capturing, 2000, 300);
     int next = -20;
     stage.control.attend (stage.now);
-    stage.control.attend (stage.now);   // it does not send all at once
+    stage.control.attend (stage.now);   // the window is sent in several parts
     for (;;)
     {
         const auto rows = stage.other->next (next < 1001 ? 20s : 50ms);
@@ -358,7 +387,7 @@ TEST_CASE ("a trigger sends its window whole, and then is over", "[osc]")
     CHECK_FALSE (stage.puppet.capturing);
 }
 
-TEST_CASE ("one trigger is waited for at a time, until its time is over", "[osc]")
+TEST_CASE ("only one trigger is awaited at a time, until it expires", "[osc]")
 {
     Stage stage;
     const auto id = [] (const OSCMessage& m)
@@ -368,7 +397,8 @@ TEST_CASE ("one trigger is waited for at a time, until its time is over", "[osc]
     for (const auto* edge : { "up", "" })
         CHECK (id (stage.ask ("/tactus/trigger", String ("drag.force"), stage.me(), String ("drag.state"), 0.5f, String (edge))) == "osc/arguments");
     CHECK (id (stage.ask ("/tactus/trigger", String ("drag.force"), stage.me(), String ("drag.state"), 0.5f, String ("rising"), -1)) == "osc/arguments");
-    CHECK (id (stage.ask ("/tactus/trigger", String ("drag.force"), stage.me(), String ("drag.state"), std::numeric_limits<float>::quiet_NaN())) == "osc/arguments");
+    CHECK (id (stage.ask ("/tactus/trigger", String ("drag.force"), stage.me(), String ("drag.state"), std::numeric_limits<float>::quiet_NaN()))
+           == "osc/arguments");
     CHECK_FALSE (stage.puppet.capturing);
 
     const auto ask = [&] (const char* port)
@@ -376,7 +406,7 @@ TEST_CASE ("one trigger is waited for at a time, until its time is over", "[osc]
     CHECK (ask ("drag.force") == "/tactus/done");
     CHECK (ask ("drag.state") == "probe/busy");
     stage.now += 4s;
-    CHECK (ask ("drag.force") == "/tactus/done");   // goes on
+    CHECK (ask ("drag.force") == "/tactus/done");   // continues
     stage.now += 4s;
     stage.control.attend (stage.now);
     CHECK (stage.puppet.capturing);
@@ -388,7 +418,7 @@ TEST_CASE ("one trigger is waited for at a time, until its time is over", "[osc]
     CHECK (ask ("drag.state") == "/tactus/done");
 }
 
-TEST_CASE ("who asks is told of each guard, and why it last withheld the force", "[osc]")
+TEST_CASE ("on request, the state of each guard and its last stop are sent", "[osc]")
 {
     Stage stage;
     const auto first = stage.ask ("/tactus/guard", stage.other->number());
@@ -404,7 +434,7 @@ TEST_CASE ("who asks is told of each guard, and why it last withheld the force",
     CHECK (done->getAddressPattern().toString() == "/tactus/done");
 }
 
-TEST_CASE ("what the hand follows is played, stopped, sought and slowed down from outside", "[osc]")
+TEST_CASE ("OSC plays, pauses, seeks and slows down a gesture or a recording", "[osc]")
 {
     Stage stage;
     CHECK (stage.ask ("/tactus/transport/play", 0, stage.other->number()).getAddressPattern().toString() == "/tactus/done");
@@ -421,7 +451,7 @@ TEST_CASE ("what the hand follows is played, stopped, sought and slowed down fro
     CHECK (refused[2].getString() == "osc/start");
 }
 
-TEST_CASE ("a hit is handed on with its speed, and what is none is refused", "[osc]")
+TEST_CASE ("a hit is passed on with its speed, and a bad one is refused", "[osc]")
 {
     Stage s;
     CHECK (s.ask ("/tactus/hit", String ("ring.hit"), 0.5f, s.other->number()).getAddressPattern().toString() == "/tactus/done");

@@ -16,7 +16,7 @@ using namespace tactus;
 
 namespace
 {
-/// A terminal with nobody before it: what is written to `hand` is typed.
+/// A virtual terminal: whatever is written to `hand` arrives as typed input.
 struct Typewriter
 {
     int hand = posix_openpt (O_RDWR | O_NOCTTY);
@@ -28,7 +28,7 @@ struct Typewriter
     }
     ~Typewriter() { close (hand); }
 
-    /// Makes it the terminal of this process, which is a child.
+    /// Makes it the terminal of this process, which is a child process.
     int become() const
     {
         setsid();
@@ -47,12 +47,12 @@ tcflag_t modeOf (int terminal)
 }
 }   // namespace
 
-TEST_CASE ("what is typed comes key by key, unseen, and the terminal is afterwards as it was", "[platform]")
+TEST_CASE ("typed keys arrive one by one and are not echoed, and the terminal is restored afterwards", "[platform]")
 {
     const Typewriter typewriter;
     if (typewriter.hand < 0)
     {
-        WARN ("skipped: no terminal can be made here (/dev/ptmx, /dev/pts)");
+        WARN ("skipped: no terminal can be created here (/dev/ptmx, /dev/pts)");
         return;
     }
     const auto end = test::inChild ([&]
@@ -77,7 +77,7 @@ TEST_CASE ("what is typed comes key by key, unseen, and the terminal is afterwar
     CHECK (end.status == 0);
 }
 
-TEST_CASE ("there are no keys where nobody types", "[platform]")
+TEST_CASE ("without a terminal there are no keys", "[platform]")
 {
     const auto end = test::inChild ([]
                                     {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A role whose device is not there when the run begins, or whose clock goes away: nothing pushes until all is well again.
+// A role whose device is missing when the run begins, or whose clock goes away: no force until everything works again.
 
-#include "../hid_link/fake_board.hpp"
+#include "host/hid_link/fake_board.hpp"
 
-#include <framework/engine.hpp>
-#include <host/devices/sim.hpp>
-#include <host/runtime/runner.hpp>
+#include <framework/run/device/sim.hpp>
+#include <framework/run/engine.hpp>
+#include <framework/run/runner.hpp>
 #include <host/sessions/binding.hpp>
 #include <host/sessions/device_health.hpp>
 #include <host/sessions/run_clock.hpp>
@@ -44,11 +44,15 @@ BoundDevice bindStylus (const Json& binding, hid::HidSystem& system, Absence abs
     return openBound (session, "stylus", *bindingOf (session, "stylus"), open, system, profiles(), absence);
 }
 
-/// Pushed with 1 N whatever happens, with a simulated tool beside it.
+/// A constant force of 1 N, with a simulated tool next to it.
 test::Sketch pushed()
 {
     test::Sketch s;
-    s.node ("push", "signal.constant", { { "value", 1.0 } }).node ("x", "vector.join").node ("motor", "device.force").node ("other", "device.force").node ("hand", "device.position");
+    s.node ("push", "signal.constant", { { "value", 1.0 } })
+        .node ("x", "vector.join")
+        .node ("motor", "device.force")
+        .node ("other", "device.force")
+        .node ("hand", "device.position");
     s.wire ("push.out -> x.x").wire ("x.out -> motor.force").wire ("x.out -> other.force");
     s.graph.root.nodes[3].role = "beside";
     return s;
@@ -57,7 +61,7 @@ test::Sketch pushed()
 const AwaitedDevice& awaited (const BoundDevice& b) { return dynamic_cast<const AwaitedDevice&> (*b.driver); }
 }   // namespace
 
-TEST_CASE ("a role whose device is not there waits for it without force, and then is driven from zero", "[sessions][hid]")
+TEST_CASE ("a role whose device is missing waits without force, and then starts from zero", "[sessions][hid]")
 {
     FakeBoard board;
     const bool is_held_by_another = GENERATE (false, true);
@@ -116,7 +120,7 @@ TEST_CASE ("a role whose device is not there waits for it without force, and the
     CHECK (none.locks() == 0);
 }
 
-TEST_CASE ("what no device would mend is an error at once, and so is everything where nobody waits", "[sessions][hid]")
+TEST_CASE ("errors that no device can fix are reported immediately; with Absence::refuses, all errors are", "[sessions][hid]")
 {
     FakeBoard board;
     board.plug (false);
@@ -130,17 +134,21 @@ TEST_CASE ("what no device would mend is an error at once, and so is everything 
         CHECK (idOf (bound) == id);
     };
     refused (on_board, Absence::refuses, "hid/not_connected");
-    refused ({ { "driver", "hid" } }, Absence::waits, "hid/not_connected");   // nobody knows what will come
+    refused ({ { "driver", "hid" } }, Absence::waits, "hid/not_connected");   // any device may appear
     refused ({ { "driver", "hid" }, { "profile", "bord" } }, Absence::waits, "hid/unknown_profile");
     refused ({ { "driver", "hid" }, { "profile", "board" }, { "guard", { { "max_force", "1 mm" } } } }, Absence::waits, "hid/not_connected");
     refused ({ { "driver", "sim" }, { "workspace", { { "scale", 0 } } } }, Absence::waits, "device/out_of_range");
     refused ({ { "driver", "sim" }, { "mass", 0 } }, Absence::waits, "device/out_of_range");
 }
 
-TEST_CASE ("a session only tightens what a device's profile allows, in the graph's workspace", "[sessions][hid]")
+TEST_CASE ("a session can only tighten the limits of a device's profile, in the graph's workspace", "[sessions][hid]")
 {
     FakeBoard board;
-    const auto bound = bindStylus ({ { "driver", "hid" }, { "profile", "board" }, { "guard", { { "max_force", 50.0 }, { "max_speed", 1.0 }, { "ramp", 0.5 } } }, { "workspace", { { "scale", 0.5 } } } }, board);
+    const auto bound = bindStylus ({ { "driver", "hid" },
+                                     { "profile", "board" },
+                                     { "guard", { { "max_force", 50.0 }, { "max_speed", 1.0 }, { "ramp", 0.5 } } },
+                                     { "workspace", { { "scale", 0.5 } } } },
+                                   board);
     REQUIRE (bound.device);
     CHECK (bound.messages.empty());
     CHECK (bound.limits.max_force == 3.0);
@@ -150,7 +158,7 @@ TEST_CASE ("a session only tightens what a device's profile allows, in the graph
     CHECK (realDevice ("stylus", *bound.driver));
 }
 
-TEST_CASE ("while the clock of a run is away nothing is pushed, not even what has a reading of its own", "[sessions][hid]")
+TEST_CASE ("while the clock of a run is away, no device gets a force, not even one with a valid reading", "[sessions][hid]")
 {
     FakeBoard board;
     auto real = test::openBoard (board, { .watchdog = 0.01 });
@@ -183,7 +191,7 @@ TEST_CASE ("while the clock of a run is away nothing is pushed, not even what ha
     CHECK (board.until ([&]
                         { return runner.status().clock_replaced && forces() == std::set { 0.0 }; }));
     const auto held = runner.status();
-    CHECK (held.roles[0].stop == Guard::Stop::stale);   // "beside", whose own reading is as good as ever
+    CHECK (held.roles[0].stop == Guard::Stop::stale);   // "beside", whose own reading is still valid
     CHECK (held.roles[1].stop == Guard::Stop::stale);
     CHECK (clock.isByTimer());
 
@@ -197,7 +205,7 @@ TEST_CASE ("while the clock of a run is away nothing is pushed, not even what ha
     CHECK (clock.ticksByTimer() > 0);
 }
 
-TEST_CASE ("a run whose clock is still to come is ticked by a timer at its rate, without force, until it does", "[sessions][hid]")
+TEST_CASE ("a run with an awaited clock is ticked by a timer at its rate, without force, until the clock is available", "[sessions][hid]")
 {
     FakeBoard board;
     board.plug (false);
@@ -227,7 +235,7 @@ TEST_CASE ("a run whose clock is still to come is ticked by a timer at its rate,
     runner.wait();
 }
 
-TEST_CASE ("a run that waits for its clock in vain is stopped as any other", "[sessions][hid]")
+TEST_CASE ("a run that is still waiting for its clock can be stopped", "[sessions][hid]")
 {
     FakeBoard board;
     board.plug (false);
@@ -242,7 +250,7 @@ TEST_CASE ("a run that waits for its clock in vain is stopped as any other", "[s
     CHECK (clock.ticksByTimer() == runner.status().ticks);
 }
 
-TEST_CASE ("a device's state is told while it is awaited, there, and gone", "[sessions][hid]")
+TEST_CASE ("the state of a device is reported while it is awaited, while it is present, and after it has gone", "[sessions][hid]")
 {
     FakeBoard board;
     board.plug (false);
@@ -256,7 +264,7 @@ TEST_CASE ("a device's state is told while it is awaited, there, and gone", "[se
         watch.look (std::span (&*device, 1));
         return ! watch.health().front().trouble.empty(); }));
     CHECK_FALSE (watch.health().front().has_come);
-    CHECK (describe (watch.health().front()).find ("not there yet") == 0);
+    CHECK (describe (watch.health().front()).find ("not available yet") == 0);
 
     board.plug (true);
     std::uint16_t n = 0;
@@ -269,7 +277,7 @@ TEST_CASE ("a device's state is told while it is awaited, there, and gone", "[se
     const auto there = watch.health().front();
     CHECK (there.connected);
     CHECK (there.ticks);
-    CHECK_FALSE (there.drift_ppm);   // it is what the others are compared with
+    CHECK_FALSE (there.drift_ppm);   // it is the reference for other devices
     CHECK (there.reports > 2);
     CHECK (describe (there).find ("reports/s") != std::string::npos);
 
@@ -282,7 +290,7 @@ TEST_CASE ("a device's state is told while it is awaited, there, and gone", "[se
     CHECK_FALSE (watch.health().front().rate_hz);
 }
 
-TEST_CASE ("a device's drift is how much faster its clock goes than the one that ticks", "[sessions][hid]")
+TEST_CASE ("the drift of a device is the speed of its clock relative to the clock of the run", "[sessions][hid]")
 {
     FakeBoard boards[2];
     const auto owner = test::openBoard (boards[0]), follower = test::openBoard (boards[1]);
@@ -294,7 +302,7 @@ TEST_CASE ("a device's drift is how much faster its clock goes than the one that
         for (int k = 0; k < 4; ++k)
             boards[0].send (boardReport (++n));
         for (int k = 0; k < 5; ++k)
-            boards[1].send (boardReport (++m));   // 5 for 4, however slow this machine is
+            boards[1].send (boardReport (++m));   // 5 for every 4 of the other board, however fast the machine is
         std::this_thread::sleep_for (2ms);
         owner->read();
         follower->read();

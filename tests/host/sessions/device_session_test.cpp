@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The file that says which devices are on the desk: read, written, damaged.
+// The session file: reading, writing, damage.
 
-#include "../io/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
-#include <framework/file/json_text.hpp>
+#include <framework/text/json_text.hpp>
+#include <fuzz/session_target.hpp>
 #include <host/sessions/session_file.hpp>
-#include <tests/fuzz/session_target.hpp>
 
 #include "support/corpus.hpp"
 
@@ -64,7 +64,7 @@ constexpr auto example = R"({
 
 std::string idOf (const Messages& messages) { return messages.empty() ? std::string() : messages.front().id; }
 
-/// Any JSON, not too deep.
+/// Any JSON value that is not nested too deeply.
 Json anything (int depth)
 {
     switch (*rc::gen::inRange (0, depth > 0 ? 7 : 5))
@@ -122,7 +122,7 @@ DeviceSession anySession()
 }
 }   // namespace
 
-TEST_CASE ("a session is read, changed and written, and what this Tactus does not know stays as it is", "[sessions]")
+TEST_CASE ("a session is read, changed and written, and unknown entries are kept", "[sessions]")
 {
     auto read = readSession (example);
     CHECK (read.messages.empty());
@@ -148,7 +148,7 @@ TEST_CASE ("a session is read, changed and written, and what this Tactus does no
     CHECK (writeSession (s).find ("from_tomorrow") != std::string::npos);
 }
 
-TEST_CASE ("any session reads back as it was written, byte for byte", "[sessions]")
+TEST_CASE ("any session reads back byte for byte", "[sessions]")
 {
     rc::prop ("round trip", []
               {
@@ -160,7 +160,7 @@ TEST_CASE ("any session reads back as it was written, byte for byte", "[sessions
         RC_ASSERT (writeSession (read.session) == text); });
 }
 
-TEST_CASE ("a session that is damaged anywhere is read or refused with a place, and never used by halves", "[sessions]")
+TEST_CASE ("a damaged session is either read, or refused with a position; it is never used in part", "[sessions]")
 {
     rc::prop ("damage", []
               {
@@ -181,7 +181,7 @@ TEST_CASE ("a session that is damaged anywhere is read or refused with a place, 
 
 TEST_CASE ("every text of the session corpus is read or refused", "[sessions]") { CHECK (test::replay ("session", fuzz::trySession) > 10); }
 
-TEST_CASE ("what is wrong with a session is said with its place", "[sessions]")
+TEST_CASE ("errors in a session have a position", "[sessions]")
 {
     const auto [text, id, line, damaged] = GENERATE (table<std::string, std::string, int, bool> ({
         { "", "file/syntax", 1, true },
@@ -207,17 +207,17 @@ TEST_CASE ("what is wrong with a session is said with its place", "[sessions]")
     CHECK (read.session == DeviceSession {});
 }
 
-TEST_CASE ("a damaged file of the user's is set aside and never lost, however often, and one to mend stays", "[sessions]")
+TEST_CASE ("a damaged session file is set aside every time and never lost, but one that the user can fix stays", "[sessions]")
 {
     TemporaryFolder home;
-    CHECK (loadUsualSession (home.path()).messages.empty());   // there is none
+    CHECK (loadDefaultSession (home.path()).messages.empty());   // there is no file
     for (const auto* aside : { "session.json.broken", "session.json.broken-2", "session.json.broken-3" })
     {
         const auto text = std::string ("{ half of ") + aside;
         home.write ("session.json", text);
-        const auto loaded = loadUsualSession (home.path());
+        const auto loaded = loadDefaultSession (home.path());
         CHECK (idOf (loaded.messages) == "session/set_aside");
-        CHECK (loaded.isGood());   // the run goes on
+        CHECK (loaded.isGood());   // the run can start
         CHECK (loaded.session == DeviceSession {});
         CHECK (loaded.messages.front().remedy.find (aside) != std::string::npos);
         CHECK (home.textOf (aside) == text);
@@ -226,16 +226,16 @@ TEST_CASE ("a damaged file of the user's is set aside and never lost, however of
 
     const std::string newer = R"({"format": "tactus-session", "version": 7, "roles": {"x": {"driver": "tomorrow"}}})";
     home.write ("session.json", newer);
-    auto loaded = loadUsualSession (home.path());
+    auto loaded = loadDefaultSession (home.path());
     CHECK (idOf (loaded.messages) == "session/version");
     CHECK_FALSE (loaded.isGood());
     const auto edited = editSession (loaded, [] (DeviceSession& s)
                                      { s.setClock ("timer"); });
-    CHECK_FALSE (edited.isGood());   // nor is it written over
+    CHECK_FALSE (edited.isGood());   // and the file is not overwritten
     CHECK (home.textOf ("session.json") == newer);
 }
 
-TEST_CASE ("a file that somebody names is only read, has to be there, and is made by an edit", "[sessions]")
+TEST_CASE ("a named session file must exist, is only read, and can be created by an edit", "[sessions]")
 {
     TemporaryFolder folder;
     CHECK (idOf (loadSession (folder / "lab.json").messages) == "session/unreadable");
@@ -256,7 +256,7 @@ TEST_CASE ("a file that somebody names is only read, has to be there, and is mad
     CHECK_FALSE (nowhere.isGood());
 }
 
-TEST_CASE ("an edit keeps what another program has changed since the session was read", "[sessions]")
+TEST_CASE ("an edit keeps changes that another program made since the session was read", "[sessions]")
 {
     TemporaryFolder folder;
     const auto bind = [] (const char* role)

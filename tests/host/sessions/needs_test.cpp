@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a graph needs of its roles, whether what stands behind them has it, and what ticks a run.
+// The needs of a graph's roles, whether the bound devices meet them, and the choice of the clock.
 
-#include "../hid_link/fake_board.hpp"
+#include "host/hid_link/fake_board.hpp"
 
 #include <framework/plan/missing_parts.hpp>
 #include <host/sessions/choose_clock.hpp>
@@ -16,13 +16,15 @@ using namespace tactus::host;
 
 namespace
 {
-/// Takes of its device all there is.
+/// Uses every part of its device.
 test::Sketch greedy()
 {
     test::Sketch s;
     s.node ("hand", "device.position").node ("motor", "device.force").node ("press", "device.pressure").node ("gain", "signal.gain");
     s.node ("grip", "device.axis", Json::object(), { { "axis", "grip" } }).node ("pull", "device.effort", Json::object(), { { "axis", "grip" } });
-    s.node ("held", "device.button", Json::object(), { { "button", "fire" } }).node ("coil", "device.signal_out", Json::object(), { { "channel", 3 } }).node ("pickup", "device.signal_in", Json::object(), { { "channel", 2 } });
+    s.node ("held", "device.button", Json::object(), { { "button", "fire" } })
+        .node ("coil", "device.signal_out", Json::object(), { { "channel", 3 } })
+        .node ("pickup", "device.signal_in", Json::object(), { { "channel", 2 } });
     s.wire ("hand.position -> motor.force").wire ("hand.rotation -> motor.torque").wire ("press.force -> gain.in");
     return s;
 }
@@ -37,17 +39,27 @@ LoadedSession bound (const std::string& role, Json description)
 std::optional<double> nothing (const Described&, bool) { return std::nullopt; }
 }   // namespace
 
-TEST_CASE ("a graph needs what its nodes take and is wired, and no more", "[sessions]")
+TEST_CASE ("a graph needs exactly the wired parts of its nodes", "[sessions]")
 {
     test::Sketch s;
-    s.node ("hand", "device.position").node ("wall", "deform.plane").node ("motor", "device.force").wire ("hand.position -> wall.position").wire ("wall.force -> motor.force");
+    s.node ("hand", "device.position")
+        .node ("wall", "deform.plane")
+        .node ("motor", "device.force")
+        .wire ("hand.position -> wall.position")
+        .wire ("wall.force -> motor.force");
     auto needs = needsOf (*s.compile().plan);
     REQUIRE (needs.size() == 1);
     CHECK (needs.front().role == "stylus");
     CHECK (describe (needs.front().parts) == "position, force");
 
     test::Sketch parts;
-    parts.node ("grip", "device.axis", Json::object(), { { "axis", "grip" } }).node ("again", "device.axis", Json::object(), { { "axis", "grip" } }).node ("held", "device.button", Json::object(), { { "button", "fire" } }).node ("coil", "device.signal_out", Json::object(), { { "channel", 3 } }).node ("less", "device.signal_out", Json::object(), { { "channel", 1 } }).node ("pull", "device.effort", Json::object(), { { "axis", "grip" } }).node ("truth", "device.truth");
+    parts.node ("grip", "device.axis", Json::object(), { { "axis", "grip" } })
+        .node ("again", "device.axis", Json::object(), { { "axis", "grip" } })
+        .node ("held", "device.button", Json::object(), { { "button", "fire" } })
+        .node ("coil", "device.signal_out", Json::object(), { { "channel", 3 } })
+        .node ("less", "device.signal_out", Json::object(), { { "channel", 1 } })
+        .node ("pull", "device.effort", Json::object(), { { "axis", "grip" } })
+        .node ("truth", "device.truth");
     needs = needsOf (*parts.compile().plan);
     REQUIRE (needs.size() == 1);
     CHECK (describe (needs.front().parts) == "truth, axis 'grip', effort 'grip', button 'fire', signal outputs 1 to 3");
@@ -59,15 +71,21 @@ TEST_CASE ("a graph needs what its nodes take and is wired, and no more", "[sess
     CHECK (describe (needs.front().parts) == "axis 'grip'");
 }
 
-TEST_CASE ("what a device lacks by its description is what nodes say that they miss of it", "[sessions]")
+TEST_CASE ("the parts that a device lacks according to its description match the messages of the nodes", "[sessions]")
 {
     test::Sketch s;
-    s.node ("grip", "device.axis", Json::object(), { { "axis", "grip" } }).node ("pull", "device.effort", Json::object(), { { "axis", "triger" } }).node ("held", "device.button", Json::object(), { { "button", "fire" } }).node ("coil", "device.signal_out", Json::object(), { { "channel", 3 } }).node ("pickup", "device.signal_in", Json::object(), { { "channel", 2 } });
+    s.node ("grip", "device.axis", Json::object(), { { "axis", "grip" } })
+        .node ("pull", "device.effort", Json::object(), { { "axis", "triger" } })
+        .node ("held", "device.button", Json::object(), { { "button", "fire" } })
+        .node ("coil", "device.signal_out", Json::object(), { { "channel", 3 } })
+        .node ("pickup", "device.signal_in", Json::object(), { { "channel", 2 } });
     const auto plan = s.compile().plan;
     const auto needed = needsOf (*plan).front().parts;
-    for (const DeviceLayout& has : { DeviceLayout {}, DeviceLayout { .axes = { "grap" }, .efforts = { "trigger" }, .buttons = { "a", "b" }, .signal_inputs = 1, .signal_outputs = 3 }, DeviceLayout { .axes = { "grip" }, .efforts = { "triger" }, .buttons = { "fire" }, .signal_inputs = 2, .signal_outputs = 3 } })
+    for (const DeviceLayout& has :
+         { DeviceLayout {}, DeviceLayout { .axes = { "grap" }, .efforts = { "trigger" }, .buttons = { "a", "b" }, .signal_inputs = 1, .signal_outputs = 3 },
+           DeviceLayout { .axes = { "grip" }, .efforts = { "triger" }, .buttons = { "fire" }, .signal_inputs = 2, .signal_outputs = 3 } })
     {
-        plan->roles.front().state->layout = has;
+        plan->roles().front().state->layout = has;
         const auto said = missingParts (*plan);
         const auto lacking = lackingOf (needed, { .others = has });
         CHECK (lacking.size() == said.size());
@@ -77,18 +95,18 @@ TEST_CASE ("what a device lacks by its description is what nodes say that they m
     }
 }
 
-TEST_CASE ("a role is told what it lacks of the device that the session binds, or else of the graph's", "[sessions][hid]")
+TEST_CASE ("missing parts refer to the device in the session, or else in the graph", "[sessions][hid]")
 {
     const hid::LoadedProfiles profiles { .profiles = { test::BoardProfile {}.make() }, .messages = {} };
     test::FakeBoard board;
     auto s = greedy();
-    s.graph.root.wires.erase (s.graph.root.wires.begin());   // a length is no force
+    s.graph.root.wires.erase (s.graph.root.wires.begin());   // a length is not a force
     s.graph.root.wires.erase (s.graph.root.wires.begin());
     const auto plan = s.compile().plan;
     REQUIRE (plan);
 
     auto fit = fitsOf (needsOf (*plan), s.graph, {}, profiles, {}).front();
-    CHECK (fit.from == RoleFit::From::nobody);
+    CHECK (fit.from == RoleFit::From::none);
     CHECK_FALSE (fit.fits());
 
     s.graph.devices = { { "stylus", { { "driver", "sim" }, { "axes", { { "grip", Json::object() } } }, { "signal_outputs", 3 } } } };
@@ -97,7 +115,9 @@ TEST_CASE ("a role is told what it lacks of the device that the session binds, o
     CHECK (fit.lacking.size() == 2);   // button and signal input
 
     const auto there = board.connected();
-    fit = fitsOf (needsOf (*plan), s.graph, bound ("stylus", { { "driver", "hid" }, { "profile", "board" }, { "workspace", { { "scale", 3 } } } }), profiles, there).front();
+    fit = fitsOf (needsOf (*plan), s.graph, bound ("stylus", { { "driver", "hid" }, { "profile", "board" }, { "workspace", { { "scale", 3 } } } }), profiles,
+                  there)
+              .front();
     CHECK (fit.from == RoleFit::From::session);
     CHECK (fit.connected == true);
     CHECK (fit.workspace.scale == 3.0);
@@ -107,17 +127,21 @@ TEST_CASE ("a role is told what it lacks of the device that the session binds, o
 
     fit = fitsOf (needsOf (*plan), s.graph, bound ("stylus", { { "driver", "hid" } }), profiles, {}).front();
     CHECK (fit.connected == false);
-    CHECK_FALSE (fit.there);   // nobody knows what will come
+    CHECK_FALSE (fit.there);   // any device may appear
     CHECK (fitsOf (needsOf (*plan), s.graph, bound ("stylus", { { "driver", "hid" } }), profiles, there).front().there);
 
-    fit = fitsOf (needsOf (*plan), s.graph, bound ("stylus", { { "driver", "audio" }, { "outputs", { Json::object(), Json::object(), Json::object() } }, { "inputs", { Json::object() } } }), profiles, {}).front();
+    fit = fitsOf (
+              needsOf (*plan), s.graph,
+              bound ("stylus", { { "driver", "audio" }, { "outputs", { Json::object(), Json::object(), Json::object() } }, { "inputs", { Json::object() } } }),
+              profiles, {})
+              .front();
     REQUIRE (fit.there);
     CHECK (fit.there->others.signal_outputs == 3);
     CHECK (std::ranges::count (fit.lacking, "no signal input 2; it has 1") == 1);
     CHECK (hasErrors (fitsOf (needsOf (*plan), s.graph, bound ("stylus", { { "driver", "sim" }, { "mass", "1 N" } }), profiles, {}).front().messages));
 }
 
-TEST_CASE ("a tool without what a graph wants of it is a warning, and parts with names are left to their nodes", "[sessions]")
+TEST_CASE ("a missing part of the tool gives a warning, and named parts are left to their nodes", "[sessions]")
 {
     const DeviceParts needed { .position = true, .force = true, .torque = true, .others = { .axes = { "grip" } } };
     const auto messages = missingTools ({ "stylus", needed }, { .position = true, .torque = true });
@@ -128,21 +152,21 @@ TEST_CASE ("a tool without what a graph wants of it is a warning, and parts with
     CHECK (missingTools ({ "stylus", needed }, needed).empty());
 }
 
-TEST_CASE ("a binding is named in short", "[sessions]")
+TEST_CASE ("a binding has a short name", "[sessions]")
 {
     CHECK (nameOf ({ { "driver", "hid" }, { "profile", "board" }, { "serial", "B7" } }) == "hid board, serial B7");
     CHECK (nameOf ({ { "driver", "gesture" }, { "path", "stroke" } }) == "gesture stroke");
-    CHECK (nameOf ({ { "driver", "sim" }, { "hand", { { "path", "tap" } } } }) == "sim in a hand that follows tap");
+    CHECK (nameOf ({ { "driver", "sim" }, { "hand", { { "path", "tap" } } } }) == "sim with a hand that follows tap");
     CHECK (nameOf (Json::object()) == "nothing");
     CHECK (nameOf ({ { "driver", 3 } }) == "nothing");
 }
 
-TEST_CASE ("an option for the clock outranks the session, which outranks the first device that can", "[sessions]")
+TEST_CASE ("the clock option takes precedence over the session, which takes precedence over the first device that can tick", "[sessions]")
 {
     const std::vector<Described> devices { { "pen", { { "driver", "sim" } } }, { "stylus", { { "driver", "hid" } } }, { "thumb", { { "driver", "hid" } } } };
     const TickRate rates = [] (const Described& d, bool may_wait) -> std::optional<double>
     {
-        if (d.first == "stylus") return may_wait ? std::optional (500.0) : std::nullopt;   // only awaited
+        if (d.first == "stylus") return may_wait ? std::optional (500.0) : std::nullopt;   // not available yet
         return d.first == "thumb" ? std::optional (1000.0) : std::nullopt;
     };
     const auto choose = [&] (const std::string& option, const std::string& session, std::optional<double> rate = {})
@@ -168,7 +192,7 @@ TEST_CASE ("an option for the clock outranks the session, which outranks the fir
     CHECK (idOf (choose ("thumb", "", 4000.0)) == "run/two_rates");
     CHECK (hasErrors (choose ("thumb", "", 4000.0).messages));
 
-    // The session is for any graph, so that what it has and a graph has not is only said.
+    // A session serves any graph, so a role that this graph lacks gives only a warning.
     for (const auto& choice : { choose ("", "pen"), choose ("", "elsewhere"), choose ("", "stylus", 4000.0) })
     {
         CHECK (idOf (choice) == "session/clock");
@@ -179,7 +203,7 @@ TEST_CASE ("an option for the clock outranks the session, which outranks the fir
     CHECK (chooseClock ({}, devices, nothing).role.empty());
 }
 
-TEST_CASE ("the roles of a graph are those of its nodes, inside its subgraphs and mapped too", "[sessions]")
+TEST_CASE ("the roles of a graph are the roles of its nodes, including nodes in subgraphs and mappings", "[sessions]")
 {
     test::Sketch s;
     s.node ("hand", "device.position").node ("finger", "graph:finger");

@@ -8,7 +8,7 @@
 
 using namespace tactus::host;
 
-TEST_CASE ("a rate is found to a few millionths within ten seconds, however late each look is", "[sessions]")
+TEST_CASE ("a rate is accurate to a few millionths within ten seconds, even if readings are late", "[sessions]")
 {
     rc::prop ("rate", []
               {
@@ -17,7 +17,7 @@ TEST_CASE ("a rate is found to a few millionths within ten seconds, however late
         RateMeter meter;
         for (int k = 0; k < 100; ++k)
         {
-            // The time of a report, up to 0.1 ms late, and the one report more or less that a look may see.
+            // The time of a report, up to 0.1 ms late, and a count that may be off by one report.
             const auto count = static_cast<std::uint64_t> ((0.1 * k + 1.0) * hz);
             const double late = 1e-7 * *rc::gen::inRange (0, 1000);
             meter.look (begin + static_cast<double> (count) / hz + late, 77 + count);
@@ -28,7 +28,7 @@ TEST_CASE ("a rate is found to a few millionths within ten seconds, however late
         RC_ASSERT (rate->error / hz < 5e-6); });
 }
 
-TEST_CASE ("without looks at different times there is no rate", "[sessions]")
+TEST_CASE ("without readings at different times there is no rate", "[sessions]")
 {
     RateMeter meter;
     CHECK_FALSE (meter.rate());
@@ -38,7 +38,7 @@ TEST_CASE ("without looks at different times there is no rate", "[sessions]")
     meter.look (4.0, 1100);
     REQUIRE (meter.rate());
     CHECK (meter.rate()->hz == Approx (1000.0));
-    meter.look (2.0, 0);   // a clock that goes back is none
+    meter.look (2.0, 0);   // a clock that goes backwards is ignored
     CHECK (meter.rate()->hz == Approx (1000.0));
     meter.reset();
     CHECK_FALSE (meter.rate());

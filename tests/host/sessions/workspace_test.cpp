@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A device's workspace in that of a graph: what is scaled, what the hand feels, and that no limit is loosened by it.
+// A device's workspace in a graph: scaling, the force on the hand, and limits that must not be loosened.
 
-#include <host/devices/sim.hpp>
+#include <framework/run/device/sim.hpp>
 #include <host/sessions/workspace.hpp>
 
 #include "support/no_allocation.hpp"
@@ -19,7 +19,7 @@ namespace
 {
 constexpr double dt = 1e-3;
 
-/// Is where it is put.
+/// A device whose position the test sets.
 struct Put final : Device
 {
     void prepare (double) override {}
@@ -52,14 +52,23 @@ struct Placed
 };
 }   // namespace
 
-TEST_CASE ("a position comes scaled and shifted, and all else as the device has it", "[sessions]")
+TEST_CASE ("positions are scaled and shifted, and everything else is unchanged", "[sessions]")
 {
     rc::prop ("reading", []
               {
         const auto w = anyWorkspace();
         Placed placed { w };
         auto& there = placed.put->reading;
-        there = { .position = vectorWithin (0.1), .rotation = vectorWithin (3.0), .pressure = within (0.0, 9.0), .buttons = 5, .age = within (0.0, 1.0), .valid = *rc::gen::arbitrary<bool>(), .true_position = vectorWithin (0.1), .true_velocity = vectorWithin (2.0), .axes = { 0.25 }, .signals = { 1.5 } };
+        there = { .position = vectorWithin (0.1),
+                  .rotation = vectorWithin (3.0),
+                  .pressure = within (0.0, 9.0),
+                  .buttons = 5,
+                  .age = within (0.0, 1.0),
+                  .valid = *rc::gen::arbitrary<bool>(),
+                  .true_position = vectorWithin (0.1),
+                  .true_velocity = vectorWithin (2.0),
+                  .axes = { 0.25 },
+                  .signals = { 1.5 } };
         const auto seen = placed.device->read();
         RC_ASSERT ((seen.position - w.offset - w.scale * there.position).norm() < 1e-12);
         RC_ASSERT ((seen.true_position - w.offset - w.scale * there.true_position).norm() < 1e-12);
@@ -80,16 +89,22 @@ TEST_CASE ("a position comes scaled and shifted, and all else as the device has 
     CHECK (placed.put->asked.torque == Vec3 (4.0, 5.0, 6.0));
 }
 
-TEST_CASE ("a wall of K in the graph is felt as one of K times the scale, at rest against a hand that pushes", "[sessions]")
+TEST_CASE ("a wall of stiffness K in the graph feels like K times the scale to a pushing hand at rest", "[sessions]")
 {
-    const auto sketch = test::Sketch {}.node ("hand", "device.position").node ("wall", "deform.plane", { { "stiffness", 400.0 } }).node ("motor", "device.force").wire ("hand.position -> wall.position").wire ("wall.force -> motor.force");
+    const auto sketch = test::Sketch {}
+                            .node ("hand", "device.position")
+                            .node ("wall", "deform.plane", { { "stiffness", 400.0 } })
+                            .node ("motor", "device.force")
+                            .wire ("hand.position -> wall.position")
+                            .wire ("wall.force -> motor.force");
     rc::prop ("stiffness", [&]
               {
         const double scale = std::pow (10.0, within (-0.6, 0.4)), push = within (0.2, 1.0);
         const Workspace w { scale, { 0.0, 0.0, within (-0.05, 0.05) } };
-        // The surface, which is at 0 in the graph, is there on the device.
+        // The position, on the device, of the surface that is at 0 in the graph.
         const double surface = -w.offset.z() / scale;
-        auto simulated = std::make_unique<SimulatedDevice> (Simulation { .mass = 0.1, .damping = 20.0, .position = { 0.0, 0.0, surface }, .hand_force = { 0.0, 0.0, -push } });
+        auto simulated = std::make_unique<SimulatedDevice> (
+            Simulation { .mass = 0.1, .damping = 20.0, .position = { 0.0, 0.0, surface }, .hand_force = { 0.0, 0.0, -push } });
         auto* tool = simulated.get();
         WorkspaceDevice device { std::move (simulated), w };
         Engine engine { sketch.compile ({ .rate_hz = 1000.0 }).plan };
@@ -100,7 +115,7 @@ TEST_CASE ("a wall of K in the graph is felt as one of K times the scale, at res
         RC_ASSERT (std::abs (push / depth / (400.0 * scale) - 1.0) < 1e-3); });
 }
 
-TEST_CASE ("whatever the scale, a guard stops a device exactly where its own limits would", "[sessions]")
+TEST_CASE ("at any scale, a guard stops a device exactly at the device's own limits", "[sessions]")
 {
     rc::prop ("limits", []
               {
@@ -141,7 +156,7 @@ TEST_CASE ("whatever the scale, a guard stops a device exactly where its own lim
     CHECK (inWorkspace ({}, { 0.5, Vec3::Zero() }) == GuardLimits {});
 }
 
-TEST_CASE ("a workspace is read with its units, and one that makes no sense is refused", "[sessions]")
+TEST_CASE ("a workspace is read with units, and a bad one is refused", "[sessions]")
 {
     Messages messages;
     CHECK (readWorkspace ({ { "scale", 2 }, { "offset", { 0, 0, "1 cm" } } }, "", messages) == Workspace { 2.0, { 0.0, 0.0, 0.01 } });

@@ -30,7 +30,7 @@ struct Strike
     double speed = 0.0;
 };
 
-/// What the node says of depths d (0), d (1), …
+/// The outputs of the node for depths d (0), d (1), …
 template <typename Depth>
 Strike strike (Impact node, int ticks, Depth depth)
 {
@@ -46,7 +46,7 @@ Strike strike (Impact node, int ticks, Depth depth)
 }
 }   // namespace
 
-TEST_CASE ("impact: a steady approach is one hit of exactly its speed, at any rate", "[nodes][contact]")
+TEST_CASE ("impact: a steady approach gives one hit with exactly its speed, at any rate", "[nodes][contact]")
 {
     for (const double rate : { 500.0, 1000.0, 4000.0, 10'000.0 })
         for (const double v : { 1e-3, 0.05, 2.0 })
@@ -58,7 +58,7 @@ TEST_CASE ("impact: a steady approach is one hit of exactly its speed, at any ra
         }
 }
 
-TEST_CASE ("impact: on a quantised ramp there is one hit, of the speed within the quantum's bound", "[nodes][contact]")
+TEST_CASE ("impact: a quantised ramp gives one hit, with the speed within the bound of the quantum", "[nodes][contact]")
 {
     const double q = 1e-5, T = 1e-3;
     std::mt19937 random (3);
@@ -77,9 +77,9 @@ TEST_CASE ("impact: on a quantised ramp there is one hit, of the speed within th
     CHECK (worst_slow < 0.15);
 }
 
-TEST_CASE ("impact: quantised positions that flicker at the surface are one contact", "[nodes][contact]")
+TEST_CASE ("impact: quantised positions that flicker at the surface count as one contact", "[nodes][contact]")
 {
-    // A hand that hovers at the surface, with a tremor of a third of a quantum on either side.
+    // A hand hovers at the surface, with a tremor of a third of a quantum on either side.
     const double q = 1e-5;
     const auto [hits, speed] = strike (impact ({ .release = 2e-5 }), 5000, [&] (int k)
                                        { return quantised (k < 100 ? 1e-5 * (k - 100) : 0.5 * q + 0.4 * q * std::sin (0.7 * k), q); });
@@ -87,10 +87,10 @@ TEST_CASE ("impact: quantised positions that flicker at the surface are one cont
     CHECK (speed > 0.0);
 }
 
-TEST_CASE ("impact: the speed is that of the end, not of the whole approach", "[nodes][contact]")
+TEST_CASE ("impact: the speed is taken at the end of the approach, not over all of it", "[nodes][contact]")
 {
     const double T = 1e-3;
-    SECTION ("a tool that falls")
+    SECTION ("a falling tool")
     {
         const double drop = 0.05, v = std::sqrt (2.0 * 9.81 * drop);
         const auto [hits, speed] = strike (impact(), 200, [&] (int k)
@@ -98,14 +98,14 @@ TEST_CASE ("impact: the speed is that of the end, not of the whole approach", "[
         CHECK (hits == 1);
         CHECK (speed == Approx (v).epsilon (0.03));
     }
-    SECTION ("a tool that was at rest until just now")
+    SECTION ("a tool that was at rest until the last tick")
     {
         const auto [hits, speed] = strike (impact(), 400, [&] (int k)
                                            { return k < 300 ? -1e-3 : -1e-3 + 0.4 * T * (k - 300); });
         CHECK (hits == 1);
         CHECK (speed == Approx (0.4).epsilon (0.05));
     }
-    SECTION ("a tool that went away and turned round")
+    SECTION ("a tool that moved away and turned back")
     {
         const std::vector<double> depths { -1e-5, -4e-4, 1e-4 };
         const auto [hits, speed] = strike (impact(), 3, [&] (int k)
@@ -126,7 +126,7 @@ TEST_CASE ("impact: a contact ends only `release` below the surface", "[nodes][c
     CHECK (node.tick ({ .depth = 1e-3 }).hit == Approx (2.1));
 }
 
-TEST_CASE ("impact: within the refractory time there is no second hit, and none is made up for", "[nodes][contact]")
+TEST_CASE ("impact: within the refractory time there is no second hit, and none is made up later", "[nodes][contact]")
 {
     const auto hits = [] (double refractory)
     {
@@ -148,7 +148,7 @@ TEST_CASE ("impact: within the refractory time there is no second hit, and none 
         CHECK (node.tick ({ .depth = 1e-3 }).hit == 0.0);
 }
 
-TEST_CASE ("impact: a softer touch than min_speed is a contact without a hit", "[nodes][contact]")
+TEST_CASE ("impact: a touch slower than min_speed is a contact without a hit", "[nodes][contact]")
 {
     const auto hits = [] (double v)
     { return strike (impact ({ .min_speed = 0.1 }), 1000, [&] (int k)
@@ -158,7 +158,7 @@ TEST_CASE ("impact: a softer touch than min_speed is a contact without a hit", "
     CHECK (hits (0.1001) == 1);
 }
 
-TEST_CASE ("impact: what is inside from the start, or after a fault, has not struck", "[nodes][contact]")
+TEST_CASE ("impact: a tool that is inside from the start, or after a fault, triggers no hit", "[nodes][contact]")
 {
     auto node = impact();
     CHECK (node.tick ({ .depth = 1e-3 }).hit == 0.0);
@@ -172,14 +172,15 @@ TEST_CASE ("impact: what is inside from the start, or after a fault, has not str
     CHECK (node.tick ({ .depth = 1e-3 }).contact == 1.0);
 }
 
-TEST_CASE ("impact: no number breaks it", "[nodes][contact]")
+TEST_CASE ("impact: no input breaks it", "[nodes][contact]")
 {
     rc::prop ("hits are finite and not negative", []
               {
                   auto node = impact ({ .release = *rc::gen::element (0.0, 1e-5, 1e300), .refractory = *rc::gen::element (0.0, 0.01, 1e300) });
                   for (int k = 0; k < 60; ++k)
                   {
-                      const auto out = node.tick ({ .depth = *rc::gen::element (0.0, 1e-3, -1e-3, 1e-320, -1e300, 1e300, 1.7e308, -1.7e308, not_a_number, tactus::inf) });
+                      const auto out = node.tick ({ .depth = *rc::gen::element (0.0, 1e-3, -1e-3, 1e-320, -1e300, 1e300, 1.7e308, -1.7e308,
+                          not_a_number, tactus::inf) });
                       RC_ASSERT (tactus::isFinite (out.hit) && out.hit >= 0.0);
                       RC_ASSERT (out.contact == 0.0 || out.contact == 1.0);
                   } });

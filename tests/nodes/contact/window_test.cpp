@@ -5,7 +5,7 @@
 
 using tactus::nodes::ContactWindow;
 
-TEST_CASE ("window: a gain that grows from the surface to the window's depth and no further", "[nodes][contact]")
+TEST_CASE ("window: the gain grows from the surface to the depth of the window, and no further", "[nodes][contact]")
 {
     ContactWindow node;
     node.params.window = 2e-3;

@@ -2,6 +2,7 @@
 #include <nodes/coupling/virtual.hpp>
 
 #include <golden/golden.hpp>
+#include <support/ready.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -13,21 +14,13 @@
 using tactus::Vec3;
 using tactus::nodes::VirtualCoupling;
 using tactus::test::Golden;
+using tactus::test::ready;
 
 namespace
 {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-VirtualCoupling coupling (const VirtualCoupling::Params& params, double rate_hz = 1000.0)
-{
-    VirtualCoupling node;
-    node.params = params;
-    node.prepare ({ .rate_hz = rate_hz });
-    node.update();
-    return node;
-}
-
-/// A mass-damper under a constant hand force, the force of the coupling held over each sample; the wall is at x > 0.
+/// A mass-damper under a constant hand force. The force of the coupling is held over each sample; the wall is at x > 0.
 struct Device
 {
     double M = 0.1, B = 2.0, T = 1e-3, hand = 0.5;
@@ -44,7 +37,7 @@ struct Device
 /// Peak-to-peak motion in the last fifth of twenty seconds against a wall.
 double restlessness (double stiffness, double wall)
 {
-    auto node = coupling ({ .stiffness = stiffness, .damping = 0.2, .normal = -Vec3::UnitX(), .wall_stiffness = wall });
+    auto node = ready<VirtualCoupling> ({ .stiffness = stiffness, .damping = 0.2, .normal = -Vec3::UnitX(), .wall_stiffness = wall });
     Device device;
     double lowest = tactus::inf, highest = -tactus::inf;
     for (int k = 0; k < 20'000; ++k)
@@ -58,11 +51,17 @@ double restlessness (double stiffness, double wall)
 }
 }   // namespace
 
-TEST_CASE ("coupling: a mass against a hard wall meets the golden columns", "[nodes][coupling][golden]")
+TEST_CASE ("coupling: a mass against a hard wall matches the golden columns", "[nodes][coupling][golden]")
 {
     const Golden golden ("wallsim");
     Device device { golden.param ("M"), golden.param ("B"), golden.dt_s(), golden.param ("hand_force"), golden.param ("x0"), golden.param ("v0") };
-    auto node = coupling ({ .stiffness = golden.param ("kc"), .damping = golden.param ("bc"), .normal = -Vec3::UnitX(), .wall_stiffness = golden.param ("sigma_wall") }, 1.0 / device.T);
+    const VirtualCoupling::Params params {
+        .stiffness = golden.param ("kc"),
+        .damping = golden.param ("bc"),
+        .normal = -Vec3::UnitX(),
+        .wall_stiffness = golden.param ("sigma_wall"),
+    };
+    auto node = ready<VirtualCoupling> (params, 1.0 / device.T);
 
     std::vector<double> xs, vs, fs;
     for (std::size_t i = 0; i < golden.rows(); ++i)
@@ -92,7 +91,7 @@ TEST_CASE ("coupling: walls of any hardness come to rest, up to 0.8 of the stiff
     }
 }
 
-TEST_CASE ("coupling: beyond what the device can bear it buzzes, and no more than that", "[nodes][coupling]")
+TEST_CASE ("coupling: beyond what the device can bear it buzzes, but does not diverge", "[nodes][coupling]")
 {
     const double limit = 2.0 * Device {}.B / Device {}.T;
     for (const double wall : { 1e5, 1e6, 1e8 })
@@ -105,7 +104,7 @@ TEST_CASE ("coupling: beyond what the device can bear it buzzes, and no more tha
 
 TEST_CASE ("coupling: at rest the tool feels coupling and wall in series, and the proxy shares the load", "[nodes][coupling]")
 {
-    auto node = coupling ({ .stiffness = 1000.0, .damping = 0.5, .normal = { 0, 0, 7 }, .offset = 0.01, .wall_stiffness = 4000.0 });
+    auto node = ready<VirtualCoupling> ({ .stiffness = 1000.0, .damping = 0.5, .normal = { 0, 0, 7 }, .offset = 0.01, .wall_stiffness = 4000.0 });
     VirtualCoupling::Outputs out;
     for (int k = 0; k < 200; ++k)
         out = node.tick ({ .position = { 0.1, -0.2, 0.008 } });
@@ -121,7 +120,7 @@ TEST_CASE ("coupling: at rest the tool feels coupling and wall in series, and th
 
 TEST_CASE ("coupling: apart there is no force, and the proxy is at the tool", "[nodes][coupling]")
 {
-    auto node = coupling ({});
+    auto node = ready<VirtualCoupling> ({});
     for (int k = 0; k < 10; ++k)
     {
         const Vec3 p { 0.01 * k, 0.0, 0.05 - 0.004 * k };
@@ -135,16 +134,16 @@ TEST_CASE ("coupling: apart there is no force, and the proxy is at the tool", "[
 
 TEST_CASE ("coupling: a tool that is inside from the start feels nothing on the first sample", "[nodes][coupling]")
 {
-    auto node = coupling ({ .stiffness = 1000.0, .damping = 0.0 });
+    auto node = ready<VirtualCoupling> ({ .stiffness = 1000.0, .damping = 0.0 });
     const auto first = node.tick ({ .position = { 0, 0, -0.003 } });
     CHECK (first.force.isZero (0.0));
     CHECK (first.proxy.z() == -0.003);
     CHECK (node.tick ({ .position = { 0, 0, -0.003 } }).force.z() == Approx (3.0).epsilon (2e-3));
 }
 
-TEST_CASE ("coupling: after leaving, the proxy catches up and does not pull", "[nodes][coupling]")
+TEST_CASE ("coupling: after the tool leaves, the proxy catches up and does not pull", "[nodes][coupling]")
 {
-    auto node = coupling ({ .stiffness = 1000.0, .damping = 2.0 });
+    auto node = ready<VirtualCoupling> ({ .stiffness = 1000.0, .damping = 2.0 });
     node.tick ({});
     node.tick ({ .position = { 0, 0, -0.005 } });
     double behind = tactus::inf;
@@ -159,12 +158,13 @@ TEST_CASE ("coupling: after leaving, the proxy catches up and does not pull", "[
     CHECK (behind < 1e-7);
 }
 
-TEST_CASE ("coupling: it never pulls, and its force is what the wall bears", "[nodes][coupling]")
+TEST_CASE ("coupling: it never pulls, and its force equals the force of the wall", "[nodes][coupling]")
 {
     rc::prop ("any motion, any wall", []
               {
-                  const double wall = *rc::gen::element (0.0, 10.0, 1e4, 1e6, 1e8), kc = *rc::gen::element (0.0, 100.0, 3000.0), bc = *rc::gen::element (0.0, 0.5, 10.0);
-                  auto node = coupling ({ .stiffness = kc, .damping = bc, .wall_stiffness = wall });
+                  const double wall = *rc::gen::element (0.0, 10.0, 1e4, 1e6, 1e8), kc = *rc::gen::element (0.0, 100.0, 3000.0),
+                      bc = *rc::gen::element (0.0, 0.5, 10.0);
+                  auto node = ready<VirtualCoupling> ({ .stiffness = kc, .damping = bc, .wall_stiffness = wall });
                   node.tick ({ .position = { 0, 0, 0.001 } });
                   for (int k = 0; k < 50; ++k)
                   {
@@ -176,11 +176,11 @@ TEST_CASE ("coupling: it never pulls, and its force is what the wall bears", "[n
                   } });
 }
 
-TEST_CASE ("coupling: a closed path gives no energy, damped or not", "[nodes][coupling][energy]")
+TEST_CASE ("coupling: a closed path generates no energy, damped or not", "[nodes][coupling][energy]")
 {
     for (const double bc : { 0.0, 0.5, 5.0 })
     {
-        auto node = coupling ({ .stiffness = 2000.0, .damping = bc, .normal = { 1, 2, 2 } }, 4000.0);
+        auto node = ready<VirtualCoupling> ({ .stiffness = 2000.0, .damping = bc, .normal = { 1, 2, 2 } }, 4000.0);
         const int n = 20'000;
         double given = 0.0, handled = 0.0;
         Vec3 p = Vec3::Zero(), f = node.tick ({}).force;
@@ -202,11 +202,11 @@ TEST_CASE ("coupling: a closed path gives no energy, damped or not", "[nodes][co
     }
 }
 
-TEST_CASE ("coupling: a fault is silent, and the next sample is a first one", "[nodes][coupling]")
+TEST_CASE ("coupling: a fault gives 0, and the next sample counts as the first", "[nodes][coupling]")
 {
     for (const Vec3& bad : { Vec3 { 0, 0, not_a_number }, Vec3 { tactus::inf, 0, 0 } })
     {
-        auto node = coupling ({});
+        auto node = ready<VirtualCoupling> ({});
         node.tick ({});
         node.tick ({ .position = { 0, 0, -0.001 } });
         const auto out = node.tick ({ .position = bad });
@@ -217,17 +217,17 @@ TEST_CASE ("coupling: a fault is silent, and the next sample is a first one", "[
         CHECK (node.tick ({ .position = { 0, 0, -0.001 } }).force.isZero (0.0));
         CHECK (node.tick ({ .position = { 0, 0, -0.001 } }).force.z() > 0.9);
     }
-    CHECK (coupling ({ .normal = Vec3::Zero() }).tick ({ .position = { 0, 0, -0.001 } }).state == -1.0);
+    CHECK (ready<VirtualCoupling> ({ .normal = Vec3::Zero() }).tick ({ .position = { 0, 0, -0.001 } }).state == -1.0);
 }
 
-TEST_CASE ("coupling: no number breaks it", "[nodes][coupling]")
+TEST_CASE ("coupling: no input breaks it", "[nodes][coupling]")
 {
     rc::prop ("outputs are finite", []
               {
                   const auto number = rc::gen::element (0.0, 1.0, -1.0, -1e-3, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
                   const auto size = rc::gen::element (0.0, 1e-320, 1.0, 1e3, 1e300);
                   const double kc = *size, bc = *size, wall = *size;
-                  auto node = coupling ({ .stiffness = kc, .damping = bc, .wall_stiffness = wall });
+                  auto node = ready<VirtualCoupling> ({ .stiffness = kc, .damping = bc, .wall_stiffness = wall });
                   for (int k = 0; k < 20; ++k)
                   {
                       const double x = *number, y = *number, z = *number;
@@ -236,9 +236,9 @@ TEST_CASE ("coupling: no number breaks it", "[nodes][coupling]")
                   } });
 }
 
-TEST_CASE ("coupling: an instance that takes over knows the stretch", "[nodes][coupling]")
+TEST_CASE ("coupling: a new instance adopts the stretch", "[nodes][coupling]")
 {
-    auto old = coupling ({}), next = coupling ({});
+    auto old = ready<VirtualCoupling> ({}), next = ready<VirtualCoupling> ({});
     old.tick ({});
     old.tick ({ .position = { 0, 0, -0.001 } });
     next.adopt (old);

@@ -23,7 +23,7 @@ Law power (double k, double n) { return { .kind = Law::Kind::power, .a = k, .b =
 Law exponential (double a, double b) { return { .kind = Law::Kind::exponential, .a = a, .b = b }; }
 Law table (std::vector<double> e, std::vector<double> f) { return { .kind = Law::Kind::table, .table = { std::move (e), std::move (f) } }; }
 
-/// A blade, and the hand that holds it: its work by the trapezoid rule, exact on dense paths.
+/// A blade and the hand that holds it. The hand's work is computed with the trapezoid rule, which is exact on dense paths.
 struct Bench
 {
     explicit Bench (const Blade::Params& params = {}, const Blade::Settings& settings = {})
@@ -58,7 +58,7 @@ struct Bench
     double depth = 0.0, work = 0.0, most = 0.0;
 };
 
-/// A sample of any stuff: what a hand would press a blade into.
+/// A random sample such as a hand would press a blade into.
 struct Stuff
 {
     Blade::Params params;
@@ -88,7 +88,7 @@ public:
     }
 
 private:
-    /// One that reaches this force within a few mm.
+    /// A law that reaches this force within a few mm.
     Law law (double force)
     {
         const double e = uniform (1e-3, 5e-3);
@@ -122,7 +122,7 @@ private:
 };
 }   // namespace
 
-TEST_CASE ("blade: it meets the golden columns", "[nodes][cut][golden]")
+TEST_CASE ("blade: it matches the golden columns", "[nodes][cut][golden]")
 {
     const Golden golden ("cutting");
     Bench bench ({ .width = golden.param ("w"), .toughness = golden.param ("Jc"), .rupture_force = golden.param ("f_rupture") });
@@ -168,7 +168,7 @@ TEST_CASE ("blade: the chapter's potato is cut with 4 N", "[nodes][cut]")
     CHECK (bench.out.crack == Approx (0.013));
 }
 
-TEST_CASE ("blade: a force of rupture above twice that of cutting opens all that is pressed in", "[nodes][cut]")
+TEST_CASE ("blade: a rupture force above twice the cutting force opens the whole indentation", "[nodes][cut]")
 {
     Bench bench ({ .rupture_force = 10.0 });
     const double d = 0.005, stored = 0.5 * 2000.0 * d * d;
@@ -182,7 +182,7 @@ TEST_CASE ("blade: a force of rupture above twice that of cutting opens all that
     CHECK (bench.out.state == 0.0);
 }
 
-TEST_CASE ("blade: rupture at the force of cutting makes no crack and no dip", "[nodes][cut]")
+TEST_CASE ("blade: rupture at the cutting force makes no crack and no dip", "[nodes][cut]")
 {
     for (const Law& law : { power (2000.0, 1.0), power (3e6, 2.1), exponential (0.3, 400.0), table ({ 1e-3, 3e-3 }, { 0.5, 9.0 }) })
     {
@@ -197,7 +197,7 @@ TEST_CASE ("blade: rupture at the force of cutting makes no crack and no dip", "
 
 TEST_CASE ("blade: rupture balances the energies of any two laws", "[nodes][cut][energy]")
 {
-    rc::prop ("G0 (d_r) = G1 (d_r - c1) + J_c w c1 + excess, with an excess only if all is open", [] (unsigned seed)
+    rc::prop ("G0 (d_r) = G1 (d_r - c1) + J_c w c1 + excess, with an excess only if the whole indentation opens", [] (unsigned seed)
               {
         const Stuff s = Dice { seed }.stuff();
         const Law& g0 = s.settings.law;
@@ -215,14 +215,14 @@ TEST_CASE ("blade: rupture balances the energies of any two laws", "[nodes][cut]
         RC_ASSERT (c == s.d_rupture || excess <= 1e-12 * stored);
         RC_ASSERT (std::abs (bench.taken() - stored) <= 1e-12 * stored);
 
-        // The largest root: beyond it, no crack can be paid for.
+        // The largest root: beyond it, the energy does not suffice for a crack.
         for (double beyond = c + 1e-4 * s.d_rupture; beyond < s.d_rupture; beyond += 0.01 * s.d_rupture)
             RC_ASSERT (stored - g1.energy (s.d_rupture - beyond) - cost * beyond < 0.0); });
 }
 
 TEST_CASE ("blade: on a dense path the work of the hand is U + J_c w c + excess", "[nodes][cut][energy]")
 {
-    rc::prop ("any stuff, any strokes", [] (unsigned seed)
+    rc::prop ("any sample, any strokes", [] (unsigned seed)
               {
         Dice dice { seed };
         const Stuff s = dice.stuff();
@@ -231,7 +231,7 @@ TEST_CASE ("blade: on a dense path the work of the hand is U + J_c w c + excess"
         const double before = bench.work, stored = bench.out.stored_energy;
         bench.tick (s.d_rupture);
         RC_ASSERT (bench.out.state == 2.0);
-        bench.work = before + s.settings.law.energy (s.d_rupture) - stored;   // the trapezoid rule knows no jump
+        bench.work = before + s.settings.law.energy (s.d_rupture) - stored;   // the trapezoid rule cannot integrate a jump
 
         const double cost = s.params.width * s.params.toughness;
         const double excess = bench.out.dissipated_energy - cost * bench.out.crack;
@@ -244,7 +244,7 @@ TEST_CASE ("blade: on a dense path the work of the hand is U + J_c w c + excess"
         } });
 }
 
-TEST_CASE ("blade: a closed path never gives energy", "[nodes][cut][energy]")
+TEST_CASE ("blade: a closed path never generates energy", "[nodes][cut][energy]")
 {
     rc::prop ("loops of random steps, far below and far beyond rupture, until cut through", [] (unsigned seed)
               {
@@ -252,8 +252,8 @@ TEST_CASE ("blade: a closed path never gives energy", "[nodes][cut][energy]")
         Stuff s = dice.stuff();
         if (dice.below (3) == 0) s.params.thickness = dice.uniform (0.2, 5.0) * s.d_rupture;
         Bench bench (s.params, s.settings);
-        // The hand's work by the force after each step is never less than what the sample took, for laws that rise;
-        // where the force collapses, at rupture and at the end, what it took is the work.
+        // With laws that rise, the work of the hand against the force after each step is never less than what the sample took.
+        // Where the force collapses, at rupture and at the end, the work is what the sample took.
         double given = 0.0, before = 0.0, heat = 0.0;
         for (int k = 0; k < 2000; ++k)
         {
@@ -273,7 +273,7 @@ TEST_CASE ("blade: a closed path never gives energy", "[nodes][cut][energy]")
 
 TEST_CASE ("blade: one jump past rupture ends where a slow blade does", "[nodes][cut]")
 {
-    rc::prop ("any stuff, thick or thin, any depth", [] (unsigned seed)
+    rc::prop ("any sample, thick or thin, any depth", [] (unsigned seed)
               {
         Dice dice { seed };
         Stuff s = dice.stuff();
@@ -294,9 +294,9 @@ TEST_CASE ("blade: one jump past rupture ends where a slow blade does", "[nodes]
         RC_ASSERT (jump.out.state == slow.out.state); });
 }
 
-TEST_CASE ("blade: back in its cut it feels nothing down to the tip, and no second rupture", "[nodes][cut]")
+TEST_CASE ("blade: back in its cut, it feels nothing down to the tip and does not rupture the sample again", "[nodes][cut]")
 {
-    rc::prop ("any stuff", [] (unsigned seed)
+    rc::prop ("any sample", [] (unsigned seed)
               {
         Dice dice { seed };
         const Stuff s = dice.stuff();
@@ -320,7 +320,7 @@ TEST_CASE ("blade: back in its cut it feels nothing down to the tip, and no seco
         RC_ASSERT (bench.most <= cost * (1.0 + 1e-6)); });
 }
 
-TEST_CASE ("blade: the force of cutting is J_c w, however stiff the sample", "[nodes][cut]")
+TEST_CASE ("blade: the cutting force is J_c w, however stiff the sample", "[nodes][cut]")
 {
     rc::prop ("any laws", [] (unsigned seed)
               {
@@ -329,7 +329,7 @@ TEST_CASE ("blade: the force of cutting is J_c w, however stiff the sample", "[n
         bench.tick (5.0 * s.d_rupture);
         for (int k = 0; k < 10; ++k)
         {
-            bench.tick (bench.depth + 2.0 * s.d_rupture);   // reloads, if rupture has opened more than was pressed in
+            bench.tick (bench.depth + 2.0 * s.d_rupture);   // reloads, if rupture opened more than the indentation
             if (k > 0) RC_ASSERT (bench.out.state == 4.0);
             RC_ASSERT (std::abs (bench.out.resistance - s.params.width * s.params.toughness) <= 1e-9 * s.params.rupture_force);
         } });
@@ -347,7 +347,7 @@ TEST_CASE ("blade: a slow blade does not chatter between cutting and holding", "
     }
 }
 
-TEST_CASE ("blade: a sample that is repeated changes no bit but the state", "[nodes][cut]")
+TEST_CASE ("blade: repeating a tick changes nothing but the state", "[nodes][cut]")
 {
     rc::prop ("virgin, bursting, elastic, cutting, cut through", [] (unsigned seed)
               {
@@ -367,12 +367,13 @@ TEST_CASE ("blade: a sample that is repeated changes no bit but the state", "[no
                 RC_ASSERT (second.dissipated_energy == first.dissipated_energy);
                 const bool moved = first.state == 2.0 || first.state == 4.0;
                 const bool through = second.state == 5.0 && first.state == 2.0;
-                RC_ASSERT (second.state == (through ? 5.0 : ! moved ? first.state : bench.depth > first.crack ? 3.0 : 0.0));
+                const double held = bench.depth > first.crack ? 3.0 : 0.0, expected = moved ? held : first.state;
+                RC_ASSERT (second.state == (through ? 5.0 : expected));
             }
         } });
 }
 
-TEST_CASE ("blade: a sample cut through is no sample, for ever", "[nodes][cut][energy]")
+TEST_CASE ("blade: a sample that is cut through never gives a force again", "[nodes][cut][energy]")
 {
     Bench bench ({ .thickness = 0.01 });
     bench.move (0.0119, 10'000);
@@ -381,7 +382,7 @@ TEST_CASE ("blade: a sample cut through is no sample, for ever", "[nodes][cut][e
     CHECK (bench.out.state == 5.0);
     CHECK (bench.out.crack == 0.01);
     CHECK (bench.out.stored_energy == 0.0);
-    CHECK (bench.out.dissipated_energy == Approx (4.0 * 0.01 + 0.5 * 4.0 * 0.002));   // J_c w c, and the spring let go
+    CHECK (bench.out.dissipated_energy == Approx (4.0 * 0.01 + 0.5 * 4.0 * 0.002));   // J_c w c, and the spring energy released
 
     bench.node.params.thickness = 1.0;
     for (const double depth : { 0.02, -0.01, 0.005, 0.05 })
@@ -393,7 +394,7 @@ TEST_CASE ("blade: a sample cut through is no sample, for ever", "[nodes][cut][e
     }
 }
 
-TEST_CASE ("blade: a skin that bursts all through takes what was stored", "[nodes][cut][energy]")
+TEST_CASE ("blade: a skin that bursts through takes the stored energy", "[nodes][cut][energy]")
 {
     Bench bench ({ .thickness = 0.001 });
     bench.tick (0.02);
@@ -405,7 +406,7 @@ TEST_CASE ("blade: a skin that bursts all through takes what was stored", "[node
     CHECK (bench.out.state == 5.0);
 }
 
-TEST_CASE ("blade: params are read when it touches", "[nodes][cut]")
+TEST_CASE ("blade: params are read on touch", "[nodes][cut]")
 {
     Bench bench;
     bench.tick (0.001);
@@ -420,7 +421,7 @@ TEST_CASE ("blade: params are read when it touches", "[nodes][cut]")
     CHECK (bench.out.resistance == Approx (12.0));
 }
 
-TEST_CASE ("blade: a fault is forgotten, the crack is not", "[nodes][cut]")
+TEST_CASE ("blade: a fault is forgotten, but the crack stays", "[nodes][cut]")
 {
     for (const double bad : { not_a_number, tactus::inf, -tactus::inf })
     {
@@ -443,7 +444,7 @@ TEST_CASE ("blade: a fault is forgotten, the crack is not", "[nodes][cut]")
     CHECK (virgin.node.tick ({ .depth = 0.002 }).state == 1.0);
 }
 
-TEST_CASE ("blade: replaced in the middle of a cut, it goes on", "[nodes][cut]")
+TEST_CASE ("blade: an instance replaced in the middle of a cut keeps cutting", "[nodes][cut]")
 {
     Bench bench, next;
     bench.tick (0.006);
@@ -461,7 +462,7 @@ TEST_CASE ("blade: replaced in the middle of a cut, it goes on", "[nodes][cut]")
     CHECK (stiffer.tick (0.02).resistance == Approx (4.0));   // J_c w, whatever the law
 }
 
-TEST_CASE ("blade: it says what no sample can be", "[nodes][cut]")
+TEST_CASE ("blade: impossible samples are reported", "[nodes][cut]")
 {
     const auto problem = [] (const Blade::Params& params, const Blade::Settings& settings)
     { return Bench (params, settings).node.problem(); };
@@ -470,14 +471,15 @@ TEST_CASE ("blade: it says what no sample can be", "[nodes][cut]")
     CHECK (problem ({ .rupture_force = 4.0 }, {}) == "");
     CHECK (problem ({ .rupture_force = 3.0 }, {}) == "rupture_force is 3 N; it must be at least width times toughness, which is 4 N");
     CHECK (problem ({}, { .cracked_law = power (1000.0, 1.0) }) == "");
-    CHECK (problem ({}, { .cracked_law = power (3000.0, 1.0) }) == "at rupture, 0.003 m deep, cracked_law stores 0.0135 J; it must not be more than law does, 0.009 J");
+    CHECK (problem ({}, { .cracked_law = power (3000.0, 1.0) })
+           == "at rupture, 0.003 m deep, cracked_law stores 0.0135 J; it must not store more than law does, 0.009 J");
     CHECK (problem ({}, { .law = table ({ 1e-3, 2e-3 }, { 9.0, 8.0 }) }) == "law must not fall with depth");
     CHECK (problem ({}, { .cracked_law = table ({ 1e-3, 2e-3 }, { 1.0, 0.5 }) }) == "cracked_law must not fall with depth");
 }
 
-TEST_CASE ("blade: params that no sample can have give no energy either", "[nodes][cut][energy]")
+TEST_CASE ("blade: impossible params generate no energy either", "[nodes][cut][energy]")
 {
-    Bench weak ({ .rupture_force = 1.0 });   // bursts at 4 N, where it is cut
+    Bench weak ({ .rupture_force = 1.0 });   // bursts at 4 N, the cutting force
     weak.move (0.0019, 100);
     CHECK (weak.out.state == 1.0);
     weak.move (0.0021, 2);

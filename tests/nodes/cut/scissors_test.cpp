@@ -19,7 +19,7 @@ namespace
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double wide = 1.4;   // rad; open, for the plates below
 
-/// Scissors, and the hand that closes them: its work by the trapezoid rule, exact on dense paths.
+/// Scissors and the hand that closes them. The hand's work is computed with the trapezoid rule, which is exact on dense paths.
 struct Bench
 {
     explicit Bench (const Scissors::Params& params = {})
@@ -75,7 +75,7 @@ private:
 };
 }   // namespace
 
-TEST_CASE ("scissors: they meet the golden columns", "[nodes][cut][golden]")
+TEST_CASE ("scissors: they match the golden columns", "[nodes][cut][golden]")
 {
     const Golden golden ("scissors");
     Bench bench ({ .thickness = golden.param ("h"), .toughness = golden.param ("Jc"), .stiffness = golden.param ("k"), .pivot_distance = golden.param ("x0") });
@@ -137,9 +137,9 @@ TEST_CASE ("scissors: the work of the hand is U + J_c h (x - x0)", "[nodes][cut]
         } });
 }
 
-TEST_CASE ("scissors: a closed path never gives energy", "[nodes][cut][energy]")
+TEST_CASE ("scissors: a closed path never generates energy", "[nodes][cut][energy]")
 {
-    rc::prop ("any plate, strokes back to where they are open", [] (unsigned seed)
+    rc::prop ("any plate, strokes that end open", [] (unsigned seed)
               {
         Dice dice { seed };
         Bench bench (dice.plate());
@@ -155,7 +155,7 @@ TEST_CASE ("scissors: a closed path never gives energy", "[nodes][cut][energy]")
 
 TEST_CASE ("scissors: one jump cuts as far as closing slowly", "[nodes][cut]")
 {
-    rc::prop ("any plate, nearly closed too", [] (unsigned seed)
+    rc::prop ("any plate, even when nearly closed", [] (unsigned seed)
               {
         Dice dice { seed };
         const auto params = dice.plate();
@@ -196,7 +196,7 @@ TEST_CASE ("scissors: opened and closed again, they feel nothing down to the fro
         RC_ASSERT (bench.out.crack_front >= front); });
 }
 
-TEST_CASE ("scissors: a sample that is repeated changes no bit but the state", "[nodes][cut]")
+TEST_CASE ("scissors: repeating a tick changes nothing but the state", "[nodes][cut]")
 {
     rc::prop ("open, elastic, cutting", [] (unsigned seed)
               {
@@ -228,7 +228,7 @@ TEST_CASE ("scissors: closing slowly they do not chatter between cutting and hol
     }
 }
 
-TEST_CASE ("scissors: shut, or bent open flat, they have no torque and keep the crack", "[nodes][cut]")
+TEST_CASE ("scissors: fully closed or fully open, they have no torque and keep the crack", "[nodes][cut]")
 {
     Bench bench;
     bench.move (0.3, 100);
@@ -245,7 +245,7 @@ TEST_CASE ("scissors: shut, or bent open flat, they have no torque and keep the 
     CHECK (bench.tick (0.3).torque == before.torque);
 }
 
-TEST_CASE ("scissors: a fault is forgotten, the crack is not", "[nodes][cut]")
+TEST_CASE ("scissors: a fault is forgotten, but the crack stays", "[nodes][cut]")
 {
     for (const double bad : { not_a_number, tactus::inf, -tactus::inf })
     {
@@ -280,14 +280,14 @@ TEST_CASE ("scissors: params are read when they touch the plate", "[nodes][cut]"
     bench.tick (0.3);
     CHECK (bench.out.state == 4.0);
     CHECK (bench.out.torque == Approx (500.0 * 2e-3 * bench.out.crack_front / std::sin (0.3)));
-    CHECK (bench.out.crack_front < 0.1);   // which is where a plate begins, not where it is cut up to
+    CHECK (bench.out.crack_front < 0.1);   // 0.1 is where a plate begins, not where its cut ends
 
     Bench untouched;
     untouched.node.params.pivot_distance = 5e-3;
     CHECK (untouched.tick (wide).crack_front == 5e-3);
 }
 
-TEST_CASE ("scissors: replaced in the middle of a cut, they go on", "[nodes][cut]")
+TEST_CASE ("scissors: an instance replaced in the middle of a cut keeps cutting", "[nodes][cut]")
 {
     Bench bench, next;
     bench.move (0.3, 100);

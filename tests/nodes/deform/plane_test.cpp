@@ -2,6 +2,7 @@
 #include <nodes/deform/plane.hpp>
 
 #include <golden/golden.hpp>
+#include <support/ready.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -12,21 +13,13 @@
 using tactus::Vec3;
 using tactus::nodes::Plane;
 using tactus::test::Golden;
+using tactus::test::ready;
 
 namespace
 {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-Plane plane (const Plane::Params& params, double rate_hz = 1000.0)
-{
-    Plane node;
-    node.params = params;
-    node.prepare ({ .rate_hz = rate_hz });
-    node.update();
-    return node;
-}
-
-/// The fraction of its speed that a free mass keeps after striking the wall.
+/// The fraction of its speed that a free mass keeps after it hits the wall.
 double restitution (Plane node, double mass, double v, double dt)
 {
     double z = 0.5 * v * dt, speed = -v;
@@ -39,7 +32,7 @@ double restitution (Plane node, double mass, double v, double dt)
 }
 }   // namespace
 
-TEST_CASE ("plane: a mass against a sampled wall meets the golden columns", "[nodes][deform][golden]")
+TEST_CASE ("plane: a mass against a sampled wall matches the golden columns", "[nodes][deform][golden]")
 {
     const Golden golden ("wallsim");
     const double K = golden.param ("K"), B = golden.param ("B"), M = golden.param ("M"), T = golden.dt_s();
@@ -48,13 +41,13 @@ TEST_CASE ("plane: a mass against a sampled wall meets the golden columns", "[no
         std::string name;
         double stiffness, damping, quantum;
     };
-    // Branch points of the quantiser are half quanta, where the last bit decides: 1e-6 m, as the set says.
+    // At half quanta the last bit decides how the quantiser rounds: the tolerance is 1e-6 m, as in the golden set.
     const Case cases[] { { "smooth", K, 0.0, 0.0 }, { "damped", K / 2, 0.2 * B, 0.0 }, { "quant", K / 2, 0.0, golden.param ("quantum") } };
 
     for (const auto& [name, stiffness, damping, quantum] : cases)
     {
         // The wall is at x > 0: its normal points to -x.
-        auto node = plane ({ .normal = -Vec3::UnitX(), .stiffness = stiffness, .damping = damping }, 1.0 / T);
+        auto node = ready<Plane> ({ .normal = -Vec3::UnitX(), .stiffness = stiffness, .damping = damping }, 1.0 / T);
 
         const double a = std::exp (-B * T / M), g = M * (1.0 - a) / B;
         double x = golden.param ("x0"), v = golden.param ("v0");
@@ -81,9 +74,9 @@ TEST_CASE ("plane: a mass against a sampled wall meets the golden columns", "[no
     }
 }
 
-TEST_CASE ("plane: nothing while apart, and the depth says how far", "[nodes][deform]")
+TEST_CASE ("plane: no force while apart, and the depth gives the distance", "[nodes][deform]")
 {
-    auto node = plane ({ .offset = 0.02 });
+    auto node = ready<Plane> ({ .offset = 0.02 });
     const auto out = node.tick ({ .position = { 5, 6, 0.03 } });
     CHECK (out.force.isZero (0.0));
     CHECK (out.depth == Approx (-0.01));
@@ -95,11 +88,11 @@ TEST_CASE ("plane: nothing while apart, and the depth says how far", "[nodes][de
     CHECK (touching.state == 0.0);
 }
 
-TEST_CASE ("plane: a spring pushes along the normal, of whatever length it is given", "[nodes][deform]")
+TEST_CASE ("plane: a spring pushes along the normal, whatever the length of the normal", "[nodes][deform]")
 {
     const auto [x, y, z] = GENERATE (table<double, double, double> ({ { 0, 0, 1 }, { 0, -3, 0 }, { 1e-200, 2e-200, 2e-200 }, { 1e300, -1e300, 0 } }));
     const Vec3 unit = Vec3 { x, y, z }.stableNormalized();
-    auto node = plane ({ .normal = { x, y, z }, .offset = 0.01, .stiffness = 500.0 });
+    auto node = ready<Plane> ({ .normal = { x, y, z }, .offset = 0.01, .stiffness = 500.0 });
     const auto out = node.tick ({ .position = unit * 0.008 });
 
     CHECK (out.depth == Approx (0.002));
@@ -109,18 +102,18 @@ TEST_CASE ("plane: a spring pushes along the normal, of whatever length it is gi
     CHECK (out.state == 1.0);
 }
 
-TEST_CASE ("plane: a law takes the place of stiffness", "[nodes][deform]")
+TEST_CASE ("plane: a law replaces stiffness", "[nodes][deform]")
 {
-    auto node = plane ({ .stiffness = 1e9 });
+    auto node = ready<Plane> ({ .stiffness = 1e9 });
     node.settings.law = { .kind = tactus::Law::Kind::exponential, .a = 0.1, .b = 400.0, .table = {} };
     const auto out = node.tick ({ .position = { 0, 0, -0.005 } });
     CHECK (out.resistance == Approx (0.1 * std::expm1 (2.0)));
     CHECK (out.stored_energy == Approx (0.1 * (std::expm1 (2.0) / 400.0 - 0.005)));
 }
 
-TEST_CASE ("plane: hit is the speed of the approach, on the tick of the first touch only", "[nodes][deform]")
+TEST_CASE ("plane: hit is the speed of the approach, only on the tick of the first touch", "[nodes][deform]")
 {
-    auto node = plane ({});
+    auto node = ready<Plane> ({});
     const double v = 0.3, dt = 1e-3;
     int hits = 0;
     for (int k = 0; k < 40; ++k)
@@ -137,26 +130,26 @@ TEST_CASE ("plane: hit is the speed of the approach, on the tick of the first to
     CHECK (hits == 1);
 }
 
-TEST_CASE ("plane: a tool that is inside from the start has not struck", "[nodes][deform]")
+TEST_CASE ("plane: a tool that is inside from the start triggers no hit", "[nodes][deform]")
 {
-    auto node = plane ({ .damping = 5.0, .dissipation = 2.0 });
+    auto node = ready<Plane> ({ .damping = 5.0, .dissipation = 2.0 });
     const auto out = node.tick ({ .position = { 0, 0, -0.003 } });
     CHECK (out.hit == 0.0);
-    CHECK (out.resistance == Approx (3.0));   // nor is there a rate yet
+    CHECK (out.resistance == Approx (3.0));   // and there is no rate yet
 }
 
 TEST_CASE ("plane: a damped wall pushes harder going in, and never pulls coming out", "[nodes][deform]")
 {
-    auto node = plane ({ .stiffness = 1000.0, .damping = 3.0 });
+    auto node = ready<Plane> ({ .stiffness = 1000.0, .damping = 3.0 });
     node.tick ({ .position = { 0, 0, 0.001 } });
-    CHECK (node.tick ({ .position = { 0, 0, -0.001 } }).resistance == Approx (1.0 + 3.0 * 2.0));   // with the rate from outside
+    CHECK (node.tick ({ .position = { 0, 0, -0.001 } }).resistance == Approx (1.0 + 3.0 * 2.0));   // with the rate of the approach
     CHECK (node.tick ({ .position = { 0, 0, -0.0009 } }).resistance == Approx (0.9 - 0.3));
     CHECK (node.tick ({ .position = { 0, 0, -0.0001 } }).resistance == 0.0);
 }
 
 TEST_CASE ("plane: an undamped wall gives back what it took, over any closed path", "[nodes][deform][energy]")
 {
-    auto node = plane ({ .normal = { 1, 2, 2 }, .stiffness = 800.0 }, 4000.0);
+    auto node = ready<Plane> ({ .normal = { 1, 2, 2 }, .stiffness = 800.0 }, 4000.0);
     node.settings.law = { .kind = tactus::Law::Kind::power, .a = 5e4, .b = 1.5, .table = {} };
     const int n = 20'000;
     double work = 0.0, taken = 0.0;
@@ -187,31 +180,31 @@ TEST_CASE ("plane: with dissipation a mass rebounds by Hunt and Crossley's law",
         for (const double power : { 1.0, 1.5 })
         {
             const double v = 0.5, dt = 1e-7;
-            auto node = plane ({ .dissipation = x / v }, 1.0 / dt);
+            auto node = ready<Plane> ({ .dissipation = x / v }, 1.0 / dt);
             node.settings.law = { .kind = tactus::Law::Kind::power, .a = power == 1.0 ? 5e4 : 1e6, .b = power, .table = {} };
             INFO (x << " " << power);
             CHECK (restitution (node, 0.05, v, dt) == Approx (e).epsilon (2e-3));
         }
 }
 
-TEST_CASE ("plane: the slower the blow the better it rebounds", "[nodes][deform]")
+TEST_CASE ("plane: the slower the impact, the better the rebound", "[nodes][deform]")
 {
     const double dt = 1e-6;
     double last = 1.0;
     for (const double v : { 0.05, 0.2, 0.8 })
     {
-        const double e = restitution (plane ({ .stiffness = 5e4, .dissipation = 1.0 }, 1.0 / dt), 0.05, v, dt);
+        const double e = restitution (ready<Plane> ({ .stiffness = 5e4, .dissipation = 1.0 }, 1.0 / dt), 0.05, v, dt);
         CHECK (e < last);
         if (v < 0.1) CHECK (1.0 - e == Approx (2.0 / 3.0 * v).epsilon (0.1));
         last = e;
     }
 }
 
-TEST_CASE ("plane: a fault is silent, and the next sample is a first one", "[nodes][deform]")
+TEST_CASE ("plane: a fault gives 0, and the next sample counts as the first", "[nodes][deform]")
 {
     for (const Vec3& bad : { Vec3 { 0, 0, not_a_number }, Vec3 { tactus::inf, 0, 0 }, Vec3 { 0, 0, -1.7e308 } })
     {
-        auto node = plane ({ .damping = 5.0 });
+        auto node = ready<Plane> ({ .damping = 5.0 });
         node.tick ({ .position = { 0, 0, -0.001 } });
         const auto out = node.tick ({ .position = bad });
         CHECK (out.state == -1.0);
@@ -223,16 +216,17 @@ TEST_CASE ("plane: a fault is silent, and the next sample is a first one", "[nod
         CHECK (node.tick ({ .position = { 0, 0, -0.003 } }).hit == 0.0);
     }
 
-    CHECK (plane ({ .normal = Vec3::Zero() }).tick ({ .position = { 0, 0, -0.001 } }).state == -1.0);
-    CHECK (plane ({ .offset = -1.7e308 }).tick ({ .position = { 0, 0, 1.7e308 } }).depth == 0.0);   // further apart than a number can say
+    CHECK (ready<Plane> ({ .normal = Vec3::Zero() }).tick ({ .position = { 0, 0, -0.001 } }).state == -1.0);
+    CHECK (ready<Plane> ({ .offset = -1.7e308 }).tick ({ .position = { 0, 0, 1.7e308 } }).depth == 0.0);   // further apart than a double can hold
 }
 
-TEST_CASE ("plane: no number breaks it", "[nodes][deform]")
+TEST_CASE ("plane: no input breaks it", "[nodes][deform]")
 {
     rc::prop ("outputs are finite", []
               {
                   const auto number = rc::gen::element (0.0, 1.0, -1.0, -1e-3, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
-                  auto node = plane ({ .stiffness = *rc::gen::element (0.0, 1e3, 1e300), .damping = *rc::gen::element (0.0, 5.0, 1e300), .dissipation = *rc::gen::element (0.0, 1.0, 1e300) });
+                  auto node = ready<Plane> ({ .stiffness = *rc::gen::element (0.0, 1e3, 1e300),
+                      .damping = *rc::gen::element (0.0, 5.0, 1e300), .dissipation = *rc::gen::element (0.0, 1.0, 1e300) });
                   if (*rc::gen::arbitrary<bool>()) node.settings.law = { .kind = tactus::Law::Kind::exponential, .a = 1.0, .b = 300.0, .table = {} };
                   for (int k = 0; k < 20; ++k)
                   {
@@ -243,9 +237,9 @@ TEST_CASE ("plane: no number breaks it", "[nodes][deform]")
                   } });
 }
 
-TEST_CASE ("plane: an instance that takes over knows the depth before", "[nodes][deform]")
+TEST_CASE ("plane: a new instance adopts the previous depth", "[nodes][deform]")
 {
-    auto old = plane ({ .damping = 2.0 }), next = plane ({ .damping = 2.0 });
+    auto old = ready<Plane> ({ .damping = 2.0 }), next = ready<Plane> ({ .damping = 2.0 });
     old.tick ({ .position = { 0, 0, -0.001 } });
     next.adopt (old);
     CHECK (next.tick ({ .position = { 0, 0, -0.0015 } }).resistance == Approx (1.5 + 2.0 * 0.5));
@@ -253,7 +247,7 @@ TEST_CASE ("plane: an instance that takes over knows the depth before", "[nodes]
 
 TEST_CASE ("plane: it claims the steepest slope of its law", "[nodes][deform]")
 {
-    auto node = plane ({ .stiffness = 700.0, .damping = 2.0 });
+    auto node = ready<Plane> ({ .stiffness = 700.0, .damping = 2.0 });
     CHECK (node.claims().passive);
     CHECK (node.claims().stiffness == 700.0);
     CHECK (node.claims().damping == 2.0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <nodes/deform/surface.hpp>
 
-#include <framework/answering_thread.hpp>
+#include <framework/run/query_thread.hpp>
 
 #include <support/no_allocation.hpp>
 
@@ -28,7 +28,7 @@ Law power (double k, double n = 1.0) { return { .kind = Law::Kind::power, .a = k
 Law exponential (double a, double b) { return { .kind = Law::Kind::exponential, .a = a, .b = b }; }
 Surface::Curves curves (double across, double along, double n = 1.0) { return { power (across), power (across), power (along, n) }; }
 
-/// A square of side length on [0, length]², n cells a side, facing up, with heights from a function.
+/// A square of side length on [0, length]², n cells per side, facing up, with heights from a function.
 template <typename Height>
 Mesh grid (int n, double length, Height height)
 {
@@ -90,7 +90,7 @@ std::shared_ptr<const Surface> body (Mesh mesh, std::vector<std::vector<Surface:
     return std::make_shared<const Surface> (Surface { std::make_shared<const Mesh> (std::move (mesh)), {}, std::move (tools), std::move (mu) });
 }
 
-/// Every node with laws of its own, of every kind, x and y unlike.
+/// Every node has its own laws, of every kind, with different x and y.
 std::shared_ptr<const Surface> uneven (Mesh mesh, unsigned seed, double mu = 0.5)
 {
     std::mt19937 dice (seed);
@@ -99,9 +99,14 @@ std::shared_ptr<const Surface> uneven (Mesh mesh, unsigned seed, double mu = 0.5
     std::vector<Ratio> ratios;
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
     {
-        const Law z = i % 3 == 0 ? exponential (0.1 + one (dice), 200.0 * one (dice) + 50.0) : i % 3 == 1 ? power (2e4 * (1.0 + one (dice)), 1.5)
-                                                                                                          : Law { .kind = Law::Kind::table, .table = { { 1e-3, 3e-3 }, { 0.5 * one (dice), 2.0 + one (dice) } } };
-        nodes.push_back ({ power (300.0 + 900.0 * one (dice)), power (300.0 + 900.0 * one (dice)), z });
+        const auto z = [&]() -> Law
+        {
+            if (i % 3 == 0) return exponential (0.1 + one (dice), 200.0 * one (dice) + 50.0);
+            if (i % 3 == 1) return power (2e4 * (1.0 + one (dice)), 1.5);
+            return { .kind = Law::Kind::table, .table = { { 1e-3, 3e-3 }, { 0.5 * one (dice), 2.0 + one (dice) } } };
+        };
+        const Law along_z = z();
+        nodes.push_back ({ power (300.0 + 900.0 * one (dice)), power (300.0 + 900.0 * one (dice)), along_z });
         ratios.push_back ({ .number = mu * (0.5 + one (dice)) });
     }
     return body (std::move (mesh), { nodes }, ratios);
@@ -116,13 +121,13 @@ ElasticSurface made (std::shared_ptr<const Surface> surface, Frictions friction 
     return node;
 }
 
-/// Work of the hand along a path, by the trapezoid rule.
+/// The work of the hand along a path, computed with the trapezoid rule.
 struct Hand
 {
     ElasticSurface node;
     Vec3 p = Vec3::Zero();
     ElasticSurface::Outputs out {};
-    double work = 0.0, moved = 0.0;   // J; moved: counted without its sign
+    double work = 0.0, moved = 0.0;   // J; moved: the sum of absolute values
 
     const ElasticSurface::Outputs& to (const Vec3& next)
     {
@@ -144,7 +149,7 @@ struct Hand
 };
 }   // namespace
 
-TEST_CASE ("surface: one node's curve, one triangle, by hand", "[nodes][deform]")
+TEST_CASE ("surface: one triangle with one curve, computed manually", "[nodes][deform]")
 {
     auto node = made (body (flat (1), { { curves (400.0, 1000.0) } }, { { .number = 0.5 } }));
     CHECK (node.tick ({ .position = Vec3 (0.02, 0.01, 0.001) }).state == 0.0);
@@ -164,7 +169,7 @@ TEST_CASE ("surface: one node's curve, one triangle, by hand", "[nodes][deform]"
     CHECK (out.hit == 0.0);
     CHECK (out.force.isApprox (Vec3 (-0.2, 0.0, 2.0), 1e-12));
 
-    out = node.tick ({ .position = Vec3 (0.022, 0.01, -0.002) });   // beyond: c is dragged to 1 mm behind
+    out = node.tick ({ .position = Vec3 (0.022, 0.01, -0.002) });   // beyond: c is dragged, 1 mm behind
     CHECK (out.state == 2.0);
     CHECK (out.force.isApprox (Vec3 (-0.4, 0.0, 2.0), 1e-12));
     CHECK (out.contact.isApprox (Vec3 (0.021, 0.01, 0.0), 1e-12));
@@ -176,7 +181,7 @@ TEST_CASE ("surface: one node's curve, one triangle, by hand", "[nodes][deform]"
     CHECK (node.tick ({ .position = Vec3 (0.022, 0.01, 0.0) }).state == 0.0);
 }
 
-TEST_CASE ("surface: tools are mixed, and the mixture is latched", "[nodes][deform]")
+TEST_CASE ("surface: tools are mixed, and the mix is latched", "[nodes][deform]")
 {
     auto node = made (body (flat(), { { curves (100.0, 1000.0) }, { curves (100.0, 3000.0) }, { curves (100.0, 100.0) } }, { { .number = 0.5 } }));
     const auto press = [&] (double tool, double depth)
@@ -221,7 +226,7 @@ TEST_CASE ("surface: a closed path that sticks gives and takes nothing, whatever
         RC_ASSERT (std::abs (hand.work) <= 1e-6 * (most + before) + 1e-12); });
 }
 
-TEST_CASE ("surface: work of the hand is what is stored and what is lost", "[nodes][deform]")
+TEST_CASE ("surface: the work of the hand is the stored plus the lost energy", "[nodes][deform]")
 {
     rc::prop ("random strokes in and out", [] (unsigned seed)
               {
@@ -238,15 +243,15 @@ TEST_CASE ("surface: work of the hand is what is stored and what is lost", "[nod
             moved = hand.moved;
             return hand.work - hand.out.stored_energy - hand.out.dissipated_energy;
         };
-        // What slips within a step is of the order of the step. A stroke that only grazes has few of them in contact, and is
-        // walked in finer ones: what is really missing stays however fine they are.
+        // The slip within a step is of the order of the step. A stroke that only grazes has few steps in contact, so it is
+        // repeated in finer steps: a real error would remain, however fine they are.
         const auto extrapolated = [&] (int steps)
         { return std::abs (2.0 * missing (2 * steps) - missing (steps)); };
         const double at_once = extrapolated (1000);
         RC_ASSERT ((at_once <= 5e-3 * moved || extrapolated (16000) <= 5e-3 * moved)); });
 }
 
-TEST_CASE ("surface: a pad of one softness never gives energy on a closed path", "[nodes][deform]")
+TEST_CASE ("surface: a pad of uniform softness never generates energy on a closed path", "[nodes][deform]")
 {
     rc::prop ("random strokes", [] (unsigned seed)
               {
@@ -263,7 +268,7 @@ TEST_CASE ("surface: a pad of one softness never gives energy on a closed path",
         } });
 }
 
-TEST_CASE ("surface: frictionless, from soft to stiff and back costs nothing", "[nodes][deform]")
+TEST_CASE ("surface: without friction, moving from soft to stiff and back costs nothing", "[nodes][deform]")
 {
     rc::prop ("closed paths over level frames", [] (unsigned seed)
               {
@@ -285,7 +290,7 @@ TEST_CASE ("surface: frictionless, from soft to stiff and back costs nothing", "
         RC_ASSERT (std::abs (hand.work) <= 1e-2 * most); });   // the quadrature has an error at each edge, where the gradient steps
 }
 
-TEST_CASE ("surface: pressed soft, slid, released stiff: without -dU/dc it would be a source", "[nodes][deform]")
+TEST_CASE ("surface: without -dU/dc, pressing where it is soft and releasing where it is stiff would generate energy", "[nodes][deform]")
 {
     std::vector<Surface::Curves> nodes;
     const auto mesh = flat (8);
@@ -302,8 +307,8 @@ TEST_CASE ("surface: pressed soft, slid, released stiff: without -dU/dc it would
     };
     CHECK (std::abs (loop (Frictions::frictionless, 0.5).first) < 1e-6);
     CHECK (std::abs (loop (Frictions::bound, 0.0).first) < 1e-6);   // mu 0 is frictionless
-    CHECK (loop (Frictions::bound, 0.01).first < -1e-4);            // which is what the warning is about
-    CHECK (loop (Frictions::bound, 0.01).second.warning ({}).find ("gives energy") != std::string::npos);
+    CHECK (loop (Frictions::bound, 0.01).first < -1e-4);            // this is what the warning reports
+    CHECK (loop (Frictions::bound, 0.01).second.warning ({}).find ("generates energy") != std::string::npos);
     CHECK_FALSE (loop (Frictions::bound, 0.01).second.claims().passive);
     CHECK (loop (Frictions::bound, 0.6).first > 1e-4);
 }
@@ -334,7 +339,7 @@ TEST_CASE ("surface: the force does not step where a slide crosses an edge", "[n
             RC_ASSERT (step <= 3.0 * usual + 1e-9); });
 }
 
-TEST_CASE ("surface: a slipping tool drags its contact behind it, by mu times the depth", "[nodes][deform]")
+TEST_CASE ("surface: a slipping tool drags its contact behind, by mu times the depth", "[nodes][deform]")
 {
     const Ratio law { .law = { .kind = Law::Kind::table, .table = { { 1e-3, 4e-3 }, { 0.8, 0.2 } } } };
     for (const auto& ratio : { Ratio { .number = 0.7 }, law })
@@ -350,12 +355,13 @@ TEST_CASE ("surface: a slipping tool drags its contact behind it, by mu times th
     }
 }
 
-TEST_CASE ("surface: a fault is silent, and the next touch is a fresh one", "[nodes][deform]")
+TEST_CASE ("surface: a fault gives 0, and the next touch starts fresh", "[nodes][deform]")
 {
     auto node = made (body (flat(), { { curves (400.0, 1000.0) } }, { { .number = 0.5 } }));
     node.tick ({ .position = Vec3 (0.02, 0.02, -0.002) });
     node.tick ({ .position = Vec3 (0.025, 0.02, -0.002) });
-    for (const auto& in : { ElasticSurface::Inputs { .position = Vec3 (0.02, not_a_number, 0.0) }, { .position = Vec3 (0.02, 0.02, -0.002), .tool = not_a_number } })
+    for (const auto& in : { ElasticSurface::Inputs { .position = Vec3 (0.02, not_a_number, 0.0) },
+                            { .position = Vec3 (0.02, 0.02, -0.002), .tool = not_a_number } })
     {
         const auto out = node.tick (in);
         CHECK (out.state == -1.0);
@@ -408,9 +414,9 @@ TEST_CASE ("surface: a ball is felt from all sides, with a search of any length"
         } });
 }
 
-TEST_CASE ("surface: a search changes no force of what is touched already, and costs only the first ticks", "[nodes][deform]")
+TEST_CASE ("surface: a search changes no force in contact, and costs only the first ticks", "[nodes][deform]")
 {
-    rc::prop ("the same strokes, searched at once or later", [] (unsigned seed)
+    rc::prop ("the same strokes, searched immediately or later", [] (unsigned seed)
               {
         const auto surface = uneven (grid (12, 0.04, [] (double x, double y) { return 0.002 * std::sin (90.0 * x) * std::sin (80.0 * y); }), seed);
         auto at_once = made (surface), later = made (surface);
@@ -419,19 +425,20 @@ TEST_CASE ("surface: a search changes no force of what is touched already, and c
         for (int k = 0; k < 1000; ++k)
         {
             const double t = 3e-3 * k;
-            const ElasticSurface::Inputs in { .position = Vec3 (0.02 + 0.015 * std::sin (3.0 * t + seed % 5), 0.02 + 0.015 * std::sin (2.0 * t), 0.003 * std::cos (5.0 * t)) };
+            const ElasticSurface::Inputs in { .position = Vec3 (0.02 + 0.015 * std::sin (3.0 * t + seed % 5),
+                0.02 + 0.015 * std::sin (2.0 * t), 0.003 * std::cos (5.0 * t)) };
             const auto a = at_once.tick (in), b = later.tick (in);
             RC_ASSERT (k < 9 || a.force == b.force);
             RC_ASSERT (k < 9 || a.contact == b.contact);
         } });
 }
 
-TEST_CASE ("surface: searched by a thread on 100 000 triangles, live runs repeat to the bit and allocate nothing", "[nodes][deform]")
+TEST_CASE ("surface: searched by a thread on 100 000 triangles, live runs are bit-identical and allocate nothing", "[nodes][deform]")
 {
     const auto surface = body (ball (0.03, 7), { { curves (400.0, 1000.0) } }, { { .number = 0.5 } });
     REQUIRE (surface->mesh->triangles.size() > 100'000);
 
-    const auto run = [&] (SlowAnswers* answers, std::chrono::microseconds pause)
+    const auto run = [&] (QueryService* answers, std::chrono::microseconds pause)
     {
         ElasticSurface node;
         node.settings.surface = surface;
@@ -458,7 +465,7 @@ TEST_CASE ("surface: searched by a thread on 100 000 triangles, live runs repeat
 
     for (std::chrono::microseconds pause { 500 };; pause *= 2)   // the busier the machine, the more time it gets
     {
-        AnsweringThread answers;
+        QueryThread answers;
         const auto live = run (&answers, pause);
         if (answers.lateTicks() > 0 && pause < std::chrono::milliseconds (20)) continue;
         CHECK (answers.lateTicks() == 0);
@@ -467,7 +474,7 @@ TEST_CASE ("surface: searched by a thread on 100 000 triangles, live runs repeat
     }
 }
 
-TEST_CASE ("surface: what is wrong with a mesh is said", "[nodes][deform]")
+TEST_CASE ("surface: a mesh that cannot be used is reported", "[nodes][deform]")
 {
     const std::vector<std::vector<Surface::Curves>> tools { { curves (1.0, 1.0) } };
     const auto problem = [] (std::shared_ptr<const Surface> s)
@@ -549,7 +556,7 @@ TEST_CASE ("surface: a closed body has no rim", "[nodes][deform]")
         } });
 }
 
-TEST_CASE ("surface: around the rim and up through the surface gives no energy", "[nodes][deform]")
+TEST_CASE ("surface: a path around the rim and up through the surface generates no energy", "[nodes][deform]")
 {
     for (const auto friction : { Frictions::bound, Frictions::frictionless })
     {
@@ -566,7 +573,7 @@ TEST_CASE ("surface: around the rim and up through the surface gives no energy",
     }
 }
 
-TEST_CASE ("surface: what was inside when the first search ended is felt once it has been outside", "[nodes][deform]")
+TEST_CASE ("surface: a tool that was inside when the first search ended feels the body once it has been outside", "[nodes][deform]")
 {
     auto node = made (body (flat(), { { curves (400.0, 1000.0) } }, { { .number = 0.5 } }));
     node.settings.search_ticks = 20;
@@ -589,7 +596,7 @@ TEST_CASE ("surface: what was inside when the first search ended is felt once it
     CHECK (steepest < 0.11);
 }
 
-TEST_CASE ("surface: what faces the wrong way, pulls, or leans is said", "[nodes][deform]")
+TEST_CASE ("surface: a surface that faces the wrong way, pulls, or has tilted frames is reported", "[nodes][deform]")
 {
     const std::vector<std::vector<Surface::Curves>> tools { { curves (400.0, 1000.0) } };
     auto inside_out = ball (0.03, 2);
@@ -602,10 +609,10 @@ TEST_CASE ("surface: what faces the wrong way, pulls, or leans is said", "[nodes
     CHECK (made (std::make_shared<const Surface> (upward)).warning ({}).find ("node 0") != std::string::npos);
 
     const Law pulls { .kind = Law::Kind::table, .table = { { 0.005, 0.01 }, { 5.0, -5.0 } } };
-    CHECK (made (body (flat(), { { { power (1.0), power (1.0), pulls } } }, {})).problem().find ("pulls") != std::string::npos);
+    CHECK (made (body (flat(), { { { power (1.0), power (1.0), pulls } } }, {})).problem().find ("must not pull") != std::string::npos);
 
     const auto bumpy = grid (4, 0.04, [] (double x, double y)
                              { return 0.003 * std::sin (150.0 * x) * std::cos (110.0 * y); });
-    CHECK (made (body (bumpy, tools, { { .number = 0.5 } }), Frictions::frictionless).warning ({}).find ("lean") != std::string::npos);
-    CHECK (made (uneven (flat(), 3, 0.0)).warning ({}).empty());   // no friction: nothing to warn of, though the nodes differ
+    CHECK (made (body (bumpy, tools, { { .number = 0.5 } }), Frictions::frictionless).warning ({}).find ("tilted") != std::string::npos);
+    CHECK (made (uneven (flat(), 3, 0.0)).warning ({}).empty());   // no friction: no warning, although the nodes differ
 }

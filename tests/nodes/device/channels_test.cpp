@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Axes, buttons and signals of a device, by name and number.
+// Axes, buttons and signals of a device, by name and by number.
 
 #include <nodes/device/axis.hpp>
 #include <nodes/device/button.hpp>
@@ -28,7 +28,7 @@ DeviceState padState()
 }
 }   // namespace
 
-TEST_CASE ("device: an axis is found by its name, and stays where it was while the device is silent", "[nodes][device]")
+TEST_CASE ("device: an axis is found by name, and keeps its value while the device is silent", "[nodes][device]")
 {
     auto device = padState();
     DeviceAxis node;
@@ -55,7 +55,7 @@ TEST_CASE ("device: an axis is found by its name, and stays where it was while t
     CHECK (fresh.tick ({}).axis == 0.0);
 }
 
-TEST_CASE ("device: an effort goes to the axis of its name, and nowhere if there is none that can be pushed", "[nodes][device]")
+TEST_CASE ("device: an effort goes to the axis of its name, or nowhere if that axis cannot be pushed", "[nodes][device]")
 {
     const auto device = padState();
     DeviceEffort node;
@@ -67,13 +67,13 @@ TEST_CASE ("device: an effort goes to the axis of its name, and nowhere if there
     CHECK (node.effort().force.isZero (0.0));
     CHECK (node.missing (pad).empty());
 
-    node.settings.axis = "stick";   // only read
+    node.settings.axis = "stick";   // can only be read
     node.bind (device);
     CHECK (node.effort().axes.size() == 0);
     CHECK (node.missing (pad) == "no axis to push called 'stick'; its axes to push: 'trigger'");
 }
 
-TEST_CASE ("device: a button goes by its name or its number", "[nodes][device]")
+TEST_CASE ("device: a button is found by name or by number", "[nodes][device]")
 {
     auto device = padState();
     device.reading.buttons = 2;
@@ -86,9 +86,9 @@ TEST_CASE ("device: a button goes by its name or its number", "[nodes][device]")
     };
     CHECK_FALSE (pressed ("cross"));
     CHECK (pressed ("1"));
-    CHECK_FALSE (pressed ("0"));   // a name: that of button 2
+    CHECK_FALSE (pressed ("0"));   // the name of button 2
     CHECK_FALSE (pressed ("3"));
-    CHECK_FALSE (pressed (""));   // there is one without a name, and it is not found by that
+    CHECK_FALSE (pressed (""));   // a button without a name is not found by the empty name
     device.reading.buttons = 5;
     CHECK (pressed ("cross"));
     CHECK (pressed ("0"));
@@ -115,7 +115,7 @@ TEST_CASE ("device: a button goes by its name or its number", "[nodes][device]")
     CHECK_FALSE (missing ("").empty());
 }
 
-TEST_CASE ("device: signals go by channel, from 1", "[nodes][device]")
+TEST_CASE ("device: signals are numbered by channel, from 1", "[nodes][device]")
 {
     auto device = padState();
     DeviceSignalIn in;
@@ -143,7 +143,7 @@ TEST_CASE ("device: signals go by channel, from 1", "[nodes][device]")
     CHECK (out.missing (pad) == "no signal output 3; it has 2");
 }
 
-TEST_CASE ("channels hold as many numbers as were put in, and 0 beyond", "[framework]")
+TEST_CASE ("channels hold the values that were set, and 0 beyond", "[framework]")
 {
     Channels all { 1.0, 2.0 };
     all.set (4, 5.0);

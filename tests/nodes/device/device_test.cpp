@@ -14,7 +14,7 @@ namespace
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 }
 
-TEST_CASE ("device: position is what the device measures", "[nodes][device]")
+TEST_CASE ("device: position is the position the device measures", "[nodes][device]")
 {
     DeviceState device;
     DevicePosition node;
@@ -27,7 +27,7 @@ TEST_CASE ("device: position is what the device measures", "[nodes][device]")
     CHECK (out.age == 0.004);
 }
 
-TEST_CASE ("device: while it has nothing to say the tool stays where it was", "[nodes][device]")
+TEST_CASE ("device: while the device reports nothing, the tool stays where it was", "[nodes][device]")
 {
     DeviceState device;
     DevicePosition position;
@@ -66,7 +66,13 @@ TEST_CASE ("device: a reading that is not finite moves nothing and is not kept",
     position.tick ({});
     pressure.tick ({});
 
-    device.reading = { .position = { 1, not_a_number, 3 }, .pressure = tactus::inf, .age = 0.01, .true_position = { 0, 0, not_a_number }, .true_velocity = { 1, 1, 1 } };
+    device.reading = {
+        .position = { 1, not_a_number, 3 },
+        .pressure = tactus::inf,
+        .age = 0.01,
+        .true_position = { 0, 0, not_a_number },
+        .true_velocity = { 1, 1, 1 },
+    };
     const auto out = position.tick ({});
     CHECK (out.position == Vec3 (1, 2, 3));
     CHECK (out.valid == 0.0);
@@ -79,7 +85,7 @@ TEST_CASE ("device: a reading that is not finite moves nothing and is not kept",
     CHECK (pressure.tick ({}).force == 2.0);
 }
 
-TEST_CASE ("device: truth is the simulated tool, before its encoders", "[nodes][device]")
+TEST_CASE ("device: truth is the simulated tool before its encoders", "[nodes][device]")
 {
     DeviceState device;
     DeviceTruth node;
@@ -91,7 +97,7 @@ TEST_CASE ("device: truth is the simulated tool, before its encoders", "[nodes][
     CHECK (node.tick ({}).position.isZero (0.0));
 }
 
-TEST_CASE ("device: a node without a device says so", "[nodes][device]")
+TEST_CASE ("device: a node without a device reports it", "[nodes][device]")
 {
     CHECK (DevicePosition().tick ({}).valid == 0.0);
     CHECK (DevicePressure().tick ({}).force == 0.0);

@@ -3,24 +3,18 @@
 
 #include <nodes/filter/biquad.hpp>
 
+#include <support/ready.hpp>
+
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
 
 using tactus::nodes::BiquadFilter;
+using tactus::test::ready;
 using Kind = BiquadFilter::Kind;
 
 namespace
 {
 constexpr Kind kinds[] { Kind::low, Kind::high, Kind::band, Kind::notch, Kind::peak, Kind::low_shelf, Kind::high_shelf };
-
-BiquadFilter filterOf (BiquadFilter::Params params)
-{
-    BiquadFilter node;
-    node.params = params;
-    node.prepare ({ .rate_hz = 1000.0 });
-    node.update();
-    return node;
-}
 
 /// The analogue prototypes of the cookbook.
 std::complex<double> prototype (const BiquadFilter::Params& p, std::complex<double> s)
@@ -47,7 +41,7 @@ std::complex<double> prototype (const BiquadFilter::Params& p, std::complex<doub
 }
 }   // namespace
 
-TEST_CASE ("biquad: every kind responds as its prototype in the cookbook", "[nodes][filter]")
+TEST_CASE ("biquad: every kind has the response of its prototype in the cookbook", "[nodes][filter]")
 {
     rc::prop ("any kind, cutoff, q, gain and frequency", []
               {
@@ -59,22 +53,22 @@ TEST_CASE ("biquad: every kind responds as its prototype in the cookbook", "[nod
         };
         const double turns = *rc::gen::inRange (0, 500) / 1000.0;
         const auto wanted = prototype (params, bilinear (turns, params.cutoff / 1000.0));
-        RC_ASSERT (std::abs (Response { filterOf (params) }(turns) - wanted) < 1e-8 * (1.0 + std::abs (wanted))); });
+        RC_ASSERT (std::abs (Response { ready<BiquadFilter> (params) }(turns) - wanted) < 1e-8 * (1.0 + std::abs (wanted))); });
 }
 
 TEST_CASE ("biquad: peak and shelves do nothing at 0 dB", "[nodes][filter]")
 {
     const auto kind = GENERATE (Kind::peak, Kind::low_shelf, Kind::high_shelf);
-    auto node = filterOf ({ .kind = kind });
+    auto node = ready<BiquadFilter> ({ .kind = kind });
     for (int k = 0; k < 100; ++k)
         CHECK (node.tick ({ .in = std::sin (0.7 * k) }).out == Approx (std::sin (0.7 * k)).margin (1e-12));
 }
 
-TEST_CASE ("biquad: the notch leaves nothing at its centre, the band passes it whole", "[nodes][filter]")
+TEST_CASE ("biquad: the notch removes its centre, and the band passes it unchanged", "[nodes][filter]")
 {
     const double cutoff = GENERATE (20.0, 100.0, 400.0);
-    CHECK (std::abs (Response { filterOf ({ .cutoff = cutoff, .kind = Kind::notch }) }(cutoff / 1000.0)) < 1e-9);
-    CHECK (std::abs (Response { filterOf ({ .cutoff = cutoff, .kind = Kind::band }) }(cutoff / 1000.0)) == Approx (1.0));
+    CHECK (std::abs (Response { ready<BiquadFilter> ({ .cutoff = cutoff, .kind = Kind::notch }) }(cutoff / 1000.0)) < 1e-9);
+    CHECK (std::abs (Response { ready<BiquadFilter> ({ .cutoff = cutoff, .kind = Kind::band }) }(cutoff / 1000.0)) == Approx (1.0));
 }
 
 TEST_CASE ("biquad: is stable at any cutoff and q", "[nodes][filter]")
@@ -83,9 +77,9 @@ TEST_CASE ("biquad: is stable at any cutoff and q", "[nodes][filter]")
     const double cutoff = GENERATE (0.0, 0.001, 100.0, 499.0, 500.0, 1e9);
     const double q = GENERATE (1e-3, 0.7071, 1e3);
     const double gain_db = GENERATE (-24.0, 0.0, 24.0);
-    auto node = filterOf ({ .cutoff = cutoff, .q = q, .gain_db = gain_db, .kind = kind });
+    auto node = ready<BiquadFilter> ({ .cutoff = cutoff, .q = q, .gain_db = gain_db, .kind = kind });
 
-    // an impulse may ring for long, but a stable filter never grows louder than it was in its first moments
+    // an impulse may ring for long, but the output of a stable filter never grows beyond its first moments
     double early = 1.0, late = 0.0;
     for (int k = 0; k < 20'000; ++k)
     {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-/// The frequency response of a filter node at rest, measured: the spectrum of its answer to an impulse.
+/// The measured frequency response of a filter node at rest: the spectrum of its impulse response.
 class Response
 {
 public:
@@ -17,7 +17,7 @@ public:
             impulse.push_back (node.tick ({ .in = k == 0 ? 1.0 : 0.0 }).out);
     }
 
-    /// At a frequency in turns per tick, up to 0.5.
+    /// At a frequency in cycles per tick, up to 0.5.
     std::complex<double> operator() (double turns) const
     {
         const auto z = std::polar (1.0, -2.0 * std::numbers::pi * turns);
@@ -31,8 +31,8 @@ private:
     std::vector<double> impulse;
 };
 
-/// Where the bilinear transform, prewarped at the cutoff, finds a digital frequency on the analogue axis: s in units
-/// of the cutoff. Both in turns per tick.
+/// The analogue frequency s, in units of the cutoff, that the bilinear transform (prewarped at the cutoff) maps to a
+/// digital frequency. Both arguments are in cycles per tick.
 inline std::complex<double> bilinear (double turns, double cutoff)
 {
     return { 0.0, std::tan (std::numbers::pi * turns) / std::tan (std::numbers::pi * cutoff) };

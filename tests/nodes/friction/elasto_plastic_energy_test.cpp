@@ -12,8 +12,8 @@
 //
 //   model      the growth of stored_energy plus dissipated_energy, over the straight path between the samples
 //   trapezoid  -(f before + f after) / 2 . dp; equal to the model's while sticking, and on dense paths
-//   held       -f before . dp, what a device that holds its force between samples is given; a spring of slope K leaks
-//              up to K |dp|^2 / 2 a step here, which the device must damp (section 1)
+//   held       -f before . dp, the work on a device that holds its force between samples; a spring of slope K leaks
+//              up to K |dp|^2 / 2 per step, which the device must damp (section 1)
 //   reached    -f after . dp; never less than the growth of stored energy, whatever the step: the proof of passivity
 
 using tactus::Vec3;
@@ -60,7 +60,7 @@ double sigma (const Params& params, double normal_force)
     return params.stiffness > 0.0 ? params.stiffness : params.mu * normal_force / params.d_max;
 }
 
-/// One loop between -amplitude and amplitude, in n steps a stroke, once the first strokes have been forgotten.
+/// One loop between -amplitude and amplitude, n steps per stroke, after the first strokes have died out.
 double loopArea (Params params, double amplitude, int n, double Bench::*work)
 {
     Bench bench (params);
@@ -79,7 +79,7 @@ double loopArea (Params params, double amplitude, int n, double Bench::*work)
 }
 }   // namespace
 
-TEST_CASE ("friction: over a million random ticks it never gives energy", "[nodes][friction][energy]")
+TEST_CASE ("friction: over a million random ticks it never generates energy", "[nodes][friction][energy]")
 {
     // Loads, mu, d_max, ratios and normals jump at each tick; steps go from far below d_max to far above it.
     for (const bool turning : { false, true })
@@ -128,7 +128,7 @@ TEST_CASE ("friction: over a million random ticks it never gives energy", "[node
             }
 }
 
-TEST_CASE ("friction: on a dense path the work of the hand is what is stored plus what is lost", "[nodes][friction][energy]")
+TEST_CASE ("friction: on a dense path the work of the hand is the stored plus the lost energy", "[nodes][friction][energy]")
 {
     for (const auto adhesion : all_adhesions)
         for (const auto integrator : both_integrators)
@@ -144,14 +144,14 @@ TEST_CASE ("friction: on a dense path the work of the hand is what is stored plu
                                   .normal_force = 1.0 + 0.8 * std::sin (5.0 * s) });
                 }
                 INFO (int (adhesion) << " " << int (integrator) << " " << ratio << " " << bench.trapezoid << " " << bench.model());
-                CHECK (bench.model() == Approx (bench.trapezoid).epsilon (ratio > 1.0 ? 2e-3 : integrator == Integrator::euler ? 4e-4
-                                                                                                                               : 2e-4));
+                const double smooth = integrator == Integrator::euler ? 4e-4 : 2e-4;
+                CHECK (bench.model() == Approx (bench.trapezoid).epsilon (ratio > 1.0 ? 2e-3 : smooth));
             }
 }
 
-TEST_CASE ("friction: along any way, under any load, the work of the hand is what is stored plus what is lost", "[nodes][friction][energy]")
+TEST_CASE ("friction: along any path, under any load, the work of the hand is the stored plus the lost energy", "[nodes][friction][energy]")
 {
-    rc::prop ("strokes, circles and tremor, pressed, let up and lifted, over a surface that turns", [] (unsigned seed)
+    rc::prop ("strokes, circles and tremor, pressed, eased and lifted, over a turning surface", [] (unsigned seed)
               {
         std::mt19937 random (seed);
         std::uniform_real_distribution<double> uniform;
@@ -248,9 +248,9 @@ TEST_CASE ("friction: loops have the areas of the closed forms", "[nodes][fricti
     CHECK (loopArea (euler, amplitude, 100'000, nullptr) == Approx (dahl).epsilon (1e-3));
 }
 
-TEST_CASE ("friction: stick, press harder, unshear: passive by default, and not as printed", "[nodes][friction][energy]")
+TEST_CASE ("friction: stick, press harder, unshear: passive by default, but not as printed", "[nodes][friction][energy]")
 {
-    // Eq. (3) with sigma following the load gives sigma d^2 / 2 more back than it took: 3.2e-6 J a loop here.
+    // Eq. (3) with sigma following the load gives back sigma d^2 / 2 more than it took: 3.2e-6 J per loop here.
     const auto strokes = [] (Load load, Adhesion adhesion)
     {
         Bench bench ({ .mu = 0.4, .d_max = 1e-5, .adhesion = adhesion, .load = load });
@@ -273,7 +273,7 @@ TEST_CASE ("friction: stick, press harder, unshear: passive by default, and not 
 
     const auto printed = strokes (Load::scale, Adhesion::stick);
     CHECK (printed.trapezoid == Approx (-1.6e-4).epsilon (1e-6));
-    CHECK (printed.out.dissipated_energy == Approx (-1.6e-4).epsilon (1e-6));   // and the node says so
+    CHECK (printed.out.dissipated_energy == Approx (-1.6e-4).epsilon (1e-6));   // and the node reports it
 
     for (const auto adhesion : all_adhesions)
     {
@@ -284,7 +284,7 @@ TEST_CASE ("friction: stick, press harder, unshear: passive by default, and not 
     }
 }
 
-TEST_CASE ("friction: press, shear and lift in any order gives no energy", "[nodes][friction][energy]")
+TEST_CASE ("friction: press, shear and lift in any order generates no energy", "[nodes][friction][energy]")
 {
     for (const auto adhesion : all_adhesions)
         for (const double phase : { 0.0, 1.0, 2.0, 3.0, 4.0, 5.0 })
@@ -300,7 +300,7 @@ TEST_CASE ("friction: press, shear and lift in any order gives no energy", "[nod
         }
 }
 
-TEST_CASE ("friction: pressing harder keeps the force, and letting up lowers it", "[nodes][friction][energy]")
+TEST_CASE ("friction: pressing harder keeps the force, and easing lowers it", "[nodes][friction][energy]")
 {
     Bench bench ({ .d_max = 1e-4 });
     bench.tick ({});
@@ -314,7 +314,7 @@ TEST_CASE ("friction: pressing harder keeps the force, and letting up lowers it"
     CHECK (bench.tick ({ .position = { 0.5e-4, 0, 0 }, .normal_force = 1.5 }).force.x() == Approx (force / 2));
 }
 
-TEST_CASE ("friction: it claims what it keeps", "[nodes][friction]")
+TEST_CASE ("friction: its claims hold", "[nodes][friction]")
 {
     ElastoPlastic node;
     CHECK (node.claims().passive);

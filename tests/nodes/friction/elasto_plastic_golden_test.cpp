@@ -42,7 +42,7 @@ std::vector<ElastoPlastic::Outputs> play3d (const Golden& golden, const ElastoPl
 }
 }   // namespace
 
-TEST_CASE ("friction: along a line every form meets the golden columns", "[nodes][friction][golden]")
+TEST_CASE ("friction: along a line every form matches the golden columns", "[nodes][friction][golden]")
 {
     const Golden golden ("friction_1d");
     ElastoPlastic::Params base;
@@ -90,7 +90,7 @@ TEST_CASE ("friction: along a line every form meets the golden columns", "[nodes
     forceMeets ("f_passive", with (Adhesion::stick, Integrator::exponential, Load::passive));
 }
 
-TEST_CASE ("friction: on a turning surface every form meets the golden columns", "[nodes][friction][golden]")
+TEST_CASE ("friction: on a turning surface every form matches the golden columns", "[nodes][friction][golden]")
 {
     const Golden golden ("friction_3d");
     ElastoPlastic::Params params;
@@ -127,7 +127,7 @@ TEST_CASE ("friction: on a turning surface every form meets the golden columns",
     meets ("f_etd4", play3d (golden, params), &ElastoPlastic::Outputs::force);
 }
 
-TEST_CASE ("friction: a grating on d_max meets the golden column", "[nodes][friction][golden]")
+TEST_CASE ("friction: a grating on d_max matches the golden column", "[nodes][friction][golden]")
 {
     const Golden golden ("texture");
     ElastoPlastic node;

@@ -64,7 +64,8 @@ bool sameBits (const Outputs& a, const Outputs& b)
 {
     const auto same = [] (const auto& u, const auto& v)
     { return std::memcmp (&u, &v, sizeof u) == 0; };
-    return same (a.force, b.force) && same (a.deflection, b.deflection) && same (a.stored_energy, b.stored_energy) && same (a.dissipated_energy, b.dissipated_energy);
+    return same (a.force, b.force) && same (a.deflection, b.deflection) && same (a.stored_energy, b.stored_energy)
+           && same (a.dissipated_energy, b.dissipated_energy);
 }
 }   // namespace
 
@@ -99,7 +100,7 @@ TEST_CASE ("friction: sliding is mu f_n against the motion, in any direction, wi
         }
 }
 
-TEST_CASE ("friction: a touch starts without a force, wherever it is, and so does every other", "[nodes][friction]")
+TEST_CASE ("friction: every touch starts without a force, wherever it is", "[nodes][friction]")
 {
     for (const auto adhesion : all_adhesions)
     {
@@ -154,7 +155,7 @@ TEST_CASE ("friction: stick and slip alternate with the period d_stick - d_max",
     CHECK (highest == Approx (2.5 * 0.4).epsilon (1e-3));
 }
 
-TEST_CASE ("friction: dahl creeps by the formula under a load far below break-away, function 1 not at all", "[nodes][friction]")
+TEST_CASE ("friction: dahl creeps by the formula under a load far below break-away, and function 1 does not creep", "[nodes][friction]")
 {
     const double d_max = 1e-4, lo = 0.1 * d_max, hi = 0.5 * d_max;
     const auto creepPerCycle = [&] (Adhesion adhesion)
@@ -181,7 +182,7 @@ TEST_CASE ("friction: dahl creeps by the formula under a load far below break-aw
     CHECK (creepPerCycle (Adhesion::dupont) == Approx (0.0).margin (1e-12 * d_max));
 }
 
-TEST_CASE ("friction: tremor of the hand wears dahl's force away and leaves that of function 1", "[nodes][friction]")
+TEST_CASE ("friction: tremor of the hand wears down dahl's force, but not the force of function 1", "[nodes][friction]")
 {
     const double d_max = 1e-5;
     std::mt19937 random (1);
@@ -250,7 +251,7 @@ TEST_CASE ("friction: the exponential form is dahl's curve whatever the sampling
     }
 }
 
-TEST_CASE ("friction: what is felt depends on the path, not on the rate it is sampled at", "[nodes][friction]")
+TEST_CASE ("friction: the force depends on the path, not on the sampling rate", "[nodes][friction]")
 {
     const double d_max = 1e-4;
     for (const double ratio : { 1.0, 1.3 })
@@ -266,7 +267,7 @@ TEST_CASE ("friction: what is felt depends on the path, not on the rate it is sa
     }
 }
 
-TEST_CASE ("friction: a reversal in one sample does not turn the force round", "[nodes][friction]")
+TEST_CASE ("friction: a reversal in one sample does not flip the force", "[nodes][friction]")
 {
     // From -0.95 d_max by 1.9 d_max: eq. (4) without its clamp gives -0.855 d_max, the exact solution 0.708 d_max.
     const double d_max = 1e-5;
@@ -297,12 +298,14 @@ TEST_CASE ("friction: steady sliding is steady in force and state", "[nodes][fri
                 for (int k = 0; k < 2000; ++k)
                 {
                     drag.by (step * d_max);
-                    if (drag.out.state != 2.0 || std::abs (drag.out.force.x() - force) > 1e-10) FAIL_CHECK ("adhesion " << int (adhesion) << " integrator " << int (integrator) << " step " << step << ": state " << drag.out.state << ", force " << force << " to " << drag.out.force.x());
+                    if (drag.out.state == 2.0 && std::abs (drag.out.force.x() - force) <= 1e-10) continue;
+                    FAIL_CHECK ("adhesion " << int (adhesion) << " integrator " << int (integrator) << " step " << step
+                                            << ": state " << drag.out.state << ", force " << force << " to " << drag.out.force.x());
                 }
             }
 }
 
-TEST_CASE ("friction: a repeated sample changes no bit and is at rest", "[nodes][friction]")
+TEST_CASE ("friction: a repeated sample changes no bit and counts as rest", "[nodes][friction]")
 {
     std::mt19937 random (2);
     std::normal_distribution<double> normal;
@@ -317,7 +320,8 @@ TEST_CASE ("friction: a repeated sample changes no bit and is at rest", "[nodes]
                 for (int k = 0; k < 2000; ++k)
                 {
                     p += 1e-5 * Vec3 { normal (random), normal (random), normal (random) };
-                    const ElastoPlastic::Inputs in { .position = p, .normal = { 0.2 * normal (random), 0.2 * normal (random), 1.0 }, .normal_force = 1.0 + 0.5 * std::sin (0.1 * k) };
+                    const Vec3 tilted { 0.2 * normal (random), 0.2 * normal (random), 1.0 };
+                    const ElastoPlastic::Inputs in { .position = p, .normal = tilted, .normal_force = 1.0 + 0.5 * std::sin (0.1 * k) };
                     const auto first = node.tick (in);
                     if (first.state == 2.0) ++moving;
                     for (int repeat = 0; repeat < 3; ++repeat)
@@ -331,7 +335,7 @@ TEST_CASE ("friction: a repeated sample changes no bit and is at rest", "[nodes]
             }
 }
 
-TEST_CASE ("friction: a fault opens the contact and leaves no trace but the heat", "[nodes][friction]")
+TEST_CASE ("friction: a fault opens the contact and keeps only the dissipated energy", "[nodes][friction]")
 {
     const std::vector<ElastoPlastic::Inputs> faults {
         { .position = { not_a_number, 0, 0 } },
@@ -395,7 +399,7 @@ TEST_CASE ("friction: motion along the normal moves nothing, and a turning norma
     CHECK (turned.dissipated_energy + turned.stored_energy == Approx (pulled.stored_energy));
 }
 
-TEST_CASE ("friction: a choice that changes while touching waits until the contact has opened", "[nodes][friction]")
+TEST_CASE ("friction: a choice that changes in contact takes effect when the contact has opened", "[nodes][friction]")
 {
     Drag a ({}), b ({});
     a.by (3e-5);
@@ -413,7 +417,7 @@ TEST_CASE ("friction: a choice that changes while touching waits until the conta
     CHECK (a.by (5e-5).force.x() != b.by (5e-5).force.x());
 }
 
-TEST_CASE ("friction: a curve of one's own does what the built-in function does", "[nodes][friction]")
+TEST_CASE ("friction: a user curve does the same as the built-in function", "[nodes][friction]")
 {
     Drag ramp ({ .adhesion = Adhesion::ramp }), own ({ .adhesion = Adhesion::curve });
     own.node.settings.adhesion_curve = { { 0, 1 }, { 0, 1 } };
@@ -429,7 +433,7 @@ TEST_CASE ("friction: a curve of one's own does what the built-in function does"
     CHECK_FALSE (own.node.problem().empty());
 }
 
-TEST_CASE ("friction: an instance that takes over goes on without a step of force", "[nodes][friction]")
+TEST_CASE ("friction: a new instance continues without a step in force", "[nodes][friction]")
 {
     Drag drag ({ .adhesion = Adhesion::dahl });
     drag.stroke (2e-4, 10);
@@ -439,11 +443,12 @@ TEST_CASE ("friction: an instance that takes over goes on without a step of forc
     CHECK (sameBits (next.tick ({ .position = { drag.p, 0, 0 } }), drag.by (0)));
 }
 
-TEST_CASE ("friction: no number breaks it", "[nodes][friction]")
+TEST_CASE ("friction: no input breaks it", "[nodes][friction]")
 {
     rc::prop ("outputs are finite and the state is known", []
               {
-                  const auto number = rc::gen::element (0.0, -0.0, 1.0, -1.0, 1e-5, -3e-5, 1e-4, 1e-320, 1e-200, -1e160, 1e300, -1e308, not_a_number, tactus::inf, -tactus::inf);
+                  const auto number = rc::gen::element (0.0, -0.0, 1.0, -1.0, 1e-5, -3e-5, 1e-4, 1e-320, 1e-200, -1e160, 1e300, -1e308,
+                      not_a_number, tactus::inf, -tactus::inf);
                   const auto positive = rc::gen::element (1e-9, 1e-5, 1e-4, 1.0, 1e150, 1e300);
                   ElastoPlastic node;
                   for (int k = 0; k < 40; ++k)

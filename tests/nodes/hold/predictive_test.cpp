@@ -29,7 +29,7 @@ double push (PredictiveHold& node, double f) { return node.tick ({ .in = { f, 0,
 double push (PredictiveHold& node, double f, double contact) { return node.tick ({ .in = { f, 0, 0 }, .contact = contact }).out.x(); }
 }   // namespace
 
-TEST_CASE ("hold: it meets the golden column", "[nodes][hold][golden]")
+TEST_CASE ("hold: it matches the golden column", "[nodes][hold][golden]")
 {
     const Golden golden ("passivity");
     auto node = hold();
@@ -38,7 +38,7 @@ TEST_CASE ("hold: it meets the golden column", "[nodes][hold][golden]")
            <= 1.0);
 }
 
-TEST_CASE ("hold: on a steady slope it gives the force of the middle of the sample", "[nodes][hold]")
+TEST_CASE ("hold: on a steady slope it gives the force in the middle of the sample", "[nodes][hold]")
 {
     auto node = hold();
     CHECK (push (node, 1.0) == 1.0);   // nothing to predict from
@@ -46,7 +46,7 @@ TEST_CASE ("hold: on a steady slope it gives the force of the middle of the samp
         CHECK (push (node, 1.0 + 0.2 * k) == Approx (1.0 + 0.2 * (k + 0.5)));
 }
 
-TEST_CASE ("hold: a steady force passes to the bit", "[nodes][hold]")
+TEST_CASE ("hold: a steady force passes bit for bit", "[nodes][hold]")
 {
     rc::prop ("any force", []
               {
@@ -56,9 +56,9 @@ TEST_CASE ("hold: a steady force passes to the bit", "[nodes][hold]")
                       RC_ASSERT (push (node, f) == f); });
 }
 
-TEST_CASE ("hold: it plugs the leak of a sampled spring", "[nodes][hold][energy]")
+TEST_CASE ("hold: it stops the leak of a sampled spring", "[nodes][hold][energy]")
 {
-    // Pushed in and out by a hand that follows a path whatever the force; the force is held over each sample.
+    // The hand pushes in and out along a path, whatever the force. The force is held over each sample.
     const auto absorbed = [] (bool predicts)
     {
         auto node = hold();
@@ -77,26 +77,26 @@ TEST_CASE ("hold: it plugs the leak of a sampled spring", "[nodes][hold][energy]
     CHECK (std::abs (absorbed (true)) < 1e-2 * std::abs (absorbed (false)));
 }
 
-TEST_CASE ("hold: a touch is not predicted", "[nodes][hold]")
+TEST_CASE ("hold: it does not predict across a touch", "[nodes][hold]")
 {
     auto node = hold();
     CHECK (push (node, 0.0, 0.0) == 0.0);
     CHECK (push (node, 1.0, 1.0) == 1.0);
     CHECK (push (node, 1.2, 1.0) == Approx (1.3));
-    CHECK (push (node, 0.4, 0.0) == 0.4);   // nor is a release
+    CHECK (push (node, 0.4, 0.0) == 0.4);   // and neither is a release
     CHECK (push (node, 0.0, 0.0) == Approx (-0.2));
 }
 
-TEST_CASE ("hold: a contact that is not wired, or not a number, changes nothing", "[nodes][hold]")
+TEST_CASE ("hold: a contact that is unwired or nan changes nothing", "[nodes][hold]")
 {
     auto plain = hold(), wired = hold();
     for (const double f : { 0.0, 1.0, 1.5, 0.0, 0.0, -2.0 })
         CHECK (push (plain, f) == push (wired, f, f == 1.5 ? not_a_number : 1.0));
 
-    CHECK (push (wired, 3.0, 0.0) == 3.0);   // it remembers across the nan that there was a contact
+    CHECK (push (wired, 3.0, 0.0) == 3.0);   // it remembers the contact across the nan
 }
 
-TEST_CASE ("hold: a force of 0 is no change of contact", "[nodes][hold]")
+TEST_CASE ("hold: a force of 0 is not a change of contact", "[nodes][hold]")
 {
     auto node = hold();
     push (node, 2.0, 1.0);
@@ -104,7 +104,7 @@ TEST_CASE ("hold: a force of 0 is no change of contact", "[nodes][hold]")
     CHECK (push (node, 2.0, 1.0) == Approx (3.0));
 }
 
-TEST_CASE ("hold: longer than the limit it keeps its direction", "[nodes][hold]")
+TEST_CASE ("hold: a force beyond the limit keeps its direction", "[nodes][hold]")
 {
     rc::prop ("any two forces", []
               {
@@ -141,7 +141,7 @@ TEST_CASE ("hold: after a fault there is nothing to predict from", "[nodes][hold
     CHECK (push (node, 2.0, 0.0) == 2.0);
 }
 
-TEST_CASE ("hold: an instance that takes over knows the force before", "[nodes][hold]")
+TEST_CASE ("hold: a new instance adopts the previous force", "[nodes][hold]")
 {
     auto old = hold(), next = hold();
     push (old, 1.0);

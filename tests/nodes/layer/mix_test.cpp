@@ -15,7 +15,7 @@ namespace
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double T = 1e-3;
 
-/// A desk with its layers wired.
+/// A desk with wired layers.
 class Desk
 {
 public:
@@ -61,14 +61,14 @@ LayerMix::Params params (F edit)
 }
 }   // namespace
 
-TEST_CASE ("layer: as delivered it adds", "[nodes][layer]")
+TEST_CASE ("layer: by default it adds", "[nodes][layer]")
 {
     Desk desk { 3 };
     CHECK (desk.mix ({ 1.0, 10.0, -100.0 }).out == -89.0);
     CHECK (desk.mix ({ 1.0, 10.0, -100.0 }).reduction == 0.0);
 }
 
-TEST_CASE ("layer: each has its own gain", "[nodes][layer]")
+TEST_CASE ("layer: each layer has its own gain", "[nodes][layer]")
 {
     Desk desk { 2, params ([] (auto& p)
                            { p.gain[1] = 0.5; }) };
@@ -78,7 +78,7 @@ TEST_CASE ("layer: each has its own gain", "[nodes][layer]")
     CHECK (out.level[1] == 5.0);
 }
 
-TEST_CASE ("layer: what is muted from the start is never heard", "[nodes][layer]")
+TEST_CASE ("layer: a layer that is muted from the start is never heard", "[nodes][layer]")
 {
     Desk desk { 2, params ([] (auto& p)
                            { p.mute[0] = 1.0; }) };
@@ -87,7 +87,7 @@ TEST_CASE ("layer: what is muted from the start is never heard", "[nodes][layer]
     CHECK (out.level[0] == 0.0);
 }
 
-TEST_CASE ("layer: a solo silences the others, and mute wins over solo", "[nodes][layer]")
+TEST_CASE ("layer: a solo silences the other layers, and mute wins over solo", "[nodes][layer]")
 {
     Desk desk { 3, params ([] (auto& p)
                            { p.solo[1] = 1.0; }) };
@@ -139,13 +139,13 @@ TEST_CASE ("layer: a layer ducks those of lower priority while it sounds, by duc
                            { p.priority[0] = 2.0;
                              p.priority[1] = p.priority[2] = 1.0;
                              p.duck_db = 20.0; }) };
-    CHECK (desk.mix ({ 0.0, 1.0, 2.0 }, 200).out == 3.0);   // equals do not duck each other
+    CHECK (desk.mix ({ 0.0, 1.0, 2.0 }, 200).out == 3.0);   // equal priorities do not duck each other
     CHECK (desk.mix ({ 10.0, 1.0, 2.0 }, 200).out == Approx (10.3));
     CHECK (desk.mix ({ 10.0, 1.0, 2.0 }).level[1] == 1.0);   // the level is before ducking
-    CHECK (desk.mix ({ 0.0, 1.0, 2.0 }, 3000).out == 3.0);   // to the bit
+    CHECK (desk.mix ({ 0.0, 1.0, 2.0 }, 3000).out == 3.0);   // bit for bit
 }
 
-TEST_CASE ("layer: it ducks once, however many sound", "[nodes][layer]")
+TEST_CASE ("layer: it ducks once, however many layers sound", "[nodes][layer]")
 {
     Desk desk { 3, params ([] (auto& p)
                            { p.priority[0] = 3.0;
@@ -154,7 +154,7 @@ TEST_CASE ("layer: it ducks once, however many sound", "[nodes][layer]")
     CHECK (desk.mix ({ 1.0, 1.0, 1.0 }, 200).out == Approx (1.2));
 }
 
-TEST_CASE ("layer: what is muted ducks nobody", "[nodes][layer]")
+TEST_CASE ("layer: a muted layer ducks no other layer", "[nodes][layer]")
 {
     Desk desk { 2, params ([] (auto& p)
                            { p.priority[0] = 1.0;
@@ -162,7 +162,7 @@ TEST_CASE ("layer: what is muted ducks nobody", "[nodes][layer]")
     CHECK (desk.mix ({ 5.0, 1.0 }, 100).out == 1.0);
 }
 
-TEST_CASE ("layer: ducking is quick to come, slow to go, and does not click", "[nodes][layer]")
+TEST_CASE ("layer: ducking starts fast, ends slowly, and does not click", "[nodes][layer]")
 {
     Desk desk { 2, params ([] (auto& p)
                            { p.priority[0] = 1.0;
@@ -182,7 +182,7 @@ TEST_CASE ("layer: ducking is quick to come, slow to go, and does not click", "[
     int ticks = 0;
     while (desk.mix ({ 0.0, 1.0 }).out < 0.5)
         ++ticks;
-    CHECK (ticks > 69);   // half of the way back takes 69 ms, once the higher one no longer sounds
+    CHECK (ticks > 69);   // half of the way back takes 69 ms after the higher layer has gone silent
     CHECK (ticks < 400);
 }
 
@@ -195,7 +195,7 @@ TEST_CASE ("layer: a layer that begins long after another has ended starts at fu
     CHECK (desk.mix ({ 0.0, 1.0 }).out == 1.0);
 }
 
-TEST_CASE ("layer: the level rises at once and falls with 50 ms", "[nodes][layer]")
+TEST_CASE ("layer: the level rises immediately and decays over 50 ms", "[nodes][layer]")
 {
     Desk desk { 2 };
     CHECK (desk.mix ({ -2.0, 0.0 }).level[0] == 2.0);
@@ -229,7 +229,7 @@ TEST_CASE ("layer: the ceiling is never exceeded, and below it nothing changes",
     CHECK (desk.mix ({ -10.0, -10.0 }).reduction == Approx (20.0));
 }
 
-TEST_CASE ("layer: it mixes millinewtons as it mixes newtons", "[nodes][layer]")
+TEST_CASE ("layer: it mixes millinewtons as well as newtons", "[nodes][layer]")
 {
     rc::prop ("a thousandth in, a thousandth out", []
               {
@@ -244,7 +244,7 @@ TEST_CASE ("layer: it mixes millinewtons as it mixes newtons", "[nodes][layer]")
                   } });
 }
 
-TEST_CASE ("layer: a fault silences all, and the next sample is a first one", "[nodes][layer]")
+TEST_CASE ("layer: a fault silences everything, and the next sample counts as the first", "[nodes][layer]")
 {
     for (const double bad : { not_a_number, tactus::inf, -tactus::inf })
     {
@@ -261,7 +261,7 @@ TEST_CASE ("layer: a fault silences all, and the next sample is a first one", "[
     }
 }
 
-TEST_CASE ("layer: no number breaks it", "[nodes][layer]")
+TEST_CASE ("layer: no input breaks it", "[nodes][layer]")
 {
     rc::prop ("outputs are finite", []
               {
@@ -285,7 +285,7 @@ TEST_CASE ("layer: no number breaks it", "[nodes][layer]")
                   } });
 }
 
-TEST_CASE ("layer: an instance that takes over goes on ducking", "[nodes][layer]")
+TEST_CASE ("layer: a new instance keeps ducking", "[nodes][layer]")
 {
     const auto priorities = params ([] (auto& p)
                                     { p.priority[0] = 1.0; });

@@ -30,9 +30,9 @@ double along (Velocity& node, double x) { return node.tick ({ .position = { x, 0
 double quantised (double x) { return q * std::floor (x / q + 0.5); }
 }   // namespace
 
-TEST_CASE ("velocity: exact on ramps, whatever it is told of the noise", "[nodes][motion]")
+TEST_CASE ("velocity: exact on ramps, whatever the noise setting", "[nodes][motion]")
 {
-    rc::prop ("any speed, place, noise and window", []
+    rc::prop ("any speed, position, noise and window", []
               {
                   const double v = 1e-4 * *rc::gen::inRange (-10'000, 10'000), from = 1e-3 * *rc::gen::inRange (-200, 200);
                   auto node = velocity (*rc::gen::element (0.0, 1e-6, 1e-5, 1e-3), *rc::gen::inRange (2, 64));
@@ -43,7 +43,7 @@ TEST_CASE ("velocity: exact on ramps, whatever it is told of the noise", "[nodes
                   } });
 }
 
-TEST_CASE ("velocity: a ramp is told on the second sample if it is out of the noise", "[nodes][motion]")
+TEST_CASE ("velocity: a ramp is exact on the second sample if it exceeds the noise", "[nodes][motion]")
 {
     for (const double noise : { 0.0, 1e-5, 1e-4 })
     {
@@ -64,7 +64,7 @@ TEST_CASE ("velocity: half a quantum of noise never becomes speed", "[nodes][mot
                       RC_ASSERT (along (node, 0.03 + noise (random)) == 0.0); });
 }
 
-TEST_CASE ("velocity: nor does a position between two quanta, without being told the quantum", "[nodes][motion]")
+TEST_CASE ("velocity: a position between two quanta never becomes speed either, without knowing the quantum", "[nodes][motion]")
 {
     rc::prop ("a tool at rest between two quanta, with noise", [] (unsigned seed)
               {
@@ -78,16 +78,16 @@ TEST_CASE ("velocity: nor does a position between two quanta, without being told
                   } });
 }
 
-TEST_CASE ("velocity: of a steady motion in steps it knows the speed to a quantum in the window", "[nodes][motion]")
+TEST_CASE ("velocity: a steady quantised motion is exact to one quantum per window", "[nodes][motion]")
 {
     rc::prop ("any speed", []
               {
                   const double v = 1e-5 * *rc::gen::inRange (-20'000, 20'000);
                   const int window = *rc::gen::inRange (4, 33);
-                  auto told = velocity (q, window);
+                  auto known = velocity (q, window);
                   for (int k = 0; k < 300; ++k)
                   {
-                      const double measured = along (told, quantised (v * T * k));
+                      const double measured = along (known, quantised (v * T * k));
                       const int n = std::min (k, window);
                       if (k >= 1) RC_ASSERT (std::abs (measured - v) <= 2.0 * q / (n * T) * (1.0 + 1e-6));
                   } });
@@ -95,17 +95,17 @@ TEST_CASE ("velocity: of a steady motion in steps it knows the speed to a quantu
 
 TEST_CASE ("velocity: it learns the quantum from a hand that starts slowly", "[nodes][motion]")
 {
-    auto told = velocity (q), untold = velocity();
+    auto known = velocity (q), learning = velocity();
     double x = 0.0;
     for (int k = 0; k < 3000; ++k)
     {
         x += 0.15 * std::sin (2.0 * M_PI * 1.0 * k * T) * T;
-        const double a = along (told, quantised (x)), b = along (untold, quantised (x));
+        const double a = along (known, quantised (x)), b = along (learning, quantised (x));
         if (k > 100) CHECK (a == Approx (b).margin (1e-9));
     }
 }
 
-TEST_CASE ("velocity: of a hand that moves slowly to and fro it is far quieter than the plain difference", "[nodes][motion]")
+TEST_CASE ("velocity: for a hand that moves slowly back and forth it is far quieter than the plain difference", "[nodes][motion]")
 {
     auto node = velocity();
     double error = 0.0, plain = 0.0, before = 0.0;
@@ -123,16 +123,16 @@ TEST_CASE ("velocity: of a hand that moves slowly to and fro it is far quieter t
     CHECK (std::sqrt (error) < 0.25 * std::sqrt (plain));
 }
 
-TEST_CASE ("velocity: a hand that stops is known to have stopped on the next sample", "[nodes][motion]")
+TEST_CASE ("velocity: a hand that stops is at rest on the next sample", "[nodes][motion]")
 {
     auto node = velocity (q);
     for (int k = 0; k < 50; ++k)
         along (node, quantised (0.2 * T * k));
     CHECK (along (node, quantised (0.2 * T * 49)) == 0.0);
-    CHECK (along (node, quantised (0.2 * T * 48)) < -0.1);   // and to have turned
+    CHECK (along (node, quantised (0.2 * T * 48)) < -0.1);   // and has turned back
 }
 
-TEST_CASE ("velocity: what is exact lags by no more than a tick", "[nodes][motion]")
+TEST_CASE ("velocity: exact positions lag by no more than a tick", "[nodes][motion]")
 {
     auto node = velocity();
     double worst = 0.0;
@@ -145,7 +145,7 @@ TEST_CASE ("velocity: what is exact lags by no more than a tick", "[nodes][motio
     CHECK (worst < 0.02 * std::pow (2.0 * M_PI * 3.0, 2.0) * T);
 }
 
-TEST_CASE ("velocity: each axis has a window and a quantum of its own", "[nodes][motion]")
+TEST_CASE ("velocity: each axis has its own window and quantum", "[nodes][motion]")
 {
     auto node = velocity();
     Velocity::Outputs out;
@@ -166,7 +166,7 @@ TEST_CASE ("velocity: a window of one tick is the plain difference", "[nodes][mo
     CHECK (along (node, 5 * q) == Approx (4 * q / T));
 }
 
-TEST_CASE ("velocity: a fault gives nothing, and the motion across it is no motion", "[nodes][motion]")
+TEST_CASE ("velocity: a fault gives 0, and the motion across it does not count", "[nodes][motion]")
 {
     for (const Vec3& bad : { Vec3 { not_a_number, 0, 0 }, Vec3 { 0, tactus::inf, 0 } })
     {
@@ -179,7 +179,7 @@ TEST_CASE ("velocity: a fault gives nothing, and the motion across it is no moti
     }
 }
 
-TEST_CASE ("velocity: no number breaks it", "[nodes][motion]")
+TEST_CASE ("velocity: no input breaks it", "[nodes][motion]")
 {
     rc::prop ("outputs are finite", []
               {
@@ -194,7 +194,7 @@ TEST_CASE ("velocity: no number breaks it", "[nodes][motion]")
                   } });
 }
 
-TEST_CASE ("velocity: an instance that takes over knows the past", "[nodes][motion]")
+TEST_CASE ("velocity: a new instance adopts the past samples", "[nodes][motion]")
 {
     auto old = velocity(), next = velocity();
     for (int k = 0; k < 30; ++k)

@@ -2,6 +2,7 @@
 #include <nodes/safety/passivity.hpp>
 
 #include <golden/golden.hpp>
+#include <support/ready.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -13,19 +14,12 @@
 using tactus::Vec3;
 using tactus::nodes::PassivityObserver;
 using tactus::test::Golden;
+using tactus::test::ready;
 using Pairing = PassivityObserver::Pairing;
 
 namespace
 {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-PassivityObserver observer (const PassivityObserver::Params& params, double rate_hz = 1000.0)
-{
-    PassivityObserver node;
-    node.params = params;
-    node.prepare ({ .rate_hz = rate_hz });
-    return node;
-}
 
 PassivityObserver::Outputs step (PassivityObserver& node, double p, double f, double contact = 1.0)
 {
@@ -41,13 +35,13 @@ struct Wall
 
 struct Course
 {
-    double buzz = 0.0;     // peak to peak from 4/5 of the time on, m
+    double buzz = 0.0;     // peak to peak in the last fifth of the time, m
     double force = 0.0;    // largest, N
     double lowest = 0.0;   // energy, J
 };
 
-/// A hand presses against the wall for a while, without an observer if there is none. What buzzes needs seconds to grow
-/// to its full width, and what the observer leaves of it shrinks with one over the time.
+/// A hand presses against the wall for a while, with or without an observer. A buzz takes seconds to grow to its full
+/// amplitude. What the observer leaves of it decays as 1/t.
 Course against (const Wall& wall, PassivityObserver* node, int seconds = 20)
 {
     const auto [K, B, hand, M, T] = wall;
@@ -76,12 +70,12 @@ Course against (const Wall& wall, PassivityObserver* node, int seconds = 20)
 }
 }   // namespace
 
-TEST_CASE ("passivity: both pairings meet the golden columns", "[nodes][safety][golden]")
+TEST_CASE ("passivity: both pairings match the golden columns", "[nodes][safety][golden]")
 {
     const Golden golden ("passivity");
     for (const auto& [pairing, suffix] : { std::pair { Pairing::zoh, "_zoh" }, std::pair { Pairing::backward, "_hr" } })
     {
-        auto node = observer ({ .alpha_max = golden.param ("alpha_max"), .pairing = pairing }, 1.0 / golden.dt_s());
+        auto node = ready<PassivityObserver> ({ .alpha_max = golden.param ("alpha_max"), .pairing = pairing }, 1.0 / golden.dt_s());
         std::vector<PassivityObserver::Outputs> outs;
         for (std::size_t i = 0; i < golden.rows(); ++i)
             outs.push_back (step (node, golden (i, "p"), golden (i, "f_env")));
@@ -99,7 +93,7 @@ TEST_CASE ("passivity: both pairings meet the golden columns", "[nodes][safety][
     }
 }
 
-TEST_CASE ("passivity: a wall that buzzes is calmed, whatever its stiffness, and nothing diverges", "[nodes][safety]")
+TEST_CASE ("passivity: a buzzing wall is calmed, whatever its stiffness, and nothing diverges", "[nodes][safety]")
 {
     int buzzing = 0;
     for (const double K : { 600.0, 1000.0, 1500.0, 2000.0, 3000.0, 4000.0, 6000.0, 8000.0 })
@@ -109,14 +103,15 @@ TEST_CASE ("passivity: a wall that buzzes is calmed, whatever its stiffness, and
                 {
                     const Wall wall { K, B, hand };
                     const auto bare = against (wall, nullptr);
-                    auto node = observer ({ .alpha_max = alpha_max, .mass = wall.M });
+                    auto node = ready<PassivityObserver> ({ .alpha_max = alpha_max, .mass = wall.M });
                     const auto braked = against (wall, &node);
 
-                    INFO (K << " " << B << " " << hand << " " << alpha_max << ": " << bare.buzz << " " << braked.buzz << " m, " << braked.force << " N, " << braked.lowest << " J");
+                    INFO (K << " " << B << " " << hand << " " << alpha_max << ": " << bare.buzz << " " << braked.buzz << " m, "
+                            << braked.force << " N, " << braked.lowest << " J");
                     CHECK (braked.force < 100.0);
                     CHECK (braked.lowest > -2e-3);
                     CHECK (braked.buzz < 3e-4);
-                    if (K <= 2.0 * B / wall.T)   // it settles by itself, sooner or later
+                    if (K <= 2.0 * B / wall.T)   // it settles on its own
                         CHECK (braked.buzz <= std::max (bare.buzz, 1e-4));
                     else
                     {
@@ -127,14 +122,14 @@ TEST_CASE ("passivity: a wall that buzzes is calmed, whatever its stiffness, and
     CHECK (buzzing == 14 * 2 * 4);
 }
 
-TEST_CASE ("passivity: what is left of a buzz shrinks with one over the time", "[nodes][safety]")
+TEST_CASE ("passivity: what remains of a buzz decays as 1/t", "[nodes][safety]")
 {
-    // 15.4 mm bare; with the observer 0.16 mm in the third second, 0.011 mm after sixteen.
+    // 15.4 mm without the observer; with it 0.16 mm in the third second, 0.011 mm after sixteen.
     const Wall wall { 3000.0, 0.2, 0.3 };
     CHECK (against (wall, nullptr).buzz == Approx (15.4e-3).epsilon (0.01));
     for (const auto& [seconds, left] : { std::pair { 3, 1.6e-4 }, { 5, 6.2e-5 }, { 10, 2.4e-5 }, { 20, 1.13e-5 } })
     {
-        auto node = observer ({ .mass = wall.M });
+        auto node = ready<PassivityObserver> ({ .mass = wall.M });
         INFO (seconds);
         CHECK (against (wall, &node, seconds).buzz == Approx (left).epsilon (0.05));
     }
@@ -147,42 +142,43 @@ TEST_CASE ("passivity: the backward pairing is blind to the leak of the hold", "
             for (const double hand : { 0.3, 1.5 })
             {
                 const Wall wall { K, B, hand };
-                auto node = observer ({ .mass = wall.M, .pairing = Pairing::backward });
+                auto node = ready<PassivityObserver> ({ .mass = wall.M, .pairing = Pairing::backward });
                 INFO (K << " " << B << " " << hand);
                 CHECK (against (wall, &node, 3).buzz == against (wall, nullptr, 3).buzz);
             }
 }
 
-TEST_CASE ("passivity: no alpha_max takes the damper over what the mass can bear", "[nodes][safety]")
+TEST_CASE ("passivity: no alpha_max raises the damper above what the mass can bear", "[nodes][safety]")
 {
-    auto node = observer ({ .alpha_max = 1e9, .mass = 0.1 });
+    auto node = ready<PassivityObserver> ({ .alpha_max = 1e9, .mass = 0.1 });
     step (node, 0.0, 10.0);
     CHECK (step (node, 1e-6, 0.0).alpha == Approx (1.8 * 0.1 / 1e-3));
 
-    auto silent = observer ({ .mass = 0.1 });   // 0 stands for mass / (2 T)
+    auto silent = ready<PassivityObserver> ({ .mass = 0.1 });   // 0 means mass / (2 T)
     step (silent, 0.0, 10.0);
     CHECK (step (silent, 1e-4, 0.0).alpha == Approx (50.0));
 
-    for (const double K : { 600.0, 3000.0, 8000.0, 30'000.0 })   // a cap of 2 mass / T takes up to a minute to get out of hand
+    for (const double K : { 600.0, 3000.0, 8000.0, 30'000.0 })   // a cap of 2 mass / T takes up to a minute to diverge
         for (const double B : { 0.2, 0.5 })
         {
-            auto greedy = observer ({ .alpha_max = 1e9, .mass = 0.1 });
+            auto greedy = ready<PassivityObserver> ({ .alpha_max = 1e9, .mass = 0.1 });
             const auto course = against ({ K, B, 0.5 }, &greedy, 60);
             INFO (K << " " << B << ": " << course.force << " N");
             CHECK (course.force < 20.0);
         }
 }
 
-TEST_CASE ("passivity: what takes energy passes to the bit", "[nodes][safety]")
+TEST_CASE ("passivity: a force that takes energy passes bit for bit", "[nodes][safety]")
 {
     rc::prop ("a damper, moved any way", []
               {
-                  auto node = observer ({});
+                  auto node = ready<PassivityObserver> ({});
                   double p = 0.0, before = 0.0;
                   for (int k = 0; k < 50; ++k)
                   {
                       const double next = 1e-5 * *rc::gen::inRange (-100, 100);
-                      // as strong as the last one, against the motion now and before: held or not, it takes
+                      // opposes both this step and the previous one, in proportion to the smaller of the two,
+                      // so it takes energy whether it is held or not
                       const double f = (next - p) * before > 0.0 ? -100.0 * std::min (std::abs (next - p), std::abs (before)) * (next > p ? 1.0 : -1.0) : 0.0;
                       const auto out = step (node, next, f);
                       if (out.energy >= 0.0) RC_ASSERT (out.force.x() == f);
@@ -192,11 +188,11 @@ TEST_CASE ("passivity: what takes energy passes to the bit", "[nodes][safety]")
                   } });
 }
 
-TEST_CASE ("passivity: the energy is the work of the hand on the force as it was held", "[nodes][safety][energy]")
+TEST_CASE ("passivity: the energy is the work of the hand against the held force", "[nodes][safety][energy]")
 {
     rc::prop ("any motion and force", []
               {
-                  auto node = observer ({ .alpha_max = 20.0 });
+                  auto node = ready<PassivityObserver> ({ .alpha_max = 20.0 });
                   double work = 0.0;
                   Vec3 p = Vec3::Zero(), held = Vec3::Zero();
                   for (int k = 0; k < 60; ++k)
@@ -216,9 +212,9 @@ TEST_CASE ("passivity: the energy is the work of the hand on the force as it was
 
 TEST_CASE ("passivity: the damper only ever brakes", "[nodes][safety]")
 {
-    auto node = observer ({ .alpha_max = 12.0 });
+    auto node = ready<PassivityObserver> ({ .alpha_max = 12.0 });
     step (node, 0.0, 5.0);
-    const auto out = step (node, 1e-3, 5.0);   // it pushed along: overdrawn by 5 mJ
+    const auto out = step (node, 1e-3, 5.0);   // it pushed along: 5 mJ below 0
     CHECK (out.energy == Approx (-5e-3));
     CHECK (out.alpha == Approx (5e-3 * 1e-3 / 1e-6));
     CHECK (out.force.x() == Approx (5.0 - 5.0).margin (1e-12));   // alpha dp / T
@@ -226,22 +222,22 @@ TEST_CASE ("passivity: the damper only ever brakes", "[nodes][safety]")
     CHECK (step (node, 1e-3 + 5e-10, 5.0).alpha == 0.0);
 }
 
-TEST_CASE ("passivity: apart from the object the energy is forgotten", "[nodes][safety]")
+TEST_CASE ("passivity: out of contact, the energy is reset", "[nodes][safety]")
 {
-    auto node = observer ({});
+    auto node = ready<PassivityObserver> ({});
     step (node, 0.0, -10.0);
     CHECK (step (node, 1e-3, 0.0).energy == Approx (1e-2));
     const auto out = step (node, 2e-3, 0.3, 0.0);
     CHECK (out.energy == 0.0);
     CHECK (out.alpha == 0.0);
     CHECK (out.force.x() == 0.3);
-    CHECK (step (node, 3e-3, 0.0).energy == Approx (-0.3e-3));   // and what it gave meanwhile counts
+    CHECK (step (node, 3e-3, 0.0).energy == Approx (-0.3e-3));   // and the energy given in the meantime counts
     CHECK (step (node, 3e-3, 0.0, -1.0).energy == Approx (-0.3e-3).epsilon (1e-6));
 }
 
 TEST_CASE ("passivity: the first sample passes, and counts", "[nodes][safety]")
 {
-    auto node = observer ({ .alpha_max = 7.0 });
+    auto node = ready<PassivityObserver> ({ .alpha_max = 7.0 });
     const auto first = step (node, 0.5, -3.0);
     CHECK (first.force.x() == -3.0);
     CHECK (first.energy == 0.0);
@@ -255,7 +251,7 @@ TEST_CASE ("passivity: a fault gives no force, keeps the energy and forgets the 
         for (const double bad : { not_a_number, tactus::inf })
             for (const int which : { 0, 1, 2 })
             {
-                auto node = observer ({ .alpha_max = 12.0, .pairing = pairing });
+                auto node = ready<PassivityObserver> ({ .alpha_max = 12.0, .pairing = pairing });
                 step (node, 0.0, 5.0);
                 const double energy = step (node, 1e-3, 5.0).energy;
                 CHECK (energy == Approx (-5e-3));
@@ -264,7 +260,7 @@ TEST_CASE ("passivity: a fault gives no force, keeps the energy and forgets the 
                 CHECK (out.alpha == 0.0);
                 CHECK (out.energy == energy);
 
-                const auto next = step (node, 0.1, 2.0);   // a first sample again
+                const auto next = step (node, 0.1, 2.0);   // counts as the first sample
                 CHECK (next.force.x() == 2.0);
                 CHECK (next.alpha == 0.0);
                 CHECK (next.energy == energy);
@@ -273,7 +269,7 @@ TEST_CASE ("passivity: a fault gives no force, keeps the energy and forgets the 
 
 TEST_CASE ("passivity: a change of pairing waits for the end of the contact", "[nodes][safety]")
 {
-    auto node = observer ({ .alpha_max = 1.0 });
+    auto node = ready<PassivityObserver> ({ .alpha_max = 1.0 });
     step (node, 0.0, 0.0);
     node.params.pairing = Pairing::backward;
     CHECK (step (node, 1e-3, -1.0).energy == 0.0);   // the held force was 0
@@ -281,14 +277,15 @@ TEST_CASE ("passivity: a change of pairing waits for the end of the contact", "[
     CHECK (step (node, 2e-3, -1.0).energy == Approx (1e-3));
 }
 
-TEST_CASE ("passivity: no number breaks it", "[nodes][safety]")
+TEST_CASE ("passivity: no input breaks it", "[nodes][safety]")
 {
     rc::prop ("outputs are finite", []
               {
                   const auto number = rc::gen::element (0.0, 1.0, -1.0, 1e-3, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
                   const auto size = rc::gen::element (0.0, 1e-320, 0.1, 12.0, 1e300);
                   const double alpha_max = *size, mass = *size;
-                  auto node = observer ({ .alpha_max = alpha_max, .mass = mass, .pairing = *rc::gen::element (Pairing::zoh, Pairing::backward) });
+                  auto node = ready<PassivityObserver> ({ .alpha_max = alpha_max, .mass = mass,
+                      .pairing = *rc::gen::element (Pairing::zoh, Pairing::backward) });
                   for (int k = 0; k < 20; ++k)
                   {
                       const double x = *number, y = *number, fx = *number, fy = *number, contact = *number;
@@ -297,9 +294,9 @@ TEST_CASE ("passivity: no number breaks it", "[nodes][safety]")
                   } });
 }
 
-TEST_CASE ("passivity: an instance that takes over knows the account", "[nodes][safety]")
+TEST_CASE ("passivity: a new instance adopts the energy balance", "[nodes][safety]")
 {
-    auto old = observer ({}), next = observer ({});
+    auto old = ready<PassivityObserver> ({}), next = ready<PassivityObserver> ({});
     step (old, 0.0, 5.0);
     step (old, 1e-3, 2.0);
     next.adopt (old);

@@ -59,11 +59,11 @@ private:
     std::mt19937 random;
 };
 
-/// What one hit did, from its force alone.
+/// The effect of one hit, from its force alone.
 struct Impact
 {
     double impulse = 0.0;   // N s
-    double loop = 0.0;      // J, the area of force over depth
+    double loop = 0.0;      // J, the area of the loop of force against depth
     double peak = 0.0;      // N
     int samples = 0;
 };
@@ -87,7 +87,7 @@ Impact strike (HuntCrossley node, double v, double dt)
 }
 }   // namespace
 
-TEST_CASE ("shock: it meets the golden columns", "[nodes][shock][golden]")
+TEST_CASE ("shock: it matches the golden columns", "[nodes][shock][golden]")
 {
     const Golden golden ("shock");
     const HuntCrossley::Settings settings {
@@ -109,7 +109,7 @@ TEST_CASE ("shock: it meets the golden columns", "[nodes][shock][golden]")
                          { return f[i]; })
            <= 1.0);
     INFO ("off by " << off / peak << " of the peak");
-    CHECK (off <= 0.003 * peak);   // the set asks for 0.01
+    CHECK (off <= 0.003 * peak);   // the golden set allows 0.01
 }
 
 TEST_CASE ("shock: the closed form of restitution has its known values", "[nodes][shock]")
@@ -122,7 +122,7 @@ TEST_CASE ("shock: the closed form of restitution has its known values", "[nodes
 
 TEST_CASE ("shock: restitution, impulse and loop area follow Hunt and Crossley, whatever mass, stiffness and power", "[nodes][shock][energy]")
 {
-    rc::prop ("with a dissipation, or the same as a law", [] (unsigned seed)
+    rc::prop ("with a dissipation, or with the same as a law", [] (unsigned seed)
               {
         Dice dice { seed };
         const double m = dice.size (0.005, 0.5), v = dice.size (0.02, 2.0), d_max = dice.size (1e-4, 5e-3), n = dice.uniform (1.0, 2.5);
@@ -135,7 +135,7 @@ TEST_CASE ("shock: restitution, impulse and loop area follow Hunt and Crossley, 
         RC_ASSERT (std::abs (impact.loop / (0.5 * m * v * v) - (1.0 - e * e)) <= 1e-3); });
 }
 
-TEST_CASE ("shock: without damping the mass comes back as fast as it came", "[nodes][shock][energy]")
+TEST_CASE ("shock: without damping the mass returns at its initial speed", "[nodes][shock][energy]")
 {
     const double k = 5e5, m = 0.05, v = 0.5, d_max = std::pow (2.5 * m * v * v / (2.0 * k), 1.0 / 2.5), rate = 400'000.0;
     const auto impact = strike (shock ({ .stiffness = power (k, 1.5), .damping = dissipation (0.0) }, rate), v, 1.0 / rate);
@@ -158,7 +158,7 @@ TEST_CASE ("shock: a hit starts and ends at exactly 0, and never pulls", "[nodes
             RC_ASSERT (node.tick ({}).resistance == 0.0); });
 }
 
-TEST_CASE ("shock: hits add up exactly, and one makes no step in another", "[nodes][shock]")
+TEST_CASE ("shock: hits add up exactly, and none causes a step in another", "[nodes][shock]")
 {
     auto first = shock(), second = shock(), both = shock();
     for (int k = 0; k < 100; ++k)
@@ -169,7 +169,7 @@ TEST_CASE ("shock: hits add up exactly, and one makes no step in another", "[nod
     }
 }
 
-TEST_CASE ("shock: with no voice free a new hit is dropped, and none is cut short", "[nodes][shock]")
+TEST_CASE ("shock: without a free voice a new hit is dropped, and no voice is cut short", "[nodes][shock]")
 {
     auto node = shock ({ .voices = 2 }), undisturbed = shock ({ .voices = 2 });
     for (int k = 0; k < 200; ++k)
@@ -182,7 +182,7 @@ TEST_CASE ("shock: with no voice free a new hit is dropped, and none is cut shor
     }
 }
 
-TEST_CASE ("shock: what is no hit is ignored, and the shock goes on", "[nodes][shock]")
+TEST_CASE ("shock: an input that is not a hit is ignored, and the shock continues", "[nodes][shock]")
 {
     auto node = shock(), undisturbed = shock();
     node.tick ({ .hit = 1.0 });
@@ -191,7 +191,7 @@ TEST_CASE ("shock: what is no hit is ignored, and the shock goes on", "[nodes][s
         CHECK (node.tick ({ .hit = v }).resistance == undisturbed.tick ({}).resistance);
 }
 
-TEST_CASE ("shock: the mass is read on the hit, the gain always", "[nodes][shock]")
+TEST_CASE ("shock: the mass is read on the hit, the gain on every tick", "[nodes][shock]")
 {
     auto node = shock(), undisturbed = shock();
     node.tick ({ .hit = 0.5 });
@@ -201,7 +201,7 @@ TEST_CASE ("shock: the mass is read on the hit, the gain always", "[nodes][shock
         CHECK (node.tick ({}).resistance == 3.0 * undisturbed.tick ({}).resistance);
 }
 
-TEST_CASE ("shock: any hit gives a finite force and an end", "[nodes][shock]")
+TEST_CASE ("shock: any hit gives a finite force and ends", "[nodes][shock]")
 {
     for (const double v : { 5e-324, 1e-300, 1e-9, 1e3, 1e9, 1e150, 1e300, 1.7e308 })
         for (const Law& damping : { dissipation (0.0), dissipation (1e6), power (1e6, 0.1), power (1e300, 1.0) })
@@ -218,7 +218,7 @@ TEST_CASE ("shock: any hit gives a finite force and an end", "[nodes][shock]")
             CHECK (out == 0.0);
         }
 
-    // A mass that damping stops before any spring reaches it.
+    // Damping stops the mass before the spring can.
     auto stopped = shock ({ .stiffness = table ({ 1.0, 2.0 }, { 0.0, 1.0 }), .damping = power (1e6, 1.0), .voices = 1 });
     stopped.tick ({ .hit = 1.0 });
     for (int k = 0; k < 40'000; ++k)
@@ -227,7 +227,7 @@ TEST_CASE ("shock: any hit gives a finite force and an end", "[nodes][shock]")
     CHECK (stopped.tick ({}).resistance > 0.0);
 }
 
-TEST_CASE ("shock: replaced while it sounds, it sounds on", "[nodes][shock]")
+TEST_CASE ("shock: an instance replaced while it sounds keeps sounding", "[nodes][shock]")
 {
     auto old = shock(), undisturbed = shock();
     for (int k = 0; k < 12; ++k)
@@ -241,11 +241,11 @@ TEST_CASE ("shock: replaced while it sounds, it sounds on", "[nodes][shock]")
         CHECK (next.tick ({}).resistance == undisturbed.tick ({}).resistance);
 }
 
-TEST_CASE ("shock: it says what is no spring, no damper, and too short to be played", "[nodes][shock]")
+TEST_CASE ("shock: a law that is not a spring or not a damper, and a contact that is too short, are reported", "[nodes][shock]")
 {
     const auto problem = [] (const Law& stiffness, const Law& damping)
     { return shock ({ .stiffness = stiffness, .damping = damping }).problem(); };
-    const std::string no_spring = "stiffness must push back, and not fall with depth";
+    const std::string no_spring = "stiffness must push back, and must not fall with depth";
     CHECK (shock().problem() == "");
     CHECK (problem (power (0.0, 1.0), dissipation (1.0)) == no_spring);
     CHECK (problem (dissipation (1.0), dissipation (1.0)) == no_spring);
@@ -253,6 +253,6 @@ TEST_CASE ("shock: it says what is no spring, no damper, and too short to be pla
     CHECK (problem (power (1e4, 1.0), table ({ 1e-3 }, { -1.0 })) == "damping must not be negative, nor fall with depth");
 
     CHECK (shock().warning ({ .rate_hz = 1000.0 }) == "");
-    CHECK (shock().warning ({ .rate_hz = 500.0 }) == "a hit of 1 m/s lasts 2.8 samples, fewer than 4; take a softer law, a larger mass or a higher rate");
+    CHECK (shock().warning ({ .rate_hz = 500.0 }) == "a hit of 1 m/s lasts 2.8 samples, fewer than 4; use a softer law, a larger mass or a higher rate");
     CHECK (shock ({ .stiffness = power (1e9, 1.0) }).warning ({ .rate_hz = 4000.0 }) != "");
 }

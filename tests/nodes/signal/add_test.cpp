@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-TEST_CASE ("add: an input that nothing is wired to counts as 0", "[nodes][signal]")
+TEST_CASE ("add: an unwired input counts as 0", "[nodes][signal]")
 {
     Rig rig { "signal.add" };
     rig.set ("inputs", 3.0);
@@ -15,7 +15,7 @@ TEST_CASE ("add: an input that nothing is wired to counts as 0", "[nodes][signal
     CHECK (rig.out ("out") == 2.5);
 }
 
-TEST_CASE ("add: one input that is no number silences the sum", "[nodes][signal]")
+TEST_CASE ("add: one nan input silences the sum", "[nodes][signal]")
 {
     Rig rig { "signal.add" };
     rig.prepare();

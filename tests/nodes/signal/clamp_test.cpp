@@ -5,7 +5,7 @@
 
 using tactus::nodes::SignalClamp;
 
-TEST_CASE ("clamp: passes what is within the bounds and holds the rest", "[nodes][signal]")
+TEST_CASE ("clamp: passes values within the bounds and clamps the rest", "[nodes][signal]")
 {
     SignalClamp node { .params = { .min = -0.5, .max = 2.0 } };
     CHECK (node.tick ({ .in = 1.0 }).out == 1.0);
@@ -19,7 +19,7 @@ TEST_CASE ("clamp: an infinite signal is a fault, not the upper bound", "[nodes]
     CHECK (SignalClamp {}.tick ({ .in = tactus::inf }).out == 0.0);
 }
 
-TEST_CASE ("clamp: the upper of two crossed bounds counts", "[nodes][signal]")
+TEST_CASE ("clamp: if the bounds are crossed, the upper one takes precedence", "[nodes][signal]")
 {
     SignalClamp node { .params = { .min = 1.0, .max = -1.0 } };
     CHECK (node.tick ({ .in = 0.0 }).out == -1.0);

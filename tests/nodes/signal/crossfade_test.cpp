@@ -6,7 +6,7 @@
 
 using tactus::nodes::SignalCrossfade;
 
-TEST_CASE ("crossfade: is a at 0 and b at 1, to the bit", "[nodes][signal]")
+TEST_CASE ("crossfade: is a at 0 and b at 1, bit for bit", "[nodes][signal]")
 {
     rc::prop ("any two signals", []
               {
@@ -15,13 +15,13 @@ TEST_CASE ("crossfade: is a at 0 and b at 1, to the bit", "[nodes][signal]")
         RC_ASSERT (SignalCrossfade { .params = { .amount = 1.0 } }.tick ({ .a = a / 7.0, .b = b / 7.0 }).out == b / 7.0); });
 }
 
-TEST_CASE ("crossfade: signals that agree pass at any amount", "[nodes][signal]")
+TEST_CASE ("crossfade: equal signals pass at any amount", "[nodes][signal]")
 {
     const double amount = GENERATE (0.1, 0.25, 0.5, 0.9);
     CHECK (SignalCrossfade { .params = { .amount = amount } }.tick ({ .a = 3.0, .b = 3.0 }).out == Approx (3.0));
 }
 
-TEST_CASE ("crossfade: a signal that is no number is not hidden by amount 0", "[nodes][signal]")
+TEST_CASE ("crossfade: a nan signal is not hidden by amount 0", "[nodes][signal]")
 {
     CHECK (SignalCrossfade {}.tick ({ .a = 3.0, .b = tactus::inf }).out == 0.0);
 }

@@ -27,13 +27,13 @@ TEST_CASE ("delay: gives each sample that many ticks later, and 0 before the fir
     }
 }
 
-TEST_CASE ("delay: a line of another length goes on with the samples it has", "[nodes][signal]")
+TEST_CASE ("delay: a line of a different length keeps the samples that fit", "[nodes][signal]")
 {
     auto old = delayOf (3);
     for (const double v : { 1.0, 2.0, 3.0, 4.0 })
-        old.tick ({ .in = v });   // 2, 3, 4 are on their way
+        old.tick ({ .in = v });   // 2, 3, 4 are in the line
 
-    SECTION ("a shorter one with the newest")
+    SECTION ("a shorter one keeps the newest")
     {
         auto node = delayOf (2);
         node.adopt (old);

@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <nodes/signal/envelope.hpp>
 
+#include <support/ready.hpp>
+
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
 
 using tactus::nodes::SignalEnvelope;
+using tactus::test::ready;
 
 namespace
 {
-SignalEnvelope envelopeOf (SignalEnvelope::Params params)
-{
-    SignalEnvelope node;
-    node.params = params;
-    node.prepare ({ .rate_hz = 1000.0 });
-    node.update();
-    return node;
-}
-
 double after (SignalEnvelope& node, int ticks, double gate)
 {
     double out = 0.0;
@@ -26,9 +20,9 @@ double after (SignalEnvelope& node, int ticks, double gate)
 }
 }   // namespace
 
-TEST_CASE ("envelope: each segment takes the time it is given", "[nodes][signal]")
+TEST_CASE ("envelope: each segment takes its set time", "[nodes][signal]")
 {
-    auto node = envelopeOf ({ .attack = 0.01, .decay = 0.02, .sustain = 0.5, .release = 0.04 });
+    auto node = ready<SignalEnvelope> ({ .attack = 0.01, .decay = 0.02, .sustain = 0.5, .release = 0.04 });
 
     CHECK (after (node, 100, 0.0) == 0.0);
     CHECK (after (node, 1, 1.0) == Approx (0.1));
@@ -41,17 +35,17 @@ TEST_CASE ("envelope: each segment takes the time it is given", "[nodes][signal]
     CHECK (after (node, 20, 0.0) == 0.0);
 }
 
-TEST_CASE ("envelope: a gate that returns goes on from the level reached", "[nodes][signal]")
+TEST_CASE ("envelope: a gate that reopens continues from the current level", "[nodes][signal]")
 {
-    auto node = envelopeOf ({ .attack = 0.01, .release = 0.1 });
+    auto node = ready<SignalEnvelope> ({ .attack = 0.01, .release = 0.1 });
     after (node, 20, 1.0);
     CHECK (after (node, 50, 0.0) == Approx (0.5));
     CHECK (after (node, 1, 1.0) == Approx (0.6));
 }
 
-TEST_CASE ("envelope: released in the attack, it falls from where it is in the same time", "[nodes][signal]")
+TEST_CASE ("envelope: released during the attack, it falls from its level in the same time", "[nodes][signal]")
 {
-    auto node = envelopeOf ({ .attack = 0.1, .release = 0.1 });
+    auto node = ready<SignalEnvelope> ({ .attack = 0.1, .release = 0.1 });
     CHECK (after (node, 50, 1.0) == Approx (0.5));
     CHECK (after (node, 50, 0.0) == Approx (0.25));
     CHECK (after (node, 50, 0.0) == 0.0);
@@ -59,16 +53,16 @@ TEST_CASE ("envelope: released in the attack, it falls from where it is in the s
 
 TEST_CASE ("envelope: times of 0 make it the gate itself", "[nodes][signal]")
 {
-    auto node = envelopeOf ({ .attack = 0.0, .decay = 0.0, .sustain = 1.0, .release = 0.0 });
+    auto node = ready<SignalEnvelope> ({ .attack = 0.0, .decay = 0.0, .sustain = 1.0, .release = 0.0 });
     for (const double gate : { 0.0, 1.0, 1.0, 0.0, 1.0, 0.0, 0.0 })
         CHECK (node.tick ({ .gate = gate }).out == gate);
 }
 
-TEST_CASE ("envelope: stays in 0 to 1 and never steps further than its fastest segment", "[nodes][signal]")
+TEST_CASE ("envelope: stays within 0 to 1 and never steps further than its fastest segment", "[nodes][signal]")
 {
     rc::prop ("random gates", [] (const std::vector<bool>& gates)
               {
-        auto node = envelopeOf ({ .attack = 0.004, .decay = 0.003, .sustain = 0.3, .release = 0.005 });
+        auto node = ready<SignalEnvelope> ({ .attack = 0.004, .decay = 0.003, .sustain = 0.3, .release = 0.005 });
         double before = 0.0;
         for (const bool gate : gates)
             for (int k = 0; k < 2; ++k)

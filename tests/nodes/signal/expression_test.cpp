@@ -7,7 +7,7 @@
 
 #include <string>
 
-TEST_CASE ("expression node: computes its text of its inputs", "[nodes][signal]")
+TEST_CASE ("expression node: computes its formula of its inputs", "[nodes][signal]")
 {
     Rig rig { "signal.expression" };
     rig.set ("inputs", 3.0).set ("text", std::string { "in0 * abs (in1) + in[2]" });
@@ -30,7 +30,7 @@ TEST_CASE ("expression node: a result that is not finite is given as 0", "[nodes
     CHECK (rig.out ("out") == 0.25);
 }
 
-TEST_CASE ("expression node: a text that does not fit the node is a problem, and gives 0", "[nodes][signal]")
+TEST_CASE ("expression node: a formula that does not fit the node is a problem, and gives 0", "[nodes][signal]")
 {
     Rig rig { "signal.expression" };
     rig.set ("text", std::string { "in0 + in2" });

@@ -5,7 +5,7 @@
 
 using tactus::nodes::SignalMap;
 
-TEST_CASE ("map: is straight between its points and held beyond its ends", "[nodes][signal]")
+TEST_CASE ("map: is straight between its points and constant beyond its ends", "[nodes][signal]")
 {
     SignalMap node;
     node.settings.curve = { { 0.0, 1.0, 3.0 }, { 10.0, 20.0, 0.0 } };
@@ -17,7 +17,7 @@ TEST_CASE ("map: is straight between its points and held beyond its ends", "[nod
     CHECK (node.claims().amplitude == 20.0);
 }
 
-TEST_CASE ("map: passes 0 to 1 unchanged as delivered", "[nodes][signal]")
+TEST_CASE ("map: passes 0 to 1 unchanged by default", "[nodes][signal]")
 {
     CHECK (SignalMap {}.tick ({ .in = 0.3 }).out == Approx (0.3));
 }

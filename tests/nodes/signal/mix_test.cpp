@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-TEST_CASE ("mix: each input has its own gain, 1 as delivered", "[nodes][signal]")
+TEST_CASE ("mix: each input has its own gain, 1 by default", "[nodes][signal]")
 {
     Rig rig { "signal.mix" };
     rig.set ("inputs", 3.0).param ("gain", 0.5, 2);

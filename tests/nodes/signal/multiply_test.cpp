@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-TEST_CASE ("multiply: an input that nothing is wired to counts as 1", "[nodes][signal]")
+TEST_CASE ("multiply: an unwired input counts as 1", "[nodes][signal]")
 {
     Rig rig { "signal.multiply" };
     rig.set ("inputs", 3.0);

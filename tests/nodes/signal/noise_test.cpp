@@ -47,7 +47,7 @@ TEST_CASE ("noise: is Gaussian with its amplitude as standard deviation", "[node
     CHECK (std::abs (beyond_two / double { n } - 0.0455) < 5e-3 * 0.21);
 }
 
-TEST_CASE ("noise: the same seed is the same noise, another seed another", "[nodes][signal]")
+TEST_CASE ("noise: the same seed gives the same noise, a different seed gives different noise", "[nodes][signal]")
 {
     CHECK (noiseOf (1, 1000) == noiseOf (1, 1000));
     CHECK (noiseOf (1, 1000) != noiseOf (2, 1000));

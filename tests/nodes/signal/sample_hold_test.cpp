@@ -17,7 +17,7 @@ TEST_CASE ("sample and hold: takes the signal on the tick of the hit and keeps i
     CHECK (node.tick ({ .in = 5.0, .hit = 1e-9 }).out == 5.0);
 }
 
-TEST_CASE ("sample and hold: a hit that is no number takes nothing, and nothing is lost", "[nodes][signal]")
+TEST_CASE ("sample and hold: a nan hit takes nothing, and the held value stays", "[nodes][signal]")
 {
     SignalSampleHold node;
     node.tick ({ .in = 2.0, .hit = 1.0 });

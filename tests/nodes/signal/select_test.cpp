@@ -7,7 +7,14 @@
 
 TEST_CASE ("select: passes the input whose number is nearest", "[nodes][signal]")
 {
-    const auto [index, expected] = GENERATE (table<double, double> ({ { 0.0, 10.0 }, { 0.4, 10.0 }, { 0.6, 11.0 }, { 0.9999999, 11.0 }, { 2.0, 12.0 }, { 63.0, 12.0 } }));
+    const auto [index, expected] = GENERATE (table<double, double> ({
+        { 0.0, 10.0 },
+        { 0.4, 10.0 },
+        { 0.6, 11.0 },
+        { 0.9999999, 11.0 },
+        { 2.0, 12.0 },
+        { 63.0, 12.0 },
+    }));
     Rig rig { "signal.select" };
     rig.set ("inputs", 3.0).param ("index", index);
     rig.prepare();

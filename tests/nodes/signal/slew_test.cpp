@@ -19,7 +19,7 @@ SignalSlew slewOf (double rate)
 
 TEST_CASE ("slew: a step becomes a ramp of the given rate, up and down", "[nodes][signal]")
 {
-    auto node = slewOf (100.0);   // 0.1 a tick
+    auto node = slewOf (100.0);   // 0.1 per tick
     node.tick ({ .in = 0.0 });
     for (int k = 1; k <= 9; ++k)
         CHECK (node.tick ({ .in = 1.0 }).out == Approx (0.1 * k));
@@ -28,7 +28,7 @@ TEST_CASE ("slew: a step becomes a ramp of the given rate, up and down", "[nodes
     CHECK (node.tick ({ .in = -5.0 }).out == Approx (0.9));
 }
 
-TEST_CASE ("slew: starts on the first sample, and again after one that is no number", "[nodes][signal]")
+TEST_CASE ("slew: starts at the first sample, and again after a nan", "[nodes][signal]")
 {
     auto node = slewOf (1.0);
     CHECK (node.tick ({ .in = 7.0 }).out == 7.0);
@@ -50,7 +50,7 @@ TEST_CASE ("slew: never changes faster than its rate", "[nodes][signal]")
         } });
 }
 
-TEST_CASE ("slew: a slower signal passes to the bit", "[nodes][signal]")
+TEST_CASE ("slew: a slower signal passes bit for bit", "[nodes][signal]")
 {
     auto node = slewOf (100.0);
     for (int k = 0; k < 1000; ++k)

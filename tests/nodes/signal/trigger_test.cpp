@@ -6,7 +6,7 @@
 
 using tactus::nodes::SignalTrigger;
 
-TEST_CASE ("trigger: hits once when the signal rises, and again after it fell", "[nodes][signal]")
+TEST_CASE ("trigger: hits once when the signal rises, and again after it has fallen", "[nodes][signal]")
 {
     SignalTrigger node;
     node.params = { .threshold = 0.5, .speed = 2.0 };
@@ -19,7 +19,7 @@ TEST_CASE ("trigger: hits once when the signal rises, and again after it fell", 
     CHECK (node.tick ({ .in = 0.6 }).hit == 2.0);
 }
 
-TEST_CASE ("trigger: a gate of 0 and 1 works as delivered", "[nodes][signal]")
+TEST_CASE ("trigger: a gate of 0 and 1 works by default", "[nodes][signal]")
 {
     SignalTrigger node;
     double hits = 0.0;
@@ -44,7 +44,7 @@ TEST_CASE ("trigger: noise narrower than the hysteresis makes no second hit", "[
         } });
 }
 
-TEST_CASE ("trigger: a signal that is high from the start has not risen", "[nodes][signal]")
+TEST_CASE ("trigger: a signal that is high from the start triggers no hit", "[nodes][signal]")
 {
     SignalTrigger node;
     const auto first = node.tick ({ .in = 1.0 });

@@ -3,6 +3,7 @@
 #include <nodes/texture/grating.hpp>
 
 #include <golden/golden.hpp>
+#include <support/ready.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -15,21 +16,13 @@ using tactus::Vec3;
 using tactus::nodes::AntiAlias;
 using tactus::nodes::Grating;
 using tactus::test::Golden;
+using tactus::test::ready;
 
 namespace
 {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-AntiAlias guard (const AntiAlias::Params& params, double rate_hz = 1000.0)
-{
-    AntiAlias node;
-    node.params = params;
-    node.prepare ({ .rate_hz = rate_hz });
-    node.update();
-    return node;
-}
-
-/// What it gives on the second of two samples, v m/s apart in x.
+/// Its output on the second of two samples, v m/s apart in x.
 AntiAlias::Outputs at (AntiAlias node, double v)
 {
     node.tick ({});
@@ -37,10 +30,10 @@ AntiAlias::Outputs at (AntiAlias node, double v)
 }
 }   // namespace
 
-TEST_CASE ("antialias: it meets the golden columns", "[nodes][texture][golden]")
+TEST_CASE ("antialias: it matches the golden columns", "[nodes][texture][golden]")
 {
     const Golden golden ("texture");
-    auto node = guard ({ .spatial_frequency = golden.param ("k"), .f_max = 100.0 }, 1.0 / golden.dt_s());
+    auto node = ready<AntiAlias> ({ .spatial_frequency = golden.param ("k"), .f_max = 100.0 }, 1.0 / golden.dt_s());
     std::vector<AntiAlias::Outputs> outs;
     for (std::size_t i = 0; i < golden.rows(); ++i)
         outs.push_back (node.tick ({ .position = { golden (i, "x"), golden (i, "y"), golden (i, "dz") } }));
@@ -52,9 +45,9 @@ TEST_CASE ("antialias: it meets the golden columns", "[nodes][texture][golden]")
            <= 1.0);
 }
 
-TEST_CASE ("antialias: a slow hand feels all of the texture, a fast one nothing", "[nodes][texture]")
+TEST_CASE ("antialias: a slow hand feels the whole texture, a fast one feels nothing", "[nodes][texture]")
 {
-    const auto node = guard ({ .spatial_frequency = 200.0, .f_max = 100.0 });
+    const auto node = ready<AntiAlias> ({ .spatial_frequency = 200.0, .f_max = 100.0 });
     CHECK (at (node, 0.0).gain == 1.0);
     CHECK (at (node, 0.249).gain == 1.0);
     CHECK (at (node, 0.375).gain == Approx (0.5));
@@ -64,11 +57,12 @@ TEST_CASE ("antialias: a slow hand feels all of the texture, a fast one nothing"
     CHECK (at (node, -0.375).speed == Approx (-0.375));
 }
 
-TEST_CASE ("antialias: the faster the softer, without a step", "[nodes][texture]")
+TEST_CASE ("antialias: the faster, the softer, without a step", "[nodes][texture]")
 {
     rc::prop ("two speeds", []
               {
-                  const auto node = guard ({ .spatial_frequency = *rc::gen::element (0.0, 10.0, 200.0, 3000.0), .f_max = *rc::gen::element (1.0, 100.0, 400.0) });
+                  const auto node = ready<AntiAlias> ({ .spatial_frequency = *rc::gen::element (0.0, 10.0, 200.0, 3000.0),
+                      .f_max = *rc::gen::element (1.0, 100.0, 400.0) });
                   const double slow = 1e-4 * *rc::gen::inRange (0, 10'000), more = 1e-6 * *rc::gen::inRange (0, 100);
                   const double a = at (node, slow).gain, b = at (node, slow + more).gain;
                   RC_ASSERT (a >= b);
@@ -79,29 +73,29 @@ TEST_CASE ("antialias: the faster the softer, without a step", "[nodes][texture]
 
 TEST_CASE ("antialias: only speed along the grating counts", "[nodes][texture]")
 {
-    auto node = guard ({ .angle = M_PI / 2 });
+    auto node = ready<AntiAlias> ({ .angle = M_PI / 2 });
     node.tick ({});
     const auto out = node.tick ({ .position = { 0.1, 2e-4, 0.1 } });
     CHECK (out.speed == Approx (0.2));
     CHECK (out.gain == 1.0);
 }
 
-TEST_CASE ("antialias: turning the grating is no motion", "[nodes][texture]")
+TEST_CASE ("antialias: turning the grating does not count as motion", "[nodes][texture]")
 {
-    auto node = guard ({});
+    auto node = ready<AntiAlias> ({});
     node.tick ({ .position = { 0.1, 0.2, 0 } });
     node.params.angle = 1.0;
     node.update();
     CHECK (node.tick ({ .position = { 0.1, 0.2, 0 } }).speed == 0.0);
 }
 
-TEST_CASE ("antialias: a scan too fast for the sampling rate does not come back as a slow ridge", "[nodes][texture]")
+TEST_CASE ("antialias: a scan too fast for the sampling rate does not alias to slow ridges", "[nodes][texture]")
 {
     // 1 mm ridges at 1.01 m/s and 1 kHz: 1010 Hz, seen as 10 Hz.
     Grating grating;
     grating.params = { .amplitude = 0.3, .spatial_frequency = 1000.0 };
     grating.update();
-    auto node = guard ({ .spatial_frequency = 1000.0, .f_max = 100.0 });
+    auto node = ready<AntiAlias> ({ .spatial_frequency = 1000.0, .f_max = 100.0 });
     double alias = 0.0, guarded = 0.0;
     for (int k = 0; k < 200; ++k)
     {
@@ -114,11 +108,11 @@ TEST_CASE ("antialias: a scan too fast for the sampling rate does not come back 
     CHECK (guarded == 0.0);
 }
 
-TEST_CASE ("antialias: a fault is silent, and the next sample has no speed", "[nodes][texture]")
+TEST_CASE ("antialias: a fault gives 0, and the next sample has no speed", "[nodes][texture]")
 {
     for (const Vec3& bad : { Vec3 { not_a_number, 0, 0 }, Vec3 { 0, tactus::inf, 0 }, Vec3 { 0, 0, not_a_number } })
     {
-        auto node = guard ({});
+        auto node = ready<AntiAlias> ({});
         node.tick ({});
         const auto out = node.tick ({ .position = bad });
         CHECK (out.gain == 0.0);
@@ -129,13 +123,14 @@ TEST_CASE ("antialias: a fault is silent, and the next sample has no speed", "[n
     }
 }
 
-TEST_CASE ("antialias: no number breaks it", "[nodes][texture]")
+TEST_CASE ("antialias: no input breaks it", "[nodes][texture]")
 {
     rc::prop ("outputs are finite", []
               {
                   const auto number = rc::gen::element (0.0, 1.0, -0.02, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
-                  const double k = *rc::gen::element (0.0, 200.0, 1e300), angle = *rc::gen::element (0.0, 3.0, 1e300), f_max = *rc::gen::element (0.0, 1e-320, 100.0, 1e300);
-                  auto node = guard ({ .spatial_frequency = k, .angle = angle, .f_max = f_max });
+                  const double k = *rc::gen::element (0.0, 200.0, 1e300), angle = *rc::gen::element (0.0, 3.0, 1e300),
+                      f_max = *rc::gen::element (0.0, 1e-320, 100.0, 1e300);
+                  auto node = ready<AntiAlias> ({ .spatial_frequency = k, .angle = angle, .f_max = f_max });
                   for (int i = 0; i < 20; ++i)
                   {
                       const double x = *number, y = *number, z = *number;
@@ -146,9 +141,9 @@ TEST_CASE ("antialias: no number breaks it", "[nodes][texture]")
                   } });
 }
 
-TEST_CASE ("antialias: an instance that takes over knows the position before", "[nodes][texture]")
+TEST_CASE ("antialias: a new instance adopts the previous position", "[nodes][texture]")
 {
-    auto old = guard ({}), next = guard ({});
+    auto old = ready<AntiAlias> ({}), next = ready<AntiAlias> ({});
     old.tick ({ .position = { 0.1, 0, 0 } });
     next.adopt (old);
     CHECK (next.tick ({ .position = { 0.1001, 0, 0 } }).speed == Approx (0.1));

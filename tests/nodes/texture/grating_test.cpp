@@ -2,6 +2,7 @@
 #include <nodes/texture/grating.hpp>
 
 #include <golden/golden.hpp>
+#include <support/ready.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -11,42 +12,35 @@
 using tactus::Vec3;
 using tactus::nodes::Grating;
 using tactus::test::Golden;
+using tactus::test::ready;
 
 namespace
 {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-Grating grating (const Grating::Params& params)
-{
-    Grating node;
-    node.params = params;
-    node.update();
-    return node;
-}
 }   // namespace
 
-TEST_CASE ("grating: along a line and across a plane it meets the golden columns", "[nodes][texture][golden]")
+TEST_CASE ("grating: along a line and across a plane it matches the golden columns", "[nodes][texture][golden]")
 {
     const Golden golden ("texture");
     const auto position = [&] (std::size_t i)
     { return Vec3 { golden (i, "x"), golden (i, "y"), golden (i, "dz") }; };
 
-    auto line = grating ({ .amplitude = golden.param ("A"), .spatial_frequency = golden.param ("k"), .phase = golden.param ("phi") });
+    auto line = ready<Grating> ({ .amplitude = golden.param ("A"), .spatial_frequency = golden.param ("k"), .phase = golden.param ("phi") });
     CHECK (golden.worst ("grating1d", [&] (std::size_t i)
                          { return line.tick ({ .position = position (i) }).value; })
            <= 1.0);
 
     const double kx = golden.param ("kx"), ky = golden.param ("ky");
-    auto wave = grating ({ .amplitude = golden.param ("A"), .spatial_frequency = std::hypot (kx, ky), .angle = std::atan2 (ky, kx) });
+    auto wave = ready<Grating> ({ .amplitude = golden.param ("A"), .spatial_frequency = std::hypot (kx, ky), .angle = std::atan2 (ky, kx) });
     for (const int axis : { 0, 1 })
         CHECK (golden.worst (axis == 0 ? "grating2d_x" : "grating2d_y", [&] (std::size_t i)
                              { return wave.tick ({ .position = position (i) }).force[axis]; })
                <= 1.0);
 }
 
-TEST_CASE ("grating: 200 ridges a metre are 5 mm apart", "[nodes][texture]")
+TEST_CASE ("grating: 200 ridges per metre are 5 mm apart", "[nodes][texture]")
 {
-    auto node = grating ({ .amplitude = 0.3, .spatial_frequency = 200.0 });
+    auto node = ready<Grating> ({ .amplitude = 0.3, .spatial_frequency = 200.0 });
     CHECK (node.tick ({ .position = { 1.25e-3, 9, 9 } }).value == Approx (0.3));
     CHECK (node.tick ({ .position = { 3.75e-3, 9, 9 } }).value == Approx (-0.3));
     CHECK (node.tick ({ .position = { 1.25e-3 + 5e-3, 9, 9 } }).value == Approx (0.3));
@@ -54,7 +48,7 @@ TEST_CASE ("grating: 200 ridges a metre are 5 mm apart", "[nodes][texture]")
 
 TEST_CASE ("grating: no closed path gains or loses energy", "[nodes][texture][energy]")
 {
-    auto node = grating ({ .amplitude = 0.3, .spatial_frequency = 500.0, .angle = 0.9, .phase = 0.4 });
+    auto node = ready<Grating> ({ .amplitude = 0.3, .spatial_frequency = 500.0, .angle = 0.9, .phase = 0.4 });
     const int n = 100'000;
     double work = 0.0, moved = 0.0;
     Vec3 p = Vec3::Zero(), f = node.tick ({}).force;
@@ -75,7 +69,7 @@ TEST_CASE ("grating: no closed path gains or loses energy", "[nodes][texture][en
 
 TEST_CASE ("grating: its steepest slope is 2 pi A k, as it claims", "[nodes][texture]")
 {
-    auto node = grating ({ .amplitude = 0.2, .spatial_frequency = 300.0, .angle = -2.0, .phase = 1.0 });
+    auto node = ready<Grating> ({ .amplitude = 0.2, .spatial_frequency = 300.0, .angle = -2.0, .phase = 1.0 });
     const auto claims = node.claims();
     CHECK (claims.stiffness == Approx (2.0 * M_PI * 60.0));
     CHECK (claims.passive);
@@ -96,13 +90,14 @@ TEST_CASE ("grating: its steepest slope is 2 pi A k, as it claims", "[nodes][tex
     CHECK (largest <= claims.amplitude);
 }
 
-TEST_CASE ("grating: no number breaks it", "[nodes][texture]")
+TEST_CASE ("grating: no input breaks it", "[nodes][texture]")
 {
     rc::prop ("outputs are finite", []
               {
                   const auto number = rc::gen::element (0.0, 1.0, -0.02, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
-                  const double amplitude = *rc::gen::element (0.0, 0.3, 1e300), k = *rc::gen::element (0.0, 200.0, 1e300), angle = *rc::gen::element (0.0, 3.0, 1e300);
-                  auto node = grating ({ .amplitude = amplitude, .spatial_frequency = k, .angle = angle });
+                  const double amplitude = *rc::gen::element (0.0, 0.3, 1e300), k = *rc::gen::element (0.0, 200.0, 1e300),
+                      angle = *rc::gen::element (0.0, 3.0, 1e300);
+                  auto node = ready<Grating> ({ .amplitude = amplitude, .spatial_frequency = k, .angle = angle });
                   const double x = *number, y = *number, z = *number;
                   const auto out = node.tick ({ .position = { x, y, z } });
                   RC_ASSERT (tactus::isFinite (out.force, out.value));

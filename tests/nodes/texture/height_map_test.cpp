@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <nodes/texture/height_map.hpp>
 
-#include <framework/catalogue.hpp>
+#include <framework/node/catalogue.hpp>
 #include <support/no_allocation.hpp>
 #include <support/rig.hpp>
 
@@ -38,7 +38,7 @@ std::shared_ptr<const Grid> grid (int rows, int columns, Height height)
     return std::make_shared<const Grid> (std::move (g));
 }
 
-/// As rough as a map can be: each point on its own.
+/// The roughest possible map: every point is independent.
 std::shared_ptr<const Grid> rough (unsigned seed, int rows = 24, int columns = 31)
 {
     std::mt19937 random { seed };
@@ -57,14 +57,14 @@ HeightMap over (std::shared_ptr<const Grid> csv, double rate_hz = 4000.0)
     return node;
 }
 
-/// As the first sample after a fault: no speed, all detail.
+/// Like the first sample after a fault: no speed, full detail.
 HeightMap::Outputs at (HeightMap& node, double x, double y)
 {
     node.tick ({ .position = { not_a_number, 0.0, 0.0 } });
     return node.tick ({ .position = { x, y, 0.0 } });
 }
 
-/// Both components over a straight scan, from a while after its start.
+/// Both components over a straight scan, some time after its start.
 std::vector<Vec3> scan (HeightMap node, const Vec3& from, const Vec3& step, int ticks)
 {
     std::vector<Vec3> forces;
@@ -76,7 +76,7 @@ std::vector<Vec3> scan (HeightMap node, const Vec3& from, const Vec3& step, int 
     return forces;
 }
 
-/// Mean square of the part of a signal from the given fraction of its rate on, under a window of very low sidelobes.
+/// Mean square of a signal above the given fraction of its rate, using a window with very low sidelobes.
 double energyFrom (double fraction, const std::vector<Vec3>& signal)
 {
     const auto n = signal.size();
@@ -116,7 +116,7 @@ TEST_CASE ("height map: it passes through every point of the map", "[nodes][text
 
 TEST_CASE ("height map: the force is minus gain times the slope", "[nodes][texture]")
 {
-    rc::prop ("anywhere, inside and outside of the map", []
+    rc::prop ("anywhere, inside and outside the map", []
               {
                   auto node = over (rough (*rc::gen::arbitrary<unsigned>()));
                   node.params.gain = 0.1 * *rc::gen::inRange (-30, 30);
@@ -127,9 +127,9 @@ TEST_CASE ("height map: the force is minus gain times the slope", "[nodes][textu
                   RC_ASSERT (std::abs (force.y() + node.params.gain * (at (node, x, y + h).value - at (node, x, y - h).value) / (2.0 * h)) < 1e-5); });
 }
 
-TEST_CASE ("height map: a wave on the map is felt as that wave", "[nodes][texture]")
+TEST_CASE ("height map: a wave on the map is felt as the same wave", "[nodes][texture]")
 {
-    // whole periods between the mirrors
+    // whole periods between the mirrored ends
     const double k = 10.0 / (60 * pitch), amplitude = 2e-5;
     auto node = over (grid (61, 61, [&] (int row, int)
                             { return amplitude * std::cos (2.0 * M_PI * k * row * pitch); }));
@@ -142,7 +142,7 @@ TEST_CASE ("height map: a wave on the map is felt as that wave", "[nodes][textur
     }
 }
 
-TEST_CASE ("height map: the force steps nowhere, and changes no faster than claimed", "[nodes][texture]")
+TEST_CASE ("height map: the force never steps, and changes no faster than claimed", "[nodes][texture]")
 {
     rc::prop ("two points, near or far", []
               {
@@ -154,7 +154,7 @@ TEST_CASE ("height map: the force steps nowhere, and changes no faster than clai
                   const Vec3 change = at (node, x + distance * std::cos (angle), y + distance * std::sin (angle)).force - at (node, x, y).force;
                   RC_ASSERT (change.norm() <= claimed * distance); });
 
-    // and the claim is not idle: a wave has the slope of its wave
+    // and the claim is not too loose: a wave has the slope of its wave
     const double k = 10.0 / (60 * pitch), amplitude = 2e-5;
     auto wave = over (grid (61, 61, [&] (int row, int)
                             { return amplitude * std::cos (2.0 * M_PI * k * row * pitch); }));
@@ -166,7 +166,7 @@ TEST_CASE ("height map: the force steps nowhere, and changes no faster than clai
     CHECK (HeightMap {}.claims().passive);
 }
 
-TEST_CASE ("height map: scanned at any speed it has no energy above its guard", "[nodes][texture]")
+TEST_CASE ("height map: scanned at any speed it has no energy above f_max", "[nodes][texture]")
 {
     rc::prop ("a straight scan in any direction, from slow to far beyond half the tick rate", []
               {
@@ -178,11 +178,11 @@ TEST_CASE ("height map: scanned at any speed it has no energy above its guard", 
 
                   const auto forces = scan (node, from, step, 2048);
                   const double below = energyFrom (0.0, forces), above = energyFrom (0.25 + 0.005, forces);
-                  const double at_rest = energyFrom (0.0, scan (node, from, 0.0837 * step / points_a_tick, 2048));   // the same path, slowly
+                  const double at_rest = energyFrom (0.0, scan (node, from, 0.0837 * step / points_a_tick, 2048));   // the same path, scanned slowly
                   RC_ASSERT (above < 3e-5 * below + 1e-13 * at_rest); });
 }
 
-TEST_CASE ("height map: up to half the guard nothing is lost, beyond it detail goes first", "[nodes][texture]")
+TEST_CASE ("height map: up to half of f_max nothing is lost; beyond it, detail goes first", "[nodes][texture]")
 {
     const auto map = rough (5);
     auto node = over (map);   // 4 kHz: f_max is 1 kHz, the finest level ends at 6000 1/m
@@ -214,7 +214,7 @@ TEST_CASE ("height map: up to half the guard nothing is lost, beyond it detail g
     }
     CHECK (energyAt (100.0) < 1e-6 * energyAt (0.08));
 
-    // what is left in the end is the mean, of a surface that is mirrored at its edges
+    // in the end only the mean is left, the mean of a surface mirrored at its edges
     double sum = 0.0, all = 0.0;
     for (int row = 0; row < map->rows; ++row)
         for (int column = 0; column < map->columns; ++column)
@@ -245,7 +245,7 @@ TEST_CASE ("height map: speed blends the levels without a step", "[nodes][textur
 
 TEST_CASE ("height map: at a constant speed a closed loop does no work", "[nodes][texture]")
 {
-    // At 400 kHz the speed of the first two samples is held for 8000 ticks: enough for a loop in steps that are dense.
+    // At 400 kHz the speed of the first two samples is held for 8000 ticks: enough for a loop in dense steps.
     const double rate = 400'000.0;
     const auto map = rough (7);
     double most = 0.0;
@@ -271,12 +271,12 @@ TEST_CASE ("height map: at a constant speed a closed loop does no work", "[nodes
         }
         REQUIRE (handled > 0.0);
         CHECK (std::abs (work) < 1e-5 * handled);
-        if (most > 0.0) CHECK (handled < most);   // each of these speeds leaves less
+        if (most > 0.0) CHECK (handled < most);   // each speed leaves less than the previous one
         most = handled;
     }
 }
 
-TEST_CASE ("height map: outside it goes on as in a mirror", "[nodes][texture]")
+TEST_CASE ("height map: outside the map the relief is continued by mirroring", "[nodes][texture]")
 {
     const auto map = rough (8);
     auto node = over (map);
@@ -302,7 +302,7 @@ TEST_CASE ("height map: one row is a profile, the same for all y", "[nodes][text
     {
         const double x = k * 1e-5;
         const auto a = still.tick ({ .position = { x, 0.0, 0.0 } }), b = sliding.tick ({ .position = { x, 0.5 * k, 0.0 } });
-        REQUIRE (a.value == b.value);   // moving along the ridges is not fast
+        REQUIRE (a.value == b.value);   // moving along the ridges does not count as speed
         REQUIRE (a.force == b.force);
         REQUIRE (a.force.y() == 0.0);
     }
@@ -314,7 +314,7 @@ TEST_CASE ("height map: one row is a profile, the same for all y", "[nodes][text
     CHECK (at (point, 3.0, 4.0).force.norm() == 0.0);
 }
 
-TEST_CASE ("height map: a measured line is felt as it was measured, and at the speed of a hand without a buzz", "[nodes][texture][data]")
+TEST_CASE ("height map: a measured profile is felt as measured, and does not buzz at the speed of a hand", "[nodes][texture][data]")
 {
     std::ifstream file (TACTUS_SHARED_DATA "/topography_contactengineering/dektak-1.csv");
     if (! file)
@@ -348,7 +348,7 @@ TEST_CASE ("height map: a measured line is felt as it was measured, and at the s
     }
 }
 
-TEST_CASE ("height map: a picture lies as one sees it, a table as it is numbered", "[nodes][texture]")
+TEST_CASE ("height map: a picture lies as it is seen from above, a table as its rows are numbered", "[nodes][texture]")
 {
     const auto corner = grid (3, 4, [] (int row, int column)
                               { return row == 0 && column == 3 ? 1.0 : 0.0; });
@@ -370,9 +370,9 @@ TEST_CASE ("height map: a picture lies as one sees it, a table as it is numbered
     CHECK (heightAt ({ Image {}, Sheet {}, 1e-3, 1e-6 }, 3e-3, 0.0) == 0.0);
 }
 
-TEST_CASE ("height map: a quantised position makes the detail coarse, not fluttering", "[nodes][texture]")
+TEST_CASE ("height map: a quantised position makes the detail coarse, but nothing flutters", "[nodes][texture]")
 {
-    // 10 um at 4 kHz read 0.04 m/s at least; a pitch of 10 um is then too fine, and stays so between two quanta
+    // 10 um at 4 kHz count as at least 0.04 m/s; a pitch of 10 um is then too fine, even between two quanta
     HeightMap node;
     node.settings.map = { .csv = { rough (10) }, .pitch = 1e-5 };
     node.prepare ({ .rate_hz = 4000.0 });
@@ -394,7 +394,7 @@ TEST_CASE ("height map: a quantised position makes the detail coarse, not flutte
     CHECK (worst < 1e-9 * strongest);
 }
 
-TEST_CASE ("height map: a faulty position is forgotten, with its speed", "[nodes][texture]")
+TEST_CASE ("height map: a faulty position is forgotten, and so is its speed", "[nodes][texture]")
 {
     for (const double bad : { not_a_number, inf, -inf })
     {
@@ -414,7 +414,7 @@ TEST_CASE ("height map: a faulty position is forgotten, with its speed", "[nodes
     CHECK (node.tick ({ .position = { 0.33, 4.4e-4, 0.0 } }).force == at (node, 0.33, 4.4e-4).force);
 }
 
-TEST_CASE ("height map: another map takes over the speed of the hand", "[nodes][texture]")
+TEST_CASE ("height map: a new map adopts the speed of the hand", "[nodes][texture]")
 {
     auto old = over (rough (12));
     for (int k = 0; k < 10; ++k)
@@ -428,7 +428,7 @@ TEST_CASE ("height map: another map takes over the speed of the hand", "[nodes][
     }
 }
 
-TEST_CASE ("height map: a map it cannot be is refused in a sentence", "[nodes][texture]")
+TEST_CASE ("height map: an invalid map is refused with a sentence", "[nodes][texture]")
 {
     const auto refused = [] (const HeightMap::Map& map)
     {
@@ -445,7 +445,8 @@ TEST_CASE ("height map: a map it cannot be is refused in a sentence", "[nodes][t
     CHECK (refused ({ .csv = { map }, .height = inf }));
     CHECK (refused ({ .csv = { std::make_shared<const Grid>() } }));
     CHECK (refused ({ .csv = { std::make_shared<const Grid> (Grid { 2, 2, { 1.0 } }) } }));
-    CHECK (refused ({ .csv = { std::make_shared<const Grid> (Grid { 1 << 12, (1 << 10) + 1, std::vector<double> (std::size_t (1 << 12) * ((1 << 10) + 1)) }) } }));
+    const Grid huge { 1 << 12, (1 << 10) + 1, std::vector<double> (std::size_t (1 << 12) * ((1 << 10) + 1)) };
+    CHECK (refused ({ .csv = { std::make_shared<const Grid> (huge) } }));
 
     HeightMap node;
     node.settings.map.csv.grid = grid (3, 4, [] (int row, int column)
@@ -453,7 +454,7 @@ TEST_CASE ("height map: a map it cannot be is refused in a sentence", "[nodes][t
     CHECK (node.problem().find ("row 2, column 3") != std::string::npos);
 }
 
-TEST_CASE ("height map: no number breaks it, and a tick allocates nothing", "[nodes][texture]")
+TEST_CASE ("height map: no input breaks it, and a tick allocates nothing", "[nodes][texture]")
 {
     rc::prop ("the outputs are finite", []
               {

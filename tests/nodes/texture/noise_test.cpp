@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <nodes/texture/noise.hpp>
 
-#include <framework/catalogue.hpp>
+#include <framework/node/catalogue.hpp>
 #include <support/no_allocation.hpp>
 #include <support/rig.hpp>
 
@@ -79,7 +79,7 @@ double meanSquare (const std::vector<double>& values)
     return sum / static_cast<double> (values.size());
 }
 
-/// What a process of these coefficients does: its autocovariance for a variance of 1, by its impulse response.
+/// The autocovariance of a process with these coefficients and a variance of 1, from its impulse response.
 std::vector<double> covariance (const std::vector<double>& a, std::size_t lags)
 {
     std::vector<double> h (6000);
@@ -96,7 +96,7 @@ std::vector<double> covariance (const std::vector<double>& a, std::size_t lags)
     return c;
 }
 
-/// Power density over frequency, 0 to half the rate, by averaged periodograms; a white noise of variance 1 has 1 everywhere.
+/// Power density over frequency, 0 to half the rate, by averaged periodograms. White noise of variance 1 has 1 everywhere.
 std::vector<double> spectrum (const std::vector<double>& values, std::size_t length)
 {
     std::vector<double> window (length), power (length / 2 + 1);
@@ -137,9 +137,9 @@ const Model rumble = model (0.1, 1.0, { 1.2, -0.6 }, 2e-3);
 const Model hiss = model (0.1, 1.0, coefficientsOf ({ -0.3, -0.4, 0.2, -0.1 }), 5e-3);
 }   // namespace
 
-TEST_CASE ("texture noise: it is the process its coefficients say", "[nodes][texture]")
+TEST_CASE ("texture noise: it is the process that its coefficients describe", "[nodes][texture]")
 {
-    rc::prop ("each sample is what it keeps of the last ones, and new noise of the variance given", [] (unsigned seed)
+    rc::prop ("each sample is the weighted sum of the last ones plus new noise of the given variance", [] (unsigned seed)
               {
                   std::mt19937 random { seed };
                   const auto a = coefficientsOf (randomReflections (random, 12, 0.9));
@@ -154,7 +154,7 @@ TEST_CASE ("texture noise: it is the process its coefficients say", "[nodes][tex
 
                   Random noise { 7 };
                   for (std::size_t k = 0; k < a.size(); ++k)
-                      noise.normal();   // what it starts with
+                      noise.normal();   // used up by its initial state
                   for (std::size_t n = 0; n < y.size(); ++n)
                   {
                       double fresh = y[n];
@@ -165,7 +165,7 @@ TEST_CASE ("texture noise: it is the process its coefficients say", "[nodes][tex
                   } });
 }
 
-TEST_CASE ("texture noise: it has the variance of the process, from the first sample on", "[nodes][texture]")
+TEST_CASE ("texture noise: it has the variance of the process, starting at the first sample", "[nodes][texture]")
 {
     rc::prop ("over a long run", [] (unsigned seed)
               {
@@ -174,7 +174,7 @@ TEST_CASE ("texture noise: it has the variance of the process, from the first sa
                   const auto c = covariance (a, 400);
                   auto node = sounding ({ model (0.1, 1.0, a, 0.01) }, rate_hz, static_cast<int> (seed % 1000));
                   const std::size_t ticks = 4000;
-                  double squares = 0.0;   // the variance of a mean square, of a process with Gaussian samples
+                  double squares = 0.0;   // the variance of a mean square of a process with Gaussian samples
                   for (std::size_t lag = 0; lag < c.size(); ++lag)
                       squares += (lag == 0 ? 1.0 : 2.0) * c[lag] * c[lag];
                   const double deviation = std::sqrt (2.0 * squares / static_cast<double> (ticks));
@@ -200,9 +200,9 @@ TEST_CASE ("texture noise: it has the spectrum of the process", "[nodes][texture
     }
 }
 
-TEST_CASE ("texture noise: between models the logarithm of the variance is interpolated, outside the nearest holds", "[nodes][texture]")
+TEST_CASE ("texture noise: between models the logarithm of the variance is interpolated; outside, the nearest model holds", "[nodes][texture]")
 {
-    // Without coefficients a sample is its noise, so its size can be told exactly.
+    // Without coefficients a sample is its noise, so its size is known exactly.
     const auto corners = [] (double v, double f)
     { return std::exp (3.0 * v + 0.5 * f); };
     std::vector<Model> models;
@@ -226,7 +226,7 @@ TEST_CASE ("texture noise: between models the logarithm of the variance is inter
                       RC_ASSERT (std::abs (value - expected) <= 1e-12 * (1.0 + size));
                   } });
 
-    // of a grid with a hole, the hole is as its neighbour
+    // a hole in the grid is filled from its neighbour
     const std::vector<Model> three { model (0.1, 1.0, {}, 1.0), model (0.2, 1.0, {}, 2.0), model (0.1, 4.0, {}, 3.0) };
     auto node = sounding (three);
     Random noise { 1 };
@@ -237,7 +237,7 @@ TEST_CASE ("texture noise: between models the logarithm of the variance is inter
 
 TEST_CASE ("texture noise: every model in between is stable, however fast speed and force change", "[nodes][texture]")
 {
-    rc::prop ("random models of unequal order, inside, at the edges and far outside", [] (unsigned seed)
+    rc::prop ("random models of different orders, inside, at the edges and far outside", [] (unsigned seed)
               {
                   std::mt19937 random { seed };
                   std::vector<Model> models;
@@ -251,7 +251,7 @@ TEST_CASE ("texture noise: every model in between is stable, however fast speed 
                   }
                   TextureNoise node;
                   node.settings.models = models;
-                  RC_PRE (node.problem().empty());   // rounding may leave a sharp one on the edge
+                  RC_PRE (node.problem().empty());   // because of rounding, a model with a sharp resonance may count as unstable
                   node.prepare ({ .rate_hz = rate_hz });
 
                   double bound = 0.01;   // of the variance: each stage at its sharpest
@@ -273,12 +273,13 @@ TEST_CASE ("texture noise: it is silent at rest and out of contact, and grows fr
     for (const double tick_rate : { rate_hz, 4000.0 })
     {
         auto node = sounding ({ rumble }, tick_rate);
-        for (const auto& [speed, force] : { std::pair { 0.0, 1.0 }, { 0.1, 0.0 }, { 0.1, -1.0 }, { 0.0, 0.0 }, { not_a_number, 1.0 }, { 0.1, inf }, { inf, 1.0 } })
+        const std::pair<double, double> silent[] { { 0.0, 1.0 }, { 0.1, 0.0 }, { 0.1, -1.0 }, { 0.0, 0.0 }, { not_a_number, 1.0 }, { 0.1, inf }, { inf, 1.0 } };
+        for (const auto& [speed, force] : silent)
         {
             CHECK (node.tick ({ 0.1, 1.0 }).value != 0.0);
             CHECK (node.tick ({ speed, force }).value == 0.0);
         }
-        // a twin, ten times slower: a tenth
+        // a tenth of the speed gives a tenth of the noise; a low force does the same
         auto slow = node, light = node, both = node;
         for (int k = 0; k < 50; ++k)
         {
@@ -289,14 +290,14 @@ TEST_CASE ("texture noise: it is silent at rest and out of contact, and grows fr
         }
     }
 
-    // models that were heard at rest do not sound at rest
+    // models recorded at rest do not sound at rest
     auto still = sounding ({ model (0.0, 0.0, {}, 1.0) });
     CHECK (still.tick ({ 0.0, 1.0 }).value == 0.0);
     CHECK (still.tick ({ 0.1, 0.0 }).value == 0.0);
     CHECK (still.tick ({ 1e-3, 1e-2 }).value != 0.0);
 }
 
-TEST_CASE ("texture noise: at another rate it has the same spectrum, and nothing that is not its own", "[nodes][texture]")
+TEST_CASE ("texture noise: at another rate it has the same spectrum, without images or aliases", "[nodes][texture]")
 {
     for (const double tick_rate : { 4000.0, 2700.0, 1200.0 })   // faster than the models: no images
     {
@@ -311,7 +312,7 @@ TEST_CASE ("texture noise: at another rate it has the same spectrum, and nothing
         }
     }
 
-    for (const double tick_rate : { 500.0, 270.0 })   // slower: nothing folds back
+    for (const double tick_rate : { 500.0, 270.0 })   // slower than the models: nothing aliases
     {
         const Model low = model (0.1, 1.0, { 1.9, -0.95 }, 1e-3);   // about 35 Hz
         auto node = sounding ({ low }, tick_rate);
@@ -326,7 +327,7 @@ TEST_CASE ("texture noise: at another rate it has the same spectrum, and nothing
     }
 }
 
-TEST_CASE ("texture noise: a seed gives the same noise each time, another seed another", "[nodes][texture]")
+TEST_CASE ("texture noise: the same seed gives the same noise, a different seed gives different noise", "[nodes][texture]")
 {
     for (const double tick_rate : { rate_hz, 2700.0 })
     {
@@ -337,7 +338,7 @@ TEST_CASE ("texture noise: a seed gives the same noise each time, another seed a
     }
 }
 
-TEST_CASE ("texture noise: with new models the noise goes on", "[nodes][texture]")
+TEST_CASE ("texture noise: with new models the noise continues", "[nodes][texture]")
 {
     for (const double tick_rate : { rate_hz, 4000.0 })
     {
@@ -351,7 +352,7 @@ TEST_CASE ("texture noise: with new models the noise goes on", "[nodes][texture]
         young.adopt (old);
         REQUIRE (heard (young, 200) == heard (old, 200));
 
-        // one that is louder: the same wave, louder
+        // a louder model: the same wave, louder
         auto louder = rumble;
         louder.variance *= 4.0;
         auto loud = sounding ({ louder }, tick_rate);
@@ -377,7 +378,7 @@ TEST_CASE ("texture noise: it reads its models from a file's records", "[nodes][
     }
 }
 
-TEST_CASE ("texture noise: models it cannot play are refused in a sentence", "[nodes][texture]")
+TEST_CASE ("texture noise: models it cannot play are refused with a sentence", "[nodes][texture]")
 {
     const auto refused = [] (const std::vector<Model>& models)
     {
@@ -409,7 +410,7 @@ TEST_CASE ("texture noise: models it cannot play are refused in a sentence", "[n
     CHECK_FALSE (refused (many));
 }
 
-TEST_CASE ("texture noise: no number breaks it, and a tick allocates nothing", "[nodes][texture]")
+TEST_CASE ("texture noise: no input breaks it, and a tick allocates nothing", "[nodes][texture]")
 {
     rc::prop ("the output is finite", []
               {

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-TEST_CASE ("vector add: adds part by part, unwired inputs as 0", "[nodes][vector]")
+TEST_CASE ("vector add: adds by component, unwired inputs as 0", "[nodes][vector]")
 {
     Rig rig { "vector.add" };
     rig.set ("inputs", 3.0);

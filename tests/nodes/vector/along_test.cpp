@@ -16,7 +16,7 @@ tactus::Vec3 anyVector()
 
 using tactus::nodes::VectorAlong;
 
-TEST_CASE ("along: the parts make up the vector, and lie where they should", "[nodes][vector]")
+TEST_CASE ("along: the parts add up to the vector, and have the right directions", "[nodes][vector]")
 {
     rc::prop ("any vector and direction", []
               {
@@ -27,20 +27,20 @@ TEST_CASE ("along: the parts make up the vector, and lie where they should", "[n
         RC_ASSERT (std::abs (out.across.dot (u)) <= 1e-12 * in.norm()); });
 }
 
-TEST_CASE ("along: parts height from plane as delivered", "[nodes][vector]")
+TEST_CASE ("along: splits height from plane by default", "[nodes][vector]")
 {
     const auto out = VectorAlong {}.tick ({ .in = { 1.0, 2.0, 3.0 } });
     CHECK (out.along == 3.0);
     CHECK (out.across == tactus::Vec3 { 1.0, 2.0, 0.0 });
 }
 
-TEST_CASE ("along: only where the direction points matters", "[nodes][vector]")
+TEST_CASE ("along: the length of the direction does not matter", "[nodes][vector]")
 {
     const double size = GENERATE (1e-200, 1.0, 1e200);
     CHECK (VectorAlong {}.tick ({ .in = { 1.0, 2.0, 3.0 }, .direction = { 0.0, -size, 0.0 } }).along == -2.0);
 }
 
-TEST_CASE ("along: without a direction all is across", "[nodes][vector]")
+TEST_CASE ("along: without a direction the whole vector is across", "[nodes][vector]")
 {
     const auto out = VectorAlong {}.tick ({ .in = { 1.0, 2.0, 3.0 }, .direction = tactus::Vec3::Zero() });
     CHECK (out.along == 0.0);

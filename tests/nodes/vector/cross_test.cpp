@@ -19,7 +19,7 @@ TEST_CASE ("cross: is right-handed", "[nodes][vector]")
     CHECK (tactus::nodes::VectorCross {}.tick ({ .a = tactus::Vec3::UnitX(), .b = tactus::Vec3::UnitY() }).out == tactus::Vec3::UnitZ());
 }
 
-TEST_CASE ("cross: is at right angles to both, and turns with their order", "[nodes][vector]")
+TEST_CASE ("cross: is at right angles to both, and changes sign with their order", "[nodes][vector]")
 {
     rc::prop ("any two vectors", []
               {

@@ -30,13 +30,13 @@ VectorFromFrame frameOf (const Vec3& origin, const Vec3& rotation)
 }
 }   // namespace
 
-TEST_CASE ("from frame: a quarter turn about z brings right to away", "[nodes][vector]")
+TEST_CASE ("from frame: a quarter turn about z takes right to away", "[nodes][vector]")
 {
     const auto node = frameOf ({ 1.0, 0.0, 0.0 }, { 0.0, 0.0, std::numbers::pi / 2 });
     CHECK ((node.tick ({ .in = Vec3::UnitX() }).out - Vec3 { 1.0, 1.0, 0.0 }).norm() < 1e-15);
 }
 
-TEST_CASE ("from frame: turning keeps lengths, angles and hands", "[nodes][vector]")
+TEST_CASE ("from frame: rotation keeps lengths, angles and handedness", "[nodes][vector]")
 {
     rc::prop ("any rotation", []
               {
@@ -50,7 +50,7 @@ TEST_CASE ("from frame: turning keeps lengths, angles and hands", "[nodes][vecto
         RC_ASSERT ((turn * rotation - rotation).norm() <= 1e-14 * (1.0 + rotation.norm())); });
 }
 
-TEST_CASE ("from frame: small turns add up as vectors do", "[nodes][vector]")
+TEST_CASE ("from frame: small rotations add up like vectors", "[nodes][vector]")
 {
     const Vec3 r { 1e-9, -2e-9, 3e-9 }, in { 0.1, 0.2, 0.3 };
     CHECK ((frameOf (Vec3::Zero(), r).tick ({ .in = in }).out - (in + r.cross (in))).norm() < 1e-16);

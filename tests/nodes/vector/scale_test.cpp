@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-TEST_CASE ("scale: multiplies every part, by 1 as delivered", "[nodes][vector]")
+TEST_CASE ("scale: multiplies every component, by 1 by default", "[nodes][vector]")
 {
     tactus::nodes::VectorScale node;
     CHECK (node.tick ({ .in = { 1.0, 2.0, 3.0 } }).out == tactus::Vec3 { 1.0, 2.0, 3.0 });

@@ -33,10 +33,10 @@ double ring (const Modal::Mode& m, double v, double t) { return m.amplitude * v 
 const std::vector<Modal::Mode> wood { { 100, 80, 1.5 }, { 430, 120, 0.7 }, { 1210, 300, 0.2 } };
 }   // namespace
 
-TEST_CASE ("modal: it meets the golden column", "[nodes][vibration][golden]")
+TEST_CASE ("modal: it matches the golden column", "[nodes][vibration][golden]")
 {
     const Golden golden ("modal");
-    // The set gives modes as (a, b, omega): 1, -80, 2 pi 100 and 0.4, -30, 2 pi 230.
+    // The golden set gives modes as (a, b, omega): 1, -80, 2 pi 100 and 0.4, -30, 2 pi 230.
     auto node = modal ({ { 100.0, 80.0, 1.0 }, { 1445.132620651305 / (2.0 * M_PI), 30.0, 0.4 } }, 1.0 / golden.dt_s());
     CHECK (golden.worst ("y_modal", [&] (std::size_t i)
                          { return node.tick ({ .hit = golden (i, "hit_v") }).value; })
@@ -98,7 +98,7 @@ TEST_CASE ("modal: hits add up exactly, and none makes a click", "[nodes][vibrat
             RC_ASSERT (std::abs (node.tick ({ .hit = hit }).value - sum) <= 1e-11 * loudest);
         } });
 
-    // On the tick of a hit the output is what it would have been without it, to the bit.
+    // On the tick of a hit, the output is bit-identical to the output without the hit.
     auto struck = modal (wood), left = modal (wood);
     struck.tick ({ .hit = 1.0 });
     left.tick ({ .hit = 1.0 });
@@ -115,7 +115,7 @@ TEST_CASE ("modal: pitch, damping and gain multiply", "[nodes][vibration]")
         REQUIRE (bent.tick ({}).value == Approx (3.0 * ring ({ 150.0, 80.0, 0.5 }, 1.0, k / 4000.0)).margin (1e-13));
 }
 
-TEST_CASE ("modal: bending the pitch of a ring steps nothing", "[nodes][vibration]")
+TEST_CASE ("modal: bending the pitch of a ring makes no step", "[nodes][vibration]")
 {
     auto node = modal ({ { 100.0, 20.0, 1.0 } });
     double before = node.tick ({ .hit = 1.0 }).value;
@@ -129,7 +129,7 @@ TEST_CASE ("modal: bending the pitch of a ring steps nothing", "[nodes][vibratio
     }
 }
 
-TEST_CASE ("modal: what the rate cannot carry is silent, and so is what would not decay", "[nodes][vibration]")
+TEST_CASE ("modal: modes above half the rate, and modes that do not decay, are silent", "[nodes][vibration]")
 {
     auto node = modal ({ { 500.0, 10.0, 1.0 }, { 1700.0, 10.0, 1.0 }, { 100.0, 0.0, 1.0 } }, 1000.0);
     node.tick ({ .hit = 1.0 });
@@ -139,14 +139,14 @@ TEST_CASE ("modal: what the rate cannot carry is silent, and so is what would no
     auto high = modal ({ { 450.0, 10.0, 1.0 } }, 1000.0, { .pitch = 1.2 });
     high.tick ({ .hit = 1.0 });
     CHECK (high.tick ({}).value == 0.0);
-    high.params.pitch = 1.0;   // down in the band again, it does not ring of a hit long ago
+    high.params.pitch = 1.0;   // back in the band, it does not ring from a hit long ago
     high.update();
     CHECK (high.tick ({}).value == 0.0);
     high.tick ({ .hit = 1.0 });
     CHECK (high.tick ({}).value != 0.0);
 }
 
-TEST_CASE ("modal: what is no hit is ignored, and the ring goes on", "[nodes][vibration]")
+TEST_CASE ("modal: an input that is not a hit is ignored, and the ring continues", "[nodes][vibration]")
 {
     auto node = modal (wood), undisturbed = modal (wood);
     node.tick ({ .hit = 1.0 });
@@ -164,7 +164,7 @@ TEST_CASE ("modal: a ring ends in exact silence", "[nodes][vibration]")
     CHECK (node.tick ({}).value == 0.0);
 }
 
-TEST_CASE ("modal: a mode is added while the others ring on", "[nodes][vibration]")
+TEST_CASE ("modal: the other modes keep ringing when a mode is added", "[nodes][vibration]")
 {
     auto old = modal (wood), undisturbed = modal (wood);
     old.tick ({ .hit = 1.0 });
@@ -175,19 +175,21 @@ TEST_CASE ("modal: a mode is added while the others ring on", "[nodes][vibration
         undisturbed.tick ({});
     }
 
-    // In front, so that every index moves; and one frequency twice.
+    // At the front, so that every index changes; and one frequency twice.
     auto next = modal ({ { 60, 50, 1.0 }, wood[0], wood[1], wood[2], wood[2] });
     next.adopt (old);
     for (int k = 0; k < 100; ++k)
         CHECK (next.tick ({}).value == Approx (undisturbed.tick ({}).value).margin (1e-15));
 }
 
-TEST_CASE ("modal: no number breaks it", "[nodes][vibration]")
+TEST_CASE ("modal: no input breaks it", "[nodes][vibration]")
 {
     rc::prop ("the output is finite", []
               {
-                  const double gain = *rc::gen::element (0.0, 1.0, -1e300), pitch = *rc::gen::element (0.0, 1.0, 1e300), damping = *rc::gen::element (0.0, 1.0, 1e300);
+                  const double gain = *rc::gen::element (0.0, 1.0, -1e300), pitch = *rc::gen::element (0.0, 1.0, 1e300),
+                      damping = *rc::gen::element (0.0, 1.0, 1e300);
                   auto node = modal (wood, 4000.0, { .gain = gain, .pitch = pitch, .damping = damping });
                   for (int k = 0; k < 60; ++k)
-                      RC_ASSERT (tactus::isFinite (node.tick ({ .hit = *rc::gen::element (0.0, 1.0, -1.0, 1e300, 1.7e308, 1e-320, not_a_number, tactus::inf) }).value)); });
+                      RC_ASSERT (tactus::isFinite (node.tick ({ .hit = *rc::gen::element (0.0, 1.0, -1.0, 1e300, 1.7e308, 1e-320,
+                          not_a_number, tactus::inf) }).value)); });
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <nodes/vibration/wavetable.hpp>
 
-#include <framework/catalogue.hpp>
+#include <framework/node/catalogue.hpp>
 #include <golden/golden.hpp>
 #include <support/no_allocation.hpp>
 #include <support/rig.hpp>
@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <vector>
 
 using namespace tactus;
@@ -55,7 +56,7 @@ double ring (const std::vector<Mode>& modes, double t)
     return sum;
 }
 
-/// What a hit of this speed gives, the tick of the hit first.
+/// The output after a hit of this speed, starting with the tick of the hit.
 std::vector<double> struck (Wavetable node, int ticks, double v = 1.0)
 {
     std::vector<double> all { node.tick ({ .hit = v }).value };
@@ -73,10 +74,10 @@ double loudest (const std::vector<double>& values, std::size_t from = 0, std::si
 }
 }   // namespace
 
-TEST_CASE ("wavetable: it meets the golden column", "[nodes][vibration][golden]")
+TEST_CASE ("wavetable: it matches the golden column", "[nodes][vibration][golden]")
 {
     const test::Golden golden ("modal");
-    // The set gives modes as (a, b, omega): 1, -80, 2 pi 100 and 0.4, -30, 2 pi 230.
+    // The golden set gives modes as (a, b, omega): 1, -80, 2 pi 100 and 0.4, -30, 2 pi 230.
     const Records modes { { 100.0, 80.0, 1.0 }, { 1445.132620651305 / (2.0 * M_PI), 30.0, 0.4 } };
     const auto type = describe<Wavetable>();
     Rig rig { type, 1.0 / golden.dt_s() };
@@ -92,7 +93,7 @@ TEST_CASE ("wavetable: it meets the golden column", "[nodes][vibration][golden]"
            <= 1.0);
 }
 
-TEST_CASE ("wavetable: it is the ring of its modes, but for the straight lines between samples", "[nodes][vibration]")
+TEST_CASE ("wavetable: it is the ring of its modes, except for the linear interpolation between samples", "[nodes][vibration]")
 {
     rc::prop ("the error is at most max |y''| / (8 rate^2), at any rate and pitch", []
               {
@@ -123,14 +124,12 @@ TEST_CASE ("wavetable: a hit begins and ends at 0, and hits add up", "[nodes][vi
     CHECK (loudest (once, 600) == 0.0);
 
     auto node = playing (table);
+    const std::map<std::size_t, double> hits { { 0, 1.0 }, { 40, 0.5 }, { 41, 2.0 } };
     for (std::size_t k = 0; k < 900; ++k)
     {
         const double expected = once[k] + (k >= 40 ? 0.5 * once[k - 40] : 0.0) + (k >= 41 ? 2.0 * once[k - 41] : 0.0);
-        REQUIRE (node.tick ({ .hit = k == 0 ? 1.0 : k == 40 ? 0.5
-                                                : k == 41   ? 2.0
-                                                            : 0.0 })
-                     .value
-                 == Approx (expected).margin (1e-14));
+        const double hit = hits.contains (k) ? hits.at (k) : 0.0;
+        REQUIRE (node.tick ({ .hit = hit }).value == Approx (expected).margin (1e-14));
     }
 }
 
@@ -144,7 +143,7 @@ TEST_CASE ("wavetable: a table too short for its modes still ends at 0", "[nodes
     CHECK (loudest (values, 96) == 0.0);
 }
 
-TEST_CASE ("wavetable: with no voice free a new hit is dropped and those that sound go on", "[nodes][vibration]")
+TEST_CASE ("wavetable: without a free voice a new hit is dropped, and sounding voices continue", "[nodes][vibration]")
 {
     const auto table = ofModes (wood, 8000.0, 1200);
     auto two = playing (table, 4000.0, 2), eight = playing (table);
@@ -153,11 +152,11 @@ TEST_CASE ("wavetable: with no voice free a new hit is dropped and those that so
         const double wanted = k == 0 || k == 10 ? 1.0 : 0.0, too_many = k == 20 || k == 300 ? 1.0 : wanted;
         REQUIRE (two.tick ({ .hit = too_many }).value == eight.tick ({ .hit = wanted }).value);
     }
-    two.tick ({ .hit = 1.0 });   // voices have ended, and are free
+    two.tick ({ .hit = 1.0 });   // the voices have ended and are free
     CHECK (two.tick ({}).value != 0.0);
 }
 
-TEST_CASE ("wavetable: what the tick rate cannot carry is left out", "[nodes][vibration]")
+TEST_CASE ("wavetable: whatever the tick rate cannot carry is left out", "[nodes][vibration]")
 {
     const Mode low { 100.0, 50.0, 1.0 }, high { 600.0, 50.0, 1.0 };
     CHECK (struck (playing (ofModes ({ low, high }, 8000.0, 2000), 1000.0), 200) == struck (playing (ofModes ({ low }, 8000.0, 2000), 1000.0), 200));
@@ -177,7 +176,7 @@ TEST_CASE ("wavetable: what the tick rate cannot carry is left out", "[nodes][vi
     CHECK (loudest (struck (transposed, 125), 20, 105) < 1e-3);
 }
 
-TEST_CASE ("wavetable: a recording plays at its own rate, the channel asked for, sample for sample", "[nodes][vibration]")
+TEST_CASE ("wavetable: a recording plays its channel at its own rate, sample for sample", "[nodes][vibration]")
 {
     const auto left = tone (60.0, 2000.0, 2001), right = tone (90.0, 2000.0, 2001);
     for (const int channel : { 1, 2 })
@@ -189,7 +188,7 @@ TEST_CASE ("wavetable: a recording plays at its own rate, the channel asked for,
         CHECK (loudest (values, 4001) == 0.0);
     }
 
-    // at a rate below the recording's, what is well within the band is left as it was
+    // at a rate below the recording's, signals well within the band stay unchanged
     const auto values = struck (playing (recorded (48'000.0, { tone (60.0, 48'000.0, 48'001) }), 1000.0), 1000);
     for (std::size_t k = 20; k < 980; ++k)
         REQUIRE (values[k] == Approx (std::sin (2.0 * M_PI * 60.0 * static_cast<double> (k) / 1000.0)).margin (2e-3));
@@ -197,10 +196,11 @@ TEST_CASE ("wavetable: a recording plays at its own rate, the channel asked for,
 
 TEST_CASE ("wavetable: no recording clicks, wherever it begins and ends", "[nodes][vibration]")
 {
-    rc::prop ("from one tick to the next it moves no further than its own slope and a bend of 2 ms take it", []
+    rc::prop ("from one tick to the next it moves no further than its own slope plus a bend of 2 ms", []
               {
                   const double wav_rate = *rc::gen::element (1000.0, 8000.0, 44'100.0), rate = *rc::gen::element (1000.0, 4000.0, 10'000.0);
-                  const double offset = 0.1 * *rc::gen::inRange (-20, 20), slope = 0.1 * *rc::gen::inRange (-20, 20);   // N s/m, and over the whole length
+                  const double offset = 0.1 * *rc::gen::inRange (-20, 20);   // N s/m
+                  const double slope = 0.1 * *rc::gen::inRange (-20, 20);    // N s/m over the whole length
                   const auto length = static_cast<std::size_t> (0.05 * wav_rate);
                   std::vector<double> wav (length);
                   for (std::size_t i = 0; i < length; ++i)
@@ -214,7 +214,7 @@ TEST_CASE ("wavetable: no recording clicks, wherever it begins and ends", "[node
                   RC_ASSERT (std::abs (values[values.size() / 4]) > 0.9 * std::abs (offset + slope * 0.4) - 0.05); });
 }
 
-TEST_CASE ("wavetable: what is no hit is ignored, and the ring goes on", "[nodes][vibration]")
+TEST_CASE ("wavetable: an input that is not a hit is ignored, and the ring continues", "[nodes][vibration]")
 {
     auto node = playing (ofModes (wood, 8000.0, 1200)), undisturbed = node;
     node.tick ({ .hit = 1.0 });
@@ -223,7 +223,7 @@ TEST_CASE ("wavetable: what is no hit is ignored, and the ring goes on", "[nodes
         CHECK (node.tick ({ .hit = v }).value == undisturbed.tick ({}).value);
 }
 
-TEST_CASE ("wavetable: a new table does not touch the hits that sound", "[nodes][vibration]")
+TEST_CASE ("wavetable: a new table does not change sounding hits", "[nodes][vibration]")
 {
     const auto table = ofModes (wood, 8000.0, 1200);
     const auto alone = struck (playing (table), 700);
@@ -240,7 +240,7 @@ TEST_CASE ("wavetable: a new table does not touch the hits that sound", "[nodes]
         REQUIRE (young.tick ({ .hit = k == 50 ? 1.0 : 0.0 }).value == Approx (alone[k] + (k >= 50 ? new_hit[k - 50] : 0.0)).margin (1e-14));
 }
 
-TEST_CASE ("wavetable: with fewer voices, those that sound find a place", "[nodes][vibration]")
+TEST_CASE ("wavetable: with fewer voices, sounding hits still find a place", "[nodes][vibration]")
 {
     const auto table = ofModes (wood, 8000.0, 1200);
     auto old = playing (table, 4000.0, 3);
@@ -252,7 +252,7 @@ TEST_CASE ("wavetable: with fewer voices, those that sound find a place", "[node
         REQUIRE (young.tick ({}).value == old.tick ({}).value);
 }
 
-TEST_CASE ("wavetable: a table it cannot play is refused in a sentence", "[nodes][vibration]")
+TEST_CASE ("wavetable: a table it cannot play is refused with a sentence", "[nodes][vibration]")
 {
     const auto refused = [] (const Wavetable::Table& table)
     {
@@ -282,7 +282,7 @@ TEST_CASE ("wavetable: a table it cannot play is refused in a sentence", "[nodes
     CHECK (refused (both));
 }
 
-TEST_CASE ("wavetable: no number breaks it, and a tick allocates nothing", "[nodes][vibration]")
+TEST_CASE ("wavetable: no input breaks it, and a tick allocates nothing", "[nodes][vibration]")
 {
     rc::prop ("the output is finite", []
               {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "../support/canvas_rig.hpp"
+#include "host/app/support/canvas_rig.hpp"
 
 #include <host/app/model/clipboard.hpp>
 
@@ -15,18 +15,18 @@ namespace
 bool selects (const CanvasRig& rig, const std::string& name) { return rig.canvas->selection().contains (rig.node (name).id); }
 }   // namespace
 
-TEST_CASE ("a wire is drawn from an output to an input that it fits, and back", "[app][canvas]")
+TEST_CASE ("a wire can be drawn from an output to a matching input, or from the input to the output", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     const auto before = rig.text();
     rig.hand().drag (rig.port ("drag", Role::output, "deflection"), rig.port ("grain", Role::input, "position"));
-    // Only one length fits there: it takes the place of the hand's.
+    // The input takes one wire, so the new one replaces the wire from the hand.
     CHECK (rig.hasWire ("drag.deflection -> grain.position"));
     CHECK_FALSE (rig.hasWire ("hand.position -> grain.position"));
     rig.hand().key ("ctrl + z");
     CHECK (rig.text() == before);
 
-    // From the input's end it is the same.
+    // Drawing from the input gives the same result.
     rig.hand().drag (rig.port ("grain", Role::input, "position"), rig.port ("drag", Role::output, "deflection"));
     CHECK (rig.hasWire ("drag.deflection -> grain.position"));
 }
@@ -39,7 +39,7 @@ TEST_CASE ("forces into one input add up", "[app][canvas]")
     CHECK (rig.graph().root.wires.size() == wires + 1);
 }
 
-TEST_CASE ("a wire that does not fit says why, and is not drawn", "[app][canvas]")
+TEST_CASE ("a wire that does not fit shows the reason and is not created", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     const auto before = rig.text();
@@ -47,16 +47,16 @@ TEST_CASE ("a wire that does not fit says why, and is not drawn", "[app][canvas]
     hand.press (rig.port ("hand", Role::output, "position"));
     hand.dragTo (rig.port ("motor", Role::input, "force"));
     CHECK (rig.hint.contains ("m into N"));
-    REQUIRE (rig.canvas->lit().fits);
+    REQUIRE (rig.canvas->highlighted().fits);
     const auto& drag = rig.node ("drag");
-    CHECK (rig.canvas->lit().fits (drag, *drag.face->find (Role::input, "position")));
-    CHECK_FALSE (rig.canvas->lit().fits (drag, *drag.face->find (Role::input, "normal_force")));
+    CHECK (rig.canvas->highlighted().fits (drag, *drag.face->find (Role::input, "position")));
+    CHECK_FALSE (rig.canvas->highlighted().fits (drag, *drag.face->find (Role::input, "normal_force")));
     hand.release (rig.port ("motor", Role::input, "force"));
     CHECK (rig.text() == before);
-    CHECK_FALSE (rig.canvas->lit().fits);
+    CHECK_FALSE (rig.canvas->highlighted().fits);
 }
 
-TEST_CASE ("a component of a vector is asked for where only a number fits", "[app][canvas]")
+TEST_CASE ("connecting a vector to a scalar asks for the component", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     rig.choice = 2;
@@ -66,35 +66,35 @@ TEST_CASE ("a component of a vector is asked for where only a number fits", "[ap
     CHECK (rig.hasWire ("board.force.z -> drag.normal_force"));
     CHECK (rig.hasWire ("board.resistance -> drag.normal_force"));   // forces add up
 
-    // Into a component the other way round; of another component of the same port it takes nothing away.
+    // The other direction wires into one component and leaves the port's other components alone.
     rig.hand().drag (rig.port ("board", Role::output, "resistance"), rig.port ("motor", Role::input, "force"));
     CHECK (rig.hasWire ("board.resistance -> motor.force.z"));
     CHECK (rig.hasWire ("drag.force -> motor.force"));
 }
 
-TEST_CASE ("a wire let go on nothing wants a node, which is joined to it", "[app][canvas]")
+TEST_CASE ("dropping a wire on empty canvas requests a node, which is then connected", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     rig.hand().drag (rig.port ("hand", Role::output, "position"), rig.nowhere());
-    REQUIRE (rig.wish);
-    REQUIRE (rig.wish->start);
-    CHECK (rig.wish->start->port == "position");
-    rig.canvas->addNodeAt ("texture.grating", *rig.wish);
+    REQUIRE (rig.request);
+    REQUIRE (rig.request->start);
+    CHECK (rig.request->start->port == "position");
+    rig.canvas->addNodeAt ("texture.grating", *rig.request);
     CHECK (rig.hasWire ("hand.position -> grating.position"));
     CHECK (rig.document.history().names().size() == 1);   // one step
 }
 
-TEST_CASE ("an inserted node goes into the wire", "[app][canvas]")
+TEST_CASE ("a node can be inserted into a wire", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
-    SECTION ("chosen after a double click on it")
+    SECTION ("by double-clicking the wire")
     {
         rig.hand().doubleClick (rig.middleOf ("touch.gain -> grain_felt.gain"));
-        REQUIRE (rig.wish);
-        REQUIRE (rig.wish->wire != 0);
-        rig.canvas->addNodeAt ("signal.slew", *rig.wish);
+        REQUIRE (rig.request);
+        REQUIRE (rig.request->wire != 0);
+        rig.canvas->addNodeAt ("signal.slew", *rig.request);
     }
-    SECTION ("or dropped on it")
+    SECTION ("by dropping a node on the wire")
     {
         rig.canvas->addNodeAt ("signal.slew", { rig.canvas->view().toCanvas (rig.nowhere()) });
         rig.hand().drag (rig.title ("slew"), rig.middleOf ("touch.gain -> grain_felt.gain"));
@@ -105,40 +105,40 @@ TEST_CASE ("an inserted node goes into the wire", "[app][canvas]")
     CHECK (rig.hasWire ("slew." + out + " -> grain_felt.gain"));
     CHECK_FALSE (rig.hasWire ("touch.gain -> grain_felt.gain"));
 
-    // Taken away again, the wire heals.
+    // Deleting the node reconnects the wire.
     rig.hand().click (rig.title ("slew"));
     rig.hand().key ("backspace");
     CHECK (rig.hasWire ("touch.gain -> grain_felt.gain"));
 }
 
-TEST_CASE ("with shift, a wire is taken from one input to another, or off", "[app][canvas]")
+TEST_CASE ("shift-dragging moves a wire to another input or removes it", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     const auto shift = Hand::left (juce::ModifierKeys::shiftModifier);
     rig.hand().drag (rig.port ("grain", Role::input, "position"), rig.nowhere(), shift);
     CHECK_FALSE (rig.hasWire ("hand.position -> grain.position"));
-    CHECK_FALSE (rig.wish);
+    CHECK_FALSE (rig.request);
     rig.hand().drag (rig.port ("board", Role::input, "position"), rig.port ("grain", Role::input, "position"), shift);
     CHECK (rig.hasWire ("hand.position -> grain.position"));
     CHECK_FALSE (rig.hasWire ("hand.position -> board.position"));
 }
 
-TEST_CASE ("nodes move on the grid, in one step, and nothing else does", "[app][canvas]")
+TEST_CASE ("a drag moves only the selected node, on the grid, as one undo step", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     std::map<std::string, juce::Point<float>> places;
     for (const auto& n : rig.canvas->scene().nodes())
         places[n.name] = n.at;
     rig.hand().drag (rig.title ("grain"), rig.title ("grain") + juce::Point<float> (61.0f, 33.0f));
-    const auto way = rig.node ("grain").at - places["grain"];
-    CHECK (std::fmod (way.x, Box::grid) == 0.0f);
-    CHECK (way.getDistanceFromOrigin() > 40.0f);
+    const auto moved = rig.node ("grain").at - places["grain"];
+    CHECK (std::fmod (moved.x, Box::grid) == 0.0f);
+    CHECK (moved.getDistanceFromOrigin() > 40.0f);
     for (const auto& n : rig.canvas->scene().nodes())
         if (n.name != "grain") CHECK (n.at == places[n.name]);
     CHECK (rig.document.history().names() == std::vector<std::string> { "move" });
 }
 
-TEST_CASE ("a copy dragged with alt has the wires that came in", "[app][canvas]")
+TEST_CASE ("alt-dragging copies a node with its incoming wires", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     rig.hand().drag (rig.title ("grain"), rig.title ("grain") + juce::Point<float> (0.0f, 200.0f), Hand::left (juce::ModifierKeys::altModifier));
@@ -147,7 +147,7 @@ TEST_CASE ("a copy dragged with alt has the wires that came in", "[app][canvas]"
     CHECK (rig.graph().root.find ("grain_2")->params == rig.graph().root.find ("grain")->params);
 }
 
-TEST_CASE ("what is copied is a graph file, and can be pasted into another graph", "[app][canvas]")
+TEST_CASE ("copied text is a graph file and can be pasted", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     rig.hand().click (rig.title ("drag"));
@@ -169,7 +169,7 @@ TEST_CASE ("what is copied is a graph file, and can be pasted into another graph
     CHECK (rig.hint.startsWith ("Nothing to paste"));
 }
 
-TEST_CASE ("a param is turned on its node: dragged in one step, typed with a unit, put back", "[app][canvas]")
+TEST_CASE ("a param can be dragged, typed with a unit and reset on its node", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     const auto ratio = [&]
@@ -190,7 +190,7 @@ TEST_CASE ("a param is turned on its node: dragged in one step, typed with a uni
     rig.hand().click (at, Hand::left (juce::ModifierKeys::altModifier));
     CHECK (ratio().is_null());
 
-    // One that a control holds moves the control, as far as that goes.
+    // A param driven by a control moves the control, within its range.
     const auto roughness = [&]
     { return rig.graph().controls[0].value; };
     rig.hand().drag (rig.value ("drag", "mu"), rig.value ("drag", "mu") - juce::Point<float> (0.0f, 400.0f));
@@ -209,11 +209,11 @@ TEST_CASE ("a param is turned on its node: dragged in one step, typed with a uni
     REQUIRE (editor != nullptr);
     editor->setText ("3 N");
     editor->onReturnKey();
-    CHECK (rig.hint.contains ("no unit of d_max"));
+    CHECK (rig.hint.contains ("does not fit d_max"));
     CHECK (rig.graph().root.find ("drag")->params["d_max"] == "0.2 mm");
 }
 
-TEST_CASE ("a subgraph is made, entered, left and dissolved", "[app][canvas]")
+TEST_CASE ("a subgraph can be created, entered, left and ungrouped", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     rig.hand().click (rig.title ("grain"));
@@ -226,7 +226,7 @@ TEST_CASE ("a subgraph is made, entered, left and dissolved", "[app][canvas]")
     CHECK (rig.canvas->scene().nodes().size() == 2);
     CHECK (rig.canvas->address ("grain.force") == "group/grain.force");
 
-    // What it shows outside is seen inside, and can be hidden and shown again.
+    // Exposed ports are shown inside and can be hidden and exposed again.
     REQUIRE (rig.canvas->scene().exposed().size() == 3);
     rig.hand().click (rig.title ("grain"));
     rig.choice = 0;
@@ -238,7 +238,7 @@ TEST_CASE ("a subgraph is made, entered, left and dissolved", "[app][canvas]")
     rig.hand().key ("ctrl + z");
     rig.hand().key ("ctrl + z");
 
-    // What is done inside is done to the subgraph.
+    // Edits inside apply to the subgraph.
     rig.hand().click (rig.title ("grain"));
     rig.hand().key ("b");
     CHECK (rig.graph().graphs[0].second.find ("grain")->bypass);
@@ -249,7 +249,7 @@ TEST_CASE ("a subgraph is made, entered, left and dissolved", "[app][canvas]")
     CHECK (rig.graph().graphs.empty());
     CHECK (rig.graph().root.find ("grain") != nullptr);
 
-    // Undone while inside, one is outside again.
+    // Undoing the subgraph while inside leaves it.
     rig.hand().key ("ctrl + z");
     rig.hand().doubleClick (rig.title ("group"));
     CHECK (rig.canvas->patch() == "group");
@@ -258,7 +258,7 @@ TEST_CASE ("a subgraph is made, entered, left and dissolved", "[app][canvas]")
     CHECK (rig.canvas->patch().empty());
 }
 
-TEST_CASE ("a region moves what lies in it", "[app][canvas]")
+TEST_CASE ("moving a region moves the nodes in it", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     rig.hand().click (rig.title ("grain"));
@@ -274,9 +274,9 @@ TEST_CASE ("a region moves what lies in it", "[app][canvas]")
     const auto node = rig.node ("grain").at, other = rig.node ("board").at;
     const auto grip = rig.canvas->view().toPixels (note.getTopLeft() + juce::Point<float> (12.0f, 8.0f));
     rig.hand().drag (grip, grip + juce::Point<float> (0.0f, 80.0f));
-    const auto way = rig.canvas->scene().notes()[0].area.getPosition() - note.getPosition();
-    CHECK (way.y > 40.0f);
-    CHECK (rig.node ("grain").at == node + way);
+    const auto moved = rig.canvas->scene().notes()[0].area.getPosition() - note.getPosition();
+    CHECK (moved.y > 40.0f);
+    CHECK (rig.node ("grain").at == node + moved);
     CHECK (rig.node ("board").at == other);
 
     const auto colour = rig.canvas->scene().notes()[0].colour;
@@ -284,14 +284,14 @@ TEST_CASE ("a region moves what lies in it", "[app][canvas]")
     CHECK (rig.canvas->scene().notes()[0].colour != colour);
     rig.hand().key ("ctrl + z");
 
-    // It is kept in the file.
+    // It is stored in the file.
     CHECK (rig.graph().extra["ui"]["notes"][0]["text"] == "the grain");
     rig.hand().key ("delete");
     CHECK (rig.canvas->scene().notes().empty());
     CHECK (rig.graph().root.find ("grain") != nullptr);
 }
 
-TEST_CASE ("a delay is put on a wire and taken off by keys", "[app][canvas]")
+TEST_CASE ("keys change the delay of a wire", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     rig.hand().click (rig.middleOf ("touch.gain -> grain_felt.gain"));
@@ -307,7 +307,7 @@ TEST_CASE ("a delay is put on a wire and taken off by keys", "[app][canvas]")
     CHECK (std::ranges::count (rig.graph().root.wires, std::optional (false), &graph::Wire::enabled) == 1);
 }
 
-TEST_CASE ("the keyboard alone finds nodes, wires them and probes them", "[app][canvas]")
+TEST_CASE ("nodes can be selected, wired and probed with only the keyboard", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     rig.hand().key ("ctrl + cursor right");
@@ -329,7 +329,7 @@ TEST_CASE ("the keyboard alone finds nodes, wires them and probes them", "[app][
     CHECK (rig.node ("grain").at.x == x + Box::grid);
 }
 
-TEST_CASE ("what is under the pointer stays there while the wheel zooms", "[app][canvas]")
+TEST_CASE ("zooming with the wheel keeps the point under the pointer in place", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     const juce::Point<float> at { 333.0f, 444.0f };
@@ -342,7 +342,7 @@ TEST_CASE ("what is under the pointer stays there while the wheel zooms", "[app]
     CHECK (rig.canvas->getLocalBounds().toFloat().contains (rig.canvas->view().toPixels (rig.canvas->scene().bounds().getTopLeft())));
 }
 
-TEST_CASE ("who is inside a subgraph stays there while it and its node are renamed", "[app][canvas]")
+TEST_CASE ("the canvas stays inside a subgraph when it and its node are renamed", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     rig.hand().click (rig.title ("grain"));
@@ -359,11 +359,11 @@ TEST_CASE ("who is inside a subgraph stays there while it and its node are renam
     rig.document.undo();
     CHECK (rig.canvas->patch() == subgraph);
     CHECK (rig.canvas->address ("a.b") == node + "/a.b");
-    rig.document.undo();   // and the subgraph is gone
-    CHECK (rig.canvas->way().empty());
+    rig.document.undo();   // the subgraph no longer exists
+    CHECK (rig.canvas->breadcrumbs().empty());
 }
 
-TEST_CASE ("every preset is drawn, and a rectangle around it selects all of it", "[app][canvas]")
+TEST_CASE ("every preset can be drawn, and a box around it selects all nodes", "[app][canvas]")
 {
     for (const auto& entry : std::filesystem::directory_iterator (std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs"))
     {
@@ -373,7 +373,8 @@ TEST_CASE ("every preset is drawn, and a rectangle around it selects all of it",
         INFO (entry.path().string());
         CanvasRig rig { loaded.graph };
         const auto all = rig.canvas->scene().bounds();
-        rig.hand().drag (rig.canvas->view().toPixels (all.getTopLeft() - juce::Point<float> (20.0f, 20.0f)), rig.canvas->view().toPixels (all.getBottomRight() + juce::Point<float> (20.0f, 20.0f)));
+        const auto& view = rig.canvas->view();
+        rig.hand().drag (view.toPixels (all.expanded (20.0f).getTopLeft()), view.toPixels (all.expanded (20.0f).getBottomRight()));
         CHECK (rig.canvas->selection().size() == loaded.graph.root.nodes.size());
         CHECK (rig.canvas->scene().wires().size() == loaded.graph.root.wires.size());
         for (const auto& a : rig.canvas->scene().nodes())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "../support/canvas_rig.hpp"
+#include "host/app/support/canvas_rig.hpp"
 
 #include <host/app/canvas/align.hpp>
 #include <host/app/canvas/route.hpp>
@@ -21,35 +21,35 @@ bool touches (const juce::Path& path, Box2 box)
     return false;
 }
 
-int between (int low, int high) { return *rc::gen::inRange (low, high); }
+float between (int low, int high) { return static_cast<float> (*rc::gen::inRange (low, high)); }
 }   // namespace
 
-TEST_CASE ("a wire goes around a node that stands in its way, wherever that is", "[app][route]")
+TEST_CASE ("a wire goes around an obstacle, wherever it is", "[app][route]")
 {
     rc::prop ("one obstacle", []
               {
-        const Point<float> from { 0.0f, 0.0f }, to { 600.0f, static_cast<float> (between (-200, 200)) };
+        const Point<float> from { 0.0f, 0.0f }, to { 600.0f, between (-200, 200) };
         const Box2 start { -100.0f, -50.0f, 100.0f, 100.0f }, end { to.x, to.y - 50.0f, 100.0f, 100.0f };
-        const Box2 obstacle { static_cast<float> (between (200, 300)), static_cast<float> (between (-200, 200)), static_cast<float> (between (40, 120)), static_cast<float> (between (30, 200)) };
-        const auto by = routeAround (from, to, start, end, { obstacle });
-        RC_ASSERT (! touches (curveThrough (from, by, to), obstacle)); });
+        const Box2 obstacle { between (200, 300), between (-200, 200), between (40, 120), between (30, 200) };
+        const auto waypoints = routeAround (from, to, start, end, { obstacle });
+        RC_ASSERT (! touches (curveThrough (from, waypoints, to), obstacle)); });
 }
 
-TEST_CASE ("a free way is direct, and a way back goes below", "[app][route]")
+TEST_CASE ("a wire with a free path is direct, and a wire that runs back goes below the nodes", "[app][route]")
 {
     const Box2 start { -100.0f, 0.0f, 100.0f, 100.0f };
     CHECK (routeAround ({ 0, 50 }, { 400, 90 }, start, { 400, 40, 100, 100 }, { { 100, 400, 80, 80 } }).empty());
 
     const Box2 end { -400.0f, 0.0f, 100.0f, 160.0f }, between_them { -250.0f, 40.0f, 80.0f, 300.0f };
-    const auto by = routeAround ({ 0, 50 }, { -400, 50 }, start, end, { between_them });
-    REQUIRE (by.size() == 2);
-    CHECK (by[0].y > between_them.getBottom());
-    const auto path = curveThrough ({ 0, 50 }, by, { -400, 50 });
+    const auto waypoints = routeAround ({ 0, 50 }, { -400, 50 }, start, end, { between_them });
+    REQUIRE (waypoints.size() == 2);
+    CHECK (waypoints[0].y > between_them.getBottom());
+    const auto path = curveThrough ({ 0, 50 }, waypoints, { -400, 50 });
     for (const auto& box : { start, end, between_them })
         CHECK_FALSE (touches (path, box));
 }
 
-TEST_CASE ("in the presets hardly a wire runs behind a node, and none lies on another", "[app][route]")
+TEST_CASE ("in the presets, few wires run behind nodes, and none overlap", "[app][route]")
 {
     int behind = 0, wires = 0;
     for (const auto& name : { "dry_wood", "layered_cloth", "potato_cut", "squealing_rubber", "two_fingers", "soft_pad" })
@@ -60,22 +60,25 @@ TEST_CASE ("in the presets hardly a wire runs behind a node, and none lies on an
             ++wires;
             const auto path = w.path();
             for (int i = 0; i < static_cast<int> (rig.canvas->scene().nodes().size()); ++i)
-                behind += i != w.start && i != w.end && touches (path, rig.canvas->scene().nodes()[static_cast<std::size_t> (i)].bounds()) ? 1 : 0;
+            {
+                const auto box = rig.canvas->scene().nodes()[static_cast<std::size_t> (i)].bounds();
+                behind += i != w.start && i != w.end && touches (path, box) ? 1 : 0;
+            }
             for (const auto& other : rig.canvas->scene().wires())
-                if (other.id < w.id && w.by.size() >= 2 && other.by.size() >= 2) CHECK_FALSE ((w.by[0].y == other.by[0].y && w.by[0].x == other.by[0].x));
+                if (other.id < w.id && w.waypoints.size() >= 2 && other.waypoints.size() >= 2) CHECK_FALSE (w.waypoints[0] == other.waypoints[0]);
         }
     }
     INFO (behind << " of " << wires);
     CHECK (behind * 20 <= wires);
 }
 
-TEST_CASE ("what is aligned stands in line, is as large as before, and has not changed places", "[app][align]")
+TEST_CASE ("aligning keeps the size and order of the boxes", "[app][align]")
 {
     rc::prop ("any boxes", []
               {
         std::vector<Box2> boxes;
-        for (int i = between (2, 8); i > 0; --i)
-            boxes.emplace_back (static_cast<float> (between (0, 500)), static_cast<float> (between (0, 500)), static_cast<float> (between (20, 200)), static_cast<float> (between (20, 200)));
+        for (int i = *rc::gen::inRange (2, 8); i > 0; --i)
+            boxes.emplace_back (between (0, 500), between (0, 500), between (20, 200), between (20, 200));
         for (const auto how : { Alignment::left, Alignment::right, Alignment::top, Alignment::bottom, Alignment::columns, Alignment::rows })
         {
             const auto to = aligned (boxes, how);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "../support/canvas_rig.hpp"
+#include "host/app/support/canvas_rig.hpp"
 
 #include "host/hid_link/fake_board.hpp"
-#include "host/io/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <host/app/devices_panel/devices_panel.hpp>
 
@@ -21,10 +21,10 @@ struct Rig
 {
     Rig()
     {
-        desk.open (home.path());
-        run.use (desk);
-        desk.onChange = [this]
-        { run.deskChanged(); };
+        setup.open (home.path());
+        run.use (setup);
+        setup.onChange = [this]
+        { run.setupChanged(); };
         panel.onHint = [this] (const juce::String& text)
         { hint = text; };
         panel.setSize (1000, 300);
@@ -41,52 +41,56 @@ struct Rig
             return isSo(); });
     }
 
-    Json kept() const { return Json::parse (home.textOf ("session.json")); }
+    Json saved() const { return Json::parse (home.textOf ("session.json")); }
     Json bound() const
     {
-        const auto* now = desk.session().session.binding ("stylus");
+        const auto* now = setup.session().session.binding ("stylus");
         return now != nullptr ? *now : Json();
     }
 
     TemporaryFolder home;
     FakeBoard board;
     hid::LoadedProfiles profiles { .profiles = { BoardProfile {}.make() }, .messages = {} };
-    DeviceDesk desk { board, profiles };
+    DeviceSetup setup { board, profiles };
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
-    Performance run { rig.document, catalogue() };
-    DevicesPanel panel { rig.document, run, desk };
+    LiveRun run { rig.document, catalogue() };
+    DevicesPanel panel { rig.document, run, setup };
     juce::String hint;
 };
 
-std::vector<std::string> wordsOf (const std::vector<BindingChoice>& choices)
+std::vector<std::string> labelsOf (const std::vector<BindingChoice>& choices)
 {
     std::vector<std::string> all;
     for (const auto& c : choices)
-        all.push_back (c.words);
+        all.push_back (c.label);
     return all;
 }
 }   // namespace
 
-TEST_CASE ("a role is bound in the window, which is kept at once and is no edit of the graph", "[app][sessions]")
+TEST_CASE ("binding a role in the window is saved immediately, and does not edit the graph", "[app][sessions]")
 {
     Rig r;
     const auto before = r.rig.text();
     REQUIRE (r.until ([&]
-                      { return ! r.desk.connected().empty() && r.panel.cards() == 3; }));   // the clock, the stylus, and the sound card
+                      { return ! r.setup.connected().empty() && r.panel.cards() == 3; }));   // the clock, the stylus, and the sound card
     REQUIRE (r.until ([&]
                       {
         r.panel.bind ("stylus", "Board");
         return ! r.bound().is_null(); }));
     CHECK (r.bound() == Json { { "driver", "hid" }, { "profile", "board" } });
-    CHECK (r.kept()["roles"]["stylus"] == r.bound());
+    CHECK (r.saved()["roles"]["stylus"] == r.bound());
 
     r.panel.setPart ("stylus", "/workspace/scale", "2");
     r.panel.setPart ("stylus", "/workspace/offset", "[0, 0, \"1 cm\"]");
     r.panel.setPart ("stylus", "/guard/max_force", "2 N");
     CHECK (r.hint.isEmpty());
-    CHECK (r.kept()["roles"]["stylus"] == Json { { "driver", "hid" }, { "profile", "board" }, { "workspace", { { "scale", 2 }, { "offset", { 0, 0, "1 cm" } } } }, { "guard", { { "max_force", "2 N" } } } });
+    const Json workspace { { "scale", 2 }, { "offset", { 0, 0, "1 cm" } } }, guard { { "max_force", "2 N" } };
+    CHECK (r.saved()["roles"]["stylus"] == Json { { "driver", "hid" }, { "profile", "board" }, { "workspace", workspace }, { "guard", guard } });
 
-    const auto [pointer, text] = GENERATE (table<std::string, std::string> ({ { "/workspace/scale", "0" }, { "/workspace/scale", "wide" }, { "/workspace/offset", "[1, 2]" }, { "/guard/max_force", "2 mm" } }));
+    const auto [pointer, text] = GENERATE (table<std::string, std::string> ({ { "/workspace/scale", "0" },
+                                                                              { "/workspace/scale", "wide" },
+                                                                              { "/workspace/offset", "[1, 2]" },
+                                                                              { "/guard/max_force", "2 mm" } }));
     const auto good = r.home.textOf ("session.json");
     r.panel.setPart ("stylus", pointer, text);
     CHECK (r.hint.isNotEmpty());
@@ -97,17 +101,19 @@ TEST_CASE ("a role is bound in the window, which is kept at once and is no edit 
     CHECK (r.bound() == Json { { "driver", "hid" }, { "profile", "board" } });
     r.panel.bind ("stylus", "gesture tap");
     CHECK (r.bound() == Json { { "driver", "gesture" }, { "path", "tap" } });
-    r.panel.bind ("stylus", "as the graph says");
+    r.panel.bind ("stylus", "as in the graph");
     CHECK (r.bound().is_null());
     CHECK (r.rig.text() == before);
     CHECK (r.rig.document.history().position() == 0);
 }
 
-TEST_CASE ("a run takes the device that is bound, is ticked by it, and starts anew when it is bound otherwise", "[app][sessions]")
+TEST_CASE ("a run uses the bound device, is ticked by it, and restarts when the binding changes", "[app][sessions]")
 {
     Rig r;
-    r.desk.edit ([] (DeviceSession& s)
-                 { s.bind ("stylus", { { "driver", "hid" }, { "profile", "board" }, { "workspace", { { "scale", 2 }, { "offset", { 0, 0, "1 cm" } } } } }); });
+    REQUIRE (r.setup.edit ([] (DeviceSession& s)
+                           {
+        const Json workspace { { "scale", 2 }, { "offset", { 0, 0, "1 cm" } } };
+        s.bind ("stylus", { { "driver", "hid" }, { "profile", "board" }, { "workspace", workspace } }); }));
     std::atomic<bool> sends = true;
     std::jthread reports { [&] (const std::stop_token& over)
                            {
@@ -124,7 +130,7 @@ TEST_CASE ("a run takes the device that is bound, is ticked by it, and starts an
     CHECK (r.until ([&]
                     { return ! r.run.health().empty() && r.run.health().front().rate_hz && r.run.health().front().ticks; }));
 
-    // An edit of the graph goes on with it.
+    // An edit of the graph keeps the device open.
     const auto openings = r.board.openings();
     r.rig.document.perform (graph::SetParam { "", "drag", "mu", 0.3 });
     CHECK (r.run.rate() == 1000.0);
@@ -137,53 +143,53 @@ TEST_CASE ("a run takes the device that is bound, is ticked by it, and starts an
     CHECK (r.until ([&]
                     { return ! r.run.status()->clock_replaced && r.run.status()->force > 0.1; }));
 
-    r.desk.edit ([] (DeviceSession& s)
-                 { s.bind ("stylus", { { "driver", "gesture" }, { "path", "tap" } }); });
+    REQUIRE (r.setup.edit ([] (DeviceSession& s)
+                           { s.bind ("stylus", { { "driver", "gesture" }, { "path", "tap" } }); }));
     CHECK (r.until ([&]
                     { return r.run.isRunning() && r.run.rate() == 4000.0 && r.run.clockRole().empty(); }));
     r.run.letGo();
     CHECK (r.run.health().empty());
 }
 
-TEST_CASE ("a device that is not there is waited for by a run in the window, and the mouse may have the role meanwhile", "[app][sessions]")
+TEST_CASE ("a run in the window waits for a missing device, and the mouse can take the role meanwhile", "[app][sessions]")
 {
     Rig r;
     r.board.plug (false);
-    r.desk.edit ([] (DeviceSession& s)
-                 {
+    REQUIRE (r.setup.edit ([] (DeviceSession& s)
+                           {
         s.bind ("stylus", { { "driver", "hid" }, { "profile", "board" } });
-        s.setClock ("stylus"); });
+        s.setClock ("stylus"); }));
     r.run.start ({});
     REQUIRE (r.run.isRunning());
     CHECK (r.until ([&]
                     { return r.run.status()->clock_replaced && ! r.run.health().empty() && ! r.run.health().front().has_come; }));
     CHECK (r.run.status()->peak == 0.0);
 
-    r.run.start (Performance::Hand::pointer());
+    r.run.start (LiveRun::Hand::pointer());
     CHECK (r.until ([&]
                     { return r.run.isRunning() && r.run.clockRole().empty() && r.run.rate() == 4000.0; }));
     CHECK (r.run.health().empty());
     r.run.letGo();
 }
 
-TEST_CASE ("the list for a role has what is plugged in, by serial number where two are alike", "[app][sessions]")
+TEST_CASE ("the choices for a role include connected devices, with serial numbers if two are alike", "[app][sessions]")
 {
     FakeBoard board;
     const hid::LoadedProfiles profiles { .profiles = { BoardProfile {}.make() }, .messages = {} };
     auto there = board.connected();
-    auto words = wordsOf (bindingChoices (nullptr, there, profiles));
-    CHECK (words.front() == "as the graph says");
-    CHECK (std::ranges::count (words, "Board") == 1);
+    auto labels = labelsOf (bindingChoices (nullptr, there, profiles));
+    CHECK (labels.front() == "as in the graph");
+    CHECK (std::ranges::count (labels, "Board") == 1);
 
     there.push_back (there.front());
     there.back().path = "fake/1";
     there.back().serial = "S2";
-    words = wordsOf (bindingChoices (nullptr, there, profiles));
-    CHECK (std::ranges::count (words, "Board, serial S1") == 1);
-    CHECK (std::ranges::count (words, "Board, serial S2") == 1);
+    labels = labelsOf (bindingChoices (nullptr, there, profiles));
+    CHECK (std::ranges::count (labels, "Board, serial S1") == 1);
+    CHECK (std::ranges::count (labels, "Board, serial S2") == 1);
 
     const Json away { { "driver", "hid" }, { "profile", "board" }, { "serial", "S9" }, { "guard", { { "max_force", 1 } } } };
-    CHECK (wordsOf (bindingChoices (&away, there, profiles)).back() == "hid board, serial S9");
+    CHECK (labelsOf (bindingChoices (&away, there, profiles)).back() == "hid board, serial S9");
     const Json here { { "driver", "hid" }, { "profile", "board" }, { "serial", "S2" }, { "workspace", { { "scale", 2 } } } };
-    CHECK (bindingChoices (&here, there, profiles).size() == words.size());
+    CHECK (bindingChoices (&here, there, profiles).size() == labels.size());
 }

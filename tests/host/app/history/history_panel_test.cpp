@@ -6,7 +6,7 @@
 using namespace tactus;
 using namespace tactus::host;
 
-TEST_CASE ("a click on a step of the history goes there, back and forth")
+TEST_CASE ("clicking a step of the history goes there, backwards and forwards")
 {
     const juce::ScopedJuceInitialiser_GUI gui;
     Look look;
@@ -29,7 +29,7 @@ TEST_CASE ("a click on a step of the history goes there, back and forth")
         CHECK (document.history().position() == 0);
         panel.goToRow (99);
         CHECK (document.history().position() == 0);
-        CHECK (list->getModel()->getNumRows() == 5);   // what is undone stays
+        CHECK (list->getModel()->getNumRows() == 5);   // undone steps stay
 
         panel.goToRow (2);
         REQUIRE (document.perform (graph::SetParam { "", "drag", "mu", Json (0.9) }));

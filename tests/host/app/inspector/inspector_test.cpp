@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "rig.hpp"
 
-#include <host/app/inspector/figure_block.hpp>
+#include <host/app/inspector/plot_block.hpp>
 #include <host/app/inspector/table_row.hpp>
-#include <host/app/model/held.hpp>
+#include <host/app/model/controlled_param.hpp>
 
 #include <framework/graph/text.hpp>
 #include <framework/plan/compile.hpp>
@@ -18,11 +18,11 @@ using test::InspectorRig;
 
 namespace
 {
-/// A press of a button in what is shown, by its words.
-bool press (const InspectorRig& rig, const std::string& words)
+/// Presses the button with that caption.
+bool press (const InspectorRig& rig, const std::string& caption)
 {
     for (auto* b : rig.all<ToolButton>())
-        if (b->getButtonText().toStdString() == words && b->onClick)
+        if (b->getButtonText().toStdString() == caption && b->onClick)
         {
             b->onClick();
             return true;
@@ -38,7 +38,7 @@ void write (TextField* field, const std::string& text)
 }
 }   // namespace
 
-TEST_CASE ("every node of every graph that is delivered can be inspected, and nothing reaches beyond the panel", "[inspector]")
+TEST_CASE ("every node of every preset can be inspected, and nothing is wider than the panel", "[inspector]")
 {
     for (const auto& entry : std::filesystem::directory_iterator (TACTUS_SOURCE_DIR "/graphs"))
     {
@@ -61,11 +61,11 @@ TEST_CASE ("every node of every graph that is delivered can be inspected, and no
                 rig.inspector->inspect (name, { n.id });
                 CHECK (rig.fits());
             }
-        CHECK_FALSE (rig.document->isChanged());   // to look at it changes nothing
+        CHECK_FALSE (rig.document->isChanged());   // inspecting changes nothing
     }
 }
 
-TEST_CASE ("every type of the catalogue can be inspected as it comes", "[inspector]")
+TEST_CASE ("every type of the catalogue can be inspected", "[inspector]")
 {
     graph::Graph g;
     int i = 0;
@@ -86,7 +86,7 @@ TEST_CASE ("every type of the catalogue can be inspected as it comes", "[inspect
     }
 }
 
-TEST_CASE ("a value is typed with its unit, reset, and refused with its reason outside the hard range", "[inspector]")
+TEST_CASE ("a value can be typed with its unit, and is refused with a reason outside the hard range", "[inspector]")
 {
     InspectorRig rig ("dry_wood.json");
     std::string name;
@@ -97,8 +97,7 @@ TEST_CASE ("a value is typed with its unit, reset, and refused with its reason o
     REQUIRE (field != nullptr);
     field->type ("0.25 mm");
     const auto written = rig.node (name).params["d_max"];
-    const auto held = heldBy (rig.document->graph(), name + ".d_max");
-    if (! held) CHECK (written == "0.25 mm");
+    if (! controlOf (rig.document->graph(), name + ".d_max")) CHECK (written == "0.25 mm");
     field->type ("-3");
     CHECK (rig.hints.size() == 1);
     field->type ("3 s");
@@ -106,7 +105,7 @@ TEST_CASE ("a value is typed with its unit, reset, and refused with its reason o
     CHECK (rig.node (name).params["d_max"] == written);
 }
 
-TEST_CASE ("a field opens on return or a digit, takes what is typed on return and gives up on Esc", "[inspector]")
+TEST_CASE ("a field opens on Return or a digit, applies on Return and cancels on Esc", "[inspector]")
 {
     const juce::ScopedJuceInitialiser_GUI juce_runs;
     Look look;
@@ -116,9 +115,9 @@ TEST_CASE ("a field opens on return or a digit, takes what is typed on return an
         NumberField field (sheet);
         field.setBounds (0, 0, 120, 24);
         field.show (Json ("5 mm"));
-        std::vector<std::string> said;
+        std::vector<std::string> values;
         field.onChange = [&] (std::optional<Json> v, bool)
-        { said.push_back (v ? v->dump() : "default"); };
+        { values.push_back (v ? v->dump() : "default"); };
 
         CHECK (field.keyPressed (juce::KeyPress ('7', {}, '7')));
         REQUIRE (field.isEditing());
@@ -127,7 +126,7 @@ TEST_CASE ("a field opens on return or a digit, takes what is typed on return an
         CHECK (editor->getText() == "7");
         editor->onReturnKey();
         CHECK_FALSE (field.isEditing());
-        CHECK (said == std::vector<std::string> { "\"7 mm\"" });   // in the unit that is shown
+        CHECK (values == std::vector<std::string> { "\"7 mm\"" });   // in the unit shown
 
         field.keyPressed (juce::KeyPress (juce::KeyPress::returnKey));
         REQUIRE (field.isEditing());
@@ -135,22 +134,21 @@ TEST_CASE ("a field opens on return or a digit, takes what is typed on return an
         editor->setText ("9 mm");
         editor->onEscapeKey();
         CHECK_FALSE (field.isEditing());
-        CHECK (said.size() == 1);
+        CHECK (values.size() == 1);
 
         CHECK (field.keyPressed (juce::KeyPress (juce::KeyPress::upKey)));
-        CHECK (said.size() == 2);
+        CHECK (values.size() == 2);
         CHECK (field.shown().si() > 7e-3);
         CHECK_FALSE (field.keyPressed (juce::KeyPress (juce::KeyPress::tabKey)));
     }
     juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
 }
 
-TEST_CASE ("a parameter that a control sets moves it; released, it keeps its value", "[inspector]")
+TEST_CASE ("editing a driven parameter moves its control, and releasing it keeps the value", "[inspector]")
 {
     InspectorRig rig ("layered_cloth.json");
     rig.select ("drag");
-    const auto held = heldBy (rig.document->graph(), "drag.d_max");
-    REQUIRE (held);
+    REQUIRE (controlOf (rig.document->graph(), "drag.d_max"));
     auto* field = rig.in<NumberField> ("d_max");
     REQUIRE (field != nullptr);
     CHECK (field->shown().si() == Approx (0.8e-3));
@@ -165,12 +163,12 @@ TEST_CASE ("a parameter that a control sets moves it; released, it keeps its val
     const auto face = faceOf (rig.document->graph(), rig.document->graph().root, rig.node ("drag"), catalogue());
     const auto before = rig.document->history().names().size();
     release (*rig.document, "drag", *face.find (Role::param, "d_max"));
-    CHECK_FALSE (heldBy (rig.document->graph(), "drag.d_max"));
+    CHECK_FALSE (controlOf (rig.document->graph(), "drag.d_max"));
     CHECK (rig.node ("drag").params["d_max"] == "1.15 mm");
     CHECK (rig.document->history().names().size() == before + 1);
 }
 
-TEST_CASE ("a parameter is given to a control with its usual range, or to a new one that stands where it is", "[inspector]")
+TEST_CASE ("a parameter can be assigned to a control with its usual range, or to a new one at its current value", "[inspector]")
 {
     InspectorRig rig ("layered_cloth.json");
     const auto port = [&] (const char* id)
@@ -183,13 +181,13 @@ TEST_CASE ("a parameter is given to a control with its usual range, or to a new 
     const auto& made = rig.document->graph().controls[2];
     CHECK (made.id == "break_away");
     CHECK (made.name == "Break away");
-    const auto held = heldBy (rig.document->graph(), "drag.break_away");
-    REQUIRE (held);
-    CHECK (held->value == Approx (0.7));
+    const auto param = controlOf (rig.document->graph(), "drag.break_away");
+    REQUIRE (param);
+    CHECK (param->value == Approx (0.7));
     CHECK (compile (rig.document->graph(), catalogue()).plan != nullptr);
 }
 
-TEST_CASE ("what a subgraph shows is set from outside, and starts from what its inside says", "[inspector]")
+TEST_CASE ("an exposed param can be set from outside, and defaults to the value inside", "[inspector]")
 {
     auto g = loadGraph (TACTUS_SOURCE_DIR "/graphs/layered_cloth.json").graph;
     g.controls.clear();
@@ -206,28 +204,28 @@ TEST_CASE ("what a subgraph shows is set from outside, and starts from what its 
 
     warp->onChange (std::nullopt, false);
     CHECK_FALSE (rig.node ("threads").params.contains ("warp"));
-    CHECK (warp->shown().toText() == "70 mN");   // what the inside says
+    CHECK (warp->shown().toText() == "70 mN");   // the value inside
 
     rig.in<NumberField> ("count")->type ("3");
     CHECK (rig.node ("threads").extra["count"] == 3);
 }
 
-TEST_CASE ("what is inside a subgraph is set for one node of it alone", "[inspector]")
+TEST_CASE ("an override changes a value inside a subgraph for one node only", "[inspector]")
 {
     InspectorRig rig ("layered_cloth.json");
     rig.select ("threads");
-    write (rig.in<TextField> ("another"), "warp.spatial_frequency = 650 1/m");
+    write (rig.in<TextField> ("add override"), "warp.spatial_frequency = 650 1/m");
     CHECK (rig.node ("threads").overrides["warp.spatial_frequency"] == "650 1/m");
     CHECK (compile (rig.document->graph(), catalogue()).plan != nullptr);
     write (rig.in<TextField> ("warp.spatial_frequency"), "600");
     CHECK (rig.node ("threads").overrides["warp.spatial_frequency"] == 600);
     write (rig.in<TextField> ("warp.spatial_frequency"), "");
     CHECK (rig.node ("threads").overrides.empty());
-    write (rig.in<TextField> ("another"), "nonsense");
+    write (rig.in<TextField> ("add override"), "nonsense");
     CHECK (rig.hints.size() == 1);
 }
 
-TEST_CASE ("a mode is added, changed and removed, and its picture follows", "[inspector]")
+TEST_CASE ("a mode can be added, changed and removed, and the plot follows", "[inspector]")
 {
     InspectorRig rig ("bronze_bell.json");
     rig.select ("warble");
@@ -241,10 +239,10 @@ TEST_CASE ("a mode is added, changed and removed, and its picture follows", "[in
     REQUIRE (cells.size() == 3);
     cells[0]->type ("400");
     CHECK (rig.node ("warble").settings["modes"][2]["frequency"] == "400 Hz");
-    const auto figure = std::get<Figure> (rig.all<FigureBlock>().front()->figure());
-    CHECK (figure.x == std::vector<double> { 228.0, 275.0, 400.0 });
+    const auto plot = *rig.all<PlotBlock>().front()->plot();
+    CHECK (plot.x == std::vector<double> { 228.0, 275.0, 400.0 });
 
-    REQUIRE (press (rig, "\xc3\x97"));   // of the first
+    REQUIRE (press (rig, "\xc3\x97"));   // the first one
     CHECK (rig.node ("warble").settings["modes"].size() == 2);
     CHECK (rig.node ("warble").settings["modes"][1]["frequency"] == "400 Hz");
     for (int i = 0; i < 3; ++i)
@@ -253,11 +251,11 @@ TEST_CASE ("a mode is added, changed and removed, and its picture follows", "[in
     CHECK (rig.all<TableRow>().size() == 2);
 }
 
-TEST_CASE ("a law changes its kind and keeps about its stiffness, and is drawn with its units", "[inspector]")
+TEST_CASE ("a law keeps about the same stiffness when its kind changes, and is plotted with units", "[inspector]")
 {
     InspectorRig rig ("bronze_bell.json");
     rig.select ("blow");
-    const auto before = std::get<Figure> (rig.all<FigureBlock>().front()->figure());
+    const auto before = *rig.all<PlotBlock>().front()->plot();
     CHECK (before.x_unit == "m");
     CHECK (before.y_unit == "N");
     auto* kind = rig.in<juce::ComboBox> ("kind");
@@ -266,9 +264,9 @@ TEST_CASE ("a law changes its kind and keeps about its stiffness, and is drawn w
     {
         kind = rig.in<juce::ComboBox> ("kind");
         kind->setSelectedId (id, juce::sendNotificationSync);
-        const auto drawn = std::get<Figure> (rig.all<FigureBlock>().front()->figure());
+        const auto drawn = *rig.all<PlotBlock>().front()->plot();
         REQUIRE_FALSE (drawn.x.empty());
-        // Where the first law gave 1 N, it still gives about that.
+        // At the deflection where the first law gave 1 N, it still gives about 1 N.
         const double at = std::pow (1.0 / 500000.0, 1.0 / 1.5);
         std::size_t nearest = 0;
         for (std::size_t i = 0; i < drawn.x.size(); ++i)
@@ -282,7 +280,7 @@ TEST_CASE ("a law changes its kind and keeps about its stiffness, and is drawn w
     CHECK (rig.node ("blow").settings["stiffness"]["power"][0] == 2000.0);
 }
 
-TEST_CASE ("a role, a device, and the graph itself are set by text", "[inspector]")
+TEST_CASE ("roles, devices and the graph's header can be edited", "[inspector]")
 {
     InspectorRig rig ("bronze_bell.json");
     rig.select ("motor");
@@ -305,7 +303,7 @@ TEST_CASE ("a role, a device, and the graph itself are set by text", "[inspector
     CHECK (rig.document->graph().controls.size() == 5);
 }
 
-TEST_CASE ("a wire is re-plugged, delayed, weighted and switched off", "[inspector]")
+TEST_CASE ("a wire can be re-plugged, delayed, scaled and disabled", "[inspector]")
 {
     InspectorRig rig ("bronze_bell.json");
     const auto wire = [&]() -> const graph::Wire&
@@ -328,7 +326,7 @@ TEST_CASE ("a wire is re-plugged, delayed, weighted and switched off", "[inspect
     CHECK (graph::toText (wire().to) == "touch.depth");
 }
 
-TEST_CASE ("a node is renamed in place, and a name that is taken is refused", "[inspector]")
+TEST_CASE ("a node can be renamed, but not to a name that is taken", "[inspector]")
 {
     InspectorRig rig ("bronze_bell.json");
     rig.select ("ring");
@@ -344,11 +342,11 @@ TEST_CASE ("a node is renamed in place, and a name that is taken is refused", "[
     CHECK (rig.inspector->showsHelp());
 }
 
-TEST_CASE ("what a setting holds can be written as text instead", "[inspector]")
+TEST_CASE ("a setting can be edited as JSON", "[inspector]")
 {
     InspectorRig rig ("bronze_bell.json");
     rig.select ("warble");
-    REQUIRE (press (rig, "text"));
+    REQUIRE (press (rig, "JSON"));
     TextField* text = nullptr;
     for (auto* f : rig.all<TextField>())
         if (f->isMultiLine()) text = f;
@@ -358,7 +356,7 @@ TEST_CASE ("what a setting holds can be written as text instead", "[inspector]")
     CHECK_FALSE (rig.node ("warble").settings.contains ("modes"));
 }
 
-TEST_CASE ("a law is drawn as one line from side to side", "[inspector]")
+TEST_CASE ("a law is plotted as one line across the plot", "[inspector]")
 {
     const juce::ScopedJuceInitialiser_GUI juce_runs;
     Look look;
@@ -368,7 +366,7 @@ TEST_CASE ("a law is drawn as one line from side to side", "[inspector]")
     juce::Image image (juce::Image::ARGB, 260, 130, true);
     {
         juce::Graphics g (image);
-        paintFigure (g, { 0.0f, 0.0f, 260.0f, 130.0f }, figureOf (law, unit::metre, unit::newton), look);
+        paintPlot (g, { 0.0f, 0.0f, 260.0f, 130.0f }, plotOf (law, unit::metre, unit::newton), look);
     }
     const auto ink = look.theme().of (Quantity::force);
     int columns = 0;

@@ -11,7 +11,7 @@
 namespace tactus::test
 {
 
-/// An inspector of a graph, without a window.
+/// An inspector without a window.
 struct InspectorRig
 {
     juce::ScopedJuceInitialiser_GUI juce_runs;
@@ -42,7 +42,7 @@ struct InspectorRig
     const graph::Node& node (const std::string& name) const { return *document->graph().root.find (name); }
     void select (const std::string& name) { inspector->inspect ({}, { node (name).id }); }
 
-    /// All components of a type in what is shown, from the top.
+    /// All components of a type, from top to bottom.
     template <typename T>
     std::vector<T*> all() const
     {
@@ -51,7 +51,7 @@ struct InspectorRig
         return found;
     }
 
-    /// The row of that label, whose fields are of type T.
+    /// The field of type T in the row with that label.
     template <typename T>
     T* in (const std::string& label) const
     {
@@ -65,7 +65,7 @@ struct InspectorRig
         return nullptr;
     }
 
-    /// True if nothing in what is shown reaches beyond what it stands in, from side to side.
+    /// True if no component is wider than its parent.
     bool fits() const { return fits (inspector->shown()); }
 
     template <typename T>

@@ -25,7 +25,7 @@ std::vector<double> tone (double amplitude, double hz, double rate, std::size_t 
 }
 }   // namespace
 
-TEST_CASE ("a tone is in the band of its frequency, with its mean square", "[layers]")
+TEST_CASE ("a tone appears in the band of its frequency, with its mean square", "[layers]")
 {
     CHECK (rc::check ([]
                       {
@@ -39,13 +39,14 @@ TEST_CASE ("a tone is in the band of its frequency, with its mean square", "[lay
         RC_ASSERT (near > 0.98 * all); }));
 }
 
-TEST_CASE ("silence, too few samples, and ticks that were missed are no sound", "[layers]")
+TEST_CASE ("silence, too few samples and missed ticks give no power", "[layers]")
 {
-    for (const auto& bands : { bandsOf (std::vector<double> (256, 0.0), 4000.0), bandsOf (std::vector<double> (2, 1.0), 4000.0), bandsOf (std::vector<double> (256, std::numeric_limits<double>::quiet_NaN()), 4000.0) })
-        CHECK (bands.power == Bands {}.power);
+    const std::vector<double> silence (256, 0.0), too_few (2, 1.0), missed (256, std::numeric_limits<double>::quiet_NaN());
+    for (const auto& samples : { silence, too_few, missed })
+        CHECK (bandsOf (samples, 4000.0).power == Bands {}.power);
 }
 
-TEST_CASE ("a meter reads the mean and holds its peak, which then falls", "[layers]")
+TEST_CASE ("a meter shows the RMS level, and holds the peak before it falls", "[layers]")
 {
     Meter meter;
     const auto loud = tone (2.0, 100.0, 4000.0, 400);
@@ -63,7 +64,7 @@ TEST_CASE ("a meter reads the mean and holds its peak, which then falls", "[laye
     CHECK (meter.peak() > 0.0);
 }
 
-TEST_CASE ("a fader's way and its gain are each other's inverse, rise together, and stand at 1 where the mark is", "[layers]")
+TEST_CASE ("fader position and gain are inverse, monotonic, and 1 at the unity mark", "[layers]")
 {
     CHECK (Taper::gain (0.0) == 0.0);
     CHECK (Taper::gain (Taper::unity) == Approx (1.0));

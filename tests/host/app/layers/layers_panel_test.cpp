@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <host/app/layers/layers_panel.hpp>
+#include <host/app/run/live_run.hpp>
 
 #include <framework/file/graph_file.hpp>
 
@@ -21,7 +22,7 @@ struct Rig
     juce::ScopedJuceInitialiser_GUI juce_runs;
     Look look;
     std::unique_ptr<Document> document;
-    std::unique_ptr<Performance> performance;
+    std::unique_ptr<LiveRun> live_run;
     std::unique_ptr<LayersPanel> panel;
 
     explicit Rig (const std::string& preset) : Rig (loadGraph (TACTUS_SOURCE_DIR "/graphs/" + preset).graph) {}
@@ -30,8 +31,8 @@ struct Rig
     {
         juce::LookAndFeel::setDefaultLookAndFeel (&look);
         document = std::make_unique<Document> (std::move (g));
-        performance = std::make_unique<Performance> (*document, catalogue());
-        panel = std::make_unique<LayersPanel> (*document, *performance, catalogue());
+        live_run = std::make_unique<LiveRun> (*document, catalogue());
+        panel = std::make_unique<LayersPanel> (*document, live_run->traces(), catalogue());
         panel->setBounds (0, 0, 900, 232);
         panel->setVisible (true);
     }
@@ -39,11 +40,11 @@ struct Rig
     ~Rig()
     {
         panel.reset();
-        performance.reset();
+        live_run.reset();
         juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
     }
 
-    const graph::Node& desk() const { return *findDesk (document->graph(), panel->desks().front()); }
+    const graph::Node& mixer() const { return *findMixer (document->graph(), panel->mixers().front()); }
     void settle() { juce::MessageManager::getInstance()->runDispatchLoopUntil (20); }
     juce::Image picture() { return panel->createComponentSnapshot (panel->getLocalBounds()); }
 };
@@ -55,7 +56,7 @@ juce::MouseEvent event (juce::Component& c, juce::Point<float> at, juce::Point<f
 }
 }   // namespace
 
-TEST_CASE ("a desk has a strip for each layer, with its name, source and gain", "[layers]")
+TEST_CASE ("a mixer has a strip for each layer, with its name, source and gain", "[layers]")
 {
     Rig rig ("bronze_bell.json");
     REQUIRE (rig.panel->layers() == 3);
@@ -64,7 +65,7 @@ TEST_CASE ("a desk has a strip for each layer, with its name, source and gain", 
     REQUIRE (rig.panel->mix() != nullptr);
 }
 
-TEST_CASE ("a fader that a control holds moves the control, in one step of undo", "[layers]")
+TEST_CASE ("a fader that is set by a control moves the control, in one undo step", "[layers]")
 {
     Rig rig ("bronze_bell.json");
     auto& strip = rig.panel->layer (0);
@@ -76,17 +77,17 @@ TEST_CASE ("a fader that a control holds moves the control, in one step of undo"
     strip.setGain (Json (99), false);
     CHECK (rig.document->graph().controls[0].value == 1.0);
     CHECK (rig.document->history().names().size() == 2);
-    CHECK (rig.desk().params["gain"].dump() == "[1,1,0.5]");
+    CHECK (rig.mixer().params["gain"].dump() == "[1,1,0.5]");
 }
 
-TEST_CASE ("a dragged fader sets the gain in one step, finely with shift, and alt-click resets it", "[layers]")
+TEST_CASE ("dragging a fader sets the gain in one step, Shift makes it fine, and Alt-click resets it", "[layers]")
 {
     Rig rig ("bronze_bell.json");
     Fader fader;
-    fader.setBounds (0, 0, 36, 116);   // a way of 100
-    std::vector<std::pair<std::optional<double>, bool>> said;
+    fader.setBounds (0, 0, 36, 116);   // a travel of 100
+    std::vector<std::pair<std::optional<double>, bool>> changes;
     fader.onChange = [&] (std::optional<double> v, bool goes_on)
-    { said.emplace_back (v, goes_on); };
+    { changes.emplace_back (v, goes_on); };
     fader.show (1.0);
     const juce::Point<float> from { 18.0f, 60.0f };
     const juce::ModifierKeys left (juce::ModifierKeys::leftButtonModifier);
@@ -94,27 +95,27 @@ TEST_CASE ("a dragged fader sets the gain in one step, finely with shift, and al
     fader.mouseDrag (event (fader, from.translated (0, 5), from, left));
     fader.mouseDrag (event (fader, from.translated (0, 10), from, left));
     fader.mouseUp (event (fader, from.translated (0, 10), from, left));
-    REQUIRE (said.size() == 2);
-    CHECK_FALSE (said[0].second);
-    CHECK (said[1].second);
-    const double coarse = 1.0 - *said[1].first;
+    REQUIRE (changes.size() == 2);
+    CHECK_FALSE (changes[0].second);
+    CHECK (changes[1].second);
+    const double coarse = 1.0 - *changes[1].first;
     CHECK (coarse > 0.2);
 
-    said.clear();
+    changes.clear();
     fader.show (1.0);
     const auto shift = left.withFlags (juce::ModifierKeys::shiftModifier);
     fader.mouseDown (event (fader, from, from, shift));
     fader.mouseDrag (event (fader, from.translated (0, 10), from, shift));
-    REQUIRE (said.size() == 1);
-    CHECK (1.0 - *said[0].first < 0.2 * coarse);
+    REQUIRE (changes.size() == 1);
+    CHECK (1.0 - *changes[0].first < 0.2 * coarse);
 
-    said.clear();
+    changes.clear();
     fader.mouseDown (event (fader, from, from, left.withFlags (juce::ModifierKeys::altModifier)));
-    REQUIRE (said.size() == 1);
-    CHECK_FALSE (said[0].first);
+    REQUIRE (changes.size() == 1);
+    CHECK_FALSE (changes[0].first);
 }
 
-TEST_CASE ("mute, solo, priority and name are set at a strip, and what is undone is seen", "[layers]")
+TEST_CASE ("a strip sets mute, solo, priority and name, and shows undone edits", "[layers]")
 {
     Rig rig ("bronze_bell.json");
     auto& strip = rig.panel->layer (1);
@@ -122,17 +123,17 @@ TEST_CASE ("mute, solo, priority and name are set at a strip, and what is undone
     strip.setValue ("solo", Json (1), false);
     strip.setValue ("priority", Json (3), false);
     strip.rename ("hum");
-    CHECK (layerValue (rig.desk(), catalogue(), "mute", 1) == 1);
-    CHECK (layerValue (rig.desk(), catalogue(), "solo", 1) == 1);
-    CHECK (layerValue (rig.desk(), catalogue(), "priority", 1) == 3);
-    CHECK (rig.desk().settings["names"] == "blow, hum, warble");
+    CHECK (layerValue (rig.mixer(), catalogue(), "mute", 1) == 1);
+    CHECK (layerValue (rig.mixer(), catalogue(), "solo", 1) == 1);
+    CHECK (layerValue (rig.mixer(), catalogue(), "priority", 1) == 3);
+    CHECK (rig.mixer().settings["names"] == "blow, hum, warble");
     for (int i = 0; i < 4; ++i)
         rig.document->undo();
-    CHECK_FALSE (rig.desk().params.contains ("mute"));
+    CHECK_FALSE (rig.mixer().params.contains ("mute"));
     CHECK_FALSE (rig.document->isChanged());
 }
 
-TEST_CASE ("a layer is added with its node and removed again, each in one step", "[layers]")
+TEST_CASE ("a layer is added together with a node, and removed again, each in one step", "[layers]")
 {
     Rig rig ("bronze_bell.json");
     rig.panel->add ("vibration.modal");
@@ -150,12 +151,12 @@ TEST_CASE ("a layer is added with its node and removed again, each in one step",
     CHECK_FALSE (rig.document->isChanged());
 }
 
-TEST_CASE ("a graph without a mixer says what one is, and its button adds one", "[layers]")
+TEST_CASE ("a graph without a mixer gets one at the click of a button", "[layers]")
 {
     Rig rig ("steel_bar.json");
     CHECK (rig.panel->layers() == 0);
     CHECK (rig.picture().isValid());
-    rig.panel->addDeskNow();
+    rig.panel->addMixerNow();
     rig.settle();
     CHECK (rig.panel->layers() >= 1);
     CHECK (rig.document->history().names() == std::vector<std::string> { "add a layer mixer" });
@@ -163,16 +164,16 @@ TEST_CASE ("a graph without a mixer says what one is, and its button adds one", 
     CHECK (rig.panel->layers() == 0);
 }
 
-TEST_CASE ("while it runs the meters of a desk show what comes in, after gain, and where it lies", "[layers]")
+TEST_CASE ("during a run, the strips show the level after gain, and the spectrum", "[layers]")
 {
     Rig rig ("bronze_bell.json");
-    rig.performance->start (Performance::Hand {});
-    REQUIRE (rig.performance->isRunning());
+    rig.live_run->start (LiveRun::Hand {});
+    REQUIRE (rig.live_run->isRunning());
     double strongest = 0.0, sounded = 0.0;
     for (int i = 0; i < 400 && (strongest < 0.05 || sounded == 0.0); ++i)
     {
         std::this_thread::sleep_for (std::chrono::milliseconds (10));
-        rig.performance->attend();
+        rig.live_run->attend();
         rig.panel->refresh();
         strongest = std::max (strongest, rig.panel->layer (1).meter().peak());
         for (const double p : rig.panel->layer (1).bands().power)
@@ -183,16 +184,16 @@ TEST_CASE ("while it runs the meters of a desk show what comes in, after gain, a
     CHECK (sounded > 0.0);
     CHECK (rig.picture().isValid());
 
-    rig.panel->setVisible (false);   // then nobody wants to know
-    CHECK (rig.performance->traces().ports().empty());
+    rig.panel->setVisible (false);   // hidden, it needs no traces
+    CHECK (rig.live_run->traces().ports().empty());
 }
 
-TEST_CASE ("of several mixers one is shown, which follows its node through a rename, and another when it goes", "[layers]")
+TEST_CASE ("with several mixers, the shown one is kept through a rename, and another is shown when it is deleted", "[layers]")
 {
     test::Sketch sketch;
     sketch.node ("a", "layer.mix").node ("b", "layer.mix", Json::object(), { { "inputs", 5 } });
     Rig rig (sketch.graph);
-    REQUIRE (rig.panel->desks().size() == 2);
+    REQUIRE (rig.panel->mixers().size() == 2);
     CHECK (rig.panel->layers() == 2);
     rig.panel->choose (1);
     rig.settle();
@@ -207,21 +208,22 @@ TEST_CASE ("of several mixers one is shown, which follows its node through a ren
     CHECK (rig.panel->layers() == 0);
     rig.document->undo();
     rig.document->undo();
-    CHECK (rig.panel->desks().size() == 2);
+    CHECK (rig.panel->mixers().size() == 2);
 }
 
-TEST_CASE ("the mix says what its ceiling takes away", "[layers]")
+TEST_CASE ("the master strip shows the gain reduction of the ceiling", "[layers]")
 {
     test::Sketch sketch;
-    sketch.node ("loud", "signal.constant", { { "value", "2 N" } }).node ("desk", "layer.mix", { { "ceiling", "1 N" } }, { { "inputs", 1 } }).node ("motor", "device.force");
+    sketch.node ("loud", "signal.constant", { { "value", "2 N" } }).node ("motor", "device.force");
+    sketch.node ("desk", "layer.mix", { { "ceiling", "1 N" } }, { { "inputs", 1 } });
     sketch.wire ("loud.out -> desk.in[0]").wire ("desk.out -> motor.force.z");
     Rig rig (sketch.graph);
-    rig.performance->start (Performance::Hand {});
-    REQUIRE (rig.performance->isRunning());
+    rig.live_run->start (LiveRun::Hand {});
+    REQUIRE (rig.live_run->isRunning());
     for (int i = 0; i < 200 && rig.panel->mix()->reduction() == 0.0; ++i)
     {
         std::this_thread::sleep_for (std::chrono::milliseconds (10));
-        rig.performance->attend();
+        rig.live_run->attend();
         rig.panel->refresh();
     }
     CHECK (rig.panel->mix()->reduction() == Approx (20.0 * std::log10 (2.0)));

@@ -10,7 +10,7 @@ using namespace tactus;
 using namespace tactus::host;
 using test::Sketch;
 
-TEST_CASE ("the corner of what was copied is as far left and as far up as any of its nodes", "[fragment]")
+TEST_CASE ("the corner of copied text is the minimum of its node positions", "[fragment]")
 {
     auto sketch = Sketch {}.node ("a", "signal.constant").node ("b", "signal.gain").node ("c", "signal.abs");
     auto& g = sketch.graph;
@@ -22,10 +22,11 @@ TEST_CASE ("the corner of what was copied is as far left and as far up as any of
 
     g.root.nodes[0].extra["ui"]["at"] = Json::array ({ 40.0, 300.0 });
     g.root.nodes[1].extra["ui"]["at"] = Json::array ({ 200.0, -16.0 });
-    CHECK (cornerOf (copyText (g, "", all)) == std::pair (40.0, -16.0));
+    CHECK (cornerOf (copyText (g, "", all)) == juce::Point<double> (40.0, -16.0));
 
     std::set<graph::Id> made;
-    const auto pasted = paste (g, "", copyText (g, "", all), 60.0, 116.0, made);
-    const auto& batch = std::get<graph::Batch> (std::get<graph::Command> (pasted).edit);
+    const auto pasted = paste (g, "", copyText (g, "", all), { 60.0, 116.0 }, made);
+    REQUIRE (pasted);
+    const auto& batch = std::get<graph::Batch> (pasted->edit);
     CHECK (std::get<graph::AddNode> (batch.commands[0].edit).node.extra.at ("ui").at ("at") == Json::array ({ 100.0, 416.0 }));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <host/app/model/node_doc.hpp>
 
-#include <framework/catalogue.hpp>
+#include <framework/node/catalogue.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -10,7 +10,7 @@
 using namespace tactus;
 using namespace tactus::host;
 
-TEST_CASE ("every node of the catalogue has the words of its header, and none has those of another", "[app][doc]")
+TEST_CASE ("every node of the catalogue has the doc comment of its header", "[app][doc]")
 {
     for (const auto& type : catalogue())
     {
@@ -27,7 +27,7 @@ TEST_CASE ("every node of the catalogue has the words of its header, and none ha
     CHECK (docOf ("no.such").empty());
 }
 
-TEST_CASE ("models say their law", "[app][doc]")
+TEST_CASE ("the doc comment of a model contains its law", "[app][doc]")
 {
     for (const auto* type : { "friction.elasto_plastic", "cut.blade", "deform.plane", "texture.grating", "vibration.modal", "shock.hunt_crossley" })
     {
@@ -38,11 +38,19 @@ TEST_CASE ("models say their law", "[app][doc]")
     CHECK (law.front().find ("value = gain sum_i") != std::string::npos);
 }
 
-TEST_CASE ("a doc block is read in parts", "[app][doc]")
+TEST_CASE ("a doc comment is split into parts", "[app][doc]")
 {
     const auto parts = readDoc ("First\nline.\n\n    f = -k x\n      + more\n\nGood to know\n - one\n   goes on\n - two\n\nLast.\n");
     using Kind = DocPart::Kind;
-    const std::vector<std::pair<Kind, std::string>> expected { { Kind::text, "First line." }, { Kind::formula, "f = -k x" }, { Kind::formula, "  + more" }, { Kind::heading, "Good to know" }, { Kind::item, "one goes on" }, { Kind::item, "two" }, { Kind::text, "Last." } };
+    const std::vector<std::pair<Kind, std::string>> expected {
+        { Kind::text, "First line." },
+        { Kind::formula, "f = -k x" },
+        { Kind::formula, "  + more" },
+        { Kind::heading, "Good to know" },
+        { Kind::item, "one goes on" },
+        { Kind::item, "two" },
+        { Kind::text, "Last." },
+    };
     REQUIRE (parts.size() == expected.size());
     for (std::size_t i = 0; i < parts.size(); ++i)
     {

@@ -13,7 +13,7 @@ using namespace tactus;
 using namespace tactus::host;
 using test::Sketch;
 
-TEST_CASE ("what is wired to a generic port is known inside the subgraph, and outside of it", "[quantities]")
+TEST_CASE ("the quantity of a generic port propagates into and out of a subgraph", "[quantities]")
 {
     Sketch sketch;
     auto& louder = sketch.subgraph ("louder");
@@ -32,7 +32,7 @@ TEST_CASE ("what is wired to a generic port is known inside the subgraph, and ou
     CHECK (quantities.of (sketch.graph.root, 0, Role::output, "no such port") == Quantity::any);
 }
 
-TEST_CASE ("a subgraph that contains itself has an end", "[quantities]")
+TEST_CASE ("a subgraph that contains itself does not hang the propagation", "[quantities]")
 {
     Sketch sketch;
     auto& inside = sketch.subgraph ("again");
@@ -42,7 +42,7 @@ TEST_CASE ("a subgraph that contains itself has an end", "[quantities]")
     CHECK (Quantities (sketch.graph, catalogue()).of (sketch.graph.root, 0, Role::output, "out") == Quantity::any);
 }
 
-TEST_CASE ("of the subgraphs that are delivered it is known what each port carries that is wired", "[quantities]")
+TEST_CASE ("the quantity of every wired subgraph port of the presets is known", "[quantities]")
 {
     int seen = 0;
     for (const auto& entry : std::filesystem::directory_iterator (TACTUS_SOURCE_DIR "/graphs"))

@@ -2,7 +2,7 @@
 #include <host/app/presets/force_picture.hpp>
 #include <host/app/presets/preset_list.hpp>
 
-#include "host/io/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace tactus;
 using namespace tactus::host;
@@ -10,7 +10,7 @@ using namespace tactus::host;
 namespace
 {
 const std::filesystem::path graphs = TACTUS_SOURCE_DIR "/graphs";
-const std::atomic<bool> goes_on { false };
+const std::atomic<bool> not_cancelled { false };
 
 std::vector<Preset> some()
 {
@@ -20,7 +20,7 @@ std::vector<Preset> some()
 }
 }   // namespace
 
-TEST_CASE ("presets are found by words of their name, tags and sentence, in any case")
+TEST_CASE ("presets are found by words of their name, tags and description, ignoring case")
 {
     CHECK (matching (some(), "wood").size() == 3);
     CHECK (matching (some(), "Wood grain").size() == 1);
@@ -28,14 +28,14 @@ TEST_CASE ("presets are found by words of their name, tags and sentence, in any 
     CHECK (matching (some(), "steel").empty());
 }
 
-TEST_CASE ("each tag narrows the presets down")
+TEST_CASE ("each tag narrows the search")
 {
     CHECK (matching (some(), "", { "wood" }).size() == 2);
     CHECK (matching (some(), "", { "wood", "rough" }).size() == 1);
     CHECK (matching (some(), "catches", { "rough" }).empty());
 }
 
-TEST_CASE ("the tags of most presets come first, and each preset counts once")
+TEST_CASE ("tags are sorted by the number of presets, and each preset counts once")
 {
     auto presets = some();
     presets[2].tags = { "press", "press" };
@@ -44,7 +44,7 @@ TEST_CASE ("the tags of most presets come first, and each preset counts once")
     CHECK (std::ranges::find (tags, "press", &std::pair<std::string, int>::first)->second == 1);
 }
 
-TEST_CASE ("all presets that come with Tactus can be read and have no placeholders")
+TEST_CASE ("all shipped presets can be read and have no placeholders")
 {
     const auto presets = presetsIn (graphs, catalogue());
     CHECK (presets.size() >= 30);
@@ -58,12 +58,13 @@ TEST_CASE ("all presets that come with Tactus can be read and have no placeholde
     }
 }
 
-TEST_CASE ("a folder's damaged graphs are listed with what is wrong, other files are not")
+TEST_CASE ("damaged graphs of a folder are listed with their problem, other files are skipped")
 {
     TemporaryFolder folder;
     folder.write ("torn.json", R"({"format": "tactus-graph", "version": 1, "nodes": {)");
     folder.write ("other.json", R"({"colour": "blue"})");
-    folder.write ("strange.json", R"({"format": "tactus-graph", "version": 1, "name": "Strange", "nodes": {"a": {"type": "foo.bar"}, "b": {"type": "foo.baz"}, "c": {"type": "signal.gain"}}, "wires": []})");
+    folder.write ("strange.json", R"({"format": "tactus-graph", "version": 1, "name": "Strange",
+        "nodes": {"a": {"type": "foo.bar"}, "b": {"type": "foo.baz"}, "c": {"type": "signal.gain"}}, "wires": []})");
     const auto presets = presetsIn (folder.path(), catalogue());
     REQUIRE (presets.size() == 2);
     CHECK (placeholderText (presets[0]) == "2 placeholders: foo.bar, foo.baz");
@@ -72,24 +73,24 @@ TEST_CASE ("a folder's damaged graphs are listed with what is wrong, other files
     CHECK (presetsIn (folder / "nowhere", catalogue()).empty());
 }
 
-TEST_CASE ("a preset is as strong as it is drawn")
+TEST_CASE ("the force picture has the peak force of the preset")
 {
-    const auto wood = pictureOf (graphs / "dry_wood.json", catalogue(), goes_on);
+    const auto wood = pictureOf (graphs / "dry_wood.json", catalogue(), not_cancelled);
     CHECK (wood.problem.empty());
     REQUIRE (wood.peaks.size() == ForcePicture::columns);
     CHECK (wood.peak > 0.5);
-    CHECK (wood.peak < 6.0);              // its guard's
+    CHECK (wood.peak < 6.0);              // the guard's limit
     CHECK (wood.peaks.front() == 0.0f);   // the gesture begins above the board
     CHECK (wood.unit == std::string ("N"));
-    CHECK (pictureOf (graphs / "dry_wood.json", catalogue(), goes_on).peaks == wood.peaks);   // each time the same
+    CHECK (pictureOf (graphs / "dry_wood.json", catalogue(), not_cancelled).peaks == wood.peaks);   // deterministic
 }
 
-TEST_CASE ("a picture that cannot be drawn says why")
+TEST_CASE ("a force picture that cannot be computed says why")
 {
     TemporaryFolder folder;
     folder.write ("still.json", R"({"format": "tactus-graph", "version": 1, "nodes": {"m": {"type": "device.force", "role": "pen"}}, "wires": []})");
-    CHECK (pictureOf (folder / "still.json", catalogue(), goes_on).problem == "its hand does not move by itself");
-    CHECK_FALSE (pictureOf (folder / "nowhere.json", catalogue(), goes_on).problem.empty());
-    const std::atomic<bool> called_off { true };
-    CHECK (pictureOf (graphs / "dry_wood.json", catalogue(), called_off).problem == "it was called off");
+    CHECK (pictureOf (folder / "still.json", catalogue(), not_cancelled).problem == "no preview: the hand does not move by itself");
+    CHECK_FALSE (pictureOf (folder / "nowhere.json", catalogue(), not_cancelled).problem.empty());
+    const std::atomic<bool> cancelled { true };
+    CHECK (pictureOf (graphs / "dry_wood.json", catalogue(), cancelled).problem == "cancelled");
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <host/app/problems/fixes.hpp>
 
-#include <framework/catalogue.hpp>
 #include <framework/file/graph_file.hpp>
+#include <framework/node/catalogue.hpp>
 #include <framework/plan/compile.hpp>
 
 #include <catch2/catch.hpp>
@@ -28,8 +28,8 @@ Messages errorsOf (const graph::Graph& g)
     return messages;
 }
 
-/// Applies what is offered until nothing is, and tells what is still wrong.
-Messages mend (graph::Graph& g)
+/// Applies fixes until none is offered. Returns the remaining errors.
+Messages fixAll (graph::Graph& g)
 {
     for (int i = 0; i < 20; ++i)
     {
@@ -38,24 +38,24 @@ Messages mend (graph::Graph& g)
                                                    { return fixOf (g, m).has_value(); });
         if (fixable == errors.end()) return errors;
         const auto done = graph::apply (g, fixOf (g, *fixable)->command);
-        REQUIRE (std::holds_alternative<graph::Command> (done));
+        REQUIRE (done.has_value());
     }
     return errorsOf (g);
 }
 }   // namespace
 
-TEST_CASE ("a loop is mended by a delay on the wire where it goes back", "[app][problems]")
+TEST_CASE ("a loop is fixed by a delay on the wire that closes it", "[app][problems]")
 {
     auto g = graphOf (R"("nodes":{"a":{"type":"signal.slew"},"b":{"type":"signal.slew"}},"wires":["a.out -> b.in","b.out -> a.in"])");
     const auto errors = errorsOf (g);
     REQUIRE (errors.size() == 1);
     CHECK (errors[0].id == "graph/loop");
     CHECK (fixOf (g, errors[0])->label == "Delay it by a tick");
-    CHECK (mend (g).empty());
+    CHECK (fixAll (g).empty());
     CHECK (std::ranges::count (g.root.wires, 1, &graph::Wire::delay) == 1);
 }
 
-TEST_CASE ("what is wrong inside a subgraph is found and mended there", "[app][problems]")
+TEST_CASE ("a problem inside a subgraph is found and fixed there", "[app][problems]")
 {
     auto g = graphOf (R"("nodes":{"g":{"type":"graph:inner"}},"wires":[],
         "graphs":{"inner":{"nodes":{"a":{"type":"signal.slew"},"b":{"type":"signal.slew"}},"wires":["a.out -> b.in","b.out -> a.in"]}})");
@@ -63,26 +63,26 @@ TEST_CASE ("what is wrong inside a subgraph is found and mended there", "[app][p
     REQUIRE_FALSE (errors.empty());
     CHECK (culpritOf (g, errors[0]).patch == "inner");
     CHECK (culpritOf (g, errors[0]).id != 0);
-    CHECK (mend (g).empty());
+    CHECK (fixAll (g).empty());
 }
 
-TEST_CASE ("a wire of the wrong unit, a param out of its range, a node of no type", "[app][problems]")
+TEST_CASE ("fixes for a wire of the wrong unit, a param out of range and an unknown node type", "[app][problems]")
 {
     auto g = graphOf (R"("nodes":{"hand":{"type":"device.position","role":"r"},"motor":{"type":"device.force","role":"r"},
         "wall":{"type":"deform.plane","params":{"stiffness":-1}},"what":{"type":"no.such"}},"wires":["hand.position -> motor.force"])");
     CHECK (errorsOf (g).size() >= 3);
-    CHECK (mend (g).empty());
+    CHECK (fixAll (g).empty());
     CHECK (g.root.wires.empty());
     CHECK (g.root.find ("what") == nullptr);
     CHECK (g.root.find ("wall")->params.empty());
     CHECK (g.root.find ("motor") != nullptr);
 }
 
-TEST_CASE ("device nodes of a graph without devices get one", "[app][problems]")
+TEST_CASE ("device nodes of a graph without devices get a device", "[app][problems]")
 {
     auto g = graphOf (R"("nodes":{"hand":{"type":"device.position"},"motor":{"type":"device.force"}},"wires":[])");
     CHECK (errorsOf (g).size() == 2);
-    CHECK (mend (g).empty());
+    CHECK (fixAll (g).empty());
     REQUIRE (g.devices.size() == 1);
     CHECK (g.root.find ("hand")->role == "stylus");
     CHECK (g.root.find ("motor")->role == "stylus");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "../support/canvas_rig.hpp"
+#include "host/app/support/canvas_rig.hpp"
 
 #include <host/app/run/safety_strip.hpp>
 
@@ -22,56 +22,54 @@ juce::Button* buttonCalled (juce::Component& in, const juce::String& text)
 }
 }   // namespace
 
-TEST_CASE ("what rearms is never where the stop is", "[app][run]")
+TEST_CASE ("REARM never appears in the place of STOP", "[app][run]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
-    Performance p { rig.document, catalogue() };
-    SafetyStrip strip;
+    Sound sound;
+    DeviceSetup setup;
+    Playback playback { rig.document, catalogue(), sound, setup, [] {} };
+    auto& run = playback.run();
+    SafetyStrip strip { playback };
     Look look;
     strip.setLookAndFeel (&look);
     strip.setSize (1280, SafetyStrip::height);
-    const auto until = [&] (auto come)
+    const auto until = [&] (auto isSo)
     {
         for (int i = 0; i < 2000; ++i)
         {
-            p.attend();
-            strip.show (p);
-            if (come()) return true;
+            run.attend();
+            strip.refresh();
+            if (isSo()) return true;
             std::this_thread::sleep_for (std::chrono::milliseconds (5));
         }
         return false;
     };
-    int stops = 0;
-    strip.onStop = [&]
-    {
-        ++stops;
-        p.stop();
-    };
-    strip.onRearm = [&]
-    { p.rearm(); };
-
-    strip.show (p);
+    strip.refresh();
     REQUIRE (buttonCalled (strip, "START"));
-    p.start ({});
+    run.start ({});
     REQUIRE (until ([&]
                     { return buttonCalled (strip, "STOP") != nullptr; }));
     CHECK (buttonCalled (strip, "REARM") == nullptr);
     const auto place = buttonCalled (strip, "STOP")->getBounds();
 
-    p.emergencyStop();
+    run.emergencyStop();
     REQUIRE (until ([&]
                     { return buttonCalled (strip, "REARM") != nullptr; }));
     REQUIRE (buttonCalled (strip, "STOP"));
     CHECK (buttonCalled (strip, "STOP")->getBounds() == place);
     CHECK_FALSE (buttonCalled (strip, "REARM")->getBounds().intersects (place));
 
+    CHECK_FALSE (buttonCalled (strip, "REARM")->isEnabled());   // a double click on STOP must not rearm
+    buttonCalled (strip, "REARM")->onClick();
+    CHECK (run.isStoppedForGood());
+    REQUIRE (until ([&]
+                    { return buttonCalled (strip, "REARM")->isEnabled(); }));
     buttonCalled (strip, "REARM")->onClick();
     CHECK (until ([&]
-                  { return buttonCalled (strip, "REARM") == nullptr && p.isRunning(); }));
-    p.emergencyStop();
+                  { return buttonCalled (strip, "REARM") == nullptr && run.isRunning(); }));
+    run.emergencyStop();
     buttonCalled (strip, "STOP")->onClick();
-    CHECK (stops == 1);
     CHECK (until ([&]
-                  { return ! p.isRunning(); }));
+                  { return ! run.isRunning(); }));
     strip.setLookAndFeel (nullptr);
 }

@@ -13,11 +13,11 @@ using tactus::test::FakeCards;
 
 namespace
 {
-/// Ticks and blocks of samples; what the card was given.
+/// Runs ticks and audio blocks. Returns what the card played.
 std::vector<float> play (Sound& sound, FakeCards& card, double tick_rate, double seconds, const std::function<double (double)>& newton)
 {
     sound.setTickRate (tick_rate);
-    REQUIRE_FALSE (sound.start());
+    REQUIRE (sound.start());
     double ticks = 0.0;
     for (double t = 0.0; t < seconds; t += card.block / card.rate_hz)
     {
@@ -30,7 +30,7 @@ std::vector<float> play (Sound& sound, FakeCards& card, double tick_rate, double
 }
 }   // namespace
 
-TEST_CASE ("a vibration is heard at its pitch and without a click", "[app][sound]")
+TEST_CASE ("a vibration is played at its pitch, without clicks", "[app][sound]")
 {
     FakeCards card;
     Sound sound { card };
@@ -51,7 +51,7 @@ TEST_CASE ("a vibration is heard at its pitch and without a click", "[app][sound
     CHECK (sound.report().underruns == 0);
 }
 
-TEST_CASE ("what stands still is silent, and what is not a number too", "[app][sound]")
+TEST_CASE ("a constant force is silent, and so are values that are not numbers", "[app][sound]")
 {
     FakeCards card;
     Sound sound { card };
@@ -64,19 +64,19 @@ TEST_CASE ("what stands still is silent, and what is not a number too", "[app][s
                                 { return std::isfinite (x); }));
 }
 
-TEST_CASE ("without a sound card there is a reason, and a run at another rate is heard as well", "[app][sound]")
+TEST_CASE ("without a sound card there is an error, and a run at another rate can be heard too", "[app][sound]")
 {
     FakeCards card;
     card.there = false;
     Sound sound { card };
-    const auto trouble = sound.start();
-    REQUIRE (trouble);
-    CHECK (trouble->id == "audio/no_card");
+    const auto started = sound.start();
+    REQUIRE_FALSE (started);
+    CHECK (started.error().id == "audio/no_card");
     CHECK_FALSE (sound.isOn());
 
     card.there = true;
     card.outputs = 1;
-    CHECK_FALSE (sound.start());
+    CHECK (sound.start());
     CHECK (sound.isOn());
     sound.setTickRate (1000.0);
     CHECK (sound.isOn());

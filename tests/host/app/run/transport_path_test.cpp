@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <framework/run/device/gestures.hpp>
 #include <host/app/run/transport_path.hpp>
-#include <host/devices/gestures.hpp>
 
 #include <catch2/catch.hpp>
 #include <rapidcheck/catch.h>
@@ -13,7 +13,7 @@ namespace
 std::shared_ptr<const Path> stroke() { return std::make_shared<GesturePath> (*findGesture ("stroke"), Placement {}); }
 }   // namespace
 
-TEST_CASE ("a path that is only played is the path itself, to the bit", "[app][transport]")
+TEST_CASE ("a path that is only played equals the original path", "[app][transport]")
 {
     const auto path = stroke();
     const TransportPath played { path };
@@ -21,14 +21,14 @@ TEST_CASE ("a path that is only played is the path itself, to the bit", "[app][t
     {
         const double t = k / 4000.0;
         const auto a = played.at (t), b = path->at (t);
-        // The time is summed up tick by tick there.
+        // TransportPath sums the time tick by tick.
         REQUIRE ((a.position - b.position).norm() < 1e-12);
     }
 }
 
-TEST_CASE ("however it is stopped, sought and slowed down, the hand never jumps, and its velocity is that of its place", "[app][transport]")
+TEST_CASE ("the hand never jumps on a pause, a seek or a change of speed, and its velocity matches its position", "[app][transport]")
 {
-    rc::prop ("any presses of the buttons", []
+    rc::prop ("any use of the transport", []
               {
         const auto path = stroke();
         TransportPath played { path };
@@ -46,13 +46,13 @@ TEST_CASE ("however it is stopped, sought and slowed down, the hand never jumps,
                 }
             const auto now = played.at (k * dt);
             const Vec3 step = now.position - before.position;
-            RC_ASSERT (step.norm() < 3.0 * dt);   // m/s: what catching up over a whole stroke takes
+            RC_ASSERT (step.norm() < 3.0 * dt);   // m/s: enough to catch up over a whole stroke
             RC_ASSERT ((step / dt - 0.5 * (now.velocity + before.velocity)).norm() < 0.05);
             before = now;
         } });
 }
 
-TEST_CASE ("a hand that is stopped comes to rest and goes on from there", "[app][transport]")
+TEST_CASE ("a paused hand comes to rest, and continues from there", "[app][transport]")
 {
     const auto path = stroke();
     TransportPath played { path };

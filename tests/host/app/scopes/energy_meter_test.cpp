@@ -4,7 +4,7 @@
 
 #include "made_trace.hpp"
 
-#include <nodes/friction/elasto_plastic.hpp>
+#include "support/rig.hpp"
 
 #include <rapidcheck/catch.h>
 
@@ -15,13 +15,13 @@ using namespace tactus::host;
 
 namespace
 {
-/// A tool that is led along a path, and what a node puts on it.
+/// The traces of a tool that is moved along a path, and of a force on it.
 struct Recorded
 {
     std::vector<std::shared_ptr<Trace>> position, applied;
     std::shared_ptr<Trace> stored = emptyTrace ("n.stored_energy", 4000.0), dissipated = emptyTrace ("n.dissipated_energy", 4000.0);
     std::uint64_t tick = 0;
-    Vec3 held = Vec3::Zero();   // what was put on since the last tick
+    Vec3 held = Vec3::Zero();   // the force since the last tick
 
     Recorded()
     {
@@ -48,26 +48,26 @@ struct Recorded
     EnergyMeter::Sources sources() const { return { { position.begin(), position.end() }, { applied.begin(), applied.end() }, { stored }, { dissipated } }; }
 };
 
-void rub (Recorded& r, nodes::ElastoPlastic& node, int ticks)
+void rub (Recorded& r, Rig& node, int ticks)
 {
     for (int k = 0; k < ticks; ++k)
     {
         const double t = static_cast<double> (r.tick) / 4000.0;
         const Vec3 p (0.02 * std::sin (6.0 * t), 0.007 * std::sin (9.0 * t), 0.0);
-        const auto out = node.tick ({ .position = p, .normal_force = 1.0 });
-        r.add (p, out.force, out.stored_energy, out.dissipated_energy);
+        node.input ("position", p).input ("normal_force", 1.0).tick();
+        r.add (p, node.vector ("force"), node.out ("stored_energy"), node.out ("dissipated_energy"));
     }
 }
 
-nodes::ElastoPlastic bristle()
+Rig bristle()
 {
-    nodes::ElastoPlastic node;
-    node.params.d_max = 2e-3;
+    Rig node { "friction.elasto_plastic" };
+    node.param ("d_max", 2e-3).prepare();
     return node;
 }
 }   // namespace
 
-TEST_CASE ("scopes: what the hand puts into friction is stored or dissipated, but for what the held force leaks", "[app][scopes]")
+TEST_CASE ("scopes: the work of the hand on friction is stored or dissipated, except for the leak of the held force", "[app][scopes]")
 {
     Recorded r;
     auto node = bristle();
@@ -79,10 +79,10 @@ TEST_CASE ("scopes: what the hand puts into friction is stored or dissipated, bu
     CHECK (b.dissipated == r.dissipated->at (7999));
     CHECK (std::abs (b.elsewhere()) < 1e-4 * b.work);
     CHECK (b.isPassive());
-    CHECK (inWords (b).starts_with ("passive"));
+    CHECK (describe (b).starts_with ("passive"));
 }
 
-TEST_CASE ("scopes: what holding the force of a spring makes is half the stiffness times the steps squared", "[app][scopes]")
+TEST_CASE ("scopes: the energy created by holding a spring force is half the stiffness times the sum of the squared steps", "[app][scopes]")
 {
     constexpr double stiffness = 500.0;
     Recorded r;
@@ -90,7 +90,7 @@ TEST_CASE ("scopes: what holding the force of a spring makes is half the stiffne
     for (int k = 0; k < 4000; ++k)
     {
         const double x = 0.01 * std::sin (0.07 * k);
-        if (k > 0 && k < 3999) expected += 0.5 * stiffness * (x - before) * (x - before);   // of the last step it is not known yet
+        if (k > 0 && k < 3999) expected += 0.5 * stiffness * (x - before) * (x - before);   // not known yet for the last step
         before = x;
         r.add (Vec3 (x, 0, 0), Vec3 (-stiffness * x, 0, 0), 0.5 * stiffness * x * x, 0.0);
     }
@@ -98,10 +98,10 @@ TEST_CASE ("scopes: what holding the force of a spring makes is half the stiffne
     meter.follow (r.sources());
     CHECK (meter.balance().held == Approx (expected));
     CHECK (std::abs (meter.balance().elsewhere()) < 1e-3 * expected);
-    CHECK_FALSE (meter.balance().isPassive());   // a bare sampled spring gives energy to the hand
+    CHECK_FALSE (meter.balance().isPassive());   // a bare sampled spring generates energy
 }
 
-TEST_CASE ("scopes: energy is added up the same however the ticks come in", "[app][scopes]")
+TEST_CASE ("scopes: the energy sum does not depend on how the ticks are batched", "[app][scopes]")
 {
     Recorded at_once, in_parts;
     auto a = bristle(), b = bristle();
@@ -118,7 +118,7 @@ TEST_CASE ("scopes: energy is added up the same however the ticks come in", "[ap
     CHECK (parts.balance().gaps == 0);
 }
 
-TEST_CASE ("scopes: a force that pushes the way the tool goes is called active, with how much it gave", "[app][scopes]")
+TEST_CASE ("scopes: a force along the motion of the tool is reported as active, with the energy that came out", "[app][scopes]")
 {
     Recorded r;
     for (int k = 0; k <= 100; ++k)
@@ -127,10 +127,10 @@ TEST_CASE ("scopes: a force that pushes the way the tool goes is called active, 
     meter.follow (r.sources());
     CHECK (meter.balance().work == Approx (-0.05));
     CHECK_FALSE (meter.balance().isPassive());
-    CHECK (inWords (meter.balance()).find ("active: 50\u00a0mJ more came out") == 0);
+    CHECK (describe (meter.balance()).find ("active: 50\u00a0mJ more came out") == 0);
 }
 
-TEST_CASE ("scopes: a spring that was wound up before may give back what it holds, and no more", "[app][scopes]")
+TEST_CASE ("scopes: a preloaded spring may give back the energy that it stores, but no more", "[app][scopes]")
 {
     const auto let_out = [] (double held)
     {
@@ -145,7 +145,7 @@ TEST_CASE ("scopes: a spring that was wound up before may give back what it hold
     CHECK_FALSE (let_out (0.09));
 }
 
-TEST_CASE ("scopes: across ticks that were missed the work is estimated, and they are counted", "[app][scopes]")
+TEST_CASE ("scopes: across missed ticks the work is estimated, and the gaps are counted", "[app][scopes]")
 {
     Recorded r;
     for (int k = 0; k <= 100; ++k)
@@ -162,21 +162,21 @@ TEST_CASE ("scopes: across ticks that were missed the work is estimated, and the
     CHECK (meter.balance().gaps == 10);
 }
 
-TEST_CASE ("scopes: a run that starts anew is counted anew", "[app][scopes]")
+TEST_CASE ("scopes: a new run restarts the energy balance", "[app][scopes]")
 {
     EnergyMeter meter;
     for (int run = 0; run < 2; ++run)
     {
         Recorded r;
         for (int k = 0; k <= 100; ++k)
-            r.add (Vec3 (1e-3 * k, 0, 0), Vec3 (-1.0, 0, 0), 0.0, 7.0);   // dissipated before
+            r.add (Vec3 (1e-3 * k, 0, 0), Vec3 (-1.0, 0, 0), 0.0, 7.0);   // dissipated earlier
         meter.follow (r.sources());
         CHECK (meter.balance().work == Approx (0.1));
         CHECK (meter.balance().dissipated == 0.0);
     }
 }
 
-TEST_CASE ("scopes: numbers are short, with a prefix where the unit takes one", "[app][scopes]")
+TEST_CASE ("scopes: numbers are short, with a prefix if the unit takes one", "[app][scopes]")
 {
     CHECK (withPrefix (0.0031, "J") == "3.10 mJ");
     CHECK (withPrefix (0.0031, "J", 2) == "3.1 mJ");
@@ -189,7 +189,7 @@ TEST_CASE ("scopes: numbers are short, with a prefix where the unit takes one", 
     CHECK (withPrefix (2500.0, "N/m") == "2500 N/m");
 }
 
-TEST_CASE ("whatever a node puts out can be written in few letters", "[app][scopes]")
+TEST_CASE ("any number can be written in few characters", "[app][scopes]")
 {
     CHECK (withPrefix (0.00012, "m", 2) == "120 µm");
     CHECK (withPrefix (std::numeric_limits<double>::infinity(), "J") == "inf");
@@ -199,5 +199,5 @@ TEST_CASE ("whatever a node puts out can be written in few letters", "[app][scop
     CHECK (withPrefix (std::numeric_limits<double>::denorm_min(), "1").size() < 12);
     EnergyBalance burst;
     burst.work = burst.worst = std::numeric_limits<double>::infinity();
-    CHECK (inWords (burst).find ("inf") != std::string::npos);
+    CHECK (describe (burst).find ("inf") != std::string::npos);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <host/app/scopes/look_at.hpp>
+#include <host/app/scopes/trace_window.hpp>
 
 #include <memory>
 #include <string>
@@ -15,7 +15,7 @@ inline std::shared_ptr<Trace> emptyTrace (const std::string& name, double rate =
     return std::make_shared<Trace> (Tap { .name = name, .quantity = q, .unit = unit }, rate);
 }
 
-/// One value a tick from a tick on.
+/// A trace with one value per tick, starting at a given tick.
 inline std::shared_ptr<Trace> traceOf (const std::vector<double>& values, std::uint64_t first = 0, double rate = 1000.0, const std::string& name = "a.force")
 {
     auto t = emptyTrace (name, rate);

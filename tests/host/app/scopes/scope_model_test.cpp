@@ -5,10 +5,10 @@
 
 using namespace tactus::host;
 
-TEST_CASE ("scopes: a probe adds a trace to the first scope over time, and takes it out the second time", "[app][scopes]")
+TEST_CASE ("scopes: a probe adds a trace to the first oscilloscope, and a second one removes it", "[app][scopes]")
 {
     ScopeModel model;
-    CHECK (model.probe ("drag.force"));   // which makes a scope
+    CHECK (model.probe ("drag.force"));   // adds a scope
     REQUIRE (model.scopes.size() == 1);
     CHECK (model.probe ("board.depth"));
     CHECK (model.shows ("drag.force"));
@@ -17,7 +17,7 @@ TEST_CASE ("scopes: a probe adds a trace to the first scope over time, and takes
     CHECK (model.scopes.front()->ports == std::vector<std::string> { "board.depth" });
 }
 
-TEST_CASE ("scopes: a probe goes to the active scope if that holds traces", "[app][scopes]")
+TEST_CASE ("scopes: a probe goes to the active scope if it shows traces", "[app][scopes]")
 {
     ScopeModel model;
     for (const auto kind : { ScopeKind::time, ScopeKind::over, ScopeKind::spectrum })
@@ -33,7 +33,7 @@ TEST_CASE ("scopes: a probe goes to the active scope if that holds traces", "[ap
     CHECK (model.scopes[0]->ports == std::vector<std::string> { "b.x" });
 }
 
-TEST_CASE ("scopes: three clicks are a cursor, two, and none; two are of one lane", "[app][scopes]")
+TEST_CASE ("scopes: the first click gives one cursor, the second two, the third none, and both cursors are in one lane", "[app][scopes]")
 {
     std::vector<Cursor> cursors;
     click (cursors, { 0, 1.0, 2.0 });
@@ -48,7 +48,7 @@ TEST_CASE ("scopes: three clicks are a cursor, two, and none; two are of one lan
     CHECK (cursors.front().lane == 1);
 }
 
-TEST_CASE ("scopes: a range that follows always holds what is seen", "[app][scopes]")
+TEST_CASE ("scopes: an automatic range always contains the signal", "[app][scopes]")
 {
     rc::prop ("any values", [] (const std::vector<std::pair<short, unsigned char>>& all)
               {
@@ -63,14 +63,14 @@ TEST_CASE ("scopes: a range that follows always holds what is seen", "[app][scop
         } });
 }
 
-TEST_CASE ("scopes: a range waits for no one once what was at rest moves", "[app][scopes]")
+TEST_CASE ("scopes: an automatic range adapts immediately when a resting signal moves", "[app][scopes]")
 {
     AutoRange range;
     CHECK (range.update ({ 0.0, 0.0 }).high == 1.0);
     CHECK (range.update ({ 0.0, 0.01 }).high < 0.02);
 }
 
-TEST_CASE ("scopes: a range stays while the signal breathes, and narrows when it has been small for long", "[app][scopes]")
+TEST_CASE ("scopes: an automatic range does not follow every stroke, and narrows after the signal has been small for a while", "[app][scopes]")
 {
     AutoRange range (10);
     const auto wide = range.update ({ -1.0, 1.0 });
@@ -86,7 +86,7 @@ TEST_CASE ("scopes: a range stays while the signal breathes, and narrows when it
     CHECK (range.shown().high < 0.2);
     CHECK (range.shown().high > 0.1);
 
-    // A little less is no reason.
+    // A slightly smaller signal does not narrow it.
     const auto narrow = range.shown();
     for (int i = 0; i < 100; ++i)
         range.update ({ -0.08, 0.08 });

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include <host/app/run/live_run.hpp>
 #include <host/app/scopes/scope_panel.hpp>
 
+#include <framework/file/csv.hpp>
 #include <framework/file/graph_file.hpp>
 #include <host/app/scopes/energy_plot.hpp>
 #include <host/app/scopes/time_plot.hpp>
-#include <host/io/csv.hpp>
+#include <support/temporary_folder.hpp>
 
 #include <chrono>
 #include <cmath>
@@ -17,23 +19,23 @@ namespace
 {
 const auto graphs = std::filesystem::path (TACTUS_SOURCE_DIR) / "graphs";
 
-/// A window without a display, whose graph is ticked by hand.
+/// A scope panel without a display, whose graph is ticked by the test.
 struct Bench
 {
     juce::ScopedJuceInitialiser_GUI juce;
     Look look;
     Document document;
-    Performance performance;
+    LiveRun live_run;
     FileAssets assets;
     std::unique_ptr<ScopePanel> panel;
     std::shared_ptr<Plan> plan;
     std::uint64_t tick = 0;
     double speed = 4.0;
 
-    explicit Bench (const std::string& name = "dry_wood") : document (std::move (loadGraph (graphs / (name + ".json")).graph)), performance (document, catalogue())
+    explicit Bench (const std::string& name = "dry_wood") : document (std::move (loadGraph (graphs / (name + ".json")).graph)), live_run (document, catalogue())
     {
         juce::LookAndFeel::setDefaultLookAndFeel (&look);
-        panel = std::make_unique<ScopePanel> (document, performance, catalogue());
+        panel = std::make_unique<ScopePanel> (document, live_run.traces(), catalogue());
         panel->setSize (1100, 260);
     }
 
@@ -43,27 +45,27 @@ struct Bench
         juce::LookAndFeel::setDefaultLookAndFeel (nullptr);
     }
 
-    /// Makes a plan that records what is wanted now, and strokes the board with it.
+    /// Compiles a plan that records the requested ports, and strokes the board with it.
     void run (int ticks)
     {
-        auto& traces = performance.traces();
+        auto& traces = live_run.traces();
         auto compiled = compile (document.graph(), catalogue(), { .records = traces.ports(), .assets = &assets });
         REQUIRE (compiled.plan);
         plan = std::move (compiled.plan);
-        traces.select (*plan, document.graph().rate_hz, false);
+        traces.planComes (*plan);
         for (int i = 0; i < ticks; ++i, ++tick)
         {
             const double t = static_cast<double> (tick) / document.graph().rate_hz;
-            for (auto& r : plan->roles)
+            for (auto& r : plan->roles())
                 r.state->reading.position = Vec3 (0.03 * std::sin (speed * t), 0.0, -5e-4);
             plan->tick();
-            for (auto& r : plan->roles)   // as a guard that lets everything through
+            for (auto& r : plan->roles())   // acts as a guard that lets everything through
             {
                 r.state->applied = {};
                 for (const auto& sink : r.sinks)
                     r.state->applied.force += sink.effort (sink.node).force;
             }
-            traces.note (*plan, tick);
+            traces.after (*plan, tick, false);
             if (i % 500 == 0) traces.collect();
         }
         traces.collect();
@@ -78,7 +80,7 @@ struct Bench
         return **at;
     }
 
-    static std::vector<std::string> words (juce::Component& c)
+    static std::vector<std::string> labels (juce::Component& c)
     {
         std::vector<std::string> all;
         for (auto* child : c.getChildren())
@@ -99,7 +101,7 @@ void clickAt (juce::Component& c, juce::Point<float> at)
     c.mouseUp (mouse (c, at, at, false));
 }
 
-/// How many pixels have about this colour.
+/// The number of pixels of roughly this colour.
 int countOf (const juce::Image& image, juce::Colour colour)
 {
     int count = 0;
@@ -113,16 +115,18 @@ int countOf (const juce::Image& image, juce::Colour colour)
 }
 }   // namespace
 
-TEST_CASE ("scopes: a graph that opens shows scopes at once, and wants only what they need", "[app][scopes]")
+TEST_CASE ("scopes: a newly opened graph shows scopes, which request only the ports they need", "[app][scopes]")
 {
     Bench b;
     REQUIRE (b.panel->shown().size() == 3);
-    auto wanted = b.performance.traces().ports();
+    auto wanted = b.live_run.traces().ports();
     std::ranges::sort (wanted);
-    CHECK (wanted == std::vector<std::string> { "board.stored_energy", "drag.dissipated_energy", "drag.force", "drag.state", "drag.stored_energy", "hand.position", "motor.applied", "motor.force" });
+    CHECK (wanted
+           == std::vector<std::string> { "board.stored_energy", "drag.dissipated_energy", "drag.force", "drag.state", "drag.stored_energy",
+                                         "hand.position", "motor.applied", "motor.force" });
 }
 
-TEST_CASE ("scopes: what runs is drawn, in the colour of its quantity", "[app][scopes]")
+TEST_CASE ("scopes: a run is plotted in the colour of its quantity", "[app][scopes]")
 {
     Bench b;
     auto& plot = b.view (ScopeKind::time).plot();
@@ -138,7 +142,7 @@ TEST_CASE ("scopes: what runs is drawn, in the colour of its quantity", "[app][s
     CHECK (countOf (picture(), force) > 200);
 }
 
-TEST_CASE ("scopes: over displacement, sticking and sliding have colours of their own", "[app][scopes]")
+TEST_CASE ("scopes: against displacement, sticking and sliding have different colours", "[app][scopes]")
 {
     constexpr int in_legend = 64;
     Bench b;
@@ -149,12 +153,12 @@ TEST_CASE ("scopes: over displacement, sticking and sliding have colours of thei
     CHECK (count (Quantity::length) > 3 * in_legend);   // it sticks and slips
 
     REQUIRE (b.document.perform (graph::SetParam { "", "drag", "static_ratio", 1.0 }));
-    b.performance.stop();
+    b.live_run.stop();
     b.run (20000);
     CHECK (count (Quantity::force) > 2 * in_legend);   // it slides
 }
 
-TEST_CASE ("scopes: units have lanes of their own, and all components of a vector share one", "[app][scopes]")
+TEST_CASE ("scopes: each unit has a lane, and all components of a vector share one", "[app][scopes]")
 {
     Bench b;
     b.panel->probe ("board.depth");
@@ -168,23 +172,23 @@ TEST_CASE ("scopes: units have lanes of their own, and all components of a vecto
     CHECK (lanes[0].area.getBottom() <= lanes[1].area.getY());
 }
 
-TEST_CASE ("scopes: a port that is gone says so, and comes back with undo", "[app][scopes]")
+TEST_CASE ("scopes: a removed port is marked as gone, and comes back with undo", "[app][scopes]")
 {
     Bench b;
     b.panel->probe ("grain.value");
     b.run (100);
     auto& view = b.view (ScopeKind::time);
     REQUIRE (b.document.perform (graph::RemoveNode { "", "grain" }));
-    b.performance.stop();
+    b.live_run.stop();
     b.run (100);
-    CHECK (std::ranges::count (Bench::words (view), "grain.value is gone") == 1);
+    CHECK (std::ranges::count (Bench::labels (view), "grain.value is gone") == 1);
     b.document.undo();
-    b.performance.stop();
+    b.live_run.stop();
     b.run (100);
-    CHECK (std::ranges::count (Bench::words (view), "grain.value is gone") == 0);
+    CHECK (std::ranges::count (Bench::labels (view), "grain.value is gone") == 0);
 }
 
-TEST_CASE ("scopes: the cross of a port takes it out, its name does not", "[app][scopes]")
+TEST_CASE ("scopes: the cross of a port removes it, its name does not", "[app][scopes]")
 {
     Bench b;
     b.run (100);
@@ -204,10 +208,10 @@ TEST_CASE ("scopes: the cross of a port takes it out, its name does not", "[app]
     CHECK (b.panel->isProbed ("motor.force"));
     at (static_cast<float> (chip().getWidth()) - 8.0f);
     CHECK_FALSE (b.panel->isProbed ("motor.force"));
-    CHECK (std::ranges::count (b.performance.traces().ports(), "motor.force") == 0);
+    CHECK (std::ranges::count (b.live_run.traces().ports(), "motor.force") == 0);
 }
 
-TEST_CASE ("scopes: frozen, a scope keeps what stood there while the run goes on", "[app][scopes]")
+TEST_CASE ("scopes: a frozen scope does not change while the run continues", "[app][scopes]")
 {
     Bench b;
     b.run (3000);
@@ -219,7 +223,7 @@ TEST_CASE ("scopes: frozen, a scope keeps what stood there while the run goes on
     b.run (1000);
     CHECK (plot.window().to == end);
 
-    // A drag to the right shows what was before.
+    // A drag to the right shows earlier ticks.
     const juce::Point<float> from { 100.0f, 60.0f };
     plot.mouseDown (mouse (plot, from, from, false));
     plot.mouseDrag (mouse (plot, from.translated (50.0f, 0.0f), from, true));
@@ -233,7 +237,7 @@ TEST_CASE ("scopes: frozen, a scope keeps what stood there while the run goes on
     CHECK (plot.window().to == 4000.0);
 }
 
-TEST_CASE ("scopes: two clicks measure, the wheel zooms time, with shift values about the pointer", "[app][scopes]")
+TEST_CASE ("scopes: two clicks measure, the wheel zooms time, and Shift+wheel zooms values around the pointer", "[app][scopes]")
 {
     Bench b;
     b.run (6000);
@@ -255,10 +259,10 @@ TEST_CASE ("scopes: two clicks measure, the wheel zooms time, with shift values 
     CHECK (plot.shownLanes().front().y.size() < size);
     CHECK (plot.shownLanes().front().yAt (a.y) == Approx (pointed).margin (1e-9));
     plot.mouseDoubleClick (mouse (plot, a, a, false));
-    CHECK (view.shown().by_hand.empty());
+    CHECK (view.shown().zoomed.empty());
 }
 
-TEST_CASE ("scopes: a trigger level is dragged by its marker", "[app][scopes]")
+TEST_CASE ("scopes: the trigger level can be dragged by its marker", "[app][scopes]")
 {
     Bench b;
     b.run (6000);
@@ -278,30 +282,30 @@ TEST_CASE ("scopes: a trigger level is dragged by its marker", "[app][scopes]")
     CHECK (dynamic_cast<TimePlot&> (plot).window().trigger);
 }
 
-TEST_CASE ("scopes: a scope is saved as a picture of twice the size, and as numbers of what it shows", "[app][scopes]")
+TEST_CASE ("scopes: a scope is saved as an image of twice its size, and as data of its traces", "[app][scopes]")
 {
     Bench b;
     b.run (4000);
     auto& view = b.view (ScopeKind::over);
-    const auto folder = std::filesystem::temp_directory_path();
-    REQUIRE (view.savePicture (folder / "tactus_scope.png"));
-    const auto image = juce::ImageFileFormat::loadFrom (juce::File ((folder / "tactus_scope.png").string()));
+    const TemporaryFolder folder;
+    REQUIRE (view.saveImage (folder / "scope.png"));
+    const auto image = juce::ImageFileFormat::loadFrom (juce::File ((folder / "scope.png").string()));
     CHECK (image.getWidth() == 2 * view.getWidth());
     CHECK (image.getHeight() == 2 * view.getHeight());
     CHECK (countOf (image, b.look.theme().of (Quantity::force)) > 400);
 
-    REQUIRE (view.saveNumbers (folder / "tactus_scope.csv"));
-    const auto table = readTable (folder / "tactus_scope.csv");
+    REQUIRE (view.saveData (folder / "scope.csv"));
+    const auto table = readTable (folder / "scope.csv");
     REQUIRE (table);
-    CHECK (table->columns == std::vector<std::string> { "t", "hand.position.x", "hand.position.y", "hand.position.z", "drag.force.x", "drag.force.y", "drag.force.z", "drag.state" });
+    CHECK (table->columns
+           == std::vector<std::string> { "t", "hand.position.x", "hand.position.y", "hand.position.z", "drag.force.x", "drag.force.y", "drag.force.z",
+                                         "drag.state" });
     CHECK (table->rows() == 4000);
     CHECK (table->at (4, 0) == 0.001);
-    CHECK_FALSE (view.saveNumbers (folder / "no such folder" / "a.csv"));
-    std::filesystem::remove (folder / "tactus_scope.png");
-    std::filesystem::remove (folder / "tactus_scope.csv");
+    CHECK_FALSE (view.saveData (folder / "no such folder/a.csv"));
 }
 
-TEST_CASE ("scopes: more components than can be looked at are named in words", "[app][scopes]")
+TEST_CASE ("scopes: the warning names the components that exceed the recording limit", "[app][scopes]")
 {
     Bench b;
     b.run (10);
@@ -309,14 +313,14 @@ TEST_CASE ("scopes: more components than can be looked at are named in words", "
     for (const char* port : { "drag.deflection", "board.force", "grain.force", "grain_felt.out", "hand.rotation", "grain.value", "board.depth" })
         b.panel->probe (port);
     b.run (10);
-    CHECK (b.panel->warning().startsWith ("32 components at a time; not shown: "));
-    CHECK (b.performance.traces().leftOut().size() == 1);
+    CHECK (b.panel->warning().startsWith ("32 components at most; not shown: "));
+    CHECK (b.live_run.traces().leftOut().size() == 1);
     b.panel->probe ("hand.rotation");
     b.run (10);
     CHECK (b.panel->warning().isEmpty());
 }
 
-TEST_CASE ("scopes: all scopes can be closed, and an empty panel offers a port to begin with", "[app][scopes]")
+TEST_CASE ("scopes: all scopes can be closed, and an empty panel suggests a port", "[app][scopes]")
 {
     Bench b;
     while (! b.panel->shown().empty())
@@ -327,8 +331,8 @@ TEST_CASE ("scopes: all scopes can be closed, and an empty panel offers a port t
         juce::MessageManager::getInstance()->runDispatchLoopUntil (20);
         REQUIRE (b.panel->shown().size() == left - 1);
     }
-    CHECK (b.performance.traces().ports().empty());
-    const auto all = Bench::words (*b.panel);
+    CHECK (b.live_run.traces().ports().empty());
+    const auto all = Bench::labels (*b.panel);
     REQUIRE (std::ranges::count (all, "board.force") == 1);
     for (auto* child : b.panel->getChildren())
         if (child->getName() == "board.force")
@@ -340,7 +344,7 @@ TEST_CASE ("scopes: all scopes can be closed, and an empty panel offers a port t
     CHECK (b.panel->shown().size() == 1);
 }
 
-TEST_CASE ("scopes: every kind can be added to every preset, run, and drawn in both themes", "[app][scopes]")
+TEST_CASE ("scopes: every kind of scope can be added to presets, run, and painted in both themes", "[app][scopes]")
 {
     for (const char* name : { "dry_wood", "scissors_cloth", "two_fingers", "squealing_rubber", "granite_wall" })
     {
@@ -358,24 +362,24 @@ TEST_CASE ("scopes: every kind can be added to every preset, run, and drawn in b
     }
 }
 
-TEST_CASE ("scopes: a run in real time is seen, and goes on being seen when a port is added while it runs", "[app][scopes]")
+TEST_CASE ("scopes: a real-time run is shown, and stays shown when a port is added", "[app][scopes]")
 {
     Bench b;
-    b.performance.start (Performance::Hand {});
-    REQUIRE (b.performance.isRunning());
-    Traces::Client client (b.performance.traces());
+    b.live_run.start (LiveRun::Hand {});
+    REQUIRE (b.live_run.isRunning());
+    Traces::Client client (b.live_run.traces());
     const auto ticksOf = [&] (const std::string& port)
     {
         const auto traces = client.of (port);
         return traces.empty() ? std::uint64_t { 0 } : traces.front()->end() - traces.front()->begin();
     };
-    // However slow the machine is: it comes, or the test fails after some seconds.
+    // Waits up to ten seconds, for slow machines.
     const auto waitFor = [&] (const std::string& port, std::uint64_t ticks)
     {
         for (int i = 0; i < 1000 && ticksOf (port) < ticks; ++i)
         {
             juce::Thread::sleep (10);
-            b.performance.attend();
+            b.live_run.attend();
             b.panel->refresh();
         }
         return ticksOf (port) >= ticks;
@@ -384,12 +388,12 @@ TEST_CASE ("scopes: a run in real time is seen, and goes on being seen when a po
     const auto first = client.of ("motor.force").front()->begin();
     b.panel->probe ("board.depth");
     REQUIRE (waitFor ("board.depth", 400));
-    CHECK (client.of ("motor.force").front()->begin() == first);   // the same trace, with a gap at most
+    CHECK (client.of ("motor.force").front()->begin() == first);   // the same trace, at most with a gap
     CHECK (b.view (ScopeKind::time).plot().shownLanes().size() == 2);
-    b.performance.stop();
+    b.live_run.stop();
 }
 
-TEST_CASE ("scopes: what four scopes over ten seconds cost", "[.][bench]")
+TEST_CASE ("scopes: the cost of scopes over ten seconds", "[.][bench]")
 {
     Bench b;
     b.panel->add (ScopeKind::spectrum);
@@ -419,7 +423,7 @@ TEST_CASE ("scopes: what four scopes over ten seconds cost", "[.][bench]")
         }
 }
 
-TEST_CASE ("scopes: of a slow stroke over a preset all the work of the hand is found again", "[app][scopes]")
+TEST_CASE ("scopes: for a slow stroke over a preset, the nodes account for all work of the hand", "[app][scopes]")
 {
     for (const char* name : { "dry_wood", "squealing_rubber", "soft_pad", "bare_skin" })
     {
@@ -428,7 +432,7 @@ TEST_CASE ("scopes: of a slow stroke over a preset all the work of the hand is f
         b.speed = 0.25;
         b.run (36000);
         const auto& balance = dynamic_cast<EnergyPlot&> (b.view (ScopeKind::energy).plot()).balance();
-        INFO (inWords (balance));
+        INFO (describe (balance));
         CHECK (balance.isPassive());
         CHECK (balance.work > 1e-5);
         CHECK (balance.gaps == 0);

@@ -23,7 +23,7 @@ std::vector<double> sine (double amplitude, double hz, double phase, std::size_t
 }
 }   // namespace
 
-TEST_CASE ("scopes: a sine of any amplitude, frequency and phase reads its amplitude at its frequency", "[app][scopes]")
+TEST_CASE ("scopes: a sine of any amplitude, frequency and phase shows its amplitude at its frequency", "[app][scopes]")
 {
     rc::prop ("on an offset, in a window of any length", []
               {
@@ -44,7 +44,7 @@ TEST_CASE ("scopes: a sine of any amplitude, frequency and phase reads its ampli
         RC_ASSERT (highest < 1.005 * amplitude); });
 }
 
-TEST_CASE ("scopes: a faint sine beside a loud one reads its own amplitude", "[app][scopes]")
+TEST_CASE ("scopes: a faint sine next to a loud one shows its own amplitude", "[app][scopes]")
 {
     auto both = sine (1.0, 100.0, 0.3, 4000);
     const auto faint = sine (0.01, 317.3, 1.1, 4000);
@@ -56,7 +56,7 @@ TEST_CASE ("scopes: a faint sine beside a loud one reads its own amplitude", "[a
     CHECK (peak->amplitude == Approx (0.01).epsilon (0.01));
 }
 
-TEST_CASE ("scopes: what is flat has no peak, and reaches up to half the rate", "[app][scopes]")
+TEST_CASE ("scopes: a constant signal has no peak, and its spectrum reaches half the rate", "[app][scopes]")
 {
     const auto flat = spectrumOf (std::vector<double> (1024, 2.5), rate);
     CHECK_FALSE (peakOf (flat, 1.0));
@@ -64,7 +64,7 @@ TEST_CASE ("scopes: what is flat has no peak, and reaches up to half the rate", 
     CHECK (spectrumOf (std::vector<double> (3, 1.0), rate).amplitude.empty());
 }
 
-TEST_CASE ("scopes: a gap holds what was before it, and is counted", "[app][scopes]")
+TEST_CASE ("scopes: in a gap the previous value is held, and the gap is counted", "[app][scopes]")
 {
     const auto latest = latestSamples (*traceOf ({ 9.0, 1.0, std::nan (""), std::nan (""), 2.0 }), 0.004);
     CHECK (latest.values == std::vector<double> { 1.0, 1.0, 1.0, 2.0 });

@@ -4,7 +4,8 @@
 
 #include "made_trace.hpp"
 
-#include <nodes/friction/elasto_plastic.hpp>
+#include "support/rig.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <Eigen/Geometry>
 #include <rapidcheck/catch.h>
@@ -17,17 +18,18 @@ using namespace tactus::host;
 
 namespace
 {
-/// A friction node that runs, and its ports as traces.
+/// A running friction node, with its ports as traces.
 struct Rub
 {
-    nodes::ElastoPlastic node;
+    static constexpr double d_max = 1e-3, static_ratio = 1.5;
+
+    Rig node { "friction.elasto_plastic" };
     std::map<std::string, std::vector<std::shared_ptr<Trace>>> ports;
     std::uint64_t tick = 0;
 
     Rub()
     {
-        node.params.d_max = 1e-3;
-        node.params.static_ratio = 1.5;
+        node.param ("d_max", d_max).param ("static_ratio", static_ratio).prepare();
         for (const char* port : { "drag.position", "drag.deflection", "drag.force", "drag.normal" })
             for (const char* c : { ".x", ".y", ".z" })
                 ports[port].push_back (emptyTrace (std::string (port) + c));
@@ -37,19 +39,19 @@ struct Rub
 
     void move (const Vec3& p, double load = 1.0)
     {
-        const auto out = node.tick ({ .position = p, .normal_force = load });
+        node.input ("position", p).input ("normal_force", load).tick();
         const auto vector = [this] (const char* port, const Vec3& v)
         {
             for (int i = 0; i < 3; ++i)
                 ports[port][static_cast<std::size_t> (i)]->add (tick, v[i]);
         };
         vector ("drag.position", p);
-        vector ("drag.deflection", out.deflection);
-        vector ("drag.force", out.force);
+        vector ("drag.deflection", node.vector ("deflection"));
+        vector ("drag.force", node.vector ("force"));
         vector ("drag.normal", Vec3::UnitZ());
-        ports["drag.state"][0]->add (tick, out.state);
-        ports["drag.d_max"][0]->add (tick, node.params.d_max);
-        ports["drag.static_ratio"][0]->add (tick, node.params.static_ratio);
+        ports["drag.state"][0]->add (tick, node.out ("state"));
+        ports["drag.d_max"][0]->add (tick, d_max);
+        ports["drag.static_ratio"][0]->add (tick, static_ratio);
         ++tick;
     }
 
@@ -63,7 +65,7 @@ struct Rub
 };
 }   // namespace
 
-TEST_CASE ("scopes: stuck, the anchor rests while the tool moves; sliding, it is dragged within d_stick, against the force", "[app][scopes]")
+TEST_CASE ("scopes: the anchor rests while stuck, and is dragged while sliding, within d_stick and against the force", "[app][scopes]")
 {
     Rub rub;
     CHECK_FALSE (rub.picture());
@@ -96,7 +98,7 @@ TEST_CASE ("scopes: stuck, the anchor rests while the tool moves; sliding, it is
     CHECK_FALSE (rub.picture()->touches());
 }
 
-TEST_CASE ("scopes: the plane is seen from above whichever way it lies, without mirroring", "[app][scopes]")
+TEST_CASE ("scopes: a plane of any orientation is seen from above, without mirroring", "[app][scopes]")
 {
     CHECK (PlaneView (Vec3::UnitZ()).right == Vec3::UnitX());
     CHECK (PlaneView (Vec3::UnitZ()).up == Vec3::UnitY());
@@ -111,10 +113,12 @@ TEST_CASE ("scopes: the plane is seen from above whichever way it lies, without 
         RC_ASSERT (v.right.cross (v.up).dot (n.normalized()) > 0.999); });
 }
 
-TEST_CASE ("scopes: what is written as a table reads back tick for tick, with nan where a trace was not there", "[app][scopes]")
+TEST_CASE ("scopes: saved traces read back tick by tick, with nan where a trace has no value", "[app][scopes]")
 {
-    const auto path = std::filesystem::temp_directory_path() / "tactus_scopes.csv";
-    REQUIRE (writeTraces (path, { traceOf ({ 0.1, 0.2, 0.3 }, 10, 1000.0, "a.force.x"), traceOf ({ 7.0, 8.0 }, 12, 1000.0, "b.depth"), traceOf ({ 0.1 }, 10, 1000.0, "a.force.x") }));
+    const TemporaryFolder folder;
+    const auto path = folder / "scopes.csv";
+    const auto force = traceOf ({ 0.1, 0.2, 0.3 }, 10, 1000.0, "a.force.x"), depth = traceOf ({ 7.0, 8.0 }, 12, 1000.0, "b.depth");
+    REQUIRE (writeTraces (path, { force, depth, traceOf ({ 0.1 }, 10, 1000.0, "a.force.x") }));
     const auto table = readTable (path);
     REQUIRE (table);
     CHECK (table->columns == std::vector<std::string> { "t", "a.force.x", "b.depth" });
@@ -124,6 +128,5 @@ TEST_CASE ("scopes: what is written as a table reads back tick for tick, with na
     CHECK (std::isnan (table->at (0, 2)));
     CHECK (table->at (2, 2) == 7.0);
     CHECK (std::isnan (table->at (3, 1)));
-    std::filesystem::remove (path);
     CHECK (writeTraces (path, {}).error().id == "scope/nothing");
 }

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Strokes a board in the host with the mouse, slowly and fast, and listens: ./test.sh --sound
+"""Strokes a board in the host with the mouse, slowly and fast, and records the sound: ./test.sh --sound
 
 listen.py HOST OUT   writes slow.wav and fast.wav, as a sound card would have played them
 
-The host runs on a display of its own, and plays through a JACK server without hardware. A texture is a pattern in space: what
-is heard has to go up with the speed of the stroke, by as much.
+The host runs on its own display, and plays through a JACK server without hardware. A texture is a pattern in space, so the
+pitch must rise in proportion to the speed of the stroke.
 """
 import pathlib
 import sys
@@ -20,14 +20,14 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "audio"))
 from sound_server import Server  # noqa: E402
 
 RATE = 48000
-SLOW, FAST = 100.0, 300.0  # pixels a second
-STROKES, REACH = 4, 150.0  # to and fro over so many pixels
+SLOW, FAST = 100.0, 300.0  # pixels per second
+STROKES, REACH = 4, 150.0  # strokes back and forth, and their length in pixels
 LOWEST, HIGHEST = 20.0, 1000.0  # Hz
-TOLERANCE = 0.2  # of the ratio of the speeds
+TOLERANCE = 0.2  # relative, on the ratio of the two pitches to the ratio of the speeds
 
 
 def stroke(walk, speed):
-    """To and fro at an even speed, pressed down, as one command, so that nothing comes between."""
+    """Strokes back and forth at a constant speed with the button down, as one command so that nothing interrupts it."""
     x, y = walk.at("Surface")
     step = 0.008  # s
     steps = round(REACH / speed / step)
@@ -42,7 +42,7 @@ def stroke(walk, speed):
 
 
 def heard(file):
-    """The frequency below which half of what was heard is, in Hz, and how loud it was (root of the mean square, full scale 1)."""
+    """The frequency in Hz below which half of the sound's power lies, and the RMS level (full scale 1)."""
     with wave.open(str(file)) as w:
         samples = numpy.frombuffer(w.readframes(w.getnframes()), dtype=numpy.int16)[:: w.getnchannels()] / 32768.0
     spectrum = numpy.abs(numpy.fft.rfft(samples * numpy.hanning(len(samples)))) ** 2
@@ -71,15 +71,15 @@ def main():
             real_speed = stroke(walk, speed)
             capture.wait()
             found[name] = (real_speed, *heard(file))
-            print(f"  {name}: at {real_speed:.0f} pixels a second {found[name][1]:.1f} Hz, loudness {found[name][2]:.4f}", flush=True)
+            print(f"  {name}: at {real_speed:.0f} pixels per second: {found[name][1]:.1f} Hz, loudness {found[name][2]:.4f}", flush=True)
         walk.shot("sound")
     finally:
         walk.end()
         server.end()
     ratio = (found["fast"][1] / found["slow"][1]) / (found["fast"][0] / found["slow"][0])
-    print(f"  the sound went up by {ratio:.2f} times as much as the speed")
+    print(f"  ratio of the pitch change to the speed change: {ratio:.2f}")
     if min(loud for _, _, loud in found.values()) < 1e-3:
-        raise SystemExit("there was silence")
+        raise SystemExit("nothing was heard")
     if abs(ratio - 1.0) > TOLERANCE:
         raise SystemExit("the pitch does not follow the speed")
 

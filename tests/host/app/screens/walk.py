@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Uses the host as a person would, on a display of its own, and takes a picture of each step: ./test.sh --screens
+"""Drives the host with mouse and keyboard on a virtual display, and takes a picture after each step: ./test.sh --screens
 
-walk.py HOST OUT [WIDTHxHEIGHT dark|light]   all sizes and themes if none is given
+walk.py HOST OUT [WIDTHxHEIGHT dark|light]   default: all sizes and themes
 
-It knows where things are from the file that `tactus-host --places` keeps. A step that does not lead to what it should
-fails; whether it looks good is for people, who look at the pictures.
+`tactus-host --places` writes a file that says where things are on the screen. The walk fails if a step does not have the
+expected effect. A person must judge from the pictures in OUT whether the result looks good.
 """
 import json
 import os
@@ -17,7 +17,7 @@ import sys
 import tempfile
 import time
 
-PATIENCE = 30.0  # s, for something that should come
+PATIENCE = 30.0  # s to wait for something to appear
 SIZES, THEMES = ("1280x720", "1920x1080", "3840x2160"), ("dark", "light")
 
 
@@ -72,9 +72,9 @@ class Walk:
         end = time.monotonic() + PATIENCE
         while not so():
             if self.program and self.program.poll() is not None:
-                raise SystemExit(f"the host ended with {self.program.returncode} while this was awaited: {what}")
+                raise SystemExit(f"the host exited with {self.program.returncode} while the walk waited for: {what}")
             if time.monotonic() > end:
-                raise SystemExit(f"{self.size} {self.theme}: after {PATIENCE:.0f} s there is no {what}")
+                raise SystemExit(f"{self.size} {self.theme}: not there after {PATIENCE:.0f} s: {what}")
             time.sleep(0.05)
 
     def at(self, name):
@@ -138,11 +138,11 @@ class Walk:
         print(f"  {file.name}", flush=True)
 
     def problems(self):
-        """The name of their tab while there are some."""
+        """The name of the Problems tab if there are any problems, else None."""
         return next((name for name in self.places()["window"] if name.startswith("Problems ")), None)
 
     def empty_place(self):
-        """Of the canvas, with no node near."""
+        """A point on the canvas with no node near it."""
         nodes = [p for name, p in self.places().items() if isinstance(p, list)]
         canvas = self.at("Canvas")
         return [canvas[0], max(y for _, y in nodes) + 60]
@@ -150,16 +150,16 @@ class Walk:
 
 def walk(w):
     w.start()
-    w.wait(lambda: w.has("Dry wood"), "a welcome with presets")
-    time.sleep(3.0)  # the pictures of forces are drawn meanwhile
+    w.wait(lambda: w.has("Dry wood"), "the welcome page with presets")
+    time.sleep(3.0)  # while the plots of the forces are drawn
     w.shot("welcome")
 
     w.click("Dry wood")
-    w.wait(lambda: w.has("drag"), "the graph of dry wood")
+    w.wait(lambda: w.has("drag"), "the graph of Dry wood")
     time.sleep(1.0)
     w.shot("dry-wood")
 
-    # Stroked with the mouse.
+    # Stroke with the mouse.
     surface = w.at("Surface")
     reach = 90
     w.press([surface[0] - reach, surface[1]])
@@ -169,7 +169,7 @@ def walk(w):
     w.glide([surface[0] - reach, surface[1]], [surface[0] + 20, surface[1]])
     w.shot("stroked")
 
-    # A knob is turned while it presses: H keeps it pressed.
+    # Turn a knob while the tool presses: H keeps it pressed.
     w.key("h")
     w.release()
     mu = w.at("drag.d_max value")
@@ -179,7 +179,7 @@ def walk(w):
     w.release()
     w.key("h")
 
-    # A wire: where it fits is lit; let go on nothing, it asks for a node.
+    # Draw a wire: ports that fit light up. Dropped on empty canvas, it opens the palette.
     start = w.at("hand.position")
     w.press(start)
     w.glide(start, w.at("drag.normal_force"))
@@ -194,17 +194,17 @@ def walk(w):
     w.shot("node-added")
     w.key("ctrl+z")
 
-    # A loop is made, said, and mended.
+    # Make a loop, read the problem, fix it.
     w.drag("drag.deflection", "board.position")
     w.wait(lambda: w.problems(), "a problem")
     w.click(w.problems())
     w.shot("loop")
     w.click("Delay it by a tick")
-    w.wait(lambda: not w.problems(), "an end of the problem")
-    w.shot("loop-mended")
+    w.wait(lambda: not w.problems(), "no problems left")
+    w.shot("loop-fixed")
     w.key("ctrl+z", "ctrl+z")
 
-    # A vibration is layered.
+    # Add a layer.
     w.click("Layers")
     w.shot("no-layers")
     w.click("Add a mixer before the motor")
@@ -215,7 +215,7 @@ def walk(w):
     w.wait(lambda: w.has("desk.in[1]"), "a second layer")
     w.shot("layers")
 
-    # A subgraph is made of two nodes, and entered.
+    # Group two nodes into a subgraph, and enter it.
     w.click("grain")
     w.xdo("keydown", "shift")
     w.click("grain_felt")
@@ -226,7 +226,7 @@ def walk(w):
     w.wait(lambda: w.has("grain") and not w.has("drag"), "the inside of the subgraph")
     w.shot("subgraph")
     w.key("u")
-    w.wait(lambda: w.has("drag"), "the way out")
+    w.wait(lambda: w.has("drag"), "the outer graph")
 
     w.click("History")
     w.shot("history")
@@ -235,16 +235,16 @@ def walk(w):
     w.shot("help")
     w.click("Close")
 
-    # Saved, edited, killed, recovered.
+    # Save, edit, kill, recover.
     w.key("ctrl+s")
     w.shot("save-as")
-    w.key("Return")   # where and as what it proposes
+    w.key("Return")   # accept the proposed folder and name
     saved = w.home / "Documents" / "Tactus" / "dry_wood.json"
     w.wait(saved.exists, "the saved file")
     w.shot("saved")
     damping = w.at("board.damping value")
     w.drag(damping, [damping[0], damping[1] - 30])
-    time.sleep(4.0)  # it is kept soon after the edit
+    time.sleep(4.0)  # the recovery file is written soon after the edit
     w.kill()
     w.start()
     w.wait(lambda: w.has("Recover") or w.has("Recover without running"), "the offer to recover")
@@ -254,7 +254,7 @@ def walk(w):
     w.shot("recovered")
 
     w.click("Devices")
-    time.sleep(1.0)  # what is plugged in is looked for
+    time.sleep(1.0)  # while the host looks for devices
     w.shot("devices")
 
 

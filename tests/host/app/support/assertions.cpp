@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What JUCE asserts: where it fails, a defect of ours is what failed, and the test ends at once.
+// A failed JUCE assertion is a bug in our code, so it aborts the test.
 #include <juce_core/juce_core.h>
 
 #include <cstdlib>
@@ -12,13 +12,13 @@ class Assertions final : public juce::Logger
     void logMessage (const juce::String& message) override
     {
         std::cerr << message << '\n';
-        const bool of_display = message.contains ("XWindowSystem");      // there is none, and a dialog asks for a window of its own
-        const bool at_exit = message.contains ("juce_Singleton.h:50");   // JUCE's shutdown asks for its display once more, and leaves it
+        const bool of_display = message.contains ("XWindowSystem");      // no display, and a dialog opens its own window
+        const bool at_exit = message.contains ("juce_Singleton.h:50");   // JUCE's shutdown creates the display singleton again and leaks it
         if (message.startsWith ("JUCE Assertion failure") && ! of_display && ! at_exit) std::abort();
     }
 };
 
-/// From before the first test to after the last one.
+/// Installs the logger for the whole test run.
 struct Watch
 {
     Watch() { juce::Logger::setCurrentLogger (&logger); }

@@ -11,7 +11,7 @@
 namespace tactus::host::test
 {
 
-/// A canvas on a graph, 1200 by 800, and a hand that works on it.
+/// A canvas of 1200 by 800 pixels with a simulated hand.
 class CanvasRig
 {
 public:
@@ -27,8 +27,8 @@ public:
             choices = entries;
             if (choice < entries.size()) chosen (entries[choice].type);
         };
-        canvas->onWantsNode = [this] (const NodeWish& w)
-        { wish = w; };
+        canvas->onNodeRequested = [this] (const NodeRequest& r)
+        { request = r; };
         canvas->onProbe = [this] (std::vector<std::string> ports)
         { probed = std::move (ports); };
     }
@@ -57,7 +57,7 @@ public:
         return *found;
     }
 
-    /// Where things are, in pixels of the canvas.
+    /// Positions, in pixels of the canvas.
     juce::Point<float> title (const std::string& name) const { return canvas->view().toPixels (node (name).at + juce::Point<float> (40.0f, 14.0f)); }
 
     juce::Point<float> port (const std::string& name, Role role, const std::string& id) const
@@ -76,7 +76,7 @@ public:
         return canvas->view().toPixels (n.at + juce::Point<float> (n.box.width - 20.0f, socket->at.y));
     }
 
-    /// A place with nothing near it.
+    /// An empty spot on the canvas.
     juce::Point<float> nowhere() const { return canvas->view().toPixels (canvas->scene().bounds().getBottomRight() + juce::Point<float> (120.0f, 120.0f)); }
 
     juce::Point<float> middleOf (const std::string& wire) const
@@ -105,7 +105,7 @@ public:
     juce::String hint;
     std::vector<PaletteEntry> choices;
     std::size_t choice = 0;
-    std::optional<NodeWish> wish;
+    std::optional<NodeRequest> request;
     std::vector<std::string> probed;
     Hand hand() { return Hand (*canvas); }
 };

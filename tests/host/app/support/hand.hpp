@@ -6,7 +6,7 @@
 namespace tactus::host::test
 {
 
-/// A mouse and a keyboard that act on a component as if somebody used them, without a display.
+/// A simulated mouse and keyboard for one component. Needs no display.
 class Hand
 {
 public:
@@ -17,7 +17,9 @@ public:
     juce::MouseEvent event (juce::Point<float> at, juce::ModifierKeys mods, int clicks = 1) const
     {
         const auto now = juce::Time::getCurrentTime();
-        return { juce::Desktop::getInstance().getMainMouseSource(), at, mods, juce::MouseInputSource::defaultPressure, 0.0f, 0.0f, 0.0f, 0.0f, &component, &component, now, pressed_at, now, clicks, dragged };
+        const auto mouse = juce::Desktop::getInstance().getMainMouseSource();
+        constexpr float pressure = juce::MouseInputSource::defaultPressure;
+        return { mouse, at, mods, pressure, 0.0f, 0.0f, 0.0f, 0.0f, &component, &component, now, pressed_at, now, clicks, dragged };
     }
 
     void move (juce::Point<float> at) { component.mouseMove (event (at, {})); }

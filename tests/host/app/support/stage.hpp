@@ -6,8 +6,8 @@
 namespace tactus::host::test
 {
 
-/// A window on a screen that is nowhere, with a mouse and a keyboard. What they do goes the way it goes in a real window:
-/// through focus, hovering, menus and whatever else stands before the component that is meant.
+/// A window on a virtual screen, with a simulated mouse and keyboard. Their events take the same path as in a real window:
+/// through focus, hovering, menus and any component in front of the target.
 class Stage final : public juce::Component
 {
 public:
@@ -24,7 +24,7 @@ public:
 
     void paint (juce::Graphics& g) override { g.fillAll (juce::Colours::black); }
 
-    /// A screen to lay menus out on. JUCE forgets it when everything becomes larger or smaller.
+    /// Adds a virtual screen, which menus need for their layout. JUCE drops it when the global scale changes.
     static void plugIn()
     {
         auto& all = const_cast<juce::Array<juce::Displays::Display>&> (juce::Desktop::getInstance().getDisplays().displays);
@@ -50,7 +50,7 @@ public:
         c.setBounds (getLocalBounds());
     }
 
-    /// Places are of this window.
+    /// Positions are relative to this window.
     void move (juce::Point<float> to)
     {
         at = to;
@@ -75,7 +75,7 @@ public:
 
     void click (juce::Point<float> to, int button = juce::ModifierKeys::leftButtonModifier, int keys = 0)
     {
-        later (1000);   // no double click with the one before
+        later (1000);   // so that it is not a double-click
         move (to);
         press (button, keys);
         release();
@@ -119,12 +119,14 @@ public:
         modifiersNow();
     }
 
-    /// As juce::KeyPress describes it.
+    /// The key as described by juce::KeyPress.
     void key (const juce::String& described)
     {
         const auto k = juce::KeyPress::createFromDescription (described);
-        const bool is_written = ! k.getModifiers().isCtrlDown() && ! k.getModifiers().isAltDown() && k.getKeyCode() >= ' ' && k.getKeyCode() < 127;
-        key (juce::KeyPress (k.getKeyCode(), k.getModifiers(), is_written ? juce::CharacterFunctions::toLowerCase (static_cast<juce::juce_wchar> (k.getKeyCode())) : 0));
+        const auto code = k.getKeyCode();
+        const bool is_printable = ! k.getModifiers().isCtrlDown() && ! k.getModifiers().isAltDown() && code >= ' ' && code < 127;
+        const auto character = is_printable ? juce::CharacterFunctions::toLowerCase (static_cast<juce::juce_wchar> (code)) : 0;
+        key (juce::KeyPress (code, k.getModifiers(), character));
     }
 
     void type (const juce::String& text)
@@ -203,7 +205,10 @@ private:
     {
         later (after_ms);
         modifiersNow();
-        if (auto* peer = getPeer()) peer->handleMouseEvent (juce::MouseInputSource::mouse, inPeer(), juce::ModifierKeys (held | down), juce::MouseInputSource::defaultPressure, juce::MouseInputSource::defaultOrientation, time);
+        using Source = juce::MouseInputSource;
+        auto* peer = getPeer();
+        if (peer == nullptr) return;
+        peer->handleMouseEvent (Source::mouse, inPeer(), juce::ModifierKeys (held | down), Source::defaultPressure, Source::defaultOrientation, time);
     }
 
     juce::Point<float> at;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <framework/file/text_file.hpp>
 #include <host/app/window/files.hpp>
-#include <host/io/text_file.hpp>
 
-#include "host/io/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <framework/file/graph_file.hpp>
 
@@ -14,8 +14,8 @@ namespace
 {
 const fs::path wood = TACTUS_SOURCE_DIR "/graphs/dry_wood.json", pad = TACTUS_SOURCE_DIR "/graphs/soft_pad.json";
 
-/// The files of a window without the window.
-struct Desk
+/// The files of a window, without the window.
+struct Rig
 {
     juce::ScopedJuceInitialiser_GUI gui;
     Look look;
@@ -33,27 +33,31 @@ struct Desk
     double now = 1000.0;
     bool runs = false, by_pointer = false;
     int starts = 0;
-    juce::String said;
-    fs::path chosen;   // what a person chooses who is asked; empty: nothing
+    juce::String notice;
+    fs::path chosen;   // the file that the user picks when asked; empty: cancels
     std::unique_ptr<Files> files = make();
 
     std::unique_ptr<Files> make()
     {
-        auto made = std::make_unique<Files> (document, question, settings, Files::Ways { [this] (const juce::String& t)
-                                                                                         { said = t; },
-                                                                                         [this]
-                                                                                         { runs = false; },
-                                                                                         [this] (bool pointer)
-                                                                                         {
-                                                                                             files->beforeRun();
-                                                                                             runs = true;
-                                                                                             by_pointer = pointer;
-                                                                                             ++starts; },
-                                                                                         [this]
-                                                                                         { return runs; },
-                                                                                         [] {}, [this] (bool, const fs::path&, std::function<void (const fs::path&)> then)
-                                                                                         {
-                                                                                             if (! chosen.empty()) then (chosen); } });
+        Files::Callbacks callbacks {
+            .notify = [this] (const juce::String& t)
+            { notice = t; },
+            .stop = [this]
+            { runs = false; },
+            .run = [this] (bool pointer)
+            {
+                files->beforeRun();
+                runs = true;
+                by_pointer = pointer;
+                ++starts; },
+            .isRunning = [this]
+            { return runs; },
+            .onSettings = [] {},
+            .choose = [this] (bool, const fs::path&, const std::function<void (const fs::path&)>& then)
+            {
+                if (! chosen.empty()) then (chosen); }
+        };
+        auto made = std::make_unique<Files> (document, question, settings, std::move (callbacks));
         made->clock = [this]
         { return now; };
         return made;
@@ -61,11 +65,11 @@ struct Desk
 
     void edit (double mu) { REQUIRE (document.perform (graph::SetParam { "", "drag", "mu", Json (mu) })); }
 
-    /// Reads what another run would find if this one was killed now.
-    std::optional<Kept> keptNow() const
+    /// Reads what another instance would find if this one were killed now.
+    std::optional<AutosavedDocument> autosaved() const
     {
         for (const auto& entry : fs::directory_iterator (folder / "sessions"))
-            if (const auto text = readTextFile (entry.path() / "kept.json")) return readKept (*text).kept;
+            if (const auto text = readTextFile (entry.path() / "kept.json")) return *readAutosave (*text);
         return std::nullopt;
     }
     bool isInTrial() const
@@ -77,9 +81,9 @@ struct Desk
 };
 }   // namespace
 
-TEST_CASE ("what is opened runs, is recent, and is not asked about")
+TEST_CASE ("an opened file runs, is listed as recent, and needs no question")
 {
-    Desk d;
+    Rig d;
     d.files->open (wood);
     CHECK_FALSE (d.question.isOpen());
     CHECK (d.document.graph().name == "Dry wood");
@@ -88,16 +92,16 @@ TEST_CASE ("what is opened runs, is recent, and is not asked about")
     CHECK (d.settings.recent == std::vector { wood });
 }
 
-TEST_CASE ("a preset is opened as a copy: saving it asks where to, and leaves the preset as it is")
+TEST_CASE ("a preset is opened as a copy: saving asks for a file, and the preset is unchanged")
 {
-    Desk d;
+    Rig d;
     const auto before = readTextFile (wood);
     d.files->openCopy (wood, true);
     CHECK (d.by_pointer);
     CHECK (d.settings.recent.empty());
     d.edit (0.9);
     d.files->save();
-    CHECK (d.document.isChanged());   // nobody chose a file
+    CHECK (d.document.isChanged());   // no file was chosen
     d.chosen = d.folder / "mine";
     d.files->save();
     CHECK (d.document.file() == d.folder / "mine.json");
@@ -106,22 +110,22 @@ TEST_CASE ("a preset is opened as a copy: saving it asks where to, and leaves th
     CHECK (readTextFile (wood) == before);
 }
 
-TEST_CASE ("a preset that comes with Tactus is not written over by a copy of it")
+TEST_CASE ("a copy of a shipped preset cannot be saved over the preset")
 {
     TemporaryFolder presets;
     fs::copy_file (wood, presets / "dry_wood.json");
     setenv ("TACTUS_PRESETS", presets.path().c_str(), 1);
-    Desk d;
+    Rig d;
     const auto before = presets.textOf ("dry_wood.json");
     d.files->openCopy (presets / "dry_wood.json", false);
     d.edit (0.9);
     d.chosen = presets / "dry_wood.json";
     d.files->save();
-    CHECK (d.said.startsWith ("Not saved"));
+    CHECK (d.notice.startsWith ("Not saved"));
     CHECK (d.document.isChanged());
     CHECK (presets.textOf ("dry_wood.json") == before);
 
-    d.files->open (presets / "dry_wood.json");   // but who opens it as a file means it
+    d.files->open (presets / "dry_wood.json");   // opened as a file, it can be saved
     d.question.answer (1);
     d.edit (0.8);
     d.files->save();
@@ -129,9 +133,9 @@ TEST_CASE ("a preset that comes with Tactus is not written over by a copy of it"
     unsetenv ("TACTUS_PRESETS");
 }
 
-TEST_CASE ("changes are asked about before another graph comes, and Cancel leaves all as it is")
+TEST_CASE ("opening another graph asks about unsaved changes, and Cancel changes nothing")
 {
-    Desk d;
+    Rig d;
     d.files->open (wood);
     d.edit (0.9);
     const auto edited = writeGraph (d.document.graph());
@@ -152,9 +156,9 @@ TEST_CASE ("changes are asked about before another graph comes, and Cancel leave
     }
 }
 
-TEST_CASE ("Don't save goes on, and undo brings back what was not saved")
+TEST_CASE ("Don't save continues, and undo brings back the unsaved changes")
 {
-    Desk d;
+    Rig d;
     d.files->open (wood);
     d.edit (0.9);
     d.files->open (pad);
@@ -165,15 +169,15 @@ TEST_CASE ("Don't save goes on, and undo brings back what was not saved")
     CHECK (d.document.file() == wood);
 }
 
-TEST_CASE ("Save saves and goes on; where it cannot be saved, nothing goes on")
+TEST_CASE ("Save saves and continues; if saving fails, it does not continue")
 {
-    Desk d;
+    Rig d;
     d.files->openCopy (wood, false);
     d.edit (0.9);
     d.files->open (pad);
     d.chosen = d.folder / "nowhere" / "mine.json";
     d.question.answer (0);
-    CHECK (d.said.startsWith ("Not saved"));
+    CHECK (d.notice.startsWith ("Not saved"));
     CHECK (d.document.graph().name == "Dry wood");
     CHECK (d.document.isChanged());
 
@@ -184,20 +188,20 @@ TEST_CASE ("Save saves and goes on; where it cannot be saved, nothing goes on")
     CHECK (loadGraph (d.folder / "mine.json").graph.root.find ("drag")->params["mu"] == 0.9);
 }
 
-TEST_CASE ("a file that cannot be read is said with its place, and what is open stays")
+TEST_CASE ("a file that cannot be read is reported with line and column, and the open graph stays")
 {
-    Desk d;
+    Rig d;
     d.files->open (wood);
     d.folder.write ("torn.json", "{\n  \"format\": \"tactus-graph\",\n  \"version\": 1, oops\n}");
     d.files->open (d.folder / "torn.json");
-    CHECK (d.said.startsWith ("torn.json:3:"));
+    CHECK (d.notice.startsWith ("torn.json:3:"));
     CHECK (d.document.graph().name == "Dry wood");
     CHECK (d.runs);
 }
 
-TEST_CASE ("a second after each edit what is kept is the document")
+TEST_CASE ("a second after each edit, the autosave matches the document")
 {
-    Desk d;
+    Rig d;
     d.files->beginSession (d.folder.path());
     d.files->open (wood);
     d.runs = false;
@@ -217,30 +221,30 @@ TEST_CASE ("a second after each edit what is kept is the document")
         }
         d.now += 1.1;
         d.files->attend();
-        const auto kept = d.keptNow();
-        REQUIRE (kept);
-        REQUIRE (kept->graph == writeGraph (d.document.graph()));
-        REQUIRE (kept->changed == d.document.isChanged());
-        REQUIRE (kept->file == d.document.file());
+        const auto saved = d.autosaved();
+        REQUIRE (saved);
+        REQUIRE (saved->graph == writeGraph (d.document.graph()));
+        REQUIRE (saved->changed == d.document.isChanged());
+        REQUIRE (saved->file == d.document.file());
     }
 }
 
-TEST_CASE ("a drag is not written to the disk with each of its steps")
+TEST_CASE ("a drag is not autosaved at each step")
 {
-    Desk d;
+    Rig d;
     d.files->beginSession (d.folder.path());
     d.files->open (wood);
     d.runs = false;
-    const auto before = d.keptNow()->graph;
+    const auto before = d.autosaved()->graph;
     d.edit (0.9);
     d.now += 0.5;
     d.files->attend();
-    CHECK (d.keptNow()->graph == before);
+    CHECK (d.autosaved()->graph == before);
 }
 
-TEST_CASE ("an edit while it runs is kept before it runs, and is a trial for ten seconds")
+TEST_CASE ("an edit during a run is autosaved before it runs, and counts as a trial for ten seconds")
 {
-    Desk d;
+    Rig d;
     d.files->beginSession (d.folder.path());
     d.files->open (wood);
     CHECK (d.isInTrial());
@@ -250,24 +254,24 @@ TEST_CASE ("an edit while it runs is kept before it runs, and is a trial for ten
 
     d.edit (0.9);
     CHECK (d.isInTrial());
-    CHECK (d.keptNow()->graph == writeGraph (d.document.graph()));
+    CHECK (d.autosaved()->graph == writeGraph (d.document.graph()));
     d.now += 5.0;
     d.files->attend();
     CHECK (d.isInTrial());
-    d.runs = false;   // stopped by a person: it did not end the program
+    d.runs = false;   // stopped by the user: it did not crash the program
     d.files->attend();
     CHECK_FALSE (d.isInTrial());
 }
 
-TEST_CASE ("a crash is recovered, unsaved, as a step that can be undone")
+TEST_CASE ("a recovered document is unsaved, and recovering it can be undone")
 {
     TemporaryFolder home;
     auto graph = loadGraph (wood).graph;
     graph.root.nodes[2].params["mu"] = 0.77;
     const auto folder = home / "sessions" / "gone";
-    REQUIRE (! writeTextFile (folder / "kept.json", writeKept ({ wood, {}, true, 988.0, writeGraph (graph) })));
+    REQUIRE (writeTextFile (folder / "kept.json", writeAutosave ({ wood, {}, true, 988.0, writeGraph (graph) })));
 
-    Desk d;
+    Rig d;
     d.files->beginSession (home.path());
     REQUIRE (d.files->recover());
     REQUIRE (d.question.isOpen());
@@ -282,27 +286,27 @@ TEST_CASE ("a crash is recovered, unsaved, as a step that can be undone")
     CHECK (fs::is_empty (home / "sessions"));
 }
 
-TEST_CASE ("what was killed as it started does not run until START is pressed")
+TEST_CASE ("a graph that was killed as it started does not run until START is pressed")
 {
     TemporaryFolder home;
     const auto folder = home / "sessions" / "gone";
-    REQUIRE (! writeTextFile (folder / "kept.json", writeKept ({ wood, {}, false, 988.0, writeGraph (loadGraph (wood).graph) })));
-    REQUIRE (! writeTextFile (folder / "trial", "\n"));
-    Desk d;
+    REQUIRE (writeTextFile (folder / "kept.json", writeAutosave ({ wood, {}, false, 988.0, writeGraph (loadGraph (wood).graph) })));
+    REQUIRE (writeTextFile (folder / "trial", "\n"));
+    Rig d;
     d.files->beginSession (home.path());
     REQUIRE (d.files->recover());
-    d.question.answer (0);   // the one that Return takes
+    d.question.answer (0);   // the choice that Return picks
     CHECK (d.document.graph().name == "Dry wood");
     CHECK_FALSE (d.runs);
-    CHECK (d.said.contains ("START"));
+    CHECK (d.notice.contains ("START"));
     CHECK_FALSE (d.document.isChanged());
 }
 
-TEST_CASE ("in safe mode nothing that is opened or recovered runs")
+TEST_CASE ("in safe mode, opened and recovered graphs do not run")
 {
     TemporaryFolder home;
-    REQUIRE (! writeTextFile (home / "sessions" / "gone" / "kept.json", writeKept ({ wood, {}, true, 988.0, writeGraph (loadGraph (wood).graph) })));
-    Desk d;
+    REQUIRE (writeTextFile (home / "sessions" / "gone" / "kept.json", writeAutosave ({ wood, {}, true, 988.0, writeGraph (loadGraph (wood).graph) })));
+    Rig d;
     d.files->setSafe (true);
     d.files->beginSession (home.path());
     REQUIRE (d.files->recover());
@@ -315,12 +319,12 @@ TEST_CASE ("in safe mode nothing that is opened or recovered runs")
     CHECK_FALSE (d.runs);
 }
 
-TEST_CASE ("Later keeps what a crash left for the next start, Discard does not")
+TEST_CASE ("Later keeps a crashed session for the next start, Discard deletes it")
 {
     TemporaryFolder home;
     const auto folder = home / "sessions" / "gone";
-    REQUIRE (! writeTextFile (folder / "kept.json", writeKept ({ wood, {}, true, 988.0, writeGraph (loadGraph (wood).graph) })));
-    Desk d;
+    REQUIRE (writeTextFile (folder / "kept.json", writeAutosave ({ wood, {}, true, 988.0, writeGraph (loadGraph (wood).graph) })));
+    Rig d;
     d.files->beginSession (home.path());
     REQUIRE (d.files->recover());
     d.question.cancel();
@@ -331,19 +335,19 @@ TEST_CASE ("Later keeps what a crash left for the next start, Discard does not")
     CHECK_FALSE (d.files->recover());
 }
 
-TEST_CASE ("a program that has to end at once keeps what is not saved, and only that")
+TEST_CASE ("a program that must close suddenly autosaves unsaved changes, and nothing else")
 {
-    Desk d;
+    Rig d;
     d.files->beginSession (d.folder.path());
     d.files->open (wood);
     d.edit (0.9);
     d.files->endSuddenly();
-    const auto left = leftoversIn (d.folder.path());
+    const auto left = findCrashedSessions (d.folder.path());
     REQUIRE (left.size() == 1);
-    CHECK (left[0].kept().graph == writeGraph (d.document.graph()));
+    CHECK (left[0].document().graph == writeGraph (d.document.graph()));
     CHECK_FALSE (left[0].endedInTrial());
 
-    Desk e;
+    Rig e;
     e.files->beginSession (e.folder.path());
     e.files->open (wood);
     e.files->endSuddenly();

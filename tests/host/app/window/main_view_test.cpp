@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <host/app/window/main_view.hpp>
 
-#include "host/io/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <framework/file/graph_file.hpp>
 
@@ -26,7 +26,7 @@ struct Opened
     } as_default { look };
     TemporaryFolder home, mine;
     const int mine_is_set = setenv ("TACTUS_GRAPHS", (mine / "own").c_str(), 1);
-    const fs::path wood = mine / "wood.json";   // a copy, since tests save
+    const fs::path wood = mine / "wood.json";   // a copy, because tests save
     std::unique_ptr<MainView> view = make();
 
     std::unique_ptr<MainView> make()
@@ -41,7 +41,7 @@ struct Opened
 };
 }   // namespace
 
-TEST_CASE ("the first start welcomes, and one click runs a preset with the mouse as the hand")
+TEST_CASE ("the first start shows the welcome page, and one click runs a preset with the mouse as the hand")
 {
     Opened o;
     o.view->begin ({ o.home.path() });
@@ -52,13 +52,13 @@ TEST_CASE ("the first start welcomes, and one click runs a preset with the mouse
     o.view->welcomePage().onFeel (first.file);
     CHECK_FALSE (o.view->welcomePage().isVisible());
     CHECK (o.view->run().isRunning());
-    CHECK (o.view->run().hand() == Performance::Hand::pointer());
+    CHECK (o.view->run().hand() == LiveRun::Hand::pointer());
     CHECK (o.view->document().file().empty());
     o.view->document().undo();
-    CHECK_FALSE (o.view->welcomePage().isVisible());   // an empty graph is a graph too, once something was open
+    CHECK_FALSE (o.view->welcomePage().isVisible());   // an empty graph does not bring it back
 }
 
-TEST_CASE ("Esc stops the forces first, and then closes what is open")
+TEST_CASE ("Esc stops the forces first, then closes what is open")
 {
     Opened o;
     o.view->begin ({ o.home.path(), false, false, { o.wood } });
@@ -73,7 +73,7 @@ TEST_CASE ("Esc stops the forces first, and then closes what is open")
     CHECK_FALSE (o.view->helpPanel().isOpen());
 }
 
-TEST_CASE ("a run that was stopped stays stopped while one edits")
+TEST_CASE ("a stopped run stays stopped during edits")
 {
     Opened o;
     o.view->begin ({ o.home.path(), false, false, { o.wood } });
@@ -82,28 +82,28 @@ TEST_CASE ("a run that was stopped stays stopped while one edits")
     CHECK_FALSE (o.view->run().isWanted());
 }
 
-TEST_CASE ("safe mode shows a file and does not run it, not even when it is edited")
+TEST_CASE ("safe mode opens a file without running it, even after an edit")
 {
     Opened o;
     o.view->begin ({ o.home.path(), true, false, { o.wood } });
     CHECK (o.view->document().graph().name == "Dry wood");
-    o.view->canvas().hint ("N");   // what is under the pointer is said meanwhile
-    CHECK (o.view->saying() == "N");
+    o.view->canvas().hint ("N");   // a hint about what is under the pointer
+    CHECK (o.view->statusText() == "N");
     o.view->canvas().hint ({});
-    CHECK (o.view->saying().contains ("START"));
+    CHECK (o.view->statusText().contains ("START"));
     REQUIRE (o.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.5) }));
     CHECK_FALSE (o.view->run().isWanted());
-    CHECK_FALSE (o.view->saying().contains ("START"));
+    CHECK_FALSE (o.view->statusText().contains ("START"));
 }
 
-TEST_CASE ("digits recall snapshots, and with Ctrl they store them")
+TEST_CASE ("digits recall snapshots, and Ctrl+digit stores them")
 {
     Opened o;
     o.view->begin ({ o.home.path(), true, false, { o.wood } });
     const auto mu = [&]
     { return o.view->document().graph().root.find ("drag")->params["mu"]; };
     o.press ("2");
-    CHECK (o.view->saying().contains ("empty"));
+    CHECK (o.view->statusText().contains ("empty"));
     o.press ("ctrl + 2");
     REQUIRE (hasSnapshot (o.view->document().graph(), 2));
     REQUIRE (o.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.9) }));
@@ -113,7 +113,7 @@ TEST_CASE ("digits recall snapshots, and with Ctrl they store them")
     CHECK (mu() == 0.9);
 }
 
-TEST_CASE ("the window closes only when what is not saved was decided")
+TEST_CASE ("the window closes only after the question about unsaved changes is answered")
 {
     Opened o;
     o.view->begin ({ o.home.path(), true, false, { o.wood } });
@@ -124,13 +124,13 @@ TEST_CASE ("the window closes only when what is not saved was decided")
     REQUIRE (o.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.5) }));
     close();
     REQUIRE (o.view->asked().isOpen());
-    o.press ("spacebar");   // Return and space take what is marked; the arrows mark
+    o.press ("spacebar");   // Return and Space pick the marked choice; the arrow keys move the mark
     CHECK (o.view->asked().isOpen() == false);
     CHECK (closed == 1);
     CHECK (loadGraph (o.wood).graph.root.find ("drag")->params["mu"] == 0.5);
 }
 
-TEST_CASE ("keys reach only the question while one is open")
+TEST_CASE ("while a question is open, keys go only to the question")
 {
     Opened o;
     o.view->begin ({ o.home.path(), true, false, { o.wood } });
@@ -149,13 +149,13 @@ TEST_CASE ("keys reach only the question while one is open")
     CHECK (o.view->document().graph().root.nodes.empty());
 }
 
-TEST_CASE ("help on a node is its datasheet, and its example opens a graph that has one")
+TEST_CASE ("help on a node shows its datasheet, and its example opens a graph that contains the node")
 {
     Opened o;
     o.view->begin ({ o.home.path(), true });
     for (const auto& type : catalogue())
     {
-        o.view->showHelp (std::string (type.info.id));
+        o.view->helpPanel().showNode (std::string (type.info.id));
         REQUIRE (o.view->helpPanel().type() == type.info.id);
         o.view->helpPanel().onExample (o.view->helpPanel().type());
         INFO (type.info.id);
@@ -171,13 +171,13 @@ TEST_CASE ("help on a node is its datasheet, and its example opens a graph that 
             look (patch);
         REQUIRE (has);
     }
-    o.view->showHelp ("foo.bar");
+    o.view->helpPanel().showNode ("foo.bar");
     CHECK (o.view->helpPanel().isOpen());
-    o.view->showHelp ("graph:grain");
+    o.view->helpPanel().showNode ("graph:grain");
     CHECK (o.view->helpPanel().isOpen());
 }
 
-TEST_CASE ("the browser finds by words and keeps favourites above the rest")
+TEST_CASE ("the browser searches by words and lists favourites first")
 {
     Opened o;
     o.view->begin ({ o.home.path(), true });
@@ -190,7 +190,7 @@ TEST_CASE ("the browser finds by words and keeps favourites above the rest")
     REQUIRE_FALSE (browser.rows().empty());
     browser.search ({});
     CHECK (browser.rows().size() == all);
-    CHECK (browser.rows().front().heading.isEmpty());   // one section alone needs no heading
+    CHECK (browser.rows().front().heading.isEmpty());   // a single section needs no heading
 
     Preset opened;
     bool is_own = true;
@@ -206,18 +206,18 @@ TEST_CASE ("the browser finds by words and keeps favourites above the rest")
     CHECK_FALSE (is_own);
 }
 
-TEST_CASE ("a preset is felt while it is held, and the document is as it was before and after")
+TEST_CASE ("a preset is previewed while the button is held, and the document does not change")
 {
     Opened o;
     o.view->begin ({ o.home.path(), false, false, { o.wood } });
     REQUIRE (o.view->run().isRunning());
     const auto before = writeGraph (o.view->document().graph());
     o.view->preview (TACTUS_SOURCE_DIR "/graphs/soft_pad.json");
-    CHECK (o.view->previews());
+    CHECK (o.view->isPreviewing());
     CHECK_FALSE (o.view->run().isRunning());
-    CHECK (o.view->saying().startsWith ("Soft pad"));
+    CHECK (o.view->statusText().startsWith ("Soft pad"));
     o.view->endPreview();
-    CHECK_FALSE (o.view->previews());
+    CHECK_FALSE (o.view->isPreviewing());
     CHECK (o.view->run().isRunning());
     CHECK (writeGraph (o.view->document().graph()) == before);
     CHECK (o.view->document().history().names().size() == 1);
@@ -225,10 +225,10 @@ TEST_CASE ("a preset is felt while it is held, and the document is as it was bef
     o.press ("escape");
     o.view->preview (TACTUS_SOURCE_DIR "/graphs/soft_pad.json");
     o.view->endPreview();
-    CHECK_FALSE (o.view->run().isWanted());   // what was stopped stays stopped
+    CHECK_FALSE (o.view->run().isWanted());   // it was stopped before the preview
 }
 
-TEST_CASE ("light colours by option are for this start only")
+TEST_CASE ("the option --light applies to this start only")
 {
     Opened o;
     o.view->begin ({ o.home.path(), true, true });
@@ -237,7 +237,7 @@ TEST_CASE ("light colours by option are for this start only")
     CHECK (o.home.textOf ("settings.json").find ("\"theme\": \"dark\"") != std::string::npos);
 }
 
-TEST_CASE ("settings are remembered from one start to the next, and damaged ones are said")
+TEST_CASE ("settings persist between starts, and damaged ones are reported")
 {
     Opened o;
     o.home.write ("settings.json", R"({"theme": "light", "panels": {"left": 300}, "favourites": [")" TACTUS_SOURCE_DIR R"(/graphs/dry_wood.json"]})");

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "mesh_walk.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace tactus
+{
+
+namespace
+{
+std::vector<std::array<bool, 3>> rimOf (const Mesh& mesh)
+{
+    std::map<std::pair<int, int>, int> sides;   // of each edge
+    const auto edge = [] (const std::array<int, 3>& corners, std::size_t opposite)
+    { return std::minmax (corners[(opposite + 1) % 3], corners[(opposite + 2) % 3]); };
+    for (const auto& corners : mesh.triangles)
+        for (std::size_t i = 0; i < 3; ++i)
+            ++sides[edge (corners, i)];
+
+    std::vector<std::array<bool, 3>> rim;
+    for (const auto& corners : mesh.triangles)
+        rim.push_back ({ sides[edge (corners, 0)] == 1, sides[edge (corners, 1)] == 1, sides[edge (corners, 2)] == 1 });
+    return rim;
+}
+}   // namespace
+
+MeshWalk::MeshWalk (Mesh m) : body (std::move (m)), rim (rimOf (body)), first (body.points.size() + 1, 0), around (3 * body.triangles.size())
+{
+    double size = 0.0;
+    for (const auto& point : body.points)
+        size = std::max (size, point.cwiseAbs().maxCoeff());
+    const Vec3 slack = Vec3::Constant (1e-12 * size);   // far more than the error of a computed point
+    for (int t = 0; t < body.size(); ++t)
+    {
+        const auto [a, b, c] = cornersOf (body, t);
+        boxes.push_back ({ a.cwiseMin (b).cwiseMin (c) - slack, a.cwiseMax (b).cwiseMax (c) + slack });
+        if (t % block == 0) blocks.push_back (boxes.back());
+        blocks.back().low = blocks.back().low.cwiseMin (boxes.back().low);
+        blocks.back().high = blocks.back().high.cwiseMax (boxes.back().high);
+    }
+
+    for (const auto& corners : body.triangles)
+        for (const int c : corners)
+            ++first[at (c + 1)];
+    for (std::size_t i = 1; i < first.size(); ++i)
+        first[i] += first[i - 1];
+
+    auto next = first;
+    for (int t = 0; t < body.size(); ++t)
+        for (const int c : body.triangles[at (t)])
+            around[at (next[at (c)]++)] = t;
+}
+
+/// Everything within a distance of p.
+class MeshWalk::Reach
+{
+public:
+    Reach (const Vec3& p, double distance2) noexcept : centre (p) { shrinkTo (distance2); }
+
+    void shrinkTo (double distance2) noexcept
+    {
+        if (! (distance2 < square)) return;
+        square = distance2;
+        const Vec3 reach = Vec3::Constant (std::sqrt (distance2) * (1.0 + rounding));
+        around = { centre - reach, centre + reach };
+    }
+
+    /// True if everything in the box is certainly out of reach. False is inconclusive.
+    bool misses (const Box& box) const noexcept
+    {
+        for (int i = 0; i < 3; ++i)
+            if (box.low[i] > around.high[i] || box.high[i] < around.low[i]) return true;
+        return (box.low - centre).cwiseMax (centre - box.high).cwiseMax (0.0).squaredNorm() * (1.0 - rounding) > square;
+    }
+
+private:
+    static constexpr double rounding = 1e-12;   // relative
+    static constexpr double endless = std::numeric_limits<double>::infinity();
+
+    Vec3 centre;
+    Box around { Vec3::Constant (-endless), Vec3::Constant (endless) };
+    double square = endless;
+};
+
+Spot MeshWalk::nearestOfAll (const Vec3& p, int guess) const noexcept
+{
+    Spot best;
+    double least = std::numeric_limits<double>::infinity();
+    Reach reach { p, guess >= 0 ? (spotOn (guess, p).on.point - p).squaredNorm() : least };
+    for (int t = 0; t < body.size(); ++t)
+    {
+        if (t % block == 0 && reach.misses (blocks[at (t / block)]))
+        {
+            t += block - 1;
+            continue;
+        }
+        if (reach.misses (boxes[at (t)])) continue;
+        const Spot there = spotOn (t, p);
+        if (const double distance2 = (there.on.point - p).squaredNorm(); distance2 < least)
+        {
+            best = there;
+            least = distance2;
+            reach.shrinkTo (distance2);
+        }
+    }
+    return best.triangle < 0 ? spotOn (0, p) : best;
+}
+
+Spot MeshWalk::nearest (int from, const Vec3& p) const noexcept
+{
+    constexpr int most = 1000;         // steps: more than a hand needs in a tick on any mesh, and a bound on the walk
+    constexpr double nearer = 1e-12;   // relative: neighbours on a common edge are equally near but for rounding
+
+    Spot here = spotOn (from, p);
+    for (int step = 0; step < most; ++step)
+    {
+        Spot best = here;
+        double least = (here.on.point - p).squaredNorm() * (1.0 - nearer);
+        Reach reach { p, least };
+        for (std::size_t c = 0; c < 3; ++c)
+        {
+            if (here.on.weights[c] <= 0.0) continue;   // anything nearer lies beyond the other two corners
+            const auto corner = at (body.triangles[at (here.triangle)][c]);
+            for (int i = first[corner]; i < first[corner + 1]; ++i)
+            {
+                const int neighbour = around[at (i)];
+                if (neighbour == here.triangle || reach.misses (boxes[at (neighbour)])) continue;
+                const Spot there = spotOn (neighbour, p);
+                if (const double distance2 = (there.on.point - p).squaredNorm(); distance2 < least)
+                {
+                    best = there;
+                    least = distance2;
+                    reach.shrinkTo (distance2);
+                }
+            }
+        }
+        if (best.triangle == here.triangle) break;
+        here = best;
+    }
+    return here;
+}
+
+bool MeshWalk::isBeyondRim (const Spot& spot, const Vec3& p) const noexcept
+{
+    constexpr double further = 0.7071;   // share of the distance: more outwards than up or down
+    const Vec3 away = p - spot.on.point;
+    const auto passes = [&] (int triangle)
+    {
+        for (int i = 0; i < 3; ++i)
+        {
+            if (! rim[at (triangle)][at (i)]) continue;
+            const Vec3& a = body.corner (triangle, (i + 1) % 3);
+            const Vec3& b = body.corner (triangle, (i + 2) % 3);
+            const Vec3 along = b - a, inward = body.corner (triangle, i) - a;
+            if (along.cross (spot.on.point - a).norm() > 1e-9 * along.squaredNorm()) continue;   // on another edge
+            const Vec3 outward = -direction (inward - along * (inward.dot (along) / along.squaredNorm()));
+            const Vec3 up = direction (along.cross (inward));
+            if (outward.dot (away) > 0.0 && (away - up.dot (away) * up).norm() > further * away.norm()) return true;
+        }
+        return false;
+    };
+
+    const auto& weights = spot.on.weights;
+    for (std::size_t i = 0; i < 3; ++i)
+        if (weights[i] == 1.0)
+        {
+            const auto corner = at (body.triangles[at (spot.triangle)][i]);
+            return std::any_of (around.begin() + first[corner], around.begin() + first[corner + 1], passes);
+        }
+    return std::ranges::count (weights, 0.0) > 0 && passes (spot.triangle);
+}
+
+bool isInsideOut (const Mesh& mesh)
+{
+    const auto isOpen = [] (const std::array<bool, 3>& edges)
+    { return edges[0] || edges[1] || edges[2]; };
+    if (std::ranges::any_of (rimOf (mesh), isOpen)) return false;
+    double volume = 0.0;
+    for (int t = 0; t < mesh.size(); ++t)
+        volume += mesh.corner (t, 0).dot (mesh.corner (t, 1).cross (mesh.corner (t, 2)));
+    return volume < 0.0;
+}
+
+std::vector<Vec3> normalsOf (const Mesh& mesh)
+{
+    std::vector<Vec3> normals (mesh.points.size(), Vec3::Zero());
+    for (int t = 0; t < mesh.size(); ++t)
+        for (int c = 0; c < 3; ++c)
+        {
+            const Vec3& corner = mesh.corner (t, c);
+            const Vec3 u = mesh.corner (t, (c + 1) % 3) - corner, v = mesh.corner (t, (c + 2) % 3) - corner, n = u.cross (v);
+            normals[at (mesh.triangles[at (t)][at (c)])] += direction (n) * std::atan2 (n.norm(), u.dot (v));
+        }
+    for (auto& n : normals)
+        n = direction (n);
+    return normals;
+}
+
+}   // namespace tactus

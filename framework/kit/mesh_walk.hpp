@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "nearest_triangle.hpp"
+
+#include <Eigen/Geometry>
+
+namespace tactus
+{
+
+using Corners = std::array<Vec3, 3>;
+
+inline Corners cornersOf (const Mesh& mesh, int triangle) noexcept
+{
+    return { mesh.corner (triangle, 0), mesh.corner (triangle, 1), mesh.corner (triangle, 2) };
+}
+
+/// The outward normal of a triangle. Its length is twice the area.
+inline Vec3 areaNormal (const Corners& c) noexcept { return (c[1] - c[0]).cross (c[2] - c[0]); }
+
+/// The gradients of the barycentric weights over the triangle, in 1/m.
+inline std::array<Vec3, 3> gradientsOf (const Corners& c) noexcept
+{
+    const Vec3 n = areaNormal (c), over = n / n.squaredNorm();
+    return { over.cross (c[2] - c[1]), over.cross (c[0] - c[2]), over.cross (c[1] - c[0]) };
+}
+
+/// A point on a mesh.
+struct Spot
+{
+    int triangle = -1;   ///< negative: none
+    OnTriangle on {};
+};
+
+/// A mesh that a contact point moves over: from a triangle to its neighbours, a few at a time, without a search.
+class MeshWalk
+{
+public:
+    explicit MeshWalk (Mesh);   ///< all indices of its triangles must be valid
+
+    const Mesh& mesh() const noexcept { return body; }
+
+    Spot spotOn (int triangle, const Vec3& p) const noexcept { return { triangle, nearestOn (body, triangle, p) }; }
+
+    /// Walks from a triangle towards p while each step comes nearer, and returns where it ends. On an edge it stays on its
+    /// current triangle. [any thread]
+    Spot nearest (int from, const Vec3& p) const noexcept;
+
+    /// True if the spot lies on the rim of an open mesh and p is beyond it: p is farther out past the rim than it is above or
+    /// below the mesh. [any thread]
+    bool isBeyondRim (const Spot&, const Vec3& p) const noexcept;
+
+    /// The nearest point of the whole mesh. Looks at few triangles if `guess` is a nearby one. [any thread]
+    Spot nearestOfAll (const Vec3& p, int guess = -1) const noexcept;
+
+private:
+    /// Encloses one triangle or several, with a little slack.
+    struct Box
+    {
+        Vec3 low, high;
+    };
+
+    class Reach;
+
+    Mesh body;
+    static constexpr int block = 8;   // triangles; neighbours in a list are mostly neighbours on the mesh
+
+    std::vector<Box> boxes;
+    std::vector<Box> blocks;                // each encloses `block` successive triangles
+    std::vector<std::array<bool, 3>> rim;   // of each triangle: the edge opposite each corner has no other triangle
+    std::vector<int> first, around;         // around[first[i]] … around[first[i + 1]]: the triangles that share point i
+};
+
+/// True for a closed mesh whose triangles run clockwise as seen from outside. An open mesh has no inside.
+bool isInsideOut (const Mesh&);
+
+/// The outward normal at each point: the mean of the normals of its triangles, weighted by their angles there. 0 for a point
+/// without triangles. Source: Baerentzen & Aanaes 2005.
+std::vector<Vec3> normalsOf (const Mesh&);
+
+}   // namespace tactus

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vec3.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus
+{
+
+using Mat3 = Eigen::Matrix3d;
+
+/// The matrix of a rotation vector: right-handed about its direction, by its length in rad.
+inline Mat3 rotationMatrix (const Vec3& rotation) noexcept
+{
+    const double angle = std::hypot (rotation.x(), rotation.y(), rotation.z());
+    return Eigen::AngleAxisd { angle, direction (rotation) }.toRotationMatrix();
+}
+
+/// A unit vector at right angles to the unit vector v: z projected onto the plane of v, or x if v is within 45 degrees of z.
+inline Vec3 perpendicularTo (const Vec3& v) noexcept
+{
+    const Vec3 start = 2.0 * v.z() * v.z() < 1.0 ? Vec3::UnitZ() : Vec3::UnitX();
+    return (start - start.dot (v) * v).normalized();
+}
+
+/// The shortest rotation that turns the direction of `from` into the direction of `to`. Neither may be 0.
+///
+/// The same bits as Eigen's FromTwoVectors, except for opposite directions. There Eigen finds the axis by a singular value
+/// decomposition, which takes ten seconds to compile in every file that includes it. Here opposite directions (within
+/// 1.4e-6 rad) take a half turn about perpendicularTo (from) and the short rotation from there to `to`.
+///
+/// As in Eigen, the error grows as the directions become opposite: about 1e-15 / (1 + cosine of the angle between them).
+inline Eigen::Quaterniond shortestRotation (const Vec3& from, const Vec3& to) noexcept
+{
+    const Vec3 v0 = from.normalized();
+    const Vec3 v1 = to.normalized();
+    const auto arc = [] (const Vec3& a, const Vec3& b, double cosine)
+    {
+        const Vec3 axis = a.cross (b);
+        const double s = std::sqrt ((1.0 + cosine) * 2.0), inverse = 1.0 / s;
+        return Eigen::Quaterniond { s * 0.5, axis.x() * inverse, axis.y() * inverse, axis.z() * inverse };
+    };
+
+    const double cosine = v1.dot (v0);
+    if (! (cosine < -1.0 + 1e-12)) return arc (v0, v1, cosine);
+
+    const Vec3 axis = perpendicularTo (v0);
+    return arc (-v0, v1, -cosine) * Eigen::Quaterniond { 0.0, axis.x(), axis.y(), axis.z() };
+}
+
+}   // namespace tactus

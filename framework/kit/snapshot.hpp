@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+namespace tactus
+{
+
+/// The latest value of something, published by one thread and read by any number of threads. A reader always gets a value
+/// that was stored as a whole. The writer never waits; a reader tries again if a store came in between.
+///
+/// A sequence lock (Boehm, "Can seqlocks get along with programming language memory models?", 2012): the sequence number
+/// is odd while the writer stores. Thread sanitizers do not understand fences, so the words are stored with release and
+/// loaded with acquire instead: a reader that sees a word of a later value also sees its odd number.
+template <typename T>
+class Snapshot
+{
+    static_assert (std::is_trivially_copyable_v<T> && sizeof (T) % sizeof (std::uint64_t) == 0);
+
+public:
+    explicit Snapshot (const T& first = {}) noexcept { store (first); }
+
+    /// Only the first `bytes` of the value may differ from the last one stored. [writing thread]
+    void store (const T& value, std::size_t bytes = sizeof (T)) noexcept
+    {
+        const auto n = sequence.load (std::memory_order_relaxed);
+        sequence.store (n + 1, std::memory_order_relaxed);
+        const auto* from = reinterpret_cast<const std::byte*> (&value);
+        for (std::size_t i = 0; i * sizeof (std::uint64_t) < bytes; ++i)
+        {
+            std::uint64_t word = 0;
+            std::memcpy (&word, from + i * sizeof word, sizeof word);
+            words[i].store (word, std::memory_order_release);
+        }
+        sequence.store (n + 2, std::memory_order_release);
+    }
+
+    /// [any thread]
+    T load() const noexcept
+    {
+        std::array<std::uint64_t, sizeof (T) / sizeof (std::uint64_t)> copy;
+        for (;;)
+        {
+            const auto n = sequence.load (std::memory_order_acquire);
+            for (std::size_t i = 0; i < copy.size(); ++i)
+                copy[i] = words[i].load (std::memory_order_acquire);
+            if (n % 2 == 0 && sequence.load (std::memory_order_relaxed) == n) break;
+        }
+        T value;
+        std::memcpy (static_cast<void*> (&value), copy.data(), sizeof value);
+        return value;
+    }
+
+private:
+    std::atomic<std::uint64_t> sequence = 0;
+    std::array<std::atomic<std::uint64_t>, sizeof (T) / sizeof (std::uint64_t)> words {};
+};
+
+}   // namespace tactus

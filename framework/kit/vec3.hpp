@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cmath>
+
+namespace tactus
+{
+
+using Vec3 = Eigen::Vector3d;
+
+/// True if every component of every value is a finite number. Nodes check their inputs with it.
+inline bool isFinite (double v) noexcept { return v - v == 0.0; }
+inline bool isFinite (const Vec3& v) noexcept { return isFinite (v.x()) && isFinite (v.y()) && isFinite (v.z()); }
+
+template <typename... T>
+requires (sizeof...(T) > 1) bool isFinite (const T&... values) noexcept
+{
+    return (isFinite (values) && ...);
+}
+
+/// Returns the value if every component is finite, else 0. Nodes whose arithmetic can overflow pass their result through it.
+inline double finiteOrZero (double v) noexcept { return isFinite (v) ? v : 0.0; }
+inline Vec3 finiteOrZero (const Vec3& v) noexcept { return isFinite (v) ? v : Vec3::Zero(); }
+
+/// The length of a vector, even of the largest and smallest ones. Scaling it first, as Eigen's stableNorm does, costs several
+/// times as much, and is needed only where a square would leave the range of doubles.
+inline double length (const Vec3& v) noexcept
+{
+    const double square = v.squaredNorm();
+    return square > 1e-280 && square < 1e280 ? std::sqrt (square) : v.stableNorm();
+}
+
+/// The direction of a finite vector: length 1, or 0 for the zero vector. Works for the largest and smallest vectors, too.
+inline Vec3 direction (const Vec3& v) noexcept
+{
+    const double largest = v.cwiseAbs().maxCoeff();
+    return largest > 0.0 ? Vec3 { (v / largest).normalized() } : Vec3::Zero();
+}
+
+}   // namespace tactus

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// The catalogue: every node in nodes/, by id, type-erased. The build fills it (catalogue.cmake).
+
+#include "node.hpp"
+#include "setting.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+namespace tactus
+{
+
+/// A row of the datasheet as graphs and hosts see it.
+struct PortSheet
+{
+    Role role;
+    std::string_view id;
+    UnitRule unit;
+    std::string_view about;
+    Limits limits;
+    std::span<const std::string_view> choices;
+    int width;            ///< components: 1 for a scalar, 3 for a vector
+    bool list;            ///< an array port: its length is the setting `inputs`
+    std::size_t offset;   ///< offset of the value in its Params or Outputs struct
+    double initial[3];    ///< default of each component; of each entry, for a list
+};
+
+/// A node type. The functions take the node and its outputs as void*. `sources` holds one pointer per input component, in the
+/// order of the datasheet, with the entries of a list one after another. Hooks that the node does not have are null.
+struct NodeType
+{
+    Info info;
+    std::vector<PortSheet> inputs, params, outputs;
+    std::vector<SettingSheet> settings;
+    std::size_t outputs_size, outputs_align;
+
+    std::shared_ptr<void> (*make)();
+    void* (*paramsOf) (void* node) noexcept;
+    void (*initialiseOutputs) (void* outputs) noexcept;
+    void (*tick) (void* node, const double* const* sources, void* outputs) noexcept;
+    void (*peek) (void* node, const double* const* sources, void* outputs) noexcept;
+    int (*delay) (const void* node) noexcept;
+    std::string (*problem) (const void* node);
+    std::string (*warning) (const void* node, const Setup&);
+    void (*prepare) (void* node, const Setup&);
+    void (*update) (void* node) noexcept;
+    void (*adopt) (void* node, const void* old) noexcept;
+    Claims (*claims) (const void* node);
+    void (*bind) (void* node, const DeviceState&);
+    std::string (*missing) (const void* node, const DeviceLayout&);
+    Effort (*effort) (const void* node) noexcept;
+};
+
+/// All node types, sorted by id.
+class Catalogue
+{
+public:
+    explicit Catalogue (std::vector<NodeType>);
+
+    const NodeType* find (std::string_view id) const noexcept;
+
+    auto begin() const noexcept { return types.begin(); }
+    auto end() const noexcept { return types.end(); }
+
+private:
+    std::vector<NodeType> types;
+};
+
+const Catalogue& catalogue();
+
+//==============================================================================
+// Implementation below.
+
+namespace detail
+{
+template <typename T>
+struct Shape
+{
+    static constexpr int width = 1;
+    static constexpr bool list = false;
+};
+template <>
+struct Shape<Vec3>
+{
+    static constexpr int width = 3;
+    static constexpr bool list = false;
+};
+template <>
+struct Shape<List>
+{
+    static constexpr int width = 1;
+    static constexpr bool list = true;
+};
+template <typename T>
+struct Shape<InputList<T>>
+{
+    static constexpr int width = Shape<T>::width;
+    static constexpr bool list = true;
+};
+
+template <typename N>
+int listSize (const N& node) noexcept
+{
+    if constexpr (requires { node.settings.inputs; })
+        return node.settings.inputs;
+    else
+        return 0;
+}
+
+template <typename N>
+struct Erased
+{
+    using Inputs = typename N::Inputs;
+    using Outputs = typename N::Outputs;
+
+    /// Fills Inputs from the sources, in datasheet order.
+    static Inputs gather (const N& node, const double* const* sources) noexcept
+    {
+        Inputs in;
+        const auto load = [&] (const auto& row)
+        {
+            using R = std::remove_cvref_t<decltype (row)>;
+            if constexpr (R::role == Role::input)
+            {
+                using T = typename R::Value;
+                if constexpr (Shape<T>::list)
+                {
+                    const int n = listSize (node);
+                    in.*row.member = T { sources, n };
+                    sources += n * Shape<T>::width;
+                }
+                else if constexpr (Shape<T>::width == 3)
+                {
+                    in.*row.member = Vec3 { *sources[0], *sources[1], *sources[2] };
+                    sources += 3;
+                }
+                else
+                    in.*row.member = **sources++;
+            }
+        };
+        std::apply ([&] (const auto&... row)
+                    { (load (row), ...); },
+                    N::ports);
+        return in;
+    }
+
+    static void tick (void* node, const double* const* sources, void* outputs) noexcept
+    {
+        N& n = *static_cast<N*> (node);
+        if constexpr (Peekable<N>)
+            n.tick (gather (n, sources));
+        else
+            new (outputs) Outputs (n.tick (gather (n, sources)));
+    }
+
+    static void peek (void* node, const double* const*, void* outputs) noexcept
+    {
+        new (outputs) Outputs (static_cast<const N*> (node)->peek());
+    }
+
+    template <std::size_t row>
+    static void set (void* node, const SettingValue& value)
+    {
+        constexpr auto& r = std::get<row> (N::ports);
+        assign (static_cast<N*> (node)->settings.*r.member, value);
+    }
+};
+
+/// A separate template, because not every node has settings: it is instantiated only for rows that are settings.
+template <typename N, typename R>
+const auto& settingOf (const N& node, const R& row)
+{
+    return node.settings.*row.member;
+}
+
+template <typename Owner, typename R>
+PortSheet portSheet (const Owner& owner, const R& row)
+{
+    using T = typename R::Value;
+    static_assert (std::is_same_v<T, double> || std::is_same_v<T, Vec3> || Shape<T>::list || (std::is_enum_v<T> && R::role == Role::param),
+                   "a port is a double, a Vec3, an InputList (inputs) or a List (params, outputs); a choice is an enum");
+    static_assert (R::role == Role::input || ! std::is_same_v<T, InputList<double>>, "an InputList is for inputs");
+    const auto& value = owner.*row.member;
+    PortSheet s {
+        .role = R::role,
+        .id = row.id,
+        .unit = row.unit,
+        .about = row.about,
+        .limits = row.limits,
+        .choices = row.choices,
+        .width = Shape<T>::width,
+        .list = Shape<T>::list,
+        .offset = at (reinterpret_cast<const char*> (&value) - reinterpret_cast<const char*> (&owner)),
+        .initial = { 0.0, 0.0, 0.0 },
+    };
+    if constexpr (std::is_enum_v<T>)
+    {
+        static_assert (sizeof (T) == sizeof (int), "a choice is an enum of int size");
+        s.initial[0] = static_cast<double> (static_cast<int> (value));
+    }
+    else if constexpr (std::is_same_v<T, Vec3>)
+        for (int i = 0; i < 3; ++i)
+            s.initial[i] = value[i];
+    else if constexpr (std::is_same_v<T, List>)
+        s.initial[0] = value[0];
+    else if constexpr (Shape<T>::list)
+        std::fill_n (s.initial, Shape<T>::width, row.unwired);
+    else if constexpr (std::is_same_v<T, double>)
+        s.initial[0] = value;
+    return s;
+}
+}   // namespace detail
+
+namespace detail
+{
+/// Fills in the rows of the datasheet.
+template <Node N>
+void describePorts (NodeType& t)
+{
+    const N fresh;
+    const typename N::Inputs inputs;
+    const typename N::Outputs outputs;
+    const auto add = [&]<std::size_t i> (std::integral_constant<std::size_t, i>)
+    {
+        constexpr auto& row = std::get<i> (N::ports);
+        using R = std::remove_cvref_t<decltype (row)>;
+        if constexpr (R::role == Role::input)
+            t.inputs.push_back (portSheet (inputs, row));
+        else if constexpr (R::role == Role::param)
+            t.params.push_back (portSheet (fresh.params, row));
+        else if constexpr (R::role == Role::output)
+            t.outputs.push_back (portSheet (outputs, row));
+        else
+        {
+            auto s = settingSheet (settingOf (fresh, row));
+            s.describe (row.id, row.unit, row.about, row.limits);
+            s.x_unit = row.x_unit;
+            s.set = &Erased<N>::template set<i>;
+            t.settings.push_back (std::move (s));
+        }
+    };
+    [&]<std::size_t... i> (std::index_sequence<i...>) { (add (std::integral_constant<std::size_t, i> {}), ...); }
+    (std::make_index_sequence<std::tuple_size_v<std::remove_cvref_t<decltype (N::ports)>>> {});
+}
+}   // namespace detail
+
+/// The catalogue entry of a node. The code that the build generates calls it.
+template <Node N>
+NodeType describe()
+{
+    static_assert (std::is_trivially_destructible_v<typename N::Outputs>, "each tick overwrites the outputs without calling a destructor");
+    using E = detail::Erased<N>;
+    NodeType t {};
+    t.info = N::info;
+    t.outputs_size = sizeof (typename N::Outputs);
+    t.outputs_align = alignof (typename N::Outputs);
+    detail::describePorts<N> (t);
+
+    t.make = []() -> std::shared_ptr<void>
+    { return std::make_shared<N>(); };
+    t.paramsOf = [] (void* n) noexcept -> void*
+    { return &static_cast<N*> (n)->params; };
+    t.initialiseOutputs = [] (void* o) noexcept
+    { new (o) typename N::Outputs(); };
+    t.tick = &E::tick;
+    if constexpr (Peekable<N>) t.peek = &E::peek;
+    if constexpr (Delaying<N>) t.delay = [] (const void* n) noexcept
+    { return static_cast<const N*> (n)->delay(); };
+    if constexpr (SelfChecking<N>) t.problem = [] (const void* n)
+    { return static_cast<const N*> (n)->problem(); };
+    if constexpr (Warning<N>) t.warning = [] (const void* n, const Setup& s)
+    { return static_cast<const N*> (n)->warning (s); };
+    if constexpr (Preparable<N>) t.prepare = [] (void* n, const Setup& s)
+    { static_cast<N*> (n)->prepare (s); };
+    if constexpr (Updatable<N>) t.update = [] (void* n) noexcept
+    { static_cast<N*> (n)->update(); };
+    if constexpr (Adoptable<N>) t.adopt = [] (void* n, const void* o) noexcept
+    { static_cast<N*> (n)->adopt (*static_cast<const N*> (o)); };
+    if constexpr (Claiming<N>) t.claims = [] (const void* n)
+    { return static_cast<const N*> (n)->claims(); };
+    if constexpr (DeviceBound<N>) t.bind = [] (void* n, const DeviceState& s)
+    { static_cast<N*> (n)->bind (s); };
+    if constexpr (NamesDeviceParts<N>) t.missing = [] (const void* n, const DeviceLayout& l)
+    { return static_cast<const N*> (n)->missing (l); };
+    if constexpr (Sink<N>) t.effort = [] (const void* n) noexcept
+    { return static_cast<const N*> (n)->effort(); };
+    return t;
+}
+
+}   // namespace tactus

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <framework/kit/vec3.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tactus
+{
+
+/// The values of a device's axes or signal channels, stored in place. Constructing and copying costs only what is in use, not
+/// the whole capacity.
+class Channels
+{
+public:
+    static constexpr int most = 32;
+
+    Channels() noexcept {}
+    Channels (const Channels& other) noexcept { *this = other; }
+    Channels (std::initializer_list<double> all) noexcept
+    {
+        for (const double v : all)
+            set (count, v);
+    }
+
+    Channels& operator= (const Channels& other) noexcept
+    {
+        count = other.count;
+        std::copy_n (other.values, count, values);
+        return *this;
+    }
+
+    int size() const noexcept { return count; }
+    bool has (int i) const noexcept { return i >= 0 && i < count; }
+
+    /// 0 for a channel it does not have.
+    double operator[] (int i) const noexcept { return has (i) ? values[i] : 0.0; }
+
+    /// Missing channels before i become 0. Does nothing if there is no room.
+    void set (int i, double value) noexcept
+    {
+        if (i < 0 || i >= most) return;
+        while (count <= i)
+            values[count++] = 0.0;
+        values[i] = value;
+    }
+
+    void clear() noexcept { count = 0; }
+
+    const double* begin() const noexcept { return values; }
+    const double* end() const noexcept { return values + count; }
+
+private:
+    int count = 0;
+    double values[most];   // the first `count` of them
+};
+
+inline bool isFinite (const Channels& all) noexcept
+{
+    return std::all_of (all.begin(), all.end(), [] (double v)
+                        { return isFinite (v); });
+}
+
+/// What a device reports at a tick. SI, right-handed: x right, y away from the person, z up.
+struct Reading
+{
+    Vec3 position = Vec3::Zero();        ///< as measured, so quantised; in m
+    Vec3 rotation = Vec3::Zero();        ///< rotation vector, in rad
+    double pressure = 0.0;               ///< in N, if the device measures it
+    std::uint32_t buttons = 0;           ///< bit i: button i is down
+    double age = 0.0;                    ///< time since the device took this reading, in s
+    bool valid = true;                   ///< false while the device has nothing to report
+    Vec3 true_position = Vec3::Zero();   ///< in m; known only for a simulated device
+    Vec3 true_velocity = Vec3::Zero();   ///< in m/s; known only for a simulated device
+    Channels axes {};                    ///< in the order of DeviceLayout::axes
+    Channels signals {};                 ///< signal inputs, channel 1 first
+};
+
+/// What a device should apply.
+struct Effort
+{
+    Vec3 force = Vec3::Zero();    ///< on the tool, in N
+    Vec3 torque = Vec3::Zero();   ///< on the tool, in N m
+    Channels axes {};             ///< in N or N m, in the order of DeviceLayout::efforts
+    Channels signals {};          ///< signal outputs, channel 1 first; in N, m/s2 or 1, depending on calibration
+};
+
+/// What a device has in addition to a tool that moves and can be pushed. Nodes find their part of a Reading and an Effort by these
+/// names. At most Channels::most axes and channels of each kind, and 32 buttons, are used; the rest is ignored.
+struct DeviceLayout
+{
+    std::vector<std::string> axes {};      ///< axes that can be read: triggers, sticks, joints. Each in m, rad or 1
+    std::vector<std::string> efforts {};   ///< axes that can be pushed
+    std::vector<std::string> buttons {};   ///< by bit; "" for one without a name
+    int signal_inputs = 0, signal_outputs = 0;
+
+    bool operator== (const DeviceLayout&) const = default;
+};
+
+/// The index of a name, or -1 if it is not in the list.
+inline int indexOf (const std::vector<std::string>& names, std::string_view name) noexcept
+{
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (names[i] == name) return static_cast<int> (i);
+    return -1;
+}
+
+/// One role as the nodes see it: the reading of this tick, and what the guard let through on the last tick.
+/// The engine owns it, and its address never changes; device nodes hold a pointer to it. The layout is empty until the role
+/// has a device, and constant from then on. Nodes read it only when they are bound.
+struct DeviceState
+{
+    Reading reading;
+    Effort applied;
+    DeviceLayout layout {};
+};
+
+/// What a device node is bound to before its role has a state.
+inline const DeviceState no_device { .reading = { .valid = false }, .applied = {} };
+
+/// A driver. On each tick the engine calls read, runs the graph, and calls write, in this order, on the tick thread. Neither
+/// may allocate, lock or wait.
+class Device
+{
+public:
+    virtual ~Device() = default;
+
+    /// Gives the sample period before the first tick. Drivers with their own clock resample to it.
+    virtual void prepare (double dt_s) = 0;
+    virtual Reading read() noexcept = 0;
+    virtual void write (const Effort& guarded) noexcept = 0;
+
+    /// What the device has in addition to a tool. Called when the role gets the device; must not change afterwards. [main thread]
+    virtual DeviceLayout layout() const { return {}; }
+
+    /// How long this device can drive a run, in s. 0: without limit, so the run needs --duration.
+    virtual double duration() const noexcept { return 0.0; }
+};
+
+}   // namespace tactus

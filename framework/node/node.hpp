@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// What a node is. Start here, then read nodes/texture/grating.hpp and nodes/friction/elasto_plastic.hpp.
+///
+/// A node is a plain struct. It inherits from nothing and knows nothing of graphs, threads or hosts:
+///
+///   Inputs, Params, Outputs   plain structs of double, Vec3 and arrays, SI units, with defaults. Generic nodes may take
+///                             theirs from framework/node/generic.hpp
+///   Settings                  optional; what shapes the node and is fixed while it runs
+///   info, ports               its datasheet: names, units, ranges, sources (framework/node/datasheet.hpp)
+///   tick (in) -> Outputs      one sample; the only function on the hot path
+///
+/// Optional hooks, which the compiler detects:
+///
+///   problem() -> string       what is wrong with the settings, as a sentence for the user; empty if nothing is. Called with
+///                             params and settings in place, before prepare. A graph with a problem does not run. Only for
+///                             what the limits in the datasheet cannot express.                          [main thread]
+///   warning (setup) -> string what will not work well at this rate, as a sentence; empty if everything does. Called after
+///                             problem. The graph still runs.                                            [main thread]
+///   prepare (setup)           before the first tick, with params and settings in place; may allocate    [main thread]
+///   update()                  once after prepare, and after a parameter moved, before the tick: computes coefficients, so
+///                             that a filter does not pay for `tan` on each tick                         [tick thread]
+///   peek() -> Outputs         for a node whose outputs do not depend on this tick's inputs: returns them before tick,
+///                             which then returns nothing. This is how a delay opens a loop.             [tick thread]
+///   delay() -> int            the number of ticks between a peeking node's inputs and outputs; 1 if absent
+///   adopt (old)               takes over the state of the instance this one replaces                    [tick thread]
+///   claims() -> Claims        what tests and the validator can hold the node to
+///   bind (state)              gives a device node the DeviceState of its role: before prepare, with the settings in place,
+///                             and again when the role gets its device, then without allocating          [main or tick thread]
+///   missing (layout) -> string  the part that a device node needs and the device of its role lacks, worded to follow "has";
+///                             empty if none. Without it the node reads 0, or has no effect              [main thread]
+///   effort() -> Effort        makes the node a sink: what it asks its role to apply, after tick         [tick thread]
+///
+/// A tick is noexcept and total. On a non-finite input it gives 0 on all outputs (-1 on `state`), re-opens the contact, and
+/// continues with the next finite sample as if nothing had been touched before.
+///
+/// The line TACTUS_NODE (MyNode) at the end of the header checks all this at compile time. The build looks for this line to put
+/// the node in the catalogue; there is no other list to edit.
+
+#include "datasheet.hpp"
+#include "device.hpp"
+
+#include <concepts>
+#include <string>
+#include <type_traits>
+
+namespace tactus
+{
+
+class NearestTriangle;
+class QueryService;
+
+/// What a host lends to the nodes of a graph. Each service may be missing; nodes work without it.
+struct Services
+{
+    std::unique_ptr<NearestTriangle> (*nearest_triangle) (std::shared_ptr<const Mesh>) = nullptr;   ///< builds an index of a large mesh
+    QueryService* answers = nullptr;                                                                ///< the thread for async queries
+};
+
+/// What the engine gives every node before it runs.
+struct Setup
+{
+    double rate_hz = 4000.0;
+    Services services {};
+
+    constexpr double dt_s() const noexcept { return 1.0 / rate_hz; }
+};
+
+/// What a node guarantees with its current params and settings.
+struct Claims
+{
+    bool passive = false;             ///< it generates no energy over any closed path
+    double stiffness = 0.0;           ///< largest slope of force against position, N/m
+    double damping = 0.0;             ///< smallest damping it adds, N s/m
+    double spatial_frequency = 0.0;   ///< highest spatial frequency it renders, 1/m
+    double amplitude = inf;           ///< its outputs never exceed this, in their own unit
+};
+
+// clang-format 14 breaks requirements badly.
+// clang-format off
+template <typename N>
+concept Peekable = requires (const N node) { { node.peek() } noexcept -> std::same_as<typename N::Outputs>; };
+
+template <typename N>
+concept Node = std::default_initializable<N>
+    && requires {
+           typename N::Inputs;
+           typename N::Params;
+           typename N::Outputs;
+           requires std::same_as<std::remove_cvref_t<decltype (N::info)>, Info>;
+           N::ports;
+       }
+    && requires (N node, const typename N::Inputs in) {
+           requires std::same_as<decltype (node.params), typename N::Params>;
+           requires ! requires { typename N::Settings; } || requires { node.settings; };
+           requires (Peekable<N> && requires { { node.tick (in) } noexcept -> std::same_as<void>; })
+               || (! Peekable<N> && requires { { node.tick (in) } noexcept -> std::same_as<typename N::Outputs>; });
+       };
+
+template <typename N>
+concept SelfChecking = requires (const N node) { { node.problem() } -> std::same_as<std::string>; };
+
+template <typename N>
+concept Warning = requires (const N node, Setup setup) { { node.warning (setup) } -> std::same_as<std::string>; };
+
+template <typename N>
+concept Preparable = requires (N node, Setup setup) { node.prepare (setup); };
+
+template <typename N>
+concept Updatable = requires (N node) { { node.update() } noexcept; };
+
+template <typename N>
+concept Delaying = Peekable<N> && requires (const N node) { { node.delay() } noexcept -> std::same_as<int>; };
+
+template <typename N>
+concept Adoptable = requires (N node, const N old) { { node.adopt (old) } noexcept; };
+
+template <typename N>
+concept Claiming = requires (const N node) { { node.claims() } -> std::same_as<Claims>; };
+
+template <typename N>
+concept DeviceBound = requires (N node, const DeviceState& state) { node.bind (state); };
+
+template <typename N>
+concept NamesDeviceParts = DeviceBound<N> && requires (const N node, const DeviceLayout& layout) { { node.missing (layout) } -> std::same_as<std::string>; };
+
+template <typename N>
+concept Sink = DeviceBound<N> && requires (const N node) { { node.effort() } noexcept -> std::same_as<Effort>; };
+// clang-format on
+
+}   // namespace tactus
+
+// The build defines this where it adds a node to the catalogue (catalogue.cmake). It has no effect elsewhere.
+#define TACTUS_REGISTER(N)
+
+#define TACTUS_NODE(N)                                                                   \
+    TACTUS_REGISTER (N)                                                                  \
+    static_assert (::tactus::Node<N>, #N " is not a node: see framework/node/node.hpp"); \
+    static_assert (::tactus::datasheetIsComplete<N>(),                                   \
+                   #N "::ports must have exactly one row per member of Inputs, Params, Settings and Outputs")

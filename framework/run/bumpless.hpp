@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <framework/node/device.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus
+{
+
+/// Keeps the effort on a device free of steps when another plan takes over. The wanted effort e becomes
+///
+///     e + (e0 - e1) w(t)        w = (1 + cos (pi t / fade_s)) / 2 for 0 <= t <= fade_s, then 0
+///
+/// where e0 is the last effort before the switch and e1 the first one after it. So the first effort is e0 again, and each tick
+/// adds at most |e0 - e1| pi T / (2 fade_s) to the steps of e. Unlike a crossfade, this does not tick the nodes twice.
+class Bumpless
+{
+public:
+    static constexpr double fade_s = 0.010;
+
+    void prepare (double dt_s) noexcept { length = std::max (1, static_cast<int> (std::lround (fade_s / dt_s))); }   // [main thread]
+
+    void begin() noexcept { now = 0; }   // [tick thread]
+
+    Effort operator() (const Effort& wanted) noexcept   // [tick thread]
+    {
+        if (now == length) return last = wanted;
+        if (now == 0)
+        {
+            difference = { last.force - wanted.force, last.torque - wanted.torque, sum (last.axes, -1.0, wanted.axes),
+                           sum (last.signals, -1.0, wanted.signals) };
+            if (! isFinite (difference.force, difference.torque, difference.axes, difference.signals))
+            {
+                now = length;
+                return last = wanted;
+            }
+        }
+        const double w = 0.5 + 0.5 * std::cos (pi * now / length);
+        ++now;
+        last = { wanted.force + w * difference.force, wanted.torque + w * difference.torque, sum (wanted.axes, w, difference.axes),
+                 sum (wanted.signals, w, difference.signals) };
+        return last;
+    }
+
+    /// The guard has applied a different effort to the device, so there is nothing left to fade. [tick thread]
+    void stop (const Effort& applied) noexcept
+    {
+        now = length;
+        last = applied;
+    }
+
+private:
+    static constexpr double pi = 3.14159265358979323846;
+
+    /// a + w b
+    static Channels sum (const Channels& a, double w, const Channels& b) noexcept
+    {
+        Channels all;
+        for (int i = 0; i < std::max (a.size(), b.size()); ++i)
+            all.set (i, a[i] + w * b[i]);
+        return all;
+    }
+
+    int length = 1, now = length;   // ticks
+    Effort difference;              // e0 - e1
+    Effort last;
+};
+
+}   // namespace tactus

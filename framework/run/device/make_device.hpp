@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <framework/run/guard.hpp>
+#include <framework/text/json.hpp>
+#include <framework/text/result.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace tactus
+{
+
+struct MadeDevice
+{
+    std::unique_ptr<Device> device;   ///< null if there are errors
+    GuardLimits limits;
+    std::string about;   ///< a sentence that describes what moves, and how
+    Messages messages;   ///< `where` is relative to the description
+};
+
+/// Makes the device that is described, or reports all problems in the description. [main thread]
+///
+///     {"driver": "sim", "mass": "50 g", "damping": 2.0, "quantum": "10 um", "force_quantum": "1 mN", "delay": 0,
+///      "first_mode": "30 Hz", "position": [0, 0, "5 mm"], "velocity": [0, 0, 0], "rotation": [0, 0, 0],
+///      "hand_force": [0, 0, "-0.5 N"],
+///      "hand": {"stiffness": 100.0, "damping": 2.0, "path": "stroke"},
+///      "axes": {"trigger": {"mass": "50 g", "damping": 1.0, "stiffness": 0, "position": 0, "hand_force": 0}}, "signal_outputs": 0}
+///     {"driver": "trace", "path": "pen.csv"}
+///     {"driver": "gesture", "path": "stroke"}
+///
+/// A `path` is the name of a gesture or a CSV file, relative to `folder`; "offset" (v3, m) and "scale" (1) may accompany it.
+/// Each device may have a "guard"; "about" and "ui" are for people.
+///
+/// Defaults of a simulated device: mass 0.1 kg, damping 1 N s/m; for a hand, stiffness 100 N/m and damping 2 N s/m. The default
+/// position is the start of the hand's path, because the tool is in the hand, or 0 without a hand.
+///
+/// The drivers "hid" and "audio" are for real devices, which are opened by hid::openDevice and audio::openAudio; here they are
+/// refused.
+///
+/// Ids: device/unknown_driver, device/real, device/missing, device/unknown_key, device/kind, device/unit,
+/// device/out_of_range, device/unknown_gesture, device/unknown_button, device/name, and the ids of trace/ and csv/.
+MadeDevice makeDevice (const Json& description, const std::filesystem::path& folder);
+
+/// The device for `--device ROLE=sim` if the graph does not describe the role: a hand that makes strokes.
+Json defaultDevice();
+
+/// Turns `--device ROLE=FILE.json|sim|trace:FILE.csv|gesture:NAME|hid:PROFILE|audio[:CARD]` into a description.
+struct DeviceOption
+{
+    std::string role;
+    Json description;
+    std::filesystem::path folder;   ///< base of the paths in the description
+};
+
+/// `sim` uses the parts of the graph's description of the role that apply to a simulated device, or else defaultDevice(). Ids:
+/// device/option, device/unreadable, device/syntax. [main thread]
+Result<DeviceOption> parseDeviceOption (std::string_view text, const std::vector<std::pair<std::string, Json>>& described,
+                                        const std::filesystem::path& folder_of_graph);
+
+}   // namespace tactus

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: MIT
+#include "engine.hpp"
+
+#include <framework/plan/find_hit.hpp>
+#include <framework/plan/find_param.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace tactus
+{
+
+/// The sum of the efforts that all sinks of a role ask for. It is the same in any order.
+Effort Engine::total (const Plan::RoleUse& role, Scratch& scratch) noexcept
+{
+    if (role.sinks.size() == 1) return role.sinks[0].effort (role.sinks[0].node);
+
+    std::size_t n = 0;
+    int axes = 0, signals = 0;
+    for (const auto& sink : role.sinks)
+    {
+        const auto& e = scratch.efforts[n++] = sink.effort (sink.node);
+        axes = std::max (axes, e.axes.size());
+        signals = std::max (signals, e.signals.size());
+    }
+
+    const auto sum = [&] (auto part)
+    {
+        for (std::size_t i = 0; i < n; ++i)
+            scratch.numbers[i] = part (scratch.efforts[i]);
+        return plan::sum (scratch.numbers.data(), static_cast<int> (n));
+    };
+    Effort all;
+    for (int c = 0; c < 3; ++c)
+    {
+        all.force[c] = sum ([c] (const Effort& e)
+                            { return e.force[c]; });
+        all.torque[c] = sum ([c] (const Effort& e)
+                             { return e.torque[c]; });
+    }
+    for (int i = 0; i < axes; ++i)
+        all.axes.set (i, sum ([i] (const Effort& e)
+                              { return e.axes[i]; }));
+    for (int i = 0; i < signals; ++i)
+        all.signals.set (i, sum ([i] (const Effort& e)
+                                 { return e.signals[i]; }));
+    return all;
+}
+
+Engine::Engine (std::shared_ptr<Plan> p) : rate_hz (p->rateHz()), plans (makeRunning (std::move (p))), running (&plans.newest()) {}
+
+Engine::Channel* Engine::find (std::string_view role) const noexcept
+{
+    const auto at = std::find_if (channels.rbegin(), channels.rend(), [&] (const auto& c)
+                                  { return c->role == role; });
+    return at != channels.rend() ? at->get() : nullptr;
+}
+
+Engine::Channel& Engine::channelOf (const std::string& role)
+{
+    auto* found = find (role);
+    return found ? *found : makeChannel (role);
+}
+
+Engine::Channel& Engine::makeChannel (const std::string& role)
+{
+    channels.push_back (std::make_unique<Channel> (Channel { role }));
+    channels.back()->guard.prepare ({}, 1.0 / rate_hz);
+    channels.back()->bumpless.prepare (1.0 / rate_hz);
+    return *channels.back();
+}
+
+std::unique_ptr<Engine::Running> Engine::makeRunning (std::shared_ptr<Plan> p)
+{
+    auto made = std::make_unique<Running> (Running { std::move (p), {}, {}, {} });
+    std::size_t most = 0;
+    for (const auto& role : made->plan->roles())
+    {
+        made->channels.push_back (&channelOf (role.name));
+        most = std::max (most, role.sinks.size());
+    }
+    made->scratch.efforts.resize (most);
+    made->scratch.numbers.resize (most);
+
+    const auto& [plan, used, bound, scratch] = *made;
+    for (std::size_t i = 0; i < plan->instances().size(); ++i)
+    {
+        const auto& node = plan->flat().nodes[i];
+        if (! node.type->bind || ! node.runs()) continue;
+        const auto role = std::ranges::find (plan->roles(), node.role, &Plan::RoleUse::name);
+        made->bound.push_back ({ node.type->bind, plan->instances()[i].node.get(), role->state.get(),
+                                 used[static_cast<std::size_t> (role - plan->roles().begin())] });
+    }
+    return made;
+}
+
+/// Gives a role its device. The nodes are bound to it later, by introduce().
+void Engine::equip (Channel& channel, Device& device, const GuardLimits& limits, const Plan& plan, double dt_s)
+{
+    channel.device = &device;
+    channel.guard.prepare (limits, dt_s);
+    channel.is_news = true;
+    device.prepare (dt_s);
+    std::ranges::find (plan.roles(), channel.role, &Plan::RoleUse::name)->state->layout = device.layout();
+}
+
+/// Binds nodes to the layouts of new devices.
+void Engine::introduce (Running& plan) noexcept
+{
+    for (const auto& node : plan.bound)
+        if (node.channel->is_news) node.bind (node.node, *node.state);
+    for (auto* channel : plan.channels)
+        channel->is_news = false;
+}
+
+void Engine::attach (std::string_view role, Device& device, const GuardLimits& limits)
+{
+    const auto& roles = newest().roles();
+    if (std::ranges::find (roles, role, &Plan::RoleUse::name) == roles.end()) throw std::out_of_range ("the plan has no role '" + std::string (role) + "'");
+    equip (channelOf (std::string (role)), device, limits, newest(), 1.0 / rate_hz);
+    introduce (plans.newest());
+}
+
+void Engine::report (Journal& to) noexcept
+{
+    journal = &to;
+    journal->tookOver (*running->plan);
+}
+
+std::shared_ptr<Plan> Engine::withdraw()
+{
+    const auto back = plans.takeBack();
+    return back ? back->plan : nullptr;
+}
+
+/// The tick thread may be using the role's channel that has no device, so the role gets a new channel. Plans submitted from now
+/// on use the new one.
+void Engine::join (const Joining& joining, const Plan& plan)
+{
+    if (std::ranges::find (plan.roles(), joining.role, &Plan::RoleUse::name) == plan.roles().end())
+        throw std::out_of_range ("the plan has no role '" + joining.role + "'");
+    if (const auto* channel = find (joining.role); channel && channel->device)
+        throw std::invalid_argument ("the role '" + joining.role + "' already has a device");
+    auto& channel = makeChannel (joining.role);
+    equip (channel, joining.device, joining.limits, plan, 1.0 / rate_hz);
+    channel.bumpless.begin();
+}
+
+void Engine::submit (std::shared_ptr<Plan> next, std::span<const Joining> joining)
+{
+    if (next)
+    {
+        if (next->rateHz() != rate_hz) throw std::invalid_argument ("a plan for a different rate cannot take over");
+        for (const auto& j : joining)
+            join (j, *next);
+        plans.takeBack();
+        plans.give (makeRunning (std::move (next)));
+    }
+    clear();
+}
+
+std::size_t Engine::clear()
+{
+    plans.clear();
+    return plans.size();
+}
+
+Result<plan::ParamRef> Engine::param (std::string_view name)
+{
+    auto found = params (name);
+    if (! found) return std::move (found).error();
+    return std::move (found->front());
+}
+
+Result<std::vector<plan::ParamRef>> Engine::params (std::string_view name) { return plan::findParams (newest(), name); }
+
+void Engine::set (const plan::ParamRef& param, double value) noexcept
+{
+    plan::turn (param, value);
+    touched.store (true, std::memory_order_release);
+}
+
+Result<std::vector<plan::HitRef>> Engine::hits (std::string_view name) { return plan::findHits (newest(), name); }
+
+void Engine::strike (const plan::HitRef& hit, double speed) noexcept
+{
+    plan::strike (hit, speed);
+    touched.store (true, std::memory_order_release);
+}
+
+void Engine::takeOver (Running& next) noexcept
+{
+    if (journal) journal->tookOver (*next.plan);
+    next.plan->takeOver (*running->plan, journal);
+    for (std::size_t i = 0; i < next.channels.size(); ++i)
+        if (! next.plan->roles()[i].untouched)
+        {
+            next.channels[i]->bumpless.begin();
+            next.channels[i]->touched_at = ticks;
+        }
+    introduce (next);
+    if (is_stopped)
+        for (auto* channel : next.channels)
+            channel->guard.emergencyStop();
+    running = &next;
+    plans.done (running);
+    fresh = true;
+    if (const auto& rests = next.plan->rests(); ! rests.empty()) settled_at = ticks + rests.back();
+}
+
+/// A change in a section that does not run on every tick takes effect when the section runs, and so does its step in effort.
+void Engine::fadeAgain() noexcept
+{
+    for (auto* channel : running->channels)
+        for (const auto rests : running->plan->rests())
+            if (ticks % rests == 0 && ticks > channel->touched_at && ticks < channel->touched_at + rests) channel->bumpless.begin();
+}
+
+void Engine::takeSubmitted() noexcept
+{
+    if (auto* next = plans.take()) takeOver (*next);
+}
+
+void Engine::emergencyStop() noexcept
+{
+    emergency.store (true, std::memory_order_relaxed);
+    touched.store (true, std::memory_order_release);
+}
+
+void Engine::rearm() noexcept
+{
+    emergency.store (false, std::memory_order_relaxed);
+    rearming.store (true, std::memory_order_relaxed);
+    touched.store (true, std::memory_order_release);
+}
+
+void Engine::applyStops() noexcept
+{
+    if (rearming.exchange (false, std::memory_order_relaxed))
+    {
+        if (journal) journal->rearmed();
+        for (auto* channel : running->channels)
+            channel->guard.rearm();
+        is_stopped = false;
+    }
+    if (is_stopped || ! emergency.load (std::memory_order_relaxed)) return;
+    if (journal) journal->emergency();
+    for (auto* channel : running->channels)
+        channel->guard.emergencyStop();
+    is_stopped = true;
+}
+
+/// Values that were set before a plan was running are waiting in its knobs, so the knobs of a fresh plan are read too.
+void Engine::turnKnobs() noexcept
+{
+    touched.exchange (false, std::memory_order_acquire);
+    applyStops();
+    running->plan->applyTurns (journal);
+    if (fresh) running->plan->startRamping();
+    fresh = false;
+}
+
+void Engine::beforePlan() noexcept
+{
+    takeSubmitted();
+    if (ticks < settled_at) fadeAgain();
+    if (fresh || touched.load (std::memory_order_relaxed)) turnKnobs();
+
+    auto& [plan, used, bound, scratch] = *running;
+    for (std::size_t i = 0; i < used.size(); ++i)
+        if (used[i]->device)
+        {
+            auto& reading = plan->roles()[i].state->reading;
+            reading = used[i]->device->read();
+            reading.valid = reading.valid && ! readings_invalid;
+        }
+
+    plan->beginTick (ticks);
+}
+
+void Engine::afterPlan() noexcept
+{
+    auto& [plan, used, bound, scratch] = *running;
+    for (std::size_t i = 0; i < used.size(); ++i)
+    {
+        const auto& role = plan->roles()[i];
+        auto& channel = *used[i];
+        const auto wanted = channel.bumpless (total (role, scratch));
+        const auto events = channel.guard.events();
+        role.state->applied = channel.guard (wanted, role.state->reading);
+        if (channel.guard.stop() != Guard::Stop::none) channel.bumpless.stop (role.state->applied);
+        if (channel.device) channel.device->write (role.state->applied);
+        if (channel.guard.events() != events) stops.note ({ ticks, channel.role, channel.guard.latest() });   // after the force has been written
+    }
+    if (journal) journal->ticked (*plan);
+    ++ticks;
+}
+
+void Engine::tick() noexcept
+{
+    tick ([] (Plan& p) noexcept
+          { p.tick(); });
+}
+
+void Engine::halt() noexcept
+{
+    if (journal) journal->halted();
+    for (auto* channel : running->channels)
+        channel->guard.halt();
+}
+
+void Engine::resume() noexcept
+{
+    if (journal) journal->resumed();
+    for (auto* channel : running->channels)
+        channel->guard.resume();
+}
+
+bool Engine::isAtRest() const noexcept
+{
+    return std::ranges::all_of (running->channels, [] (const Channel* c)
+                                { return c->guard.isAtRest(); });
+}
+
+const Guard& Engine::guardOf (std::string_view role) const
+{
+    if (const auto* channel = find (role)) return channel->guard;
+    throw std::out_of_range ("the plan has no role '" + std::string (role) + "'");
+}
+
+}   // namespace tactus

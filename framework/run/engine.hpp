@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "bumpless.hpp"
+#include "guard.hpp"
+#include "guard_log.hpp"
+#include "plan_swap.hpp"
+#include <framework/plan/journal.hpp>
+#include <framework/plan/plan.hpp>
+#include <framework/text/result.hpp>
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace tactus
+{
+
+/// Runs a plan against devices: read, tick, sum, guard, write. The same engine runs live and offline. Another plan may
+/// take over between two ticks; nodes that both plans contain continue, and no role's effort steps.
+class Engine
+{
+public:
+    /// [main thread] The plan must not be null. A role without a device reads a tool at rest at the origin, and its efforts
+    /// have no effect.
+    explicit Engine (std::shared_ptr<Plan>);
+
+    /// Gives a role its device, which must outlive the engine, and the limits of its guard. [main thread, before ticking]
+    void attach (std::string_view role, Device&, const GuardLimits& = {});
+
+    /// Reports all inputs of the run to a journal, which must outlive the engine. [main thread, before ticking]
+    void report (Journal&) noexcept;
+
+    /// A device for a role that has none yet.
+    struct Joining
+    {
+        std::string role;
+        Device& device;
+        GuardLimits limits {};
+    };
+
+    //==========================================================================
+    // Swapping plans. The new plan is compiled with newest() as CompileOptions::before, so that it builds on the one it
+    // replaces:
+    //
+    //     auto waiting = engine.withdraw();
+    //     auto compiled = compile (graph, catalogue(), { .before = &engine.newest(), .withdrawn = waiting.get() });
+    //     engine.submit (compiled.plan ? compiled.plan : waiting);
+
+    /// Withdraws the plan submitted last, if no tick has picked it up yet. Returns null otherwise. [main thread]
+    std::shared_ptr<Plan> withdraw();
+
+    /// The running plan, or the one submitted to replace it. [main thread]
+    const Plan& newest() const noexcept { return *newestShared(); }
+    const std::shared_ptr<Plan>& newestShared() const noexcept { return plans.newest().plan; }
+
+    /// The next tick switches to this plan. From that tick on, the joining devices are read and written; their efforts rise
+    /// from zero, as after any takeover. The devices must outlive the engine. Null changes nothing. The plan must have the same
+    /// rate as the first plan and contain the roles that join. None of these roles may have a device already. [main thread]
+    void submit (std::shared_ptr<Plan>, std::span<const Joining> = {});
+
+    /// Frees plans that are no longer used; submit does this too. Returns how many are left. [main thread]
+    std::size_t clear();
+
+    //==========================================================================
+    /// A parameter of the newest plan by its name: one component of a vector, one entry of a list. If the name covers several
+    /// instances, returns the first one. [main thread]
+    Result<plan::ParamRef> param (std::string_view name);
+
+    /// Like find, but for all instances that the name covers. [main thread]
+    Result<std::vector<plan::ParamRef>> params (std::string_view name);
+
+    /// Sets the target of a parameter; the value ramps to it (plan/ramps.hpp). [any thread]
+    void set (const plan::ParamRef&, double) noexcept;
+
+    /// The hit inputs of the newest plan by name, in all instances that it covers. [main thread]
+    Result<std::vector<plan::HitRef>> hits (std::string_view name);
+
+    /// Triggers a hit of this speed (m/s) on one tick: the next one on which the node runs. Hits between two ticks are summed.
+    /// [any thread]
+    void strike (const plan::HitRef&, double speed) noexcept;
+
+    //==========================================================================
+    /// Runs one tick. Allocates nothing, takes no lock, reads no clock. [tick thread]
+    void tick() noexcept;
+
+    /// Bit-identical to tick(), but `step` ticks the plan, either by Plan::tick or by running all its records in order, so that
+    /// it can do something between them. [tick thread]
+    template <typename Step>
+    void tick (Step&& step) noexcept
+    {
+        beforePlan();
+        step (*running->plan);
+        afterPlan();
+    }
+
+    /// Switches to the submitted plan, if there is one, without waiting for the next tick. Values set after this call apply to
+    /// the new plan. [tick thread]
+    void takeSubmitted() noexcept;
+
+    /// Brings the efforts of all roles to zero smoothly, and keeps them there. [tick thread]
+    void halt() noexcept;
+
+    /// Ends a halt: the efforts rise again, as the guards' ramps allow. [tick thread]
+    void resume() noexcept;
+
+    /// While true, no reading is valid and all guards hold the efforts at zero. Used for ticks that do not come from the chosen
+    /// clock. A log records these readings as invalid. [tick thread]
+    void invalidateReadings (bool so) noexcept { readings_invalid = so; }
+
+    /// Like halt, but callable from anywhere, including a signal handler, and it also applies to roles that join later. It
+    /// takes effect on the next tick; resume does not end it. [any thread]
+    void emergencyStop() noexcept;
+
+    /// Ends an emergency stop and every other latched stop of the guards (Guard::latches): the efforts rise again, as
+    /// the guards' ramps allow. [any thread]
+    void rearm() noexcept;
+
+    bool isEmergency() const noexcept { return emergency.load (std::memory_order_relaxed); }   ///< [any thread]
+
+    /// The latest stops of all guards. [any thread]
+    const GuardLog& guardLog() const noexcept { return stops; }
+
+    /// True once no device has an effort on it, so that it can be released without a step. [tick thread]
+    bool isAtRest() const noexcept;
+
+    Plan& plan() noexcept { return *running->plan; }   ///< the running one   [tick thread]
+
+    /// A role of the running plan. References in it stay valid as long as the engine lives, and the name never
+    /// changes.
+    struct RoleView
+    {
+        std::string_view name;
+        const Effort& applied;   ///< on the last tick
+        const Guard& guard;
+    };
+
+    /// Roles are numbered as in plan().roles(). [tick thread]
+    std::size_t roleCount() const noexcept { return running->channels.size(); }
+    RoleView role (std::size_t i) const noexcept
+    {
+        return { running->channels[i]->role, running->plan->roles()[i].state->applied, running->channels[i]->guard };
+    }
+
+    const Guard& guardOf (std::string_view role) const;
+    double time_s() const noexcept { return static_cast<double> (ticks) / rate_hz; }
+
+private:
+    struct Channel
+    {
+        std::string role;
+        Device* device = nullptr;
+        Guard guard {};
+        Bumpless bumpless {};
+        std::uint64_t touched_at = 0;   // the tick on which a plan last changed anything upstream of this role
+        bool is_news = false;           // the nodes do not know its device yet
+    };
+
+    /// A node that belongs to a role.
+    struct BoundNode
+    {
+        void (*bind) (void* node, const DeviceState&);
+        void* node;
+        const DeviceState* state;
+        Channel* channel;
+    };
+
+    /// Sums the sinks of a role.
+    struct Scratch
+    {
+        std::vector<Effort> efforts;
+        std::vector<double> numbers;
+    };
+
+    /// A plan and the engine's state for it.
+    struct Running
+    {
+        std::shared_ptr<Plan> plan;
+        std::vector<Channel*> channels;   // as in plan->roles()
+        std::vector<BoundNode> bound;
+        Scratch scratch;
+    };
+
+    static Effort total (const Plan::RoleUse&, Scratch&) noexcept;
+
+    void beforePlan() noexcept;
+    void afterPlan() noexcept;
+
+    Channel* find (std::string_view role) const noexcept;
+    Channel& channelOf (const std::string& role);
+    Channel& makeChannel (const std::string& role);
+    void join (const Joining&, const Plan&);
+    static void equip (Channel&, Device&, const GuardLimits&, const Plan&, double dt_s);
+    static void introduce (Running&) noexcept;
+    void applyStops() noexcept;
+    std::unique_ptr<Running> makeRunning (std::shared_ptr<Plan>);
+    void takeOver (Running&) noexcept;
+    void fadeAgain() noexcept;
+    void turnKnobs() noexcept;
+
+    double rate_hz;
+    std::vector<std::unique_ptr<Channel>> channels;   // of every role so far; the last one of each role is in use   [main thread]
+    PlanSwap<Running> plans;
+    std::atomic<bool> touched = true;   // a knob has moved, a plan is new, or one of these has changed
+    std::atomic<bool> emergency = false, rearming = false;
+    GuardLog stops;
+
+    // Used by the tick thread.
+    Running* running;
+    Journal* journal = nullptr;
+    bool fresh = true;         // the plan has not ticked yet
+    bool is_stopped = false;   // the guards know about the emergency
+    bool readings_invalid = false;
+    std::uint64_t ticks = 0;
+    std::uint64_t settled_at = 0;   // by this tick, every section has run at least once since the takeover
+};
+
+}   // namespace tactus

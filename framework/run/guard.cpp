@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: MIT
+#include "guard.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace tactus
+{
+namespace
+{
+// A few units in the last place below the limit, so that rounding cannot exceed it.
+constexpr double just_under = 1.0 - 16.0 * std::numeric_limits<double>::epsilon();
+
+/// v, or the vector of length `most` in its direction if it is longer. v must be finite; its length may overflow.
+Vec3 shortened (const Vec3& v, double most) noexcept
+{
+    if (most == GuardLimits::none) return v;
+
+    const double biggest = v.cwiseAbs().maxCoeff();
+    if (biggest == 0.0) return v;
+
+    const Vec3 scaled = v / biggest;
+    const double length = scaled.norm();
+    if (biggest * length <= most) return v;
+
+    return scaled * (most / length * just_under);
+}
+
+/// Moves from `from` towards `to`, by at most `most`.
+Vec3 approached (const Vec3& from, const Vec3& to, double most) noexcept
+{
+    if (most == GuardLimits::none) return to;
+
+    // Uses halves, because the difference of two finite numbers may be infinite.
+    const Vec3 half_way = 0.5 * to - 0.5 * from;
+    const Vec3 half_step = shortened (half_way, 0.5 * most);
+    return half_step == half_way ? to : Vec3 (from + 2.0 * half_step);
+}
+
+double approached (double from, double to, double most) noexcept
+{
+    if (most == GuardLimits::none) return to;
+
+    const double half_way = 0.5 * to - 0.5 * from;
+    return std::abs (half_way) <= 0.5 * most ? to : from + std::copysign (most * just_under, half_way);
+}
+
+/// Limits each value of `to` separately: at most `most` from 0, and at most `most_step` from its last value.
+/// Values that are no longer commanded go to 0.
+[[gnu::noinline]] Channels approached (const Channels& from, const Channels& to, double most, double most_step) noexcept
+{
+    Channels all;
+    for (int i = 0, n = std::max (from.size(), to.size()); i < n; ++i)
+        all.set (i, approached (from[i], std::clamp (to[i], -most, most), most_step));
+    return all;
+}
+
+[[gnu::noinline]] Channels mixed (double a, const Channels& x, double b, const Channels& y) noexcept
+{
+    Channels all;
+    for (int i = 0, n = std::max (x.size(), y.size()); i < n; ++i)
+        all.set (i, a * x[i] + b * y[i]);
+    return all;
+}
+
+/// Most devices have only a tool, so the code for channels is kept off the fast path.
+bool hasChannels (const Effort& e) noexcept { return (e.axes.size() | e.signals.size()) != 0; }
+[[gnu::noinline]] bool channelsAreFinite (const Effort& e) noexcept { return isFinite (e.axes, e.signals); }
+
+/// The largest change per tick: rate times T. "No limit" remains "no limit".
+double perTick (double rate, double dt_s) noexcept { return rate == GuardLimits::none ? rate : rate * dt_s; }
+
+double orNothing (double limit) noexcept { return limit >= 0.0 ? limit : 0.0; }
+double orForever (double s) noexcept { return s >= 0.0 ? s : GuardLimits::none; }
+
+/// The window of a limit, if the limit is set; 0 means the whole session.
+double windowOf (double limit, double window) noexcept
+{
+    if (limit == GuardLimits::none) return 0.0;
+    return window > 0.0 ? window : GuardLimits::none;
+}
+
+/// The inverse of windowOf.
+double asSet (double window) noexcept { return window == GuardLimits::none ? 0.0 : window; }
+
+int firstNotFinite (const Channels& all) noexcept
+{
+    return static_cast<int> (std::find_if_not (all.begin(), all.end(), [] (double v)
+                                               { return isFinite (v); })
+                             - all.begin());
+}
+
+/// Writes four digits, independent of the locale.
+std::string inWords (double value)
+{
+    char text[32];
+    return { text, std::to_chars (text, text + sizeof text, value, std::chars_format::general, 4).ptr };
+}
+
+std::string inWords (const std::array<double, 3>& v) { return "(" + inWords (v[0]) + ", " + inWords (v[1]) + ", " + inWords (v[2]) + ")"; }
+std::string inMilliseconds (double seconds) { return inWords (seconds * 1e3) + " ms"; }
+
+std::string withinWindow (const Guard::Event& event, const char* unit)
+{
+    const auto limit = "; the limit is " + inWords (event.limit) + unit;
+    return event.window > 0.0 && event.window < GuardLimits::none ? limit + " in " + inWords (event.window) + " s" : limit;
+}
+}   // namespace
+
+GuardLimits tightest (const GuardLimits& a, const GuardLimits& b) noexcept
+{
+    const auto less = [] (double x, double y)
+    { return std::min (orNothing (x), orNothing (y)); };
+    const auto longer = [] (double of_a, double in_a, double of_b, double in_b)
+    { return asSet (std::max (windowOf (of_a, in_a), windowOf (of_b, in_b))); };
+
+    return {
+        .max_force = less (a.max_force, b.max_force),
+        .max_torque = less (a.max_torque, b.max_torque),
+        .max_slew = less (a.max_slew, b.max_slew),
+        .max_torque_slew = less (a.max_torque_slew, b.max_torque_slew),
+        .ramp = std::max (orForever (a.ramp), orForever (b.ramp)),
+        .watchdog = less (a.watchdog, b.watchdog),
+        .max_axis_effort = less (a.max_axis_effort, b.max_axis_effort),
+        .max_axis_slew = less (a.max_axis_slew, b.max_axis_slew),
+        .max_signal = less (a.max_signal, b.max_signal),
+        .max_speed = less (a.max_speed, b.max_speed),
+        .max_impulse = less (a.max_impulse, b.max_impulse),
+        .impulse_window = longer (a.max_impulse, a.impulse_window, b.max_impulse, b.impulse_window),
+        .max_energy = less (a.max_energy, b.max_energy),
+        .energy_window = longer (a.max_energy, a.energy_window, b.max_energy, b.energy_window),
+        .dead_man_pressure = std::max (orForever (a.dead_man_pressure), orForever (b.dead_man_pressure)),
+        .dead_man_buttons = a.dead_man_buttons | b.dead_man_buttons,
+    };
+}
+
+void Guard::prepare (const GuardLimits& wanted, double dt_s) noexcept
+{
+    *this = Guard();
+    if (isFinite (dt_s) && dt_s > 0.0) dt = dt_s;
+    limits = tightest (wanted, wanted);
+    is_watching = limits.max_speed != GuardLimits::none || limits.max_impulse != GuardLimits::none || limits.max_energy != GuardLimits::none;
+    enabled = 0.0;
+    rearm();
+}
+
+void Guard::emergencyStop() noexcept
+{
+    is_news = is_news || latched != Stop::emergency;
+    latched = Stop::emergency;
+}
+
+void Guard::rearm() noexcept
+{
+    latched = Stop::none;
+    speed = {};
+    impulse.prepare (windowOf (limits.max_impulse, limits.impulse_window), dt);
+    energy.prepare (limits.max_energy, windowOf (limits.max_energy, limits.energy_window), dt);
+}
+
+bool Guard::isAtRest() const noexcept
+{
+    const auto none = [] (const Channels& all)
+    { return std::all_of (all.begin(), all.end(), [] (double v)
+                          { return v == 0.0; }); };
+    return last.force.isZero (0.0) && last.torque.isZero (0.0) && none (last.axes) && none (last.signals);
+}
+
+void Guard::latch (Stop why, double value) noexcept
+{
+    if (latched != Stop::none) return;
+    latched = why;
+    seen = value;
+    is_news = true;
+}
+
+/// Updates the watches with the motion of the device under its last effort.
+void Guard::watch (const Reading& reading) noexcept
+{
+    const double now = static_cast<double> (ticks++) * dt;
+    if (! reading.valid || ! isFinite (reading.position, reading.age)) return speed.forget();
+
+    const Vec3 moved = speed (reading, now);
+    if (const double v = speed.speed(); ! (v <= limits.max_speed)) latch (Stop::speed, v);
+    if (limits.max_energy != GuardLimits::none)
+        if (const double given = energy (last.force, moved); ! (given <= limits.max_energy)) latch (Stop::energy, given);
+}
+
+void Guard::countImpulse() noexcept
+{
+    if (limits.max_impulse == GuardLimits::none) return;
+    if (const double pushed = impulse (last.force.stableNorm() * dt); ! (pushed <= limits.max_impulse)) latch (Stop::impulse, pushed);
+}
+
+Guard::Stop Guard::causeOf (const Effort& wanted, const Reading& reading) const noexcept
+{
+    if (latched == Stop::emergency) return latched;
+    if (! isFinite (wanted.force, wanted.torque)) return Stop::not_finite;
+    if (hasChannels (wanted) && ! channelsAreFinite (wanted)) return Stop::not_finite;
+    if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! (reading.age <= limits.watchdog)) return Stop::stale;
+    if (latched != Stop::none) return latched;
+    if (asked_to_halt) return Stop::halted;
+
+    const bool is_held = (reading.buttons & limits.dead_man_buttons) == limits.dead_man_buttons
+                         && (limits.dead_man_pressure == 0.0 || reading.pressure >= limits.dead_man_pressure);
+    return is_held ? Stop::none : Stop::released;
+}
+
+Guard::Event Guard::describeNow (Stop why, const Effort& wanted, const Reading& reading) const noexcept
+{
+    using Part = Event::Part;
+    Event e { .why = why, .valid = reading.valid };
+    const auto of = [&] (Part part, double x, double y = 0.0, double z = 0.0, int channel = 0)
+    {
+        e.part = part;
+        e.wanted = { x, y, z };
+        e.channel = channel;
+    };
+    const auto ofVector = [&] (Part part, const Vec3& v)
+    { of (part, v.x(), v.y(), v.z()); };
+    const auto ofChannel = [&] (Part part, const Channels& all)
+    {
+        const int i = firstNotFinite (all);
+        of (part, all[i], 0.0, 0.0, i);
+    };
+
+    switch (why)
+    {
+    case Stop::not_finite:
+        if (! isFinite (wanted.force))
+            ofVector (Part::force, wanted.force);
+        else if (! isFinite (wanted.torque))
+            ofVector (Part::torque, wanted.torque);
+        else
+            isFinite (wanted.axes) ? ofChannel (Part::signal, wanted.signals) : ofChannel (Part::axis, wanted.axes);
+        break;
+    case Stop::stale:
+        if (! isFinite (reading.position, reading.rotation)) ofVector (Part::reading, isFinite (reading.position) ? reading.rotation : reading.position);
+        e.value = reading.age;
+        e.limit = limits.watchdog;
+        break;
+    case Stop::released:
+        e.value = reading.pressure;
+        e.limit = limits.dead_man_pressure;
+        break;
+    case Stop::speed:
+        e.value = seen;
+        e.limit = limits.max_speed;
+        break;
+    case Stop::impulse:
+        e.value = seen;
+        e.limit = limits.max_impulse;
+        e.window = limits.impulse_window;
+        break;
+    case Stop::energy:
+        e.value = seen;
+        e.limit = limits.max_energy;
+        e.window = limits.energy_window;
+        break;
+    case Stop::none:
+    case Stop::halted:
+    case Stop::emergency:
+        break;
+    }
+    return e;
+}
+
+Effort Guard::operator() (const Effort& wanted, const Reading& reading) noexcept
+{
+    if (is_watching) watch (reading);
+    const auto cause = causeOf (wanted, reading);
+
+    if (cause != reason && cause != Stop::none)
+    {
+        const bool begins = reason == Stop::none;
+        const bool ends_a_run = cause == Stop::halted && event.why != Stop::none;   // then the earlier stop is reported
+        if ((begins && ! ends_a_run) || (latches (cause) && is_news))
+        {
+            event = describeNow (cause, wanted, reading);
+            ++count;
+        }
+        if (latches (cause)) is_news = false;
+        if (begins)
+        {
+            at_stop = last;
+            withheld = 1.0;
+            enabled = 0.0;
+        }
+    }
+    reason = cause;
+
+    const auto smooth = crossfade (wanted);
+
+    last.force = approached (last.force, shortened (smooth.force, limits.max_force), perTick (limits.max_slew, dt));
+    last.torque = approached (last.torque, shortened (smooth.torque, limits.max_torque), perTick (limits.max_torque_slew, dt));
+    if (hasChannels (last) || hasChannels (smooth))
+    {
+        last.axes = approached (last.axes, smooth.axes, limits.max_axis_effort, perTick (limits.max_axis_slew, dt));
+        last.signals = approached (last.signals, smooth.signals, limits.max_signal, GuardLimits::none);
+    }
+    if (is_watching) countImpulse();
+    return last;
+}
+
+Effort Guard::crossfade (const Effort& wanted) noexcept
+{
+    withheld = std::max (0.0, withheld - dt / fade_s);
+
+    if (reason != Stop::none)
+        return { withheld * at_stop.force, withheld * at_stop.torque, mixed (withheld, at_stop.axes, 0.0, {}), mixed (withheld, at_stop.signals, 0.0, {}) };
+
+    enabled = limits.ramp > 0.0 ? std::min (1.0, enabled + dt / limits.ramp) : 1.0;
+    if (enabled == 1.0) return wanted;
+
+    // The sum never exceeds 1, so the effort can safely return before the fade is over.
+    const double rest = std::min (withheld, 1.0 - enabled);
+    return { enabled * wanted.force + rest * at_stop.force, enabled * wanted.torque + rest * at_stop.torque,
+             mixed (enabled, wanted.axes, rest, at_stop.axes), mixed (enabled, wanted.signals, rest, at_stop.signals) };
+}
+
+std::string describe (const Guard::Event& event)
+{
+    using Part = Guard::Event::Part;
+    switch (event.why)
+    {
+    case Guard::Stop::none:
+        return "not stopped";
+    case Guard::Stop::halted:
+        return "halted on request";
+    case Guard::Stop::emergency:
+        return "the emergency stop was pressed";
+
+    case Guard::Stop::stale:
+        if (! event.valid) return "the device has no valid reading";
+        if (event.part == Part::reading) return "the reading is not a number: " + inWords (event.wanted);
+        if (! (event.value >= 0.0)) return "the reading has no age";
+        return "the last reading is " + inMilliseconds (event.value) + " old; the watchdog allows " + inMilliseconds (event.limit);
+
+    case Guard::Stop::released:
+        if (event.limit > 0.0 && ! (event.value >= event.limit))
+            return "the hand presses with " + inWords (event.value) + " N; the dead-man's switch requires " + inWords (event.limit) + " N";
+        return "the dead-man's switch is not held";
+
+    case Guard::Stop::speed:
+        return "the tool moves at " + inWords (event.value) + " m/s; the limit is " + inWords (event.limit) + " m/s";
+    case Guard::Stop::impulse:
+        return "the force has pushed for " + inWords (event.value) + " N*s" + withinWindow (event, " N*s");
+    case Guard::Stop::energy:
+        return "the device has given the hand " + inWords (event.value) + " J" + withinWindow (event, " J");
+
+    case Guard::Stop::not_finite:
+        break;
+    }
+
+    const std::string asked = "the graph asked for ", no_number = " that is not a number: ";
+    switch (event.part)
+    {
+    case Part::axis:
+        return asked + "an effort on axis " + std::to_string (event.channel + 1) + no_number + inWords (event.wanted[0]);
+    case Part::signal:
+        return asked + "a signal on channel " + std::to_string (event.channel + 1) + no_number + inWords (event.wanted[0]);
+    case Part::torque:
+        return asked + "a torque" + no_number + inWords (event.wanted) + " N*m";
+    default:
+        return asked + "a force" + no_number + inWords (event.wanted) + " N";
+    }
+}
+
+}   // namespace tactus

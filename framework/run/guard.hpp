@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "effort_watch.hpp"
+#include <framework/node/device.hpp>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+namespace tactus
+{
+
+/// Limits of a guard. The defaults limit nothing, so that a simulated device is exact. The profile of a real device
+/// sets them, and a session may only tighten them. A limit that is negative or not a number lets nothing through.
+struct GuardLimits
+{
+    static constexpr double none = std::numeric_limits<double>::infinity();
+    static constexpr double default_watchdog = 0.1;   ///< in s, for a real device whose profile does not set it
+
+    double max_force = none;         ///< length of the vector, in N
+    double max_torque = none;        ///< length of the vector, in N m
+    double max_slew = none;          ///< length of the rate of change of force, in N/s
+    double max_torque_slew = none;   ///< length of the rate of change of torque, in N m/s
+    double ramp = 0.0;               ///< time from 0 to full effort after enabling, in s
+    double watchdog = none;          ///< time without a fresh reading before the effort goes to 0, in s
+
+    double max_axis_effort = none;   ///< for each axis separately, in N or N m
+    double max_axis_slew = none;     ///< for each axis separately, in N/s or N m/s
+    double max_signal = none;        ///< for each signal output separately, in N, m/s2 or 1, as calibrated
+
+    double max_speed = none;       ///< speed of the tool as measured by SpeedWatch, in m/s
+    double max_impulse = none;     ///< impulse in any direction within the window, as counted by ImpulseWatch, in N s
+    double impulse_window = 0.0;   ///< in s; 0: the whole session
+    double max_energy = none;      ///< energy that the device may give to the hand, as counted by EnergyWatch, in J
+    double energy_window = 0.0;    ///< in s; 0: the whole session
+
+    double dead_man_pressure = 0.0;       ///< how hard the hand must press before the guard allows any effort, in N; 0: not required
+    std::uint64_t dead_man_buttons = 0;   ///< buttons that must all be held, as in Reading::buttons; 0: none
+
+    bool operator== (const GuardLimits&) const = default;
+};
+
+/// The stricter of the two values of each limit; this is how a session tightens a profile. For limits with windows: the smaller
+/// limit and the longer window.
+GuardLimits tightest (const GuardLimits&, const GuardLimits&) noexcept;
+
+/// The last stage before a device, one per role, always present. It passes efforts that are finite and within the limits for
+/// size and slew, shortens other efforts keeping their direction, and brings everything to zero when there is a cause to stop.
+///
+/// Each tick, in this order:
+///
+///     cause      see below
+///     crossfade  e = enabled w + withheld h          w: wanted now, h: effort at the stop
+///     length     |e| <= max_force                    direction kept; each axis and signal separately
+///     slew       |e - e(last tick)| <= max_slew T    along a straight line, so the length limit holds as well
+///
+/// While there is a cause, `enabled` is 0 and `withheld` falls from 1 to 0 within fade_s, so a stop is never a step,
+/// even without a slew limit; with one, it takes as long as the limit requires. When the cause is gone, `enabled` rises
+/// to 1 within `ramp`, as at the start. Without any limit, a finite effort passes through bit for bit.
+///
+///     stop        cause                                                       ends
+///     not_finite  the graph asked for a value that is not a number            with its cause, then the ramp
+///     stale       no reading, or one that is old or not a number              with its cause, then the ramp
+///     released    the dead-man's switch is not held                           with its cause, then the ramp
+///     halted      requested: the end of a session, the stop button            with resume(), then the ramp
+///     speed       the tool moves faster than max_speed                        with rearm(), then the ramp
+///     impulse     more force for longer than max_impulse allows               with rearm(), then the ramp
+///     energy      the device gives the hand more than max_energy              with rearm(), then the ramp
+///     emergency   the emergency stop was pressed                              with rearm(), then the ramp
+///
+/// Stops that need rearm() are signs of a fault in the loop or the device. Without the latch, the effort would come
+/// back on its own and push until the next stop.
+///
+/// Good to know
+///  - The guard is a total function: whatever the effort, reading or limits, the result is finite.
+///  - The torque has its own slew limit, since N/s does not apply to it. Stops and the ramp apply to everything.
+///  - With ramp 0, full effort returns on the first good tick, as fast as the slew limit allows.
+///  - Speed, impulse and energy are measured from the last effort on the device and its motion, so an excess is
+///    detected one tick late: the limit is exceeded during that tick and the fade.
+class Guard
+{
+public:
+    /// Duration of a stop, unless a slew limit requires longer. Short for a hand (the fastest reflex takes about 30 ms),
+    /// long compared with a tick, so that the stop itself does not jolt the device.
+    static constexpr double fade_s = 0.005;
+
+    enum class Stop : std::uint32_t
+    {
+        none,
+        not_finite,
+        stale,
+        released,
+        halted,
+        speed,
+        impulse,
+        energy,
+        emergency
+    };
+
+    /// True for stops that last until rearm().
+    static constexpr bool latches (Stop stop) noexcept { return stop >= Stop::speed; }
+
+    /// The values that made the guard withhold an effort. Plain bytes, so that hosts can pass them on.
+    struct Event
+    {
+        /// Which value was not a number.
+        enum class Part : std::uint32_t
+        {
+            none,
+            reading,
+            force,
+            torque,
+            axis,
+            signal
+        };
+
+        Stop why = Stop::none;
+        Part part = Part::none;
+        double value = 0.0;                ///< the measured age, pressure, speed, impulse or energy
+        double limit = 0.0;                ///< its limit
+        double window = 0.0;               ///< window of the limit, in s; 0: the whole session
+        std::array<double, 3> wanted {};   ///< force or torque that was not a number; for an axis or signal, only the first component is used
+        std::int32_t channel = 0;          ///< number of the axis or signal, from 0
+        std::uint32_t valid = 1;           ///< the reading was valid
+    };
+
+    void prepare (const GuardLimits&, double dt_s) noexcept;             // [main thread]
+    Effort operator() (const Effort& wanted, const Reading&) noexcept;   // [tick thread]
+
+    /// Brings the effort to zero and keeps it there until resume(). [tick thread]
+    void halt() noexcept { asked_to_halt = true; }
+    void resume() noexcept { asked_to_halt = false; }
+
+    /// Like halt, but only rearm() ends it. rearm() also ends every other latched stop, but not a halt, and resets the
+    /// impulse and energy counts. [tick thread]
+    void emergencyStop() noexcept;
+    void rearm() noexcept;
+
+    /// Why the last effort was withheld. [any thread that owns the guard]
+    Stop stop() const noexcept { return reason; }
+
+    /// The first tick of the latest stop, even after it has ended. `why` is none if there was none since prepare.
+    const Event& latest() const noexcept { return event; }
+
+    /// How many times latest() has changed.
+    std::uint64_t events() const noexcept { return count; }
+
+    /// True while no effort is on the device, so that it can be released without a step.
+    bool isAtRest() const noexcept;
+
+private:
+    void watch (const Reading&) noexcept;
+    void countImpulse() noexcept;
+    void latch (Stop, double value) noexcept;
+    Stop causeOf (const Effort& wanted, const Reading&) const noexcept;
+    Event describeNow (Stop, const Effort& wanted, const Reading&) const noexcept;
+    Effort crossfade (const Effort& wanted) noexcept;
+
+    GuardLimits limits;
+    double dt = fade_s;      // in s; until prepare is called, a stop takes one tick
+    double enabled = 1.0;    // progress of the enable ramp, 0…1
+    double withheld = 0.0;   // fraction of `at_stop` that is still on the device, 1…0
+    Effort at_stop;
+    Effort last;
+    Stop reason = Stop::none;
+    Stop latched = Stop::none;
+    double seen = 0.0;      // the value that latched it
+    bool is_news = false;   // it has not been reported yet
+    Event event;
+    std::uint64_t count = 0;
+    bool asked_to_halt = false;
+
+    bool is_watching = false;   // at least one limit needs the watches
+    std::uint64_t ticks = 0;
+    SpeedWatch speed;
+    ImpulseWatch impulse;
+    EnergyWatch energy;
+};
+
+/// The event in words, with its numbers: "the last reading is 31 ms old; the watchdog allows 20 ms".
+std::string describe (const Guard::Event&);
+
+}   // namespace tactus

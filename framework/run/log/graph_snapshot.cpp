@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "graph_snapshot.hpp"
+#include "content_hash.hpp"
+
+#include <framework/file/graph_file.hpp>
+#include <framework/graph/ids.hpp>
+#include <framework/text/json_text.hpp>
+#include <framework/text/quote.hpp>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace tactus
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+/// Normalises a path; "" means the current folder.
+fs::path whole (const fs::path& path) { return (fs::current_path() / path).lexically_normal(); }
+
+std::string relativeTo (const fs::path& folder, const fs::path& path)
+{
+    const auto relative = whole (path).lexically_relative (whole (folder));
+    return (relative.empty() ? whole (path) : relative).generic_string();
+}
+
+/// The graph comes last, after the files that it includes.
+class Writer
+{
+public:
+    explicit Writer (fs::path f) : folder (std::move (f)) {}
+
+    std::size_t add (const graph::Graph& graph)
+    {
+        auto includes = Json::object();
+        for (const auto& [written, file] : graph.files)
+            includes[written] = add (file);
+        all.push_back ({ { "text", writeGraph (graph) }, { "folder", relativeTo (folder, graph.folder) }, { "ids", graph::idsOf (graph) }, { "includes", std::move (includes) } });
+        return all.size() - 1;
+    }
+
+    Json all = Json::array();
+
+private:
+    std::size_t add (const std::shared_ptr<const graph::Graph>& file)
+    {
+        if (const auto known = numbers.find (file.get()); known != numbers.end()) return known->second;
+        return numbers.emplace (file.get(), add (*file)).first->second;
+    }
+
+    fs::path folder;
+    std::map<const graph::Graph*, std::size_t> numbers;
+};
+
+Message wrong (std::string where, std::string text)
+{
+    return { .id = "log/graph", .where = std::move (where), .text = std::move (text), .remedy = "use the log as `tactus play` wrote it" };
+}
+
+const Json* member (const Json& object, const char* key)
+{
+    const auto at = object.find (key);
+    return at != object.end() ? &*at : nullptr;
+}
+}   // namespace
+
+Json snapshotOf (const graph::Graph& graph, const std::set<std::string>& assets, const fs::path& folder)
+{
+    Writer writer { folder };
+    writer.add (graph);
+    auto named = Json::object();
+    for (const auto& path : assets)
+        named[relativeTo (folder, path)] = fileHash (path).value_or ("");
+    return { { "files", std::move (writer.all) }, { "assets", std::move (named) } };
+}
+
+Result<graph::Graph> readSnapshot (const Json& snapshot, const fs::path& folder)
+{
+    const auto* files = snapshot.is_object() ? member (snapshot, "files") : nullptr;
+    if (files == nullptr || ! files->is_array() || files->empty()) return wrong ("", "it has no list of files");
+
+    std::vector<std::shared_ptr<const graph::Graph>> read;
+    for (const auto& entry : *files)
+    {
+        const auto where = "/files/" + std::to_string (read.size());
+        if (! entry.is_object()) return wrong (where, "this is not an entry for a graph file");
+        const auto *text = member (entry, "text"), *place = member (entry, "folder"), *ids = member (entry, "ids"), *includes = member (entry, "includes");
+        if (text == nullptr || ! text->is_string() || place == nullptr || ! place->is_string() || ids == nullptr
+            || includes == nullptr || ! includes->is_object())
+            return wrong (where, "a file needs text, folder, ids and includes");
+
+        auto loaded = readGraph (text->asString());
+        for (const auto& m : loaded.messages)
+            if (m.severity == Message::Severity::error) return wrong (where + "/text", "the graph cannot be read: " + m.text + " [" + m.id + "]");
+        if (! graph::giveIds (loaded.graph, *ids)) return wrong (where + "/ids", "these are not the ids of its nodes and wires");
+        loaded.graph.folder = (folder / place->asString()).lexically_normal().string();
+        for (const auto& [written, number] : includes->items())
+        {
+            if (! number.is_number_unsigned() || number.get<std::size_t>() >= read.size())
+                return wrong (where + "/includes/" + pointerPart (written), "there is no earlier file with this number");
+            loaded.graph.files.emplace (written, read[number.get<std::size_t>()]);
+        }
+        read.push_back (std::make_shared<const graph::Graph> (std::move (loaded.graph)));
+    }
+    return *read.back();
+}
+
+Messages checkAssets (const Json& snapshot, const fs::path& folder)
+{
+    Messages messages;
+    const auto* assets = member (snapshot, "assets");
+    if (assets == nullptr || ! assets->is_object()) return messages;
+    for (const auto& [path, hash] : assets->items())
+    {
+        const auto file = (folder / path).lexically_normal();
+        const auto now = fileHash (file);
+        if (! now)
+            messages.push_back ({ .id = "log/asset_missing", .where = "/assets/" + pointerPart (path), .text = quote (file.string()) + ", which the run used, cannot be read", .remedy = "restore it; paths are relative to the folder of the log" });
+        else if (Json (*now) != hash)
+            messages.push_back ({ .id = "log/asset_changed", .where = "/assets/" + pointerPart (path), .text = quote (file.string()) + " has changed since the run used it", .remedy = "restore the old file, or name a graph to play it with the new one" });
+    }
+    return messages;
+}
+
+}   // namespace tactus

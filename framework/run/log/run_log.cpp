@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+#include "run_log.hpp"
+#include "log_number.hpp"
+
+#include <framework/plan/find_hit.hpp>
+#include <framework/plan/find_param.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <span>
+#include <system_error>
+
+namespace tactus
+{
+
+namespace
+{
+/// One second, plus room for turning every parameter at the same time; at most 64 MB.
+std::size_t roomFor (const RunHead& head)
+{
+    constexpr double spare = 65536.0, most = 8388608.0;
+    auto words = 2.0 + static_cast<double> (head.guards.size() * (reading_size + 1) + head.feeds.size());
+    for (const auto& [role, device] : head.devices)
+        words += static_cast<double> (device.axes.size()) + device.signal_inputs;
+    return static_cast<std::size_t> (std::min (most, words * std::ceil (head.rate_hz) + spare));
+}
+
+std::string textOf (const Json& value) { return value.dump(); }
+
+std::string listOf (std::span<const double> numbers)
+{
+    std::string text;
+    for (const double v : numbers)
+        text += (text.empty() ? "[" : ",") + logNumber (v);
+    return text.empty() ? "[]" : text + "]";
+}
+
+/// A list with one entry is written as a number.
+std::string textOf (std::span<const double> numbers) { return numbers.size() == 1 ? logNumber (numbers.front()) : listOf (numbers); }
+
+std::span<const double> all (const Channels& channels) { return { channels.begin(), channels.end() }; }
+
+Json toJson (const std::map<std::string, GuardLimits>& guards)
+{
+    auto json = Json::object();
+    for (const auto& [role, limits] : guards)
+        for (const auto& [key, value] : guard_fields)
+            json[role][std::string (key)] = toLog (limits.*value);
+    for (const auto& [role, limits] : guards)
+        json[role][std::string (dead_man_buttons)] = limits.dead_man_buttons;
+    return json;
+}
+
+/// Only devices that have more than a tool.
+Json toJson (const std::map<std::string, DeviceLayout>& devices)
+{
+    auto json = Json::object();
+    for (const auto& [role, has] : devices)
+        if (has != DeviceLayout {})
+            json[role] = { { "axes", has.axes }, { "efforts", has.efforts }, { "buttons", has.buttons }, { "signal_inputs", has.signal_inputs }, { "signal_outputs", has.signal_outputs } };
+    return json;
+}
+
+std::string headLine (const RunHead& head)
+{
+    return textOf ({ { "format", run_format }, { "version", run_version }, { "program", head.program }, { "rate_hz", head.rate_hz }, { "sets", head.sets }, { "feeds", head.feeds }, { "guards", toJson (head.guards) }, { "devices", toJson (head.devices) } }) + "\n";
+}
+
+bool same (std::span<const double> a, std::span<const double> b) noexcept
+{
+    return a.size() == b.size() && (a.empty() || std::memcmp (a.data(), b.data(), a.size_bytes()) == 0);
+}
+}   // namespace
+
+RunLog::RunLog (const std::filesystem::path& p, const RunHead& head)
+    : path (p), place (p.parent_path()), out (p, std::ios::binary | std::ios::trunc), taken (roomFor (head))
+{
+    out << headLine (head) << std::flush;
+}
+
+Result<std::unique_ptr<RunLog>> RunLog::create (const std::filesystem::path& path, const RunHead& head)
+{
+    errno = 0;
+    std::unique_ptr<RunLog> log { new RunLog (path, head) };
+    if (auto problem = log->written(); ! problem) return std::move (problem.error());
+    log->whole = static_cast<std::uintmax_t> (log->out.tellp());
+    return log;
+}
+
+Result<> RunLog::written()
+{
+    if (out.good()) return {};
+    const auto reason = errno != 0 ? std::generic_category().message (errno) : "the system gives no reason";
+    return Message::error ("output/unwritable", path.string(), "cannot be written: " + reason, "choose another file, or create its folder and free some space");
+}
+
+void RunLog::expect (std::shared_ptr<const Plan> plan, const Json& snapshot, const std::map<std::string, GuardLimits>& joining,
+                     const std::map<std::string, DeviceLayout>& devices)
+{
+    expected.push_back ({ std::move (plan), textOf (snapshot) });
+    joined.insert (joining.begin(), joining.end());
+    joined_devices.insert (devices.begin(), devices.end());
+}
+
+Result<> RunLog::drain()
+{
+    if (! out.is_open()) return {};
+    while (taken.words().size() > 0)
+        take();
+    out.flush();
+    auto result = written();
+    if (result)
+        whole = static_cast<std::uintmax_t> (out.tellp());
+    else
+    {
+        std::error_code ignored;
+        out.close();
+        std::filesystem::resize_file (path, whole, ignored);
+    }
+    return result;
+}
+
+void RunLog::take()
+{
+    auto& words = taken.words();
+    const auto number = [&]
+    { return std::bit_cast<double> (words.pop()); };
+    const auto begin = words.pop();
+    const auto of = static_cast<std::size_t> (begin >> 8u);
+    switch (static_cast<RunJournal::Kind> (begin & 0xffu))
+    {
+    case RunJournal::Kind::took:
+        takeOver (words.pop());
+        break;
+    case RunJournal::Kind::turned:
+    {
+        const auto knob = static_cast<std::size_t> (words.pop());
+        turns += (turns.empty() ? "" : ",") + textOf (plan::nameOf (*expected.front().plan, of, knob)) + ":" + logNumber (number());
+        break;
+    }
+    case RunJournal::Kind::outdone:
+        kept += (kept.empty() ? "" : ",") + textOf (plan::nameOf (*expected.front().plan, of, static_cast<std::size_t> (words.pop())));
+        break;
+    case RunJournal::Kind::struck:
+    {
+        const auto input = static_cast<std::size_t> (words.pop());
+        hits += (hits.empty() ? "" : ",") + textOf (plan::nameOfHit (*expected.front().plan, of, input)) + ":" + logNumber (number());
+        break;
+    }
+    case RunJournal::Kind::late:
+        late += (late.empty() ? "" : ",") + std::to_string (words.pop());
+        break;
+    case RunJournal::Kind::halted:
+        add ("halt", "true");
+        break;
+    case RunJournal::Kind::resumed:
+        add ("halt", "false");
+        break;
+    case RunJournal::Kind::emergency:
+        add ("emergency", "true");
+        break;
+    case RunJournal::Kind::rearmed:
+        add ("rearm", "true");
+        break;
+    case RunJournal::Kind::ticked:
+        takeTick (of, static_cast<std::size_t> (words.pop()));
+    }
+}
+
+/// Earlier plans are no longer needed.
+void RunLog::takeOver (std::uint64_t serial)
+{
+    while (expected.front().plan->serial() != serial)
+        expected.pop_front();
+    if (expected.front().graph == graph) return;   // recompiled for a probe
+    graph = expected.front().graph;
+    if (line.find (R"("graph":)") != std::string::npos) endLine();   // before the first tick, another graph may replace the first one
+    add ("graph", graph);
+
+    std::map<std::string, GuardLimits> guards;
+    for (const auto& role : expected.front().plan->roles())
+        if (auto joining = joined.extract (role.name)) guards.insert (std::move (joining));
+    if (! guards.empty()) add ("guards", textOf (toJson (guards)));
+
+    std::map<std::string, DeviceLayout> devices;
+    for (const auto& role : expected.front().plan->roles())
+        if (auto joining = joined_devices.extract (role.name)) devices.insert (std::move (joining));
+    if (const auto has = toJson (devices); ! has.empty()) add ("devices", textOf (has));
+}
+
+LoggedReading RunLog::takeReading()
+{
+    auto& words = taken.words();
+    const auto number = [&]
+    { return std::bit_cast<double> (words.pop()); };
+    LoggedReading reading;
+    std::ranges::generate (reading.numbers, number);
+    const auto sizes = words.pop();
+    for (int i = 0; i < static_cast<int> (sizes & 0xffu); ++i)
+        reading.axes.set (i, number());
+    for (int i = 0; i < static_cast<int> (sizes >> 8u & 0xffu); ++i)
+        reading.signals.set (i, number());
+    return reading;
+}
+
+void RunLog::takeTick (std::size_t roles, std::size_t feeds)
+{
+    auto& words = taken.words();
+    const auto number = [&]
+    { return std::bit_cast<double> (words.pop()); };
+
+    if (! kept.empty()) add ("kept", "[" + kept + "]");
+    if (! turns.empty()) add ("turn", "{" + turns + "}");
+    if (! hits.empty()) add ("hit", "{" + hits + "}");
+    if (! late.empty()) add ("late", "[" + late + "]");
+    kept.clear();
+    turns.clear();
+    hits.clear();
+    late.clear();
+
+    std::string read;
+    for (std::size_t r = 0; r < roles; ++r)
+    {
+        const auto reading = takeReading();
+        const auto& role = expected.front().plan->roles()[r].name;
+        auto& before = readings.try_emplace (role, toLogged ({})).first->second;
+        std::string changed;
+        const auto change = [&] (std::string_view key, const std::string& value)
+        { changed += (changed.empty() ? "\"" : ",\"") + std::string (key) + "\":" + value; };
+        for (const auto& [key, first, size] : reading_fields)
+            if (const auto field = std::span (reading.numbers).subspan (first, size); ! same (field, std::span (before.numbers).subspan (first, size)))
+                change (key, textOf (field));
+        for (const auto& [key, value] : channel_fields)
+            if (! same (all (reading.*value), all (before.*value))) change (key, listOf (all (reading.*value)));
+        if (! changed.empty()) read += (read.empty() ? "" : ",") + textOf (role) + ":{" + changed + "}";
+        before = reading;
+    }
+    if (! read.empty()) add ("read", "{" + read + "}");
+
+    std::vector<double> values (feeds);
+    std::ranges::generate (values, number);
+    if (! same (values, feed))
+        add ("feed", listOf (values));
+    feed = std::move (values);
+
+    if (! line.empty()) endLine();
+    ++now;
+}
+
+void RunLog::add (std::string_view key, std::string_view value)
+{
+    line += ",\"";
+    line += key;
+    line += "\":";
+    line += value;
+}
+
+void RunLog::endLine()
+{
+    out << "{\"tick\":" << now << line << "}\n";
+    line.clear();
+}
+
+Result<> RunLog::finish()
+{
+    if (auto problem = drain(); ! problem || ! out.is_open()) return problem;
+    add (brokenAt() ? "broken" : "end", "true");
+    endLine();
+    out.close();
+    return written();
+}
+
+}   // namespace tactus

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "reading_fields.hpp"
+#include "run_head.hpp"
+#include "run_journal.hpp"
+
+#include <framework/text/json.hpp>
+#include <framework/text/result.hpp>
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tactus
+{
+
+/// Writes a log during a run, so that the run can be repeated bit for bit; docs/replay.md describes the format. The file is
+/// written in place, one line per tick, so everything drained before a crash is in the file. [main thread, except journal()]
+class RunLog
+{
+public:
+    /// Replaces any file with this name. The buffer holds one second of the roles and feeds in the head. Ids:
+    /// output/unwritable.
+    static Result<std::unique_ptr<RunLog>> create (const std::filesystem::path&, const RunHead&);
+
+    /// Receives the events of the tick thread.
+    Journal& journal() noexcept { return taken; }
+
+    /// The base of relative paths in the log.
+    const std::filesystem::path& folder() const noexcept { return place; }
+
+    /// Call it before a plan is submitted, with the plan, the snapshot of its graph, and the guards and devices of new roles.
+    void expect (std::shared_ptr<const Plan>, const Json& snapshot, const std::map<std::string, GuardLimits>& joining = {},
+                 const std::map<std::string, DeviceLayout>& devices = {});
+
+    /// Writes what has arrived. Call it many times a second, and once more after the last tick. If writing fails, the log ends
+    /// after the last complete line, and nothing more is written.
+    Result<> drain();
+
+    /// Marks the end of the run. Ids: output/unwritable.
+    Result<> finish();
+
+    /// The first tick at which the log could not keep up. The log ends there.
+    std::optional<std::uint64_t> brokenAt() const noexcept { return taken.brokenAt(); }
+
+private:
+    struct Expected
+    {
+        std::shared_ptr<const Plan> plan;
+        std::string graph;
+    };
+
+    RunLog (const std::filesystem::path&, const RunHead&);
+
+    void take();
+    void takeOver (std::uint64_t serial);
+    void takeTick (std::size_t roles, std::size_t feeds);
+    LoggedReading takeReading();
+    void add (std::string_view key, std::string_view value);
+    void endLine();
+    Result<> written();
+
+    std::filesystem::path path, place;
+    std::ofstream out;
+    std::uintmax_t whole = 0;   // bytes known to be in the file, up to the end of a line
+    RunJournal taken;
+
+    std::deque<Expected> expected;               // the running plan, and plans that may follow
+    std::string graph;                           // the last one written
+    std::map<std::string, GuardLimits> joined;   // guards of roles that joined since the start, or are about to join
+    std::map<std::string, DeviceLayout> joined_devices;
+    std::map<std::string, LoggedReading> readings;
+    std::vector<double> feed;
+    std::uint64_t now = 0;   // tick number
+
+    // Parts of the line for this tick.
+    std::string line;
+    std::string turns, kept, hits;
+    std::string late;
+};
+
+}   // namespace tactus

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "realtime.hpp"
+
+#if defined(__linux__)
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#endif
+
+namespace tactus
+{
+
+#if defined(__linux__)
+
+namespace
+{
+std::string reason (int error) { return std::generic_category().message (error); }
+}   // namespace
+
+std::vector<std::string> becomeRealTime (std::optional<int> core)
+{
+    std::vector<std::string> refused;
+    prctl (PR_SET_TIMERSLACK, 1UL);   // in ns; no effect under SCHED_FIFO; the default is 50 us
+
+    constexpr int priority = 70;   // above interrupt threads, which have priority 50
+    const sched_param wanted { priority };
+    if (const int error = pthread_setschedparam (pthread_self(), SCHED_FIFO, &wanted))
+        refused.push_back ("the tick thread has no real-time priority (" + reason (error)
+                           + "), so other programs can delay it: allow it with rtprio in /etc/security/limits.conf");
+
+    if (core)
+    {
+        cpu_set_t set;
+        CPU_ZERO (&set);
+        if (*core >= 0 && *core < CPU_SETSIZE) CPU_SET (static_cast<std::size_t> (*core), &set);
+        if (const int error = pthread_setaffinity_np (pthread_self(), sizeof set, &set))
+            refused.push_back ("the tick thread could not be pinned to core " + std::to_string (*core) + " (" + reason (error) + ")");
+    }
+    return refused;
+}
+
+std::optional<std::string> lockMemory()
+{
+    // With a limit on locked memory, later allocations would fail rather than remain unlocked.
+    rlimit limit {};
+    const bool unlimited = geteuid() == 0 || (getrlimit (RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY);
+    if (mlockall (unlimited ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT) == 0) return std::nullopt;
+    return "memory is not locked (" + reason (errno) + "), so a tick may wait for the disk: allow it with memlock in /etc/security/limits.conf";
+}
+
+#else
+
+std::vector<std::string> becomeRealTime (std::optional<int>)
+{
+    return { "the tick thread has no real-time priority on this system" };
+}
+
+std::optional<std::string> lockMemory() { return std::nullopt; }
+
+#endif
+
+}   // namespace tactus

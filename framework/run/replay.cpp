@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "replay.hpp"
+#include "log/graph_snapshot.hpp"
+#include "turn.hpp"
+
+#include <framework/plan/find_hit.hpp>
+#include <framework/plan/find_param.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+namespace tactus
+{
+
+namespace
+{
+const Message& firstError (const Messages& messages) { return *std::ranges::find (messages, Message::Severity::error, &Message::severity); }
+}   // namespace
+
+Result<std::unique_ptr<Replay>> Replay::open (const std::string& path, Options options)
+{
+    auto log = RunLogReader::open (path);
+    if (! log) return log.error();
+    std::unique_ptr<Replay> replay { new Replay (std::move (*log), std::move (options)) };
+    if (auto begun = replay->begin(); ! begun) return begun.error();
+    return replay;
+}
+
+Replay::Replay (RunLogReader reader, Options o) : log (std::move (reader)), options (std::move (o)) {}
+
+Result<> Replay::begin()
+{
+    const auto& head = log.head();
+    if (head.program != options.program)
+        warnings.push_back (Message::warning ("log/other_program", log.name(),
+                                              "the run was recorded by " + head.program + ", but this is " + options.program
+                                                  + "; only the same program is certain to reproduce the run bit for bit"));
+    if (options.duration_s > 0.0) most = static_cast<std::uint64_t> (std::ceil (options.duration_s * rate() - 1e-6));
+
+    if (auto fetched = fetch(); ! fetched) return fetched;
+    if (! next || next->last != RunTick::Last::no) return Message::error ("log/empty", log.name(), "the run ended before its first tick", "log a longer run");
+
+    CompileOptions compile { .rate_hz = rate(), .feeds = head.feeds, .records = options.records, .assets = options.assets, .services = options.services };
+    compile.services.answers = &queries;
+    for (const auto& set : head.sets)
+    {
+        auto read = readOverride (set);
+        if (! read) return here (read.error());
+        compile.overrides.push_back (std::move (*read));
+    }
+    std::ranges::copy (options.overrides, std::back_inserter (compile.overrides));
+
+    running = std::make_unique<Run> (catalogue(), std::move (compile), [this] (const std::string& role, const graph::Graph&, const Plan&, Messages&)
+                                     { return openHand (role); });
+    running->add (feed);
+    auto logged = options.graph == nullptr ? loggedGraph() : Result<graph::Graph> { graph::Graph {} };
+    if (! logged) return here (logged.error());
+    const auto& graph = options.graph != nullptr ? *options.graph : *logged;
+    auto messages = running->load (graph);
+    if (! running->hasEngine()) return here (firstError (messages));
+    graph_name = graph.name;
+    running->keepRecords();
+    running->openDevices (graph, messages);
+    has_begun = true;
+    return {};
+}
+
+Result<graph::Graph> Replay::loggedGraph() const
+{
+    const auto folder = std::filesystem::path (log.name()).parent_path();
+    if (const auto changed = checkAssets (*next->graph, folder); ! changed.empty()) return changed.front();
+    return readSnapshot (*next->graph, folder);
+}
+
+Run::RoleDevice Replay::openHand (const std::string& role)
+{
+    const auto& head = log.head();
+    auto hand = std::make_unique<Hand>();
+    GuardLimits limits;
+    const auto takeFrom = [&] (const auto& guards, const auto& devices)
+    {
+        const auto guard = guards.find (role);
+        if (guard == guards.end()) return false;
+        limits = guard->second;
+        if (const auto device = devices.find (role); device != devices.end()) hand->has = device->second;
+        return true;
+    };
+    const bool known = has_begun ? takeFrom (next->guards, next->devices) : takeFrom (head.guards, head.devices);
+    if (! known && has_begun) return {};
+    if (! known)
+        warnings.push_back (Message::warning ("log/no_role", log.name(), "the run had no role '" + role + "'; a hand at rest takes its place"));
+    hands[role] = hand.get();
+    return { std::move (hand), limits };
+}
+
+Result<> Replay::fetch()
+{
+    auto fetched = log.next();
+    if (! fetched) return fetched.error();
+    next = std::move (*fetched);
+    return {};
+}
+
+Result<bool> Replay::tick()
+{
+    if (! next || (most && now >= *most)) return false;
+    while (next && next->tick == now)
+    {
+        if (next->last == RunTick::Last::broken) broken_at = now;
+        if (next->last != RunTick::Last::no || next->halt == true) return false;
+        if (auto done = carryOut(); ! done) return here (done.error());
+        if (auto fetched = fetch(); ! fetched) return fetched.error();
+    }
+    running->tick();
+    ++now;
+    return true;
+}
+
+void Replay::FeedValues::before (Plan& plan, std::uint64_t) noexcept
+{
+    if (! values.empty()) plan.setFeeds (values);
+}
+
+Result<> Replay::swapPlan()
+{
+    auto graph = loggedGraph();
+    if (! graph) return graph.error();
+    auto edit = running->edit (*graph, next->kept);
+    if (edit.plan() == nullptr) return firstError (edit.messages());
+    edit.openDevices();
+    edit.commit();
+    running->engine().takeSubmitted();
+    graph_name = graph->name;
+    return {};
+}
+
+Result<> Replay::carryOut()
+{
+    if (next->graph && std::exchange (has_first, true) && options.graph == nullptr)
+        if (auto swapped = swapPlan(); ! swapped) return swapped;
+    for (const auto& [param, target] : next->turns)
+        if (auto done = turn (param, target); ! done) return done;
+    for (const auto& [input, speed] : next->hits)
+        if (auto done = strike (input, speed); ! done) return done;
+    for (const auto& [role, reading] : next->readings)
+        if (const auto hand = hands.find (role); hand != hands.end()) hand->second->reading = reading;
+    if (next->rearm) running->engine().rearm();
+    if (next->emergency) running->engine().emergencyStop();
+    if (next->feed) feed.values = *next->feed;
+    queries.repeat (next->late);
+    return {};
+}
+
+Result<> Replay::turn (const std::string& param, double target)
+{
+    const auto found = running->engine().param (param);
+    if (found)
+        running->engine().set (*found, target);
+    else if (options.graph == nullptr)
+        return found.error();
+    else if (not_there.insert (param).second)
+        warnings.push_back (Message::warning ("log/not_turned", {}, "the run turned " + param + ", which this graph does not have"));
+    return {};
+}
+
+Result<> Replay::strike (const std::string& input, double speed)
+{
+    const auto found = running->engine().hits (input);
+    if (found)
+        running->engine().strike (found->front(), speed);
+    else if (options.graph == nullptr)
+        return found.error();
+    else if (not_there.insert (input).second)
+        warnings.push_back (Message::warning ("log/not_struck", {}, "the run triggered hits on " + input + ", which this graph does not have"));
+    return {};
+}
+
+/// Adds the current line of the log to the message.
+Message Replay::here (const Message& m) const { return Message::error (m.id, log.placeOf (next ? next->line : 1), m.text, m.remedy); }
+
+std::optional<Message> Replay::end() const
+{
+    if (broken_at)
+        return Message::warning ("log/broken", log.name(),
+                                 "writing the log could not keep up with the run, so it ends at tick " + std::to_string (*broken_at)
+                                     + "; up to there it is complete");
+    if (! next && log.isCutOff())
+        return Message::warning ("log/cut_off", log.name(),
+                                 "the log breaks off after tick " + std::to_string (now - 1) + ", because the program died; up to there it is complete");
+    return std::nullopt;
+}
+
+}   // namespace tactus

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+#include "run.hpp"
+
+#include "log/graph_snapshot.hpp"
+
+#include <framework/text/number_text.hpp>
+
+#include <algorithm>
+
+namespace tactus
+{
+
+Run::Run (const Catalogue& c, CompileOptions o, OpenDevice opener, Queries when)
+    : catalogue (c), options (std::move (o)), assets (options.assets), open (std::move (opener))
+{
+    if (when == Queries::on_thread)
+    {
+        queries = std::make_unique<QueryThread>();
+        options.services.answers = queries.get();
+    }
+    if (options.assets != nullptr) options.assets = &assets;
+}
+
+Run::~Run() { runner.reset(); }   // waits until the forces are zero, while all members still exist
+
+void Run::add (RunListener& listener) { listeners.push_back (&listener); }
+
+bool Run::isOptional (const std::string& port) const
+{
+    return std::ranges::any_of (listeners, [&] (const RunListener* l)
+                                { return std::ranges::count (l->ports(), port) > 0 && l->isOptional (port); });
+}
+
+/// Captured ports come first, so their taps keep their numbers when the ports of listeners change.
+Compiled Run::compile (const graph::Graph& graph, const Plan* plan_before, const Plan* withdrawn, std::vector<std::string> kept)
+{
+    auto wanted = options;
+    wanted.before = plan_before;
+    wanted.withdrawn = withdrawn;
+    wanted.kept = std::move (kept);
+    wanted.records.insert (wanted.records.end(), captured_ports.begin(), captured_ports.end());
+    for (const auto* listener : listeners)
+        std::ranges::move (listener->ports(), std::back_inserter (wanted.records));
+
+    assets.paths.clear();
+    auto compiled = tactus::compile (graph, catalogue, wanted);
+    const auto isMissing = [&] (const std::string& port)
+    { return std::ranges::count (compiled.messages, "record " + port, &Message::where) > 0 && isOptional (port); };
+    return std::erase_if (wanted.records, isMissing) > 0 ? tactus::compile (graph, catalogue, wanted) : compiled;
+}
+
+Messages Run::load (const graph::Graph& graph)
+{
+    auto compiled = compile (graph, nullptr, nullptr, {});
+    if (compiled.plan) begin (std::move (compiled.plan));
+    return std::move (compiled.messages);
+}
+
+void Run::begin (std::shared_ptr<Plan> plan)
+{
+    if (options.rate_hz == 0.0) graph_rate_hz = plan->rateHz();
+    options.rate_hz = plan->rateHz();   // devices and guards depend on it
+    running = std::make_unique<Engine> (std::move (plan));
+}
+
+void Run::keepRecords()
+{
+    options.records.clear();
+    for (const auto& tap : running->newest().taps())
+        options.records.push_back (tap.name);
+}
+
+bool Run::hasDevice (const std::string& role) const
+{
+    return std::ranges::any_of (by_role, [&] (const auto& d)
+                                { return d.first == role; });
+}
+
+void Run::openDevices (const graph::Graph& graph, Messages& messages)
+{
+    const auto& plan = running->newest();
+    for (const auto& role : plan.roles())
+    {
+        if (! open || hasDevice (role.name)) continue;
+        auto opened = open (role.name, graph, plan, messages);
+        if (! opened.device) continue;
+        running->attach (role.name, *opened.device, opened.limits);
+        by_role.emplace_back (role.name, std::move (opened));
+    }
+    for (auto* listener : listeners)
+        listener->planComes (plan);
+}
+
+Result<> Run::startLog (const std::filesystem::path& path, std::string program, std::vector<std::string> sets, const graph::Graph& graph)
+{
+    RunHead head { .program = std::move (program), .rate_hz = rate(), .sets = std::move (sets), .feeds = options.feeds };
+    for (const auto& [role, d] : by_role)
+    {
+        head.guards.emplace (role, d.limits);
+        head.devices.emplace (role, d.device->layout());
+    }
+    auto created = RunLog::create (path, head);
+    if (! created) return created.error();
+    log = std::move (*created);
+    logNext (running->newestShared(), graph, {});
+    running->report (log->journal());
+    if (queries) queries->report (log->journal());
+    return {};
+}
+
+void Run::logNext (const std::shared_ptr<Plan>& plan, const graph::Graph& graph, const std::vector<std::pair<std::string, RoleDevice>>& joining)
+{
+    if (! log) return;
+    std::map<std::string, GuardLimits> guards;
+    std::map<std::string, DeviceLayout> layouts;
+    for (const auto& [role, d] : joining)
+    {
+        guards.emplace (role, d.limits);
+        layouts.emplace (role, d.device->layout());
+    }
+    log->expect (plan, snapshotOf (graph, assets.paths, log->folder()), guards, layouts);
+}
+
+void Run::before (std::uint64_t tick) noexcept
+{
+    for (auto* listener : listeners)
+        listener->before (running->plan(), tick);
+}
+
+void Run::after (std::uint64_t tick, bool halts) noexcept
+{
+    const auto& plan = running->plan();
+    for (auto* listener : listeners)
+        listener->after (plan, tick, halts);
+    slot.note (plan, tick);
+}
+
+void Run::tick() noexcept
+{
+    before (now);
+    running->tick();
+    after (now, false);
+    ++now;
+}
+
+std::vector<std::string> Run::start (TickClock& clock, Runner::Options how)
+{
+    how.hooks = this;
+    runner = std::make_unique<Runner> (*running, clock, rate(), how);
+    return runner->start();
+}
+
+std::optional<Message> Run::attend()
+{
+    if (runner)
+        runner->attend();
+    else
+        running->clear();
+    if (! log || log_failure) return std::nullopt;
+    if (auto drained = log->drain(); ! drained) return log_failure = drained.error();
+    if (std::exchange (log_broke, log->brokenAt().has_value()) || ! log_broke) return std::nullopt;
+    return Message::warning ("log/broken", {}, "writing the log could not keep up, so it ends at tick " + std::to_string (*log->brokenAt()),
+                             "write it to a faster disk, or log at a lower --rate");
+}
+
+void Run::end()
+{
+    if (! runner) return;
+    runner->stop();
+    runner->wait();
+}
+
+Result<> Run::finish()
+{
+    end();
+    if (! log || log_failure) return log_failure ? Result<> { *log_failure } : Result<> {};
+    if (auto drained = log->drain(); ! drained) return drained;
+    return log->finish();
+}
+
+//==============================================================================
+
+Run::Edit::Edit (Run& r, const graph::Graph& g, std::vector<std::string> kept)
+    : run (&r), graph (g), withdrawn (r.running->withdraw()), compiled (r.compile (g, &r.running->newest(), withdrawn.get(), std::move (kept)))
+{
+    if (r.graph_rate_hz != 0.0 && g.rate_hz != r.graph_rate_hz)
+        compiled.messages.push_back (Message::warning ("watch/rate", "/rate_hz", "the run continues at " + numberText (r.rate()) + " Hz",
+                                                       "start it again to run at " + numberText (g.rate_hz) + " Hz"));
+}
+
+Run::Edit::Edit (Edit&& other) noexcept
+    : run (std::exchange (other.run, nullptr)), graph (other.graph), withdrawn (std::move (other.withdrawn)), compiled (std::move (other.compiled)),
+      opened (std::move (other.opened))
+{
+}
+
+Run::Edit::~Edit() { drop(); }
+
+void Run::Edit::drop()
+{
+    if (auto* r = std::exchange (run, nullptr)) r->running->submit (std::move (withdrawn));
+}
+
+void Run::Edit::openDevices()
+{
+    for (const auto& role : compiled.plan->roles())
+    {
+        if (! run->open || run->hasDevice (role.name)) continue;
+        if (auto made = run->open (role.name, graph, *compiled.plan, compiled.messages); made.device) opened.emplace_back (role.name, std::move (made));
+    }
+}
+
+void Run::Edit::commit (std::span<const Engine::Joining> others)
+{
+    auto& r = *std::exchange (run, nullptr);
+    if (r.isCapturing() && tapsOf (*compiled.plan, r.captured_ports) != r.captured_taps) r.endCapture();
+    r.logNext (compiled.plan, graph, opened);
+    for (auto* listener : r.listeners)
+        listener->planComes (*compiled.plan);
+    std::vector<Engine::Joining> joining (others.begin(), others.end());
+    for (const auto& [role, d] : opened)
+        joining.push_back ({ role, *d.device, d.limits });
+    r.running->submit (compiled.plan, joining);
+    std::ranges::move (opened, std::back_inserter (r.by_role));
+}
+
+//==============================================================================
+
+Result<std::vector<std::string>> Run::capture (const graph::Graph& graph, const std::string& port, const std::string& watched, const Trigger& trigger)
+{
+    endCapture();
+    captured_ports = { port, watched };
+    auto next = edit (graph);
+    const auto refuse = [this] (Message why)
+    {
+        captured_ports.clear();
+        return why;
+    };
+    if (next.plan() == nullptr) return refuse (*std::ranges::find (next.messages(), Message::Severity::error, &Message::severity));
+    auto armed = arm (*next.plan(), port, watched, trigger);
+    if (! armed) return refuse (armed.error());
+    captured_taps = tapsOf (*next.plan(), captured_ports);
+    slot.arm (std::move (armed->capture));
+    next.commit();
+    return std::move (armed->components);
+}
+
+void Run::endCapture()
+{
+    slot.disarm();
+    captured_ports.clear();
+    captured_taps.clear();
+}
+
+std::vector<Tap> Run::recorded() const
+{
+    const auto& taps = running->newest().taps();
+    const auto n = options.records.empty() ? taps.size() : std::min (taps.size(), options.records.size());
+    return { taps.begin(), taps.begin() + static_cast<std::ptrdiff_t> (n) };
+}
+
+}   // namespace tactus

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "runner.hpp"
+
+#include "realtime.hpp"
+
+#include <algorithm>
+#include <cfenv>
+
+namespace tactus
+{
+
+Runner::Runner (Engine& e, TickClock& c, double rate_hz, Options o)
+    : engine (e), clock (c), options (o), longest_halt (static_cast<std::uint64_t> (longest_halt_s * rate_hz)), ticks_so_far (1.0 / rate_hz), node_costs (c)
+{
+}
+
+std::vector<std::string> Runner::start()
+{
+    std::vector<std::string> refused;
+    if (clock.isRealTime())
+        if (auto sentence = lockMemory()) refused.push_back (std::move (*sentence));
+
+    std::promise<std::vector<std::string>> ready;
+    auto more = ready.get_future();
+    thread = std::jthread ([this, r = std::move (ready)]() mutable
+                           { run (std::move (r)); });
+    std::ranges::move (more.get(), std::back_inserter (refused));
+    return refused;
+}
+
+void Runner::run (std::promise<std::vector<std::string>> ready)
+{
+    std::fesetenv (FE_DFL_ENV);
+    ready.set_value (clock.isRealTime() ? becomeRealTime (options.core) : std::vector<std::string> {});   // a free run would leave other programs no time
+    node_costs.begin();
+    engine.resume();
+    if (goesOn()) clock.drive (*this);
+    now.phase = RunStatus::Phase::over;
+    publish();
+}
+
+bool Runner::tick (double late_s) noexcept
+{
+    const auto k = ticks_so_far.ticks();
+    const double begin = clock.now();
+    now.clock_replaced = clock.isReplaced();
+    engine.invalidateReadings (now.clock_replaced);
+    if (options.hooks) options.hooks->before (k);
+    engine.tick ([this] (Plan& plan) noexcept
+                 { node_costs.tick (plan); });
+    if (options.hooks) options.hooks->after (k, now.phase == RunStatus::Phase::halting);
+    const double took = clock.now() - begin;
+
+    ticks_so_far.note (late_s, took);
+    node_costs.earn (took);
+    const bool more = goesOn();
+    publish();
+    return more;
+}
+
+RunStatus::End Runner::whyItEnds() const noexcept
+{
+    if (clock.isRealTime() && ticks_so_far.isOverrun()) return RunStatus::End::overrun;
+    if (asked.load (std::memory_order_relaxed) || (options.stop_wanted && options.stop_wanted())) return RunStatus::End::asked;
+    if (options.length && ticks_so_far.ticks() >= *options.length) return RunStatus::End::length;
+    return RunStatus::End::none;
+}
+
+/// Returns true if there is a next tick.
+bool Runner::goesOn() noexcept
+{
+    const auto ticks = ticks_so_far.ticks();
+    if (now.phase == RunStatus::Phase::running)
+    {
+        now.end = whyItEnds();
+        if (now.end == RunStatus::End::none) return true;
+        now.phase = RunStatus::Phase::halting;
+        halted_at = ticks;
+    }
+    engine.halt();   // on each tick, because a plan may have added a role
+    if (engine.isAtRest()) return false;
+    now.let_go_under_force = ticks - halted_at > longest_halt;
+    return ! now.let_go_under_force;
+}
+
+void Runner::publish() noexcept
+{
+    now.ticks = ticks_so_far.ticks();
+    now.misses = ticks_so_far.misses();
+    now.force = 0.0;
+    now.role_count = engine.roleCount();
+    for (std::size_t i = 0; i < now.role_count; ++i)
+    {
+        const auto [name, applied, guard] = engine.role (i);
+        const double force = applied.force.norm();
+        now.force = std::max (now.force, force);
+        if (i >= RunStatus::most_roles) continue;
+        auto& role = now.roles[i];
+        role.name = name;
+        role.force = force;
+        role.torque = applied.torque.norm();
+        role.stop = guard.stop();
+        role.event = guard.latest();
+        role.latest = role.event.why;
+    }
+    now.peak = std::max (now.peak, now.force);
+    published.store (now, sizeof now - sizeof now.roles + now.shown().size_bytes());
+}
+
+void Runner::attend()
+{
+    engine.clear();
+    node_costs.collect();
+}
+
+}   // namespace tactus

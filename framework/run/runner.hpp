@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "node_costs.hpp"
+#include "run_status.hpp"
+#include "tick_account.hpp"
+#include "tick_clock.hpp"
+
+#include "engine.hpp"
+
+#include <framework/kit/snapshot.hpp>
+
+#include <atomic>
+#include <cstdint>
+#include <future>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace tactus
+{
+
+/// Takes part in each tick of a run, for example feeds before it, or probes and recordings after it.
+class TickHooks
+{
+public:
+    virtual ~TickHooks() = default;
+    virtual void before (std::uint64_t tick) noexcept = 0;   // [tick thread]
+
+    /// A tick that `halts` comes after the end of the run and only removes the forces. [tick thread]
+    virtual void after (std::uint64_t tick, bool halts) noexcept = 0;
+};
+
+/// A run of an engine, in real time or as fast as possible, on a thread ticked by a clock, with statistics of its timing. It
+/// ends after its length, on request, or when the graph takes longer than a tick period; it then keeps ticking until the guards
+/// have brought all forces to zero.
+///
+/// The tick thread uses the processor's default floating-point mode, whatever mode the starting thread has: denormal numbers
+/// are neither flushed nor treated as zero, because then the results would not be bit-identical to offline ones. Flushing would
+/// not save anything either: a recursion that decays among denormal numbers takes up to 3 times as long, but nodes that decay
+/// set their state to 0 long before that (100 modes: 187 ns ringing, 191 ns silent, measured).
+class Runner final : private Ticked
+{
+public:
+    struct Options
+    {
+        std::optional<std::uint64_t> length {};     ///< in ticks; empty: until it is stopped
+        std::optional<int> core {};                 ///< the CPU core to pin the tick thread to
+        bool (*stop_wanted)() noexcept = nullptr;   ///< read on each tick, so that a signal takes effect no matter how busy other threads are
+        TickHooks* hooks = nullptr;
+    };
+
+    /// A slew limit can make the way to zero long. A device that still has force on it after this time is released anyway.
+    static constexpr double longest_halt_s = 30.0;
+
+    /// The engine, the clock and the hooks must outlive the runner. [main thread]
+    Runner (Engine&, TickClock&, double rate_hz, Options);
+    ~Runner() { stop(); }   // waits until the forces are zero   [main thread]
+    Runner (const Runner&) = delete;
+    Runner& operator= (const Runner&) = delete;
+
+    /// Starts the thread; call it once. Returns a sentence for each real-time privilege that the system refuses. [main thread]
+    std::vector<std::string> start();
+
+    void stop() noexcept { asked = true; }                                              ///< [any thread]
+    bool isOver() const noexcept { return status().phase == RunStatus::Phase::over; }   ///< [any thread]
+    void wait()                                                                         ///< waits until it is over   [main thread, after start]
+    {
+        if (thread.joinable()) thread.join();
+    }
+
+    RunStatus status() const noexcept { return published.load(); }         ///< [any thread]
+    const TickAccount& account() const noexcept { return ticks_so_far; }   ///< [any thread]
+
+    /// Call it many times a second: frees plans that are no longer used, and collects node costs. [main thread]
+    void attend();
+
+    /// The costs of the nodes of the newest plan measured so far, the most expensive first. [main thread]
+    std::vector<NodeCost> costs() { return node_costs.of (engine.newest()); }
+
+private:
+    bool tick (double late_s) noexcept override;
+    void run (std::promise<std::vector<std::string>>);
+    bool goesOn() noexcept;
+    RunStatus::End whyItEnds() const noexcept;
+    void publish() noexcept;
+
+    Engine& engine;
+    TickClock& clock;
+    const Options options;
+    const std::uint64_t longest_halt;   // in ticks
+    std::atomic<bool> asked = false;
+    TickAccount ticks_so_far;
+    NodeCosts node_costs;
+    Snapshot<RunStatus> published;
+
+    // Used by the tick thread.
+    RunStatus now;
+    std::uint64_t halted_at = 0;   // tick number
+
+    std::jthread thread;   // last: it uses the other members
+};
+
+}   // namespace tactus

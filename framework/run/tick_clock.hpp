@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+namespace tactus
+{
+
+/// An object ticked by a clock.
+class Ticked
+{
+public:
+    virtual ~Ticked() = default;
+
+    /// Runs a tick that is due now and starts `late` seconds late. Returns false after the last one. [tick thread]
+    virtual bool tick (double late_s) noexcept = 0;
+};
+
+/// The clock of a run: ticks the run whenever a tick is due. A timer and a free-running clock are below. A device can be a
+/// clock that waits for its next report; the callback of an audio card can be a clock that ticks a block at a time on its own
+/// thread.
+class TickClock
+{
+public:
+    virtual ~TickClock() = default;
+
+    /// Ticks, the first time immediately, until tick() returns false, then returns. The clock may tick on this thread
+    /// or on a callback thread, one at a time; that thread is the tick thread, and it uses the default floating-point mode. A
+    /// clock that waits for an external event must not wait for ever: when a device falls silent, the clock keeps ticking with
+    /// a reading that ages, so that the guard removes the force and a stop request takes effect. [a thread of the run]
+    virtual void drive (Ticked&) noexcept = 0;
+
+    /// False if ticks are never late; then no graph can take too long.
+    virtual bool isRealTime() const noexcept { return true; }
+
+    /// True if this tick comes from a substitute, for instance while the clock's device is silent. Then no force is applied.
+    /// [any thread]
+    virtual bool isReplaced() const noexcept { return false; }
+
+    /// The time in s, from any origin. [tick thread]
+    virtual double now() const noexcept { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
+};
+
+/// Ticks at deadlines that are one period apart, however long the previous tick took. It sleeps until shortly before the
+/// deadline and then spins, because waking up takes about 20 to 50 us. It does not spin longer, since the kernel stops a
+/// SCHED_FIFO thread that never sleeps for 50 ms each second. Missed ticks are not caught up in a burst; the deadlines start
+/// again from the current time.
+class AbsoluteTimer final : public TickClock
+{
+public:
+    explicit AbsoluteTimer (double period_s) : period (toDuration (period_s)), spin (std::min (toDuration (50e-6), period / 5)) {}
+
+    void drive (Ticked& ticked) noexcept override
+    {
+        deadline = Clock::now();
+        while (ticked.tick (wait()))
+            deadline += period;
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    static Clock::duration toDuration (double s) { return std::chrono::duration_cast<Clock::duration> (std::chrono::duration<double> (s)); }
+
+    /// Waits for the deadline. Returns how late it is, in s.
+    double wait() noexcept
+    {
+        auto at = Clock::now();
+        if (deadline - spin > at) std::this_thread::sleep_until (deadline - spin);
+        while ((at = Clock::now()) < deadline)
+            ;
+        const auto late = at - deadline;
+        if (late > period) deadline = at;
+        return std::chrono::duration<double> (late).count();
+    }
+
+    Clock::duration period, spin;
+    Clock::time_point deadline;
+};
+
+/// Ticks as fast as possible; never late.
+class FreeRun final : public TickClock
+{
+public:
+    void drive (Ticked& ticked) noexcept override
+    {
+        while (ticked.tick (0.0))
+            ;
+    }
+
+    bool isRealTime() const noexcept override { return false; }
+};
+
+}   // namespace tactus

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "turn.hpp"
+
+#include <framework/plan/directory.hpp>
+#include <framework/plan/values.hpp>
+#include <framework/text/closest_match.hpp>
+#include <framework/text/json_text.hpp>
+#include <framework/text/message.hpp>
+#include <framework/text/quote.hpp>
+
+namespace tactus
+{
+
+namespace
+{
+using Turns = std::vector<std::pair<plan::ParamRef, double>>;
+
+Result<double> read (const Json& value, const PortSheet& sheet, const std::string& name)
+{
+    if (! sheet.choices.empty())
+    {
+        const std::vector<std::string> names (sheet.choices.begin(), sheet.choices.end());
+        const auto at = value.is_string() ? std::ranges::find (names, value.asString()) : names.end();
+        if (at != names.end()) return static_cast<double> (at - names.begin());
+        return Message::error ("param/unknown_choice", {},
+                               quote (name) + " cannot be " + plan::shown (value) + (value.is_string() ? didYouMean (value.get<std::string>(), names) : ""),
+                               "use one of: " + plan::listed (names));
+    }
+    const auto number = plan::readNumber (value);
+    if (! number) return Message::error ("param/value", {}, quote (name) + ": " + number.error().text, "give a plain number in SI, or text with a unit");
+    const auto& n = *number;
+    if (n.dimension && sheet.unit.kind == UnitRule::Kind::fixed && (*n.dimension != sheet.unit.unit.dimension || plan::miscounts (n, sheet.unit)))
+        return Message::error ("param/unit", {},
+                               quote (name) + " is in " + std::string (sheet.unit.unit.symbol) + ", but the unit of " + plan::shown (value) + " is different",
+                               "give it in " + std::string (sheet.unit.unit.symbol));
+    if (! sheet.limits.hard.contains (n.value))
+        return Message::error ("param/out_of_range", {}, quote (name) + " cannot be " + plan::shown (value),
+                               "it must be " + plan::rangeText (sheet.limits.hard));
+    return n.value;
+}
+
+/// The point at `amount` (0…1) between low and high. Either both are lists of the same length, or neither is a list.
+Result<> add (Engine& engine, const std::string& name, const Json& low, const Json& high, double amount, Turns& turns)
+{
+    if (low.is_array())
+    {
+        const bool vector = low.size() == 3 && engine.param (name + ".x").has_value();
+        for (std::size_t i = 0; i < low.size(); ++i)
+        {
+            const auto part = vector ? std::string (".") + "xyz"[i] : "[" + std::to_string (i) + "]";
+            if (auto added = add (engine, name + part, low[i], high[i], amount, turns); ! added) return added;
+        }
+        return {};
+    }
+    auto found = engine.params (name);
+    if (! found) return std::move (found).error();
+    for (auto& param : *found)
+    {
+        double ends[2];
+        for (auto [end, json] : { std::pair { &ends[0], &low }, { &ends[1], &high } })
+        {
+            auto number = read (*json, *param.sheet, name);
+            if (! number) return std::move (number).error();
+            *end = *number;
+        }
+        turns.emplace_back (std::move (param), amount == 0.0 ? ends[0] : ends[0] + amount * (ends[1] - ends[0]));
+    }
+    return {};
+}
+
+void carryOut (Engine& engine, const Turns& turns)
+{
+    for (const auto& [param, number] : turns)
+        engine.set (param, number);
+}
+}   // namespace
+
+Json readValue (const std::string& text)
+{
+    const auto json = readJson (text).root;   // does not recurse, so any text is safe
+    return json.is_number() || json.is_array() ? json : Json (text);
+}
+
+Result<plan::Override> readOverride (const std::string& text)
+{
+    const auto equals = text.find ('=');
+    if (equals == std::string::npos || equals == 0)
+        return Message::error ("param/no_value", {}, "'" + text + "' is not NODE.PARAM=VALUE", "write, for example, drag.mu=0.3 or board.stiffness=\"2 N/mm\"");
+    return plan::Override { text.substr (0, equals), readValue (text.substr (equals + 1)) };
+}
+
+Result<> turnParam (Engine& engine, const std::string& name, const Json& value)
+{
+    Turns turns;
+    if (auto added = add (engine, name, value, value, 0.0, turns); ! added) return added;
+    carryOut (engine, turns);
+    return {};
+}
+
+Result<> turnControl (Engine& engine, const graph::Graph& graph, const std::string& id, double value)
+{
+    const auto control = std::ranges::find (graph.controls, id, &graph::Control::id);
+    if (control == graph.controls.end())
+    {
+        std::vector<std::string> names;
+        for (const auto& c : graph.controls)
+            names.push_back (c.id);
+        return Message::error ("control/unknown", {}, "there is no control " + quote (id) + didYouMean (id, names),
+                               "controls here: " + plan::listed (names) + "; a parameter is NODE.PARAM");
+    }
+    if (! (value >= 0.0 && value <= 1.0))
+        return Message::error ("control/value", {}, "the control " + quote (id) + " is out of its range", "give a number from 0 to 1");
+
+    Turns turns;
+    for (const auto& target : control->to)
+        if (auto added = add (engine, target.path, target.low, target.high, value, turns); ! added) return added;
+    carryOut (engine, turns);
+    return {};
+}
+
+Result<> strike (Engine& engine, const std::string& name, double speed)
+{
+    if (! (speed > 0.0 && speed <= fastest_hit))
+        return Message::error ("hit/value", {}, "a hit on " + quote (name) + " is out of range",
+                               "give a speed in m/s: more than 0, at most " + plan::shown (Json (fastest_hit)));
+    auto found = engine.hits (name);
+    if (! found) return std::move (found).error();
+    for (const auto& hit : *found)
+        engine.strike (hit, speed);
+    return {};
+}
+
+}   // namespace tactus

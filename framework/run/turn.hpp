@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine.hpp"
+#include <framework/graph/graph.hpp>
+#include <framework/text/json.hpp>
+
+#include <framework/plan/flatten.hpp>
+#include <framework/text/result.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace tactus
+{
+
+/// Reads the text after the = of NODE.PARAM=VALUE: a number, a list of numbers, text with a unit, or the name of a choice.
+/// Accepts any text.
+Json readValue (const std::string& text);
+
+/// NODE.PARAM=VALUE. Ids: param/no_value.
+Result<plan::Override> readOverride (const std::string& text);
+
+/// Sets a parameter of a running graph to a value as in --set: either all of its components or none. Ids: port/unknown_node,
+/// param/unknown, param/shape, param/unknown_choice, param/value, param/unit, param/out_of_range. [main thread]
+Result<> turnParam (Engine&, const std::string& name, const Json& value);
+
+/// Moves a control of a running graph (0 to 1), and with it all its targets. Ids: control/unknown, control/value. [main
+/// thread]
+Result<> turnControl (Engine&, const graph::Graph&, const std::string& id, double value);
+
+/// Triggers a hit input at a speed in m/s, in all instances that the name covers. Ids: those of findHits, hit/value.
+/// [main thread]
+Result<> strike (Engine&, const std::string& name, double speed);
+
+/// Faster hits are refused: a blow by hand is slower than 20 m/s, so a much higher speed is a mistake.
+inline constexpr double fastest_hit = 1000.0;   // in m/s
+
+}   // namespace tactus

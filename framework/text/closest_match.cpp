@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "closest_match.hpp"
+
+#include "quote.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace tactus
+{
+
+int editDistance (std::string_view a, std::string_view b)
+{
+    // Row i holds the distances from the first i letters of a to every prefix of b. A swap looks two rows back.
+    std::vector<int> before_last (b.size() + 1), last (b.size() + 1), row (b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j)
+        row[j] = static_cast<int> (j);
+    for (std::size_t i = 1; i <= a.size(); ++i)
+    {
+        before_last.swap (last);
+        last.swap (row);
+        row[0] = static_cast<int> (i);
+        for (std::size_t j = 1; j <= b.size(); ++j)
+        {
+            row[j] = std::min ({ last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1) });
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min (row[j], before_last[j - 2] + 1);
+        }
+    }
+    return row[b.size()];
+}
+
+std::string_view closestMatch (std::string_view word, std::span<const std::string_view> known)
+{
+    constexpr std::size_t longest = 30;   // no known word is longer; a key of a megabyte is not compared
+    if (word.size() > longest) return {};
+    std::string_view best;
+    int nearest = 3;
+    for (const auto candidate : known)
+    {
+        const int tolerance = std::min (word.size(), candidate.size()) > 4 ? 2 : 1;
+        if (const int d = editDistance (word, candidate); d <= tolerance && d < nearest && d < static_cast<int> (candidate.size()))
+        {
+            best = candidate;
+            nearest = d;
+        }
+    }
+    return best;
+}
+
+std::string suggestion (std::string_view word, std::span<const std::string> known)
+{
+    const auto meant = closestMatch (word, std::vector<std::string_view> (known.begin(), known.end()));
+    if (! meant.empty()) return "did you mean " + quote (meant) + "?";
+    std::string all;
+    for (const auto& name : known)
+        all += (all.empty() ? "" : ", ") + name;
+    return "the known ones are: " + all;
+}
+
+std::string didYouMean (std::string_view word, const std::vector<std::string>& known)
+{
+    const auto meant = closestMatch (word, std::vector<std::string_view> (known.begin(), known.end()));
+    return meant.empty() ? "" : " (did you mean '" + std::string (meant) + "'?)";
+}
+
+}   // namespace tactus

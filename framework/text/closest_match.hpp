@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tactus
+{
+
+/// Number of insertions, deletions, replacements and swaps of neighbours that turn one word into the other.
+int editDistance (std::string_view, std::string_view);
+
+/// The known word that was probably meant: one typo away, or two for words of more than four letters. Empty if there is
+/// none.
+std::string_view closestMatch (std::string_view word, std::span<const std::string_view> known);
+
+/// "did you mean 'damping'?", or the whole list if nothing is close.
+std::string suggestion (std::string_view word, std::span<const std::string> known);
+
+/// " (did you mean 'mu'?)", or "".
+std::string didYouMean (std::string_view word, const std::vector<std::string>& known);
+
+}   // namespace tactus

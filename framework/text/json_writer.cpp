@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "json_writer.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace tactus
+{
+namespace
+{
+constexpr std::size_t longest_line = 120;
+constexpr std::size_t step = 2;
+
+bool isContainer (const Json& value) { return (value.is_object() || value.is_array()) && ! value.empty(); }
+
+std::string scalarText (const Json& value)
+{
+    if (value.is_number_float()) return jsonNumber (value.get<double>());
+    // Text that did not come from a file may contain anything. Bytes that are not UTF-8 are replaced, because a file must be UTF-8.
+    return value.dump();
+}
+
+class Writer
+{
+public:
+    explicit Writer (std::span<const std::string_view> keys) : one_a_line (keys) {}
+
+    /// Writes a value after its indentation and key. `tail` more characters (a comma) must fit after it.
+    void value (const Json& v, std::size_t indent, bool broken, std::size_t tail)
+    {
+        if (! isContainer (v))
+            out += scalarText (v);
+        else if (broken || ! onOneLine (v, tail))
+            onLines (v, indent);
+    }
+
+    std::string out;
+
+private:
+    bool isBroken (std::string_view key) const { return std::ranges::find (one_a_line, key) != one_a_line.end(); }
+    std::size_t column() const { return out.size() - line_start; }
+
+    void newLine (std::size_t indent)
+    {
+        out += '\n';
+        line_start = out.size();
+        out.append (indent, ' ');
+    }
+
+    bool onOneLine (const Json& v, std::size_t tail)
+    {
+        const auto before = out.size();
+        if (inlined (v) && column() + tail <= longest_line) return true;
+        out.resize (before);
+        return false;
+    }
+
+    /// Stops as soon as the line is too long, so a failed attempt costs no more than a line.
+    bool inlined (const Json& v)
+    {
+        if (! isContainer (v))
+        {
+            out += scalarText (v);
+            return column() <= longest_line;
+        }
+        bool first = true;
+        const auto separate = [&]
+        {
+            if (! first) out += ", ";
+            first = false;
+        };
+        if (v.is_array())
+        {
+            out += '[';
+            for (const auto& element : v)
+            {
+                separate();
+                if (! inlined (element)) return false;
+            }
+            out += ']';
+        }
+        else
+        {
+            out += "{ ";
+            for (const auto& [key, member] : v.asObject())
+            {
+                if (isContainer (member) && isBroken (key)) return false;
+                separate();
+                out += scalarText (key) + ": ";
+                if (! inlined (member)) return false;
+            }
+            out += " }";
+        }
+        return column() <= longest_line;
+    }
+
+    void onLines (const Json& v, std::size_t indent)
+    {
+        const bool list = v.is_array();
+        const bool numbers = list && std::ranges::all_of (v, [] (const Json& e)
+                                                          { return e.is_number(); });
+        const auto inner = indent + step;
+        auto left = v.size();
+        out += list ? '[' : '{';
+        if (numbers)
+            packed (v, inner);
+        else if (list)
+            for (const auto& element : v)
+            {
+                newLine (inner);
+                value (element, inner, false, 1);
+                if (--left > 0) out += ',';
+            }
+        else
+            for (const auto& [key, member] : v.asObject())
+            {
+                newLine (inner);
+                out += scalarText (key) + ": ";
+                value (member, inner, isBroken (key), 1);
+                if (--left > 0) out += ',';
+            }
+        newLine (indent);
+        out += list ? ']' : '}';
+    }
+
+    /// Writes as many numbers per line as fit.
+    void packed (const Json& numbers, std::size_t indent)
+    {
+        newLine (indent);
+        bool first = true;
+        auto left = numbers.size();
+        for (const auto& number : numbers)
+        {
+            const auto text = scalarText (number) + (--left > 0 ? "," : "");
+            if (! first && column() + 1 + text.size() > longest_line)
+                newLine (indent);
+            else if (! first)
+                out += ' ';
+            out += text;
+            first = false;
+        }
+    }
+
+    std::span<const std::string_view> one_a_line;
+    std::size_t line_start = 0;
+};
+}   // namespace
+
+std::string writeJson (const Json& json, std::span<const std::string_view> one_a_line)
+{
+    Writer writer (one_a_line);
+    writer.value (json, 0, true, 0);
+    return writer.out + '\n';
+}
+
+std::string jsonNumber (double value)
+{
+    if (! std::isfinite (value)) return "null";   // JSON has no nan or inf; the graph reader refuses them
+
+    // Plain digits from 0.0001 up to the end of the range where doubles hold every integer; an exponent outside of it.
+    constexpr double least = 1e-4, most = 1e15;
+    const double size = std::abs (value);
+    const bool plain = value == 0.0 || (size >= least && size < most);
+    char digits[40];
+    const auto end = std::to_chars (std::begin (digits), std::end (digits), value, plain ? std::chars_format::fixed : std::chars_format::scientific).ptr;
+    std::string text (digits, end);
+    if (plain) return text.find ('.') == std::string::npos ? text + ".0" : text;
+
+    // "1e-05" and "1e+22" are written 1e-5 and 1e22.
+    auto e = text.find ('e') + 1;
+    if (text[e] == '+')
+        text.erase (e, 1);
+    else
+        ++e;
+    while (text[e] == '0')
+        text.erase (e, 1);
+    return text;
+}
+
+}   // namespace tactus

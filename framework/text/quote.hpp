@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace tactus
+{
+
+/// Quotes text that a user wrote, for use in a message: in single quotes, cut if it is long, and with everything escaped that is
+/// not printable UTF-8, so that a broken file cannot break the message about it.
+std::string quote (std::string_view);
+
+}   // namespace tactus

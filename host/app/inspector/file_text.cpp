@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "file_text.hpp"
+
+#include <framework/text/number_text.hpp>
+#include <host/app/model/quantity_text.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::host
+{
+
+namespace
+{
+std::string shortText (double v) { return numberText (rounded (v)); }
+
+FileText describe (const Signal& s)
+{
+    const auto n = s.channels.empty() ? std::size_t {} : s.channels.front().size();
+    return { std::to_string (s.channels.size()) + (s.channels.size() == 1 ? " channel, " : " channels, ")
+             + shortText (static_cast<double> (n) / s.rate_hz) + " s at " + numberText (s.rate_hz) + " Hz" };
+}
+
+FileText describe (const Mesh& m)
+{
+    Vec3 low = Vec3::Constant (INFINITY), high = -low;
+    for (const auto& p : m.points)
+    {
+        low = low.cwiseMin (p);
+        high = high.cwiseMax (p);
+    }
+    const Vec3 size = high - low;
+    const std::string times = " \xc3\x97 ";
+    return { std::to_string (m.points.size()) + " vertices, " + std::to_string (m.triangles.size()) + " triangles, "
+             + shortText (size.x()) + times + shortText (size.y()) + times + shortText (size.z()) + " units" };
+}
+
+template <typename T, typename F>
+FileText read (const Assets::Loaded<T>& loaded, F&& f)
+{
+    if (! loaded) return FileText { sentence (loaded.error()), true };
+    return f (*loaded);
+}
+}   // namespace
+
+std::string resolved (const std::string& path, const std::string& folder)
+{
+    const std::filesystem::path given (path);
+    return given.is_absolute() || folder.empty() ? given.string() : (std::filesystem::path (folder) / given).string();
+}
+
+FileText describeFile (const std::string& written, SettingSheet::Kind kind, const std::string& folder, Assets& assets)
+{
+    if (written.empty()) return { "No file. Drop one here, or browse." };
+    const auto path = resolved (written, folder);
+    switch (kind)
+    {
+    case SettingSheet::Kind::signal:
+        return read (assets.signal (path), [] (const auto& s)
+                     { return describe (*s); });
+    case SettingSheet::Kind::image:
+        return read (assets.image (path), [] (const auto& g)
+                     { return FileText { std::to_string (g->columns) + " \xc3\x97 " + std::to_string (g->rows) + " pixels", false, g }; });
+    case SettingSheet::Kind::table:
+        return read (assets.table (path), [] (const auto& g)
+                     { return FileText { std::to_string (g->rows) + " rows of " + std::to_string (g->columns) + " numbers" }; });
+    default:
+        return read (assets.mesh (path), [] (const auto& m)
+                     { return describe (*m); });
+    }
+}
+
+std::string pathFrom (const std::filesystem::path& file, const std::string& folder)
+{
+    if (folder.empty()) return file.string();
+    std::error_code problem;
+    const auto from = std::filesystem::absolute (folder, problem).lexically_normal(), to = std::filesystem::absolute (file, problem).lexically_normal();
+    const auto relative = to.lexically_relative (from);
+    return relative.empty() ? file.string() : relative.generic_string();
+}
+
+}   // namespace tactus::host

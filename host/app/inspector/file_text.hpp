@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <framework/kit/assets.hpp>
+#include <framework/node/setting.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace tactus::host
+{
+
+/// A short description of a file, or the reason why it cannot be used.
+struct FileText
+{
+    std::string text;
+    bool is_problem = false;
+    std::shared_ptr<const Grid> picture {};   ///< for an image
+};
+
+/// Describes a file of kind signal, image, table, or surface (a mesh). The path is as written in the graph in that folder.
+FileText describeFile (const std::string& path, SettingSheet::Kind kind, const std::string& folder, Assets&);
+
+/// Resolves a path written in a graph in that folder.
+std::string resolved (const std::string& path, const std::string& folder);
+
+/// The path to write in a graph: relative to its folder, if it has one.
+std::string pathFrom (const std::filesystem::path& file, const std::string& folder);
+
+}   // namespace tactus::host

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// Layer mixers as mixing desks with one channel per layer, and edits of them as commands. Each command is one undo step.
+
+#include <framework/graph/edit.hpp>
+#include <framework/node/catalogue.hpp>
+#include <framework/text/result.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tactus::host
+{
+
+/// A mixer's position: its patch, and its path from the top of the graph, such as "threads/mix". With several instances of a subgraph,
+/// the path leads through the first one.
+struct MixerPlace
+{
+    graph::Id id = 0;
+    std::string patch, node, path;
+
+    bool operator== (const MixerPlace&) const = default;
+};
+
+std::vector<MixerPlace> mixersOf (const graph::Graph&);
+
+const graph::Node* findMixer (const graph::Graph&, const MixerPlace&);
+
+int layersOf (const graph::Node&, const Catalogue&);
+
+/// The names in the setting `names`; "" for a layer without a name.
+std::vector<std::string> layerNames (const graph::Node&, int layers);
+
+/// The value of a list param for one layer as written, such as ("gain", 2), or the default.
+Json layerValue (const graph::Node&, const Catalogue&, const std::string& param, int layer);
+
+/// The first wire into a layer; null if there is none.
+const graph::Wire* wireInto (const graph::Graph&, const MixerPlace&, int layer);
+
+/// Without a value: resets to the default.
+graph::Command setLayerValue (const graph::Node&, const MixerPlace&, const Catalogue&, const std::string& param, int layer, const std::optional<Json>&);
+
+/// Replaces commas in the name, because they separate names in the file.
+graph::Command renameLayer (const graph::Node&, const MixerPlace&, int layers, int layer, std::string name);
+
+/// Adds a layer: empty, or with a new node wired into it. The inputs of that node are wired as far as the patch has sources for them.
+struct AddedLayer
+{
+    graph::Command command;
+    std::string missing;   ///< "Wire something into ring.hit ..."; "" if all inputs are wired
+};
+
+/// Ids: mixer/gone, mixer/full, mixer/type.
+Result<AddedLayer> addLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, const std::string& type = {});
+
+/// The types that can be a layer: textures and vibrations with a scalar force output.
+std::vector<const NodeType*> layerTypes (const Catalogue&);
+
+/// Removes a layer and its wires; the later ones move up. Ids: mixer/gone, mixer/last_layer, mixer/exposed.
+Result<graph::Command> removeLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, int layer);
+
+/// Moves a layer to another place, with its name, values, wires and controls.
+graph::Command moveLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, int layer, int to);
+
+/// Adds a mixer to a graph: between scalar forces and the place where they are summed, or else next to vector forces, with an empty
+/// layer that pushes along z.
+struct AddedMixer
+{
+    graph::Command command;
+    std::string description;   ///< what the command does, for the user
+};
+
+/// Ids: mixer/no_motor, mixer/in_subgraph, mixer/no_forces.
+Result<AddedMixer> addMixer (const graph::Graph&, const Catalogue&);
+
+}   // namespace tactus::host

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "controlled_param.hpp"
+
+#include <framework/plan/values.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace tactus::host
+{
+
+namespace
+{
+double si (const Json& written)
+{
+    const auto read = plan::readNumber (written);
+    return read ? read->value : 0.0;
+}
+
+const graph::Control* find (const graph::Graph& g, const std::string& id)
+{
+    const auto at = std::ranges::find (g.controls, id, &graph::Control::id);
+    return at == g.controls.end() ? nullptr : &*at;
+}
+
+std::string freeId (const graph::Graph& g, const std::string& wanted)
+{
+    auto id = wanted;
+    for (int i = 2; find (g, id) != nullptr; ++i)
+        id = wanted + '_' + std::to_string (i);
+    return id;
+}
+
+/// Turns "drag.break_away" into "Break away".
+std::string titleOf (const std::string& path)
+{
+    auto title = path.substr (path.rfind ('.') + 1);
+    title = title.substr (0, title.find ('['));
+    std::ranges::replace (title, '_', ' ');
+    if (! title.empty()) title[0] = static_cast<char> (std::toupper (static_cast<unsigned char> (title[0])));
+    return title;
+}
+}   // namespace
+
+std::optional<ControlledParam> controlOf (const graph::Graph& g, const std::string& path)
+{
+    for (const auto& c : g.controls)
+        for (const auto& t : c.to)
+            if (t.path == path)
+            {
+                const double low = si (t.low), high = si (t.high);
+                return ControlledParam { c.id, c.name.empty() ? c.id : c.name, low, high, low + c.value * (high - low), t.low.is_string() ? t.low : t.high };
+            }
+    return std::nullopt;
+}
+
+std::optional<graph::Command> moveControlFor (const graph::Graph& g, const ControlledParam& param, double to_si)
+{
+    const auto* control = find (g, param.control);
+    if (control == nullptr || param.low == param.high) return std::nullopt;
+    const double at = (to_si - param.low) / (param.high - param.low);
+    if (! (at > -1e-9 && at < 1.0 + 1e-9)) return std::nullopt;
+    auto to = *control;
+    to.value = std::clamp (std::round (at * 1e6) * 1e-6, 0.0, 1.0);
+    return graph::ChangeControl { param.control, std::move (to) };
+}
+
+std::optional<graph::Command> addTarget (const graph::Graph& g, const std::string& id, const std::string& path, Json low, Json high)
+{
+    const auto* control = find (g, id);
+    if (control == nullptr) return std::nullopt;
+    auto to = *control;
+    to.to.push_back ({ path, std::move (low), std::move (high) });
+    return graph::ChangeControl { id, std::move (to) };
+}
+
+std::optional<graph::Command> removeTarget (const graph::Graph& g, const std::string& id, const std::string& path)
+{
+    const auto* control = find (g, id);
+    if (control == nullptr) return std::nullopt;
+    auto to = *control;
+    std::erase_if (to.to, [&] (const auto& t)
+                   { return t.path == path; });
+    return graph::ChangeControl { id, std::move (to) };
+}
+
+graph::Command newControlFor (const graph::Graph& g, const std::string& path, const Json& low, const Json& high, double now_si)
+{
+    graph::Control c;
+    auto wanted = path.substr (path.rfind ('.') + 1);
+    c.id = freeId (g, wanted.substr (0, wanted.find ('[')));
+    c.name = titleOf (path);
+    const double a = si (low), b = si (high);
+    c.value = a == b ? 0.5 : std::clamp ((now_si - a) / (b - a), 0.0, 1.0);
+    c.to.push_back ({ path, low, high });
+    return graph::AddControl { std::move (c) };
+}
+
+graph::Command newControl (const graph::Graph& g)
+{
+    graph::Control c;
+    c.id = freeId (g, "control");
+    c.name = "Control";
+    return graph::AddControl { std::move (c) };
+}
+
+}   // namespace tactus::host

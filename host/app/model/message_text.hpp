@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <framework/text/message.hpp>
+
+#include <string>
+
+namespace tactus::host
+{
+
+/// A message as the window shows it: "text; remedy".
+inline std::string messageText (const Message& m) { return m.text + (m.remedy.empty() ? "" : "; " + m.remedy); }
+
+}   // namespace tactus::host

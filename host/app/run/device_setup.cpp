@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "device_setup.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace tactus::host
+{
+
+DeviceSetup::DeviceSetup (hid::HidSystem& s, const hid::LoadedProfiles& p) : devices (s), known (p) {}
+
+DeviceSetup::~DeviceSetup()
+{
+    {
+        const std::lock_guard lock (mutex);
+        ends = true;
+    }
+    changed.notify_all();
+}
+
+void DeviceSetup::open (const std::filesystem::path& home)
+{
+    now = loadDefaultSession (home);
+    is_saved = ! home.empty();
+    if (onChange) onChange();
+}
+
+Result<> DeviceSetup::edit (const std::function<void (DeviceSession&)>& change)
+{
+    if (is_saved)
+    {
+        auto edited = editSession (now, change);
+        if (! edited.isGood()) return *std::ranges::find (edited.messages, Message::Severity::error, &Message::severity);
+        now = std::move (edited);
+    }
+    else
+        change (now.session);
+    if (onChange) onChange();
+    return {};
+}
+
+void DeviceSetup::scan (bool on)
+{
+    {
+        const std::lock_guard lock (mutex);
+        if (scans == on) return;
+        scans = on;
+    }
+    changed.notify_all();
+    if (on && ! scanner.joinable())
+        scanner = std::jthread ([this]
+                                { scanLoop(); });
+}
+
+std::vector<hid::ConnectedDevice> DeviceSetup::connected() const
+{
+    const std::lock_guard lock (mutex);
+    return found;
+}
+
+void DeviceSetup::scanLoop()
+{
+    using namespace std::chrono_literals;
+    std::unique_lock lock (mutex);
+    while (! ends)
+    {
+        changed.wait (lock, [this]
+                      { return ends || scans; });
+        if (ends) return;
+        lock.unlock();
+        auto connected_now = hid::eachOnce (devices.connected(), known);
+        lock.lock();
+        found = std::move (connected_now);
+        changed.wait_for (lock, 1s, [this]
+                          { return ends; });
+    }
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <framework/text/result.hpp>
+#include <host/app/model/device_profiles.hpp>
+#include <host/hid_link/open_device.hpp>
+#include <host/sessions/session_file.hpp>
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+namespace tactus::host
+{
+
+/// The session of the window, which is saved at each edit, and the devices that are plugged in. [main thread]
+class DeviceSetup
+{
+public:
+    explicit DeviceSetup (hid::HidSystem& = hid::thisComputer(), const hid::LoadedProfiles& = deviceProfiles());
+    ~DeviceSetup();
+
+    /// Reads the user's session. Before that, the session is empty and is not saved.
+    void open (const std::filesystem::path& home);
+
+    const LoadedSession& session() const noexcept { return now; }
+    hid::HidSystem& system() const noexcept { return devices; }
+    const hid::LoadedProfiles& profiles() const noexcept { return known; }
+
+    /// Changes the session and its file, or neither.
+    Result<> edit (const std::function<void (DeviceSession&)>&);
+
+    std::function<void()> onChange;   ///< the session has changed
+
+    /// Turns the scan for connected devices on or off. It runs once a second, on its own thread.
+    void scan (bool on);
+    std::vector<hid::ConnectedDevice> connected() const;   ///< as of the last scan
+
+private:
+    void scanLoop();
+
+    hid::HidSystem& devices;
+    const hid::LoadedProfiles& known;
+    LoadedSession now;
+    bool is_saved = false;
+
+    mutable std::mutex mutex;   // guards the members below
+    std::condition_variable changed;
+    bool scans = false, ends = false;
+    std::vector<hid::ConnectedDevice> found;
+    std::jthread scanner;   // last: it uses the members above
+};
+
+}   // namespace tactus::host

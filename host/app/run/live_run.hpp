@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "pointer_path.hpp"
+#include "sound.hpp"
+#include "traces.hpp"
+#include "transport_path.hpp"
+
+#include <framework/run/device/make_device.hpp>
+#include <framework/run/device/sim.hpp>
+#include <framework/run/run.hpp>
+#include <framework/run/runner.hpp>
+#include <framework/run/taps.hpp>
+#include <host/app/model/document.hpp>
+#include <host/assets/file_assets.hpp>
+#include <host/audio/open_audio.hpp>
+#include <host/sessions/choose_clock.hpp>
+#include <host/sessions/device_health.hpp>
+#include <host/sessions/device_session.hpp>
+#include <host/sessions/needs.hpp>
+#include <host/sessions/run_clock.hpp>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <variant>
+
+namespace tactus::host
+{
+
+class DeviceSetup;
+
+/// Runs the graph of a document in real time, on the devices that it describes or that its roles are bound to. Each edit takes
+/// effect between two ticks. If an edit does not compile, messages() says why, and the previous graph keeps running.
+/// [main thread]
+class LiveRun final : private Document::Listener, private RunListener
+{
+public:
+    /// What moves the tool of the first role.
+    struct Hand
+    {
+        enum class Kind
+        {
+            described,   ///< as the session binds it or the graph describes it: a device, a gesture or a recording
+            pointer,     ///< the mouse
+            path         ///< a gesture or recording that the user has chosen
+        };
+
+        Kind kind = Kind::described;
+        std::string path {};   ///< name of a gesture, or a CSV file
+
+        static Hand pointer() { return { Kind::pointer }; }
+        bool operator== (const Hand&) const = default;
+    };
+
+    /// Plays the force on the first role's tool through `sound`, if it is not null. It must outlive this.
+    LiveRun (Document&, const Catalogue&, Sound* = nullptr);
+    ~LiveRun() override;
+
+    /// From now on, the session decides how roles are bound, which ports are played and what ticks the runs. It must outlive
+    /// this. If something that the run uses changes, the run restarts.
+    void use (const DeviceSetup&);
+    void setupChanged();
+
+    /// The state of the run's sound; empty if it neither plays nor records.
+    std::optional<audio::AudioStatus> audioStatus() const;
+
+    void start (Hand);      ///< restarts a run that is in progress, once its forces are zero
+    void stop() noexcept;   ///< ramps the forces to zero, then stops; does not wait
+
+    /// Brings all forces to zero smoothly while the graph keeps running. Like every latched stop, this ends with rearm() or when
+    /// the user starts again; an edit does not end it.
+    void emergencyStop() noexcept;
+
+    /// Lets the forces rise again. Does nothing within a second of emergencyStop(), so that a double click or a second key cannot
+    /// undo it.
+    void rearm() noexcept;
+    bool canRearm() const noexcept;
+    bool isStoppedForGood() const;   ///< until rearm(), or until the user starts another run
+
+    /// Stops, waits until the forces are zero, and releases the devices.
+    void letGo();
+
+    bool isRunning() const noexcept { return isLive() && ! run->live().isOver(); }
+    bool isWanted() const noexcept { return wanted; }   ///< started and not stopped since; it may still fail to compile
+    const Hand& hand() const noexcept { return moved_by; }
+
+    /// The gesture or recording that the first role follows; null if there is none that can be paused.
+    const std::shared_ptr<TransportPath>& transport() const noexcept { return transported; }
+
+    /// Errors and warnings about the current graph.
+    const Messages& messages() const noexcept { return said; }
+
+    std::optional<RunStatus> status() const;
+
+    /// What the graph needs from its roles, as of the last successful compile.
+    const std::vector<RoleNeeds>& needs() const noexcept { return needed; }
+
+    /// The state of the real devices, whether present or awaited; empty while nothing runs.
+    const std::vector<DeviceHealth>& health() const noexcept { return watch.health(); }
+
+    const std::string& clockRole() const noexcept { return clock_role; }                                        ///< its device ticks the run; empty: a timer does
+    double rate() const noexcept { return run && run->hasEngine() ? run->rate() : document.graph().rate_hz; }   ///< the run's tick rate, in Hz
+
+    /// The largest of the shortest delays from a source to a sink, in ticks; empty if no source is connected to a sink.
+    std::optional<std::int64_t> delay() const;
+
+    /// How stiff a wall may be on the first device before it buzzes, K < 2b/((2d+1)T), in N/m; empty if the device's damping is
+    /// unknown.
+    std::optional<double> stiffnessLeft() const;
+
+    /// The largest force that the guards let through, in N; empty if they do not limit it.
+    std::optional<double> mostForce() const;
+
+    /// Moves the tool to where the mouse is, in m.
+    void point (const Vec3&);
+
+    /// The tool of the first role, as its device measures it, and the force on it.
+    struct Tool
+    {
+        Vec3 position = Vec3::Zero();   ///< in m
+        Vec3 force = Vec3::Zero();      ///< on the tool, in N
+    };
+    std::optional<Tool> tool() const;   ///< empty while nothing runs
+
+    /// The values of the ports that are being watched.
+    Traces& traces() noexcept { return probes; }
+
+    /// The costs of the nodes measured so far, the most expensive first.
+    std::vector<NodeCost> costs();
+
+    /// Sets a parameter or control of the running graph until the next edit. Returns why it cannot. Ids: run/stopped, and those
+    /// of framework/run/turn.hpp.
+    Result<> turn (const std::string& param, const Json& value);
+    Result<> turnControl (const std::string& id, double value);
+
+    /// Triggers a hit at an input, with a speed in m/s. Returns why it cannot, with the same ids.
+    Result<> strike (const std::string& input, double speed);
+
+    /// Captures a port around an edge of another one, replacing any earlier capture. Returns the names of the captured
+    /// components, or an error. The capture ends with the run, or when an edit affects a port that it watches.
+    Result<std::vector<std::string>> capture (const std::string& port, const std::string& watched, const Trigger&);
+    const TriggeredCapture* captured() const noexcept { return run ? run->captured() : nullptr; }   ///< null until it has triggered
+    bool isCapturing() const noexcept { return run && run->isCapturing(); }
+    void endCapture();
+
+    /// Frees what is no longer used, and collects new samples. Call this many times a second.
+    void attend();
+
+private:
+    void documentChanged() override;
+    void after (const Plan&, std::uint64_t tick, bool halts) noexcept override;
+
+    bool isLive() const noexcept { return run && run->isLive(); }
+    void beginAnew (bool stays_stopped);
+    void begin();
+    void end();
+    std::unique_ptr<Run> makeRun (Run::Queries);
+    std::string handRoleOf (const Plan&) const;
+    void takeOver();
+    Run::RoleDevice open (const std::string& role, const Plan&, Messages&);
+    Run::RoleDevice openDescribed (const std::string& role, const Plan&, Messages&);
+    Run::RoleDevice openBySession (const std::string& role, const Plan&, Messages&);
+    MadeDevice make (const Json& description, const std::filesystem::path& folder, const std::string& role, const Plan&);
+    audio::AudioSettings audioWanted (Messages&) const;
+    void beginSound();
+    ClockChoice decideClock (const Plan&) const;
+    std::unique_ptr<TickClock> makeClock();
+    std::vector<RealDevice> realDevices() const;
+    bool isBound (const std::string& role) const;
+    bool isMovedOtherwise (const std::string& role) const;
+    std::unique_ptr<Device> chosenHand (const SimulatedDevice* described, double& damping, Messages&);
+    void note (const Plan&);
+
+    Document& document;
+    const Catalogue& catalogue;
+    FileAssets assets;
+    Messages said;
+    Traces probes;
+    Sound* sound;
+    Hand moved_by;
+    std::chrono::steady_clock::time_point stopped_at = std::chrono::steady_clock::time_point::min();
+    bool held = false;                                       // an emergency stop or another latched stop holds the forces until rearm
+    bool begins = false;                                     // starts once the previous run is over
+    bool wanted = false;                                     // started and not stopped: the run begins as soon as the graph compiles
+    std::vector<std::pair<std::string, Json>> run_devices;   // the graph's devices at the start of the run
+    const DeviceSetup* setup = nullptr;
+    DeviceSession run_session;    // the session at the start of the run
+    double graph_rate_hz = 0.0;   // at the start of the run
+    std::string clock_role, hand_role;
+    double hand_damping = 0.0;   // of the device of the hand's role, in the graph's workspace, in N s/m
+    HealthWatch watch;
+    std::vector<RoleNeeds> needed;
+    int attended = 0;
+    std::optional<std::int64_t> delay_ticks;
+    std::shared_ptr<PointerPath> pointer;
+    std::shared_ptr<TransportPath> transported;
+    Snapshot<std::array<double, 6>> seen;   // the tool's position and the force on it
+    std::unique_ptr<audio::AudioRig> rig;   // declared before the run, because it drives some of the run's devices
+    std::unique_ptr<TickClock> clock;       // empty if the rig provides the clock
+    std::unique_ptr<Run> run;               // last, because it ticks the other members
+};
+
+}   // namespace tactus::host

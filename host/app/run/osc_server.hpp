@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "playback.hpp"
+
+#include <host/osc/remote_control.hpp>
+
+#include <map>
+
+namespace tactus::host
+{
+
+/// Lets other programs control and watch the run of a window over OSC, see docs/osc.md. A value that they set is felt immediately,
+/// and also becomes an edit of the document that can be undone; edits that follow each other within a second are one undo step.
+/// [main thread]
+class OscServer final : private Controlled
+{
+public:
+    /// The playback and the document must outlive this.
+    OscServer (std::unique_ptr<OscPort>, Playback&, Document&);
+
+    int port() const noexcept { return osc->number(); }
+
+    /// Call many times a second.
+    void attend (RemoteControl::Clock::time_point now = RemoteControl::Clock::now());
+
+private:
+    Result<> setParam (const std::string& name, const Json& value) override;
+    Result<> turnControl (const std::string& id, double value) override;
+    Result<> strike (const std::string& input, double speed) override { return live_run.strike (input, speed); }
+    Result<std::vector<std::string>> probe (const std::vector<std::string>& ports) override;
+    Result<std::vector<std::string>> capture (const std::string& port, const std::string& watched, const Trigger&) override;
+    const TriggeredCapture* captured() override { return live_run.captured(); }
+    void endCapture() override;
+    Status status() override;
+    std::vector<NodeCost> costs() override { return live_run.costs(); }
+    std::vector<Role> roles() override;
+    Result<> transport (const Transport&) override;
+    Result<> start() override;
+    void stop() override { playback.stop(); }
+    void emergencyStop() override { playback.emergencyStop(); }
+    Result<> rearm() override;
+
+    void checkProbes();
+    void sendValues();
+    void performEdits (RemoteControl::Clock::time_point now);
+
+    std::unique_ptr<OscPort> osc;
+    Playback& playback;
+    LiveRun& live_run { playback.run() };
+    Document& document;
+    Traces::Client probed { live_run.traces() };
+    std::vector<std::string> components;   // of the probed ports
+    std::uint64_t sent = 0;                // all ticks before this one are sent
+    bool captures = false;
+    std::map<std::string, Json> new_params;       // set, but not yet edits of the document
+    std::map<std::string, double> new_controls;   // the same
+    RemoteControl::Clock::time_point edited_at {};
+    std::size_t edited_position = 0;         // in the history
+    RemoteControl control { *osc, *this };   // last: it uses this
+};
+
+}   // namespace tactus::host

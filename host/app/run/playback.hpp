@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "device_setup.hpp"
+#include "live_run.hpp"
+
+namespace tactus::host
+{
+
+/// Runs the document, or previews a preset in its place. [main thread]
+class Playback
+{
+public:
+    /// The sound and the device setup must outlive this. `before_run` is called before each start.
+    Playback (Document&, const Catalogue&, Sound&, DeviceSetup&, std::function<void()> before_run);
+
+    LiveRun& run() noexcept { return live_run; }   ///< of the document
+    LiveRun& current() noexcept { return preview_run ? *preview_run : live_run; }
+
+    void start (LiveRun::Hand);
+    void restart() { start (live_run.hand()); }
+    void stop() noexcept;   ///< even if a preview is running
+    void emergencyStop() noexcept;
+
+    /// Stops the document, and runs another graph with its own gesture until endPreview().
+    void preview (graph::Graph);
+    void endPreview();   ///< runs the document again if it ran before
+    bool isPreviewing() const noexcept { return preview_run != nullptr; }
+
+    void attend();   ///< call many times a second
+
+private:
+    const Catalogue& catalogue;
+    std::function<void()> before_run;
+    LiveRun live_run;
+    std::unique_ptr<Document> preview_document;
+    std::unique_ptr<LiveRun> preview_run;
+    bool resumes = false;   // runs the document again after the preview
+};
+
+}   // namespace tactus::host

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "scope_model.hpp"
+
+#include <host/app/run/traces.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace tactus::host
+{
+
+using TraceList = std::vector<std::shared_ptr<const Trace>>;
+
+/// The lowest and highest value of the ticks in a column of pixels, so that no peak is lost.
+struct TraceColumn
+{
+    Extent extent;   ///< empty where there is a gap
+};
+
+/// A range of ticks in columns of equal width. Columns are aligned to tick 0, so that a moving window does not shimmer.
+struct TraceColumns
+{
+    double ticks_each = 1.0;
+    double first = 0.0;   ///< the first tick of the first column
+    std::vector<TraceColumn> all;
+};
+
+TraceColumns columnsOf (const Trace&, double from, double to, std::size_t at_most);
+
+/// The extent of a trace over a range of ticks.
+Extent extentOf (const Trace&, double from, double to);
+
+/// The latest tick before a limit at which a trace crosses the trigger level on the selected edge, after it was on the other side by
+/// at least the hysteresis. A gap resets the trigger.
+std::optional<std::uint64_t> latestCrossing (const Trace&, const ScopeTrigger&, double hysteresis, std::uint64_t before);
+
+struct TickWindow
+{
+    static constexpr double before_trigger = 0.2;   ///< fraction of the window
+
+    double from = 0.0, to = 0.0;   ///< ticks
+    std::optional<std::uint64_t> trigger;
+};
+
+/// The ticks that an oscilloscope shows: around the latest trigger, or up to the newest tick if nothing triggers.
+TickWindow windowOf (const TraceList&, double seconds, const ScopeTrigger&, double hysteresis);
+
+/// One past the newest tick of all traces.
+std::uint64_t endOf (const TraceList&);
+
+}   // namespace tactus::host

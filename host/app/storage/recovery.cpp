@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "recovery.hpp"
+
+#include <framework/file/graph_file.hpp>
+#include <framework/file/text_file.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <juce_core/juce_core.h>
+
+namespace tactus::host
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+fs::path sessionsIn (const fs::path& home) { return home / "sessions"; }
+fs::path lockIn (const fs::path& session) { return session / "lock"; }
+fs::path autosaveIn (const fs::path& session) { return session / "kept.json"; }
+fs::path trialIn (const fs::path& session) { return session / "trial"; }
+
+std::string newName()
+{
+    std::random_device chance;
+    return juce::String::toHexString (static_cast<juce::int64> ((std::uint64_t { chance() } << 32u) | chance())).toStdString();
+}
+
+std::string textAt (const Json& object, const char* key)
+{
+    const auto found = object.find (key);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+std::string howLongAgo (double seconds)
+{
+    const auto count = [] (double n, const char* unit)
+    { return std::to_string (static_cast<long long> (std::max (0.0, std::floor (n)))) + ' ' + unit; };
+    if (seconds < 120.0) return count (seconds, "s");
+    if (seconds < 7200.0) return count (seconds / 60.0, "min");
+    if (seconds < 172800.0) return count (seconds / 3600.0, "hours");
+    return count (seconds / 86400.0, "days");
+}
+
+std::string nameOf (const AutosavedDocument& d)
+{
+    const auto graph = readGraph (d.graph).graph;
+    if (! graph.name.empty()) return graph.name;
+    return d.file.empty() ? "Untitled graph" : d.file.stem().string();
+}
+}   // namespace
+
+std::string writeAutosave (const AutosavedDocument& d)
+{
+    const Json json {
+        { "format", "tactus-kept" },
+        { "version", 1 },
+        { "file", d.file.string() },
+        { "preset", d.preset.string() },
+        { "changed", d.changed },
+        { "at", d.at_s },
+        { "graph", d.graph }
+    };
+    return json.dump (2) + '\n';
+}
+
+Result<AutosavedDocument> readAutosave (const std::string& text)
+{
+    const auto json = Json::tryParse (text).value_or (Json());
+    const bool is_whole = json.is_object() && textAt (json, "format") == "tactus-kept" && json.contains ("graph") && json["graph"].is_string();
+    if (! is_whole) return Message::error ("recovery/damaged", {}, "the file is damaged");
+    AutosavedDocument d { textAt (json, "file"), textAt (json, "preset"), json.value ("changed", Json (true)) == true, 0.0, json["graph"].get<std::string>() };
+    if (const auto at = json.find ("at"); at != json.end() && at->is_number()) d.at_s = at->get<double>();
+    return d;
+}
+
+RestoredGraph restore (const AutosavedDocument& d)
+{
+    RestoredGraph restored;
+    auto read = readGraph (d.graph);
+    const auto error = std::ranges::find (read.messages, Message::Severity::error, &Message::severity);
+    if (error != read.messages.end()) restored.problem = error->text;
+    auto& graph = restored.graph = std::move (read.graph);
+    graph.folder = (d.file.empty() ? d.preset : d.file).parent_path().string();
+    const auto include = [&] (const graph::Patch& patch)
+    {
+        for (const auto& node : patch.nodes)
+        {
+            if (! node.type.starts_with ("file:")) continue;
+            const auto written = node.type.substr (5);
+            auto inner = loadGraph (fs::path (graph.folder) / written);
+            if (! hasErrors (inner.messages)) graph.files.emplace (written, std::make_shared<const graph::Graph> (std::move (inner.graph)));
+        }
+    };
+    include (graph.root);
+    for (const auto& [name, patch] : graph.graphs)
+        include (patch);
+    return restored;
+}
+
+RecoverySession::RecoverySession (const fs::path& home)
+{
+    // The folder gets its real name only once it is locked: another instance that looks for crashed sessions right now would
+    // otherwise pick it up.
+    own = sessionsIn (home) / newName();
+    const auto hidden = sessionsIn (home) / ('.' + own.filename().string());
+    std::error_code failed;
+    fs::create_directories (hidden, failed);
+    lock = FileLock::take (lockIn (hidden));
+    fs::rename (hidden, own, failed);
+    if (failed) lock.reset();
+    if (! lock) wrong = "Autosave is off: cannot write to " + own.string() + ". Save often, or set TACTUS_HOME to a writable folder.";
+}
+
+Result<> RecoverySession::autosave (const AutosavedDocument& d)
+{
+    if (! lock) return Message::error ("recovery/no_folder", own.string(), wrong);
+    return writeTextFile (autosaveIn (own), writeAutosave (d));
+}
+
+void RecoverySession::beginTrial()
+{
+    if (trial || ! lock) return;
+    trial = writeTextFile (trialIn (own), "\n").has_value();
+}
+
+void RecoverySession::endTrial()
+{
+    if (! trial) return;
+    trial = false;
+    std::error_code failed;
+    fs::remove (trialIn (own), failed);
+}
+
+void RecoverySession::end()
+{
+    if (! lock) return;
+    std::error_code failed;
+    fs::remove_all (own, failed);
+    lock.reset();
+}
+
+void CrashedSession::discard()
+{
+    std::error_code failed;
+    fs::remove_all (own, failed);
+    lock.reset();
+}
+
+std::vector<CrashedSession> findCrashedSessions (const fs::path& home)
+{
+    std::vector<CrashedSession> all;
+    std::error_code failed;
+    for (const auto& entry : fs::directory_iterator (sessionsIn (home), failed))
+    {
+        if (! entry.is_directory (failed) || entry.path().filename().string().starts_with ('.')) continue;   // still being created
+        CrashedSession s;
+        s.own = entry.path();
+        s.lock = FileLock::take (lockIn (s.own));
+        if (! s.lock) continue;   // belongs to an instance that is still running
+        s.in_trial = fs::exists (trialIn (s.own), failed);
+        const auto text = readTextFile (autosaveIn (s.own));
+        if (! text)
+        {
+            s.discard();
+            continue;
+        }
+        if (auto read = readAutosave (*text))
+        {
+            s.saved = std::move (*read);
+            s.wrong = restore (s.saved).problem;
+        }
+        else
+            s.wrong = read.error().text;
+        if (s.wrong.empty() && ! s.saved.changed && ! s.in_trial)
+            s.discard();
+        else
+            all.push_back (std::move (s));
+    }
+    std::ranges::sort (all, std::greater {}, [] (const CrashedSession& s)
+                       { return s.document().at_s; });
+    return all;
+}
+
+RecoveryQuestion questionAbout (const CrashedSession& s, double now_s)
+{
+    RecoveryQuestion q;
+    q.title = "Tactus quit unexpectedly";
+    if (! s.problem().empty())
+    {
+        q.can_recover = false;
+        q.text = "The autosaved graph cannot be read: " + s.problem() + ". ";
+        q.text += "Copy " + autosaveIn (s.folder()).string() + " if you want to inspect it.";
+        return q;
+    }
+    const auto name = "'" + nameOf (s.document()) + "'";
+    const auto ago = howLongAgo (now_s - s.document().at_s) + " ago";
+    q.text = s.document().changed ? name + " has unsaved changes, last autosaved " + ago + "." : name + " was open, " + ago + ".";
+    q.safe_first = s.endedInTrial();
+    if (q.safe_first)
+        q.text += " Tactus quit soon after the graph was started or changed, so running it may crash it again. Look at the graph first; START runs it.";
+    return q;
+}
+
+}   // namespace tactus::host

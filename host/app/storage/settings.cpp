@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "settings.hpp"
+
+#include <framework/file/text_file.hpp>
+
+#include <algorithm>
+
+namespace tactus::host
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+constexpr double least_scale = 0.5, most_scale = 4.0;
+constexpr int largest_panel = 10000;
+
+/// Takes the members out of an object one by one, and notes the invalid ones.
+class Reader
+{
+public:
+    explicit Reader (Json& j) : json (j) {}
+
+    template <typename F>
+    void take (const char* key, bool (Json::*is)() const noexcept, F&& use)
+    {
+        const auto found = json.find (key);
+        if (found == json.end()) return;
+        if (! ((*found).*is)() || ! use (*found)) wrong += (wrong.empty() ? "" : ", ") + std::string (key);
+        json.erase (key);
+    }
+
+    std::string wrong;
+
+private:
+    Json& json;
+};
+
+bool readPaths (const Json& list, std::vector<fs::path>& into)
+{
+    for (const auto& entry : list)
+    {
+        if (! entry.is_string()) return false;
+        into.emplace_back (entry.get<std::string>());
+    }
+    return true;
+}
+
+Json pathsToJson (const std::vector<fs::path>& paths)
+{
+    auto list = Json::array();
+    for (const auto& p : paths)
+        list.push_back (p.string());
+    return list;
+}
+
+fs::path fileIn (const fs::path& home) { return home / "settings.json"; }
+}   // namespace
+
+void Settings::noteRecent (const fs::path& file)
+{
+    std::erase (recent, file);
+    recent.insert (recent.begin(), file);
+    if (recent.size() > most_recent) recent.resize (most_recent);
+}
+
+bool Settings::isFavourite (const fs::path& file) const { return std::ranges::count (favourites, file) > 0; }
+
+void Settings::toggleFavourite (const fs::path& file)
+{
+    if (std::erase (favourites, file) == 0) favourites.push_back (file);
+}
+
+ReadSettings readSettings (const std::string& text)
+{
+    ReadSettings read;
+    auto& s = read.settings;
+    auto json = Json::tryParse (text).value_or (Json());
+    if (! json.is_object())
+    {
+        read.problem = "not a JSON object";
+        return read;
+    }
+    Reader reader (json);
+    reader.take ("theme", &Json::is_string, [&] (const Json& v)
+                 {
+        s.light = v == "light";
+        return v == "light" || v == "dark"; });
+    reader.take ("scale", &Json::is_number, [&] (const Json& v)
+                 {
+        const auto scale = v.get<double>();
+        const bool fits = scale == 0.0 || (scale >= least_scale && scale <= most_scale);
+        if (fits) s.scale = scale;
+        return fits; });
+    reader.take ("welcomed", &Json::is_boolean, [&] (const Json& v)
+                 {
+        s.welcomed = v.get<bool>();
+        return true; });
+    reader.take ("panels", &Json::is_object, [&] (const Json& v)
+                 {
+        for (const auto& [name, size] : v.items())
+        {
+            if (! size.is_number_integer() || size.get<int>() < 0 || size.get<int>() > largest_panel) return false;
+            s.panels[name] = size.get<int>();
+        }
+        return true; });
+    reader.take ("recent", &Json::is_array, [&] (const Json& v)
+                 { return readPaths (v, s.recent); });
+    reader.take ("favourites", &Json::is_array, [&] (const Json& v)
+                 { return readPaths (v, s.favourites); });
+    if (s.recent.size() > Settings::most_recent) s.recent.resize (Settings::most_recent);
+    if (! reader.wrong.empty()) read.problem = "invalid values for " + reader.wrong;
+    s.others = std::move (json);
+    return read;
+}
+
+std::string writeSettings (const Settings& s)
+{
+    Json json {
+        { "theme", s.light ? "light" : "dark" },
+        { "scale", s.scale },
+        { "welcomed", s.welcomed },
+        { "panels", Json::object() },
+        { "recent", pathsToJson (s.recent) },
+        { "favourites", pathsToJson (s.favourites) }
+    };
+    for (const auto& [name, size] : s.panels)
+        json["panels"][name] = size;
+    for (const auto& [key, value] : s.others.items())
+        if (! json.contains (key)) json[key] = value;
+    return json.dump (2) + '\n';
+}
+
+ReadSettings loadSettings (const fs::path& home)
+{
+    const auto text = readTextFile (fileIn (home));
+    if (! text) return {};
+    auto read = readSettings (*text);
+    if (read.problem.empty()) return read;
+    auto aside = fileIn (home);
+    aside += ".broken";
+    std::error_code failed;
+    fs::rename (fileIn (home), aside, failed);
+    read.problem = "The settings file is damaged (" + read.problem + "). Unreadable settings were reset to their defaults.";
+    if (! failed) read.problem += " The damaged file is now " + aside.string() + ".";
+    return read;
+}
+
+Result<> saveSettings (const Settings& s, const fs::path& home) { return writeTextFile (fileIn (home), writeSettings (s)); }
+
+double automaticScale (int height) noexcept
+{
+    if (height >= 2000) return 2.0;
+    if (height >= 1700) return 1.5;
+    if (height >= 1300) return 1.25;
+    return 1.0;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <framework/text/json.hpp>
+#include <framework/text/result.hpp>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tactus::host
+{
+
+/// What the window remembers between starts.
+struct Settings
+{
+    static constexpr std::size_t most_recent = 12;
+
+    bool light = false;
+    double scale = 0.0;   ///< of the user interface; 0: automatic
+    bool welcomed = false;
+    std::map<std::string, int> panels;           ///< panel sizes by name, in pixels; 0: folded
+    std::vector<std::filesystem::path> recent;   ///< the latest first
+    std::vector<std::filesystem::path> favourites;
+    Json others = Json::object();   ///< keys written by another version of Tactus
+
+    void noteRecent (const std::filesystem::path&);
+    bool isFavourite (const std::filesystem::path&) const;
+    void toggleFavourite (const std::filesystem::path&);
+};
+
+struct ReadSettings
+{
+    Settings settings;
+    std::string problem;   ///< what is wrong with the text; the rest was read
+};
+
+ReadSettings readSettings (const std::string& text);
+std::string writeSettings (const Settings&);
+
+/// Reads the settings file in a folder. A damaged file is renamed to settings.json.broken. [main thread]
+ReadSettings loadSettings (const std::filesystem::path& home);
+
+/// Ids: those of writeTextFile. [main thread]
+Result<> saveSettings (const Settings&, const std::filesystem::path& home);
+
+/// The scale of the user interface on a display with this height in pixels, after the system's own scaling.
+double automaticScale (int height) noexcept;
+
+}   // namespace tactus::host

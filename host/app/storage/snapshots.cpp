@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "snapshots.hpp"
+
+#include <algorithm>
+#include <functional>
+
+namespace tactus::host
+{
+
+namespace
+{
+/// A member of an object. Null if there is no such member, or if it is not an object.
+const Json& at (const Json& object, const std::string& key)
+{
+    static const Json none;
+    if (! object.is_object()) return none;
+    const auto found = object.find (key);
+    return found == object.end() ? none : *found;
+}
+
+const Json& snapshot (const graph::Graph& g, int number) { return at (at (at (g.extra, "ui"), "snapshots"), std::to_string (number)); }
+
+Json valuesOf (const graph::Patch& patch)
+{
+    auto nodes = Json::object();
+    for (const auto& n : patch.nodes)
+        nodes[n.name] = { { "type", n.type }, { "params", n.params }, { "overrides", n.overrides } };
+    return nodes;
+}
+
+/// Calls change() for each key whose value differs, with the old value and its position.
+void differences (const Json& now, const Json& then, const std::function<void (const std::string&, std::optional<Json>, graph::Place)>& change)
+{
+    for (const auto& [key, value] : now.items())
+        if (! then.contains (key)) change (key, std::nullopt, std::nullopt);
+    std::size_t place = 0;
+    for (const auto& [key, value] : then.items())
+    {
+        if (at (now, key) != value) change (key, value, place);
+        ++place;
+    }
+}
+
+void recall (const graph::Patch& patch, const std::string& name, const Json& nodes, std::vector<graph::Command>& commands)
+{
+    for (const auto& n : patch.nodes)
+    {
+        const auto& then = at (nodes, n.name);
+        if (at (then, "type") != n.type) continue;
+        if (at (then, "params").is_object())
+            differences (n.params, at (then, "params"), [&] (const std::string& key, std::optional<Json> value, graph::Place place)
+                         { commands.push_back (graph::SetParam { name, n.name, key, std::move (value), place }); });
+        if (at (then, "overrides").is_object())
+            differences (n.overrides, at (then, "overrides"), [&] (const std::string& key, std::optional<Json> value, graph::Place place)
+                         { commands.push_back (graph::SetOverride { name, n.name, key, std::move (value), place }); });
+    }
+}
+}   // namespace
+
+bool hasSnapshot (const graph::Graph& g, int number) { return snapshot (g, number).is_object(); }
+
+graph::Command storeSnapshot (const graph::Graph& g, int number)
+{
+    auto controls = Json::object();
+    for (const auto& c : g.controls)
+        controls[c.id] = c.value;
+    auto subgraphs = Json::object();
+    for (const auto& [name, patch] : g.graphs)
+        subgraphs[name] = valuesOf (patch);
+
+    Json ui = at (g.extra, "ui");
+    if (! ui.is_object()) ui = Json::object();
+    auto& all = ui["snapshots"];
+    if (! all.is_object()) all = Json::object();
+    all[std::to_string (number)] = { { "nodes", valuesOf (g.root) }, { "graphs", std::move (subgraphs) }, { "controls", std::move (controls) } };
+    return graph::Batch { "store snapshot " + std::to_string (number), { graph::SetHeader { .ui = std::move (ui) } } };
+}
+
+std::optional<graph::Command> recallSnapshot (const graph::Graph& g, int number)
+{
+    const auto& then = snapshot (g, number);
+    graph::Batch batch { "snapshot " + std::to_string (number), {} };
+    recall (g.root, {}, at (then, "nodes"), batch.commands);
+    for (const auto& [name, patch] : g.graphs)
+        recall (patch, name, at (at (then, "graphs"), name), batch.commands);
+    for (const auto& c : g.controls)
+        if (const auto& value = at (at (then, "controls"), c.id); value.is_number() && value != c.value)
+        {
+            auto to = c;
+            to.value = std::clamp (value.get<double>(), 0.0, 1.0);
+            batch.commands.push_back (graph::ChangeControl { c.id, std::move (to) });
+        }
+    return batch.commands.empty() ? std::nullopt : std::optional<graph::Command> (std::move (batch));
+}
+
+}   // namespace tactus::host

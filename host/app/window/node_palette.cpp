@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "node_palette.hpp"
+
+#include <host/app/look/focus.hpp>
+
+namespace tactus::host
+{
+
+namespace
+{
+/// The free end of a wire being drawn, or both ends of a wire to insert into. Ends whose node has gone are left out.
+std::vector<WireEnd> endsOf (const NodeRequest& request, const Scene& scene)
+{
+    std::vector<WireEnd> found;
+    const auto add = [&] (const SceneNode* node, Role role, const std::string& id)
+    {
+        const auto* port = node == nullptr ? nullptr : node->face->find (role, id);
+        if (port != nullptr) found.push_back ({ port, node->quantityOf (*port) });
+    };
+    if (request.start) add (scene.find (request.start->node), request.start->role, request.start->port);
+    if (const auto* wire = request.wire != 0 ? scene.findWire (request.wire) : nullptr)
+    {
+        add (&scene.nodes()[static_cast<std::size_t> (wire->start)], Role::output, wire->out);
+        add (&scene.nodes()[static_cast<std::size_t> (wire->end)], wire->in_role, wire->in);
+    }
+    return found;
+}
+
+void place (Palette& palette, juce::Point<int> at)
+{
+    const auto window = palette.getParentComponent()->getLocalBounds().reduced (8);
+    palette.setBounds (juce::Rectangle<int> (Palette::width, Palette::height).withPosition (at).constrainedWithin (window));
+}
+}   // namespace
+
+void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalogue, const NodeRequest& request)
+{
+    juce::String purpose = "Add node";
+    if (request.wire != 0)
+        purpose = "Insert into wire";
+    else if (request.start)
+        purpose = "Connect " + juce::String (request.start->port) + " to";
+    place (palette, canvas.view().toPixels (request.at).toInt() + canvas.getPosition());
+    palette.open ([&canvas, &catalogue, request] (const std::string& query)
+                  { return searchPalette (query, canvas.edited().graph(), catalogue, endsOf (request, canvas.scene())); },
+                  purpose, [&canvas, request] (const std::string& type)
+                  {
+        canvas.addNodeAt (type, request);
+        takeFocus (canvas); });
+}
+
+void openPalette (Palette& palette, Canvas& canvas, const juce::String& purpose, std::vector<PaletteEntry> entries,
+                  std::function<void (const std::string&)> chosen)
+{
+    place (palette, palette.getParentComponent()->getMouseXYRelative());
+    palette.open ([all = std::move (entries)] (const std::string& query)
+                  { return matching (all, query); },
+                  purpose, [&canvas, chosen = std::move (chosen)] (const std::string& type)
+                  {
+        chosen (type);
+        takeFocus (canvas); });
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <host/app/look/look.hpp>
+
+namespace tactus::host
+{
+
+/// The line at the bottom of the window. Shows a hint about what is under the pointer, or the latest notice if there is no hint.
+class StatusLine final : public juce::Component
+{
+public:
+    static constexpr int height = 26;
+
+    StatusLine() { setInterceptsMouseClicks (false, false); }
+
+    void hint (const juce::String& text) { show (text, notice); }   ///< empty: no hint
+    void notify (const juce::String& text) { show ({}, text); }     ///< empty: like clearNotice(), and also removes the hint
+    void clearNotice() { show (hinted, {}); }
+
+    juce::String text() const
+    {
+        if (hinted.isNotEmpty()) return hinted;
+        return notice.isNotEmpty() ? notice : "Space: add a node   F: frame   G: group   B: bypass   Ctrl+Z: undo   F1: help";
+    }
+
+    void paint (juce::Graphics& g) override
+    {
+        const auto& look = lookOf (*this);
+        g.setColour (look.theme().hairline);
+        g.drawHorizontalLine (0, 0.0f, static_cast<float> (getWidth()));
+        g.setFont (look.font (12.0f));
+        g.setColour (look.theme().dim);
+        g.drawText (text(), getLocalBounds().reduced (16, 0), juce::Justification::centredLeft, true);
+    }
+
+private:
+    void show (const juce::String& hint_text, const juce::String& notice_text)
+    {
+        if (hint_text == hinted && notice_text == notice) return;
+        hinted = hint_text;
+        notice = notice_text;
+        repaint();
+    }
+
+    juce::String hinted, notice;
+};
+
+}   // namespace tactus::host

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "handwritten.hpp"
+#include "kernels.hpp"
+
+namespace tactus::bench
+{
+
+namespace
+{
+class Handwritten final : public Variant
+{
+public:
+    Handwritten() : k (device) {}
+
+    void tick (const double* in) noexcept override;
+
+    std::vector<double> outputs() const override
+    {
+        const Vec3 f = k.motor.effort().force;
+        return { f.x(), f.y(), f.z() };
+    }
+
+private:
+    DeviceState device;
+    Kernels k;
+};
+
+void Handwritten::tick (const double* in) noexcept
+{
+    device.reading.position = { in[0], in[1], in[2] };
+
+    const Vec3 p = k.hand.tick ({}).position;
+    const double speed = k.motion.tick ({ .position = p }).speed;
+    const auto foam = k.foam.tick ({ .position = p });
+    const Vec3 drag = k.drag.tick ({ .position = p, .normal = foam.normal, .normal_force = foam.resistance }).force;
+
+    const Vec3 cloth = k.ribs.tick ({ p }).force + k.warp.tick ({ p }).force + k.weft.tick ({ p }).force;
+    const Vec3 felt = k.touch.tick ({ foam.depth }).gain * cloth;
+
+    const auto landing = k.landing.tick ({ -p.z() });
+    const double thud = k.thud.tick ({ landing.hit }).resistance;
+    const double wood = k.wood.tick ({ landing.hit }).value;
+    const double bump = thud + wood + k.hiss.tick ({ .speed = speed, .normal_force = foam.resistance }).value;
+
+    const Vec3 all = foam.force + drag + felt + bump * foam.normal;
+    const Vec3 calm = k.calm.tick ({ .position = p, .force = all, .contact = landing.contact }).force;
+    k.motor.tick ({ .force = k.limit.tick ({ .in = calm, .contact = landing.contact }).out });
+}
+}   // namespace
+
+std::unique_ptr<Variant> handwritten() { return std::make_unique<Handwritten>(); }
+
+}   // namespace tactus::bench

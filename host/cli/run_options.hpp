@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <framework/plan/compile.hpp>
+#include <host/command_line/command.hpp>
+
+#include <string>
+#include <vector>
+
+namespace tactus::host
+{
+
+/// The options that render and play share.
+struct RunOptions
+{
+    std::string graph, feed;
+    std::vector<std::string> records, outputs, sets, devices;
+    std::string log;       ///< the run log to write; "": none
+    std::string clock;     ///< the role whose device ticks the run, "timer" or "audio"; "": the session's choice, or the first device that can
+    std::string session;   ///< for a live run, the session that binds its roles to devices: a file, or "off"; "": the user's
+    bool strict = false;   ///< true: a missing device of the session ends the run
+    std::vector<std::string> routes;
+    std::string card;      ///< the sound card: TYPE:NAME, TYPE or NAME; "": the session's choice, or any
+    std::string capture;   ///< the WAV file for the signal to the sound card; "": none
+    double rate_hz = 0.0, duration_s = 0.0;
+
+    void addTo (const Command&);
+};
+
+/// Parses NODE.PARAM=VALUE, as in --set.
+plan::Override readSet (const std::string&);
+
+/// Parses all --set options.
+std::vector<plan::Override> readSets (const std::vector<std::string>&);
+
+}   // namespace tactus::host

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command.hpp"
+
+#include <framework/text/number_text.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+
+namespace tactus::host
+{
+
+namespace
+{
+Check checkOf (const CLI::Validator& v)
+{
+    return { [v] (const std::string& value)
+             { return v (value); },
+             v.get_description() };
+}
+
+template <typename Parse>
+std::optional<int> statusOf (CLI::App& app, Parse&& parse)
+{
+    try
+    {
+        parse();
+        return std::nullopt;
+    }
+    catch (const UsageError& error)
+    {
+        return app.exit (CLI::ValidationError (error.what()));
+    }
+    catch (const CLI::ParseError& error)
+    {
+        return app.exit (error);
+    }
+}
+}   // namespace
+
+//==============================================================================
+Check within (int min, int max) { return checkOf (CLI::Range (min, max)); }
+Check within (double min, double max) { return checkOf (CLI::Range (min, max)); }
+Check positive() { return checkOf (CLI::PositiveNumber); }
+Check oneOf (const std::vector<std::string>& values) { return checkOf (CLI::IsMember (values)); }
+
+Check finiteWithin (double min, double max)
+{
+    const auto range = "from " + numberText (min) + " to " + numberText (max);
+    return { [=] (const std::string& text)
+             {
+                 double value = 0.0;
+                 const bool fits = CLI::detail::lexical_cast (text, value) && value >= min && value <= max;
+                 return fits ? std::string() : "'" + text + "' is not a number " + range;
+             },
+             range };
+}
+
+//==============================================================================
+Option Option::required (bool is) const
+{
+    option->required (is);
+    return *this;
+}
+
+Option Option::check (const Check& check) const
+{
+    option->check ([problem = check.problem] (const std::string& text)
+                   { return problem (text); },
+                   check.type);
+    return *this;
+}
+
+Option Option::needs (Option other) const
+{
+    option->needs (other.option);
+    return *this;
+}
+
+Option Option::excludes (Option other) const
+{
+    option->excludes (other.option);
+    return *this;
+}
+
+Option Option::separatedBy (char delimiter) const
+{
+    option->delimiter (delimiter);
+    return *this;
+}
+
+Option Option::oneValueEach() const
+{
+    option->allow_extra_args (false);
+    return *this;
+}
+
+Option Option::type (const std::string& name) const
+{
+    option->type_name (name);
+    return *this;
+}
+
+bool Option::isGiven() const { return option->count() > 0; }
+
+//==============================================================================
+Command::Command (const std::string& about, const std::string& name) : app (std::make_shared<CLI::App> (about, name)) {}
+
+Command Command::add (const std::string& name, const std::string& about) const
+{
+    return Command ({ app, app->add_subcommand (name, about) });   // the program owns it
+}
+
+Option Command::addOption (const std::string& name, std::string& value, const std::string& about) const
+{
+    return Option (app->add_option (name, value, about));
+}
+
+Option Command::addOption (const std::string& name, double& value, const std::string& about) const
+{
+    return Option (app->add_option (name, value, about));
+}
+
+Option Command::addOption (const std::string& name, int& value, const std::string& about) const
+{
+    return Option (app->add_option (name, value, about));
+}
+
+Option Command::addOption (const std::string& name, std::optional<int>& value, const std::string& about) const
+{
+    return Option (app->add_option (name, value, about));
+}
+
+Option Command::addOption (const std::string& name, std::vector<std::string>& values, const std::string& about) const
+{
+    return Option (app->add_option (name, values, about));
+}
+
+Option Command::addOption (const std::string& name, std::function<void (const std::string&)> take, const std::string& about) const
+{
+    return Option (app->add_option_function<std::string> (name, std::move (take), about));
+}
+
+Option Command::addFlag (const std::string& name, bool& value, const std::string& about) const { return Option (app->add_flag (name, value, about)); }
+
+Option Command::addHiddenFlag (const std::string& name, bool& value) const
+{
+    auto* flag = app->add_flag (name, value);
+    flag->group ("");
+    return Option (flag);
+}
+
+Option Command::get (const std::string& name) const { return Option (app->get_option (name)); }
+
+void Command::footer (const std::string& text) const
+{
+    app->footer (text);
+}
+
+void Command::version (const std::string& text) const
+{
+    app->set_version_flag ("--version", text);
+}
+
+void Command::requireCommand() const
+{
+    app->require_subcommand (1);
+}
+
+void Command::callback (std::function<void()> run) const
+{
+    app->callback (std::move (run));
+}
+
+void Command::passOn (std::function<void (const std::vector<std::string>&)> run) const
+{
+    app->prefix_command();
+    app->set_help_flag();
+    app->callback ([run = std::move (run), command = app.get()]
+                   { run (command->remaining()); });
+}
+
+std::optional<int> Command::parse (std::vector<std::string> arguments) const
+{
+    std::ranges::reverse (arguments);   // CLI11 takes them from the back
+    return statusOf (*app, [&]
+                     { app->parse (std::move (arguments)); });
+}
+
+std::optional<int> Command::parse (int argc, const char* const* argv) const
+{
+    return statusOf (*app, [&]
+                     { app->parse (argc, argv); });
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "file_watch.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace tactus::host
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+/// The content of a file; none if the file is empty, because it may have been opened but not written yet.
+std::optional<std::string> contentOf (const fs::path& file)
+{
+    std::ifstream in (file, std::ios::binary);
+    std::ostringstream content;
+    if (! in || ! (content << in.rdbuf())) return std::nullopt;
+    return std::move (content).str();
+}
+}   // namespace
+
+void FileWatch::watch (std::vector<fs::path> files)
+{
+    std::vector<Watched> next;
+    for (auto& file : files)
+    {
+        if (std::ranges::find (next, file, &Watched::file) != next.end()) continue;
+        const auto old = std::ranges::find (all, file, &Watched::file);
+        if (old != all.end())
+            next.push_back (std::move (*old));
+        else
+        {
+            next.emplace_back().file = std::move (file);
+            next.back().known = contentOf (next.back().file);
+        }
+    }
+    all = std::move (next);
+}
+
+/// Two writes within one tick of the file system's clock have the same time, so a file with a recent time is read on every look.
+bool FileWatch::readAgain (Watched& w)
+{
+    constexpr auto young = std::chrono::seconds (2);
+    std::error_code failure;
+    const auto written = fs::last_write_time (w.file, failure);
+    const auto size = failure ? 0 : fs::file_size (w.file, failure);
+    if (failure) return false;
+    const bool same = w.latest && written == w.written && size == w.size && fs::file_time_type::clock::now() - written > young;
+    w.written = written;
+    w.size = size;
+    if (! same) w.latest = contentOf (w.file);
+    return w.latest.has_value();
+}
+
+bool FileWatch::look()
+{
+    bool changed = false, settled = true;
+    for (auto& w : all)
+    {
+        if (! readAgain (w)) continue;
+        if (w.latest == w.known)
+        {
+            w.pending.reset();
+            continue;
+        }
+        changed = true;
+        if (w.latest == w.pending) continue;
+        w.pending = w.latest;
+        settled = false;
+    }
+    if (! changed || ! settled) return false;
+    for (auto& w : all)
+        if (w.latest) w.known = w.latest;
+    return true;
+}
+
+}   // namespace tactus::host

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <framework/file/atomic_file.hpp>
+
+#include "support/temporary_folder.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace fs = std::filesystem;
+using namespace tactus;
+
+TEST_CASE ("atomic file: the target changes on commit, not before", "[host][io]")
+{
+    const TemporaryFolder folder;
+    folder.write ("out.txt", "old");
+
+    auto file = AtomicFile::create (folder / "out.txt");
+    REQUIRE (file.has_value());
+    file->stream() << "new";
+    file->stream().flush();
+    CHECK (folder.textOf ("out.txt") == "old");
+
+    REQUIRE (file->commit());
+    CHECK (folder.textOf ("out.txt") == "new");
+    CHECK (std::distance (fs::directory_iterator (folder.path()), {}) == 1);
+}
+
+TEST_CASE ("atomic file: without a commit the target is unchanged", "[host][io]")
+{
+    const TemporaryFolder folder;
+    {
+        auto file = AtomicFile::create (folder / "out.txt");
+        REQUIRE (file.has_value());
+        auto moved = std::move (*file);
+        moved.stream() << "half";
+    }
+    CHECK (folder.isEmpty());
+}
+
+TEST_CASE ("atomic file: assigning to a file discards what it was writing", "[host][io]")
+{
+    const TemporaryFolder folder;
+    auto first = AtomicFile::create (folder / "first.txt");
+    auto second = AtomicFile::create (folder / "second.txt");
+    REQUIRE ((first.has_value() && second.has_value()));
+
+    *first = std::move (*second);
+    first->stream() << "2";
+    REQUIRE (first->commit().has_value());
+
+    CHECK_FALSE (fs::exists (folder / "first.txt"));
+    CHECK (folder.textOf ("second.txt") == "2");
+    CHECK (std::distance (fs::directory_iterator (folder.path()), {}) == 1);
+}
+
+TEST_CASE ("atomic file: two writers of one target do not disturb each other", "[host][io]")
+{
+    const TemporaryFolder folder;
+    auto one = AtomicFile::create (folder / "out.txt");
+    auto other = AtomicFile::create (folder / "out.txt");
+    REQUIRE ((one.has_value() && other.has_value()));
+    one->stream() << "one";
+    other->stream() << "other";
+
+    REQUIRE (one->commit().has_value());
+    CHECK (folder.textOf ("out.txt") == "one");
+    REQUIRE (other->commit().has_value());
+    CHECK (folder.textOf ("out.txt") == "other");
+}
+
+TEST_CASE ("atomic file: a target that cannot be written is refused immediately, with its path and the reason", "[host][io]")
+{
+    const TemporaryFolder folder;
+
+    for (const auto& target : { folder.path(), folder / "missing/out.txt" })
+    {
+        const auto file = AtomicFile::create (target);
+        REQUIRE_FALSE (file.has_value());
+        CHECK (file.error().id == "output/unwritable");
+        CHECK (file.error().where == target.string());
+        CHECK_THAT (file.error().text, Catch::StartsWith ("cannot be written: "));
+    }
+}
+
+TEST_CASE ("atomic file: a name that is too long is an error on commit and leaves nothing behind", "[host][io]")
+{
+    const TemporaryFolder folder;
+    {
+        auto file = AtomicFile::create (folder / std::string (300, 'x'));
+        REQUIRE (file.has_value());
+        CHECK (file->commit().error().id == "output/unwritable");
+    }
+    CHECK (folder.isEmpty());
+}
+
+TEST_CASE ("atomic file: the permissions of the old file are kept, and a link stays a link", "[host][io]")
+{
+    const TemporaryFolder folder;
+    folder.write ("real.txt", "old");
+    const auto owner_only = fs::perms::owner_read | fs::perms::owner_write;
+    fs::permissions (folder / "real.txt", owner_only);
+    fs::create_symlink (folder / "real.txt", folder / "link.txt");
+
+    auto file = AtomicFile::create (folder / "link.txt");
+    REQUIRE (file.has_value());
+    file->stream() << "new";
+    REQUIRE (file->commit());
+
+    CHECK (fs::is_symlink (folder / "link.txt"));
+    CHECK (folder.textOf ("real.txt") == "new");
+    CHECK (fs::status (folder / "real.txt").permissions() == owner_only);
+}
+
+TEST_CASE ("atomic file: a device is written to, not replaced", "[host][io]")
+{
+    if (! fs::is_character_file ("/dev/null"))
+        return;
+
+    auto file = AtomicFile::create ("/dev/null");
+    REQUIRE (file.has_value());
+    file->stream() << "gone";
+    CHECK (file->commit().has_value());
+    CHECK (fs::is_character_file ("/dev/null"));
+}

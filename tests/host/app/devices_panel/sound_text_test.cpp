@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/app/devices_panel/sound_text.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+using namespace tactus;
+using namespace tactus::host;
+
+TEST_CASE ("a route is typed as on the command line, and keys that cannot be typed are preserved", "[app][sessions]")
+{
+    const auto route = Json::parse (R"({ "port": "mix.out", "channel": 3, "full_scale": "4 N", "gain": -1 })");
+    CHECK (textOfRoute (route) == "mix.out=3@4 N");
+    const auto read = readRouteText ("drag.force.x = 4 @ 2 N", route);
+    REQUIRE_FALSE (read);   // a space is not part of a port or channel
+    const auto again = readRouteText ("drag.force.x=4@2 N", route);
+    REQUIRE (again);
+    CHECK (*again == Json::parse (R"({ "port": "drag.force.x", "channel": 4, "full_scale": "2 N", "gain": -1 })"));
+    CHECK (*readRouteText ("mix.out=1", Json::object()) == Json::parse (R"({ "port": "mix.out", "channel": 1 })"));
+    for (const auto* wrong : { "", "mix.out", "mix.out=", "mix.out=x", "mix.out=0", "mix.out=1@", "mix.out=1@4 apples" })
+        CHECK_FALSE (readRouteText (wrong, Json::object()));
+}
+
+TEST_CASE ("the channels of a role are typed as a list", "[app][sessions]")
+{
+    const auto list = Json::parse (R"([ { "channel": 3, "full_scale": "4 N", "high_pass": "20 Hz" }, { "channel": 4, "full_scale": "4 N" } ])");
+    CHECK (textOfChannels (list) == "3@4 N, 4@4 N");
+    const auto swapped = Json::parse (R"([ { "channel": 4, "full_scale": "2 N" }, { "channel": 3, "full_scale": "5 N", "high_pass": "20 Hz" } ])");
+    CHECK (readChannelsText ("4@2 N, 3@5 N", list) == swapped);
+    CHECK (readChannelsText ("2", list) == Json::parse (R"([ { "channel": 2 } ])"));
+    CHECK (readChannelsText ("left@4 N", {})[0]["channel"] == "left");   // rejected later, when the settings are checked
+    CHECK (readChannelsText (" ", list).empty());
+
+    rc::prop ("any list reads back as it was typed", []
+              {
+        auto channels = Json::array();
+        for (const int channel : *rc::gen::unique<std::vector<int>> (rc::gen::inRange (1, 64)))
+        {
+            Json use { { "channel", channel } };
+            if (*rc::gen::arbitrary<bool>()) use["full_scale"] = std::to_string (*rc::gen::inRange (1, 50)) + " N";
+            channels.push_back (use);
+        }
+        RC_ASSERT (readChannelsText (textOfChannels (channels), {}) == channels); });
+}

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include <host/app/layers/mixer.hpp>
+
+#include <framework/file/graph_file.hpp>
+#include <framework/graph/history.hpp>
+#include <framework/plan/compile.hpp>
+
+#include "support/sketch.hpp"
+
+#include <catch2/catch.hpp>
+#include <rapidcheck.h>
+
+#include <numeric>
+
+using namespace tactus;
+using namespace tactus::host;
+
+namespace
+{
+graph::Graph bell() { return loadGraph (TACTUS_SOURCE_DIR "/graphs/bronze_bell.json").graph; }
+
+bool compiles (const graph::Graph& g)
+{
+    const auto compiled = compile (g, catalogue());
+    for (const auto& m : compiled.messages)
+        if (m.severity == Message::Severity::error) UNSCOPED_INFO (m.where << ": " << m.text);
+    return compiled.plan != nullptr;
+}
+
+std::vector<std::string> sources (const graph::Graph& g, const MixerPlace& mixer)
+{
+    std::vector<std::string> all;
+    for (int i = 0; i < layersOf (*findMixer (g, mixer), catalogue()); ++i)
+    {
+        const auto* w = wireInto (g, mixer, i);
+        all.push_back (w == nullptr ? "" : w->from.node);
+    }
+    return all;
+}
+
+/// Everything that belongs to each layer: its source, name, gain, and the control of the gain.
+std::vector<std::string> channels (const graph::Graph& g, const MixerPlace& mixer)
+{
+    const auto& node = *findMixer (g, mixer);
+    const int n = layersOf (node, catalogue());
+    auto all = sources (g, mixer);
+    const auto names = layerNames (node, n);
+    for (int i = 0; i < n; ++i)
+    {
+        auto& text = all[static_cast<std::size_t> (i)];
+        text += '|' + names[static_cast<std::size_t> (i)] + '|' + layerValue (node, catalogue(), "gain", i).dump() + '|';
+        for (const auto& c : g.controls)
+            for (const auto& t : c.to)
+                if (t.path == mixer.path + ".gain[" + std::to_string (i) + ']') text += c.id;
+    }
+    return all;
+}
+}   // namespace
+
+TEST_CASE ("each mixer of a graph is found once, including those in subgraphs", "[layers]")
+{
+    test::Sketch sketch;
+    sketch.node ("a", "layer.mix").node ("first", "graph:inner").node ("second", "graph:inner");
+    sketch.add (sketch.subgraph ("inner"), "mix", "layer.mix");
+    const auto mixers = mixersOf (sketch.graph);
+    REQUIRE (mixers.size() == 2);
+    CHECK (mixers[0].path == "a");
+    CHECK (mixers[1].path == "first/mix");
+    CHECK (mixers[1].patch == "inner");
+    CHECK (findMixer (sketch.graph, mixers[1])->type == "layer.mix");
+}
+
+TEST_CASE ("removing a layer removes its wires, keeps the other layers intact, and can be undone", "[layers]")
+{
+    graph::History history (bell());
+    const auto before = writeGraph (history.graph());
+    const auto mixer = mixersOf (history.graph()).front();
+    const auto all = channels (history.graph(), mixer);
+    REQUIRE (all == std::vector<std::string> { "blow|blow|1|blow", "ring_felt|ring|1|ring", "warble_felt|warble|0.5|warble" });
+
+    auto command = removeLayer (history.graph(), mixer, catalogue(), 1);
+    REQUIRE (command);
+    CHECK (history.perform (*command));
+    CHECK (channels (history.graph(), mixer) == std::vector<std::string> { all[0], all[2] });
+    CHECK (history.graph().controls[1].to.empty());
+    CHECK (compiles (history.graph()));
+    CHECK (history.names().size() == 1);
+    history.undo();
+    CHECK (writeGraph (history.graph()) == before);
+}
+
+TEST_CASE ("neither the last layer nor one that a subgraph exposes can be removed", "[layers]")
+{
+    test::Sketch sketch;
+    sketch.node ("a", "graph:inner").node ("one", "layer.mix", Json::object(), { { "inputs", 1 } });
+    auto& inner = sketch.subgraph ("inner");
+    sketch.add (inner, "mix", "layer.mix");
+    inner.expose.inputs.emplace_back ("x", graph::Endpoint { "mix", "in", 1, -1 });
+    const auto mixers = mixersOf (sketch.graph);
+    REQUIRE (mixers.size() == 2);
+    CHECK (removeLayer (sketch.graph, mixers[0], catalogue(), 1).error().id == "mixer/exposed");
+    CHECK (removeLayer (sketch.graph, mixers[0], catalogue(), 0));
+    CHECK (removeLayer (sketch.graph, mixers[1], catalogue(), 0).error().id == "mixer/last_layer");
+}
+
+TEST_CASE ("a moved layer keeps everything that belongs to it, and moving it back restores the file", "[layers]")
+{
+    CHECK (rc::check ([]
+                      {
+        graph::History history (bell());
+        const auto before = writeGraph (history.graph());
+        const auto mixer = mixersOf (history.graph()).front();
+        auto all = channels (history.graph(), mixer);
+        const auto from = *rc::gen::inRange (0, 3), to = *rc::gen::inRange (0, 3);
+        RC_ASSERT (history.perform (moveLayer (history.graph(), mixer, catalogue(), from, to)).has_value());
+        const auto moved = all[static_cast<std::size_t> (from)];
+        all.erase (all.begin() + from);
+        all.insert (all.begin() + to, moved);
+        RC_ASSERT (channels (history.graph(), mixer) == all);
+        RC_ASSERT (history.perform (moveLayer (history.graph(), mixer, catalogue(), to, from)).has_value());
+        RC_ASSERT (writeGraph (history.graph()) == before); }));
+}
+
+TEST_CASE ("every texture and vibration that can be a layer is added, wired, and compiles", "[layers]")
+{
+    REQUIRE (layerTypes (catalogue()).size() >= 4);
+    for (const auto* type : layerTypes (catalogue()))
+    {
+        INFO (type->info.id);
+        graph::History history (bell());
+        const auto mixer = mixersOf (history.graph()).front();
+        auto added = addLayer (history.graph(), mixer, catalogue(), std::string (type->info.id));
+        REQUIRE (added);
+        REQUIRE (history.perform (added->command));
+        CHECK (layersOf (*findMixer (history.graph(), mixer), catalogue()) == 4);
+        CHECK (sources (history.graph(), mixer).back() != "");
+        CHECK (compiles (history.graph()));
+        int inputs = 0;
+        for (const auto& w : history.graph().root.wires)
+            if (w.to.node == sources (history.graph(), mixer).back()) ++inputs;
+        CHECK (inputs + (added->missing.empty() ? 0 : 1) >= static_cast<int> (type->inputs.size()));
+    }
+}
+
+TEST_CASE ("the inputs of a new layer are never wired to anything downstream of the mixer", "[layers]")
+{
+    test::Sketch sketch;
+    sketch.node ("desk", "layer.mix").node ("late", "contact.impact").wire ("desk.out -> late.depth");
+    sketch.graph.root.wires.clear();
+    sketch.node ("map", "signal.gain").wire ("desk.out -> map.in").wire ("map.out -> late.depth");
+    const auto mixer = mixersOf (sketch.graph).front();
+    auto added = addLayer (sketch.graph, mixer, catalogue(), "vibration.modal");
+    REQUIRE (added);
+    CHECK (added->missing.find (".hit") != std::string::npos);
+}
+
+TEST_CASE ("a mixer is inserted between scalar forces and the motor, or next to vector forces", "[layers]")
+{
+    graph::History joined (loadGraph (TACTUS_SOURCE_DIR "/graphs/steel_bar.json").graph);
+    auto between = addMixer (joined.graph(), catalogue());
+    REQUIRE (between);
+    REQUIRE (joined.perform (between->command));
+    const auto mixer = mixersOf (joined.graph()).front();
+    for (const auto& s : sources (joined.graph(), mixer))
+        CHECK (s != "");
+    CHECK (compiles (joined.graph()));
+    CHECK (joined.names().size() == 1);
+
+    graph::History vectors (loadGraph (TACTUS_SOURCE_DIR "/graphs/layered_cloth.json").graph);
+    auto beside = addMixer (vectors.graph(), catalogue());
+    REQUIRE (beside);
+    REQUIRE (vectors.perform (beside->command));
+    CHECK (compiles (vectors.graph()));
+
+    CHECK (addMixer ({}, catalogue()).error().id == "mixer/no_motor");
+}
+
+TEST_CASE ("a mixer can be added to every preset with a motor", "[layers]")
+{
+    for (const auto& entry : std::filesystem::directory_iterator (TACTUS_SOURCE_DIR "/graphs"))
+    {
+        if (entry.path().extension() != ".json") continue;
+        INFO (entry.path());
+        graph::History history (loadGraph (entry.path()).graph);
+        auto added = addMixer (history.graph(), catalogue());
+        if (! added) continue;
+        REQUIRE (history.perform (added->command));
+        const auto messages = compile (history.graph(), catalogue()).messages;
+        for (const auto& m : messages)
+            if (m.severity == Message::Severity::error) CHECK (m.id.starts_with ("setting"));   // files are not read here
+    }
+}
+
+TEST_CASE ("layer values are set one by one, and a list of defaults is not written", "[layers]")
+{
+    graph::History history (bell());
+    const auto mixer = mixersOf (history.graph()).front();
+    const auto node = [&]() -> const graph::Node&
+    { return *findMixer (history.graph(), mixer); };
+    REQUIRE (history.perform (setLayerValue (node(), mixer, catalogue(), "mute", 2, Json (1))));
+    CHECK (node().params["mute"].dump() == "[0.0,0.0,1]");
+    CHECK (layerValue (node(), catalogue(), "mute", 2) == 1);
+    CHECK (layerValue (node(), catalogue(), "mute", 0) == 0.0);
+    REQUIRE (history.perform (setLayerValue (node(), mixer, catalogue(), "mute", 2, std::nullopt)));
+    CHECK_FALSE (node().params.contains ("mute"));
+    REQUIRE (history.perform (renameLayer (node(), mixer, 3, 1, " hum, deep ")));
+    CHECK (layerNames (node(), 3) == std::vector<std::string> { "blow", "hum  deep", "warble" });
+}
+
+TEST_CASE ("if the motors are inside a subgraph, the message says where to add a mixer", "[layers]")
+{
+    const auto added = addMixer (loadGraph (TACTUS_SOURCE_DIR "/graphs/two_fingers.json").graph, catalogue());
+    CHECK (added.error().id == "mixer/in_subgraph");
+}

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+#include "host/app/support/canvas_rig.hpp"
+
+#include "support/temporary_folder.hpp"
+
+#include <host/app/run/device_setup.hpp>
+#include <host/app/run/live_run.hpp>
+
+#include <framework/file/graph_file.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <bit>
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+using namespace tactus;
+using namespace tactus::host;
+using test::CanvasRig;
+
+namespace
+{
+/// Attends to a run until the condition holds, for at most 10 s.
+template <typename F>
+bool until (
+    LiveRun& p, F&& isSo, const std::function<void()>& meanwhile = [] {})
+{
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds (10);
+    while (! isSo() && std::chrono::steady_clock::now() < end)
+    {
+        meanwhile();
+        p.attend();
+        std::this_thread::sleep_for (std::chrono::milliseconds (2));
+    }
+    return isSo();
+}
+
+/// The forces that the motor receives, tick by tick, while the user does something else.
+std::vector<std::uint64_t> bitsOf (CanvasRig& rig, std::size_t ticks, const std::function<void()>& meanwhile)
+{
+    LiveRun p { rig.document, catalogue() };
+    Traces::Client probe { p.traces() };
+    probe.want ({ "motor.force" });
+    p.start ({});
+    const auto traces = [&]
+    { return probe.of ("motor.force"); };
+    REQUIRE (until (
+        p, [&]
+        { return traces().size() == 3 && traces()[0]->end() >= ticks; },
+        meanwhile));
+    std::vector<std::uint64_t> bits;
+    for (std::size_t k = 0; k < ticks; ++k)
+        for (const auto& t : traces())
+            bits.push_back (std::bit_cast<std::uint64_t> (k >= t->begin() ? t->at (k) : std::numeric_limits<double>::quiet_NaN()));
+    return bits;
+}
+
+bool isLost (std::uint64_t bits) { return std::isnan (std::bit_cast<double> (bits)); }
+}   // namespace
+
+TEST_CASE ("nothing the user does in the window changes the forces at the motor", "[app][run]")
+{
+    constexpr std::size_t ticks = 6000;
+    CanvasRig quiet { CanvasRig::preset ("dry_wood") }, busy { CanvasRig::preset ("dry_wood") };
+    const auto expected = bitsOf (quiet, ticks, [] {});
+    int n = 0;
+    const auto got = bitsOf (busy, ticks, [&]
+                             {
+        ++n;
+        // There and back, so that the drag stays clear of other nodes and does not change their params.
+        const auto way = juce::Point<float> (16.0f, 8.0f) * (n % 2 == 0 ? 1.0f : -1.0f);
+        busy.hand().drag (busy.title ("drag"), busy.title ("drag") + way);
+        busy.hand().wheel ({ 300.0f, 300.0f }, n % 2 == 0 ? 0.1f : -0.1f);
+        if (n % 3 == 0) busy.canvas->setSize (900 + n % 300, 600 + n % 200);
+        if (n % 4 == 0) busy.canvas->createComponentSnapshot (busy.canvas->getLocalBounds());
+        if (n % 10 == 0)
+        {
+            busy.hand().key ("ctrl + z");
+            busy.hand().key ("ctrl + y");
+        } });
+    CHECK (busy.graph().root.find ("drag")->params == quiet.graph().root.find ("drag")->params);
+    CHECK (n > 5);
+
+    std::size_t compared = 0, different = 0, forces = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+    {
+        if (isLost (expected[i]) || isLost (got[i])) continue;
+        ++compared;
+        different += expected[i] != got[i] ? 1 : 0;
+        forces += std::bit_cast<double> (expected[i]) != 0.0 ? 1 : 0;
+    }
+    CHECK (different == 0);
+    CHECK (compared > expected.size() / 2);   // a busy machine may drop some probe samples
+    CHECK (forces > 1000);
+}
+
+TEST_CASE ("stop removes the forces, start restores them, and an edit does not restart a stopped run", "[app][run]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    LiveRun p { rig.document, catalogue() };
+    CHECK_FALSE (p.isRunning());
+    rig.hand().click (rig.title ("grain"));
+    rig.hand().key ("b");
+    CHECK_FALSE (p.isRunning());
+
+    p.start ({});
+    REQUIRE (until (p, [&]
+                    { return p.status()->peak > 0.1; }));
+    p.stop();
+    REQUIRE (until (p, [&]
+                    { return ! p.isRunning(); }));
+    CHECK (p.status()->force == 0.0);
+    rig.hand().key ("b");
+    p.attend();
+    CHECK_FALSE (p.isRunning());
+    p.start (LiveRun::Hand::pointer());
+    CHECK (until (p, [&]
+                  { return p.isRunning() && p.tool().has_value(); }));
+}
+
+TEST_CASE ("the emergency stop removes the forces while the graph keeps running, until it is rearmed", "[app][run]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    LiveRun p { rig.document, catalogue() };
+    p.emergencyStop();   // with nothing running
+    CHECK_FALSE (p.isStoppedForGood());
+    p.start ({});
+    const auto force = [&]
+    { return p.status()->force; };
+    REQUIRE (until (p, [&]
+                    { return force() > 0.1; }));
+    CHECK_FALSE (p.isStoppedForGood());
+
+    p.emergencyStop();
+    REQUIRE (until (p, [&]
+                    { return p.isStoppedForGood() && force() == 0.0; }));
+    const auto tick = p.status()->ticks;
+    REQUIRE (until (p, [&]
+                    { return p.status()->ticks > tick + 400; }));
+    CHECK (force() == 0.0);
+    rig.hand().key ("b");   // an edit does not bring the force back
+    p.attend();
+    CHECK (p.isStoppedForGood());
+
+    rig.document.perform (graph::SetHeader { .rate_hz = 5000.0 });   // nor does an edit that restarts the run
+    REQUIRE (until (p, [&]
+                    { return p.isRunning() && p.rate() == 5000.0 && p.status()->ticks > 8000; }));
+    CHECK (p.isStoppedForGood());
+    CHECK (p.status()->peak == 0.0);
+
+    CHECK (until (p, [&]
+                  { return p.canRearm(); }));   // a second after the stop
+    p.rearm();
+    CHECK (until (p, [&]
+                  { return force() > 0.1; }));
+    CHECK_FALSE (p.isStoppedForGood());
+    p.emergencyStop();
+    p.start ({});   // the user does
+    CHECK (until (p, [&]
+                  { return p.isRunning() && force() > 0.1; }));
+}
+
+TEST_CASE ("the tool follows the mouse, and meets the surface where the mouse points", "[app][run]")
+{
+    CanvasRig rig { CanvasRig::preset ("soft_pad") };
+    LiveRun p { rig.document, catalogue() };
+    p.start (LiveRun::Hand::pointer());
+    p.point ({ 0.01, -0.02, 0.005 });
+    REQUIRE (until (p, [&]
+                    { return p.tool() && (p.tool()->position - Vec3 (0.01, -0.02, 0.005)).norm() < 1e-3; }));
+    CHECK (p.tool()->force.norm() < 1e-3);
+    p.point ({ 0.01, -0.02, -0.004 });
+    CHECK (until (p, [&]
+                  { return p.tool()->force.z() > 0.1; }));
+}
+
+TEST_CASE ("if an edit breaks a running graph, the previous graph keeps running and the problem is reported", "[app][run]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    LiveRun p { rig.document, catalogue() };
+    p.start ({});
+    REQUIRE (until (p, [&]
+                    { return p.tool().has_value(); }));
+    rig.hand().drag (rig.port ("drag", Role::output, "deflection"), rig.port ("drag", Role::input, "position"));
+    graph::Wire loop;
+    loop.from = { "drag", "deflection" };
+    loop.to = { "drag", "position" };
+    for (const auto& w : rig.graph().root.wires)
+        if (w.to == loop.to) rig.document.perform (graph::RemoveWire { {}, w.id });
+    rig.document.perform (graph::AddWire { {}, loop });
+    CHECK (hasErrors (p.messages()));
+    CHECK (p.messages().front().id == "graph/loop");
+    CHECK (p.isRunning());
+    rig.document.undo();
+    CHECK_FALSE (hasErrors (p.messages()));
+}
+
+TEST_CASE ("a device that is not plugged in is reported", "[app][run]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    rig.document.perform (graph::SetDevice { "stylus", Json { { "driver", "hid" }, { "profile", "tactus_board" }, { "serial", "none has this" } } });
+    LiveRun p { rig.document, catalogue() };
+    p.start ({});
+    const auto said = p.messages();
+    REQUIRE (std::ranges::count (said, "hid/not_connected", &Message::id) == 1);
+    CHECK (std::ranges::find (said, "hid/not_connected", &Message::id)->where.starts_with ("/devices/stylus"));
+}
+
+TEST_CASE ("a missing sound card is reported, and the run continues without it", "[app][run]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const TemporaryFolder home;
+    DeviceSetup setup;
+    setup.open (home.path());
+    LiveRun p { rig.document, catalogue() };
+    p.use (setup);
+    setup.onChange = [&]
+    { p.setupChanged(); };
+    const auto play = [&] (const char* sound)
+    { REQUIRE (setup.edit ([&] (DeviceSession& s)
+                           { s.setAudio (Json::parse (sound)); })); };
+    play (R"({ "output": "nobody has this card", "routes": [ { "port": "drag.force.x", "channel": 1, "full_scale": "4 N" } ] })");
+    CHECK_FALSE (p.audioStatus());
+    p.start ({});
+    CHECK (std::ranges::count (p.messages(), "audio/no_card", &Message::id) == 1);
+    CHECK_FALSE (hasErrors (p.messages()));
+    REQUIRE (p.audioStatus());
+    CHECK_FALSE (p.audioStatus()->is_open);
+    CHECK (until (p, [&]
+                  { return p.status()->ticks > 100; }));
+
+    play (R"({ "output": "nobody has this card", "routes": [ { "port": "drag.forse.x", "channel": 1 } ] })");   // restarts the run
+    CHECK (until (p, [&]
+                  { return std::ranges::count (p.messages(), "audio/port", &Message::id) == 1; }));
+    CHECK_FALSE (hasErrors (p.messages()));
+    CHECK (until (p, [&]
+                  { return p.isRunning() && p.status()->ticks > 100; }));
+}
+
+TEST_CASE ("the role of a sound card never becomes the hand, even if it comes first", "[app][run]")
+{
+    const TemporaryFolder folder;
+    std::ifstream preset (TACTUS_SOURCE_DIR "/graphs/dry_wood.json");
+    auto json = Json::parse (std::string { std::istreambuf_iterator<char> (preset), {} });
+    json["nodes"]["shake"] = { { "type", "device.signal_out" }, { "role", "a_shaker" } };   // before "stylus"
+    json["devices"]["a_shaker"] = { { "driver", "audio" }, { "card", "nobody has this card" } };
+    json["wires"].push_back ("grain.value -> shake.in");
+    const auto file = folder.path() / "graph.json";
+    std::ofstream (file) << json;
+    CanvasRig rig { loadGraph (file).graph };
+    LiveRun p { rig.document, catalogue() };
+    p.start (LiveRun::Hand::pointer());
+    p.point (Vec3 (0.01, 0.0, -0.002));
+    CHECK (until (p, [&]
+                  { return p.tool() && p.tool()->position.z() < 0.0 && p.tool()->force.z() > 0.1; }));
+    CHECK (p.stiffnessLeft());
+    p.start ({});   // moved by the stylus's own gesture
+    CHECK (until (p, [&]
+                  { return p.isRunning() && p.transport() != nullptr && p.status()->peak > 0.1; }));
+}
+
+TEST_CASE ("if a run's clock is a sound card that is missing, its forces stay at zero", "[app][run]")
+{
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    const TemporaryFolder home;
+    DeviceSetup setup;
+    setup.open (home.path());
+    REQUIRE (setup.edit ([] (DeviceSession& s)
+                         {
+        s.setClock ("audio");
+        s.setAudio ({ { "output", "nobody has this card" } }); }));
+    LiveRun p { rig.document, catalogue() };
+    p.use (setup);
+    p.start ({});
+    REQUIRE (until (p, [&]
+                    { return p.status() && p.status()->ticks > 1000; }));
+    CHECK (p.status()->clock_replaced);
+    CHECK (p.audioStatus()->by_timer);
+    CHECK (p.status()->peak == 0.0);
+}

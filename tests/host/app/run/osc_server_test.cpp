@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "host/app/support/canvas_rig.hpp"
+
+#include <host/app/run/osc_server.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <random>
+#include <thread>
+
+using namespace tactus;
+using namespace tactus::host;
+using juce::OSCMessage;
+using test::CanvasRig;
+using namespace std::chrono_literals;
+
+namespace
+{
+/// The run of a window with an OSC server, and a client.
+struct Rig
+{
+    explicit Rig (const char* preset) : rig (CanvasRig::preset (preset)) {}
+
+    CanvasRig rig;
+    Sound sound;
+    DeviceSetup setup;
+    Playback playback { rig.document, catalogue(), sound, setup, [] {} };
+    LiveRun& live_run { playback.run() };
+    OscServer server { std::move (*OscPort::open (0)), playback, rig.document };
+    std::unique_ptr<OscPort> other = std::move (*OscPort::open (0));
+
+    template <typename F>
+    bool until (F&& isSo)
+    {
+        const auto end = std::chrono::steady_clock::now() + 20s;
+        while (! isSo() && std::chrono::steady_clock::now() < end)
+        {
+            live_run.attend();
+            server.attend();
+            std::this_thread::sleep_for (2ms);
+        }
+        return isSo();
+    }
+
+    template <typename... Args>
+    OSCMessage ask (const char* address, Args... args)
+    {
+        other->send (server.port(), OSCMessage (address, args...));
+        std::optional<OSCMessage> answer;
+        REQUIRE (until ([&]
+                        { return answer || (answer = other->next()); }));
+        return *answer;
+    }
+
+    std::string text (const OSCMessage& m, int i) { return m[i].getString().toStdString(); }
+    int me() const { return other->number(); }
+};
+
+bool isError (const OSCMessage& m) { return m.getAddressPattern().toString() == "/tactus/error"; }
+}   // namespace
+
+TEST_CASE ("values set over OSC are felt, appear in the window, and are one undo step", "[app][osc]")
+{
+    Rig r { "dry_wood" };
+    CHECK (r.text (r.ask ("/tactus/param", juce::String ("drag.mu"), 0.3f, r.me()), 2) == "run/stopped");
+    CHECK_FALSE (isError (r.ask ("/tactus/start", r.me())));
+    REQUIRE (r.until ([&]
+                      { return r.live_run.isRunning(); }));
+
+    const auto before = r.rig.document.history().position();
+    CHECK_FALSE (isError (r.ask ("/tactus/param", juce::String ("board.stiffness"), juce::String ("1.5 N/mm"), r.me())));
+    for (int i = 0; i <= 10; ++i)
+        r.ask ("/tactus/control", juce::String ("roughness"), 0.1f * static_cast<float> (i), r.me());
+    CHECK (r.rig.document.history().position() == before + 1);
+    CHECK (r.rig.document.graph().root.find ("board")->params.at ("stiffness") == Json ("1.5 N/mm"));
+    CHECK (r.rig.document.graph().controls.front().value == Approx (1.0));
+    CHECK (r.live_run.messages().empty());
+    r.rig.document.undo();
+    CHECK (r.rig.document.graph().controls.front().value == Approx (0.5));
+
+    const auto here = r.rig.document.history().position();
+    CHECK (r.text (r.ask ("/tactus/param", juce::String ("drag.nu"), 0.3f, r.me()), 2) == "param/unknown");
+    CHECK (r.text (r.ask ("/tactus/param", juce::String ("drag.mu"), juce::String ("3 mm"), r.me()), 2) == "param/unit");
+    CHECK (r.rig.document.history().position() == here);
+
+    r.other->send (r.server.port(), OSCMessage ("/tactus/stop"));
+    CHECK (r.until ([&]
+                    { return ! r.live_run.isRunning(); }));
+}
+
+TEST_CASE ("an OSC client can probe a port of the window, even after an edit, until the port is removed", "[app][osc]")
+{
+    Rig r { "dry_wood" };
+    r.live_run.start ({});
+    const auto done = r.ask ("/tactus/probe", juce::String ("drag.force"), r.me(), 500.0f, 30.0f);
+    REQUIRE_FALSE (isError (done));
+    CHECK (done.size() == 6);
+    CHECK (r.text (done, 3) == "drag.force.x");
+    const auto next = [&]
+    {
+        std::optional<OSCMessage> value;
+        REQUIRE (r.until ([&]
+                          { return value || (value = r.other->next()); }));
+        return *value;
+    };
+    const auto first = next();
+    CHECK (first.getAddressPattern().toString() == "/tactus/value");
+    CHECK (first.size() == 5);
+    CHECK (next()[1].getInt32() > first[1].getInt32());
+
+    r.rig.document.perform (graph::SetParam { "", "drag", "mu", Json (0.3) });
+    CHECK (next().getAddressPattern().toString() == "/tactus/value");
+    r.rig.document.perform (graph::RemoveNode { "", "drag" });
+    std::optional<OSCMessage> ended;
+    CHECK (r.until ([&]
+                    {
+        while (auto m = r.other->next())
+            if (isError (*m)) ended = m;
+        return ended.has_value(); }));
+}
+
+TEST_CASE ("an OSC client can wait for an edge in the window", "[app][osc]")
+{
+    Rig r { "dry_wood" };
+    r.live_run.start ({});
+    const juce::String port = "drag.force", watched = "board.depth", edge = "rising";
+    REQUIRE_FALSE (isError (r.ask ("/tactus/trigger", port, r.me(), watched, 1e-4f, edge, 10, 20, 30.0f)));
+    std::size_t numbers = 0;
+    CHECK (r.until ([&]
+                    {
+        while (auto m = r.other->next())
+            if (m->getAddressPattern().toString() == "/tactus/capture") numbers += static_cast<std::size_t> (m->size()) - 4;
+        return numbers == 31 * 3; }));
+    CHECK (isError (r.ask ("/tactus/trigger", juce::String ("drag.force"), r.me(), juce::String ("drag.force"), 0.5f)));
+    CHECK_FALSE (r.live_run.isCapturing());
+}
+
+TEST_CASE ("random packets do not harm the window", "[app][osc]")
+{
+    Rig r { "dry_wood" };
+    r.live_run.start ({});
+    REQUIRE (r.until ([&]
+                      { return r.live_run.isRunning(); }));
+    std::mt19937 dice { 5 };
+    juce::DatagramSocket socket;
+    for (int i = 0; i < 20000; ++i)
+    {
+        std::string bytes (dice() % 200, ' ');
+        for (auto& b : bytes)
+            b = static_cast<char> (dice());
+        if (i % 3 == 0) bytes.insert (0, std::string ("/tactus/param\0\0\0,sf\0", 20));
+        if (i % 7 == 0) bytes.insert (0, std::string ("#bundle\0\0\0\0\0\0\0\0\1", 16));
+        socket.write ("127.0.0.1", r.server.port(), bytes.data(), static_cast<int> (bytes.size()));
+        if (i % 500 == 0) r.server.attend();
+    }
+    std::optional<OSCMessage> status;   // packets that do not fit into the queue are dropped
+    CHECK (r.until ([&]
+                    {
+        if (! status) r.other->send (r.server.port(), OSCMessage ("/tactus/status", r.me()));
+        return status || (status = r.other->next()); }));
+    CHECK (r.text (*status, 0) == "Dry wood");
+    CHECK (r.live_run.isRunning());
+    CHECK (r.live_run.messages().empty());
+}

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include <host/app/storage/snapshots.hpp>
+
+#include <framework/file/graph_file.hpp>
+#include <framework/graph/history.hpp>
+
+using namespace tactus;
+using namespace tactus::host;
+
+namespace
+{
+graph::Graph graphOf (const std::string& name) { return loadGraph (std::string (TACTUS_SOURCE_DIR) + "/graphs/" + name).graph; }
+
+void mustPerform (graph::History& h, graph::Command c)
+{
+    const auto done = h.perform (std::move (c));
+    INFO ((done ? "" : done.error().text));
+    REQUIRE (done);
+}
+
+Json paramsOf (const graph::History& h, const char* node) { return h.graph().root.find (node)->params; }
+}   // namespace
+
+TEST_CASE ("a snapshot restores params, defaults and controls in one step")
+{
+    graph::History h (graphOf ("dry_wood.json"));
+    const auto before = paramsOf (h, "drag");
+    mustPerform (h, storeSnapshot (h.graph(), 2));
+    CHECK (hasSnapshot (h.graph(), 2));
+    CHECK_FALSE (hasSnapshot (h.graph(), 1));
+
+    mustPerform (h, graph::SetParam { "", "drag", "mu", Json (0.9) });
+    mustPerform (h, graph::SetParam { "", "drag", "stiffness", Json (300.0) });   // the snapshot has the default
+    mustPerform (h, graph::SetParam { "", "drag", "d_max", std::nullopt });
+    auto rough = h.graph().controls[0];
+    rough.value = 0.1;
+    mustPerform (h, graph::ChangeControl { rough.id, rough });
+
+    const auto steps = h.position();
+    const auto command = recallSnapshot (h.graph(), 2);
+    REQUIRE (command);
+    mustPerform (h, *command);
+    CHECK (h.position() == steps + 1);
+    CHECK (h.names().back() == "snapshot 2");
+    CHECK (paramsOf (h, "drag") == before);
+    CHECK (h.graph().controls[0].value == 0.5);
+    CHECK_FALSE (recallSnapshot (h.graph(), 2));   // nothing left to change
+
+    h.undo();
+    CHECK (paramsOf (h, "drag")["mu"] == 0.9);
+    CHECK (h.graph().controls[0].value == 0.1);
+}
+
+TEST_CASE ("a snapshot changes only what still exists, but no wires")
+{
+    graph::History h (graphOf ("dry_wood.json"));
+    mustPerform (h, storeSnapshot (h.graph(), 1));
+    mustPerform (h, graph::SetParam { "", "drag", "mu", Json (0.8) });
+    mustPerform (h, graph::RemoveNode { "", "grain" });
+    graph::Node fresh;
+    fresh.name = "fresh";
+    fresh.type = "signal.gain";
+    fresh.params["gain"] = 3.0;
+    mustPerform (h, graph::AddNode { "", fresh });
+    const auto wires = h.graph().root.wires.size();
+    const auto command = recallSnapshot (h.graph(), 1);
+    REQUIRE (command);
+    mustPerform (h, *command);
+    CHECK (paramsOf (h, "drag")["mu"] == 0.4);
+    CHECK (paramsOf (h, "fresh")["gain"] == 3.0);
+    CHECK (h.graph().root.find ("grain") == nullptr);
+    CHECK (h.graph().root.wires.size() == wires);
+}
+
+TEST_CASE ("a node of another type that has taken over a name keeps its values")
+{
+    graph::History h (graphOf ("dry_wood.json"));
+    mustPerform (h, storeSnapshot (h.graph(), 1));
+    mustPerform (h, graph::RemoveNode { "", "drag" });
+    graph::Node other;
+    other.name = "drag";
+    other.type = "signal.gain";
+    mustPerform (h, graph::AddNode { "", other });
+    CHECK_FALSE (recallSnapshot (h.graph(), 1));
+}
+
+TEST_CASE ("snapshots include subgraphs and their overrides, and are saved in the file")
+{
+    graph::History h (graphOf ("two_fingers.json"));
+    REQUIRE_FALSE (h.graph().graphs.empty());
+    const auto& [name, patch] = h.graph().graphs.front();
+    const auto inner = std::ranges::find_if (patch.nodes, [] (const graph::Node& n)
+                                             { return ! n.params.empty(); });
+    REQUIRE (inner != patch.nodes.end());
+    const auto subgraph = name, node = inner->name, key = inner->params.begin().key();
+    const auto value = inner->params.begin().value();
+    mustPerform (h, storeSnapshot (h.graph(), 9));
+    mustPerform (h, graph::SetParam { subgraph, node, key, std::nullopt });
+
+    const auto reread = readGraph (writeGraph (h.graph())).graph;
+    CHECK (hasSnapshot (reread, 9));
+    const auto command = recallSnapshot (reread, 9);
+    REQUIRE (command);
+    graph::History again (reread);
+    mustPerform (again, *command);
+    CHECK (again.graph().find (subgraph)->find (node)->params[key] == value);
+}
+
+TEST_CASE ("storing a snapshot keeps the rest of `ui`, and can be undone")
+{
+    graph::History h (graphOf ("dry_wood.json"));
+    const auto before = writeGraph (h.graph());
+    const auto sources = h.graph().extra["ui"]["sources"];
+    mustPerform (h, storeSnapshot (h.graph(), 4));
+    CHECK (h.graph().extra["ui"]["sources"] == sources);
+    CHECK (h.names().back() == "store snapshot 4");
+    h.undo();
+    CHECK (writeGraph (h.graph()) == before);
+}
+
+TEST_CASE ("malformed snapshots in a file do no harm")
+{
+    for (const auto* ui : { R"({"snapshots": 3})", R"({"snapshots": {"1": []}})", R"({"snapshots": {"1": {"nodes": 7, "controls": [1], "graphs": null}}})",
+                            R"({"snapshots": {"1": {"nodes": {"drag": {"type": "friction.elasto_plastic", "params": 5, "overrides": "x"}},
+                                                    "controls": {"roughness": "much"}}}})" })
+    {
+        auto g = graphOf ("dry_wood.json");
+        g.extra["ui"] = Json::parse (ui);
+        CHECK_FALSE (recallSnapshot (g, 1));
+        CHECK_FALSE (hasSnapshot (g, 2));
+        graph::History h (g);
+        mustPerform (h, storeSnapshot (h.graph(), 1));
+        CHECK (hasSnapshot (h.graph(), 1));
+    }
+}

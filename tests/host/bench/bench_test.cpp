@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "host/cli/program.hpp"
+
+#include <framework/text/json.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace tactus;
+using tactus::test::runTactus;
+
+TEST_CASE ("bench confirms that all variants agree, and reports every ratio", "[cli]")
+{
+    const auto ran = runTactus ({ "bench", "--json", "--quick" });
+    INFO (ran.err);
+    REQUIRE (ran.status == 0);
+    const auto result = Json::tryParse (ran.out).value_or (Json());
+    REQUIRE (result.is_object());
+
+    CHECK (result.at ("agree") == true);
+    CHECK (result.at ("bytes_per_node").get<double>() > 0.0);
+    CHECK (result.at ("bytes_per_node").get<double>() <= 128.0);
+    for (const auto* key : { "plan/hand", "juce/plan", "juce_tree100/plan", "plan/faust_chain100", "juce_rebuild1000/compile1000", "compile10000/compile1000" })
+    {
+        INFO (key);
+        const auto& ratio = result.at ("ratios").at (key);
+        const auto low = ratio.at ("low").get<double>(), median = ratio.at ("median").get<double>(), high = ratio.at ("high").get<double>();
+        CHECK ((0.0 < low && low <= median && median <= high && std::isfinite (high)));
+    }
+}

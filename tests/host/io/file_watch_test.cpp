@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <host/io/file_watch.hpp>
+
+#include "host/cli/program.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+
+namespace fs = std::filesystem;
+using tactus::host::FileWatch;
+using tactus::test::Scratch;
+
+namespace
+{
+/// Looks until nothing changes any longer, and counts the reported changes.
+int changes (FileWatch& watch)
+{
+    int n = 0;
+    for (int i = 0; i < 4; ++i)
+        n += watch.look();
+    return n;
+}
+}   // namespace
+
+TEST_CASE ("an edit is noticed once, even if it keeps the length and follows the previous edit immediately", "[watch]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("g.json", "a");
+    FileWatch watch { { file } };
+    CHECK (changes (watch) == 0);
+    for (const auto* text : { "b", "c", "d", "longer" })
+    {
+        scratch.write ("g.json", text);
+        CHECK (changes (watch) == 1);
+        CHECK (changes (watch) == 0);
+    }
+}
+
+TEST_CASE ("an edit within one tick of the file system's clock is noticed, despite equal time and size", "[watch]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("g.json", "a");
+    const auto written = fs::file_time_type::clock::now() + std::chrono::minutes (1);   // independent of the machine's speed
+    fs::last_write_time (file, written);
+    FileWatch watch { { file } };
+    CHECK (changes (watch) == 0);
+    scratch.write ("g.json", "b");
+    fs::last_write_time (file, written);
+    CHECK (changes (watch) == 1);
+}
+
+TEST_CASE ("a file that keeps changing is not reported yet", "[watch]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("g.json", "old");
+    FileWatch watch { { file } };
+    for (const auto* half : { "{", "{ \"a\"", "{ \"a\": 1" })
+    {
+        scratch.write ("g.json", half);
+        CHECK_FALSE (watch.look());
+    }
+    scratch.write ("g.json", "{ \"a\": 1 }");
+    CHECK (changes (watch) == 1);
+}
+
+TEST_CASE ("saving unchanged, or changing and reverting, is not an edit", "[watch]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("g.json", "a");
+    FileWatch watch { { file } };
+    scratch.write ("g.json", "a");
+    fs::last_write_time (file, fs::file_time_type::clock::now() + std::chrono::hours (1));
+    CHECK (changes (watch) == 0);
+    scratch.write ("g.json", "b");
+    CHECK_FALSE (watch.look());
+    scratch.write ("g.json", "a");
+    CHECK (changes (watch) == 0);
+    scratch.write ("g.json", "b");
+    CHECK_FALSE (watch.look());
+}
+
+TEST_CASE ("a file may be replaced by renaming, and be missing for a while", "[watch]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("g.json", "a");
+    FileWatch watch { { file } };
+    fs::rename (scratch.write ("new", "b"), file);
+    CHECK (changes (watch) == 1);
+    fs::remove (file);
+    CHECK (changes (watch) == 0);
+    scratch.write ("g.json", "b");
+    CHECK (changes (watch) == 0);
+    fs::remove (file);
+    fs::create_directory (file);
+    CHECK (changes (watch) == 0);
+    fs::remove (file);
+    scratch.write ("g.json", "");
+    CHECK (changes (watch) == 0);
+    scratch.write ("g.json", "c");
+    CHECK (changes (watch) == 1);
+}
+
+TEST_CASE ("any of several files may be edited, and a missing file does not affect the others", "[watch]")
+{
+    const Scratch scratch;
+    const auto a = scratch.write ("a.json", "a"), b = scratch.write ("b.json", "b");
+    FileWatch watch { { a } };
+    scratch.write ("a.json", "edited");
+    watch.watch ({ a, b });
+    CHECK (changes (watch) == 1);
+    scratch.write ("b.json", "edited");
+    CHECK (changes (watch) == 1);
+    fs::remove (b);
+    scratch.write ("a.json", "again");
+    CHECK (changes (watch) == 1);
+}
+
+TEST_CASE ("an old file is not read repeatedly, and an edit is still noticed", "[watch]")
+{
+    const Scratch scratch;
+    const auto file = scratch.write ("g.json", "a");
+    fs::last_write_time (file, fs::file_time_type::clock::now() - std::chrono::hours (1));
+    FileWatch watch { { file } };
+    CHECK (changes (watch) == 0);
+    scratch.write ("g.json", "b");
+    CHECK (changes (watch) == 1);
+}

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/no_allocation.hpp"
+
+#include <host/platform/doorbell.hpp>
+
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <thread>
+
+using tactus::host::Doorbell;
+using namespace std::chrono_literals;
+
+namespace
+{
+Doorbell::Clock::time_point after (std::chrono::milliseconds time) { return Doorbell::Clock::now() + time; }
+}   // namespace
+
+TEST_CASE ("several rings before a wait count as one", "[platform]")
+{
+    Doorbell bell;
+    CHECK_FALSE (bell.wait (Doorbell::Clock::now()));
+    for (int i = 0; i < 3; ++i)
+        bell.ring();
+    CHECK (bell.wait (Doorbell::Clock::now()));
+    CHECK_FALSE (bell.wait (after (1ms)));
+    bell.ring();
+    CHECK (bell.wait (after (10s)));
+}
+
+TEST_CASE ("a million rings take no lock, allocate nothing, and none is lost", "[platform][threads]")
+{
+    constexpr int rings = 1'000'000;
+    Doorbell bell;
+    std::atomic<int> announced = 0, locks = 0, allocations = 0;
+    std::jthread ringer ([&]
+                         {
+        const NoAllocation watch;
+        for (int i = 1; i <= rings; ++i)
+        {
+            announced.store (i, std::memory_order_relaxed);
+            bell.ring();
+        }
+        locks = watch.locks();
+        allocations = watch.allocations(); });
+
+    // The last ring ends a wait that sees the last number. If a ring were lost, that wait would never end.
+    int seen = 0;
+    bool silent = false;
+    for (; seen < rings && ! silent; seen = announced.load (std::memory_order_relaxed))
+        silent = ! bell.wait (after (20s));
+    ringer.join();
+    CHECK_FALSE (silent);
+    CHECK (seen == rings);
+    CHECK (locks == 0);
+    CHECK (allocations == 0);
+}
+
+TEST_CASE ("two threads take turns through two doorbells", "[platform][threads]")
+{
+    constexpr int turns = 20'000;
+    Doorbell there, back;
+    int shared = 0;   // not atomic: the doorbells order the accesses
+    std::jthread other ([&]
+                        {
+        for (int i = 0; i < turns && there.wait (after (20s)); ++i)
+        {
+            ++shared;
+            back.ring();
+        } });
+    int answered = 0;
+    for (; answered < turns; ++answered)
+    {
+        ++shared;
+        there.ring();
+        if (! back.wait (after (20s))) break;
+    }
+    other.join();
+    CHECK (answered == turns);
+    CHECK (shared == 2 * turns);
+}

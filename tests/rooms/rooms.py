@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Checks that includes follow the order of the folders.
+
+Usage: rooms.py [SOURCE_FOLDER]. Prints FILE:LINE for each problem. Exit status 1 if there are any.
+
+- host includes nodes and framework, and nodes includes framework, never the other way round.
+- Within framework/, includes point downwards only, in the order of LAYERS.
+- Folders do not form a ring. A layer of framework/ counts as one folder, together with its subfolders. Elsewhere each folder
+  counts on its own, such as host/cli and host/app/canvas."""
+
+import pathlib
+import re
+import sys
+
+LAYERS = ["text", "kit", "node", "graph", "plan", "file", "run"]   # lowest first; a layer may include those before it
+PARTS = ["framework", "nodes", "host"]                             # the same for the parts of the project
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
+
+
+def sources(root):
+    for part in PARTS:
+        for path in sorted((root / part).rglob("*")):
+            if path.suffix in (".hpp", ".cpp"):
+                yield path.relative_to(root)
+
+
+def includes(root, file):
+    """Each included file of the project, with its line."""
+    for number, line in enumerate((root / file).read_text(encoding="utf-8").splitlines(), 1):
+        match = INCLUDE.match(line)
+        if not match:
+            continue
+        quoted, bracketed = match.groups()
+        candidates = [file.parent / quoted, pathlib.PurePath(quoted)] if quoted else [pathlib.PurePath(bracketed)]
+        for candidate in candidates:
+            target = (root / candidate).resolve()
+            if target.is_file() and root in target.parents:
+                yield number, target.relative_to(root)
+                break
+
+
+def room(path):
+    """What counts as one folder: in the framework a layer with all its subfolders, elsewhere each folder."""
+    return pathlib.PurePath(*path.parts[:2]) if path.parts[0] == "framework" and len(path.parts) > 2 else path.parent
+
+
+def level(path, order, depth):
+    name = path.parts[depth] if len(path.parts) > depth + 1 else None
+    return order.index(name) if name in order else None
+
+
+def points_upwards(file, target):
+    """The reason why an include is not allowed, or None."""
+    here, there = PARTS.index(file.parts[0]), PARTS.index(target.parts[0]) if target.parts[0] in PARTS else None
+    if there is None:
+        return f"{file.parts[0]} must not include {target.parts[0]}"
+    if there > here:
+        return f"{PARTS[here]} must not include {PARTS[there]}"
+    if file.parts[0] != "framework" or target.parts[0] != "framework":
+        return None
+    below, above = level(file, LAYERS, 1), level(target, LAYERS, 1)
+    if below is None or above is None:
+        return "framework/ has a folder that LAYERS does not list"
+    return f"{LAYERS[below]} must not include {LAYERS[above]}" if above > below else None
+
+
+def shortest_ring(start, edges):
+    """The folders of the shortest ring through a folder, or None."""
+    reached_from = {}
+    queue = [start]
+    for folder in queue:
+        for target in sorted(edges.get(folder, {})):
+            if target == start:
+                ring = [folder]
+                while ring[-1] != start:
+                    ring.append(reached_from[ring[-1]])
+                return ring[::-1]
+            if target not in reached_from:
+                reached_from[target] = folder
+                queue.append(target)
+    return None
+
+
+def main():
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parents[2]).resolve()
+    problems, edges = [], {}
+    for file in sources(root):
+        for line, target in includes(root, file):
+            if reason := points_upwards(file, target):
+                problems.append(f"{file}:{line}: <{target}>: {reason}")
+            if room(file) != room(target):
+                edges.setdefault(room(file), {}).setdefault(room(target), f"{file}:{line}: <{target}>")
+
+    in_ring = set()
+    for folder in sorted(edges):
+        ring = None if folder in in_ring else shortest_ring(folder, edges)
+        if ring is None:
+            continue
+        in_ring.update(ring)
+        problems.append(f"{edges[ring[0]][ring[1 % len(ring)]]}: these folders form a ring: {' -> '.join(map(str, ring + ring[:1]))}")
+        problems += [f"{edges[a][b]}: part of that ring" for a, b in zip(ring[1:], ring[2:] + ring[:1])]
+
+    print("\n".join(problems) if problems else "all includes follow the order of the folders")
+    return 1 if problems else 0
+
+
+sys.exit(main())
