@@ -21,10 +21,8 @@ namespace
 /// [a-z][a-z0-9_]*
 bool isName (std::string_view s)
 {
-    const auto isLetter = [] (char c)
-    { return c >= 'a' && c <= 'z'; };
-    return ! s.empty() && isLetter (s.front()) && std::ranges::all_of (s, [&] (char c)
-                                                                       { return isLetter (c) || (c >= '0' && c <= '9') || c == '_'; });
+    const auto isLetter = [] (char c) { return c >= 'a' && c <= 'z'; };
+    return ! s.empty() && isLetter (s.front()) && std::ranges::all_of (s, [&] (char c) { return isLetter (c) || (c >= '0' && c <= '9') || c == '_'; });
 }
 }   // namespace
 
@@ -79,15 +77,13 @@ TEST_CASE ("every row of a datasheet has a name, a sentence and a default in ran
     for (const auto& type : catalogue())
     {
         std::set<std::string> in_names, out_names;
-        const auto checkRow = [&] (std::string_view id, std::string_view about, auto& names)
-        {
+        const auto checkRow = [&] (std::string_view id, std::string_view about, auto& names) {
             const std::string name { id };
             CHECK (names.insert (name).second);
             CHECK (isName (name));
             CHECK_FALSE (about.empty());
         };
-        const auto checkRange = [] (const Limits& limits, double v)
-        {
+        const auto checkRange = [] (const Limits& limits, double v) {
             CHECK (limits.hard.min <= limits.hard.max);
             CHECK (limits.usual.min <= limits.usual.max);
             CHECK (limits.hard.contains (v));
@@ -143,8 +139,7 @@ TEST_CASE ("every unit that depends on another port names one that exists", "[no
             for (const auto& p : *ports)
                 names.insert (p.id);
 
-        const auto checkUnit = [&] (const UnitRule& unit)
-        {
+        const auto checkUnit = [&] (const UnitRule& unit) {
             if (unit.kind != UnitRule::Kind::same && unit.kind != UnitRule::Kind::product) return;
             CHECK (names.contains (unit.a));
             if (! unit.b.empty()) CHECK (names.contains (unit.b));
@@ -169,8 +164,7 @@ TEST_CASE ("every node with a list has a setting for its length", "[nodes][contr
     for (const auto& type : catalogue())
     {
         INFO (type.info.id);
-        const auto isList = [] (const PortSheet& p)
-        { return p.list; };
+        const auto isList = [] (const PortSheet& p) { return p.list; };
         if (std::ranges::none_of (type.inputs, isList) && std::ranges::none_of (type.params, isList) && std::ranges::none_of (type.outputs, isList)) continue;
 
         const auto at = std::ranges::find (type.settings, std::string_view { "inputs" }, &SettingSheet::id);

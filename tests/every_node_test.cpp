@@ -73,8 +73,7 @@ void randomSettings (Rig& rig, Dice& dice)
 {
     for (const auto& s : rig.type().settings)
     {
-        const auto bounded = [] (const Interval& range)
-        { return std::isfinite (range.min) && std::isfinite (range.max); };
+        const auto bounded = [] (const Interval& range) { return std::isfinite (range.min) && std::isfinite (range.max); };
         if (s.kind == SettingSheet::Kind::integer && bounded (s.limits.usual))
             rig.set (s.id, std::round (dice.within (s.limits.usual)));
         else if (s.kind == SettingSheet::Kind::number && bounded (s.limits.usual))
@@ -130,10 +129,8 @@ void checkFinite (const Rig& rig)
 bool sameBits (const std::vector<double>& a, const std::vector<double>& b)
 {
     return std::ranges::equal (
-        a, b, {}, [] (double v)
-        { return std::bit_cast<std::uint64_t> (v); },
-        [] (double v)
-        { return std::bit_cast<std::uint64_t> (v); });
+        a, b, {}, [] (double v) { return std::bit_cast<std::uint64_t> (v); },
+        [] (double v) { return std::bit_cast<std::uint64_t> (v); });
 }
 
 /// The value of an output on a fault: 0, except for states, and for what a material does not forget.
@@ -201,8 +198,7 @@ TEST_CASE ("every node gives finite outputs for finite inputs", "[nodes][contrac
     for (const auto& type : catalogue())
         DYNAMIC_SECTION (type.info.id)
         {
-            rc::prop ("any inputs, params over the usual or the whole range", [&] (unsigned seed)
-                      {
+            rc::prop ("any inputs, params over the usual or the whole range", [&] (unsigned seed) {
                 Dice dice { seed };
                 static constexpr double rates[] { 100.0, 1000.0, 4000.0, 48000.0 };
                 Rig rig { type, rates[dice.below (4)] };
@@ -217,7 +213,8 @@ TEST_CASE ("every node gives finite outputs for finite inputs", "[nodes][contrac
                     randomInputs (rig, dice, size);
                     rig.tick();
                     checkFinite (rig);
-                } });
+                }
+            });
         }
 }
 
@@ -226,8 +223,7 @@ TEST_CASE ("every node answers a non-finite input with 0 and goes on", "[nodes][
     for (const auto& type : catalogue())
         DYNAMIC_SECTION (type.info.id)
         {
-            rc::prop ("nan or inf in any one component", [&] (unsigned seed)
-                      {
+            rc::prop ("nan or inf in any one component", [&] (unsigned seed) {
                 Dice dice { seed };
                 Rig rig = prepared (type), twin = prepared (type);
                 if (rig.in.empty()) return;
@@ -272,7 +268,8 @@ TEST_CASE ("every node answers a non-finite input with 0 and goes on", "[nodes][
                     if (! std::isfinite (rig.in[at])) rig.in[at] = 0.0;
                     rig.tick();
                     checkFinite (rig);
-                } });
+                }
+            });
         }
 }
 
@@ -320,8 +317,7 @@ TEST_CASE ("a node without a memory does not remember a fault", "[nodes][contrac
         DYNAMIC_SECTION (type.info.id)
         {
             // A node has no memory if it always answers like a fresh one, whatever its past.
-            const auto answers = [&] (Dice& dice, bool with_fault)
-            {
+            const auto answers = [&] (Dice& dice, bool with_fault) {
                 Rig old = prepared (type), fresh = prepared (type);
                 for (int k = 0; k < 10; ++k)
                 {
@@ -357,10 +353,8 @@ TEST_CASE ("every node repeats itself to the bit", "[nodes][contract]")
     for (const auto& type : catalogue())
         DYNAMIC_SECTION (type.info.id)
         {
-            rc::prop ("two fresh instances, the same inputs", [&] (unsigned seed)
-                      {
-                const auto run = [&]
-                {
+            rc::prop ("two fresh instances, the same inputs", [&] (unsigned seed) {
+                const auto run = [&] {
                     Dice dice { seed };
                     Rig rig { type };
                     randomSettings (rig, dice);
@@ -376,7 +370,8 @@ TEST_CASE ("every node repeats itself to the bit", "[nodes][contract]")
                     }
                     return all;
                 };
-                RC_ASSERT (sameBits (run(), run())); });
+                RC_ASSERT (sameBits (run(), run()));
+            });
         }
 }
 
@@ -387,8 +382,7 @@ TEST_CASE ("every node that can adopt goes on exactly where the old instance was
         if (! type.adopt) continue;
         DYNAMIC_SECTION (type.info.id)
         {
-            rc::prop ("same settings, same params", [&] (unsigned seed)
-                      {
+            rc::prop ("same settings, same params", [&] (unsigned seed) {
                 Dice dice { seed };
                 Rig old = prepared (type), young = prepared (type);
                 for (int k = 0; k < 50; ++k)
@@ -404,7 +398,8 @@ TEST_CASE ("every node that can adopt goes on exactly where the old instance was
                     old.tick();
                     young.tick();
                     RC_ASSERT (sameBits (old.outs(), young.outs()));
-                } });
+                }
+            });
         }
     }
 }
@@ -450,8 +445,7 @@ TEST_CASE ("a node that claims an amplitude never exceeds it", "[nodes][contract
         if (! type.claims) continue;
         DYNAMIC_SECTION (type.info.id)
         {
-            rc::prop ("any inputs", [&] (unsigned seed)
-                      {
+            rc::prop ("any inputs", [&] (unsigned seed) {
                 Dice dice { seed };
                 Rig rig { type };
                 if (dice.once_in (2)) randomSettings (rig, dice);
@@ -475,7 +469,8 @@ TEST_CASE ("a node that claims an amplitude never exceeds it", "[nodes][contract
                         if (length > amplitude * (1.0 + 1e-9))
                             fail (port->id, " is ", length, ", claimed ", amplitude);
                     }
-                } });
+                }
+            });
         }
     }
 }
@@ -484,17 +479,14 @@ TEST_CASE ("a node that claims to be passive generates no energy on a closed pat
 {
     for (const auto& type : catalogue())
     {
-        const auto hasVector = [] (const std::vector<PortSheet>& ports, std::string_view id)
-        {
-            return std::ranges::any_of (ports, [&] (const PortSheet& p)
-                                        { return p.id == id && p.width == 3 && ! p.list; });
+        const auto hasVector = [] (const std::vector<PortSheet>& ports, std::string_view id) {
+            return std::ranges::any_of (ports, [&] (const PortSheet& p) { return p.id == id && p.width == 3 && ! p.list; });
         };
         if (! type.claims || ! hasVector (type.inputs, "position") || ! hasVector (type.outputs, "force")) continue;
 
         DYNAMIC_SECTION (type.info.id)
         {
-            rc::prop ("a tangled loop, run through twice", [&] (unsigned seed)
-                      {
+            rc::prop ("a tangled loop, run through twice", [&] (unsigned seed) {
                 Dice dice { seed };
                 Rig rig { type };
                 if (dice.once_in (2)) randomParams (rig, dice, Span::usual);
@@ -520,7 +512,8 @@ TEST_CASE ("a node that claims to be passive generates no energy on a closed pat
                     p = next;
                 }
                 if (given > 0.01 * handled + 1e-15)
-                    fail ("it gave ", given, " J of ", handled, " J handled"); });
+                    fail ("it gave ", given, " J of ", handled, " J handled");
+            });
         }
     }
 }

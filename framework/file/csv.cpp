@@ -3,6 +3,7 @@
 
 #include <framework/kit/at.hpp>
 #include <framework/text/number_text.hpp>
+#include <framework/text/quote.hpp>
 
 #include <algorithm>
 #include <array>
@@ -32,15 +33,6 @@ std::string_view trim (std::string_view text)
 {
     const auto first = text.find_first_not_of (spaces);
     return first == std::string_view::npos ? std::string_view {} : text.substr (first, text.find_last_not_of (spaces) - first + 1);
-}
-
-std::string quote (std::string_view text)
-{
-    constexpr std::size_t enough = 40;
-    std::string quoted = "'";
-    quoted += text.substr (0, enough);
-    quoted += text.size() > enough ? "…'" : "'";
-    return quoted;
 }
 
 struct Number
@@ -207,10 +199,10 @@ private:
         if (fields.size() != table.columns.size())
         {
             const auto first_too_many = std::min (fields.size() - 1, table.columns.size());
+            const bool is_short = fields.size() < table.columns.size();
             return fail ("csv/ragged_row", fields[first_too_many].column,
                          "the row has " + std::to_string (fields.size()) + " fields, but the header has " + std::to_string (table.columns.size()),
-                         fields.size() < table.columns.size() ? "write nan where a number is missing"
-                                                              : "remove the extra fields; numbers have a decimal point, not a comma");
+                         is_short ? "write nan where a number is missing" : "remove the extra fields; numbers have a decimal point, not a comma");
         }
 
         for (std::size_t i = 0; i < fields.size(); ++i)
@@ -226,9 +218,11 @@ private:
                 return fail ("csv/out_of_range", column, inColumn (name_of_column, text, "is out of the range of a double"),
                              "if you mean inf or 0, write that");
             if (number.problem != std::errc {})
+            {
+                const bool has_separator = text.find_first_of (";\t") != std::string_view::npos;
                 return fail ("csv/not_a_number", column, inColumn (name_of_column, text, "is not a number"),
-                             text.find_first_of (";\t") == std::string_view::npos ? "write a number like -1.5e-3, without a unit"
-                                                                                  : "separate the columns by commas");
+                             has_separator ? "separate the columns by commas" : "write a number like -1.5e-3, without a unit");
+            }
 
             table.values.push_back (number.value);
         }
@@ -242,7 +236,7 @@ private:
     Table table;
 };
 
-Message unreadable (std::string_view name, std::string what)
+Message unreadableTable (std::string_view name, std::string what)
 {
     return Message::error ("csv/unreadable", std::string (name), std::move (what), "check the path and the permissions");
 }
@@ -278,7 +272,7 @@ Result<Table> readTable (std::istream& in, std::string_view name)
 {
     const std::string text { std::istreambuf_iterator<char> (in), {} };
     if (in.bad())
-        return unreadable (name, "reading stopped halfway");
+        return unreadableTable (name, "reading stopped halfway");
     return readTable (text, name);
 }
 
@@ -286,14 +280,14 @@ Result<Table> readTable (const std::filesystem::path& path)
 {
     std::error_code ignored;
     if (std::filesystem::is_directory (path, ignored))
-        return unreadable (path.string(), "it is a folder, not a table");
+        return unreadableTable (path.string(), "it is a folder, not a table");
 
     if (std::filesystem::exists (path, ignored) && ! std::filesystem::is_regular_file (path, ignored) && ! std::filesystem::is_fifo (path, ignored))
-        return unreadable (path.string(), "it is not a regular file, so reading it might never end");
+        return unreadableTable (path.string(), "it is not a regular file, so reading it might never end");
 
     std::ifstream in (path, std::ios::binary);
     if (! in)
-        return unreadable (path.string(), "there is no such file, or you are not allowed to read it");
+        return unreadableTable (path.string(), "there is no such file, or you are not allowed to read it");
     return readTable (in, path.string());
 }
 

@@ -82,8 +82,7 @@ private:
 
     void include (LoadedGraph& loaded)
     {
-        const auto patch = [&] (const graph::Patch& p, const std::string& where)
-        {
+        const auto patch = [&] (const graph::Patch& p, const std::string& where) {
             for (const auto& node : p.nodes)
                 if (node.type.starts_with (file_type))
                     include (loaded, node.type.substr (file_type.size()), where + "/nodes/" + pointerPart (node.name) + "/type");
@@ -96,8 +95,7 @@ private:
     void include (LoadedGraph& loaded, const std::string& written, const std::string& where)
     {
         if (written.empty() || loaded.graph.files.contains (written)) return;
-        const auto refuse = [&] (Message m)
-        {
+        const auto refuse = [&] (Message m) {
             const auto position = loaded.positionOf (where);
             m.where = where;
             m.line = position.line;

@@ -25,30 +25,25 @@ public:
             { "version", JsonKind::any, ignore },
             { "name", JsonKind::text, into (graph.name) },
             { "about", JsonKind::text, into (graph.about) },
-            { "tags", JsonKind::list, [&] (Json& v, const std::string& at)
-              { readTags (v, at, graph.tags); } },
+            { "tags", JsonKind::list, [&] (Json& v, const std::string& at) { readTags (v, at, graph.tags); } },
             { "rate_hz", JsonKind::number,
-              [&] (Json& v, const std::string& at)
-              {
+              [&] (Json& v, const std::string& at) {
                   graph.rate_hz = v.get<double>();
                   if (! (graph.rate_hz > 0.0))
                       error ("file/bad_value", at, "the rate is " + v.dump() + " Hz; it should be more than 0", "4000 suits most devices");
               } },
-            { "devices", JsonKind::object, [&] (Json& v, const std::string& at)
-              { readDevices (v, at, graph); } },
+            { "devices", JsonKind::object, [&] (Json& v, const std::string& at) { readDevices (v, at, graph); } },
             { "controls", JsonKind::object,
-              [&] (Json& v, const std::string& at)
-              {
+              [&] (Json& v, const std::string& at) {
                   eachId (v, at, "a control",
-                          [&] (const std::string& id, Json& control, const std::string& where)
-                          { readControl (id, control, where, graph.controls.emplace_back()); });
+                          [&] (const std::string& id, Json& control,
+                               const std::string& where) { readControl (id, control, where, graph.controls.emplace_back()); });
               } },
             { "graphs", JsonKind::object,
-              [&] (Json& v, const std::string& at)
-              {
+              [&] (Json& v, const std::string& at) {
                   eachId (v, at, "a subgraph",
-                          [&] (const std::string& id, Json& patch, const std::string& where)
-                          { readSubgraph (patch, where, graph.graphs.emplace_back (id, Patch {}).second); });
+                          [&] (const std::string& id, Json& patch,
+                               const std::string& where) { readSubgraph (patch, where, graph.graphs.emplace_back (id, Patch {}).second); });
               } },
             { "ui", JsonKind::object, keep ("ui", graph.extra) },
         };
@@ -66,8 +61,8 @@ private:
 
     void readDevices (Json& object, const std::string& where, Graph& graph)
     {
-        eachId (object, where, "a role", [&] (const std::string& role, Json& description, const std::string&)
-                { graph.devices.emplace_back (role, std::move (description)); });
+        eachId (object, where, "a role",
+                [&] (const std::string& role, Json& description, const std::string&) { graph.devices.emplace_back (role, std::move (description)); });
     }
 };
 
@@ -120,8 +115,7 @@ LoadedGraph readGraph (std::string_view text, const FileFormat& format)
 
     GraphReader reader;
     reader.messages = std::move (json.messages);
-    const bool whole = std::ranges::none_of (reader.messages, [] (const Message& m)
-                                             { return m.id != "file/duplicate_key"; });
+    const bool whole = std::ranges::none_of (reader.messages, [] (const Message& m) { return m.id != "file/duplicate_key"; });
     if (whole)
         if (const auto version = readHeader (json.root, reader))
         {
@@ -139,8 +133,7 @@ LoadedGraph readGraph (std::string_view text, const FileFormat& format)
             m.line = position.line;
             m.column = position.column;
         }
-    std::ranges::stable_sort (loaded.messages, {}, [] (const Message& m)
-                              { return std::tuple (m.line, m.column); });
+    std::ranges::stable_sort (loaded.messages, {}, [] (const Message& m) { return std::tuple (m.line, m.column); });
     return loaded;
 }
 

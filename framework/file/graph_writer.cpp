@@ -121,8 +121,7 @@ Json toJson (const graph::Wire& wire)
 Json toJson (const graph::Expose& expose)
 {
     auto object = Json::object();
-    const auto ports = [&] (std::string key, const std::vector<std::pair<std::string, Endpoint>>& list)
-    {
+    const auto ports = [&] (std::string key, const std::vector<std::pair<std::string, Endpoint>>& list) {
         auto shown = Json::object();
         for (const auto& [id, end] : list)
             append (shown, id, toText (end));
@@ -164,8 +163,7 @@ std::string writeGraph (const Graph& graph)
 
 Result<> saveGraph (const Graph& graph, const std::filesystem::path& path)
 {
-    const auto failed = [&] (const Message& why)
-    {
+    const auto failed = [&] (const Message& why) {
         auto m = Message::error (why.id, {}, path.string() + " " + why.text, "choose another file or folder");
         m.file = path.string();
         return m;

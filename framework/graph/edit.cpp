@@ -44,8 +44,7 @@ struct Member
 Member exchangeMember (Json& object, const std::string& key, const std::optional<Json>& value, Place place)
 {
     auto& members = object.asObject();
-    const auto it = std::ranges::find (members, key, [] (const auto& m) -> const std::string&
-                                       { return m.first; });
+    const auto it = std::ranges::find (members, key, [] (const auto& m) -> const std::string& { return m.first; });
     if (it != members.end() && value) return { std::exchange (it->second, *value), std::nullopt };
     if (it == members.end() && ! value) return {};
 
@@ -76,8 +75,7 @@ Member exchangeMember (Json& object, const std::string& key, const std::optional
 bool hasTwice (const Control& control)
 {
     std::set<std::string_view> paths;
-    return std::ranges::any_of (control.to, [&] (const auto& target)
-                                { return ! paths.insert (target.path).second; });
+    return std::ranges::any_of (control.to, [&] (const auto& target) { return ! paths.insert (target.path).second; });
 }
 
 //==============================================================================
@@ -169,8 +167,7 @@ public:
             if (auto wrong = checkNodeKey (c.key, *c.value); ! wrong.empty()) return wrong.front();
 
         SetNodeKey back { c.patch, c.node, c.key };
-        const auto text = [&] (std::string& old)
-        {
+        const auto text = [&] (std::string& old) {
             if (! old.empty()) back.value = old;
             old = c.value ? c.value->get<std::string>() : "";
         };
@@ -303,8 +300,7 @@ public:
 
     Inverse operator() (const RemoveSubgraph& c)
     {
-        const auto it = std::ranges::find (graph.graphs, c.name, [] (const auto& g) -> const std::string&
-                                           { return g.first; });
+        const auto it = std::ranges::find (graph.graphs, c.name, [] (const auto& g) -> const std::string& { return g.first; });
         if (it == graph.graphs.end()) return noPatch (c.name);
         if (checked())
         {
@@ -319,14 +315,12 @@ public:
 
     Inverse operator() (const RenameSubgraph& c)
     {
-        const auto it = std::ranges::find (graph.graphs, c.name, [] (const auto& g) -> const std::string&
-                                           { return g.first; });
+        const auto it = std::ranges::find (graph.graphs, c.name, [] (const auto& g) -> const std::string& { return g.first; });
         if (it == graph.graphs.end()) return noPatch (c.name);
         if (graph.find (c.to) != nullptr || ! usersOf (c.to).empty()) return subgraphTaken (c.to);
         if (checked() && ! isId (c.to)) return badId (c.to);
         it->first = c.to;
-        const auto follow = [&] (Patch& patch)
-        {
+        const auto follow = [&] (Patch& patch) {
             for (auto& node : patch.nodes)
                 if (node.type == "graph:" + c.name) node.type = "graph:" + c.to;
         };
@@ -347,8 +341,7 @@ public:
         if (graph.find (c.subgraph) != nullptr || ! usersOf (c.subgraph).empty()) return subgraphTaken (c.subgraph);
         for (const auto& name : { c.name, c.subgraph })
             if (! isId (name)) return badId (name);
-        return regrouped ([&]
-                          { return collapse (graph, c); });
+        return regrouped ([&] { return collapse (graph, c); });
     }
 
     Inverse operator() (const ExpandNode& c)
@@ -356,8 +349,7 @@ public:
         auto* patch = find (c.patch);
         if (patch == nullptr) return noPatch (c.patch);
         if (patch->find (c.name) == nullptr) return noNode (c.patch, c.name);
-        return regrouped ([&]
-                          { return expand (graph, c); });
+        return regrouped ([&] { return expand (graph, c); });
     }
 
     Inverse operator() (const ReplaceGraph& c)
@@ -376,8 +368,7 @@ public:
             if (! c.description->is_object()) return Message::error ("file/wrong_kind", {}, "the description of a device should be an object, {…}");
             if (auto fits = checkValue (*c.description); ! fits) return std::move (fits).error();
         }
-        const auto it = std::ranges::find (graph.devices, c.role, [] (const auto& d) -> const std::string&
-                                           { return d.first; });
+        const auto it = std::ranges::find (graph.devices, c.role, [] (const auto& d) -> const std::string& { return d.first; });
         SetDevice back { c.role };
         if (it == graph.devices.end())
         {
@@ -444,8 +435,7 @@ private:
     Patch* find (const std::string& name)
     {
         if (name.empty()) return &graph.root;
-        const auto it = std::ranges::find (graph.graphs, name, [] (const auto& g) -> const std::string&
-                                           { return g.first; });
+        const auto it = std::ranges::find (graph.graphs, name, [] (const auto& g) -> const std::string& { return g.first; });
         return it == graph.graphs.end() ? nullptr : &it->second;
     }
 
@@ -474,8 +464,7 @@ private:
     std::string usersOf (const std::string& subgraph) const
     {
         std::string users;
-        const auto search = [&] (const std::string& name, const Patch& patch)
-        {
+        const auto search = [&] (const std::string& name, const Patch& patch) {
             if (name == subgraph) return;
             for (const auto& node : patch.nodes)
                 if (node.type == "graph:" + subgraph) users += (users.empty() ? "" : ", ") + (name.empty() ? "" : name + "/") + node.name;
@@ -534,21 +523,17 @@ private:
 
     bool anythingTwice() const
     {
-        const auto in = [] (const Patch& patch)
-        {
-            return std::ranges::any_of (patch.nodes, [] (const Node& n)
-                                        { return ! n.overrides.empty() && ! checkValue (n.overrides); });
+        const auto in = [] (const Patch& patch) {
+            return std::ranges::any_of (patch.nodes, [] (const Node& n) { return ! n.overrides.empty() && ! checkValue (n.overrides); });
         };
         return std::ranges::any_of (graph.controls, hasTwice) || in (graph.root)
-               || std::ranges::any_of (graph.graphs, [&] (const auto& g)
-                                       { return in (g.second); });
+               || std::ranges::any_of (graph.graphs, [&] (const auto& g) { return in (g.second); });
     }
 
     static std::unordered_set<Id> idsOf (const Graph& g)
     {
         std::unordered_set<Id> ids;
-        const auto add = [&] (const Patch& patch)
-        {
+        const auto add = [&] (const Patch& patch) {
             for (const auto& node : patch.nodes)
                 ids.insert (node.id);
             for (const auto& wire : patch.wires)

@@ -25,8 +25,7 @@ Messages checked (Json part, Read&& read)
         read (reader, part);
     else
         reader.error ("file/bad_value", "", fits.error().text);
-    std::erase_if (reader.messages, [] (const Message& m)
-                   { return m.severity != Message::Severity::error; });
+    std::erase_if (reader.messages, [] (const Message& m) { return m.severity != Message::Severity::error; });
     return std::move (reader.messages);
 }
 
@@ -45,43 +44,43 @@ bool sameEnds (const Wire& a, const Wire& b) { return a.from == b.from && a.to =
 Messages check (const graph::Node& node)
 {
     if (auto wrong = allObjects ({ &node.params, &node.settings, &node.overrides, &node.extra }); ! wrong.empty()) return wrong;
-    return checked (toJson (node), [&] (PartReader& reader, Json& part)
-                    {
-                        graph::Node same;
-                        reader.checkId (node.name, "", "a node");
-                        reader.readNode (node.name, part, "", same); });
+    return checked (toJson (node), [&] (PartReader& reader, Json& part) {
+        graph::Node same;
+        reader.checkId (node.name, "", "a node");
+        reader.readNode (node.name, part, "", same);
+    });
 }
 
 Messages check (const graph::Wire& wire)
 {
     if (auto wrong = allObjects ({ &wire.extra }); ! wrong.empty()) return wrong;
-    return checked (toJson (wire), [&] (PartReader& reader, Json& part)
-                    {
-                        Patch same;
-                        reader.readWire (part, "", same);
-                        if (reader.messages.empty() && ! sameEnds (same.wires.at (0), wire))
-                            reader.error ("wire/syntax", "", quote (toText (wire)) + " reads back as a different wire", "use ids for nodes and ports"); });
+    return checked (toJson (wire), [&] (PartReader& reader, Json& part) {
+        Patch same;
+        reader.readWire (part, "", same);
+        if (reader.messages.empty() && ! sameEnds (same.wires.at (0), wire))
+            reader.error ("wire/syntax", "", quote (toText (wire)) + " reads back as a different wire", "use ids for nodes and ports");
+    });
 }
 
 Messages check (const graph::Control& control)
 {
     if (auto wrong = allObjects ({ &control.extra }); ! wrong.empty()) return wrong;
-    return checked (toJson (control), [&] (PartReader& reader, Json& part)
-                    {
-                        Control same;
-                        reader.checkId (control.id, "", "a control");
-                        reader.readControl (control.id, part, "", same); });
+    return checked (toJson (control), [&] (PartReader& reader, Json& part) {
+        Control same;
+        reader.checkId (control.id, "", "a control");
+        reader.readControl (control.id, part, "", same);
+    });
 }
 
 Messages check (const graph::Expose& expose)
 {
     if (auto wrong = allObjects ({ &expose.extra }); ! wrong.empty()) return wrong;
-    return checked (toJson (expose), [&] (PartReader& reader, Json& part)
-                    {
-                        Expose same;
-                        reader.readExpose (part, "", same);
-                        if (reader.messages.empty() && (same.inputs != expose.inputs || same.outputs != expose.outputs || same.params != expose.params))
-                            reader.error ("graph/bad_path", "", "an exposed port reads back as a different one", "use ids for nodes and ports"); });
+    return checked (toJson (expose), [&] (PartReader& reader, Json& part) {
+        Expose same;
+        reader.readExpose (part, "", same);
+        if (reader.messages.empty() && (same.inputs != expose.inputs || same.outputs != expose.outputs || same.params != expose.params))
+            reader.error ("graph/bad_path", "", "an exposed port reads back as a different one", "use ids for nodes and ports");
+    });
 }
 
 Messages check (const graph::Patch& patch)
@@ -92,10 +91,10 @@ Messages check (const graph::Patch& patch)
     for (const auto& wire : patch.wires)
         if (auto wrong = check (wire); ! wrong.empty()) return wrong;
     if (auto wrong = check (patch.expose); ! wrong.empty()) return wrong;
-    return checked (toJson (patch), [] (PartReader& reader, Json& part)
-                    {
-                        Patch same;
-                        reader.readSubgraph (part, "", same); });
+    return checked (toJson (patch), [] (PartReader& reader, Json& part) {
+        Patch same;
+        reader.readSubgraph (part, "", same);
+    });
 }
 
 Messages checkNodeKey (const std::string& key, const Json& value)
@@ -103,10 +102,10 @@ Messages checkNodeKey (const std::string& key, const Json& value)
     auto object = Json::object();
     if (key != "type") append (object, "type", "signal.gain");
     append (object, key, value);
-    return checked (std::move (object), [&] (PartReader& reader, Json& part)
-                    {
-                        graph::Node same;
-                        reader.readNode ("node", part, "", same); });
+    return checked (std::move (object), [&] (PartReader& reader, Json& part) {
+        graph::Node same;
+        reader.readNode ("node", part, "", same);
+    });
 }
 
 Result<> checkValue (const Json& value)

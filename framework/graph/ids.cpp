@@ -13,8 +13,7 @@ namespace
 template <typename Graph, typename Visit>
 void forEach (Graph& graph, Visit visit)
 {
-    const auto patch = [&] (auto& p)
-    {
+    const auto patch = [&] (auto& p) {
         for (auto& node : p.nodes)
             visit (node);
         for (auto& wire : p.wires)
@@ -42,8 +41,7 @@ bool isEntry (const Json& value)
 Json idsOf (const Graph& graph)
 {
     auto all = Json::array();
-    forEach (graph, [&] (const auto& thing)
-             {
+    forEach (graph, [&] (const auto& thing) {
         if (thing.origin.empty())
         {
             all.push_back (thing.id);
@@ -51,7 +49,8 @@ Json idsOf (const Graph& graph)
         }
         auto& entry = all.emplace_back (Json::array ({ thing.id }));
         for (const auto& [id, instance] : thing.origin)
-            entry.push_back (Json::array ({ id, static_cast<Id> (instance) })); });
+            entry.push_back (Json::array ({ id, static_cast<Id> (instance) }));
+    });
     return all;
 }
 
@@ -59,18 +58,17 @@ bool giveIds (Graph& graph, const Json& ids)
 {
     if (! ids.is_array() || ! std::ranges::all_of (ids, isEntry)) return false;
     std::size_t count = 0;
-    forEach (graph, [&] (const auto&)
-             { ++count; });
+    forEach (graph, [&] (const auto&) { ++count; });
     if (count != ids.size()) return false;
 
     auto next = ids.begin();
-    forEach (graph, [&] (auto& thing)
-             {
+    forEach (graph, [&] (auto& thing) {
         const auto& entry = *next++;
         thing.origin.clear();
         thing.id = entry.is_array() ? entry[0].get<Id>() : entry.get<Id>();
         for (std::size_t i = 1; entry.is_array() && i < entry.size(); ++i)
-            thing.origin.push_back ({ entry[i][0].get<Id>(), entry[i][1].get<int>() }); });
+            thing.origin.push_back ({ entry[i][0].get<Id>(), entry[i][1].get<int>() });
+    });
     return true;
 }
 

@@ -31,8 +31,7 @@ std::vector<const Json::Member*> byPrecedence (const Json& overrides)
     if (overrides.is_object())
         for (const auto& entry : overrides.asObject())
             all.push_back (&entry);
-    std::ranges::stable_sort (all, {}, [] (const auto* entry)
-                              { return namedInstances (entry->first); });
+    std::ranges::stable_sort (all, {}, [] (const auto* entry) { return namedInstances (entry->first); });
     return all;
 }
 

@@ -22,16 +22,13 @@ bool PartReader::checkId (const std::string& id, const std::string& where, std::
 
 void PartReader::addPatch (std::vector<KnownKey>& fields, Patch& patch)
 {
-    fields.push_back ({ "nodes", JsonKind::object, [&] (Json& v, const std::string& at)
-                        { eachId (v, at, "a node", [&] (const std::string& name, Json& node, const std::string& where)
-                                  { readNode (name, node, where, patch.nodes.emplace_back()); }); } });
-    fields.push_back ({ "wires", JsonKind::list, [&] (Json& v, const std::string& at)
-                        {
-                            for (std::size_t i = 0; i < v.size(); ++i)
-                                readWire (v[i], at + '/' + std::to_string (i), patch);
-                        } });
-    fields.push_back ({ "expose", JsonKind::object, [&] (Json& v, const std::string& at)
-                        { readExpose (v, at, patch.expose); } });
+    const auto addNode = [&] (const std::string& name, Json& node, const std::string& where) { readNode (name, node, where, patch.nodes.emplace_back()); };
+    fields.push_back ({ "nodes", JsonKind::object, [this, addNode] (Json& v, const std::string& at) { eachId (v, at, "a node", addNode); } });
+    fields.push_back ({ "wires", JsonKind::list, [&] (Json& v, const std::string& at) {
+                           for (std::size_t i = 0; i < v.size(); ++i)
+                               readWire (v[i], at + '/' + std::to_string (i), patch);
+                       } });
+    fields.push_back ({ "expose", JsonKind::object, [&] (Json& v, const std::string& at) { readExpose (v, at, patch.expose); } });
 }
 
 void PartReader::readSubgraph (Json& object, const std::string& where, Patch& patch)
@@ -44,36 +41,26 @@ void PartReader::readSubgraph (Json& object, const std::string& where, Patch& pa
 void PartReader::readNode (const std::string& name, Json& object, const std::string& where, graph::Node& node)
 {
     node.name = name;
-    const auto number = [&] (std::string_view key) -> KnownKey
-    {
-        return { key, JsonKind::number, [this, &node, key] (Json& v, const std::string& at)
-                 { readCount (std::string (key), v, at, node.extra); } };
+    const auto number = [&] (std::string_view key) -> KnownKey {
+        return { key, JsonKind::number, [this, &node, key] (Json& v, const std::string& at) { readCount (std::string (key), v, at, node.extra); } };
     };
     read (object, where,
-          { { "type", JsonKind::text, [&] (Json& v, const std::string& at)
-              { readType (v.asString(), at, node); } },
+          { { "type", JsonKind::text, [&] (Json& v, const std::string& at) { readType (v.asString(), at, node); } },
             { "role", JsonKind::text,
-              [&] (Json& v, const std::string& at)
-              {
+              [&] (Json& v, const std::string& at) {
                   node.role = v.asString();
                   checkId (node.role, at, "a role");
               } },
-            { "params", JsonKind::object, [&] (Json& v, const std::string& at)
-              { readValues (v, at, "a parameter", node.params); } },
-            { "settings", JsonKind::object, [&] (Json& v, const std::string& at)
-              { readValues (v, at, "a setting", node.settings); } },
-            { "roles", JsonKind::object, [&] (Json& v, const std::string& at)
-              { readRoles (v, at, node); } },
-            { "overrides", JsonKind::object, [&] (Json& v, const std::string& at)
-              { readOverrides (v, at, node); } },
-            { "bypass", JsonKind::truth, [&] (Json& v, const std::string&)
-              { node.bypass = v.get<bool>(); } },
+            { "params", JsonKind::object, [&] (Json& v, const std::string& at) { readValues (v, at, "a parameter", node.params); } },
+            { "settings", JsonKind::object, [&] (Json& v, const std::string& at) { readValues (v, at, "a setting", node.settings); } },
+            { "roles", JsonKind::object, [&] (Json& v, const std::string& at) { readRoles (v, at, node); } },
+            { "overrides", JsonKind::object, [&] (Json& v, const std::string& at) { readOverrides (v, at, node); } },
+            { "bypass", JsonKind::truth, [&] (Json& v, const std::string&) { node.bypass = v.get<bool>(); } },
             number ("count"),
             number ("every"),
             number ("times"),
             { "hold", JsonKind::text,
-              [&] (Json& v, const std::string& at)
-              {
+              [&] (Json& v, const std::string& at) {
                   if (v != "latch" && v != "linear")
                       error ("file/bad_value", at, "'hold' is " + quote (v.asString()) + "; it should be \"latch\" or \"linear\"",
                              "write \"latch\"");
@@ -160,15 +147,12 @@ void PartReader::readWire (Json& value, const std::string& where, Patch& patch)
     std::optional<Wire> wire;
     Wire rest;
     read (value, where,
-          { { "wire", JsonKind::text, [&] (Json& v, const std::string& at)
-              { wire = parse (v, at); } },
-            { "gain", JsonKind::any, [&] (Json& v, const std::string& at)
-              {
-                  checkNumber (v, at);
-                  rest.gain = std::move (v);
-              } },
-            { "enabled", JsonKind::truth, [&] (Json& v, const std::string&)
-              { rest.enabled = v.get<bool>(); } },
+          { { "wire", JsonKind::text, [&] (Json& v, const std::string& at) { wire = parse (v, at); } },
+            { "gain", JsonKind::any, [&] (Json& v, const std::string& at) {
+                 checkNumber (v, at);
+                 rest.gain = std::move (v);
+             } },
+            { "enabled", JsonKind::truth, [&] (Json& v, const std::string&) { rest.enabled = v.get<bool>(); } },
             { "ui", JsonKind::object, keep ("ui", rest.extra) } },
           rest.extra);
     if (! value.contains ("wire")) error ("file/missing_key", where, "the wire has no 'wire' with its two ends", "add \"wire\": \"node.port -> node.port\"");
@@ -206,10 +190,8 @@ std::optional<Endpoint> PartReader::readEndpoint (const std::string& text, const
 
 void PartReader::readExpose (Json& object, const std::string& where, Expose& expose)
 {
-    const auto ports = [&] (std::vector<std::pair<std::string, Endpoint>>& list) -> Read
-    {
-        return [this, &list] (Json& v, const std::string& at)
-        {
+    const auto ports = [&] (std::vector<std::pair<std::string, Endpoint>>& list) -> Read {
+        return [this, &list] (Json& v, const std::string& at) {
             for (auto& [id, target] : v.asObject())
             {
                 const auto entry = at + '/' + pointerPart (id);
@@ -232,18 +214,16 @@ void PartReader::readControl (const std::string& id, Json& object, const std::st
     control.id = id;
     read (object, where,
           { { "name", JsonKind::text, into (control.name) },
-            { "value", JsonKind::number, [&] (Json& v, const std::string& at)
-              {
-                  control.value = v.get<double>();
-                  if (! (control.value >= 0.0 && control.value <= 1.0))
-                      error ("file/bad_value", at, "the value of a control must be from 0 to 1, but is " + v.dump(),
-                             "the ranges in 'to' define what 0 and 1 mean");
-              } },
-            { "to", JsonKind::object, [&] (Json& v, const std::string& at)
-              {
-                  for (auto& [path, range] : v.asObject())
-                      readTarget (path, range, at + '/' + pointerPart (path), control);
-              } },
+            { "value", JsonKind::number, [&] (Json& v, const std::string& at) {
+                 control.value = v.get<double>();
+                 if (! (control.value >= 0.0 && control.value <= 1.0))
+                     error ("file/bad_value", at, "the value of a control must be from 0 to 1, but is " + v.dump(),
+                            "the ranges in 'to' define what 0 and 1 mean");
+             } },
+            { "to", JsonKind::object, [&] (Json& v, const std::string& at) {
+                 for (auto& [path, range] : v.asObject())
+                     readTarget (path, range, at + '/' + pointerPart (path), control);
+             } },
             { "ui", JsonKind::object, keep ("ui", control.extra) } },
           control.extra);
 }

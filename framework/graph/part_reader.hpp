@@ -45,14 +45,12 @@ protected:
 
     static Read into (std::string& text)
     {
-        return [&text] (Json& v, const std::string&)
-        { text = std::move (v.asString()); };
+        return [&text] (Json& v, const std::string&) { text = std::move (v.asString()); };
     }
 
     static Read keep (std::string key, Json& extra)
     {
-        return [key = std::move (key), &extra] (Json& v, const std::string&)
-        { append (extra, key, std::move (v)); };
+        return [key = std::move (key), &extra] (Json& v, const std::string&) { append (extra, key, std::move (v)); };
     }
 
 private:

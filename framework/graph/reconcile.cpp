@@ -42,15 +42,13 @@ void reconcile (std::vector<Thing>& now, const std::vector<Thing>& before, Keys.
 
 void reconcile (Patch& now, const Patch& before)
 {
-    reconcile (now.nodes, before.nodes, [] (const Node& n)
-               { return n.name + " " + n.type; });
+    reconcile (now.nodes, before.nodes, [] (const Node& n) { return n.name + " " + n.type; });
     reconcile (
-        now.wires, before.wires, [] (const Wire& w)
-        { return toText (w); },
-        [] (Wire w)
-        {
+        now.wires, before.wires, [] (const Wire& w) { return toText (w); },
+        [] (Wire w) {
             w.delay = w.delay > 0 ? 1 : 0;
-            return toText (w); });
+            return toText (w);
+        });
 }
 
 /// A file that is included in several places is processed once, so the work does not grow with the number of paths to it.

@@ -90,11 +90,11 @@ private:
         auto expose = p.expose;
         bool touched = false;
         for (auto* list : { &expose.inputs, &expose.outputs, &expose.params })
-            std::erase_if (*list, [&] (auto& shown)
-                           {
-                               const auto found = follow (shown.second.node, &p);
-                               touched = touched || found != Found::nothing;
-                               return found == Found::drop; });
+            std::erase_if (*list, [&] (auto& shown) {
+                const auto found = follow (shown.second.node, &p);
+                touched = touched || found != Found::nothing;
+                return found == Found::drop;
+            });
         if (touched) back.push_back (ChangeExpose { name, std::exchange (p.expose, std::move (expose)) });
 
         for (auto& n : p.nodes)
@@ -122,11 +122,11 @@ private:
     {
         auto changed = control;
         bool touched = false;
-        std::erase_if (changed.to, [&] (Control::Target& target)
-                       {
-                           const auto found = follow (target.path, &graph.root);
-                           touched = touched || found != Found::nothing;
-                           return found == Found::drop; });
+        std::erase_if (changed.to, [&] (Control::Target& target) {
+            const auto found = follow (target.path, &graph.root);
+            touched = touched || found != Found::nothing;
+            return found == Found::drop;
+        });
         if (touched) back.push_back (ChangeControl { control.id, std::exchange (control, std::move (changed)) });
     }
 

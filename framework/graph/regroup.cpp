@@ -21,8 +21,7 @@ namespace
 Patch& patchOf (Graph& graph, const std::string& name)
 {
     if (name.empty()) return graph.root;
-    return std::ranges::find (graph.graphs, name, [] (const auto& g) -> const std::string&
-                              { return g.first; })
+    return std::ranges::find (graph.graphs, name, [] (const auto& g) -> const std::string& { return g.first; })
         ->second;
 }
 
@@ -43,10 +42,10 @@ public:
     void run()
     {
         auto wires = std::exchange (patchOf (graph, command.patch).wires, {});
-        forEachEndpoint (graph, [&] (Endpoint& e, const Waypoint& p)
-                         {
-                             if (p.patch == &patchOf (graph, command.patch) && members.contains (p.name)) e.node.insert (p.begin, command.name + "/");
-                             return true; });
+        forEachEndpoint (graph, [&] (Endpoint& e, const Waypoint& p) {
+            if (p.patch == &patchOf (graph, command.patch) && members.contains (p.name)) e.node.insert (p.begin, command.name + "/");
+            return true;
+        });
 
         for (auto& wire : wires)
         {
@@ -74,8 +73,7 @@ private:
         auto port = std::ranges::find (list, whole, &std::pair<std::string, Endpoint>::second);
         if (port == list.end())
         {
-            const auto isTaken = [&] (const std::string& name)
-            { return used.contains (name); };
+            const auto isTaken = [&] (const std::string& name) { return used.contains (name); };
             const auto node = firstNameOf (e.node);
             const auto name = isTaken (e.port) ? freeName (node + "_" + e.port, isTaken) : e.port;
             used.insert (name);
@@ -126,8 +124,7 @@ public:
         if (node.bypass) return cannot ("is bypassed");
         for (const auto* key : { "every", "times" })
             if (node.extra.contains (key)) return cannot ("uses `" + std::string (key) + "`");
-        if (node.roles.is_object() && std::ranges::any_of (node.roles, [] (const Json& outer)
-                                                           { return outer.is_array() && outer.size() != 1; }))
+        if (node.roles.is_object() && std::ranges::any_of (node.roles, [] (const Json& outer) { return outer.is_array() && outer.size() != 1; }))
             return cannot ("gives roles to several instances");
         for (const auto& n : body->nodes)
             if (n.type == node.type) return cannot ("contains itself");
@@ -156,8 +153,7 @@ private:
             if (! taken.contains (n.name)) taken.insert (names[n.name] = n.name);
         for (const auto& n : inner.nodes)
             if (! names.contains (n.name))
-                taken.insert (names[n.name] = freeName (command.name + "_" + n.name, [&] (const std::string& name)
-                                                        { return taken.contains (name); }));
+                taken.insert (names[n.name] = freeName (command.name + "_" + n.name, [&] (const std::string& name) { return taken.contains (name); }));
     }
 
     void renameEnd (Endpoint& e) const
@@ -184,8 +180,10 @@ private:
     {
         const auto outer = rolesOf (node, 0);
         if (! outer.is_object()) return;
-        const auto outerOf = [&] (const Json& role)
-        { return role.is_string() && outer.contains (role.get<std::string>()) ? outer.at (role.get<std::string>()) : role; };
+        const auto outerOf = [&] (const Json& role) {
+            const bool is_renamed = role.is_string() && outer.contains (role.get<std::string>());
+            return is_renamed ? outer.at (role.get<std::string>()) : role;
+        };
         if (! n.role.empty()) n.role = outerOf (n.role).get<std::string>();
         if (n.type.find (':') == std::string::npos) return;
 
@@ -285,27 +283,27 @@ private:
     {
         const auto* patch = &patchOf (graph, command.patch);
         Result<> done;
-        forEachEndpoint (graph, [&] (Endpoint& e, const Waypoint& p)
-                         {
-                             if (p.patch != patch || p.name != command.name) return true;
-                             const auto before = e.node.substr (0, p.begin);
-                             if (p.end < e.node.size())
-                             {
-                                 auto inside = e;
-                                 inside.node = e.node.substr (p.end + 1);
-                                 renameEnd (inside);
-                                 e.node = before + inside.node;
-                                 return true;
-                             }
-                             const auto inside = exposedBy (inner, e, p.side);
-                             if (! inside)
-                             {
-                                 done = cannot ("does not expose " + quote (e.port) + ", but something refers to it");
-                                 return false;
-                             }
-                             e = *inside;
-                             e.node.insert (0, before);
-                             return true; });
+        forEachEndpoint (graph, [&] (Endpoint& e, const Waypoint& p) {
+            if (p.patch != patch || p.name != command.name) return true;
+            const auto before = e.node.substr (0, p.begin);
+            if (p.end < e.node.size())
+            {
+                auto inside = e;
+                inside.node = e.node.substr (p.end + 1);
+                renameEnd (inside);
+                e.node = before + inside.node;
+                return true;
+            }
+            const auto inside = exposedBy (inner, e, p.side);
+            if (! inside)
+            {
+                done = cannot ("does not expose " + quote (e.port) + ", but something refers to it");
+                return false;
+            }
+            e = *inside;
+            e.node.insert (0, before);
+            return true;
+        });
         return done;
     }
 
@@ -314,13 +312,11 @@ private:
         const auto type = node.type;
         const auto id = node.id;
         auto& patch = patchOf (graph, command.patch);
-        const auto isOfIt = [&] (const Node& n)
-        { return n.type == type && n.id != id; };
-        const bool shared = std::ranges::any_of (graph.root.nodes, isOfIt) || std::ranges::any_of (graph.graphs, [&] (const auto& g)
-                                                                                                   { return std::ranges::any_of (g.second.nodes, isOfIt); });
+        const auto isOfIt = [&] (const Node& n) { return n.type == type && n.id != id; };
+        const bool shared = std::ranges::any_of (graph.root.nodes, isOfIt)
+                            || std::ranges::any_of (graph.graphs, [&] (const auto& g) { return std::ranges::any_of (g.second.nodes, isOfIt); });
         const auto around = ancestryOf (node);
-        const auto copy = [&] (auto& x)
-        {
+        const auto copy = [&] (auto& x) {
             auto origin = around;
             std::ranges::copy (ancestryOf (x), std::back_inserter (origin));
             x.origin = std::move (origin);
@@ -334,8 +330,7 @@ private:
         const auto place = patch.nodes.erase (std::ranges::find (patch.nodes, command.name, &Node::name));
         patch.nodes.insert (place, std::make_move_iterator (inner.nodes.begin()), std::make_move_iterator (inner.nodes.end()));
         std::ranges::move (inner.wires, std::back_inserter (patch.wires));
-        if (! shared) std::erase_if (graph.graphs, [&] (const auto& g)
-                                     { return "graph:" + g.first == type; });
+        if (! shared) std::erase_if (graph.graphs, [&] (const auto& g) { return "graph:" + g.first == type; });
     }
 
     Graph& graph;

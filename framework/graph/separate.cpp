@@ -28,8 +28,7 @@ public:
     Result<> run()
     {
         if (count == 0) return cannot ("has a `count` that is not a whole number of at least 1");
-        if (node.roles.is_object() && ! std::ranges::all_of (node.roles, [&] (const Json& outer)
-                                                             { return ! outer.is_array() || outer.size() == at (count); }))
+        if (node.roles.is_object() && ! std::ranges::all_of (node.roles, [&] (const Json& outer) { return ! outer.is_array() || outer.size() == at (count); }))
             return cannot ("gives roles to a different number of instances than it has");
 
         chooseNames();
@@ -171,8 +170,7 @@ private:
             for (const auto& one : all)
             {
                 auto path = toText (one);
-                std::erase_if (targets, [&] (const Control::Target& t)
-                               { return t.path == path; });   // a later one takes precedence
+                std::erase_if (targets, [&] (const Control::Target& t) { return t.path == path; });   // a later one takes precedence
                 targets.push_back ({ std::move (path), target.low, target.high });
             }
         }

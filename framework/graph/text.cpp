@@ -79,8 +79,7 @@ bool readInstance (Reader& in, std::string& path)
 Result<Endpoint> readEndpoint (std::string_view written, bool relative)
 {
     const auto text = trimmed (written);
-    const auto wrong = [text] (const std::string& what)
-    { return Message::error ("port/syntax", {}, quote (text) + ": " + what); };
+    const auto wrong = [text] (const std::string& what) { return Message::error ("port/syntax", {}, quote (text) + ": " + what); };
 
     Endpoint end;
     Reader in { text };
@@ -141,8 +140,7 @@ Result<Wire> parseWire (std::string_view written)
 {
     constexpr std::string_view arrow = "->";
     constexpr auto form = "; a wire is written 'node.port -> node.port', with a delay 'node.port -> [1] -> node.port'";
-    const auto wrong = [written] (const std::string& what)
-    { return Message::error ("wire/syntax", {}, quote (trimmed (written)) + ": " + what); };
+    const auto wrong = [written] (const std::string& what) { return Message::error ("wire/syntax", {}, quote (trimmed (written)) + ": " + what); };
 
     Wire wire;
     auto cut = written.find (arrow);

@@ -14,8 +14,8 @@ namespace
 std::vector<std::array<bool, 3>> rimOf (const Mesh& mesh)
 {
     std::map<std::pair<int, int>, int> sides;   // of each edge
-    const auto edge = [] (const std::array<int, 3>& corners, std::size_t opposite)
-    { return std::minmax (corners[(opposite + 1) % 3], corners[(opposite + 2) % 3]); };
+    const auto edge = [] (const std::array<int, 3>& corners,
+                          std::size_t opposite) { return std::minmax (corners[(opposite + 1) % 3], corners[(opposite + 2) % 3]); };
     for (const auto& corners : mesh.triangles)
         for (std::size_t i = 0; i < 3; ++i)
             ++sides[edge (corners, i)];
@@ -147,8 +147,7 @@ bool MeshWalk::isBeyondRim (const Spot& spot, const Vec3& p) const noexcept
 {
     constexpr double further = 0.7071;   // share of the distance: more outwards than up or down
     const Vec3 away = p - spot.on.point;
-    const auto passes = [&] (int triangle)
-    {
+    const auto passes = [&] (int triangle) {
         for (int i = 0; i < 3; ++i)
         {
             if (! rim[at (triangle)][at (i)]) continue;
@@ -175,8 +174,7 @@ bool MeshWalk::isBeyondRim (const Spot& spot, const Vec3& p) const noexcept
 
 bool isInsideOut (const Mesh& mesh)
 {
-    const auto isOpen = [] (const std::array<bool, 3>& edges)
-    { return edges[0] || edges[1] || edges[2]; };
+    const auto isOpen = [] (const std::array<bool, 3>& edges) { return edges[0] || edges[1] || edges[2]; };
     if (std::ranges::any_of (rimOf (mesh), isOpen)) return false;
     double volume = 0.0;
     for (int t = 0; t < mesh.size(); ++t)

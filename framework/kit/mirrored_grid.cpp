@@ -20,8 +20,7 @@ struct Tap
 std::vector<std::vector<Tap>> tapsOf (const MirroredAxis& from, const MirroredAxis& to, double cutoff, double zeros)
 {
     const double reach = 0.5 * zeros / cutoff;
-    const auto kernel = [&] (double distance)
-    {
+    const auto kernel = [&] (double distance) {
         const double r = distance / reach, phase = 2.0 * std::numbers::pi * cutoff * distance;
         return std::abs (r) >= 1.0 ? 0.0 : sinc (phase) * kaiser60 (r);
     };
@@ -66,8 +65,7 @@ MirroredGrid transposed (const MirroredGrid& from)
 
 double meanOf (const MirroredGrid& grid)
 {
-    const auto times = [] (const MirroredAxis& a, int i)
-    { return i == 0 || i == a.intervals ? 1.0 : 2.0; };
+    const auto times = [] (const MirroredAxis& a, int i) { return i == 0 || i == a.intervals ? 1.0 : 2.0; };
     double sum = 0.0, all = 0.0;
     for (int row = 0; row < grid.y.points(); ++row)
         for (int column = 0; column < grid.x.points(); ++column)

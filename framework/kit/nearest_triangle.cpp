@@ -35,8 +35,7 @@ OnTriangle nearestOn (const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p
             return { { std::max (0.0, 1.0 - second - third), second, third }, a + second * u + third * v };
     }
     const OnTriangle edges[] { between (a, b, 0, 1, p), between (b, c, 1, 2, p), between (c, a, 2, 0, p) };
-    return *std::ranges::min_element (edges, {}, [&] (const OnTriangle& on)
-                                      { return (on.point - p).squaredNorm(); });
+    return *std::ranges::min_element (edges, {}, [&] (const OnTriangle& on) { return (on.point - p).squaredNorm(); });
 }
 
 OnTriangle nearestOn (const Mesh& mesh, int triangle, const Vec3& p) noexcept

@@ -18,11 +18,9 @@ inline void lowPassBothWays (std::vector<double>& samples, double cutoff_hz, dou
 {
     constexpr int sections = 4;
     const double K = prewarped (cutoff_hz, rate_hz);
-    const auto pass = [] (const Biquad& c, auto first, auto last)
-    {
+    const auto pass = [] (const Biquad& c, auto first, auto last) {
         BiquadState state;
-        std::transform (first, last, first, [&] (double x)
-                        { return state (c, x); });
+        std::transform (first, last, first, [&] (double x) { return state (c, x); });
     };
     for (int i = 0; i < sections; ++i)
     {

@@ -38,8 +38,7 @@ inline Eigen::Quaterniond shortestRotation (const Vec3& from, const Vec3& to) no
 {
     const Vec3 v0 = from.normalized();
     const Vec3 v1 = to.normalized();
-    const auto arc = [] (const Vec3& a, const Vec3& b, double cosine)
-    {
+    const auto arc = [] (const Vec3& a, const Vec3& b, double cosine) {
         const Vec3 axis = a.cross (b);
         const double s = std::sqrt ((1.0 + cosine) * 2.0), inverse = 1.0 / s;
         return Eigen::Quaterniond { s * 0.5, axis.x() * inverse, axis.y() * inverse, axis.z() * inverse };

@@ -23,14 +23,10 @@ Reach reach (const MirroredAxis& axis, double place) noexcept
     if (axis.intervals == 0) return { .weight { 1.0 } };
     const double u = std::fmod (place, 2.0 * axis.intervals * axis.spacing) / axis.spacing, floor = std::floor (u);
     const double t = u - floor, s = 1.0 - t;
-    const auto near = [] (double v)
-    { return (66.0 + v * v * (-60.0 + v * v * (30.0 - 10.0 * v))) / 120.0; };
-    const auto far = [] (double v)
-    { return (26.0 + v * (-50.0 + v * (20.0 + v * (20.0 + v * (-20.0 + 5.0 * v))))) / 120.0; };
-    const auto near_slope = [] (double v)
-    { return v * (-120.0 + v * v * (120.0 - 50.0 * v)) / 120.0; };
-    const auto far_slope = [] (double v)
-    { return (-50.0 + v * (40.0 + v * (60.0 + v * (-80.0 + 25.0 * v)))) / 120.0; };
+    const auto near = [] (double v) { return (66.0 + v * v * (-60.0 + v * v * (30.0 - 10.0 * v))) / 120.0; };
+    const auto far = [] (double v) { return (26.0 + v * (-50.0 + v * (20.0 + v * (20.0 + v * (-20.0 + 5.0 * v))))) / 120.0; };
+    const auto near_slope = [] (double v) { return v * (-120.0 + v * v * (120.0 - 50.0 * v)) / 120.0; };
+    const auto far_slope = [] (double v) { return (-50.0 + v * (40.0 + v * (60.0 + v * (-80.0 + 25.0 * v)))) / 120.0; };
     Reach r {
         .weight { s * s * s * s * s / 120.0, far (t), near (t), near (s), far (s), t * t * t * t * t / 120.0 },
         .slope { -s * s * s * s / 24.0, far_slope (t), near_slope (t), -near_slope (s), -far_slope (s), t * t * t * t / 24.0 },
@@ -47,8 +43,7 @@ Reach reach (const MirroredAxis& axis, double place) noexcept
 void filterBothWays (double* first, int stride, int n, double pole)
 {
     if (n == 0) return;
-    const auto c = [&] (int k) -> double&
-    { return first[k * stride]; };
+    const auto c = [&] (int k) -> double& { return first[k * stride]; };
 
     double start = c (0) + std::pow (pole, n) * c (n), forth = pole, back = std::pow (pole, 2 * n - 1);
     for (int k = 1; k < n; ++k, forth *= pole, back /= pole)
@@ -98,8 +93,7 @@ SplineSurface::Point SplineSurface::operator() (double at_x, double at_y) const 
 /// The second derivatives of a B-spline are averages of the second differences of its weights, so these bound them.
 double SplineSurface::largestCurvature() const noexcept
 {
-    const auto weight = [this] (int column, int row)
-    { return weights (weights.y.mirrored (row), weights.x.mirrored (column)); };
+    const auto weight = [this] (int column, int row) { return weights (weights.y.mirrored (row), weights.x.mirrored (column)); };
     double xx = 0.0, yy = 0.0, xy = 0.0;
     for (int j = 0; j < weights.y.points(); ++j)
         for (int i = 0; i < weights.x.points(); ++i)

@@ -53,8 +53,10 @@ std::string problemOf (const Surface& s)
 
 std::string wrongSide (const Surface& s)
 {
-    const auto sentence = [] (std::size_t node)
-    { return "the surface faces inwards at node " + std::to_string (node) + " and attracts there: reverse its triangles, or u^z of its frame"; };
+    const auto sentence = [] (std::size_t node) {
+        const auto problem = "the surface faces inwards at node " + std::to_string (node) + " and attracts there";
+        return problem + ": reverse its triangles, or u^z of its frame";
+    };
     if (s.frames.empty()) return isInsideOut (*s.mesh) ? sentence (0) : "";
     const auto normals = normalsOf (*s.mesh);
     for (std::size_t i = 0; i < s.frames.size(); ++i)

@@ -120,8 +120,7 @@ struct Erased
     static Inputs gather (const N& node, const double* const* sources) noexcept
     {
         Inputs in;
-        const auto load = [&] (const auto& row)
-        {
+        const auto load = [&] (const auto& row) {
             using R = std::remove_cvref_t<decltype (row)>;
             if constexpr (R::role == Role::input)
             {
@@ -141,8 +140,7 @@ struct Erased
                     in.*row.member = **sources++;
             }
         };
-        std::apply ([&] (const auto&... row)
-                    { (load (row), ...); },
+        std::apply ([&] (const auto&... row) { (load (row), ...); },
                     N::ports);
         return in;
     }
@@ -223,8 +221,7 @@ void describePorts (NodeType& t)
     const N fresh;
     const typename N::Inputs inputs;
     const typename N::Outputs outputs;
-    const auto add = [&]<std::size_t i> (std::integral_constant<std::size_t, i>)
-    {
+    const auto add = [&]<std::size_t i> (std::integral_constant<std::size_t, i>) {
         constexpr auto& row = std::get<i> (N::ports);
         using R = std::remove_cvref_t<decltype (row)>;
         if constexpr (R::role == Role::input)
@@ -259,34 +256,21 @@ NodeType describe()
     t.outputs_align = alignof (typename N::Outputs);
     detail::describePorts<N> (t);
 
-    t.make = []() -> std::shared_ptr<void>
-    { return std::make_shared<N>(); };
-    t.paramsOf = [] (void* n) noexcept -> void*
-    { return &static_cast<N*> (n)->params; };
-    t.initialiseOutputs = [] (void* o) noexcept
-    { new (o) typename N::Outputs(); };
+    t.make = []() -> std::shared_ptr<void> { return std::make_shared<N>(); };
+    t.paramsOf = [] (void* n) noexcept -> void* { return &static_cast<N*> (n)->params; };
+    t.initialiseOutputs = [] (void* o) noexcept { new (o) typename N::Outputs(); };
     t.tick = &E::tick;
     if constexpr (Peekable<N>) t.peek = &E::peek;
-    if constexpr (Delaying<N>) t.delay = [] (const void* n) noexcept
-    { return static_cast<const N*> (n)->delay(); };
-    if constexpr (SelfChecking<N>) t.problem = [] (const void* n)
-    { return static_cast<const N*> (n)->problem(); };
-    if constexpr (Warning<N>) t.warning = [] (const void* n, const Setup& s)
-    { return static_cast<const N*> (n)->warning (s); };
-    if constexpr (Preparable<N>) t.prepare = [] (void* n, const Setup& s)
-    { static_cast<N*> (n)->prepare (s); };
-    if constexpr (Updatable<N>) t.update = [] (void* n) noexcept
-    { static_cast<N*> (n)->update(); };
-    if constexpr (Adoptable<N>) t.adopt = [] (void* n, const void* o) noexcept
-    { static_cast<N*> (n)->adopt (*static_cast<const N*> (o)); };
-    if constexpr (Claiming<N>) t.claims = [] (const void* n)
-    { return static_cast<const N*> (n)->claims(); };
-    if constexpr (DeviceBound<N>) t.bind = [] (void* n, const DeviceState& s)
-    { static_cast<N*> (n)->bind (s); };
-    if constexpr (NamesDeviceParts<N>) t.missing = [] (const void* n, const DeviceLayout& l)
-    { return static_cast<const N*> (n)->missing (l); };
-    if constexpr (Sink<N>) t.effort = [] (const void* n) noexcept
-    { return static_cast<const N*> (n)->effort(); };
+    if constexpr (Delaying<N>) t.delay = [] (const void* n) noexcept { return static_cast<const N*> (n)->delay(); };
+    if constexpr (SelfChecking<N>) t.problem = [] (const void* n) { return static_cast<const N*> (n)->problem(); };
+    if constexpr (Warning<N>) t.warning = [] (const void* n, const Setup& s) { return static_cast<const N*> (n)->warning (s); };
+    if constexpr (Preparable<N>) t.prepare = [] (void* n, const Setup& s) { static_cast<N*> (n)->prepare (s); };
+    if constexpr (Updatable<N>) t.update = [] (void* n) noexcept { static_cast<N*> (n)->update(); };
+    if constexpr (Adoptable<N>) t.adopt = [] (void* n, const void* o) noexcept { static_cast<N*> (n)->adopt (*static_cast<const N*> (o)); };
+    if constexpr (Claiming<N>) t.claims = [] (const void* n) { return static_cast<const N*> (n)->claims(); };
+    if constexpr (DeviceBound<N>) t.bind = [] (void* n, const DeviceState& s) { static_cast<N*> (n)->bind (s); };
+    if constexpr (NamesDeviceParts<N>) t.missing = [] (const void* n, const DeviceLayout& l) { return static_cast<const N*> (n)->missing (l); };
+    if constexpr (Sink<N>) t.effort = [] (const void* n) noexcept { return static_cast<const N*> (n)->effort(); };
     return t;
 }
 

@@ -63,8 +63,7 @@ private:
 
 inline bool isFinite (const Channels& all) noexcept
 {
-    return std::all_of (all.begin(), all.end(), [] (double v)
-                        { return isFinite (v); });
+    return std::all_of (all.begin(), all.end(), [] (double v) { return isFinite (v); });
 }
 
 /// What a device reports at a tick. SI, right-handed: x right, y away from the person, z up.

@@ -112,8 +112,7 @@ void assign (T& target, const SettingValue& value)
     {
         std::size_t i = 0;
         const auto& record = std::get<Values> (value);
-        std::apply ([&] (const auto&... f)
-                    { (assign (target.*f.member, record[i++]), ...); },
+        std::apply ([&] (const auto&... f) { (assign (target.*f.member, record[i++]), ...); },
                     T::fields);
     }
     else if constexpr (IsRecords<T>)
@@ -133,8 +132,7 @@ SettingValue valueOf (const T& member)
     if constexpr (std::is_arithmetic_v<T>)
         return static_cast<double> (member);
     else if constexpr (IsRecord<T>)
-        return std::apply ([&] (const auto&... f)
-                           { return Values { valueOf (member.*f.member)... }; },
+        return std::apply ([&] (const auto&... f) { return Values { valueOf (member.*f.member)... }; },
                            T::fields);
     else if constexpr (IsRecords<T>)
     {
@@ -173,14 +171,12 @@ template <typename R>
 std::vector<SettingSheet> fieldSheets (const R& fresh)
 {
     std::vector<SettingSheet> all;
-    const auto add = [&] (const auto& f)
-    {
+    const auto add = [&] (const auto& f) {
         auto s = settingSheet (fresh.*f.member);
         s.describe (f.id, f.unit, f.about, f.limits);
         all.push_back (std::move (s));
     };
-    std::apply ([&] (const auto&... f)
-                { (add (f), ...); },
+    std::apply ([&] (const auto&... f) { (add (f), ...); },
                 R::fields);
     return all;
 }

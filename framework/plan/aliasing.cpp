@@ -154,8 +154,7 @@ private:
 
     static bool generic (const FlatNode& n)
     {
-        return std::ranges::none_of (n.type->outputs, [] (const PortSheet& row)
-                                     { return row.unit.kind == UnitRule::Kind::fixed; });
+        return std::ranges::none_of (n.type->outputs, [] (const PortSheet& row) { return row.unit.kind == UnitRule::Kind::fixed; });
     }
 };
 
@@ -166,10 +165,9 @@ void warnOfAliasing (Flat& flat, const PortUnits& units, const Setup& setup)
 {
     if (flat.sections.size() == 1 || hasErrors (flat.messages)) return;   // nodes with errors must not be created
     const ContentEstimate estimate { flat, setup };
-    const auto rateOf = [&] (int section)
-    { return setup.rate_hz * flat.speed (section); };
-    const auto warn = [&] (Origin origin, const std::string& text)
-    { flat.warn ("rate/aliasing", origin, text, "insert a low-pass with a cutoff below half the slower rate, or run it at the faster rate"); };
+    const auto rateOf = [&] (int section) { return setup.rate_hz * flat.speed (section); };
+    const char* remedy = "insert a low-pass with a cutoff below half the slower rate, or run it at the faster rate";
+    const auto warn = [&] (Origin origin, const std::string& text) { flat.warn ("rate/aliasing", origin, text, remedy); };
 
     for (int n = 0; n < flat.nodeCount(); ++n)
     {

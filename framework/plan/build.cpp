@@ -289,8 +289,7 @@ private:
         const auto begin = slots.firstInput (i), end = slots.firstInput (i + 1);
         for (auto slot = begin; slot < end; ++slot)
         {
-            const auto keep = [&] (double& out)
-            {
+            const auto keep = [&] (double& out) {
                 if (storage->sources[slot] == &out) parts.takeover.held.push_back ({ &out, old->sources[slot - begin], sizeof (double) });
             };
             for (auto s = first_sum; s < storage->sums.size(); ++s)
@@ -353,10 +352,10 @@ private:
                 all.push_back (
                     { slots (port, port.component), { Driver::Kind::feed, { conversions.enter (&parts.feeds[f], 0, flat.node (port).section, value), 1.0 } } });
             }
-        drivers.emplace (slots.count(), [&] (auto visit)
-                         {
-                             for (const auto& [slot, driver] : all)
-                                 visit (slot, driver); });
+        drivers.emplace (slots.count(), [&] (auto visit) {
+            for (const auto& [slot, driver] : all)
+                visit (slot, driver);
+        });
     }
 
     const double* delayed (const double* from, int wire, int component)
@@ -375,8 +374,7 @@ private:
     /// there are no drivers.
     const double* joined (std::span<const Driver> all, Driver::Kind kind, int node)
     {
-        const auto is_meant = [kind] (const Driver& d)
-        { return d.kind == kind; };
+        const auto is_meant = [kind] (const Driver& d) { return d.kind == kind; };
         const auto first = std::ranges::find_if (all, is_meant);
         if (first == all.end()) return nullptr;
         if (first->term.gain == 1.0 && std::none_of (first + 1, all.end(), is_meant)) return first->term.from;
@@ -568,8 +566,8 @@ private:
     void keepValues()
     {
         if (kept.empty()) return;
-        std::erase_if (parts.takeover.changes, [&] (const Takeover::Change& change)
-                       { return std::ranges::count (kept, nameOf (parts.flat, change.instance, change.knob)) > 0; });
+        std::erase_if (parts.takeover.changes,
+                       [&] (const Takeover::Change& change) { return std::ranges::count (kept, nameOf (parts.flat, change.instance, change.knob)) > 0; });
     }
 
     std::vector<int> nodeDelays()

@@ -22,8 +22,7 @@ using namespace plan;
 /// A placeholder can run; its outputs are 0. Any other error keeps the graph from running.
 bool canRun (const Messages& messages)
 {
-    return std::ranges::none_of (messages, [] (const Message& m)
-                                 { return m.severity == Message::Severity::error && m.id != "node/unknown_type"; });
+    return std::ranges::none_of (messages, [] (const Message& m) { return m.severity == Message::Severity::error && m.id != "node/unknown_type"; });
 }
 
 /// Delayed wires take memory, and even a short file can request more than the machine has.
@@ -44,8 +43,7 @@ bool addsUp (Quantity q) { return q == Quantity::force || q == Quantity::torque 
 /// same applies to one wire that starts from several instances, even into ports that accept only one wire.
 void checkFanIn (Flat& flat, const PortUnits& units)
 {
-    const auto inWords = [] (Quantity q)
-    { return q == Quantity::any ? "value" : std::string (name (q)); };
+    const auto inWords = [] (Quantity q) { return q == Quantity::any ? "value" : std::string (name (q)); };
     const Slots slots (flat);
     std::vector<const FlatWire*> taken (slots.count(), nullptr);
     Identity wrong {};   // the wire reported last
@@ -129,16 +127,15 @@ void addExposed (const Scope& scope, std::map<std::string, Ports>& all)
 /// If two columns drive one port, the one that names its instance takes precedence over the one for all instances.
 void dropGeneral (std::vector<Ports>& feeds, const std::vector<std::string>& names)
 {
-    if (std::ranges::all_of (feeds, [] (const Ports& p)
-                             { return p.size() <= 1; }))
+    if (std::ranges::all_of (feeds, [] (const Ports& p) { return p.size() <= 1; }))
         return;
     for (std::size_t f = 0; f < feeds.size(); ++f)
-        std::erase_if (feeds[f], [&] (const PortRef& port)
-                       {
-                           for (std::size_t other = 0; other < feeds.size(); ++other)
-                               if (graph::namedInstances (names[other]) > graph::namedInstances (names[f]) && std::ranges::count (feeds[other], port) > 0)
-                                   return true;
-                           return false; });
+        std::erase_if (feeds[f], [&] (const PortRef& port) {
+            for (std::size_t other = 0; other < feeds.size(); ++other)
+                if (graph::namedInstances (names[other]) > graph::namedInstances (names[f]) && std::ranges::count (feeds[other], port) > 0)
+                    return true;
+            return false;
+        });
 }
 
 void readFeeds (Flat& flat, const Scope& top, const std::vector<std::string>& names, std::vector<Ports>& feeds)

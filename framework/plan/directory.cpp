@@ -77,14 +77,12 @@ struct Finder
                         "address it as " + std::string (step.name) + "." + e.port);
             return false;
         }
-        const auto inside = [&] (const Scope& s)
-        {
+        const auto inside = [&] (const Scope& s) {
             if (! step.rest.empty()) return in (s, step.rest);
             return s.stand_in >= 0 ? amongRows (s.stand_in) : amongExposed (s);
         };
         if (step.instance >= 0) return inside (*member.instances[at (step.instance)]);
-        return std::ranges::all_of (member.instances, [&] (const auto& s)
-                                    { return inside (*s); });
+        return std::ranges::all_of (member.instances, [&] (const auto& s) { return inside (*s); });
     }
 
 private:
@@ -136,8 +134,8 @@ private:
         for (const auto role : rolesOf (side))
             for (const auto& row : n.ports (role))
                 names.emplace_back (row.id);
-        return unknownPort (n.path, std::string (n.type->info.id), names, [&] (Role role)
-                            { return std::ranges::count (n.ports (role), e.port, &PortSheet::id) > 0; });
+        return unknownPort (n.path, std::string (n.type->info.id), names,
+                            [&] (Role role) { return std::ranges::count (n.ports (role), e.port, &PortSheet::id) > 0; });
     }
 
     bool amongExposed (const Scope& inside) const
@@ -145,16 +143,17 @@ private:
         for (const auto role : rolesOf (side))
             for (const auto& x : inside.exposed)
                 if (x.role == role && x.name == e.port)
-                    return std::ranges::all_of (x.to, [&] (const PortRef& r)
-                                                { return narrow (r); });
+                    return std::ranges::all_of (x.to, [&] (const PortRef& r) { return narrow (r); });
 
         std::vector<std::string> names;
         for (const auto role : rolesOf (side))
             for (const auto& x : inside.exposed)
                 if (x.role == role) names.push_back (x.name);
-        return unknownPort (inside.prefix.substr (0, inside.prefix.size() - 1), "subgraph", names, [&] (Role role)
-                            { return std::ranges::any_of (inside.exposed, [&] (const auto& x)
-                                                          { return x.role == role && x.name == e.port; }); });
+        const auto has = [&] (Role role) {
+            const auto isIt = [&] (const auto& x) { return x.role == role && x.name == e.port; };
+            return std::ranges::any_of (inside.exposed, isIt);
+        };
+        return unknownPort (inside.prefix.substr (0, inside.prefix.size() - 1), "subgraph", names, has);
     }
 
     template <typename Has>

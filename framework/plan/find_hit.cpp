@@ -43,8 +43,7 @@ Result<std::vector<HitRef>> findHits (const Plan& plan, std::string_view name)
 
     std::vector<HitRef> found;
     bool exists = false;
-    const auto add = [&] (std::size_t i, std::string_view port)
-    {
+    const auto add = [&] (std::size_t i, std::string_view port) {
         const auto inputs = hitsOf (*flat.nodes[i].type);
         const auto input = std::ranges::find (inputs, port);
         if (input == inputs.end()) return;

@@ -335,8 +335,7 @@ private:
     /// True if a device node of the patch has the role, or if a device node in a nested subgraph may have it.
     static bool hasRole (const graph::Patch& patch, const std::string& role)
     {
-        return std::ranges::any_of (patch.nodes, [&] (const graph::Node& n)
-                                    { return n.role == role || n.type.find (':') != std::string::npos; });
+        return std::ranges::any_of (patch.nodes, [&] (const graph::Node& n) { return n.role == role || n.type.find (':') != std::string::npos; });
     }
 
     bool findSubgraph (const Scope& scope, const graph::Node& node, Origin here, Scope& inside)
@@ -410,8 +409,7 @@ private:
 
     void expose (Scope& scope)
     {
-        const auto add = [&] (Role role, Side side, const char* key, const auto& entries)
-        {
+        const auto add = [&] (Role role, Side side, const char* key, const auto& entries) {
             for (const auto& [name, endpoint] : entries)
             {
                 auto& shown = scope.exposed.emplace_back (Scope::Exposed { role, name, {} });

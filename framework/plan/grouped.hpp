@@ -20,16 +20,13 @@ public:
     {
         // While items are being added, a group's entry is the index for its next item. At the end it is where the next group
         // begins.
-        const auto entry = [this] (auto group) -> std::size_t&
-        { return first[static_cast<std::size_t> (group) + 1]; };
-        forEach ([&] (auto group, const T&)
-                 { ++entry (group); });
+        const auto entry = [this] (auto group) -> std::size_t& { return first[static_cast<std::size_t> (group) + 1]; };
+        forEach ([&] (auto group, const T&) { ++entry (group); });
         std::size_t end = 0;
         for (auto& f : first)
             end += std::exchange (f, end);
         all.resize (end);
-        forEach ([&] (auto group, const T& item)
-                 { all[entry (group)++] = item; });
+        forEach ([&] (auto group, const T& item) { all[entry (group)++] = item; });
     }
 
     std::span<const T> operator[] (std::size_t group) const noexcept { return { all.data() + first[group], all.data() + first[group + 1] }; }

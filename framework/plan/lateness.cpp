@@ -20,10 +20,8 @@ std::vector<int> reachedFrom (const Flat& flat, const Grouped<int>& next, Begins
 {
     std::vector<int> by_path (flat.nodes.size()), from (flat.nodes.size(), none), open;
     std::iota (by_path.begin(), by_path.end(), 0);
-    std::erase_if (by_path, [&] (int n)
-                   { return ! begins (flat.node (n)); });
-    std::ranges::sort (by_path, {}, [&] (int n) -> const std::string&
-                       { return flat.node (n).path; });
+    std::erase_if (by_path, [&] (int n) { return ! begins (flat.node (n)); });
+    std::ranges::sort (by_path, {}, [&] (int n) -> const std::string& { return flat.node (n).path; });
     for (const int start : by_path)
     {
         if (from[at (start)] == none) open.push_back (start);
@@ -48,22 +46,23 @@ std::string ticks (std::int64_t n) { return std::to_string (n) + (n == 1 ? " tic
 
 void warnOfDelays (Flat& flat, const PortUnits& units, const std::vector<int>& node_delays)
 {
-    const auto isLate = [&] (const FlatWire& w)
-    { return w.from && (delayOf (flat, units, w) > 0 || (node_delays[at (w.from->node)] > 0 && flat.node (*w.from).type->effort == nullptr)); };
+    const auto isLate = [&] (const FlatWire& w) {
+        if (! w.from) return false;
+        const bool comes_late = node_delays[at (w.from->node)] > 0 && flat.node (*w.from).type->effort == nullptr;
+        return comes_late || delayOf (flat, units, w) > 0;
+    };
     if (std::ranges::none_of (flat.wires, isLate)) return;
 
-    const Grouped<int> next (flat.nodes.size(), [&] (auto visit)
-                             {
-                                 for (const auto& w : flat.wires)
-                                     if (w.from) visit (w.from->node, w.to.node); });
-    const Grouped<int> back (flat.nodes.size(), [&] (auto visit)
-                             {
-                                 for (const auto& w : flat.wires)
-                                     if (w.from) visit (w.to.node, w.from->node); });
-    const auto acts = [] (const FlatNode& n)
-    { return n.runs() && n.type->effort != nullptr; };
-    const auto source = reachedFrom (flat, next, [&] (const FlatNode& n)
-                                     { return n.runs() && n.type->bind != nullptr && n.type->effort == nullptr; });
+    const Grouped<int> next (flat.nodes.size(), [&] (auto visit) {
+        for (const auto& w : flat.wires)
+            if (w.from) visit (w.from->node, w.to.node);
+    });
+    const Grouped<int> back (flat.nodes.size(), [&] (auto visit) {
+        for (const auto& w : flat.wires)
+            if (w.from) visit (w.to.node, w.from->node);
+    });
+    const auto acts = [] (const FlatNode& n) { return n.runs() && n.type->effort != nullptr; };
+    const auto source = reachedFrom (flat, next, [&] (const FlatNode& n) { return n.runs() && n.type->bind != nullptr && n.type->effort == nullptr; });
     const auto sink = reachedFrom (flat, back, acts);
     const auto component = components (flat.nodes.size(), next);
 

@@ -64,8 +64,7 @@ template <typename Key, typename KeyNow, typename KeyBefore>
 void pair (Unmatched& now, Unmatched& before, std::vector<int>& found, KeyNow keyNow, KeyBefore keyBefore)
 {
     constexpr int several = -2;
-    const auto list = [] (const Unmatched& rest, auto key)
-    {
+    const auto list = [] (const Unmatched& rest, auto key) {
         std::unordered_map<Key, int, Hash> by_key;
         by_key.reserve (rest.size());
         for (const auto& x : rest)
@@ -89,8 +88,7 @@ void pair (Unmatched& now, Unmatched& before, std::vector<int>& found, KeyNow ke
         taken.insert (other->second);
     }
     now = std::move (left);
-    std::erase_if (before, [&] (const One& x)
-                   { return taken.contains (x.number); });
+    std::erase_if (before, [&] (const One& x) { return taken.contains (x.number); });
 }
 
 /// Chains in which copies are replaced by their originals.
@@ -132,7 +130,7 @@ private:
 /// For each scope: the previous scope with the same enclosing subgraph nodes, or -2, which does not exist.
 std::vector<int> scopesBefore (const Flat& now, const Flat& before)
 {
-    constexpr int none = -2;
+    constexpr int no_scope = -2;
     std::unordered_map<Identity, int, Hash> numbers;
     for (std::size_t i = 0; i < before.scopes.size(); ++i)
         numbers.emplace (before.scopes[i], static_cast<int> (i));
@@ -140,7 +138,7 @@ std::vector<int> scopesBefore (const Flat& now, const Flat& before)
     for (const auto& [around, id, instance] : now.scopes)
     {
         const auto known = numbers.find ({ around < 0 ? around : all[at (around)], id, instance });
-        all.push_back (known == numbers.end() ? none : known->second);
+        all.push_back (known == numbers.end() ? no_scope : known->second);
     }
     return all;
 }
@@ -149,43 +147,31 @@ std::vector<int> scopesBefore (const Flat& now, const Flat& before)
 std::vector<int> match (Unmatched here, Unmatched there, const Flat& now, const Flat& before, const std::vector<int>& scopes, std::size_t size)
 {
     std::vector<int> found (size, -1);
-    const auto by = [&]<typename Name> (Name*, auto nameNow, auto nameBefore)
-    {
-        const auto alone = [] (auto nameOf)
-        { return [nameOf] (const One& x)
-          { return nameOf (x.identity); }; };
-        const auto withEnds = [] (auto nameOf)
-        { return [nameOf] (const One& x)
-          { return Key<Name> { nameOf (x.identity), x.ends }; }; };
+    const auto by = [&]<typename Name> (Name*, auto nameNow, auto nameBefore) {
+        const auto alone = [] (auto nameOf) { return [nameOf] (const One& x) { return nameOf (x.identity); }; };
+        const auto withEnds = [] (auto nameOf) { return [nameOf] (const One& x) { return Key<Name> { nameOf (x.identity), x.ends }; }; };
         if (! here.empty() && ! there.empty()) pair<Name> (here, there, found, alone (nameNow), alone (nameBefore));
         if (! here.empty() && ! there.empty()) pair<Key<Name>> (here, there, found, withEnds (nameNow), withEnds (nameBefore));
     };
 
     by (
-        static_cast<Identity*> (nullptr), [&] (const Identity& i)
-        { return Identity { scopes[at (i.scope)], i.id, i.instance }; },
-        [] (const Identity& i)
-        { return i; });
+        static_cast<Identity*> (nullptr), [&] (const Identity& i) { return Identity { scopes[at (i.scope)], i.id, i.instance }; },
+        [] (const Identity& i) { return i; });
     if (here.empty() || there.empty()) return found;
 
     const Origins origins { now, before };
-    const auto chains = [&] (const Flat& flat, auto shorten)
-    {
-        return [&, shorten] (const Identity& i)
-        { return shorten (origins.chainOf (flat, i)); };
+    const auto chains = [&] (const Flat& flat, auto shorten) {
+        return [&, shorten] (const Identity& i) { return shorten (origins.chainOf (flat, i)); };
     };
-    const auto byChain = [&] (auto shorten)
-    { by (static_cast<Chain*> (nullptr), chains (now, shorten), chains (before, shorten)); };
+    const auto byChain = [&] (auto shorten) { by (static_cast<Chain*> (nullptr), chains (now, shorten), chains (before, shorten)); };
 
-    const auto unchanged = [] (Chain c)
-    { return c; };
+    const auto unchanged = [] (Chain c) { return c; };
     byChain (unchanged);
     if (here.empty() || there.empty()) return found;
 
     // By the last link: all links of the chains that end in it, on each side.
     std::unordered_map<graph::Ancestor, std::unordered_set<graph::Ancestor, Hash>, Hash> around, around_before;
-    const auto note = [] (const Unmatched& rest, auto chainOf, auto& all)
-    {
+    const auto note = [] (const Unmatched& rest, auto chainOf, auto& all) {
         for (const auto& x : rest)
         {
             const auto chain = chainOf (x.identity);
@@ -194,23 +180,20 @@ std::vector<int> match (Unmatched here, Unmatched there, const Flat& now, const 
     };
     note (here, chains (now, unchanged), around);
     note (there, chains (before, unchanged), around_before);
-    byChain ([&] (Chain c)
-             {
-            const auto end = c.back();
-            const auto a = around.find (end), b = around_before.find (end);
-            if (a == around.end() || b == around_before.end()) return c;
-            std::erase_if (c, [&] (const graph::Ancestor& x)
-                           { return ! a->second.contains (x) || ! b->second.contains (x); });
-            return c; });
-    byChain ([] (const Chain& c)
-             { return Chain { c.back() }; });
+    byChain ([&] (Chain c) {
+        const auto end = c.back();
+        const auto a = around.find (end), b = around_before.find (end);
+        if (a == around.end() || b == around_before.end()) return c;
+        std::erase_if (c, [&] (const graph::Ancestor& x) { return ! a->second.contains (x) || ! b->second.contains (x); });
+        return c;
+    });
+    byChain ([] (const Chain& c) { return Chain { c.back() }; });
     return found;
 }
 
 std::vector<int> matchNodes (const Flat& now, const Flat& before, const std::vector<int>& scopes)
 {
-    const auto all = [] (const Flat& flat)
-    {
+    const auto all = [] (const Flat& flat) {
         Unmatched unmatched;
         for (std::size_t i = 0; i < flat.nodes.size(); ++i)
             unmatched.push_back ({ static_cast<int> (i), flat.nodes[i].identity, {} });
@@ -222,16 +205,14 @@ std::vector<int> matchNodes (const Flat& now, const Flat& before, const std::vec
 std::vector<int> matchWires (const Flat& now, const Flat& before, const std::vector<int>& scopes, const std::vector<int>& nodes)
 {
     constexpr int new_node = -2;
-    const auto all = [] (const Flat& flat, auto numberOf)
-    {
+    const auto all = [] (const Flat& flat, auto numberOf) {
         Unmatched unmatched;
         for (std::size_t i = 0; i < flat.wires.size(); ++i)
             if (const auto& w = flat.wires[i]; w.delay > 0 || w.crosses)
                 unmatched.push_back ({ static_cast<int> (i), w.identity, { w.from ? numberOf (w.from->node) : -1, numberOf (w.to.node) } });
         return unmatched;
     };
-    const auto numberBefore = [&] (int node)
-    { return nodes[at (node)] >= 0 ? nodes[at (node)] : new_node; };
+    const auto numberBefore = [&] (int node) { return nodes[at (node)] >= 0 ? nodes[at (node)] : new_node; };
     return match (all (now, numberBefore), all (before, std::identity()), now, before, scopes, now.wires.size());
 }
 }   // namespace

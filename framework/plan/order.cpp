@@ -116,11 +116,11 @@ std::vector<int> sortedByPath (const Blocks& blocks)
             head = head << 8 | (i < path.size() ? static_cast<unsigned char> (path[i]) : 0u);
         entries.push_back ({ head, b });
     }
-    std::ranges::sort (entries, [&] (const Entry& a, const Entry& b)
-                       {
+    std::ranges::sort (entries, [&] (const Entry& a, const Entry& b) {
         if (a.head != b.head) return a.head < b.head;
         const int order = blocks.path (a.block).compare (blocks.path (b.block));
-        return order != 0 ? order < 0 : a.block < b.block; });
+        return order != 0 ? order < 0 : a.block < b.block;
+    });
 
     std::vector<int> sorted;
     sorted.reserve (entries.size());
@@ -185,10 +185,10 @@ void reportLoops (Flat& flat, const Blocks& blocks, const Grouped<int>& next)
 {
     const auto component = components (blocks.size(), next);
     const auto distance = distances (blocks, next);
-    const Outgoing outgoing (blocks.size(), [&] (auto visit)
-                             {
-                                 for (const auto& w : flat.wires)
-                                     if (blocks.bind (w)) visit (blocks.from (w), &w); });
+    const Outgoing outgoing (blocks.size(), [&] (auto visit) {
+        for (const auto& w : flat.wires)
+            if (blocks.bind (w)) visit (blocks.from (w), &w);
+    });
     std::vector<int> members (blocks.size(), 0);
     for (const int c : component)
         ++members[at (c)];
@@ -211,8 +211,8 @@ void reportLoops (Flat& flat, const Blocks& blocks, const Grouped<int>& next)
         }
 
         // A delay costs least on the wire that leads back, from a block far from the sources to one near them.
-        const auto* back = *std::ranges::max_element (loop, {}, [&] (const FlatWire* w)
-                                                      { return distance[at (blocks.from (*w))] - distance[at (blocks.to (*w))]; });
+        const auto* back = *std::ranges::max_element (loop, {},
+                                                      [&] (const FlatWire* w) { return distance[at (blocks.from (*w))] - distance[at (blocks.to (*w))]; });
         const auto origin = back->origin;
         flat.error ("graph/loop", origin, "a loop without a delay: " + chain + whole,
                     "put a delay on the wire that leads back: \"" + textOf (flat, *back, " -> [1] -> ") + "\"");
@@ -224,10 +224,10 @@ Order order (Flat& flat)
 {
     const Blocks blocks { flat };
     const auto size = blocks.size();
-    const Grouped<int> next (size, [&] (auto visit)
-                             {
-                                 for (const auto& w : flat.wires)
-                                     if (blocks.bind (w)) visit (blocks.from (w), blocks.to (w)); });
+    const Grouped<int> next (size, [&] (auto visit) {
+        for (const auto& w : flat.wires)
+            if (blocks.bind (w)) visit (blocks.from (w), blocks.to (w));
+    });
     std::vector<int> waiting (size, 0);
     for (std::size_t b = 0; b < size; ++b)
         for (const int m : next[b])
@@ -280,14 +280,14 @@ class PathSearch
 {
 public:
     PathSearch (const Flat& f, const PortUnits& units, const std::vector<int>& node_delays)
-        : flat (f), edges (f.nodes.size(), [&] (auto visit)
-                           {
-                               for (const auto& w : f.wires)
-                                   if (w.from) visit (w.from->node, edgeOf (w, units, node_delays)); }),
-          next (f.nodes.size(), [&] (auto visit)
-                {
-                    for (const auto& w : f.wires)
-                        if (w.from) visit (w.from->node, w.to.node); }),
+        : flat (f), edges (f.nodes.size(), [&] (auto visit) {
+              for (const auto& w : f.wires)
+                  if (w.from) visit (w.from->node, edgeOf (w, units, node_delays));
+          }),
+          next (f.nodes.size(), [&] (auto visit) {
+              for (const auto& w : f.wires)
+                  if (w.from) visit (w.from->node, w.to.node);
+          }),
           component (components (f.nodes.size(), next)), members (f.nodes.size(), 0), reach (f.nodes.size())
     {
         for (const int c : component)
@@ -299,8 +299,7 @@ public:
     {
         findShortest (source);
         // Sinks have the lowest components, so from high to low, each node comes after all nodes that lead to it.
-        std::ranges::sort (reached, [&] (int a, int b)
-                           { return component[at (a)] != component[at (b)] ? component[at (a)] > component[at (b)] : a < b; });
+        std::ranges::sort (reached, [&] (int a, int b) { return component[at (a)] != component[at (b)] ? component[at (a)] > component[at (b)] : a < b; });
         for (const int n : reached)
             spread (n);
         for (const int sink : reached)
@@ -396,8 +395,7 @@ std::vector<PathDelay> pathDelays (const Flat& flat, const PortUnits& units, con
     std::vector<PathDelay> found;
     for (const int source : sources)
         search.addPaths (source, found);
-    std::ranges::sort (found, {}, [] (const PathDelay& d)
-                       { return std::pair { d.source, d.sink }; });
+    std::ranges::sort (found, {}, [] (const PathDelay& d) { return std::pair { d.source, d.sink }; });
     return found;
 }
 

@@ -163,8 +163,7 @@ public:
         for (std::size_t i = 0; i < parts.records.size(); ++i)
         {
             const auto& r = parts.records[i];
-            around (i, [&r]() noexcept
-                    { r.step (r.self, r.sources, r.outputs); });
+            around (i, [&r]() noexcept { r.step (r.self, r.sources, r.outputs); });
         }
         ++parts.number;
     }

@@ -34,17 +34,15 @@ class Entries
 public:
     explicit Entries (const PlanParts& plan) : first (plan.flat.nodes.size() + 1, 0)
     {
-        forEach (plan, [this] (int node, const Entry&)
-                 { ++first[at (node) + 1]; });
+        forEach (plan, [this] (int node, const Entry&) { ++first[at (node) + 1]; });
         for (std::size_t i = 1; i < first.size(); ++i)
             first[i] += first[i - 1];
         all.resize (first.back());
         auto next = first;
-        forEach (plan, [&] (int node, const Entry& e)
-                 { all[next[at (node)]++] = e; });
+        forEach (plan, [&] (int node, const Entry& e) { all[next[at (node)]++] = e; });
         for (std::size_t i = 0; i + 1 < first.size(); ++i)
-            std::sort (all.data() + first[i], all.data() + first[i + 1], [] (const Entry& a, const Entry& b)
-                       { return (a <=> b) == std::partial_ordering::less; });
+            std::sort (all.data() + first[i], all.data() + first[i + 1],
+                       [] (const Entry& a, const Entry& b) { return (a <=> b) == std::partial_ordering::less; });
     }
 
     std::span<const Entry> operator[] (std::size_t node) const noexcept { return { all.data() + first[node], all.data() + first[node + 1] }; }
@@ -56,11 +54,9 @@ private:
         const auto& wires = plan.flat.wires;
         auto line = plan.lines.begin();
         auto converter = plan.rate_converters.begin();
-        const auto rateConverterOf = [&] (std::size_t wire, int component = 0)
-        {
+        const auto rateConverterOf = [&] (std::size_t wire, int component = 0) {
             const auto wanted = std::pair { wire, component };
-            const auto here = [&]
-            { return std::pair { at (converter->wire), converter->component }; };
+            const auto here = [&] { return std::pair { at (converter->wire), converter->component }; };
             while (converter != plan.rate_converters.end() && here() < wanted)
                 ++converter;
             return converter != plan.rate_converters.end() && here() == wanted ? converter->converter->serial : 0;
@@ -94,10 +90,11 @@ private:
 
 bool sameShape (const NodeType& a, const NodeType& b)
 {
-    const auto alike = [] (const std::vector<PortSheet>& x, const std::vector<PortSheet>& y)
-    {
-        return std::ranges::equal (x, y, [] (const PortSheet& p, const PortSheet& q)
-                                   { return p.id == q.id && p.width == q.width && p.list == q.list && p.initial[0] == q.initial[0]; });
+    const auto alike = [] (const std::vector<PortSheet>& x, const std::vector<PortSheet>& y) {
+        return std::ranges::equal (x, y, [] (const PortSheet& p, const PortSheet& q) {
+            if (p.id != q.id) return false;
+            return p.width == q.width && p.list == q.list && p.initial[0] == q.initial[0];
+        });
     };
     return alike (a.inputs, b.inputs) && alike (a.params, b.params) && alike (a.outputs, b.outputs);
 }
@@ -222,8 +219,7 @@ std::shared_ptr<Line> PlanDiff::lineOf (int wire, int component, int ticks, Take
     const Line* old = nullptr;
     if (const int wire_before = matching.wires[at (wire)]; wire_before >= 0)
     {
-        const auto key = [] (const LineUse& use)
-        { return std::pair { use.wire, use.component }; };
+        const auto key = [] (const LineUse& use) { return std::pair { use.wire, use.component }; };
         const auto use = std::ranges::lower_bound (before->lines, std::pair { wire_before, component }, {}, key);
         if (use != before->lines.end() && key (*use) == std::pair { wire_before, component })
         {
@@ -251,8 +247,7 @@ std::shared_ptr<RateConverter> PlanDiff::rateConverterOf (int wire, int componen
     if (wire_before >= 0)
     {
         using Key = std::tuple<int, int, int>;
-        const auto key = [] (const RateConverterUse& use)
-        { return Key { use.wire, use.component, use.step }; };
+        const auto key = [] (const RateConverterUse& use) { return Key { use.wire, use.component, use.step }; };
         const Key wanted { wire_before, component, step };
         const auto use = std::ranges::lower_bound (before->rate_converters, wanted, {}, key);
         if (use != before->rate_converters.end() && key (*use) == wanted)
@@ -316,8 +311,7 @@ void PlanDiff::compare (PlanParts& plan) const
     {
         const auto old = std::ranges::find (before->roles, role.name, &RoleUse::name);
         role.untouched = old != before->roles.end() && serialsOf (role, plan) == serialsOf (*old, *before)
-                         && std::ranges::none_of (role.sinks, [&] (const SinkUse& s)
-                                                  { return plan.instances[s.instance].dirty; });
+                         && std::ranges::none_of (role.sinks, [&] (const SinkUse& s) { return plan.instances[s.instance].dirty; });
     }
 
     for (std::size_t i = 0; i < continuing.size(); ++i)

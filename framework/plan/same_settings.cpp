@@ -66,8 +66,7 @@ struct Same
 
     bool operator() (const SettingValue& a, const SettingValue& b) const
     {
-        const auto compare = [&] (const auto& x)
-        { return (*this) (x, std::get<std::remove_cvref_t<decltype (x)>> (b)); };
+        const auto compare = [&] (const auto& x) { return (*this) (x, std::get<std::remove_cvref_t<decltype (x)>> (b)); };
         return a.index() == b.index() && std::visit (compare, static_cast<const SettingValue::variant&> (a));
     }
 };

@@ -48,8 +48,7 @@ public:
                 into[at (w.to.node)].push_back (w.from->node);
             }
         std::vector<int> open;
-        const auto reach = [&] (int n)
-        {
+        const auto reach = [&] (int n) {
             if (leads[at (n)]) return;
             leads[at (n)] = true;
             open.push_back (n);
@@ -72,8 +71,7 @@ public:
         std::vector<const FlatWire*> by (flat.nodes.size(), nullptr);   // by node: the wire that reached it; null inside the section
         std::vector<bool> seen (flat.nodes.size(), false);
         std::queue<int> open;
-        const auto reach = [&] (int n, const FlatWire* w)
-        {
+        const auto reach = [&] (int n, const FlatWire* w) {
             if (seen[at (n)]) return;
             seen[at (n)] = true;
             by[at (n)] = w;

@@ -195,11 +195,9 @@ private:
     {
         const auto& sheet = flat.sheet (a.to);
         if (! sheet.choices.empty()) return;
-        const auto all = [&] (const Json& json)
-        {
+        const auto all = [&] (const Json& json) {
             if (! json.is_array()) return fits (a, sheet, json);
-            return std::ranges::all_of (json, [&] (const Json& part)
-                                        { return fits (a, sheet, part); });
+            return std::ranges::all_of (json, [&] (const Json& part) { return fits (a, sheet, part); });
         };
         if (all (*a.low) && a.high != a.low) all (*a.high);
     }
@@ -282,13 +280,13 @@ private:
     /// quantities directly is a warning too. None of this depends on the order of the wires.
     void nameQuantities()
     {
-        const Grouped<int> neighbours (at (variable.count()), [this] (auto visit)
-                                       {
-                                           for (const auto& l : links)
-                                           {
-                                               visit (l.a, l.b);
-                                               visit (l.b, l.a);
-                                           } });
+        const Grouped<int> neighbours (at (variable.count()), [this] (auto visit) {
+            for (const auto& l : links)
+            {
+                visit (l.a, l.b);
+                visit (l.b, l.a);
+            }
+        });
 
         std::vector<Quantity> expected (at (variable.count()), Quantity::any);
         std::vector<bool> seen = generic;
@@ -322,8 +320,7 @@ private:
 
     void compareQuantities (const Link& l, const std::vector<Quantity>& expected)
     {
-        const auto of = [&] (int v)
-        { return generic[at (v)] ? expected[at (v)] : quantity[at (v)]; };
+        const auto of = [&] (int v) { return generic[at (v)] ? expected[at (v)] : quantity[at (v)]; };
         const auto a = of (l.a), b = of (l.b);
         if (a == Quantity::any || b == Quantity::any || a == b) return;
         const auto& w = *l.wire;

@@ -104,8 +104,7 @@ std::string shown (const Json& json)
 
 Result<Number> readNumber (const Json& json)
 {
-    const auto problem = [] (std::string text)
-    { return Message::error ("param/value", {}, std::move (text)); };
+    const auto problem = [] (std::string text) { return Message::error ("param/value", {}, std::move (text)); };
     if (json.is_number())
     {
         const auto v = json.get<double>();

@@ -24,8 +24,7 @@ Effort Engine::total (const Plan::RoleUse& role, Scratch& scratch) noexcept
         signals = std::max (signals, e.signals.size());
     }
 
-    const auto sum = [&] (auto part)
-    {
+    const auto sum = [&] (auto part) {
         for (std::size_t i = 0; i < n; ++i)
             scratch.numbers[i] = part (scratch.efforts[i]);
         return plan::sum (scratch.numbers.data(), static_cast<int> (n));
@@ -33,17 +32,13 @@ Effort Engine::total (const Plan::RoleUse& role, Scratch& scratch) noexcept
     Effort all;
     for (int c = 0; c < 3; ++c)
     {
-        all.force[c] = sum ([c] (const Effort& e)
-                            { return e.force[c]; });
-        all.torque[c] = sum ([c] (const Effort& e)
-                             { return e.torque[c]; });
+        all.force[c] = sum ([c] (const Effort& e) { return e.force[c]; });
+        all.torque[c] = sum ([c] (const Effort& e) { return e.torque[c]; });
     }
     for (int i = 0; i < axes; ++i)
-        all.axes.set (i, sum ([i] (const Effort& e)
-                              { return e.axes[i]; }));
+        all.axes.set (i, sum ([i] (const Effort& e) { return e.axes[i]; }));
     for (int i = 0; i < signals; ++i)
-        all.signals.set (i, sum ([i] (const Effort& e)
-                                 { return e.signals[i]; }));
+        all.signals.set (i, sum ([i] (const Effort& e) { return e.signals[i]; }));
     return all;
 }
 
@@ -51,8 +46,7 @@ Engine::Engine (std::shared_ptr<Plan> p) : rate_hz (p->rateHz()), plans (makeRun
 
 Engine::Channel* Engine::find (std::string_view role) const noexcept
 {
-    const auto at = std::find_if (channels.rbegin(), channels.rend(), [&] (const auto& c)
-                                  { return c->role == role; });
+    const auto at = std::find_if (channels.rbegin(), channels.rend(), [&] (const auto& c) { return c->role == role; });
     return at != channels.rend() ? at->get() : nullptr;
 }
 
@@ -298,8 +292,7 @@ void Engine::afterPlan() noexcept
 
 void Engine::tick() noexcept
 {
-    tick ([] (Plan& p) noexcept
-          { p.tick(); });
+    tick ([] (Plan& p) noexcept { p.tick(); });
 }
 
 void Engine::halt() noexcept
@@ -318,8 +311,7 @@ void Engine::resume() noexcept
 
 bool Engine::isAtRest() const noexcept
 {
-    return std::ranges::all_of (running->channels, [] (const Channel* c)
-                                { return c->guard.isAtRest(); });
+    return std::ranges::all_of (running->channels, [] (const Channel* c) { return c->guard.isAtRest(); });
 }
 
 const Guard& Engine::guardOf (std::string_view role) const

@@ -86,8 +86,7 @@ double asSet (double window) noexcept { return window == GuardLimits::none ? 0.0
 
 int firstNotFinite (const Channels& all) noexcept
 {
-    return static_cast<int> (std::find_if_not (all.begin(), all.end(), [] (double v)
-                                               { return isFinite (v); })
+    return static_cast<int> (std::find_if_not (all.begin(), all.end(), [] (double v) { return isFinite (v); })
                              - all.begin());
 }
 
@@ -110,10 +109,8 @@ std::string withinWindow (const Guard::Event& event, const char* unit)
 
 GuardLimits tightest (const GuardLimits& a, const GuardLimits& b) noexcept
 {
-    const auto less = [] (double x, double y)
-    { return std::min (orNothing (x), orNothing (y)); };
-    const auto longer = [] (double of_a, double in_a, double of_b, double in_b)
-    { return asSet (std::max (windowOf (of_a, in_a), windowOf (of_b, in_b))); };
+    const auto less = [] (double x, double y) { return std::min (orNothing (x), orNothing (y)); };
+    const auto longer = [] (double of_a, double in_a, double of_b, double in_b) { return asSet (std::max (windowOf (of_a, in_a), windowOf (of_b, in_b))); };
 
     return {
         .max_force = less (a.max_force, b.max_force),
@@ -161,9 +158,7 @@ void Guard::rearm() noexcept
 
 bool Guard::isAtRest() const noexcept
 {
-    const auto none = [] (const Channels& all)
-    { return std::all_of (all.begin(), all.end(), [] (double v)
-                          { return v == 0.0; }); };
+    const auto none = [] (const Channels& all) { return std::all_of (all.begin(), all.end(), [] (double v) { return v == 0.0; }); };
     return last.force.isZero (0.0) && last.torque.isZero (0.0) && none (last.axes) && none (last.signals);
 }
 
@@ -211,16 +206,13 @@ Guard::Event Guard::describeNow (Stop why, const Effort& wanted, const Reading& 
 {
     using Part = Event::Part;
     Event e { .why = why, .valid = reading.valid };
-    const auto of = [&] (Part part, double x, double y = 0.0, double z = 0.0, int channel = 0)
-    {
+    const auto of = [&] (Part part, double x, double y = 0.0, double z = 0.0, int channel = 0) {
         e.part = part;
         e.wanted = { x, y, z };
         e.channel = channel;
     };
-    const auto ofVector = [&] (Part part, const Vec3& v)
-    { of (part, v.x(), v.y(), v.z()); };
-    const auto ofChannel = [&] (Part part, const Channels& all)
-    {
+    const auto ofVector = [&] (Part part, const Vec3& v) { of (part, v.x(), v.y(), v.z()); };
+    const auto ofChannel = [&] (Part part, const Channels& all) {
         const int i = firstNotFinite (all);
         of (part, all[i], 0.0, 0.0, i);
     };

@@ -43,8 +43,7 @@ void NodeCosts::begin() noexcept
 void NodeCosts::tick (Plan& plan) noexcept
 {
     const auto n = plan.records().size();
-    const auto price_s = [this] (std::size_t records)
-    { return static_cast<double> (records + 1) * look_s; };
+    const auto price_s = [this] (std::size_t records) { return static_cast<double> (records + 1) * look_s; };
     most_credit_s = 2.0 * price_s (n);
     if (n == 0 || credit_s < patience * price_s (std::min (n, fewest)))
     {
@@ -63,15 +62,15 @@ void NodeCosts::tick (Plan& plan) noexcept
 void NodeCosts::look (Plan& plan, std::size_t first, std::size_t end) noexcept
 {
     double before = 0.0;
-    plan.tick ([&] (std::size_t r, auto step)
-               {
+    plan.tick ([&] (std::size_t r, auto step) {
         if (r == first) before = clock.now();
         step();
         if (r < first || r >= end) return;
         const double now = clock.now();
         samples.put ({ plan.instances()[plan.owners()[r]].serial, std::max (0.0, now - before - look_s) });
         samples.commit();
-        before = now; });
+        before = now;
+    });
 }
 
 void NodeCosts::earn (double took_s) noexcept
@@ -87,8 +86,7 @@ void NodeCosts::Mean::add (double x) noexcept
 
 void NodeCosts::collect()
 {
-    samples.drain ([this] (std::span<const Sample> sample)
-                   { means[sample[0].serial].add (sample[0].took_s); });
+    samples.drain ([this] (std::span<const Sample> sample) { means[sample[0].serial].add (sample[0].took_s); });
 }
 
 std::vector<NodeCost> NodeCosts::of (const Plan& plan)

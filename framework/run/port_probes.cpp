@@ -14,8 +14,7 @@ Result<std::vector<std::string>> PortProbes::probe (Run& run, const graph::Graph
 {
     auto earlier = std::exchange (probed, ports);
     auto edit = run.edit (graph);
-    const auto refuse = [&] (Message why)
-    {
+    const auto refuse = [&] (Message why) {
         probed = std::move (earlier);
         return why;
     };

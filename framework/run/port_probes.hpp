@@ -27,9 +27,9 @@ public:
     template <typename F>
     void drain (F&& f)
     {
-        ring.drain ([&] (const ProbeRing::Frame& frame)
-                    {
-            if (frame.plan == serial) f (frame.tick, std::span (frame.values).first (frame.size)); });
+        ring.drain ([&] (const ProbeRing::Frame& frame) {
+            if (frame.plan == serial) f (frame.tick, std::span (frame.values).first (frame.size));
+        });
     }
 
     std::vector<std::string> ports() const override { return probed; }

@@ -60,8 +60,7 @@ public:
     template <typename F>
     void drain (F&& f)
     {
-        frames.drain ([&] (std::span<const Frame> frame)
-                      { f (frame.front()); });
+        frames.drain ([&] (std::span<const Frame> frame) { f (frame.front()); });
     }
 
 private:

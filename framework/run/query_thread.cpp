@@ -7,8 +7,7 @@
 namespace tactus
 {
 
-QueryThread::QueryThread() : thread ([this]
-                                     { run(); })
+QueryThread::QueryThread() : thread ([this] { run(); })
 {
 }
 
@@ -62,8 +61,7 @@ void QueryThread::run()
         bool any = false;
         {
             std::unique_lock lock (guard);
-            woken.wait (lock, [this]
-                        { return stopping || ! askers.empty(); });
+            woken.wait (lock, [this] { return stopping || ! askers.empty(); });
             for (auto* asker : askers)
                 any = asker->answer() || any;
         }

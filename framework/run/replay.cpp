@@ -52,8 +52,8 @@ Result<> Replay::begin()
     }
     std::ranges::copy (options.overrides, std::back_inserter (compile.overrides));
 
-    running = std::make_unique<Run> (catalogue(), std::move (compile), [this] (const std::string& role, const graph::Graph&, const Plan&, Messages&)
-                                     { return openHand (role); });
+    running = std::make_unique<Run> (catalogue(), std::move (compile),
+                                     [this] (const std::string& role, const graph::Graph&, const Plan&, Messages&) { return openHand (role); });
     running->add (feed);
     auto logged = options.graph == nullptr ? loggedGraph() : Result<graph::Graph> { graph::Graph {} };
     if (! logged) return here (logged.error());
@@ -79,8 +79,7 @@ Run::RoleDevice Replay::openHand (const std::string& role)
     const auto& head = log.head();
     auto hand = std::make_unique<Hand>();
     GuardLimits limits;
-    const auto takeFrom = [&] (const auto& guards, const auto& devices)
-    {
+    const auto takeFrom = [&] (const auto& guards, const auto& devices) {
         const auto guard = guards.find (role);
         if (guard == guards.end()) return false;
         limits = guard->second;

@@ -27,8 +27,7 @@ void Run::add (RunListener& listener) { listeners.push_back (&listener); }
 
 bool Run::isOptional (const std::string& port) const
 {
-    return std::ranges::any_of (listeners, [&] (const RunListener* l)
-                                { return std::ranges::count (l->ports(), port) > 0 && l->isOptional (port); });
+    return std::ranges::any_of (listeners, [&] (const RunListener* l) { return std::ranges::count (l->ports(), port) > 0 && l->isOptional (port); });
 }
 
 /// Captured ports come first, so their taps keep their numbers when the ports of listeners change.
@@ -44,8 +43,10 @@ Compiled Run::compile (const graph::Graph& graph, const Plan* plan_before, const
 
     assets.paths.clear();
     auto compiled = tactus::compile (graph, catalogue, wanted);
-    const auto isMissing = [&] (const std::string& port)
-    { return std::ranges::count (compiled.messages, "record " + port, &Message::where) > 0 && isOptional (port); };
+    const auto isMissing = [&] (const std::string& port) {
+        const bool has_message = std::ranges::count (compiled.messages, "record " + port, &Message::where) > 0;
+        return has_message && isOptional (port);
+    };
     return std::erase_if (wanted.records, isMissing) > 0 ? tactus::compile (graph, catalogue, wanted) : compiled;
 }
 
@@ -72,8 +73,7 @@ void Run::keepRecords()
 
 bool Run::hasDevice (const std::string& role) const
 {
-    return std::ranges::any_of (by_role, [&] (const auto& d)
-                                { return d.first == role; });
+    return std::ranges::any_of (by_role, [&] (const auto& d) { return d.first == role; });
 }
 
 void Run::openDevices (const graph::Graph& graph, Messages& messages)
@@ -231,8 +231,7 @@ Result<std::vector<std::string>> Run::capture (const graph::Graph& graph, const 
     endCapture();
     captured_ports = { port, watched };
     auto next = edit (graph);
-    const auto refuse = [this] (Message why)
-    {
+    const auto refuse = [this] (Message why) {
         captured_ports.clear();
         return why;
     };

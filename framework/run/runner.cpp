@@ -22,8 +22,7 @@ std::vector<std::string> Runner::start()
 
     std::promise<std::vector<std::string>> ready;
     auto more = ready.get_future();
-    thread = std::jthread ([this, r = std::move (ready)]() mutable
-                           { run (std::move (r)); });
+    thread = std::jthread ([this, r = std::move (ready)]() mutable { run (std::move (r)); });
     std::ranges::move (more.get(), std::back_inserter (refused));
     return refused;
 }
@@ -46,8 +45,7 @@ bool Runner::tick (double late_s) noexcept
     now.clock_replaced = clock.isReplaced();
     engine.invalidateReadings (now.clock_replaced);
     if (options.hooks) options.hooks->before (k);
-    engine.tick ([this] (Plan& plan) noexcept
-                 { node_costs.tick (plan); });
+    engine.tick ([this] (Plan& plan) noexcept { node_costs.tick (plan); });
     if (options.hooks) options.hooks->after (k, now.phase == RunStatus::Phase::halting);
     const double took = clock.now() - begin;
 

@@ -14,8 +14,7 @@ std::vector<std::size_t> tapsOf (const Plan& plan, const std::vector<std::string
 {
     std::vector<std::size_t> taps;
     for (std::size_t i = 0; i < plan.taps().size(); ++i)
-        if (std::ranges::any_of (ports, [&] (const std::string& port)
-                                 { return isPartOf (plan.taps()[i].name, port); }))
+        if (std::ranges::any_of (ports, [&] (const std::string& port) { return isPartOf (plan.taps()[i].name, port); }))
             taps.push_back (i);
     return taps;
 }

@@ -8,6 +8,12 @@
 namespace tactus
 {
 
+/// Converts seconds for use with the steady clock.
+inline std::chrono::steady_clock::duration toDuration (double s)
+{
+    return std::chrono::duration_cast<std::chrono::steady_clock::duration> (std::chrono::duration<double> (s));
+}
+
 /// An object ticked by a clock.
 class Ticked
 {
@@ -61,8 +67,6 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
-
-    static Clock::duration toDuration (double s) { return std::chrono::duration_cast<Clock::duration> (std::chrono::duration<double> (s)); }
 
     /// Waits for the deadline. Returns how late it is, in s.
     double wait() noexcept

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <limits>
 #include <ostream>
 
 namespace tactus
@@ -99,6 +101,16 @@ const Json* follow (const Json& from, const JsonPointer& way) noexcept
     return now;
 }
 
+/// The number without its fraction, or the nearest one that fits into T; 0 for nan.
+template <typename T>
+T toInteger (double v) noexcept
+{
+    constexpr T low = std::numeric_limits<T>::min(), high = std::numeric_limits<T>::max();
+    if (std::isnan (v)) return 0;
+    if (v <= static_cast<double> (low)) return low;
+    return v >= static_cast<double> (high) ? high : static_cast<T> (v);   // high is rounded up to a power of two
+}
+
 const Json::Member* memberOf (const Json::Object& all, std::string_view key) noexcept
 {
     const auto at = std::ranges::find (all, key, &Json::Member::first);
@@ -110,18 +122,15 @@ JsonPointer::JsonPointer (std::string_view text)
 {
     if (text.empty()) return;
     if (text.front() != '/') throw JsonError ("a JSON pointer begins with /: " + std::string (text));
-    for (const auto part : std::views::split (text.substr (1), '/'))
-    {
-        std::string key;
-        for (auto c = part.begin(); c != part.end(); ++c)
-            if (*c != '~')
-                key += *c;
-            else if (++c == part.end() || (*c != '0' && *c != '1'))
-                throw JsonError ("in a JSON pointer, ~ is followed by 0 or 1: " + std::string (text));
-            else
-                key += *c == '0' ? '~' : '/';
-        keys.push_back (std::move (key));
-    }
+    for (std::size_t i = 0; i < text.size(); ++i)
+        if (text[i] == '/')
+            keys.emplace_back();
+        else if (text[i] != '~')
+            keys.back() += text[i];
+        else if (++i == text.size() || (text[i] != '0' && text[i] != '1'))
+            throw JsonError ("in a JSON pointer, ~ is followed by 0 or 1: " + std::string (text));
+        else
+            keys.back() += text[i] == '0' ? '~' : '/';
 }
 
 JsonPointer JsonPointer::parent() const
@@ -146,8 +155,7 @@ Json::~Json() = default;
 
 Json::Json (std::initializer_list<Json> all)
 {
-    const auto is_member = [] (const Json& v)
-    { return v.is_array() && v.size() == 2 && v[0].is_string(); };
+    const auto is_member = [] (const Json& v) { return v.is_array() && v.size() == 2 && v[0].is_string(); };
     *this = std::ranges::all_of (all, is_member) ? object (all) : array (all);
 }
 
@@ -168,8 +176,12 @@ Json Json::parse (std::string_view text)
     try
     {
         bool is_too_deep = false;
-        const auto parsed = Other::parse (text, [&] (int depth, Other::parse_event_t, Other&)
-                                          { return ! (is_too_deep = is_too_deep || depth > deepest_nesting); });
+        const auto limitDepth = [&] (int depth, Other::parse_event_t event, Other&) {
+            const bool opens = event == Other::parse_event_t::object_start || event == Other::parse_event_t::array_start;
+            is_too_deep = is_too_deep || (opens && depth >= deepest_nesting);
+            return ! is_too_deep;
+        };
+        const auto parsed = Other::parse (text, limitDepth);
         if (is_too_deep) throw JsonError ("objects and arrays are nested too deeply");
         return fromOther (parsed);
     }
@@ -229,14 +241,14 @@ std::int64_t Json::asSigned() const
 {
     if (const auto* v = std::get_if<std::int64_t> (&content)) return *v;
     if (const auto* v = std::get_if<std::uint64_t> (&content)) return static_cast<std::int64_t> (*v);
-    return static_cast<std::int64_t> (asDouble());
+    return toInteger<std::int64_t> (asDouble());
 }
 
 std::uint64_t Json::asUnsigned() const
 {
     if (const auto* v = std::get_if<std::uint64_t> (&content)) return *v;
     if (const auto* v = std::get_if<std::int64_t> (&content)) return static_cast<std::uint64_t> (*v);
-    return static_cast<std::uint64_t> (asDouble());
+    return toInteger<std::uint64_t> (asDouble());
 }
 
 const std::string& Json::asString() const
@@ -260,8 +272,7 @@ const Json::Object& Json::asObject() const
 Json Json::flatten() const
 {
     Object all;
-    const auto add = [&all] (const auto& self, const std::string& path, const Json& v) -> void
-    {
+    const auto add = [&all] (const auto& self, const std::string& path, const Json& v) -> void {
         if (! v.is_structured() || v.empty()) return (void)all.emplace_back (path, v);
         for (auto at = v.begin(); at != v.end(); ++at)
             self (self, path + '/' + (v.is_object() ? pointerPart (at.key()) : std::to_string (at - v.begin())), *at);
@@ -340,8 +351,7 @@ void Json::update (const Json& other)
 
 std::size_t Json::erase (std::string_view key)
 {
-    return std::erase_if (asObject(), [&] (const Member& m)
-                          { return m.first == key; });
+    return std::erase_if (asObject(), [&] (const Member& m) { return m.first == key; });
 }
 
 void Json::erase (std::size_t index)
@@ -386,12 +396,6 @@ Json::iterator Json::find (std::string_view key) noexcept
 const Json::Object& Json::items() const noexcept
 {
     static const Object none;
-    return is_object() ? std::get<Object> (content) : none;
-}
-
-Json::Object& Json::items() noexcept
-{
-    static Object none;
     return is_object() ? std::get<Object> (content) : none;
 }
 

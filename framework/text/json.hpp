@@ -41,6 +41,35 @@ private:
 
 inline constexpr int deepest_nesting = 64;   ///< of objects and arrays in a text
 
+class Json;
+
+namespace json
+{
+using Array = std::vector<Json>;
+using Object = std::vector<std::pair<std::string, Json>>;
+
+template <typename T>
+concept Count = std::unsigned_integral<T> && ! std::same_as<T, bool>;
+
+template <typename T, typename... Others>
+concept IsOneOf = (std::same_as<T, Others> || ...);
+
+/// A range that is neither a value itself nor text.
+template <typename R>
+concept Range = std::ranges::input_range<R> && ! std::convertible_to<R, std::string_view> && ! IsOneOf<R, Json, Array, Object>;
+
+template <typename R>
+concept List = Range<R> && std::constructible_from<Json, std::ranges::range_reference_t<R>>;
+
+/// A range of pairs that begin with a string.
+template <typename R>
+concept Map = Range<R> && requires (std::ranges::range_reference_t<R> member)
+{
+    std::string (member.first);
+    member.second;
+};
+}   // namespace json
+
 /// A JSON value. Objects keep the order of the file, so a file that is read and written again gives a small diff.
 ///
 /// Numbers are integers or doubles, as written: 3 is an integer, 3.0 is not, and both compare equal. A braced list in which every
@@ -55,9 +84,9 @@ inline constexpr int deepest_nesting = 64;   ///< of objects and arrays in a tex
 class Json
 {
 public:
-    using Array = std::vector<Json>;
-    using Member = std::pair<std::string, Json>;
-    using Object = std::vector<Member>;
+    using Array = json::Array;
+    using Object = json::Object;
+    using Member = Object::value_type;
 
     Json() noexcept;
     Json (std::nullptr_t) noexcept;
@@ -69,10 +98,8 @@ public:
     Json (T v) noexcept : content (static_cast<std::int64_t> (v))
     {
     }
-    template <std::unsigned_integral T>
-    requires (! std::same_as<T, bool>)
-        Json (T v)
-    noexcept : content (static_cast<std::uint64_t> (v))
+    template <json::Count T>
+    Json (T v) noexcept : content (static_cast<std::uint64_t> (v))
     {
     }
     template <std::floating_point T>
@@ -87,11 +114,9 @@ public:
     Json (std::initializer_list<Json>);
 
     /// An array of a range's elements; an object if the elements are pairs of a string and a value, as in a std::map.
-    template <std::ranges::input_range R>
-    requires (! std::convertible_to<R, std::string_view> && ! std::same_as<std::remove_cvref_t<R>, Json> && ! std::same_as<std::remove_cvref_t<R>, Array> && ! std::same_as<std::remove_cvref_t<R>, Object> && std::constructible_from<Json, std::ranges::range_reference_t<R>>)
-        Json (const R& range);
-    template <std::ranges::input_range R>
-    requires std::convertible_to<decltype (std::declval<std::ranges::range_reference_t<R>>().first), std::string>
+    template <json::List R>
+    Json (const R& list);
+    template <json::Map R>
     Json (const R& map);
 
     Json (const Json&);
@@ -131,7 +156,8 @@ public:
     std::size_t size() const noexcept;
     bool empty() const noexcept { return size() == 0; }
 
-    /// The value as a bool, a number, a string, or a std::vector of these. Numbers convert to each other, as by static_cast.
+    /// The value as a bool, a number, a string, or a std::vector of these. Numbers convert to each other; an
+    /// integer gets the nearest value that it can hold.
     template <typename T>
     T get() const;
 
@@ -259,7 +285,6 @@ public:
 
     /// The members of an object as pairs of key and value. Empty for anything else.
     const Object& items() const noexcept;
-    Object& items() noexcept;
 
     /// Objects are equal if they have equal members in the same order.
     friend bool operator== (const Json&, const Json&) noexcept;
@@ -283,16 +308,14 @@ private:
 //==============================================================================
 // Implementation below.
 
-template <std::ranges::input_range R>
-requires (! std::convertible_to<R, std::string_view> && ! std::same_as<std::remove_cvref_t<R>, Json> && ! std::same_as<std::remove_cvref_t<R>, Json::Array> && ! std::same_as<std::remove_cvref_t<R>, Json::Object> && std::constructible_from<Json, std::ranges::range_reference_t<R>>)
-    Json::Json (const R& range) : content (Array())
+template <json::List R>
+Json::Json (const R& list) : content (Array())
 {
-    for (auto&& v : range)
+    for (auto&& v : list)
         std::get<Array> (content).push_back (Json (v));
 }
 
-template <std::ranges::input_range R>
-requires std::convertible_to<decltype (std::declval<std::ranges::range_reference_t<R>>().first), std::string>
+template <json::Map R>
 Json::Json (const R& map) : content (Object())
 {
     for (auto&& [key, v] : map)

@@ -301,8 +301,7 @@ private:
         bool value = false, key = false;   // what is allowed here
         std::string expected;
         cursor.skipSpace();
-        const auto comma = [&]
-        {
+        const auto comma = [&] {
             if (cursor.peek() != ',') return false;
             cursor.advance (1);
             cursor.skipSpace();
@@ -359,8 +358,7 @@ private:
 
     void explainText (std::size_t byte, std::string_view complaint)
     {
-        const auto has = [&] (std::string_view words)
-        { return complaint.find (words) != std::string_view::npos; };
+        const auto has = [&] (std::string_view words) { return complaint.find (words) != std::string_view::npos; };
 
         if (has ("missing closing quote"))
             return syntax ("the string that begins here is not closed", "end it with a double quote; was the file cut off?");

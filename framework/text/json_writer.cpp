@@ -65,8 +65,7 @@ private:
             return column() <= longest_line;
         }
         bool first = true;
-        const auto separate = [&]
-        {
+        const auto separate = [&] {
             if (! first) out += ", ";
             first = false;
         };
@@ -98,8 +97,7 @@ private:
     void onLines (const Json& v, std::size_t indent)
     {
         const bool list = v.is_array();
-        const bool numbers = list && std::ranges::all_of (v, [] (const Json& e)
-                                                          { return e.is_number(); });
+        const bool numbers = list && std::ranges::all_of (v, [] (const Json& e) { return e.is_number(); });
         const auto inner = indent + step;
         auto left = v.size();
         out += list ? '[' : '{';

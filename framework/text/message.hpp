@@ -56,8 +56,7 @@ using Messages = std::vector<Message>;
 
 inline bool hasErrors (const Messages& messages)
 {
-    return std::ranges::any_of (messages, [] (const Message& m)
-                                { return m.severity == Message::Severity::error; });
+    return std::ranges::any_of (messages, [] (const Message& m) { return m.severity == Message::Severity::error; });
 }
 
 }   // namespace tactus

@@ -57,8 +57,7 @@ void ObjectReader::error (std::string_view key, std::string id, std::string text
 
 bool ObjectReader::measure (const Json& json, const std::string& where, const Unit& unit, double& value)
 {
-    const auto wrong = [&] (const char* what, std::string text)
-    {
+    const auto wrong = [&] (const char* what, std::string text) {
         all_messages.push_back (Message::error (messageId (what), where, std::move (text), "write " + example (unit)));
         return false;
     };

@@ -65,8 +65,7 @@ std::string_view found (const Json& value)
 std::string lastPart (const std::string& where)
 {
     const auto part = where.substr (where.rfind ('/') + 1);
-    return ! part.empty() && std::ranges::all_of (part, [] (char c)
-                                                  { return c >= '0' && c <= '9'; })
+    return ! part.empty() && std::ranges::all_of (part, [] (char c) { return c >= '0' && c <= '9'; })
                ? "entry " + part
                : quote (part);
 }

@@ -8,10 +8,8 @@ namespace
 /// Size in bytes of the UTF-8 character at the start of a string; 0 if it is not valid.
 std::size_t characterSize (std::string_view text)
 {
-    const auto byte = [&] (std::size_t i)
-    { return i < text.size() ? static_cast<unsigned char> (text[i]) : 0u; };
-    const auto follows = [&] (std::size_t i)
-    { return (byte (i) & 0xC0u) == 0x80u; };
+    const auto byte = [&] (std::size_t i) { return i < text.size() ? static_cast<unsigned char> (text[i]) : 0u; };
+    const auto follows = [&] (std::size_t i) { return (byte (i) & 0xC0u) == 0x80u; };
 
     const unsigned first = byte (0);
     if (first < 0x80u) return 1;

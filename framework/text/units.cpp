@@ -211,8 +211,7 @@ double shifted (std::string_view digits, double value, int decimals)
 
 Result<Measure> parseMeasure (std::string_view text)
 {
-    const auto wrong = [text] (const std::string& what)
-    { return Message::error ("unit/syntax", {}, quote (text) + ": " + what); };
+    const auto wrong = [text] (const std::string& what) { return Message::error ("unit/syntax", {}, quote (text) + ": " + what); };
     constexpr auto too_large = "the number is too large or too small for a double";
 
     if (text.size() > 200) return wrong ("too long for a number with a unit");
@@ -236,8 +235,7 @@ Result<Measure> parseMeasure (std::string_view text)
 
     value = shifted (digits, value, product.decimals) * product.factor;
     if (! std::isfinite (value)) return wrong (too_large);
-    const auto narrow = [] (int p)
-    { return static_cast<signed char> (p); };
+    const auto narrow = [] (int p) { return static_cast<signed char> (p); };
     return Measure { value, { narrow (product.m), narrow (product.kg), narrow (product.s) }, product.angular };
 }
 

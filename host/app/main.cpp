@@ -18,8 +18,7 @@ public:
     Window (Look& look, const MainView::Start& how) : DocumentWindow ("Tactus", look.theme().panel, allButtons)
     {
         auto view = std::make_unique<MainView> (catalogue());
-        view->onTitle = [this] (const juce::String& title)
-        { setName (title + " - Tactus"); };
+        view->onTitle = [this] (const juce::String& title) { setName (title + " - Tactus"); };
         setUsingNativeTitleBar (true);
         content = view.get();
         setContentOwned (view.release(), false);
@@ -69,8 +68,7 @@ public:
 
     void systemRequestedQuit() override
     {
-        window->view().closeWhenSaved ([]
-                                       { quit(); });
+        window->view().closeWhenSaved ([] { quit(); });
     }
 
 private:

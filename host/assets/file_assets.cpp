@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 /// Checks that the file exists, is a regular file and is not too large.
 Result<> checkFile (const std::string& path)
 {
-    const auto fail = [] (std::string where, std::string text, std::string remedy)
-    { return Message::error ("asset/unreadable", std::move (where), std::move (text), std::move (remedy)); };
+    const auto fail = [] (std::string where, std::string text,
+                          std::string remedy) { return Message::error ("asset/unreadable", std::move (where), std::move (text), std::move (remedy)); };
     std::error_code problem;
     if (path.find ('\0') != std::string::npos) return fail ({}, "the path contains a NUL", "check the path");
     const auto status = fs::status (path, problem);
@@ -39,8 +39,7 @@ Result<> checkFile (const std::string& path)
 template <typename T>
 auto fromBytes (Result<T> (*read) (std::string_view, std::string_view))
 {
-    return [read] (const std::string& path) -> Result<T>
-    {
+    return [read] (const std::string& path) -> Result<T> {
         std::ifstream in (path, std::ios::binary);
         const std::string bytes { std::istreambuf_iterator<char> (in), {} };
         if (! in) return Message { .id = "asset/unreadable", .where = path, .text = "it is not readable", .remedy = "check its permissions" };
@@ -51,15 +50,13 @@ auto fromBytes (Result<T> (*read) (std::string_view, std::string_view))
 Result<Signal> readSignal (const std::string& path)
 {
     auto signal = readWav (path);
-    const auto fail = [&] (std::string what)
-    { return Message { .id = "asset/signal", .where = path, .text = std::move (what), .remedy = "record or save it again" }; };
+    const auto fail = [&] (std::string what) { return Message::error ("asset/signal", path, std::move (what), "record or save it again"); };
 
     if (! signal) return signal;
     if (! (signal->rate_hz > 0.0)) return fail ("it has no sample rate");
     if (signal->channels.empty() || signal->channels.front().empty()) return fail ("it has no samples");
     for (const auto& channel : signal->channels)
-        if (! std::ranges::all_of (channel, [] (double v)
-                                   { return isFinite (v); }))
+        if (! std::ranges::all_of (channel, [] (double v) { return isFinite (v); }))
             return fail ("it has samples that are not finite numbers");
     return signal;
 }
@@ -79,8 +76,7 @@ Assets::Loaded<T> FileAssets::load (Cache<T>& cache, const std::string& path, Re
     auto fresh = read (path);
     if (! fresh) return std::move (fresh).error();
     auto content = std::make_shared<const T> (std::move (*fresh));
-    std::erase_if (cache, [] (const auto& entry)
-                   { return entry.second.content.expired(); });
+    std::erase_if (cache, [] (const auto& entry) { return entry.second.content.expired(); });
     cache[path] = { written, size, content };
     return content;
 }

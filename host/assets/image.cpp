@@ -94,8 +94,7 @@ Read readJpeg (std::string_view bytes, std::string_view name)
 
     constexpr double white = 255.0;
     auto grid = gridOf (static_cast<std::size_t> (columns), static_cast<std::size_t> (rows));
-    std::ranges::transform (greys, grid.values.begin(), [] (unsigned char grey)
-                            { return grey / white; });
+    std::ranges::transform (greys, grid.values.begin(), [] (unsigned char grey) { return grey / white; });
     return grid;
 }
 }   // namespace

@@ -24,8 +24,7 @@ constexpr Kind kinds[] = { { ".obj", readObj }, { ".off", readOff }, { ".ply", r
 std::string endingOf (std::string_view name)
 {
     auto ending = std::filesystem::path (name).extension().string();
-    std::ranges::transform (ending, ending.begin(), [] (unsigned char c)
-                            { return static_cast<char> (std::tolower (c)); });
+    std::ranges::transform (ending, ending.begin(), [] (unsigned char c) { return static_cast<char> (std::tolower (c)); });
     return ending;
 }
 
@@ -49,8 +48,7 @@ void MeshBuilder::face (std::span<const long long> corners, std::size_t line)
         if (corner < 0 || corner >= points())
             throw MeshProblem { "mesh/no_such_point", "a face refers to a point that is not among the " + std::to_string (points()) + " before it", line };
 
-    const auto at = [&] (std::size_t i)
-    { return joined[static_cast<std::size_t> (corners[i])]; };
+    const auto at = [&] (std::size_t i) { return joined[static_cast<std::size_t> (corners[i])]; };
     for (std::size_t i = 2; i < corners.size(); ++i)
         if (const std::array<int, 3> t { at (0), at (i - 1), at (i) }; t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
             made.triangles.push_back (t);
@@ -66,10 +64,8 @@ std::vector<int> firstNear (const std::vector<Vec3>& points, double reach)
     for (int i = 0; i < static_cast<int> (points.size()); ++i)
     {
         const Vec3& p = points[static_cast<std::size_t> (i)];
-        const auto cellOf = [&] (int axis)
-        { return static_cast<long long> (std::floor (p[axis] / reach)); };
-        const auto near = [&]
-        {
+        const auto cellOf = [&] (int axis) { return static_cast<long long> (std::floor (p[axis] / reach)); };
+        const auto near = [&] {
             for (long long x = -1; x <= 1; ++x)
                 for (long long y = -1; y <= 1; ++y)
                     for (long long z = -1; z <= 1; ++z)
@@ -114,10 +110,8 @@ Mesh MeshBuilder::take() const
     }
     for (const auto& t : made.triangles)
     {
-        const auto to = [&] (std::size_t corner)
-        { return number[static_cast<std::size_t> (t[corner])]; };
-        const auto at = [&] (std::size_t corner) -> const Vec3&
-        { return welded.points[static_cast<std::size_t> (to (corner))]; };
+        const auto to = [&] (std::size_t corner) { return number[static_cast<std::size_t> (t[corner])]; };
+        const auto at = [&] (std::size_t corner) -> const Vec3& { return welded.points[static_cast<std::size_t> (to (corner))]; };
         if ((at (1) - at (0)).cross (at (2) - at (0)).squaredNorm() > 0.0) welded.triangles.push_back ({ to (0), to (1), to (2) });
     }
     return welded;

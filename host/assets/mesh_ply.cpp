@@ -60,8 +60,7 @@ struct Header
 
 Take typeNamed (std::string_view name, std::size_t line)
 {
-    const auto found = std::ranges::find_if (types, [&] (const Type& t)
-                                             { return t.names[0] == name || t.names[1] == name; });
+    const auto found = std::ranges::find_if (types, [&] (const Type& t) { return t.names[0] == name || t.names[1] == name; });
     if (found == std::end (types)) throw MeshProblem { "mesh/syntax", "'" + std::string (name.substr (0, 40)) + "' is not a number type", line };
     return found->take;
 }

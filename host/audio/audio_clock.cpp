@@ -7,14 +7,6 @@
 
 namespace tactus::host::audio
 {
-namespace
-{
-std::chrono::steady_clock::duration durationOf (double s)
-{
-    return std::chrono::duration_cast<std::chrono::steady_clock::duration> (std::chrono::duration<double> (s));
-}
-}   // namespace
-
 void AudioClock::block (int frames, double card_rate_hz) noexcept
 {
     block_s.store (frames / card_rate_hz, std::memory_order_relaxed);
@@ -40,7 +32,7 @@ void AudioClock::block (int frames, double card_rate_hz) noexcept
 
 void AudioClock::drive (Ticked& what) noexcept
 {
-    const auto period = durationOf (1.0 / rate_hz);
+    const auto period = toDuration (1.0 / rate_hz);
     constexpr std::chrono::milliseconds look { 5 };
     ticked = &what;
     release();
@@ -49,7 +41,7 @@ void AudioClock::drive (Ticked& what) noexcept
     while (! over.load (std::memory_order_acquire))
     {
         std::this_thread::sleep_for (look);
-        const auto silence = durationOf (std::max (longest_silence_s, longest_silence_blocks * block_s.load (std::memory_order_relaxed)));
+        const auto silence = toDuration (std::max (longest_silence_s, longest_silence_blocks * block_s.load (std::memory_order_relaxed)));
         const auto now = Clock::now();
         if (const auto n = blocks.load (std::memory_order_acquire); n != seen)
         {

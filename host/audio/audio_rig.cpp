@@ -31,8 +31,7 @@ std::unique_ptr<AudioDevice> AudioRig::open (AudioRole role, Messages& messages)
         messages.push_back (Message::error ("audio/late", "", "the sound card is already open and cannot take another role", "restart the run"));
         return nullptr;
     }
-    auto device = std::make_unique<AudioDevice> (std::move (role), plays, [this] (const AudioDevice& gone)
-                                                 { std::erase (devices, &gone); });
+    auto device = std::make_unique<AudioDevice> (std::move (role), plays, [this] (const AudioDevice& gone) { std::erase (devices, &gone); });
     devices.push_back (device.get());
     return device;
 }
@@ -63,8 +62,7 @@ std::vector<std::string> AudioRig::ports() const
 
 bool AudioRig::isOptional (const std::string& port) const
 {
-    return lenient || std::ranges::any_of (wanted.routes, [&] (const Route& r)
-                                           { return r.port == port && r.if_there; });
+    return lenient || std::ranges::any_of (wanted.routes, [&] (const Route& r) { return r.port == port && r.if_there; });
 }
 
 Messages AudioRig::begin (const Plan& plan, double tick_rate_hz, const Engine* e)
@@ -98,8 +96,8 @@ Messages AudioRig::chooseRoutes (const Plan& plan, std::vector<Route>& played, s
             if (isPartOf (tap.name, route.port))
                 if (const auto wrong = unitProblem (route.full_scale, tap.unit); ! wrong.empty())
                 {
-                    messages.push_back (Message::error ("audio/unit", route.where, tap.name + ": " + wrong,
-                                                        "calibrate the channel in " + tap.unit + ", or leave the unit out"));
+                    const auto remedy = "calibrate the channel in " + tap.unit + ", or leave the unit out";
+                    messages.push_back (Message::error ("audio/unit", route.where, tap.name + ": " + wrong, remedy));
                     break;
                 }
         if (route.if_there)
@@ -299,9 +297,7 @@ void AudioRig::playRest() const
     using namespace std::chrono_literals;
     auto last = std::chrono::steady_clock::now();
     auto seen = keeper.blocks();
-    const auto flows = [&]
-    { return std::ranges::any_of (lanes, [] (const auto& l)
-                                  { return l->stream.report().flows != 0; }); };
+    const auto flows = [&] { return std::ranges::any_of (lanes, [] (const auto& l) { return l->stream.report().flows != 0; }); };
     const auto goes = [&]   // blocks still arrive
     {
         const auto now = std::chrono::steady_clock::now();

@@ -96,8 +96,8 @@ std::vector<ChannelUse> readChannels (ObjectReader& in, const char* key, bool ar
 
 bool isSame (std::string_view a, std::string_view b)
 {
-    return std::ranges::equal (a, b, [] (char x, char y)
-                               { return std::tolower (static_cast<unsigned char> (x)) == std::tolower (static_cast<unsigned char> (y)); });
+    return std::ranges::equal (a, b,
+                               [] (char x, char y) { return std::tolower (static_cast<unsigned char> (x)) == std::tolower (static_cast<unsigned char> (y)); });
 }
 }   // namespace
 
@@ -152,8 +152,7 @@ AudioRole readAudioRole (const Json& description, Messages& messages)
 
 Result<Route> parseRoute (std::string_view text)
 {
-    const auto wrong = [&] (std::string what)
-    {
+    const auto wrong = [&] (std::string what) {
         return Message::error ("audio/route", "--route " + std::string (text), std::move (what),
                                "write PORT=CHANNEL or PORT=CHANNEL@FULLSCALE, as in mix.out=3@\"4 N\"; channels count from 1");
     };
@@ -180,10 +179,8 @@ Result<Route> parseRoute (std::string_view text)
 CardWanted parseCard (std::string_view text, const std::vector<std::string>& types)
 {
     CardWanted wanted;
-    const auto typeNamed = [&] (std::string_view name)
-    {
-        const auto it = std::ranges::find_if (types, [&] (const std::string& t)
-                                              { return isSame (t, name); });
+    const auto typeNamed = [&] (std::string_view name) {
+        const auto it = std::ranges::find_if (types, [&] (const std::string& t) { return isSame (t, name); });
         return it == types.end() ? std::string() : *it;
     };
     const auto colon = text.find (':');

@@ -27,11 +27,11 @@ void CardCapture::note (const float* const* channels, int count, int frames) noe
 Result<> CardCapture::drain()
 {
     Result<> result;
-    ring.drain ([&] (std::span<const double> frame)
-                {
+    ring.drain ([&] (std::span<const double> frame) {
         if (has_failed) return;
         result = writer.frame (frame);
-        has_failed = ! result; });
+        has_failed = ! result;
+    });
     return result;
 }
 

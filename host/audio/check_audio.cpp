@@ -18,8 +18,7 @@ Json withoutUnit (Json guard, const AudioRole& role)
     const auto limit = guard.find ("max_signal");
     if (limit == guard.end() || ! limit->is_string()) return guard;
     const auto measure = parseMeasure (limit->asString());
-    const auto fits = [&] (const ChannelUse& use)
-    { return use.full_scale.dimension == measure->dimension; };
+    const auto fits = [&] (const ChannelUse& use) { return use.full_scale.dimension == measure->dimension; };
     if (measure && ! role.outputs.empty() && std::ranges::all_of (role.outputs, fits)) *limit = measure->value;
     return guard;
 }

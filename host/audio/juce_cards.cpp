@@ -215,8 +215,7 @@ Result<std::unique_ptr<OpenCard>> JuceCards::open (const CardWanted& wanted, int
     const auto type_name = textOf (chosen.type->getTypeName()), name = type_name + ":" + chosen.name();
     if (! device) return cannot ("cannot_open", name + " cannot be opened", "check that no other program has exclusive access to it");
 
-    const auto lacks = [&] (const juce::StringArray& channels, const char* kind, int needed)
-    {
+    const auto lacks = [&] (const juce::StringArray& channels, const char* kind, int needed) {
         return cannot ("channel", name + " has " + std::to_string (channels.size()) + kind + ", but channel " + std::to_string (needed) + " was requested",
                        "use one of its channels, or another card; " + cards);
     };
@@ -224,10 +223,8 @@ Result<std::unique_ptr<OpenCard>> JuceCards::open (const CardWanted& wanted, int
     if (const auto has = device->getInputChannelNames(); inputs > has.size()) return lacks (has, " inputs", inputs);
 
     const auto rates = device->getAvailableSampleRates();
-    const auto same = [] (double a, double b)
-    { return std::abs (a - b) < 0.5; };
-    if (wanted.rate_hz > 0.0 && std::ranges::none_of (rates, [&] (double r)
-                                                      { return same (r, wanted.rate_hz); }))
+    const auto same = [] (double a, double b) { return std::abs (a - b) < 0.5; };
+    if (wanted.rate_hz > 0.0 && std::ranges::none_of (rates, [&] (double r) { return same (r, wanted.rate_hz); }))
         return cannot ("rate", name + " does not run at " + numberText (wanted.rate_hz) + " Hz", "its rates: " + listOf (rates));
     double rate = wanted.rate_hz;
     if (rate == 0.0) rate = rates.isEmpty() || rates.contains (48000.0) ? 48000.0 : rates[0];

@@ -38,8 +38,7 @@ void PortMixer::find (const Plan& p) noexcept
         for (std::size_t i = 0; i < p.taps().size() && sent.parts < most_parts; ++i)
         {
             const auto seen = std::span (sent.taps).first (sent.parts);
-            const bool again = std::ranges::any_of (seen, [&] (std::uint32_t j)
-                                                    { return p.taps()[j].name == p.taps()[i].name; });
+            const bool again = std::ranges::any_of (seen, [&] (std::uint32_t j) { return p.taps()[j].name == p.taps()[i].name; });
             if (! again && isPartOf (p.taps()[i].name, sent.route.port)) sent.taps[sent.parts++] = static_cast<std::uint32_t> (i);
         }
     }

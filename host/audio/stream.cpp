@@ -159,8 +159,7 @@ void InStream::take (std::span<const float> frames) noexcept
     const bool runs = card.clocks == Clocks::apart && heard.load (std::memory_order_relaxed);
     const double correction = runs ? servo (error_s, count / card.rate_hz) : 0.0;
     const double ratio = hz / card.rate_hz * (1.0 - correction);
-    const auto put = [&] (const float* samples, int n)
-    {
+    const auto put = [&] (const float* samples, int n) {
         for (int i = 0; i < n; ++i)
             if (! fifo.push ({ samples + i * lanes, static_cast<std::size_t> (lanes) })) break;
     };
@@ -215,16 +214,14 @@ std::span<const float> InStream::pop() noexcept
         const auto next = fifo.front();
         const double in = fade_in_s * setup.tick_side_hz;
         const float part = faded < in ? raised (++faded / in) : 1.0f;
-        std::ranges::transform (next.first (frame.size()), frame.begin(), [part] (float v)
-                                { return v * part; });
+        std::ranges::transform (next.first (frame.size()), frame.begin(), [part] (float v) { return v * part; });
         std::ranges::copy (frame, last.begin());
         fifo.take (1);
         return frame;
     }
     const float part = faded < all ? raised (1.0 - (faded + 1) / all) : 0.0f;
     if (faded < all) ++faded;
-    std::ranges::transform (last, frame.begin(), [part] (float v)
-                            { return v * part; });
+    std::ranges::transform (last, frame.begin(), [part] (float v) { return v * part; });
     return frame;
 }
 

@@ -14,8 +14,7 @@ constexpr int block = 200;   // ticks per round: about 100 us, which is shorter 
 
 std::function<void (int)> blocksOf (const Contest& contest, const Contest::Make& make)
 {
-    return [&inputs = contest.inputs, variant = std::shared_ptr<Variant> (make())] (int round)
-    {
+    return [&inputs = contest.inputs, variant = std::shared_ptr<Variant> (make())] (int round) {
         auto at = static_cast<std::size_t> (round) * block % inputs.size();
         for (int k = 0; k < block; ++k)
         {
@@ -27,8 +26,7 @@ std::function<void (int)> blocksOf (const Contest& contest, const Contest::Make&
 
 std::function<void (int)> compiling (int nodes, int times)
 {
-    return [g = shuffled (treeOfOnePoles (nodes)), times] (int)
-    {
+    return [g = shuffled (treeOfOnePoles (nodes)), times] (int) {
         for (int i = 0; i < times; ++i)
             compile (g, catalogue());
     };
@@ -37,8 +35,7 @@ std::function<void (int)> compiling (int nodes, int times)
 
 bool Results::agree() const
 {
-    return std::ranges::all_of (agreements, [] (const Agreed& a)
-                                { return a.found.agree; });
+    return std::ranges::all_of (agreements, [] (const Agreed& a) { return a.found.agree; });
 }
 
 void agree (Results& results)
@@ -52,14 +49,12 @@ void agree (Results& results)
 
 void time (Results& results, bool quick, bool quiet)
 {
-    const auto add = [&] (Pair pair)
-    { results.pairs.push_back (std::make_unique<Pair> (std::move (pair))); };
+    const auto add = [&] (Pair pair) { results.pairs.push_back (std::make_unique<Pair> (std::move (pair))); };
 
     for (const auto& [contest, found] : results.agreements)
         add ({ contest.key, blocksOf (contest, contest.make_first), blocksOf (contest, contest.make_second), block, block, quick ? 40 : 4000 });
 
-    const auto rebuild = [edit = juceEdits (shuffled (treeOfOnePoles (1000)))] (int)
-    { edit(); };
+    const auto rebuild = [edit = juceEdits (shuffled (treeOfOnePoles (1000)))] (int) { edit(); };
     add ({ "juce_rebuild1000/compile1000", rebuild, compiling (1000, 20), 1.0, 20.0, quick ? 1 : 15 });
     add ({ "compile10000/compile1000", compiling (10000, 1), compiling (1000, 10), 1.0, 10.0, quick ? 2 : 60 });
 

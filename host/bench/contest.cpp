@@ -36,8 +36,7 @@ std::vector<Contest::Row> chirp()
 
 Contest::Make planOf (graph::Graph g)
 {
-    return [g = std::move (g)]
-    { return std::make_unique<Planned> (g, g.root.find ("p0") ? endsOf (g) : CompileOptions {}); };
+    return [g = std::move (g)] { return std::make_unique<Planned> (g, g.root.find ("p0") ? endsOf (g) : CompileOptions {}); };
 }
 
 bool sameBits (double a, double b) { return std::bit_cast<std::uint64_t> (a) == std::bit_cast<std::uint64_t> (b); }
@@ -51,11 +50,9 @@ std::vector<Contest> contests()
     return {
         { "plan/hand", plan, "hand-written", "reference graph", planOf (reference()), handwritten, stroke() },
         { "juce/plan", juce, plan, "reference graph", juceReference, planOf (reference()), stroke() },
-        { "juce_tree100/plan", juce, plan, "tree of 100 one-poles", [tree]
-          { return juceOnePoles (tree); },
+        { "juce_tree100/plan", juce, plan, "tree of 100 one-poles", [tree] { return juceOnePoles (tree); },
           planOf (tree), chirp() },
-        { "plan/faust_chain100", plan, "Faust", "chain of 100 one-poles", planOf (chain), []
-          { return std::make_unique<FaustVariant>(); },
+        { "plan/faust_chain100", plan, "Faust", "chain of 100 one-poles", planOf (chain), [] { return std::make_unique<FaustVariant>(); },
           chirp(), 1e-12 },
     };
 }

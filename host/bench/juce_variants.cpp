@@ -61,8 +61,7 @@ JuceReference::JuceReference()
 {
     Kernels k { device };
     JuceGraph::Processors made;
-    const auto add = [&]<Node N> (const char* name, N& node)
-    {
+    const auto add = [&]<Node N> (const char* name, N& node) {
         auto processor = std::make_unique<KernelProcessor<N>> (std::move (node));
         if constexpr (std::is_same_v<N, nodes::DeviceForce>) motor = &processor->kernel();
         made[name] = std::move (processor);
@@ -105,8 +104,7 @@ std::unique_ptr<Variant> juceOnePoles (const graph::Graph& g) { return std::make
 
 std::function<void()> juceEdits (const graph::Graph& g)
 {
-    return [edited = std::make_shared<JuceOnePoles> (g)]
-    { edited->edit(); };
+    return [edited = std::make_shared<JuceOnePoles> (g)] { edited->edit(); };
 }
 
 }   // namespace tactus::bench

@@ -63,8 +63,7 @@ public:
             latest = node.tick (in);
 
         auto* const* channel = buffer.getArrayOfWritePointers();
-        const auto give = [&] (const auto& row)
-        {
+        const auto give = [&] (const auto& row) {
             if constexpr (std::remove_cvref_t<decltype (row)>::role == Role::output)
             {
                 const auto& value = latest.*row.member;
@@ -75,8 +74,7 @@ public:
                     **channel++ = value;
             }
         };
-        std::apply ([&] (const auto&... row)
-                    { (give (row), ...); },
+        std::apply ([&] (const auto&... row) { (give (row), ...); },
                     N::ports);
     }
 
@@ -88,14 +86,12 @@ private:
     static int componentsOf (const N& n)
     {
         int components = 0;
-        const auto count = [&] (const auto& row)
-        {
+        const auto count = [&] (const auto& row) {
             using R = std::remove_cvref_t<decltype (row)>;
             using Shape = detail::Shape<typename R::Value>;
             if constexpr (R::role == role) components += Shape::width * (Shape::list ? detail::listSize (n) : 1);
         };
-        std::apply ([&] (const auto&... row)
-                    { (count (row), ...); },
+        std::apply ([&] (const auto&... row) { (count (row), ...); },
                     N::ports);
         return components;
     }

@@ -43,8 +43,7 @@ void printAgreements (const Results& results)
 
 std::string timeText (double seconds)
 {
-    const auto in = [seconds] (double factor, const char* unit)
-    {
+    const auto in = [seconds] (double factor, const char* unit) {
         char text[32];
         return std::string (text, static_cast<std::size_t> (std::snprintf (text, sizeof text, "%.4g %s", seconds * factor, unit)));
     };

@@ -33,14 +33,12 @@ double cutoffOf (int pole) { return 200.0 + 10.0 * (pole % 100); }
 
 graph::Graph chainOfOnePoles (int n)
 {
-    return onePoles (n, [] (int pole)
-                     { return pole - 1; });
+    return onePoles (n, [] (int pole) { return pole - 1; });
 }
 
 graph::Graph treeOfOnePoles (int n)
 {
-    return onePoles (n, [] (int pole)
-                     { return (pole - 1) / 2; });
+    return onePoles (n, [] (int pole) { return (pole - 1) / 2; });
 }
 
 graph::Graph shuffled (graph::Graph g)
@@ -56,8 +54,7 @@ CompileOptions endsOf (const graph::Graph& g)
 {
     CompileOptions options { .feeds = { "p0.in" } };
     for (const auto& node : g.root.nodes)
-        if (std::ranges::none_of (g.root.wires, [&] (const graph::Wire& w)
-                                  { return w.from.node == node.name; }))
+        if (std::ranges::none_of (g.root.wires, [&] (const graph::Wire& w) { return w.from.node == node.name; }))
             options.records.push_back (node.name + ".out");
     return options;
 }

@@ -38,8 +38,7 @@ void run (Pair& pair, benchmark::State& state)
         ++round;
     }
     const auto slash = pair.name.find ('/');
-    const auto time = [] (const std::vector<double>& seconds)
-    { return benchmark::Counter (medianOf (seconds)); };
+    const auto time = [] (const std::vector<double>& seconds) { return benchmark::Counter (medianOf (seconds)); };
     state.counters[pair.name.substr (0, slash) + "_s"] = time (pair.first_s);
     state.counters[pair.name.substr (slash + 1) + "_s"] = time (pair.second_s);
 }
@@ -56,8 +55,7 @@ Ratio Pair::ratio() const
 void measure (std::vector<std::unique_ptr<Pair>>& pairs, bool quiet)
 {
     for (auto& pair : pairs)
-        benchmark::RegisterBenchmark (pair->name.c_str(), [&pair = *pair] (benchmark::State& state)
-                                      { run (pair, state); })
+        benchmark::RegisterBenchmark (pair->name.c_str(), [&pair = *pair] (benchmark::State& state) { run (pair, state); })
             ->UseManualTime()
             ->Iterations (pair->rounds)
             ->Unit (benchmark::kMicrosecond);

@@ -11,8 +11,7 @@ Ratio ratioOf (std::vector<double> rounds)
 {
     std::ranges::sort (rounds);
     const auto n = static_cast<double> (rounds.size());
-    const auto at = [&] (double rank)
-    { return rounds[static_cast<std::size_t> (std::clamp (rank, 0.0, n - 1.0))]; };
+    const auto at = [&] (double rank) { return rounds[static_cast<std::size_t> (std::clamp (rank, 0.0, n - 1.0))]; };
 
     const double spread = 0.5 * 1.96 * std::sqrt (n);   // half the confidence interval, in rounds
     return { .median = medianOf (rounds), .low = at (std::floor (0.5 * n - spread)), .high = at (std::ceil (0.5 * n + spread) - 1.0) };

@@ -43,10 +43,14 @@ CommandRun::CommandRun (const RunOptions& o, Pace pace) : options (o), loaded (l
         decideClock();
     }
 
-    CompileOptions compile { .rate_hz = asked_rate_hz, .records = options.records, .overrides = readSets (options.sets), .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } };
+    CompileOptions compile { .rate_hz = asked_rate_hz,
+                             .records = options.records,
+                             .overrides = readSets (options.sets),
+                             .assets = &assets,
+                             .services = { .nearest_triangle = nearestByEmbree } };
     if (feed) compile.feeds = feed->drives();
-    const auto opener = [this] (const std::string& role, const graph::Graph& graph, const Plan& plan, Messages& messages)
-    { return open (role, graph, plan, messages); };
+    const auto opener = [this] (const std::string& role, const graph::Graph& graph, const Plan& plan,
+                                Messages& messages) { return open (role, graph, plan, messages); };
     running = std::make_unique<Run> (catalogue(), std::move (compile), opener, pace == Pace::live ? Run::Queries::on_thread : Run::Queries::within_tick);
     load();
     openDevices();
@@ -107,8 +111,7 @@ void CommandRun::chooseAudio()
 std::vector<Described> CommandRun::devicesByRole() const
 {
     auto described = loaded.graph.devices;
-    const auto describe = [&] (const std::string& role, const Json& description)
-    {
+    const auto describe = [&] (const std::string& role, const Json& description) {
         const auto at = std::ranges::find (described, role, &Described::first);
         if (at != described.end())
             at->second = description;
@@ -125,8 +128,10 @@ std::vector<Described> CommandRun::devicesByRole() const
 /// A device with its own clock ticks the run at its own rate, unless an option or the session says otherwise.
 void CommandRun::decideClock()
 {
-    const auto rateOf = [&] (const Described& d, bool may_wait)
-    { return real.tickRate (d.second, may_wait && ! options.strict && device_session.session.binding (d.first) != nullptr); };
+    const auto rateOf = [&] (const Described& d, bool may_wait) {
+        const bool is_bound = device_session.session.binding (d.first) != nullptr;
+        return real.tickRate (d.second, may_wait && is_bound && ! options.strict);
+    };
     ClockWish wish { options.clock, device_session.session.clock(), {} };
     if (options.rate_hz > 0.0 || feed) wish.rate_hz = asked_rate_hz;
     auto choice = host::chooseClock (wish, devicesByRole(), rateOf);
@@ -217,8 +222,7 @@ Run::RoleDevice CommandRun::open (const std::string& role, const graph::Graph& g
 Run::RoleDevice CommandRun::openBySession (const std::string& role, RoleBinding binding, const Plan& plan, Messages& messages)
 {
     if (audio::isAudio (binding.description)) binding.description = audio::withChannels (binding.description, plan, role);
-    const auto openOne = [this] (const Json& description, const std::filesystem::path& from)
-    { return real.open (description, from); };
+    const auto openOne = [this] (const Json& description, const std::filesystem::path& from) { return real.open (description, from); };
     auto bound = openBound (device_session, role, binding, openOne, hid::thisComputer(), real.profiles(), options.strict ? Absence::refuses : Absence::waits);
     std::ranges::move (bound.messages, std::back_inserter (messages));
     return { std::move (bound.device), bound.limits, bound.driver };
@@ -310,8 +314,7 @@ Messages CommandRun::notTakenOver (const graph::Graph& graph) const
 std::vector<std::filesystem::path> CommandRun::files() const
 {
     std::vector<std::filesystem::path> all { options.graph };
-    const auto add = [&] (const auto& self, const graph::Graph& graph) -> void
-    {
+    const auto add = [&] (const auto& self, const graph::Graph& graph) -> void {
         for (const auto& [written, file] : graph.files)
         {
             auto path = std::filesystem::path (graph.folder) / written;
@@ -330,8 +333,7 @@ std::vector<std::filesystem::path> CommandRun::inputs() const
     if (! options.feed.empty()) all.emplace_back (options.feed);
     const auto& assets_read = running->assetPaths();
     all.insert (all.end(), assets_read.begin(), assets_read.end());
-    const auto add = [&] (const std::filesystem::path& from, const Json& description)
-    {
+    const auto add = [&] (const std::filesystem::path& from, const Json& description) {
         for (const auto* at : { "/path", "/hand/path" })
             if (const JsonPointer path (at); description.is_object() && description.contains (path) && description.at (path).is_string())
                 all.push_back (from / description.at (path).get<std::string>());
@@ -351,13 +353,14 @@ std::vector<std::filesystem::path> CommandRun::inputs() const
 
 void CommandRun::reportRun() const
 {
+    constexpr Guard::Stop no_limits[] { Guard::Stop::none, Guard::Stop::halted, Guard::Stop::released };
     for (const auto& [role, d] : running->devices())
-        if (const auto& event = running->engine().guardOf (role).latest(); event.why != Guard::Stop::none
-                                                                           && event.why != Guard::Stop::halted && event.why != Guard::Stop::released)
+        if (const auto& event = running->engine().guardOf (role).latest(); std::ranges::count (no_limits, event.why) == 0)
             std::cerr << role << ": warning: the guard withheld the force: " << describe (event) << '\n';
-    if (const auto late = running->lateTicks(); late > 0)
-        std::cerr << "warning: " << late << (late == 1 ? " time" : " times") << " an async query (the search of a large surface) was answered too late\n"
-                                                                                "    give it more ticks in the settings of the node, as in search_ticks [run/late_answers]\n";
+    const auto late = running->lateTicks();
+    if (late == 0) return;
+    std::cerr << "warning: " << late << (late == 1 ? " time" : " times") << " an async query (the search of a large surface) was answered too late\n";
+    std::cerr << "    give it more ticks in the settings of the node, as in search_ticks [run/late_answers]\n";
 }
 
 }   // namespace tactus::host

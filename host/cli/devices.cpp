@@ -68,8 +68,7 @@ std::string_view nameOf (Bus bus)
 /// How much of a profile has been verified on a real device.
 std::string_view verifiedOf (const Profile& p)
 {
-    const auto seen = [] (const auto& report)
-    { return report.verified; };
+    const auto seen = [] (const auto& report) { return report.verified; };
     const auto all = std::ranges::all_of (p.inputs, seen) && std::ranges::all_of (p.outputs, seen);
     const auto any = std::ranges::any_of (p.inputs, seen) || std::ranges::any_of (p.outputs, seen);
     if (all) return "verified";
@@ -86,8 +85,7 @@ std::vector<Listed> listAll (const LoadedProfiles& profiles)
         if (fitting.empty() && hasForceFeedback (thisComputer(), device))
             if (auto pid = profileOf (thisComputer(), device, std::nullopt, unable)) fitting.push_back (std::move (pid));
         const bool may_open = thisComputer().mayOpen (device);
-        std::erase_if (unable, [] (const Message& m)
-                       { return m.severity == Message::Severity::warning; });
+        std::erase_if (unable, [] (const Message& m) { return m.severity == Message::Severity::warning; });
         all.push_back ({ std::move (device), std::move (fitting), may_open, std::move (unable) });
     }
     return all;
@@ -195,8 +193,7 @@ public:
         const double rate_hz = static_cast<double> (counts.reports) / seconds;
         out << counts.reports << " reports, " << numberText (std::round (rate_hz)) << " per second, " << describe (device.counts(), counts) << '\n';
         if (m.hasPosition()) out << "    position " << vector (latest.position, 1e3) << " mm\n";
-        const bool rotates = ! std::ranges::all_of (port.profile()->rotation, [] (const auto& terms)
-                                                    { return terms.empty(); });
+        const bool rotates = ! std::ranges::all_of (port.profile()->rotation, [] (const auto& terms) { return terms.empty(); });
         if (rotates) out << "    rotation " << vector (latest.rotation, 1.0) << " rad\n";
         if (! port.profile()->pressure.empty()) out << "    pressure " << rounded (latest.pressure) << " N\n";
         out << "   ";
@@ -225,8 +222,7 @@ public:
             axes[m.axisNames()[i]] = m.sample().axes[i];
         for (std::size_t i = 0; i < refusals; ++i)
             if (read.refused[i] > 0) refused[std::string (describe (static_cast<Refusal> (i)))] = read.refused[i];
-        const auto list = [] (const Vec3& v)
-        { return Json { v.x(), v.y(), v.z() }; };
+        const auto list = [] (const Vec3& v) { return Json { v.x(), v.y(), v.z() }; };
         return { { "profile", port.profile()->id },
                  { "connected", port.isConnected() },
                  { "valid", latest.valid },
@@ -295,16 +291,14 @@ void probe (const std::vector<Listed>& all, const Options& options, Json& json)
     auto probed = openAll (all);
     if (probed.empty())
     {
-        const bool any_fits = std::ranges::any_of (all, [] (const Listed& l)
-                                                   { return ! l.profiles.empty(); });
+        const bool any_fits = std::ranges::any_of (all, [] (const Listed& l) { return ! l.profiles.empty(); });
         if (any_fits) throw Stop {};   // the reason has already been printed
         return;
     }
 
     const bool live = ! options.json && stderrIsTerminal();
     const auto begin = Clock::now();
-    const auto show = [&]
-    {
+    const auto show = [&] {
         const double seconds = std::max (1e-3, std::chrono::duration<double> (Clock::now() - begin).count());
         std::string text;
         for (const auto& p : probed)
@@ -363,8 +357,7 @@ void run (const Options& options)
             std::cout << textOf (card);
     if (options.probe && ! all.empty())
     {
-        if (! options.json && std::ranges::all_of (all, [] (const Listed& l)
-                                                   { return l.profiles.empty(); }))
+        if (! options.json && std::ranges::all_of (all, [] (const Listed& l) { return l.profiles.empty(); }))
             std::cout << "None of the connected HID devices has a profile; `tactus devices` lists them.\n";
         probe (all, options, json);
     }
@@ -386,8 +379,7 @@ void addDevices (const Command& app)
                     "  tactus devices\n"
                     "  tactus devices --probe\n"
                     "  tactus devices --probe --duration 2 --json");
-    command.callback ([options]
-                      { run (*options); });
+    command.callback ([options] { run (*options); });
 }
 
 }   // namespace tactus::host

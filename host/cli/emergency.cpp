@@ -22,13 +22,10 @@ Emergency::Emergency (Engine& e) : engine (e), pressed_at (-std::numeric_limits<
     static_assert (std::atomic<double>::is_always_lock_free, "a signal handler writes it");
     under_signals = this;
     asked_by_signal = false;
-    watchForEmergency ([]() noexcept
-                       { under_signals.load()->press(); },
-                       []() noexcept
-                       { asked_by_signal = true; });
+    watchForEmergency ([]() noexcept { under_signals.load()->press(); },
+                       []() noexcept { asked_by_signal = true; });
     if (hasKeys())
-        reading = std::jthread ([this] (const std::stop_token& stop)
-                                { readKeys (stop); });
+        reading = std::jthread ([this] (const std::stop_token& stop) { readKeys (stop); });
 }
 
 Emergency::~Emergency() { watchForEmergency (nullptr, nullptr); }

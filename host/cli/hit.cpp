@@ -63,8 +63,7 @@ void addHit (const Command& app)
                     "Examples:\n"
                     "  tactus hit ring.hit\n"
                     "  tactus hit ring.hit=0.4 click.hit=2");
-    command.callback ([options]
-                      { run (*options); });
+    command.callback ([options] { run (*options); });
 }
 
 }   // namespace tactus::host

@@ -40,8 +40,7 @@ void LiveRecording::giveUp (std::vector<Message> failed)
 
 void LiveRecording::drain()
 {
-    ring.drain ([this] (std::span<const double> frame)
-                { giveUp (recorder.frame (static_cast<std::uint64_t> (frame[0]), frame.subspan (1))); });
+    ring.drain ([this] (std::span<const double> frame) { giveUp (recorder.frame (static_cast<std::uint64_t> (frame[0]), frame.subspan (1))); });
 }
 
 std::optional<Message> LiveRecording::commit()

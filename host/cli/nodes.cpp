@@ -60,9 +60,7 @@ std::string rangeText (const Interval& i)
 void print (const std::vector<std::vector<std::string>>& rows)
 {
     std::vector<std::size_t> width;
-    const auto letters = [] (const std::string& s)
-    { return static_cast<std::size_t> (std::ranges::count_if (s, [] (char c)
-                                                              { return (c & 0xc0) != 0x80; })); };
+    const auto letters = [] (const std::string& s) { return static_cast<std::size_t> (std::ranges::count_if (s, [] (char c) { return (c & 0xc0) != 0x80; })); };
     for (const auto& row : rows)
     {
         width.resize (std::max (width.size(), row.size()));
@@ -82,8 +80,7 @@ void printDatasheet (const NodeType& t)
     std::cout << t.info.id << ": " << t.info.name << "\n"
               << t.info.summary << "\nSource: " << t.info.source << "\n";
 
-    const auto section = [] (const char* title, const std::vector<PortSheet>& ports, bool with_default)
-    {
+    const auto section = [] (const char* title, const std::vector<PortSheet>& ports, bool with_default) {
         if (ports.empty()) return;
         std::cout << '\n'
                   << title << '\n';
@@ -187,8 +184,7 @@ Json toJson (const SettingSheet& s)
 Json toJson (const NodeType& t)
 {
     Json j = { { "id", t.info.id }, { "name", t.info.name }, { "summary", t.info.summary }, { "source", t.info.source } };
-    const auto all = [&] (const char* key, const auto& sheets)
-    {
+    const auto all = [&] (const char* key, const auto& sheets) {
         j[key] = Json::array();
         for (const auto& s : sheets)
             j[key].push_back (toJson (s));
@@ -204,8 +200,7 @@ void listAll()
 {
     std::string family;
     std::vector<std::vector<std::string>> rows;
-    const auto flush = [&]
-    {
+    const auto flush = [&] {
         if (! rows.empty()) std::cout << family << '\n';
         print (rows);
         rows.clear();
@@ -264,8 +259,7 @@ void addNodes (const Command& app)
                     "  tactus nodes\n"
                     "  tactus nodes deform.plane\n"
                     "  tactus nodes --json | jq '.[].id'");
-    command.callback ([options]
-                      { run (options->type, options->json); });
+    command.callback ([options] { run (options->type, options->json); });
 }
 
 }   // namespace tactus::host

@@ -30,8 +30,7 @@ juce::OSCMessage OscClient::answer()
 void OscClient::check (const juce::OSCMessage& m)
 {
     if (m.getAddressPattern().toString() != "/tactus/error") return;
-    const auto text = [&] (int i)
-    { return m.size() > i && m[i].isString() ? m[i].getString().toStdString() : std::string(); };
+    const auto text = [&] (int i) { return m.size() > i && m[i].isString() ? m[i].getString().toStdString() : std::string(); };
     fail (Message::error (text (2), text (1), text (3), text (4)));
 }
 

@@ -21,8 +21,7 @@ void refuseOverwriting (const std::vector<std::string>& outputs, const std::vect
 {
     for (auto out = outputs.begin(); out != outputs.end(); ++out)
     {
-        const auto is_it = [&] (const std::filesystem::path& other)
-        { return isSame (*out, other); };
+        const auto is_it = [&] (const std::filesystem::path& other) { return isSame (*out, other); };
         if (std::ranges::any_of (inputs, is_it))
             fail (Message::error ("output/is_input", *out, "this file is read by the run and would be overwritten", "name another file"));
         if (std::any_of (outputs.begin(), out, is_it)) fail (Message::error ("output/twice", *out, "this file would be written twice", "name two files"));

@@ -64,7 +64,10 @@ std::unique_ptr<RunClock> clockOf (const CommandRun& command)
     char took[32];
     std::snprintf (took, sizeof took, "%.3f", 1e3 * runner.account().computing().quantile (0.5));
     const auto costs = runner.costs();
-    fail ("run/overrun", "stopped, because the graph takes longer than a tick period: " + std::string (took) + " ms of " + numberText (1e3 / rate_hz) + " ms; " + (costs.empty() ? "no node was measured" : describe (costs.front())), "simplify the graph, or use a lower --rate");
+    const auto worst = costs.empty() ? "no node was measured" : describe (costs.front());
+    fail ("run/overrun",
+          "stopped, because the graph takes longer than a tick period: " + std::string (took) + " ms of " + numberText (1e3 / rate_hz) + " ms; " + worst,
+          "simplify the graph, or use a lower --rate");
 }
 
 /// Reports an error of the capture. The run continues without it.
@@ -136,8 +139,7 @@ private:
         if (options.watch && i % 10 == 0 && file_watch.look()) reload();
         if (control)
         {
-            command.probes().drain ([&] (std::uint64_t tick, std::span<const double> values)
-                                    { control->values (tick, values); });
+            command.probes().drain ([&] (std::uint64_t tick, std::span<const double> values) { control->values (tick, values); });
             control->attend();
         }
         if (i % 5 != 0) return;
@@ -221,9 +223,8 @@ void addPlay (const Command& app)
         .oneValueEach();
     command.addOption ("--audio", options->card, "The sound card: TYPE:NAME, TYPE or NAME, as `tactus devices` lists them");
     command.addOption ("--capture", options->capture, "Write the signal to the sound card into this WAV file");
-    const auto osc = command.addOption ("--osc", options->osc,
-                                        "The UDP port for OSC from this machine (docs/osc.md); 0 for any free port, off, or ADDRESS:PORT for OSC from other machines too")
-                         .check (oscCheck());
+    const auto* osc_help = "The UDP port for OSC from this machine (docs/osc.md); 0 for any free port, off, or ADDRESS:PORT for OSC from other machines too";
+    const auto osc = command.addOption ("--osc", options->osc, osc_help).check (oscCheck());
     command.addOption ("--osc-answer", options->osc_answer, "Address of the only other machine that gets answers, such as 192.168.1.7").check (addressCheck());
     command.footer ("However the run stops, the guards first bring all forces smoothly to zero. The space bar or SIGUSR1 is the emergency\n"
                     "stop: no forces, but the graph keeps running. R rearms, a second later or more; this also clears a stop by a limit.\n"
@@ -237,10 +238,10 @@ void addPlay (const Command& app)
                     "  tactus play graphs/dry_wood.json --record drag.force,drag.state --out wood.csv\n"
                     "  tactus play graphs/steel_bar.json --route bar.value=1@\"2 N\" --audio JACK\n"
                     "  tactus play graphs/dry_wood.json --log wood.jsonl");
-    command.callback ([options, osc]
-                      {
+    command.callback ([options, osc] {
         options->osc_asked_for = osc.isGiven();
-        run (*options); });
+        run (*options);
+    });
 }
 
 }   // namespace tactus::host

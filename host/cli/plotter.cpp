@@ -19,8 +19,7 @@ Quantity axisOf (const Tap& tap)
 
 bool isSilent (const Axes& panel)
 {
-    return std::ranges::all_of (panel.series, [] (const Series& s)
-                                { return std::ranges::count (s.y, 0.0) == static_cast<std::ptrdiff_t> (s.y.size()); });
+    return std::ranges::all_of (panel.series, [] (const Series& s) { return std::ranges::count (s.y, 0.0) == static_cast<std::ptrdiff_t> (s.y.size()); });
 }
 }   // namespace
 
@@ -54,8 +53,7 @@ void Plotter::draw (const std::string& title)
     {
         if (static_cast<std::ptrdiff_t> (i) == over) continue;
         const auto y = axisOf (taps[i]);
-        auto panel = std::ranges::find_if (figure.panels, [&] (const Axes& a)
-                                           { return a.y.name == y.name && a.y.unit == y.unit; });
+        auto panel = std::ranges::find_if (figure.panels, [&] (const Axes& a) { return a.y.name == y.name && a.y.unit == y.unit; });
         if (panel == figure.panels.end())
         {
             figure.panels.push_back ({ .title = {}, .x = x_axis, .y = y, .series = {} });

@@ -39,8 +39,7 @@ void run (const Options& options)
         trigger.duration_s = options.duration_s;
         return probeTriggered (client, options.port, trigger);
     }
-    const auto subscribe = [&]
-    {
+    const auto subscribe = [&] {
         const auto port = juce::String::fromUTF8 (options.port.c_str());
         client.send (juce::OSCMessage ("/tactus/probe", port, client.own(), static_cast<float> (options.rate_hz), 5.0f));
     };
@@ -96,8 +95,7 @@ void addProbe (const Command& app)
     command.addOption ("--duration", options->duration_s, "How long to watch, in s of the run; default: until Ctrl-C").check (within (1e-3, 1e9));
     const auto trigger = command.addOption ("--trigger", options->trigger.watched, "Print only one window, every tick of it, around an edge of this port");
     trigger.excludes (rate);
-    const auto with_trigger = [&] (Option option)
-    { option.needs (trigger); };
+    const auto with_trigger = [&] (Option option) { option.needs (trigger); };
     const auto level = command.addOption ("--level", options->trigger.level, "The level that defines the edge, in the unit of that port");
     trigger.needs (level);
     with_trigger (level);
@@ -112,8 +110,7 @@ void addProbe (const Command& app)
                     "  tactus probe drag.force\n"
                     "  tactus probe drag.deflection.x --rate 200 --duration 5 > deflection.csv\n"
                     "  tactus probe drag.force --trigger drag.state --level 1.5 --before 50 --after 200");
-    command.callback ([options]
-                      { run (*options); });
+    command.callback ([options] { run (*options); });
 }
 
 }   // namespace tactus::host

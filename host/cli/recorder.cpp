@@ -53,8 +53,7 @@ Recorder::Recorder (const std::vector<std::string>& files, const std::vector<Tap
         columns.push_back (tap.name);
     row.resize (columns.size());
     held.resize (taps);
-    const bool alike = ! all.empty() && std::ranges::all_of (all, [&] (const Tap& tap)
-                                                             { return tap.per_tick == all[0].per_tick; });
+    const bool alike = ! all.empty() && std::ranges::all_of (all, [&] (const Tap& tap) { return tap.per_tick == all[0].per_tick; });
     if (alike && std::ranges::any_of (files, isWave)) per_tick = static_cast<std::size_t> (all[0].per_tick);
 
     for (const auto& file : files)
@@ -83,10 +82,8 @@ std::vector<Message> Recorder::frame (std::uint64_t tick, std::span<const double
     row[0] = static_cast<double> (tick) / rate_hz;
     std::ranges::copy (values.last (taps), row.begin() + 1);
     std::vector<Message> failed;
-    giveUpWhere (tables, failed, [&] (TableWriter& table)
-                 { return table.row (row); });
-    giveUpWhere (waves, failed, [&] (WavWriter& wave)
-                 { return add (wave, tick, values); });
+    giveUpWhere (tables, failed, [&] (TableWriter& table) { return table.row (row); });
+    giveUpWhere (waves, failed, [&] (WavWriter& wave) { return add (wave, tick, values); });
     std::ranges::copy (values.last (taps), held.begin());
     next = tick + 1;
     if (print) printRow (row);
@@ -105,8 +102,7 @@ Result<> Recorder::add (WavWriter& wave, std::uint64_t tick, std::span<const dou
 std::vector<Message> Recorder::commit()
 {
     std::vector<Message> failed;
-    const auto commitOne = [] (auto& file)
-    { return file.commit(); };
+    const auto commitOne = [] (auto& file) { return file.commit(); };
     giveUpWhere (tables, failed, commitOne);
     giveUpWhere (waves, failed, commitOne);
     if (print && ! std::cout.flush())

@@ -97,7 +97,12 @@ void replay (const Options& options)
     refuseOverwriting (outputs, { options.replay, options.graph });
 
     FileAssets assets;
-    Replay::Options how { .records = options.records, .overrides = readSets (options.sets), .assets = &assets, .services = { .nearest_triangle = nearestByEmbree }, .duration_s = options.duration_s, .program = TACTUS_VERSION };
+    Replay::Options how { .records = options.records,
+                          .overrides = readSets (options.sets),
+                          .assets = &assets,
+                          .services = { .nearest_triangle = nearestByEmbree },
+                          .duration_s = options.duration_s,
+                          .program = TACTUS_VERSION };
     std::optional<LoadedGraph> own;
     if (! options.graph.empty())
     {
@@ -109,8 +114,7 @@ void replay (const Options& options)
     watchForStop();
     auto& run = replayed->run();
     Output output { options, run.engine().plan().taps(), run.rate() };
-    const auto warnAll = [&]
-    {
+    const auto warnAll = [&] {
         for (const auto& m : replayed->takeWarnings())
             warn (m.where.empty() ? options.graph : m.where, m);
     };
@@ -149,8 +153,7 @@ void addRender (const Command& app)
                     "  tactus render rub.json --feed positions.csv --record drag.force --set drag.mu=0.3 --set drag.d_max=\"20 um\"\n"
                     "  tactus render rub.json --feed loop.csv --record drag.position.x,drag.force.x --plot loop.png --over drag.position.x\n"
                     "  tactus render --replay wood.jsonl --record drag.force,drag.state --out wood.csv");
-    command.callback ([options]
-                      { run (*options); });
+    command.callback ([options] { run (*options); });
 }
 
 }   // namespace tactus::host

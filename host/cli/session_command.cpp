@@ -189,13 +189,13 @@ LoadedSession edited (LoadedSession session, const Options& options, const std::
         if (session.session.binding (role) == nullptr)
             fail (Message::error ("session/not_bound", "--unbind " + role, "the session does not bind this role",
                                   "`tactus session` lists the roles that it binds"));
-    return editSession (std::move (session), [&] (DeviceSession& s)
-                        {
+    return editSession (std::move (session), [&] (DeviceSession& s) {
         for (const auto& role : options.unbind)
             s.unbind (role);
         for (auto& [role, description] : bound)
             s.bind (role, rebound (s.binding (role), std::move (description)));
-        if (options.clock_given) s.setClock (options.clock == "first" ? "" : options.clock); });
+        if (options.clock_given) s.setClock (options.clock == "first" ? "" : options.clock);
+    });
 }
 
 void run (const Options& options)
@@ -241,8 +241,9 @@ void run (const Options& options)
 
 Check clockCheck()
 {
-    return { [] (const std::string& text)
-             { return graph::isId (text) ? std::string() : "'" + text + "' is not a role name: use lower-case letters, digits and _, starting with a letter"; },
+    return { [] (const std::string& text) { return graph::isId (text)
+                                                       ? std::string()
+                                                       : "'" + text + "' is not a role name: use lower-case letters, digits and _, starting with a letter"; },
              "ROLE|timer|audio|first" };
 }
 }   // namespace
@@ -267,10 +268,10 @@ void addSession (const Command& app)
                     "  tactus session graphs/dry_wood.json\n"
                     "  tactus session --bind stylus=hid:auto --clock stylus\n"
                     "  tactus session --unbind stylus --clock first");
-    command.callback ([options, clock]
-                      {
+    command.callback ([options, clock] {
         options->clock_given = clock.isGiven();
-        run (*options); });
+        run (*options);
+    });
 }
 
 }   // namespace tactus::host

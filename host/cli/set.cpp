@@ -21,8 +21,7 @@ void run (const Options& options)
             throw UsageError ("NODE.PARAM=VALUE", "'" + set + "' has the wrong form; write drag.mu=0.3, board.stiffness=\"2 N/mm\" or roughness=0.7");
 
     OscClient client { options.osc.number };
-    const auto text = [] (const std::string& s)
-    { return juce::String::fromUTF8 (s.c_str(), static_cast<int> (s.size())); };
+    const auto text = [] (const std::string& s) { return juce::String::fromUTF8 (s.c_str(), static_cast<int> (s.size())); };
     bool all_fine = true;
     for (const auto& set : options.sets)
     {
@@ -53,8 +52,7 @@ void addSet (const Command& app)
                     "  tactus set drag.mu=0.3\n"
                     "  tactus set drag.d_max=\"20 um\" drag.adhesion=dahl board.normal=[0.1,0,1]\n"
                     "  tactus set roughness=0.7");
-    command.callback ([options]
-                      { run (*options); });
+    command.callback ([options] { run (*options); });
 }
 
 }   // namespace tactus::host

@@ -69,11 +69,9 @@ void print (const Window& window, const juce::OSCMessage& done, double rate_hz)
 
 void probeTriggered (OscClient& client, const std::string& port, const TriggerOptions& options)
 {
-    const auto text = [] (const std::string& s)
-    { return juce::String::fromUTF8 (s.c_str()); };
+    const auto text = [] (const std::string& s) { return juce::String::fromUTF8 (s.c_str()); };
     constexpr float patience_s = 5.0f, at_once_s = 1e-3f;
-    const auto ask = [&] (float wait_s)
-    {
+    const auto ask = [&] (float wait_s) {
         client.send (juce::OSCMessage ("/tactus/trigger", text (port), client.own(), text (options.watched), static_cast<float> (options.level),
                                        text (options.edge), options.before, options.after, wait_s));
     };
@@ -82,8 +80,7 @@ void probeTriggered (OscClient& client, const std::string& port, const TriggerOp
     std::optional<juce::OSCMessage> done;
     Window window;
     const auto begin = Clock::now();
-    const auto since = [] (Clock::time_point then)
-    { return std::chrono::duration<double> (Clock::now() - then).count(); };
+    const auto since = [] (Clock::time_point then) { return std::chrono::duration<double> (Clock::now() - then).count(); };
     for (auto asked = begin, heard = begin; ! window.isWhole() && ! stopRequested();)
     {
         if (since (asked) > 2.0 && window.rows.empty())

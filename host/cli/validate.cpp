@@ -77,11 +77,12 @@ void addValidate (const Command& app)
                     "Examples:\n"
                     "  tactus validate graphs/dry_wood.json\n"
                     "  tactus validate graphs/*.json && echo fine");
-    command.callback ([files]
-                      {
+    command.callback ([files] {
         bool all_fine = true;
-        for (const auto& file : *files) all_fine = check (file) && all_fine;
-        if (! all_fine) throw Stop {}; });
+        for (const auto& file : *files)
+            all_fine = check (file) && all_fine;
+        if (! all_fine) throw Stop {};
+    });
 }
 
 }   // namespace tactus::host

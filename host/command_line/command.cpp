@@ -14,8 +14,7 @@ namespace
 {
 Check checkOf (const CLI::Validator& v)
 {
-    return { [v] (const std::string& value)
-             { return v (value); },
+    return { [v] (const std::string& value) { return v (value); },
              v.get_description() };
 }
 
@@ -47,12 +46,11 @@ Check oneOf (const std::vector<std::string>& values) { return checkOf (CLI::IsMe
 Check finiteWithin (double min, double max)
 {
     const auto range = "from " + numberText (min) + " to " + numberText (max);
-    return { [=] (const std::string& text)
-             {
-                 double value = 0.0;
-                 const bool fits = CLI::detail::lexical_cast (text, value) && value >= min && value <= max;
-                 return fits ? std::string() : "'" + text + "' is not a number " + range;
-             },
+    return { [=] (const std::string& text) {
+                double value = 0.0;
+                const bool fits = CLI::detail::lexical_cast (text, value) && value >= min && value <= max;
+                return fits ? std::string() : "'" + text + "' is not a number " + range;
+            },
              range };
 }
 
@@ -65,8 +63,7 @@ Option Option::required (bool is) const
 
 Option Option::check (const Check& check) const
 {
-    option->check ([problem = check.problem] (const std::string& text)
-                   { return problem (text); },
+    option->check ([problem = check.problem] (const std::string& text) { return problem (text); },
                    check.type);
     return *this;
 }
@@ -176,21 +173,18 @@ void Command::passOn (std::function<void (const std::vector<std::string>&)> run)
 {
     app->prefix_command();
     app->set_help_flag();
-    app->callback ([run = std::move (run), command = app.get()]
-                   { run (command->remaining()); });
+    app->callback ([run = std::move (run), command = app.get()] { run (command->remaining()); });
 }
 
 std::optional<int> Command::parse (std::vector<std::string> arguments) const
 {
     std::ranges::reverse (arguments);   // CLI11 takes them from the back
-    return statusOf (*app, [&]
-                     { app->parse (std::move (arguments)); });
+    return statusOf (*app, [&] { app->parse (std::move (arguments)); });
 }
 
 std::optional<int> Command::parse (int argc, const char* const* argv) const
 {
-    return statusOf (*app, [&]
-                     { app->parse (argc, argv); });
+    return statusOf (*app, [&] { app->parse (argc, argv); });
 }
 
 }   // namespace tactus::host

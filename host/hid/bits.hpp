@@ -28,16 +28,14 @@ void eachByte (const Bits& b, Byte&& byte) noexcept
 inline std::uint32_t bitsAt (const Bits& b, std::span<const std::uint8_t> report) noexcept
 {
     std::uint64_t all = 0;
-    eachByte (b, [&] (std::size_t i, std::size_t shift)
-              { all |= std::uint64_t { report[i] } << shift; });
+    eachByte (b, [&] (std::size_t i, std::size_t shift) { all |= std::uint64_t { report[i] } << shift; });
     return static_cast<std::uint32_t> (all >> b.at % 8 & maskOf (b));
 }
 
 inline void putBits (const Bits& b, std::uint32_t raw, std::span<std::uint8_t> report) noexcept
 {
     const auto mask = maskOf (b) << b.at % 8, value = std::uint64_t { raw } << b.at % 8 & mask;
-    eachByte (b, [&] (std::size_t i, std::size_t shift)
-              { report[i] = static_cast<std::uint8_t> ((report[i] & ~(mask >> shift)) | value >> shift); });
+    eachByte (b, [&] (std::size_t i, std::size_t shift) { report[i] = static_cast<std::uint8_t> ((report[i] & ~(mask >> shift)) | value >> shift); });
 }
 
 /// The number that the raw bits encode.

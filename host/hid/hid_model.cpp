@@ -19,8 +19,7 @@ HidModel::HidModel (std::shared_ptr<const Profile> p)
     }
     for (std::size_t i = 0; i < effortNames().size(); ++i)
     {
-        const auto is_i = [i] (int effort)
-        { return effort == static_cast<int> (i); };
+        const auto is_i = [i] (int effort) { return effort == static_cast<int> (i); };
         if (std::ranges::any_of (force, is_i) || std::ranges::any_of (torque, is_i)) continue;
         own.push_back (i);
         own_names.push_back (effortNames()[i]);
@@ -53,8 +52,7 @@ const HidSample& HidModel::decode (std::span<const std::uint8_t> report) noexcep
 
 void HidModel::place() noexcept
 {
-    const auto values = [&] (const std::array<int, 3>& of)
-    {
+    const auto values = [&] (const std::array<int, 3>& of) {
         Vec3 v = Vec3::Zero();
         for (std::size_t i = 0; i < 3; ++i)
             if (of[i] >= 0) v[static_cast<int> (i)] = last.axes[static_cast<std::size_t> (of[i])];

@@ -51,8 +51,7 @@ InputReport readInput (ProfileFields& in)
     report.length = static_cast<std::size_t> (in.whole ("length", 1, most_bytes, 1));
     report.longest = static_cast<std::size_t> (in.whole ("longest", static_cast<int> (report.length), most_bytes, static_cast<int> (report.length)));
     in.each ("fields",
-             [&] (ProfileFields& f)
-             {
+             [&] (ProfileFields& f) {
                  report.fields.push_back (readInputField (f));
                  if (report.fields.back().bits.end() > 8 * report.length)
                      f.error ("at", "profile/beyond",
@@ -73,8 +72,7 @@ InputReport readInput (ProfileFields& in)
         names.push_back (name);
     }
 
-    const auto named = [&] (std::string_view key, const std::string& name) -> InputField*
-    {
+    const auto named = [&] (std::string_view key, const std::string& name) -> InputField* {
         const auto it = std::ranges::find (report.fields, name, &InputField::name);
         if (it != report.fields.end() && it->isAxis() && ! it->bits.is_float) return &*it;
         if (! name.empty())
@@ -95,13 +93,13 @@ InputReport readInput (ProfileFields& in)
 std::vector<InputReport> readInputs (ProfileFields& profile)
 {
     std::vector<InputReport> reports;
-    profile.each ("inputs", [&] (ProfileFields& in)
-                  {
+    profile.each ("inputs", [&] (ProfileFields& in) {
         reports.push_back (readInput (in));
         const auto& id = reports.back().id;
         for (std::size_t i = 0; i + 1 < reports.size(); ++i)
             if (! id || ! reports[i].id || *id == *reports[i].id)
-                return in.error ("id", "profile/duplicate", "this report cannot be distinguished from another", "give each input report its own id"); });
+                return in.error ("id", "profile/duplicate", "this report cannot be distinguished from another", "give each input report its own id");
+    });
     return reports;
 }
 

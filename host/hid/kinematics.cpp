@@ -155,8 +155,7 @@ Vec3 Kinematics::counts (const Vec3& q) const noexcept
 Kinematics::Pose Kinematics::pose (const Vec3& q) const noexcept
 {
     if (! isFinite (q)) return problem (PoseProblem::not_finite);
-    const Pose pose = std::visit ([&] (const auto& m)
-                                  { return poseOf (m, q); },
+    const Pose pose = std::visit ([&] (const auto& m) { return poseOf (m, q); },
                                   model);
     const bool finite = isFinite (pose.position) && isFinite (pose.jacobian.sum());
     return finite ? pose : problem (PoseProblem::not_finite);

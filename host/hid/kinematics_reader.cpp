@@ -67,11 +67,11 @@ template <std::size_t n>
 void readDrives (ProfileFields& in, std::array<Drive, n>& drives)
 {
     std::size_t read = 0;
-    in.each ("drives", [&] (ProfileFields& d)
-             {
+    in.each ("drives", [&] (ProfileFields& d) {
         const auto drive = readDrive (d);
         if (read < n) drives[read] = drive;
-        ++read; });
+        ++read;
+    });
     if (read != n) in.error ("drives", "profile/kinematics", "there are " + std::to_string (read) + " drives", "write " + std::to_string (n));
 }
 
@@ -142,14 +142,11 @@ KinematicsModel readKinematics (ProfileFields& profile)
 {
     KinematicsModel model;
     profile.within ("kinematics",
-                    [&] (ProfileFields& in)
-                    {
+                    [&] (ProfileFields& in) {
                         int kinds = 0;
-                        const auto take = [&] (std::string_view kind, auto read)
-                        {
+                        const auto take = [&] (std::string_view kind, auto read) {
                             in.within (kind,
-                                       [&] (ProfileFields& k)
-                                       {
+                                       [&] (ProfileFields& k) {
                                            ++kinds;
                                            model = read (k);
                                        });

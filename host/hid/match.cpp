@@ -11,8 +11,7 @@ namespace
 {
 bool containsInAnyCase (std::string_view text, std::string_view part) noexcept
 {
-    const auto same = [] (char a, char b)
-    { return std::tolower (static_cast<unsigned char> (a)) == std::tolower (static_cast<unsigned char> (b)); };
+    const auto same = [] (char a, char b) { return std::tolower (static_cast<unsigned char> (a)) == std::tolower (static_cast<unsigned char> (b)); };
     return std::search (text.begin(), text.end(), part.begin(), part.end(), same) != text.end() || part.empty();
 }
 
@@ -26,8 +25,7 @@ int worth (bool said_and_known, bool fits, int weight) noexcept
 
 int fit (const MatchRule& rule, const DeviceInfo& device) noexcept
 {
-    const auto among = [] (const std::vector<std::uint16_t>& list, std::uint16_t id)
-    { return std::ranges::find (list, id) != list.end(); };
+    const auto among = [] (const std::vector<std::uint16_t>& list, std::uint16_t id) { return std::ranges::find (list, id) != list.end(); };
 
     return worth (! rule.vid.empty(), among (rule.vid, device.vid), 16)
            + worth (! rule.pid.empty(), among (rule.pid, device.pid), 32)
@@ -53,10 +51,10 @@ std::vector<std::shared_ptr<const Profile>> matching (std::span<const std::share
     for (const auto& profile : profiles)
         if (fit (*profile, device) > 0) found.push_back (profile);
 
-    std::ranges::sort (found, [&] (const auto& a, const auto& b)
-                       {
+    std::ranges::sort (found, [&] (const auto& a, const auto& b) {
         const int fit_a = fit (*a, device), fit_b = fit (*b, device);
-        return fit_a != fit_b ? fit_a > fit_b : a->id < b->id; });
+        return fit_a != fit_b ? fit_a > fit_b : a->id < b->id;
+    });
     return found;
 }
 

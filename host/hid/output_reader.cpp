@@ -21,12 +21,12 @@ Encoding readEncoding (ProfileFields& in, const Tables& tables, std::string& uni
     e.offset = readOffset (in, unit);
 
     if (in.has ("log2") && in.has ("table")) in.error ("table", "profile/kind", "a field can have only one law", "use either log2 or table");
-    in.within ("log2", [&] (ProfileFields& law)
-               {
+    in.within ("log2", [&] (ProfileFields& law) {
         e.law = Encoding::Law::log2;
         e.steps = law.number ("steps", unit::count, {}, 1.0);
         e.reference = law.number ("reference", unit::count, Bounds::positive(), 1.0);
-        if (e.steps == 0.0) law.error ("steps", "profile/out_of_range", "steps is 0", "give the number of steps per octave"); });
+        if (e.steps == 0.0) law.error ("steps", "profile/out_of_range", "steps is 0", "give the number of steps per octave");
+    });
     if (in.has ("table"))
     {
         const auto name = in.name ("table");
@@ -156,23 +156,20 @@ OutputReport readOutput (ProfileFields& in, const Tables& tables)
     const auto bytes = std::min (report.body.size(), report.neutral.size());
     BitMap used (in, bytes);
     if (report.id) used.take (0, std::min<std::size_t> (8, 8 * bytes), "the id");
-    in.each ("fields", [&] (ProfileFields& f)
-             {
+    in.each ("fields", [&] (ProfileFields& f) {
         report.fields.push_back (readOutputField (f, tables));
         const auto& field = report.fields.back();
-        used.take (field.bits.at, field.bits.size, field.name.empty() ? "a field" : quote (field.name)); });
-    in.each ("sequences", [&] (ProfileFields& s)
-             { report.sequences.push_back (readSequence (s, used)); });
+        used.take (field.bits.at, field.bits.size, field.name.empty() ? "a field" : quote (field.name));
+    });
+    in.each ("sequences", [&] (ProfileFields& s) { report.sequences.push_back (readSequence (s, used)); });
     in.within ("stream",
-               [&] (ProfileFields& s)
-               {
+               [&] (ProfileFields& s) {
                    report.stream = readStream (s);
                    used.take (8 * report.stream->at, report.stream->frames * report.stream->channels.size() * static_cast<std::size_t> (report.stream->bits),
                               "the stream");
                });
     in.within ("crc32",
-               [&] (ProfileFields& c)
-               {
+               [&] (ProfileFields& c) {
                    report.checksum = Checksum { .prefix = c.has ("prefix") ? c.hex ("prefix") : Bytes {},
                                                 .at = static_cast<std::size_t> (c.whole ("at", 0, most_bytes - 1, 0)) };
                    c.require ("at", "write \"at\": its first byte");
@@ -189,31 +186,31 @@ OutputReport readOutput (ProfileFields& in, const Tables& tables)
 Tables readTables (ProfileFields& profile)
 {
     Tables tables;
-    profile.within ("tables", [&] (ProfileFields& all)
-                    {
+    profile.within ("tables", [&] (ProfileFields& all) {
         const Json& json = all.json();
         if (! json.is_object()) return;
         for (const auto& [name, value] : json.items())
-            all.within (name, [&, n = name] (ProfileFields& table)
-                        {
+            all.within (name, [&, n = name] (ProfileFields& table) {
                 const auto x = table.numbers ("x"), y = table.numbers ("y");
                 const bool rising = std::ranges::adjacent_find (x, std::greater_equal()) == x.end();
                 if (x.empty() || x.size() != y.size() || ! rising)
                     table.error ("x", "profile/kind", "a table needs as many x as y, and x must rise", "write {\"x\": [0, 1], \"y\": [0, 100]}");
                 else
-                    tables[n] = { x, y }; }); });
+                    tables[n] = { x, y };
+            });
+    });
     return tables;
 }
 
 std::vector<OutputReport> readOutputs (ProfileFields& profile, const Tables& tables)
 {
     std::vector<OutputReport> reports;
-    profile.each ("outputs", [&] (ProfileFields& in)
-                  {
+    profile.each ("outputs", [&] (ProfileFields& in) {
         reports.push_back (readOutput (in, tables));
         for (std::size_t i = 0; i + 1 < reports.size(); ++i)
             if (reports[i].name == reports.back().name)
-                in.error ("name", "profile/duplicate", "there are two output reports with this name", "rename one"); });
+                in.error ("name", "profile/duplicate", "there are two output reports with this name", "rename one");
+    });
     return reports;
 }
 

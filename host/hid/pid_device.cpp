@@ -52,8 +52,7 @@ struct Place
 /// The id of the first report with numbers of this kind. A broken descriptor may spread them over several reports.
 std::optional<std::uint8_t> idOf (const ReportDescriptor& d, Kind kind, Usage report)
 {
-    const auto first = std::ranges::find_if (d.fields, [&] (const DescribedField& f)
-                                             { return f.kind == kind && d.lies (f.collection, report); });
+    const auto first = std::ranges::find_if (d.fields, [&] (const DescribedField& f) { return f.kind == kind && d.lies (f.collection, report); });
     if (first == d.fields.end()) return {};
     return first->report;
 }
@@ -161,8 +160,7 @@ std::string_view axisName (Usage usage) noexcept
 
 void addInput (std::vector<InputReport>& inputs, const ReportDescriptor& d, const DescribedField& f)
 {
-    auto report = std::ranges::find_if (inputs, [&] (const InputReport& r)
-                                        { return ! d.has_ids || r.id == f.report; });
+    auto report = std::ranges::find_if (inputs, [&] (const InputReport& r) { return ! d.has_ids || r.id == f.report; });
     if (report == inputs.end())
     {
         const auto length = d.length (Kind::input, f.report) + (d.has_ids ? 1 : 0);
@@ -192,10 +190,8 @@ void addInput (std::vector<InputReport>& inputs, const ReportDescriptor& d, cons
         else
             continue;
         // If several axes have the same name, keep the first.
-        const auto same = [&] (const InputField& other)
-        { return other.name == field.name && other.buttons == field.buttons; };
-        const bool known = std::ranges::any_of (inputs, [&] (const InputReport& r)
-                                                { return std::ranges::any_of (r.fields, same); });
+        const auto same = [&] (const InputField& other) { return other.name == field.name && other.buttons == field.buttons; };
+        const bool known = std::ranges::any_of (inputs, [&] (const InputReport& r) { return std::ranges::any_of (r.fields, same); });
         if (! known) report->fields.push_back (std::move (field));
     }
 }
@@ -213,8 +209,7 @@ void calibrate (Profile& p, const PidCalibration& calibration)
                 field.unit = calibration.turns ? "rad" : "m";
                 scaled.push_back (field.name);
             }
-    const auto known = [&] (const char* name)
-    { return std::ranges::count (scaled, name) > 0 ? std::string (name) : std::string(); };
+    const auto known = [&] (const char* name) { return std::ranges::count (scaled, name) > 0 ? std::string (name) : std::string(); };
 
     if (calibration.turns)
         p.rotation[1] = known ("steering").empty() ? known ("x") : "steering";
@@ -255,8 +250,7 @@ Step zeroForce (const ReportDescriptor& d)
 
 std::vector<Step> initSteps (const PidDevice& device, const ReportDescriptor& d)
 {
-    const auto output = [&] (Usage report)
-    { return Writer (d, Kind::output, report); };
+    const auto output = [&] (Usage report) { return Writer (d, Kind::output, report); };
 
     // Full gain, no trigger button, and a direction a quarter turn from "away". Wheels have no other direction, and
     // the drivers of other devices use this one too (linux, hid-pidff.c).
@@ -315,8 +309,7 @@ OutputReport forceReport (const ReportDescriptor& d, const PidCalibration& calib
 
 OutputReport startReport (const ReportDescriptor& d)
 {
-    const auto operation = [&]
-    { return Writer (d, Kind::output, effect_operation).put (block_index, any_block); };
+    const auto operation = [&] { return Writer (d, Kind::output, effect_operation).put (block_index, any_block); };
     OutputReport report;
     report.name = "start";
     if (d.has_ids) report.id = find (d, Kind::output, effect_operation, start)->field->report;
@@ -369,8 +362,7 @@ std::optional<PidDevice> PidDevice::from (const ReportDescriptor& d, Messages& m
 
 bool PidDevice::isMeantBy (const ReportDescriptor& d) noexcept
 {
-    return std::ranges::any_of (d.collections, [] (const DescribedCollection& c)
-                                { return c.usage >> 16 == 0x0f; });
+    return std::ranges::any_of (d.collections, [] (const DescribedCollection& c) { return c.usage >> 16 == 0x0f; });
 }
 
 Bytes PidDevice::createEffect() const { return Writer (descriptor, Kind::feature, create_new_effect).choose (constant_force).take(); }
@@ -385,8 +377,7 @@ Answer PidDevice::answer() const
     if (d.has_ids) a.id = index->field->report;
     a.number = index->bits (d.has_ids);
     a.number.is_signed = false;
-    const auto mark = [&] (Usage status) -> std::optional<Answer::Mark>
-    {
+    const auto mark = [&] (Usage status) -> std::optional<Answer::Mark> {
         const auto place = find (d, Kind::feature, block_load, status);
         if (! place) return {};
         const auto raw = place->field->variable ? 1 : place->field->logical_min + static_cast<std::int64_t> (*place->field->placeOf (status));

@@ -127,8 +127,7 @@ private:
         std::size_t drives = 0;
         if (std::holds_alternative<SerialArm> (p.kinematics)) drives = 3;
         if (std::holds_alternative<FiveBar> (p.kinematics)) drives = 2;
-        const bool pushes = std::ranges::any_of (p.force, [] (const auto& name)
-                                                 { return ! name.empty(); });
+        const bool pushes = std::ranges::any_of (p.force, [] (const auto& name) { return ! name.empty(); });
         for (std::size_t i = 0; i < drives; ++i)
         {
             if (p.position[i].empty())
@@ -153,7 +152,10 @@ private:
                 if (field.source != OutputField::Source::effort || ! pushes || field.encoding.law != Encoding::Law::linear) continue;
                 const double rest = numberOf (field.bits, raw) * field.encoding.scale + field.encoding.offset;
                 if (std::abs (rest) > std::abs (field.encoding.scale))
-                    in.error ("outputs", "profile/neutral", "the neutral report of " + quote (report.name) + " asks for " + numberText (rest) + " " + field.unit + " in " + quote (field.name), "write the number that means no force there");
+                    in.error ("outputs", "profile/neutral",
+                              "the neutral report of " + quote (report.name) + " asks for " + numberText (rest) + " " + field.unit + " in "
+                                  + quote (field.name),
+                              "write the number that means no force there");
             }
     }
 
@@ -175,8 +177,7 @@ private:
 
     void golden (const GoldenSample& sample)
     {
-        const auto vector = [] (const std::string& name, std::string_view of)
-        {
+        const auto vector = [] (const std::string& name, std::string_view of) {
             return name.size() == of.size() + 2 && name.starts_with (of) && name[of.size()] == '.'
                    && std::string_view ("xyz").find (name.back()) != std::string_view::npos;
         };

@@ -59,8 +59,7 @@ std::vector<std::uint16_t> ProfileFields::ids (std::string_view key)
     const Json& json = object (key);
     if (! has (key)) return values;
 
-    const auto take = [&] (const Json& entry)
-    {
+    const auto take = [&] (const Json& entry) {
         const auto value = idOf (entry, 0xffff);
         if (value)
             values.push_back (static_cast<std::uint16_t> (*value));

@@ -25,8 +25,7 @@ std::vector<MatchRule> readMatch (ProfileFields& profile)
 {
     std::vector<MatchRule> rules;
     profile.require ("match", "write \"match\": [{\"vid\": \"0x16c0\", \"pid\": \"0x0486\"}]");
-    profile.each ("match", [&] (ProfileFields& in)
-                  {
+    profile.each ("match", [&] (ProfileFields& in) {
         MatchRule rule;
         rule.vid = in.ids ("vid");
         rule.pid = in.ids ("pid");
@@ -41,24 +40,28 @@ std::vector<MatchRule> readMatch (ProfileFields& profile)
         if (! bus.empty() && ! rule.bus) in.error ("bus", "profile/kind", quote (bus) + " is not a bus", "write usb or bluetooth");
         if (rule.vid.empty() && rule.product.empty() && ! rule.usage_page)
             in.error ("vid", "profile/missing", "this rule would fit almost any device", "add a vid, a product or a usage page");
-        rules.push_back (std::move (rule)); });
+        rules.push_back (std::move (rule));
+    });
     return rules;
 }
 
 std::vector<Step> readSteps (ProfileFields& profile, std::string_view key)
 {
     std::vector<Step> steps;
-    profile.each (key, [&] (ProfileFields& in)
-                  {
+    profile.each (key, [&] (ProfileFields& in) {
         Step step;
         in.ignore ("about");
         const auto kind = in.has ("kind") ? in.text ("kind") : std::string ("output");
-        if (kind == "feature") step.kind = Step::Kind::feature;
-        else if (kind == "get_feature") step.kind = Step::Kind::get_feature;
-        else if (kind != "output") in.error ("kind", "profile/kind", quote (kind) + " is not a kind of report", "write output, feature or get_feature");
+        if (kind == "feature")
+            step.kind = Step::Kind::feature;
+        else if (kind == "get_feature")
+            step.kind = Step::Kind::get_feature;
+        else if (kind != "output")
+            in.error ("kind", "profile/kind", quote (kind) + " is not a kind of report", "write output, feature or get_feature");
         step.bytes = in.has ("bytes") ? in.hex ("bytes") : Bytes {};
         step.delay = in.number ("delay", unit::second, { .min = 0.0, .max = 10.0 }, 0.0);
-        steps.push_back (std::move (step)); });
+        steps.push_back (std::move (step));
+    });
     return steps;
 }
 
@@ -67,8 +70,7 @@ Limits readLimits (ProfileFields& profile)
     constexpr auto any = Bounds::notNegative();
     constexpr auto some = Bounds::positive();
     Limits l;
-    profile.within ("limits", [&] (ProfileFields& in)
-                    {
+    profile.within ("limits", [&] (ProfileFields& in) {
         l.guard.max_force = in.number ("max_force", unit::newton, any, l.guard.max_force);
         l.guard.max_torque = in.number ("max_torque", unit::torque, any, l.guard.max_torque);
         l.guard.max_slew = in.number ("max_slew", force_rate, some, l.guard.max_slew);
@@ -81,7 +83,8 @@ Limits readLimits (ProfileFields& profile)
         l.first_mode = in.number ("first_mode", unit::hertz, any, 0.0);
         l.position_quantum = in.number ("position_quantum", unit::metre, any, 0.0);
         l.force_quantum = in.number ("force_quantum", unit::newton, any, 0.0);
-        l.device_watchdog = in.number ("device_watchdog", unit::second, any, 0.0); });
+        l.device_watchdog = in.number ("device_watchdog", unit::second, any, 0.0);
+    });
     return l;
 }
 
@@ -89,19 +92,18 @@ Limits readLimits (ProfileFields& profile)
 std::vector<std::pair<std::string, double>> readValues (ProfileFields& in, std::string_view key)
 {
     std::vector<std::pair<std::string, double>> values;
-    in.within (key, [&] (ProfileFields& all)
-               {
+    in.within (key, [&] (ProfileFields& all) {
         if (! all.json().is_object()) return;
         for (const auto& [name, value] : all.json().items())
-            values.emplace_back (name, all.scale (name, 0.0).value); });
+            values.emplace_back (name, all.scale (name, 0.0).value);
+    });
     return values;
 }
 
 std::vector<GoldenSample> readSamples (ProfileFields& profile)
 {
     std::vector<GoldenSample> samples;
-    profile.each ("samples", [&] (ProfileFields& in)
-                  {
+    profile.each ("samples", [&] (ProfileFields& in) {
         GoldenSample s;
         s.about = in.text ("about");
         s.source = in.text ("source");
@@ -127,7 +129,8 @@ std::vector<GoldenSample> readSamples (ProfileFields& profile)
             if (s.input.empty())
                 in.error ("input", "profile/missing", "the sample has no report", "write \"input\": [\"01 00 ff\"], or \"output\": the name of a report");
         }
-        samples.push_back (std::move (s)); });
+        samples.push_back (std::move (s));
+    });
     return samples;
 }
 
@@ -156,12 +159,12 @@ Profile read (ProfileFields& in)
     p.torque = in.threeNames ("torque");
     if (in.has ("pressure")) p.pressure = in.name ("pressure");
     if (in.has ("valid")) p.valid = in.name ("valid");
-    in.each ("signals", [&] (ProfileFields& s)
-             {
+    in.each ("signals", [&] (ProfileFields& s) {
         s.require ("amplitude", "name the effort that sets the amplitude");
         auto& signal = p.signals.emplace_back();
         if (s.has ("amplitude")) signal.amplitude = s.name ("amplitude");
-        if (s.has ("frequency")) signal.frequency = s.name ("frequency"); });
+        if (s.has ("frequency")) signal.frequency = s.name ("frequency");
+    });
     p.axes = readAxes (in);
     p.kinematics = readKinematics (in);
     p.limits = readLimits (in);
@@ -204,8 +207,7 @@ LoadedProfile readProfileText (std::string_view text)
 LoadedProfiles loadProfiles (const std::filesystem::path& folder)
 {
     LoadedProfiles loaded;
-    const auto complain = [&] (const std::filesystem::path& file, Message message)
-    {
+    const auto complain = [&] (const std::filesystem::path& file, Message message) {
         message.file = file.string();
         loaded.messages.push_back (std::move (message));
     };
@@ -235,8 +237,7 @@ LoadedProfiles loadProfiles (const std::filesystem::path& folder)
         loaded.messages.insert (loaded.messages.end(), std::make_move_iterator (one.messages.begin()), std::make_move_iterator (one.messages.end()));
         if (! one.profile) continue;
 
-        const auto same = [&] (const auto& other)
-        { return other->id == one.profile->id; };
+        const auto same = [&] (const auto& other) { return other->id == one.profile->id; };
         if (const auto other = std::ranges::find_if (loaded.profiles, same); other != loaded.profiles.end())
         {
             complain (file, Message::error ("profile/duplicate", "/id", quote (one.profile->id) + " is already the id of " + (*other)->file,
@@ -252,8 +253,7 @@ LoadedProfiles loadProfiles (const std::filesystem::path& folder)
 
 std::shared_ptr<const Profile> profileNamed (const LoadedProfiles& all, std::string_view id)
 {
-    const auto at = std::ranges::find_if (all.profiles, [&] (const auto& p)
-                                          { return p->id == id; });
+    const auto at = std::ranges::find_if (all.profiles, [&] (const auto& p) { return p->id == id; });
     return at == all.profiles.end() ? nullptr : *at;
 }
 

@@ -8,12 +8,10 @@ namespace tactus::host::hid
 namespace
 {
 using Clock = HidPort::Clock;
-
-Clock::duration durationOf (double s) { return std::chrono::duration_cast<Clock::duration> (std::chrono::duration<double> (s)); }
 }   // namespace
 
 HidClock::HidClock (HidPort& p, double rate_hz)
-    : port (p), period (durationOf (1.0 / rate_hz)), silence (durationOf (longest_silence / rate_hz)), loss (p.watchdog())
+    : port (p), period (toDuration (1.0 / rate_hz)), silence (toDuration (longest_silence / rate_hz)), loss (p.watchdog())
 {
 }
 

@@ -10,8 +10,7 @@ namespace tactus::host::hid
 
 std::string describe (const ReadingCounts& read, const PortCounts& port)
 {
-    const auto number = [] (auto n)
-    { return std::to_string (n); };
+    const auto number = [] (auto n) { return std::to_string (n); };
     auto text = number (read.taken) + " taken, " + number (read.lost) + " lost, "
                 + number (std::accumulate (read.refused.begin(), read.refused.end(), std::uint64_t { 0 })) + " refused";
     std::string reasons;
@@ -113,8 +112,7 @@ Reading HidDevice::read() noexcept
     owed += no_room - overflown;
     latest = 0;
     came_now.reset();
-    link->drain ([this] (const ArrivedReport& report)
-                 { take (report); });
+    link->drain ([this] (const ArrivedReport& report) { take (report); });
 
     // If some reports did not fit, the ones in the ring are old, whatever they contain.
     const bool fresh = came_now.any() && no_room == overflown;
@@ -152,8 +150,7 @@ void HidDevice::vibrate (const Channels& signals, HidEffort& effort) noexcept
 
 void HidDevice::write (const Effort& guarded) noexcept
 {
-    const auto isZero = [] (double v)
-    { return v == 0.0; };
+    const auto isZero = [] (double v) { return v == 0.0; };
     const bool rests = guarded.force.isZero (0.0) && guarded.torque.isZero (0.0) && std::ranges::all_of (guarded.axes, isZero)
                        && std::ranges::all_of (guarded.signals, isZero);
     has_to_rest = has_to_rest && ! rests;
@@ -165,8 +162,10 @@ void HidDevice::write (const Effort& guarded) noexcept
     for (std::size_t i = 0; i < values.outputs(); ++i)
         if (values.channelNames (i).empty()) link->offer (i, has_to_rest ? values.neutral (i) : values.encode (i, effort), episode, latest);
     for (auto& [report, feed] : streams)
-        feed.tick (guarded.signals, [&, i = report] (std::span<const float> samples)
-                   { link->offer (i, has_to_rest ? values.neutral (i) : values.encode (i, effort, samples), episode, latest); });
+        feed.tick (guarded.signals, [&, i = report] (std::span<const float> samples) {
+            const auto& bytes = has_to_rest ? values.neutral (i) : values.encode (i, effort, samples);
+            link->offer (i, bytes, episode, latest);
+        });
     link->sendNow();
 }
 

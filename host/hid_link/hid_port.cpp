@@ -3,6 +3,7 @@
 #include "udev_rule.hpp"
 
 #include <framework/run/realtime.hpp>
+#include <framework/run/tick_clock.hpp>
 #include <host/hid/answer.hpp>
 #include <host/hid/bits.hpp>
 
@@ -22,7 +23,6 @@ constexpr std::size_t reports_waiting = 1024;   // one second of a fast device, 
 constexpr auto longest_read = 20ms;             // short enough that a request to stop is noticed
 constexpr const char* check_device = "check that it is this device, and plug it in again";
 
-Clock::duration durationOf (double s) { return std::chrono::duration_cast<Clock::duration> (std::chrono::duration<double> (s)); }
 double secondsOf (Clock::duration d) { return std::chrono::duration<double> (d).count(); }
 
 Nanoseconds nanosecondsOf (Clock::time_point t) { return std::chrono::duration_cast<std::chrono::nanoseconds> (t.time_since_epoch()).count(); }
@@ -37,15 +37,14 @@ std::size_t longestInput (const Profile& p)
 
 bool usesIds (const Profile& p)
 {
-    const auto has = [] (const auto& report)
-    { return report.id.has_value(); };
+    const auto has = [] (const auto& report) { return report.id.has_value(); };
     return std::ranges::any_of (p.inputs, has) || std::ranges::any_of (p.outputs, has);
 }
 
 Clock::duration watchdogOf (const Profile& p)
 {
     const double s = p.limits.guard.watchdog;
-    return durationOf (isFinite (s) && s > 0.0 ? s : GuardLimits::default_watchdog);
+    return toDuration (isFinite (s) && s > 0.0 ? s : GuardLimits::default_watchdog);
 }
 
 Result<> transfer (Transport& t, Step::Kind kind, std::span<std::uint8_t> bytes)
@@ -88,10 +87,8 @@ Result<std::unique_ptr<HidPort>> HidPort::open (HidSystem& system, const Connect
                                device.path + " (" + device.product + ") fails the init steps of its profile " + port->profile()->id + ": " + woken.error().text,
                                woken.error().remedy);
     port->become (std::move (*opened));
-    port->reader = std::jthread ([p = port.get()]
-                                 { p->readOn(); });
-    port->writer = std::jthread ([p = port.get()]
-                                 { p->writeOn(); });
+    port->reader = std::jthread ([p = port.get()] { p->readOn(); });
+    port->writer = std::jthread ([p = port.get()] { p->writeOn(); });
     return port;
 }
 
@@ -153,17 +150,16 @@ Result<> HidPort::perform (Transport& t, const Step& step)
     auto bytes = wireOf (step);
     if (const auto done = transfer (t, step.kind, bytes); ! done)
         return Message::error ("hid/init", "", step.about.empty() ? done.error().text : step.about + " was refused: " + done.error().text, check_device);
-    if (step.delay > 0.0) std::this_thread::sleep_for (durationOf (step.delay));
+    if (step.delay > 0.0) std::this_thread::sleep_for (toDuration (step.delay));
     return {};
 }
 
 /// Repeats the request until the device answers, and keeps the number in the answer.
 Result<> HidPort::ask (Transport& t, const Step& step)
 {
-    const auto refused = [&] (std::string text)
-    { return Message::error ("hid/init", "", step.about + " " + std::move (text), check_device); };
+    const auto refused = [&] (std::string text) { return Message::error ("hid/init", "", step.about + " " + std::move (text), check_device); };
 
-    const auto end = Clock::now() + durationOf (step.answer->patience);
+    const auto end = Clock::now() + toDuration (step.answer->patience);
     for (;;)
     {
         auto bytes = wireOf (step);
@@ -176,7 +172,7 @@ Result<> HidPort::ask (Transport& t, const Step& step)
             return {};
         }
         if (Clock::now() >= end || isStopping()) return refused ("contained no answer");
-        std::this_thread::sleep_for (durationOf (step.answer->pause));
+        std::this_thread::sleep_for (toDuration (step.answer->pause));
     }
 }
 
@@ -283,8 +279,7 @@ const ConnectedDevice* HidPort::sameAmong (const std::vector<ConnectedDevice>& d
     std::vector<const ConnectedDevice*> alike;
     for (const auto& d : devices)
         if (d.vid == wanted.vid && d.pid == wanted.pid && d.serial == wanted.serial && fit (*description, d) > 0) alike.push_back (&d);
-    const auto same_path = std::ranges::find (alike, wanted.path, [] (const auto* d)
-                                              { return d->path; });
+    const auto same_path = std::ranges::find (alike, wanted.path, [] (const auto* d) { return d->path; });
     if (same_path != alike.end()) return *same_path;
     return alike.size() == 1 || (! alike.empty() && ! wanted.serial.empty()) ? alike.front() : nullptr;
 }
@@ -293,8 +288,7 @@ void HidPort::lookAgain()
 {
     {
         std::unique_lock lock (opening);
-        stopped.wait_for (lock, options.look_again, [this]
-                          { return isStopping(); });
+        stopped.wait_for (lock, options.look_again, [this] { return isStopping(); });
     }
     if (isStopping()) return;
 
@@ -332,7 +326,7 @@ Clock::time_point HidPort::nextLook (Clock::time_point now) const
     double wait = secondsOf (longest_silence) / 4.0;
     for (const auto& o : description->outputs)
         wait = std::min (wait, 0.5 / o.max_rate);
-    return now + durationOf (std::max (wait, 250e-6));
+    return now + toDuration (std::max (wait, 250e-6));
 }
 
 void HidPort::writeOn()
@@ -381,7 +375,7 @@ void HidPort::attend (Transport& t, Output& o, std::size_t report, Clock::time_p
 
     const auto bytes = std::span (latest.bytes).first (latest.size);
     const bool changed = how.keepalive == 0.0 ? is_new : ! std::ranges::equal (bytes, o.latest);
-    const bool kept_alive = how.keepalive > 0.0 && now - o.sent >= durationOf (how.keepalive);
+    const bool kept_alive = how.keepalive > 0.0 && now - o.sent >= toDuration (how.keepalive);
     if (! changed && ! kept_alive)
     {
         o.seen = latest.number;
@@ -413,8 +407,7 @@ void HidPort::count (Nanoseconds answers, Clock::time_point sent_at) noexcept
 Result<> HidPort::send (Transport& t, std::size_t report, std::span<const std::uint8_t> bytes)
 {
     const auto& how = description->outputs[report];
-    const auto put = [&] (std::span<const std::uint8_t> b)
-    { return how.is_feature ? t.sendFeature (b) : t.write (b); };
+    const auto put = [&] (std::span<const std::uint8_t> b) { return how.is_feature ? t.sendFeature (b) : t.write (b); };
     auto sent = how.given ? put (addressed (bytes, how.given)) : put (bytes);
     writes.fetch_add (1, std::memory_order_relaxed);
     if (! sent)

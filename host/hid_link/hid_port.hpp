@@ -99,8 +99,7 @@ public:
     template <typename F>
     void drain (F&& f)
     {
-        ring.drain ([&] (std::span<const ArrivedReport> report)
-                    { f (report.front()); });
+        ring.drain ([&] (std::span<const ArrivedReport> report) { f (report.front()); });
     }
 
     /// Replaces the content of an output report. `answers` is the arrival time of the report that this one answers; 0 if

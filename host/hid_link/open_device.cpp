@@ -59,8 +59,10 @@ std::shared_ptr<const Profile> findProfile (const std::string& id, const LoadedP
     if (auto found = profileNamed (all, id)) return found;
 
     // Its file may exist but contain an error.
-    const auto broken = std::ranges::find_if (all.messages, [&] (const Message& m)
-                                              { return m.severity == Message::Severity::error && std::filesystem::path (m.file).stem() == id; });
+    const auto broken = std::ranges::find_if (all.messages, [&] (const Message& m) {
+        if (m.severity != Message::Severity::error) return false;
+        return std::filesystem::path (m.file).stem() == id;
+    });
     std::vector<std::string> names { "auto", std::string (pid_profile) };
     for (const auto& p : all.profiles)
         names.push_back (p->id);
@@ -99,8 +101,7 @@ bool isHid (const Json& description)
 
 std::vector<ConnectedDevice> eachOnce (const std::vector<ConnectedDevice>& listed, const LoadedProfiles& all)
 {
-    const auto bestFit = [&] (const ConnectedDevice& device)
-    {
+    const auto bestFit = [&] (const ConnectedDevice& device) {
         int best = 0;
         for (const auto& profile : all.profiles)
             best = std::max (best, fit (*profile, device));
@@ -125,8 +126,7 @@ FoundDevice findDevice (const Json& description, HidSystem& system, const Loaded
     const auto named = wanted.mayMeanPid() ? nullptr : findProfile (wanted.profile, all, found.messages);
     if (hasErrors (found.messages)) return found;
 
-    const auto refuse = [&] (const char* id, std::string text, std::string remedy)
-    {
+    const auto refuse = [&] (const char* id, std::string text, std::string remedy) {
         found.messages.push_back (Message::error (id, "", std::move (text), std::move (remedy)));
         return found;
     };
@@ -159,8 +159,7 @@ FoundDevice findDevice (const Json& description, HidSystem& system, const Loaded
     for (const auto& m : matches)
         if (m.fit == matches.front().fit) best.push_back (m.device);
     const auto& serial = best.front().serial;
-    const bool is_one = best.size() == 1 || (! serial.empty() && std::ranges::all_of (best, [&] (const auto& d)
-                                                                                      { return d.serial == serial; }));
+    const bool is_one = best.size() == 1 || (! serial.empty() && std::ranges::all_of (best, [&] (const auto& d) { return d.serial == serial; }));
     if (! is_one)
         return refuse ("hid/several", "several devices fit: " + namesOf (best), "select one by its \"serial\"; if they have none, unplug all but one");
 
@@ -215,8 +214,7 @@ Messages checkDevice (const Json& description, const std::filesystem::path& fold
     const auto profile = wanted.mayMeanPid() ? nullptr : findProfile (wanted.profile, all, messages);
     readGuard (description, profile ? layoutOf (HidModel (profile)) : DeviceLayout {}, messages);
     if (! profile)   // any device, with any buttons, may be connected later
-        std::erase_if (messages, [] (const Message& m)
-                       { return m.id == "device/unknown_button"; });
+        std::erase_if (messages, [] (const Message& m) { return m.id == "device/unknown_button"; });
     return messages;
 }
 

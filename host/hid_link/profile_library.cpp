@@ -46,9 +46,8 @@ LoadedProfiles loadProfileLibrary()
     {
         auto ours = loadProfiles (folder);
         const auto own = all.profiles;
-        std::ranges::copy_if (ours.profiles, std::back_inserter (all.profiles), [&] (const auto& p)
-                              { return std::ranges::none_of (own, [&] (const auto& o)
-                                                             { return o->id == p->id; }); });
+        std::ranges::copy_if (ours.profiles, std::back_inserter (all.profiles),
+                              [&] (const auto& p) { return std::ranges::none_of (own, [&] (const auto& o) { return o->id == p->id; }); });
         std::ranges::move (ours.messages, std::back_inserter (all.messages));
     }
     return all;

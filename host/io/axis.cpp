@@ -42,8 +42,7 @@ struct Base
 std::optional<Base> baseOf (std::string_view unit)
 {
     const auto first = unit.substr (0, unit.find_first_of ("*/"));
-    const auto is = [&] (std::string_view symbol)
-    { return first == symbol; };
+    const auto is = [&] (std::string_view symbol) { return first == symbol; };
 
     if (is ("kg"))
         return Base { std::string (unit.substr (1)), 1e3, 1e3 };

@@ -63,8 +63,7 @@ std::optional<Colour> ownColour (std::string_view quantity) noexcept
 /// Relative luminance as WCAG 2 defines it, 0 black to 1 white.
 double luminance (Colour colour) noexcept
 {
-    const auto linear = [] (std::uint8_t channel)
-    {
+    const auto linear = [] (std::uint8_t channel) {
         const double c = channel / 255.0;
         return c <= 0.03928 ? c / 12.92 : std::pow ((c + 0.055) / 1.055, 2.4);
     };
@@ -100,8 +99,7 @@ Colour onPaper (Colour colour) noexcept
     if (contrastOnWhite (colour) >= faint)
         return colour;
 
-    const auto darker = [] (std::uint8_t channel)
-    { return static_cast<std::uint8_t> (channel * 0.95); };
+    const auto darker = [] (std::uint8_t channel) { return static_cast<std::uint8_t> (channel * 0.95); };
     while (contrastOnWhite (colour) < legible)
         colour = { darker (colour.red), darker (colour.green), darker (colour.blue) };
     return colour;

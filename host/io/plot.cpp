@@ -216,8 +216,7 @@ private:
         graphics.reduceClipRegion (panel.plot.expanded (style.dot()).toNearestInt());
 
         // Converts data to pixels in one step, without a copy in the displayed units.
-        const auto fromData = [] (PixelMap map, const AxisScale& axis)
-        {
+        const auto fromData = [] (PixelMap map, const AxisScale& axis) {
             map.low = map.low * axis.unit + axis.origin;
             map.high = map.high * axis.unit + axis.origin;
             return map;

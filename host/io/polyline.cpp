@@ -17,8 +17,7 @@ namespace
 /// A position rounded to half a pixel, as one number.
 std::uint32_t cellOf (PixelPoint point) noexcept
 {
-    const auto half_pixels = [] (float at)
-    { return static_cast<std::uint32_t> (std::clamp (std::lround (2.0f * at), 0L, 0xffffL)); };
+    const auto half_pixels = [] (float at) { return static_cast<std::uint32_t> (std::clamp (std::lround (2.0f * at), 0L, 0xffffL)); };
     return half_pixels (point.x) << 16 | half_pixels (point.y);
 }
 
@@ -67,8 +66,7 @@ private:
 void keepWhatIsNew (const Polyline& line, std::unordered_set<std::uint64_t>& drawn, std::vector<Polyline>& lines)
 {
     Polyline fresh;
-    const auto finish = [&]
-    {
+    const auto finish = [&] {
         if (fresh.size() > 1)
             lines.push_back (fresh);
         fresh.clear();
@@ -117,8 +115,7 @@ std::vector<Polyline> linesThrough (std::span<const double> x, std::span<const d
     Polyline line;
     Column column;
 
-    const auto finish = [&]
-    {
+    const auto finish = [&] {
         column.moveTo (line);
         if (! line.empty())
             lines.push_back (line);

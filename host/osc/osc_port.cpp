@@ -39,8 +39,7 @@ Result<std::unique_ptr<OscPort>> OscPort::open (const OscListen& where)
     }
     port->where = where;
     port->bound = port->socket.getBoundPort();
-    port->listening = std::jthread ([raw = port.get()] (const std::stop_token& stop)
-                                    { raw->listen (stop); });
+    port->listening = std::jthread ([raw = port.get()] (const std::stop_token& stop) { raw->listen (stop); });
     return port;
 }
 
@@ -53,8 +52,7 @@ void OscPort::onArrival (std::function<void (const juce::OSCMessage&)> see)
 std::optional<OscPort::Received> OscPort::receive (std::chrono::milliseconds patience)
 {
     std::unique_lock lock (guard);
-    if (patience.count() > 0) arrived.wait_for (lock, patience, [this]
-                                                { return ! waiting.empty(); });
+    if (patience.count() > 0) arrived.wait_for (lock, patience, [this] { return ! waiting.empty(); });
     if (waiting.empty()) return std::nullopt;
     auto message = std::move (waiting.front());
     waiting.pop_front();

@@ -96,8 +96,7 @@ std::string randomToken()
 
 RemoteControl::RemoteControl (OscPort& p, Controlled& c, std::string t) : port (p), controlled (c), token (std::move (t))
 {
-    port.onArrival ([&c] (const OSCMessage& m)
-                    { if (m.getAddressPattern().toString() == "/tactus/emergency") c.emergencyNow(); });
+    port.onArrival ([&c] (const OSCMessage& m) { if (m.getAddressPattern().toString() == "/tactus/emergency") c.emergencyNow(); });
 }
 
 RemoteControl::~RemoteControl() { port.onArrival ({}); }
@@ -110,8 +109,7 @@ void RemoteControl::attend (Clock::time_point now)
         else
             break;
 
-    const auto left = std::erase_if (probes, [&] (const Probe& p)
-                                     { return now >= p.end; });
+    const auto left = std::erase_if (probes, [&] (const Probe& p) { return now >= p.end; });
     if (left > 0 && probes.empty()) static_cast<void> (look ({}));
 
     sendCapture();
@@ -126,8 +124,7 @@ void RemoteControl::carryOut (const OSCMessage& m, const std::string& host, Cloc
 {
     const auto address = textOf (m.getAddressPattern().toString());
     const auto subject = m.size() > 0 && m[0].isString() ? textOf (m[0].getString()) : std::string();
-    const auto last = [&] (int place)
-    { return OscReturn { host, answerPort (m, place) }; };
+    const auto last = [&] (int place) { return OscReturn { host, answerPort (m, place) }; };
 
     if (address == "/tactus/param" || address == "/tactus/control")
         answer (last (2), address, subject, turn (address, subject, m));
@@ -184,8 +181,7 @@ void RemoteControl::report (const std::string& address, const std::string& subje
     else if (address == "/tactus/status" && m.size() == 1)
     {
         const auto s = controlled.status();
-        const auto whole = [] (std::uint64_t n)
-        { return static_cast<juce::int32> (n & 0x7fffffffu); };
+        const auto whole = [] (std::uint64_t n) { return static_cast<juce::int32> (n & 0x7fffffffu); };
         port.send (to, OSCMessage ("/tactus/status", juceText (s.name), static_cast<float> (s.rate_hz), static_cast<float> (s.time_s),
                                    static_cast<float> (s.force), static_cast<float> (s.peak), whole (s.ticks), whole (s.misses)));
     }
@@ -245,8 +241,7 @@ Result<> RemoteControl::transport (const std::string& what, const OSCMessage& m)
 
 Result<> RemoteControl::subscribe (const OSCMessage& m, const std::string& host, Clock::time_point now)
 {
-    const auto number = [&] (int i, double otherwise)
-    { return m.size() > i ? numberOf (m[i]) : std::optional (otherwise); };
+    const auto number = [&] (int i, double otherwise) { return m.size() > i ? numberOf (m[i]) : std::optional (otherwise); };
     const auto rate = number (2, usual_rate), length = number (3, usual_length);
     if (m.size() < 2 || m.size() > 4 || ! m[0].isString() || ! isPort (m[1]) || ! rate || ! length || ! (*rate > 0.0) || ! (*length > 0.0))
         return badArguments ("a port of the graph, the port for the answers, and optionally the rate (Hz) and the duration (s)");
@@ -254,8 +249,7 @@ Result<> RemoteControl::subscribe (const OSCMessage& m, const std::string& host,
     Probe probe {
         .name = textOf (m[0].getString()), .to = { host, m[1].getInt32() }, .rate = std::min (*rate, highest_rate), .end = now + durationOf (*length)
     };
-    const auto same = std::ranges::find_if (probes, [&] (const Probe& p)
-                                            { return p.name == probe.name && p.to == probe.to; });
+    const auto same = std::ranges::find_if (probes, [&] (const Probe& p) { return p.name == probe.name && p.to == probe.to; });
     if (same != probes.end())
     {
         same->rate = probe.rate;
@@ -270,8 +264,7 @@ Result<> RemoteControl::subscribe (const OSCMessage& m, const std::string& host,
         if (auto looked = look (more); ! looked) return looked;
     }
 
-    const auto& now_probed = *std::ranges::find_if (probes, [&] (const Probe& p)
-                                                    { return p.name == probe.name && p.to == probe.to; });
+    const auto& now_probed = *std::ranges::find_if (probes, [&] (const Probe& p) { return p.name == probe.name && p.to == probe.to; });
     OSCMessage done ("/tactus/done", juce::String ("/tactus/probe"), juceText (probe.name), static_cast<float> (rate_hz));
     for (const auto c : now_probed.components)
         done.addString (juceText (components[c]));
@@ -281,13 +274,11 @@ Result<> RemoteControl::subscribe (const OSCMessage& m, const std::string& host,
 
 Result<> RemoteControl::subscribeCapture (const OSCMessage& m, const std::string& host, Clock::time_point now)
 {
-    const auto whole = [&] (int i, int otherwise)
-    {
+    const auto whole = [&] (int i, int otherwise) {
         if (m.size() <= i) return otherwise;
         return m[i].isInt32() ? m[i].getInt32() : -1;
     };
-    const auto number = [&] (int i, double otherwise)
-    { return m.size() <= i ? otherwise : numberOf (m[i]).value_or (std::nan ("")); };
+    const auto number = [&] (int i, double otherwise) { return m.size() <= i ? otherwise : numberOf (m[i]).value_or (std::nan ("")); };
     const double level = number (3, std::nan ("")), length = number (7, usual_length);
     const auto edge = m.size() > 4 ? edgeOf (m[4]) : std::optional (Trigger::Edge::rising);
     const int before = whole (5, usual_before), after = whole (6, usual_after);

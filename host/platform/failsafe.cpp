@@ -189,8 +189,7 @@ std::string needGuardian()
 
 Result<Failsafe> Failsafe::arm (const std::string& device_file, const std::vector<Report>& reports)
 {
-    const auto failed = [&] (std::string why)
-    { return Message::error ("device/failsafe", device_file, std::move (why)); };
+    const auto failed = [&] (std::string why) { return Message::error ("device/failsafe", device_file, std::move (why)); };
 
     const std::lock_guard lock (changing);
     std::size_t slot = 0, used = 0;

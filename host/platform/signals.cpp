@@ -45,10 +45,8 @@ void watchForEmergency (Act stop, Act rearm) noexcept
     rearming = rearm;
 #if defined(SIGUSR1) && defined(SIGUSR2)
     // Once a handler is set, neither signal ends the program, even with null actions.
-    std::signal (SIGUSR1, [] (int)
-                 { call (emergency); });
-    std::signal (SIGUSR2, [] (int)
-                 { call (rearming); });
+    std::signal (SIGUSR1, [] (int) { call (emergency); });
+    std::signal (SIGUSR2, [] (int) { call (rearming); });
 #endif
 }
 

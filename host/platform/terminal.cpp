@@ -50,8 +50,7 @@ Keys::~Keys()
 
 char Keys::next (std::chrono::milliseconds patience) noexcept
 {
-    const auto ours = []
-    { return tcgetpgrp (STDIN_FILENO) == getpgrp(); };   // reading in the background would stop the program
+    const auto ours = [] { return tcgetpgrp (STDIN_FILENO) == getpgrp(); };   // reading in the background would stop the program
     pollfd waiting { STDIN_FILENO, POLLIN, 0 };
     const bool any = before && poll (&waiting, 1, static_cast<int> (patience.count())) == 1;
     char key = 0;

@@ -25,8 +25,7 @@ void AwaitedDevice::prepare (double dt_s)
 {
     dt = dt_s;
     if (! looking.joinable())
-        looking = std::jthread ([this]
-                                { lookOn(); });
+        looking = std::jthread ([this] { lookOn(); });
 }
 
 Reading AwaitedDevice::read() noexcept
@@ -57,8 +56,7 @@ void AwaitedDevice::lookOn()
     {
         look();
         std::unique_lock lock (mutex);
-        if (stopped.wait_for (lock, pause, [this]
-                              { return stopping; }))
+        if (stopped.wait_for (lock, pause, [this] { return stopping; }))
             return;
     }
 }

@@ -30,10 +30,8 @@ std::shared_ptr<const hid::Profile> profileOf (const Json& description, const hi
 /// Makes a device that waits for the real one, if that is possible.
 std::unique_ptr<AwaitedDevice> await (const Json& description, hid::HidSystem& system, const hid::LoadedProfiles& all, MadeDevice& made)
 {
-    const auto isError = [] (const Message& m)
-    { return m.severity == Message::Severity::error; };
-    if (! hid::isHid (description) || std::ranges::any_of (made.messages, [&] (const Message& m)
-                                                           { return isError (m) && ! isOfTheMoment (m); }))
+    const auto isError = [] (const Message& m) { return m.severity == Message::Severity::error; };
+    if (! hid::isHid (description) || std::ranges::any_of (made.messages, [&] (const Message& m) { return isError (m) && ! isOfTheMoment (m); }))
         return nullptr;
     auto profile = profileOf (description, all);
     if (! profile) return nullptr;

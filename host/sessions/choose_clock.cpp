@@ -27,8 +27,7 @@ void addNames (const Json& mapped, std::set<std::string>& names)
 
 void addRoles (const graph::Graph& g, std::set<std::string>& names)
 {
-    const auto add = [&] (const graph::Patch& patch)
-    {
+    const auto add = [&] (const graph::Patch& patch) {
         for (const auto& node : patch.nodes)
         {
             if (! node.role.empty()) names.insert (node.role);

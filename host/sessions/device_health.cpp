@@ -100,8 +100,7 @@ void HealthWatch::look (std::span<const RealDevice> devices)
     }
 
     // The speed of each clock relative to its nominal rate.
-    const auto speed = [&] (const std::string& role) -> std::optional<RateMeter::Rate>
-    {
+    const auto speed = [&] (const std::string& role) -> std::optional<RateMeter::Rate> {
         const auto real = std::ranges::find (devices, role, &RealDevice::role);
         if (real == devices.end() || ! hasClock (real->profile())) return std::nullopt;
         const auto& meter = meterOf (role).rate;

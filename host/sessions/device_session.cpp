@@ -79,8 +79,7 @@ ReadSession readSession (std::string_view text)
     auto parsed = readJson (text);
     auto& json = parsed.root;
     auto& messages = parsed.messages;
-    const auto refuse = [&] (std::string id, const std::string& where, std::string what, std::string remedy)
-    {
+    const auto refuse = [&] (std::string id, const std::string& where, std::string what, std::string remedy) {
         messages.push_back (Message::error (std::move (id), where, std::move (what), std::move (remedy)));
     };
 

@@ -47,13 +47,12 @@ void addOnce (std::vector<std::string>& names, std::string name)
 void add (DeviceParts& parts, const plan::Flat& flat, int index)
 {
     const auto& node = flat.nodes[static_cast<std::size_t> (index)];
-    const auto isWired = [&] (Role role, std::string_view port)
-    {
-        return std::ranges::any_of (flat.wires, [&] (const plan::FlatWire& w)
-                                    {
+    const auto isWired = [&] (Role role, std::string_view port) {
+        return std::ranges::any_of (flat.wires, [&] (const plan::FlatWire& w) {
             if (role == Role::output && ! w.from) return false;
             const auto& end = role == Role::output ? *w.from : w.to;
-            return end.node == index && end.role == role && flat.sheet (end).id == port; });
+            return end.node == index && end.role == role && flat.sheet (end).id == port;
+        });
     };
     const auto id = node.type->info.id;
     if (id == "device.position")
@@ -113,9 +112,7 @@ std::vector<RoleNeeds> needsOf (const Plan& plan)
 
 DeviceParts partsOf (const hid::Profile& p)
 {
-    const auto any = [] (const std::array<std::string, 3>& names)
-    { return std::ranges::any_of (names, [] (const std::string& n)
-                                  { return ! n.empty(); }); };
+    const auto any = [] (const std::array<std::string, 3>& names) { return std::ranges::any_of (names, [] (const std::string& n) { return ! n.empty(); }); };
     return { .position = any (p.position),
              .rotation = any (p.rotation),
              .pressure = ! p.pressure.empty(),
@@ -149,15 +146,12 @@ std::optional<DeviceParts> partsOf (const Json& description, const std::filesyst
 std::string describe (const DeviceParts& p)
 {
     std::string text;
-    const auto say = [&] (const std::string& what)
-    { text += (text.empty() ? "" : ", ") + what; };
-    const auto named = [&] (const char* kind, const std::vector<std::string>& names)
-    {
+    const auto say = [&] (const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+    const auto named = [&] (const char* kind, const std::vector<std::string>& names) {
         for (const auto& n : names)
             if (! n.empty()) say (std::string (kind) + " " + quote (n));
     };
-    const auto channels = [&] (const char* kind, int n)
-    {
+    const auto channels = [&] (const char* kind, int n) {
         if (n > 0) say (std::string (kind) + (n == 1 ? " 1" : "s 1 to " + std::to_string (n)));
     };
     if (p.position) say ("position");
@@ -177,12 +171,10 @@ std::string describe (const DeviceParts& p)
 std::vector<std::string> lackingOf (const DeviceParts& needed, const DeviceParts& there)
 {
     std::vector<std::string> all;
-    const auto tool = [&] (bool is_needed, bool is_there, const char* what)
-    {
+    const auto tool = [&] (bool is_needed, bool is_there, const char* what) {
         if (is_needed && ! is_there) all.push_back (std::string ("no ") + what);
     };
-    const auto say = [&] (std::string what)
-    {
+    const auto say = [&] (std::string what) {
         if (! what.empty()) all.push_back (std::move (what));
     };
     tool (needed.position, there.position, "position");

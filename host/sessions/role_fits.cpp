@@ -46,8 +46,7 @@ std::string nameOf (const Json& description)
 
 bool isAmong (const Json& description, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& all)
 {
-    return std::ranges::any_of (connected, [&] (const auto& device)
-                                { return profileFor (description, device, all) != nullptr; });
+    return std::ranges::any_of (connected, [&] (const auto& device) { return profileFor (description, device, all) != nullptr; });
 }
 
 Messages checkDescription (const Json& description, const std::filesystem::path& folder, const hid::LoadedProfiles& all)

@@ -166,8 +166,10 @@ Recording readRecording (std::string_view text)
         const auto line = text.substr (0, text.find ('\n'));
         text.remove_prefix (std::min (line.size() + 1, text.size()));
 
-        const auto refuse = [&] (const char* id, const std::string& what, const char* remedy)
-        { recording.messages.push_back (Message::error (id, "line " + std::to_string (line_number), what + ": " + quote (line), remedy)); };
+        const auto refuse = [&] (const char* id, const std::string& what, const char* remedy) {
+            const auto place = "line " + std::to_string (line_number);
+            recording.messages.push_back (Message::error (id, place, what + ": " + quote (line), remedy));
+        };
 
         Words words (line);
         const auto kind = words.next();

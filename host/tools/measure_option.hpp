@@ -17,8 +17,7 @@ inline void addMeasure (const Command& app, const char* option, double& value, c
 {
     app.addOption (
            option,
-           [&value, unit, option, zero_allowed] (const std::string& text)
-           {
+           [&value, unit, option, zero_allowed] (const std::string& text) {
                const auto read = parseMeasure (text);
                if (! read) throw UsageError (option, read.error().text);
                const auto& measure = *read;

@@ -270,8 +270,7 @@ inline Blade::Material Blade::read (const Params& p) const noexcept
 inline double Blade::burstLength (const Material& m) const noexcept
 {
     const double stored = settings.law.energy (m.d_rupture);
-    const auto left = [&] (double c)
-    { return stored - cracked().energy (m.d_rupture - c) - m.cost * c; };
+    const auto left = [&] (double c) { return stored - cracked().energy (m.d_rupture - c) - m.cost * c; };
 
     const double top = std::max (0.0, m.d_rupture - m.e_cut);
     if (! (left (top) > 0.0)) return top;

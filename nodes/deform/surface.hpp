@@ -160,8 +160,7 @@ struct ElasticSurface
 
         std::shared_ptr<const NearestTriangle> index;
         if (setup.services.nearest_triangle) index = setup.services.nearest_triangle (std::shared_ptr<const Mesh> (body, &body->walk().mesh()));
-        const auto find = [held = body, index] (const Vec3& p) noexcept
-        { return index ? (*index) (p) : nearestOfAll (held->walk().mesh(), p); };
+        const auto find = [held = body, index] (const Vec3& p) noexcept { return index ? (*index) (p) : nearestOfAll (held->walk().mesh(), p); };
         search = std::make_shared<Search> (find, settings.search_ticks, setup.services.answers);
     }
 
@@ -347,16 +346,14 @@ private:
     /// Without any mu the contact follows freely, whichever choice is set.
     bool isFrictionless() const noexcept
     {
-        const auto isNone = [] (const Ratio& mu)
-        { return ! mu.law && mu.number == 0.0; };
+        const auto isNone = [] (const Ratio& mu) { return ! mu.law && mu.number == 0.0; };
         return params.friction == Friction::frictionless || std::ranges::all_of (settings.surface->mu, isNone);
     }
 
     /// The default surface: a soft square of 10 cm that faces upwards.
     static std::shared_ptr<const Surface> pad()
     {
-        static const auto made = []
-        {
+        static const auto made = [] {
             const Law across { .kind = Law::Kind::power, .a = 500.0, .b = 1.0 }, along { .kind = Law::Kind::power, .a = 1000.0, .b = 1.0 };
             Surface s;
             const std::vector<Vec3> corners { { -0.05, -0.05, 0.0 }, { 0.05, -0.05, 0.0 }, { 0.05, 0.05, 0.0 }, { -0.05, 0.05, 0.0 } };

@@ -160,8 +160,7 @@ struct ElastoPlastic
 
     std::string problem() const
     {
-        const auto inside = [] (double zeta)
-        { return zeta >= 0.0 && zeta <= 1.0; };
+        const auto inside = [] (double zeta) { return zeta >= 0.0 && zeta <= 1.0; };
         if (settings.adhesion_curve.empty()) return "adhesion_curve needs at least one point";
         if (! std::ranges::all_of (settings.adhesion_curve.y, inside)) return "adhesion_curve must stay between 0 (sticks) and 1 (slides)";
         return {};

@@ -160,8 +160,7 @@ private:
 inline LayerMix::Outputs LayerMix::tick (const Inputs& in) noexcept
 {
     const int size = in.in.size();
-    const auto fault = [this]() -> Outputs
-    {
+    const auto fault = [this]() -> Outputs {
         forget();
         return {};
     };

@@ -261,8 +261,10 @@ inline void HeightMap::build()
     const double length = pitch * std::max (points.x.intervals, points.y.intervals);
     for (double spacing = pitch; 0.25 / spacing > 0.5 / length; spacing *= 2.0)
     {
-        const auto coarser = [spacing] (const MirroredAxis& a)
-        { return a.with (std::max (1, static_cast<int> (std::ceil (a.intervals * a.spacing / spacing * (1.0 - 1e-12))))); };
+        const auto coarser = [spacing] (const MirroredAxis& a) {
+            const auto intervals = static_cast<int> (std::ceil (a.intervals * a.spacing / spacing * (1.0 - 1e-12)));
+            return a.with (std::max (1, intervals));
+        };
         const double edge = 0.25 / spacing;
         points = resampled (points, coarser (points.x), coarser (points.y), 0.8 * edge, 8.0);
         levels.push_back ({ edge, SplineSurface { points } });

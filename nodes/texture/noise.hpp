@@ -126,8 +126,7 @@ struct TextureNoise
 
         const double speed = std::abs (in.speed), force = std::max (in.normal_force, 0.0);
         if (speed != now.speed || force != now.force) move (speed, force);
-        const double value = params.gain * now.amplitude * resampler ([this]
-                                                                      { return lattice (random.normal()); });
+        const double value = params.gain * now.amplitude * resampler ([this] { return lattice (random.normal()); });
         return { .value = finiteOrZero (value) };
     }
 
@@ -160,8 +159,7 @@ private:
     void move (double speed, double force) noexcept
     {
         const Between s = find (speeds, speed), f = find (forces, force);
-        const auto corner = [this] (std::size_t i, std::size_t j) -> const Shape&
-        { return shapes[grid[i * forces.size() + j]]; };
+        const auto corner = [this] (std::size_t i, std::size_t j) -> const Shape& { return shapes[grid[i * forces.size() + j]]; };
         const Shape &a = corner (s.below, f.below), &b = corner (s.above, f.below), &c = corner (s.below, f.above), &d = corner (s.above, f.above);
         const double wa = (1.0 - s.part) * (1.0 - f.part), wb = s.part * (1.0 - f.part), wc = (1.0 - s.part) * f.part, wd = s.part * f.part;
 
@@ -241,8 +239,7 @@ inline std::vector<std::size_t> TextureNoise::nearestModels() const
         for (const double force : forces)
         {
             const double wide = std::max (speeds.back() - speeds.front(), 1e-9), high = std::max (forces.back() - forces.front(), 1e-9);
-            const auto distance = [&] (const Model& m)
-            { return std::hypot ((m.speed - speed) / wide, (m.force - force) / high); };
+            const auto distance = [&] (const Model& m) { return std::hypot ((m.speed - speed) / wide, (m.force - force) / high); };
             all.push_back (at (std::ranges::min_element (models, {}, distance) - models.begin()));
         }
     return all;
@@ -271,8 +268,7 @@ inline void TextureNoise::prepare (const Setup& setup)
     }
     grid = nearestModels();
 
-    const auto lowest = [] (const std::vector<double>& sorted, double if_none)
-    {
+    const auto lowest = [] (const std::vector<double>& sorted, double if_none) {
         const auto found = std::ranges::upper_bound (sorted, 0.0);
         return found == sorted.end() ? if_none : *found;
     };
@@ -280,14 +276,12 @@ inline void TextureNoise::prepare (const Setup& setup)
     full_force = lowest (forces, 1e-2);
 
     random = Random { static_cast<std::uint64_t> (settings.seed) };
-    lattice.start (order, [this]
-                   { return random.normal(); });
+    lattice.start (order, [this] { return random.normal(); });
     now = {};
     resampler.prepare (models.empty() ? 1.0 : models[0].rate / setup.rate_hz);
     if (resampler.passesThrough()) return;
     if (! grid.empty()) move (speeds.front(), forces.front());
-    resampler.fill ([this]
-                    { return lattice (random.normal()); });
+    resampler.fill ([this] { return lattice (random.normal()); });
 }
 
 /// The noise continues through the stages that both filters have: a stage that expects variance 1 gets variance 1. A new seed

@@ -123,8 +123,7 @@ struct Wavetable
     void adopt (const Wavetable& old) noexcept
     {
         previous = old.table;
-        const auto takeOver = [&] (Voice voice, std::size_t preferred)
-        {
+        const auto takeOver = [&] (Voice voice, std::size_t preferred) {
             if (! voice.sounds || voice.table != old.table.get()) return;
             if (preferred < voices.size())
                 voices[preferred] = voice;
@@ -222,8 +221,7 @@ inline std::string Wavetable::problem() const
     const Samples& samples = channels[at (t.channel - 1)];
     if (samples.size() < 2 || samples.size() > at (Table::longest))
         return "wav needs from 2 to " + std::to_string (Table::longest) + " samples; it has " + std::to_string (samples.size());
-    const auto finite = [] (double v)
-    { return isFinite (v); };
+    const auto finite = [] (double v) { return isFinite (v); };
     if (! std::ranges::all_of (samples, finite)) return "wav has a sample that is not finite";
     return {};
 }

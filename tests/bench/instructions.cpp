@@ -126,8 +126,7 @@ NodeType nothing()
     NodeType type {};
     type.info.id = "nothing";
     type.outputs_size = 1;
-    type.make = []() -> std::shared_ptr<void>
-    { return std::make_shared<char>(); };
+    type.make = []() -> std::shared_ptr<void> { return std::make_shared<char>(); };
     type.initialiseOutputs = [] (void*) noexcept {};
     type.tick = [] (void*, const double* const*, void*) noexcept {};
     return type;

@@ -88,8 +88,7 @@ std::shared_ptr<const Surface> flesh (Dice& dice, double mu, bool frames_lean)
     for (int i = 0; i < 4; ++i)
     {
         const double k = dice.size (500.0, 2000.0), n = 1.0 + 0.5 * dice.below (2), along = k * std::pow (1e-3, 1.0 - n);
-        const auto law = [&] (double share)
-        { return Law { .kind = Law::Kind::power, .a = share * along, .b = n }; };
+        const auto law = [&] (double share) { return Law { .kind = Law::Kind::power, .a = share * along, .b = n }; };
         corners.push_back ({ law (0.5), law (0.5), law (1.0) });
         if (! frames_lean) continue;
         const double angle = dice.uniform (-0.2, 0.2);
@@ -114,14 +113,12 @@ Rig skin (const std::shared_ptr<const Surface>& surface, bool rubs)
 // Long because it checks two properties of the same surface, each with its own path of the hand.
 TEST_CASE ("expert 6: sliding across an edge from a soft to a stiff triangle causes no step in force and generates no energy", "[expert][deform]")
 {
-    rc::prop ("smaller position steps give smaller force steps, so the force itself has no step", [] (unsigned seed)
-              {
+    rc::prop ("smaller position steps give smaller force steps, so the force itself has no step", [] (unsigned seed) {
         Dice dice { seed };
         const auto surface = flesh (dice, dice.uniform (0.2, 1.0), true);
         const double depth = dice.uniform (0.2e-3, 2e-3), turn = dice.uniform (0.0, 2.0 * M_PI), off = dice.uniform (-3e-3, 3e-3);
         const Vec3 way { std::cos (turn), std::sin (turn), 0 }, from { -off * way.y(), off * way.x(), -depth };
-        const auto steepest = [&] (int n)
-        {
+        const auto steepest = [&] (int n) {
             Rig rig = skin (surface, true);
             double most = 0.0;
             Vec3 before = Vec3::Zero();
@@ -146,17 +143,16 @@ TEST_CASE ("expert 6: sliding across an edge from a soft to a stiff triangle cau
             finer = fine <= 0.35 * coarse;
             coarse = fine;
         }
-        RC_ASSERT (finer); });
+        RC_ASSERT (finer);
+    });
 
-    rc::prop ("any closed path: without friction it costs no energy, with enough friction it costs some", [] (unsigned seed)
-              {
+    rc::prop ("any closed path: without friction it costs no energy, with enough friction it costs some", [] (unsigned seed) {
         Dice dice { seed };
         const double mu = dice.uniform (0.6, 1.0), depth = dice.uniform (0.2e-3, 2e-3), lift = dice.uniform (-0.8, 0.8), phase = dice.uniform (0.0, 2.0 * M_PI);
         const double size[] { dice.uniform (1e-3, 0.012), dice.uniform (1e-3, 0.012) };
         const int waves[] { 1 + dice.below (3), 1 + dice.below (3), 1 + dice.below (3) };
         const auto surface = flesh (dice, mu, false);
-        const auto handled = [&] (bool rubs)
-        {
+        const auto handled = [&] (bool rubs) {
             Rig rig = skin (surface, rubs);
             constexpr int n = 1200;
             double work = 0.0, moved = 0.0;
@@ -179,7 +175,8 @@ TEST_CASE ("expert 6: sliding across an edge from a soft to a stiff triangle cau
         const auto [glides, glided] = handled (false);
         RC_ASSERT (std::abs (glides) <= 5e-3 * glided);
         const auto [rubs, rubbed] = handled (true);
-        RC_ASSERT (rubs >= -1e-3 * rubbed); });
+        RC_ASSERT (rubs >= -1e-3 * rubbed);
+    });
 }
 
 TEST_CASE ("expert 7: a touch that follows a touch elsewhere starts without a kick", "[expert][friction][deform]")
@@ -191,13 +188,11 @@ TEST_CASE ("expert 7: a touch that follows a touch elsewhere starts without a ki
     graph.wire ("hand.position -> floor.position").wire ("hand.position -> drag.position");
     graph.wire ("floor.resistance -> drag.normal_force").wire ("floor.force -> motor.force").wire ("drag.force -> motor.force");
 
-    rc::prop ("a hand that taps in different places and drags while it is down", [&] (unsigned seed)
-              {
+    rc::prop ("a hand that taps in different places and drags while it is down", [&] (unsigned seed) {
         Dice dice { seed };
         const double reach = dice.uniform (0.01, 0.1), deepest = dice.size (1e-4, 1e-2);
         const double taps = dice.uniform (5.0, 20.0), strokes = dice.uniform (0.5, 3.0), phase = dice.uniform (0.0, 6.0);
-        const auto path = [&] (int k)
-        {
+        const auto path = [&] (int k) {
             const double s = 2.0 * M_PI * k / rate;
             return Vec3 { reach * std::sin (strokes * s), reach * std::cos (0.7 * strokes * s), -deepest * std::sin (taps * s + phase) };
         };
@@ -216,13 +211,13 @@ TEST_CASE ("expert 7: a touch that follows a touch elsewhere starts without a ki
             RC_ASSERT (force.head<2>().isZero (0.0));
             RC_ASSERT (force.norm() <= stiffness * dp.norm() * (1.0 + 1e-9));
         }
-        RC_ASSERT (touches >= 3); });
+        RC_ASSERT (touches >= 3);
+    });
 }
 
 TEST_CASE ("expert 8: in an existing cut the blade feels no force down to the end of the cut, and nothing ruptures again", "[expert][cut]")
 {
-    rc::prop ("any sample; tracking of the hand may be lost in between", [] (unsigned seed)
-              {
+    rc::prop ("any sample; tracking of the hand may be lost in between", [] (unsigned seed) {
         Dice dice { seed };
         const Potato potato { dice };
         Rig rig = potato.blade();
@@ -238,13 +233,13 @@ TEST_CASE ("expert 8: in an existing cut the blade feels no force down to the en
         const auto again = press (rig, crack, crack + 2.0 * deep, 2000);
         RC_ASSERT (! again.bursts);
         RC_ASSERT (again.most <= potato.f_cut * (1.0 + 1e-6));
-        RC_ASSERT (rig.out ("state") == 4.0); });
+        RC_ASSERT (rig.out ("state") == 4.0);
+    });
 }
 
 TEST_CASE ("expert 9: a blade that passes the rupture in one sample ends where a slow one would", "[expert][cut]")
 {
-    rc::prop ("any sample, any depth", [] (unsigned seed)
-              {
+    rc::prop ("any sample, any depth", [] (unsigned seed) {
         Dice dice { seed };
         const Potato potato { dice };
         Rig jumps = potato.blade(), creeps = potato.blade();
@@ -252,12 +247,12 @@ TEST_CASE ("expert 9: a blade that passes the rupture in one sample ends where a
         press (jumps, 0.0, deep, 1);
         RC_ASSERT (press (creeps, 0.0, deep, 5000).most >= 0.99 * potato.f_rupture);
 
-        const auto same = [&] (const char* output, double scale)
-        { RC_ASSERT (std::abs (jumps.out (output) - creeps.out (output)) <= 1e-8 * scale); };
+        const auto same = [&] (const char* output, double scale) { RC_ASSERT (std::abs (jumps.out (output) - creeps.out (output)) <= 1e-8 * scale); };
         same ("resistance", potato.f_rupture);
         same ("crack", deep);
         same ("stored_energy", potato.f_rupture * deep);
         same ("dissipated_energy", potato.f_rupture * deep);
         RC_ASSERT (jumps.out ("state") == 2.0);
-        RC_ASSERT (jumps.out ("crack") > 0.0); });
+        RC_ASSERT (jumps.out ("crack") > 0.0);
+    });
 }

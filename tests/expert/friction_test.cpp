@@ -53,16 +53,14 @@ bool sameBits (double a, double b) { return std::bit_cast<std::uint64_t> (a) == 
 TEST_CASE ("expert 1: a tool that is leaned on for a minute does not drift", "[expert][friction]")
 {
     // Breakaway is at 0.4 N. The hand leans with a fraction of this and trembles at 8 Hz.
-    const auto drift = [] (std::string adhesion, double lean)
-    {
+    const auto drift = [] (std::string adhesion, double lean) {
         Sketch graph;
         graph.node ("hand", "device.position");
         graph.node ("drag", "friction.elasto_plastic", { { "mu", 0.4 }, { "d_max", "0.4 mm" }, { "adhesion", adhesion } });
         graph.node ("motor", "device.force");
         graph.wire ("hand.position -> drag.position").wire ("drag.force -> motor.force");
         test::Mass tool;
-        tool.hand = [=] (double t)
-        { return lean + 0.03 * std::sin (2.0 * M_PI * 8.0 * t); };
+        tool.hand = [=] (double t) { return lean + 0.03 * std::sin (2.0 * M_PI * 8.0 * t); };
         Engine engine { test::planOf (graph, 1000.0) };
         engine.attach ("stylus", tool);
         double settled = 0.0;
@@ -92,14 +90,12 @@ TEST_CASE ("expert 2: every node gives a finite and steady response to a tool at
 
     for (const auto& type : catalogue())
     {
-        const auto tellsPlace = [] (const PortSheet& p)
-        { return p.id == "position" || p.id == "depth" || p.id == "angle"; };
+        const auto tellsPlace = [] (const PortSheet& p) { return p.id == "position" || p.id == "depth" || p.id == "angle"; };
         if (std::ranges::none_of (type.inputs, tellsPlace)) continue;
 
         DYNAMIC_SECTION (type.info.id)
         {
-            rc::prop ("after any motion", [&] (unsigned seed)
-                      {
+            rc::prop ("after any motion", [&] (unsigned seed) {
                 Dice dice { seed };
                 Rig rig { type };
                 rig.prepare();
@@ -113,8 +109,7 @@ TEST_CASE ("expert 2: every node gives a finite and steady response to a tool at
                 }
 
                 auto before = rig.outs();
-                const auto steady = [&]
-                {
+                const auto steady = [&] {
                     rig.tick();
                     const auto now = rig.outs();
                     bool same = true;
@@ -129,15 +124,15 @@ TEST_CASE ("expert 2: every node gives a finite and steady response to a tool at
                 if (std::ranges::count (timeless, type.info.id) > 0) RC_ASSERT (steady());
                 for (int k = 0; k < 500; ++k)
                     steady();
-                RC_ASSERT (steady()); });
+                RC_ASSERT (steady());
+            });
         }
     }
 }
 
 TEST_CASE ("expert 3: in a slow slide, neither the state nor the force chatters", "[expert][friction]")
 {
-    rc::prop ("any adhesion, either integrator, any direction, steps much smaller and much larger than d_max", [] (unsigned seed)
-              {
+    rc::prop ("any adhesion, either integrator, any direction, steps much smaller and much larger than d_max", [] (unsigned seed) {
         Dice dice { seed };
         const double d_max = dice.size (1e-6, 1e-2), step = dice.size (0.02, 4.0) * d_max;
         Rig rig { "friction.elasto_plastic" };
@@ -158,13 +153,13 @@ TEST_CASE ("expert 3: in a slow slide, neither the state nor the force chatters"
             least = std::min (least, rig.vector ("force").norm());
             most = std::max (most, rig.vector ("force").norm());
         }
-        RC_ASSERT (most - least <= 1e-8); });
+        RC_ASSERT (most - least <= 1e-8);
+    });
 }
 
 TEST_CASE ("expert 4: a reversal longer than d_max within one sample does not reverse the force", "[expert][friction]")
 {
-    rc::prop ("any adhesion, either integrator, any initial deflection", [] (unsigned seed)
-              {
+    rc::prop ("any adhesion, either integrator, any initial deflection", [] (unsigned seed) {
         Dice dice { seed };
         const auto adhesion = dice.of (adhesions), integrator = dice.of (integrators);
         const double d_max = 1e-5, stretch = dice.uniform (0.05, 0.95) * d_max;
@@ -181,13 +176,13 @@ TEST_CASE ("expert 4: a reversal longer than d_max within one sample does not re
         RC_ASSERT (drag.force() <= 0.0);
         if (adhesion == "dahl" && integrator == "exponential")
             RC_ASSERT (std::abs (after / d_max - (1.0 - (1.0 - d / d_max) * std::exp (-dp / d_max))) < 1e-12);
-        if (adhesion == "stick") RC_ASSERT (std::abs (after - std::min (d + dp, d_max)) < 1e-12 * d_max); });
+        if (adhesion == "stick") RC_ASSERT (std::abs (after - std::min (d + dp, d_max)) < 1e-12 * d_max);
+    });
 }
 
 TEST_CASE ("expert 5: a cycle of pressing, shearing and lifting generates no energy", "[expert][friction]")
 {
-    rc::prop ("any adhesion and integrator, any closed path of position and load", [] (unsigned seed)
-              {
+    rc::prop ("any adhesion and integrator, any closed path of position and load", [] (unsigned seed) {
         Dice dice { seed };
         const auto adhesion = dice.of (adhesions), integrator = dice.of (integrators);
         const double d_max = 1e-4, reach = dice.size (0.1, 10.0) * d_max, press = dice.uniform (0.5, 3.0), lift = dice.uniform (0.0, 1.2) * press;
@@ -199,12 +194,12 @@ TEST_CASE ("expert 5: a cycle of pressing, shearing and lifting generates no ene
             const double s = 2.0 * M_PI * k / 2000.0;
             drag.to (reach * std::sin (s), press + lift * std::sin (waves * s + phase));
         }
-        RC_ASSERT (drag.work >= -1e-12); });
+        RC_ASSERT (drag.work >= -1e-12);
+    });
 
     // With the published rule, in which the whole force follows the load, the same path generates energy, and the node does not
     // claim to be passive.
-    const auto strokes = [] (std::string_view load)
-    {
+    const auto strokes = [] (std::string_view load) {
         Drag drag ("stick", "exponential", 1e-4, load);
         for (int loop = 0; loop < 10; ++loop)
             for (int k = 0; k < 400; ++k)

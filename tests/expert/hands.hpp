@@ -43,8 +43,7 @@ class Led final : public Device
 public:
     explicit Led (std::function<Reading (int)> way) : at (std::move (way)) {}
     explicit Led (std::function<Vec3 (int)> path)
-        : Led ([path = std::move (path)] (int k)
-               { return Reading { .position = path (k) }; })
+        : Led ([path = std::move (path)] (int k) { return Reading { .position = path (k) }; })
     {
     }
 

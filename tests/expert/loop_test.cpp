@@ -41,12 +41,11 @@ Sketch floorboard()
 
 bool sameBits (const std::vector<Vec3>& a, const std::vector<Vec3>& b)
 {
-    return std::ranges::equal (a, b, [] (const Vec3& u, const Vec3& v)
-                               { return std::ranges::equal (
-                                     u, v, {}, [] (double x)
-                                     { return std::bit_cast<std::uint64_t> (x); },
-                                     [] (double x)
-                                     { return std::bit_cast<std::uint64_t> (x); }); });
+    return std::ranges::equal (a, b, [] (const Vec3& u, const Vec3& v) {
+        return std::ranges::equal (
+            u, v, {}, [] (double x) { return std::bit_cast<std::uint64_t> (x); },
+            [] (double x) { return std::bit_cast<std::uint64_t> (x); });
+    });
 }
 
 /// A hand that strokes, presses and lifts.
@@ -55,8 +54,7 @@ Vec3 stroke (int k) { return { 0.02 * std::sin (0.01 * k), 0.01 * std::cos (0.00
 
 TEST_CASE ("expert 15: a hard wall buzzes with an encoder, and the passivity observer detects it", "[expert][safety]")
 {
-    const auto buzz = [] (double stiffness, double quantum, std::string pairing)
-    {
+    const auto buzz = [] (double stiffness, double quantum, std::string pairing) {
         Sketch graph;
         graph.node ("hand", "device.position");
         graph.node ("wall", "deform.plane", { { "normal", { -1, 0, 0 } }, { "stiffness", stiffness } });
@@ -68,8 +66,7 @@ TEST_CASE ("expert 15: a hard wall buzzes with an encoder, and the passivity obs
         tool.quantum = quantum;
         tool.x = -1e-3;
         tool.v = 0.1;
-        tool.hand = [] (double)
-        { return 0.5; };
+        tool.hand = [] (double) { return 0.5; };
         Engine engine { planOf (graph, 1000.0) };
         engine.attach ("stylus", tool);
         double low = inf, high = -inf;
@@ -95,8 +92,7 @@ TEST_CASE ("expert 15: a hard wall buzzes with an encoder, and the passivity obs
 
 TEST_CASE ("expert 16: millimetres are not mistaken for metres, nor radians for cycles", "[expert][units]")
 {
-    const auto graph = [] (const Json& d_max, const Json& stiffness, const Json& ridges)
-    {
+    const auto graph = [] (const Json& d_max, const Json& stiffness, const Json& ridges) {
         auto s = floorboard();
         s.graph.root.nodes[2].params["stiffness"] = stiffness;
         s.graph.root.nodes[3].params["d_max"] = d_max;
@@ -110,15 +106,17 @@ TEST_CASE ("expert 16: millimetres are not mistaken for metres, nor radians for 
     for (const auto& wrong : { "4 mm", "250 1/s", "250 N/m", "1571 rad/m", "90000 deg/m" })
         CHECK (has (graph (0.4e-3, 1000.0, wrong).compile().messages, "param/unit"));
 
-    const auto rings = [] (const Json& frequency)
-    { return Sketch {}.node ("ring", "vibration.modal", Json::object(), { { "modes", { { { "frequency", frequency } } } } }).compile().messages; };
+    const auto rings = [] (const Json& frequency) {
+        Sketch sketch;
+        sketch.node ("ring", "vibration.modal", Json::object(), { { "modes", { { { "frequency", frequency } } } } });
+        return sketch.compile().messages;
+    };
     CHECK (rings ("0.1 kHz").empty());
     CHECK (rings ("100 1/s").empty());
     CHECK (has (rings ("628 rad/s"), "setting/value"));
 
     // With k cycles per metre, one ridge is 1 / k long, so the force repeats after 1 / k, not after 2 pi / k.
-    rc::prop ("any pitch, any position", [] (unsigned seed)
-              {
+    rc::prop ("any pitch, any position", [] (unsigned seed) {
         Dice dice { seed };
         const double k = dice.size (20.0, 5000.0), x = dice.uniform (-0.1, 0.1);
         Sketch grain;
@@ -126,19 +124,18 @@ TEST_CASE ("expert 16: millimetres are not mistaken for metres, nor radians for 
         grain.node ("motor", "device.force");
         grain.wire ("hand.position -> grain.position").wire ("grain.force -> motor.force");
         const auto f = felt (
-            grain, [=] (int tick)
-            { return Vec3 { x + 0.5 * tick / k, 0, 0 }; },
+            grain, [=] (int tick) { return Vec3 { x + 0.5 * tick / k, 0, 0 }; },
             3);
         RC_ASSERT (std::abs (f[2].x() - f[0].x()) < 1e-9);
-        RC_ASSERT (std::abs (f[1].x() + f[0].x()) < 1e-9); });
+        RC_ASSERT (std::abs (f[1].x() + f[0].x()) < 1e-9);
+    });
 }
 
 TEST_CASE ("expert 17: a motion of a tenth of a nanometre, ten centimetres from the origin, reaches the motor", "[expert]")
 {
     // At this distance, a float has steps of 7 nm.
     const double stiffness = 1e6, step = 1e-10;
-    rc::prop ("along each axis, anywhere on a desk", [&] (unsigned seed)
-              {
+    rc::prop ("along each axis, anywhere on a desk", [&] (unsigned seed) {
         Dice dice { seed };
         const Vec3 axis = Vec3::Unit (dice.below (3)), from { dice.uniform (-0.2, 0.2), dice.uniform (-0.2, 0.2), dice.uniform (-0.2, 0.2) };
         Sketch graph;
@@ -147,11 +144,11 @@ TEST_CASE ("expert 17: a motion of a tenth of a nanometre, ten centimetres from 
         graph.node ("motor", "device.force");
         graph.wire ("hand.position -> wall.position").wire ("wall.force -> motor.force");
         const auto f = felt (
-            graph, [&] (int k)
-            { return Vec3 { from + k * step * axis }; },
+            graph, [&] (int k) { return Vec3 { from + k * step * axis }; },
             100);
         for (std::size_t k = 1; k < f.size(); ++k)
-            RC_ASSERT (std::abs (axis.dot (f[k - 1] - f[k]) - stiffness * step) < 1e-3 * stiffness * step); });
+            RC_ASSERT (std::abs (axis.dot (f[k - 1] - f[k]) - stiffness * step) < 1e-3 * stiffness * step);
+    });
 }
 
 TEST_CASE ("expert 18: the force for a sample reaches the motor within the same tick, however long the chain is", "[expert]")
@@ -161,8 +158,7 @@ TEST_CASE ("expert 18: the force for a sample reaches the motor within the same 
     CHECK (plan->delays()[0].shortest == 0);
     CHECK (plan->delays()[0].longest == 0);
 
-    rc::prop ("a hand that jumps in and out at any tick", [] (unsigned seed)
-              {
+    rc::prop ("a hand that jumps in and out at any tick", [] (unsigned seed) {
         Dice dice { seed };
         std::vector<double> z (64);
         for (double& v : z)
@@ -178,11 +174,11 @@ TEST_CASE ("expert 18: the force for a sample reaches the motor within the same 
             last = name + ".out";
         }
         const auto f = felt (
-            chain.wire (last + " -> motor.force"), [&] (int k)
-            { return Vec3 { 0, 0, z[static_cast<std::size_t> (k)] }; },
+            chain.wire (last + " -> motor.force"), [&] (int k) { return Vec3 { 0, 0, z[static_cast<std::size_t> (k)] }; },
             64);
         for (std::size_t k = 0; k < z.size(); ++k)
-            RC_ASSERT (f[k].z() == 1000.0 * std::max (0.0, -z[k])); });
+            RC_ASSERT (f[k].z() == 1000.0 * std::max (0.0, -z[k]));
+    });
 }
 
 TEST_CASE ("expert 19: at a different rate, everything is just as fast, as deep and as safe", "[expert]")
@@ -202,8 +198,7 @@ TEST_CASE ("expert 19: at a different rate, everything is just as fast, as deep 
         options.feeds = { "ring.hit", "low.in", "speed.position.z", "wall.position.z", "fade.position.x", "safe.position.x", "safe.force.x" };
         options.records = { "ring.value", "low.out", "speed.velocity.z", "wall.resistance", "fade.speed", "safe.alpha", "butter.out" };
         const auto plan = planOf (graph, rate, options);
-        const auto out = [&] (std::size_t i)
-        { return *plan->taps()[i].value; };
+        const auto out = [&] (std::size_t i) { return *plan->taps()[i].value; };
 
         const double v = -0.05;
         double loudest = 0.0, alpha = 0.0;
@@ -234,29 +229,25 @@ TEST_CASE ("expert 20: a nan from the device is neither stored nor sent to the m
     graph.graph.root.nodes[2].params["offset"] = away.z();
     graph.node ("ring", "vibration.modal").node ("up", "vector.join").wire ("floor.hit -> ring.hit").wire ("ring.value -> up.z").wire ("up.out -> motor.force");
     const auto well = felt (
-        graph, [&] (int k)
-        { return Vec3 { away + stroke (k) }; },
+        graph, [&] (int k) { return Vec3 { away + stroke (k) }; },
         1000);
-    const double most = std::ranges::max (well, {}, [] (const Vec3& f)
-                                          { return f.norm(); })
+    const double most = std::ranges::max (well, {}, [] (const Vec3& f) { return f.norm(); })
                             .norm();
 
-    rc::prop ("tracking is lost for some ticks, reported or not, in any component", [&] (unsigned seed)
-              {
+    rc::prop ("tracking is lost for some ticks, reported or not, in any component", [&] (unsigned seed) {
         Dice dice { seed };
         const int from = 1 + dice.below (400), to = from + 1 + dice.below (4), which = dice.below (3);
         const bool told = dice.below (2) == 0;
         const double bad = dice.below (2) == 0 ? not_a_number : inf;
 
         Engine engine { planOf (graph, 1000.0) };
-        test::Led hand { std::function<Reading (int)> { [=] (int k)
-                                                        {
-                                                            Reading reading { .position = away + stroke (k) };
-                                                            if (k < from || k >= to) return reading;
-                                                            reading.position[which] = bad;
-                                                            reading.valid = ! told;
-                                                            return reading;
-                                                        } } };
+        test::Led hand { std::function<Reading (int)> { [=] (int k) {
+            Reading reading { .position = away + stroke (k) };
+            if (k < from || k >= to) return reading;
+            reading.position[which] = bad;
+            reading.valid = ! told;
+            return reading;
+        } } };
         engine.attach ("stylus", hand);
         for (int k = 0; k < 1000; ++k)
             engine.tick();
@@ -267,5 +258,6 @@ TEST_CASE ("expert 20: a nan from the device is neither stored nor sent to the m
             RC_ASSERT (f.norm() <= 1.5 * most);
         }
         for (std::size_t k = 700; k < well.size(); ++k)   // after the contact has ended, no trace of it is left
-            RC_ASSERT ((hand.forces[k] - well[k]).norm() < 1e-6 * most); });
+            RC_ASSERT ((hand.forces[k] - well[k]).norm() < 1e-6 * most);
+    });
 }

@@ -56,25 +56,21 @@ TEST_CASE ("expert 10: a scan too fast for the tick rate does not alias into a s
 {
     const double rate = 1000.0, k = 1000.0, f_max = 300.0;
     auto graph = ridges (k, "texture.antialias", { { "spatial_frequency", k }, { "f_max", f_max } }, "hand.position -> fade.position");
-    const auto scan = [&] (double speed)
-    {
+    const auto scan = [&] (double speed) {
         auto forces = test::felt (
-            graph, [=] (int tick)
-            { return Vec3 { 0.01 + speed * tick / rate, 0, 0 }; },
+            graph, [=] (int tick) { return Vec3 { 0.01 + speed * tick / rate, 0, 0 }; },
             200, rate);
         forces.erase (forces.begin());   // the first sample has no speed yet
         return forces;
     };
-    const auto loudest = [] (const std::vector<Vec3>& forces)
-    { return std::ranges::max (forces, {}, along).x(); };
+    const auto loudest = [] (const std::vector<Vec3>& forces) { return std::ranges::max (forces, {}, along).x(); };
 
-    rc::prop ("any speed", [&] (unsigned seed)
-              {
+    rc::prop ("any speed", [&] (unsigned seed) {
         const double speed = Dice { seed }.uniform (-1.0, 1.0), pitch = k * std::abs (speed);
         const auto forces = scan (speed);
-        if (pitch >= f_max) RC_ASSERT (std::ranges::all_of (forces, [] (const Vec3& f)
-                                                            { return f.isZero (0.0); }));
-        if (pitch > 20.0 && pitch < 0.45 * f_max) RC_ASSERT (loudest (forces) > 0.15); });
+        if (pitch >= f_max) RC_ASSERT (std::ranges::all_of (forces, [] (const Vec3& f) { return f.isZero (0.0); }));
+        if (pitch > 20.0 && pitch < 0.45 * f_max) RC_ASSERT (loudest (forces) > 0.15);
+    });
 
     // Without the guard, 1.5 m/s over ridges 1 mm apart (1500 Hz) would be felt as 500 Hz.
     REQUIRE (scan (1.5).back().isZero (0.0));
@@ -90,25 +86,23 @@ TEST_CASE ("expert 11: a texture fades in at the touch and does not start with a
     const double rate = 4000.0, k = 500.0, window = 1e-3, amplitude = 0.2;
     auto graph = ridges (k, "contact.window", { { "window", window } }, "floor.depth -> fade.depth");
 
-    rc::prop ("any path in and out", [&] (unsigned seed)
-              {
+    rc::prop ("any path in and out", [&] (unsigned seed) {
         Dice dice { seed };
         const double down = dice.size (1e-3, 0.2), across = dice.uniform (-0.2, 0.2), from = dice.uniform (-0.1, 0.1);
-        const auto path = [=] (int tick)
-        { return Vec3 { from + across * tick / rate, 0, down * (std::abs (tick - 1000) - 700) / rate }; };
+        const auto path = [=] (int tick) { return Vec3 { from + across * tick / rate, 0, down * (std::abs (tick - 1000) - 700) / rate }; };
         const auto forces = test::felt (graph, path, 2000, rate);
         const double step = amplitude * (down / window + 2.0 * M_PI * k * std::abs (across)) / rate;
         for (std::size_t i = 1; i < forces.size(); ++i)
         {
             RC_ASSERT (std::abs (forces[i].x() - forces[i - 1].x()) <= step * (1.0 + 1e-9));
             if (path (static_cast<int> (i)).z() >= 0.0) RC_ASSERT (forces[i].isZero (0.0));
-        } });
+        }
+    });
 
     // Without the window, the texture is there immediately, even away from the surface.
     graph.graph.root.nodes[3].bypass = true;
     CHECK_FALSE (test::felt (
-                     graph, [] (int)
-                     { return Vec3 { 0, 0, 1e-3 }; },
+                     graph, [] (int) { return Vec3 { 0, 0, 1e-3 }; },
                      1)
                      .back()
                      .isZero (1e-3));
@@ -116,8 +110,7 @@ TEST_CASE ("expert 11: a texture fades in at the touch and does not start with a
 
 TEST_CASE ("expert 12: nothing is louder on the rebound than on the way in", "[expert][shock][deform]")
 {
-    rc::prop ("a wall, pushed in and released at any speed", [] (unsigned seed)
-              {
+    rc::prop ("a wall, pushed in and released at any speed", [] (unsigned seed) {
         Dice dice { seed };
         Rig rig { "deform.plane", 4000.0 };
         rig.param ("stiffness", dice.size (100.0, 1e4)).param ("dissipation", dice.size (0.01, 5.0)).param ("damping", dice.uniform (0.0, 3.0));
@@ -131,10 +124,10 @@ TEST_CASE ("expert 12: nothing is louder on the rebound than on the way in", "[e
             (k < 0 ? in : out).push_back (rig.out ("resistance"));
         }
         for (std::size_t k = 1; k < 99; ++k)
-            RC_ASSERT (out[100 - k] < in[k]); });
+            RC_ASSERT (out[100 - k] < in[k]);
+    });
 
-    rc::prop ("a mass leaves a shock with less energy than it arrived with", [] (unsigned seed)
-              {
+    rc::prop ("a mass leaves a shock with less energy than it arrived with", [] (unsigned seed) {
         Dice dice { seed };
         const double m = dice.size (0.005, 0.5), v = dice.size (0.05, 2.0), d_max = dice.size (1e-4, 5e-3);
         const double n = dice.uniform (1.0, 2.5), x = dice.size (0.05, 3.0);
@@ -153,24 +146,23 @@ TEST_CASE ("expert 12: nothing is louder on the rebound than on the way in", "[e
         const double e = impulse / (m * v) - 1.0;
         RC_ASSERT (e > 0.0);
         RC_ASSERT (e < 1.0);
-        RC_ASSERT (std::abs (x - std::log1p (x) + x * e + std::log1p (-x * e)) < 2e-3 * (x + 1.0)); });
+        RC_ASSERT (std::abs (x - std::log1p (x) + x * e + std::log1p (-x * e)) < 2e-3 * (x + 1.0));
+    });
 }
 
 TEST_CASE ("expert 13: a double tap is two complete shocks without a click", "[expert][shock]")
 {
-    rc::prop ("any speeds, any time between them", [] (unsigned seed)
-              {
+    rc::prop ("any speeds, any time between them", [] (unsigned seed) {
         Dice dice { seed };
         const double first = dice.size (0.01, 2.0), second = dice.size (0.01, 2.0);
         const std::size_t later = static_cast<std::size_t> (1 + dice.below (100));
-        const auto play = [&] (double a, double b)
-        {
+        const auto play = [&] (double a, double b) {
             Rig rig { "shock.hunt_crossley" };
             rig.prepare();
             std::vector<double> out;
             for (std::size_t k = 0; k < 300; ++k)
             {
-                rig.input ("hit", k == 0 ? a : k == later ? b : 0.0);
+                rig.input ("hit", k == 0 ? a : (k == later ? b : 0.0));
                 rig.tick();
                 out.push_back (rig.out ("resistance"));
             }
@@ -182,13 +174,13 @@ TEST_CASE ("expert 13: a double tap is two complete shocks without a click", "[e
         RC_ASSERT (both.front() == 0.0);
         RC_ASSERT (both.back() == 0.0);
         RC_ASSERT (both[later] == one[later]);
-        RC_ASSERT (steepest (both) <= (steepest (one) + steepest (other)) * (1.0 + 1e-12)); });
+        RC_ASSERT (steepest (both) <= (steepest (one) + steepest (other)) * (1.0 + 1e-12));
+    });
 }
 
 TEST_CASE ("expert 14: an object hit again while it rings does not click, and ends in silence without denormal numbers", "[expert][vibration]")
 {
-    rc::prop ("any modes, any hits", [] (unsigned seed)
-              {
+    rc::prop ("any modes, any hits", [] (unsigned seed) {
         Dice dice { seed };
         const double rate = 4000.0;
         std::vector<Mode> modes (static_cast<std::size_t> (1 + dice.below (5)));
@@ -208,7 +200,8 @@ TEST_CASE ("expert 14: an object hit again while it rings does not click, and en
         const double v = dice.size (0.01, 2.0), w = dice.size (0.01, 2.0);
         for (int k = 0; k < 10'000; ++k)
         {
-            rig.input ("hit", k == 0 ? v : k == again ? w : 0.0);
+            rig.input ("hit", k == 0 ? v : k == again ? w
+                                                      : 0.0);
             left.input ("hit", k == 0 ? v : 0.0);
             rig.tick();
             if (k <= again) left.tick();
@@ -217,5 +210,6 @@ TEST_CASE ("expert 14: an object hit again while it rings does not click, and en
             if (k < 1000) RC_ASSERT (std::abs (now - ring (modes, v, k / rate) - ring (modes, w, (k - again) / rate)) < 1e-12 * loudest);
             RC_ASSERT (std::fpclassify (now) != FP_SUBNORMAL);
         }
-        RC_ASSERT (rig.out ("value") == 0.0); });
+        RC_ASSERT (rig.out ("value") == 0.0);
+    });
 }

@@ -17,8 +17,10 @@ TEST_CASE ("figure: along a stroke the contact follows on a leash of d_max, and 
     double furthest = 0.0;
     for (std::size_t k = 1; k < run.rows(); ++k)
     {
-        const auto contactAt = [&] (const char* axis, std::size_t row)
-        { return run.at (std::string ("tool.out.") + axis, row) - run.at (std::string ("contact.deflection.") + axis, row); };
+        const auto contactAt = [&] (const char* axis, std::size_t row) {
+            const double tool = run.at (std::string ("tool.out.") + axis, row);
+            return tool - run.at (std::string ("contact.deflection.") + axis, row);
+        };
         const double moved = std::hypot (contactAt ("x", k) - contactAt ("x", k - 1), contactAt ("y", k) - contactAt ("y", k - 1));
         const double stretch = std::hypot (run.at ("contact.deflection.x", k), run.at ("contact.deflection.y", k));
         furthest = std::max (furthest, stretch);

@@ -26,8 +26,7 @@ std::vector<std::string> thrownAt (const test::Scratch& scratch, double v)
 /// Solves lambda v_o - ln (1 + lambda v_o) = lambda v_i - ln (1 + lambda v_i) for e = -v_o / v_i by bisection.
 double closedForm (double v)
 {
-    const auto side = [] (double x)
-    { return x - std::log1p (x); };
+    const auto side = [] (double x) { return x - std::log1p (x); };
     const double x = lambda * v;
     double low = 0.0, high = std::min (1.0, 1.0 / x);
     for (int i = 0; i < 60; ++i)

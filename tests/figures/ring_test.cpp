@@ -11,8 +11,7 @@ using namespace tactus;
 TEST_CASE ("figure: a second tap adds its ring exactly to what is left of the first", "[figures]")
 {
     const auto run = test::renderFigure ("ring", "ring", { "--duration", "0.08", "--record", "rubber.value,wood.value,aluminium.value,first.hit,second.hit" });
-    const auto hitOf = [&] (const std::string& trigger)
-    {
+    const auto hitOf = [&] (const std::string& trigger) {
         std::size_t k = 0;
         while (k < run.rows() && run.at (trigger + ".hit", k) == 0.0)
             ++k;

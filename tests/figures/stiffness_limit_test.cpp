@@ -39,8 +39,7 @@ std::vector<std::string> against (const test::Scratch& scratch, const Tool& tool
 double growth (const test::Record& run, double stiffness)
 {
     const auto z = run["hand.position.z"];
-    const auto swing = [&] (std::size_t from, std::size_t to)
-    {
+    const auto swing = [&] (std::size_t from, std::size_t to) {
         double squares = 0.0;
         for (std::size_t k = from; k < to; ++k)
             squares += std::pow (z[k] + lean / stiffness, 2);

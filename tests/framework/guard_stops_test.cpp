@@ -67,17 +67,17 @@ TEST_CASE ("guard: a tool that is too fast causes a stop, but one quantum of noi
 {
     constexpr double limit = 1.0, quantum = 1e-4;
 
-    rc::prop ("any speed that is 5 % below or above the limit, measured in quanta", []
-              {
+    rc::prop ("any speed that is 5 % below or above the limit, measured in quanta", [] {
         const bool too_fast = *rc::gen::arbitrary<bool>();
         const double speed = too_fast ? *rc::gen::element (1.05, 1.5, 4.0) : *rc::gen::element (0.95, 0.5, 0.01);
         const double sign = *rc::gen::element (-1.0, 1.0);
         auto guard = guardWith ({ .max_speed = limit });
-        const int stopped = ticksUntilStop (guard, 2000, [&] (int k)
-                                            { guard (pushing (1.0), at (sign * quantum * std::floor (speed * k * dt / quantum + 0.5))); });
+        const int stopped = ticksUntilStop (guard, 2000,
+                                            [&] (int k) { guard (pushing (1.0), at (sign * quantum * std::floor (speed * k * dt / quantum + 0.5))); });
         RC_ASSERT ((stopped > 0) == too_fast);
         // a fraction 1 - e^(-t/tau) of the speed is measured
-        if (too_fast) RC_ASSERT (stopped * dt <= SpeedWatch::tau * std::log (speed / (speed - limit + 2e-2)) + 20 * dt); });
+        if (too_fast) RC_ASSERT (stopped * dt <= SpeedWatch::tau * std::log (speed / (speed - limit + 2e-2)) + 20 * dt);
+    });
 
     auto guard = guardWith ({ .max_speed = limit });
     for (int k = 0; k < 500; ++k)
@@ -91,12 +91,12 @@ TEST_CASE ("guard: the speed of a device slower than the tick is not overestimat
     for (const double speed : { 0.9, 1.1 })
     {
         auto guard = guardWith ({ .max_speed = 1.0 }, tick);
-        const int stopped = ticksUntilStop (guard, 4000, [&] (int k)
-                                            {
+        const int stopped = ticksUntilStop (guard, 4000, [&] (int k) {
             const int read = k - k % 8;   // one reading every 2 ms
             Reading r = at (speed * read * tick);
             r.age = (k - read) * tick;
-            guard (pushing (1.0), r); });
+            guard (pushing (1.0), r);
+        });
         CHECK ((stopped > 0) == (speed > 1.0));
     }
 }
@@ -117,14 +117,12 @@ TEST_CASE ("guard: a jump in position after a silence does not count as motion",
 
 TEST_CASE ("guard: an impulse above the limit within the window causes a stop, no sooner and at most a sixteenth later", "[framework][guard]")
 {
-    rc::prop ("any pushes", []
-              {
+    rc::prop ("any pushes", [] {
         const double window = *rc::gen::element (0.032, 0.1, 0.5), limit = *rc::gen::element (0.05, 0.2);
         const auto pushes = *rc::gen::container<std::vector<int>> (40, rc::gen::inRange (0, 60));
         auto guard = guardWith ({ .max_impulse = limit, .impulse_window = window });
         std::vector<double> forces;
-        const auto within = [&] (double seconds)
-        {
+        const auto within = [&] (double seconds) {
             const auto n = std::min (forces.size(), static_cast<std::size_t> (std::ceil (seconds / dt - 1e-9)));
             double sum = 0.0;
             for (std::size_t i = forces.size() - n; i < forces.size(); ++i)
@@ -141,13 +139,13 @@ TEST_CASE ("guard: an impulse above the limit within the window causes a stop, n
         if (guard.stop() == Guard::Stop::none) return;
         RC_ASSERT (guard.stop() == Guard::Stop::impulse);
         RC_ASSERT (within (window * 17.0 / 16.0 + 18 * dt) > limit - 1e-12);
-        RC_ASSERT (guard.latest().value > limit); });
+        RC_ASSERT (guard.latest().value > limit);
+    });
 }
 
 TEST_CASE ("guard: a passive load never trips the energy watchdog", "[framework][guard]")
 {
-    rc::prop ("any spring and damper in any hand", []
-              {
+    rc::prop ("any spring and damper in any hand", [] {
         const auto hand = anyHand();
         const double stiffness = *rc::gen::element (10.0, 200.0, 1000.0), damping = *rc::gen::element (0.0, 0.5, 2.0);
 
@@ -165,13 +163,13 @@ TEST_CASE ("guard: a passive load never trips the energy watchdog", "[framework]
             const double x = hand (k), v = (x - hand (k - 1)) / dt;
             guard (pushing (-stiffness * x - damping * v), at (x));
             RC_ASSERT (guard.stop() == Guard::Stop::none);
-        } });
+        }
+    });
 }
 
 TEST_CASE ("guard: an active load trips the energy watchdog exactly when it has delivered more than the limit", "[framework][guard]")
 {
-    rc::prop ("any negative damping in any hand", []
-              {
+    rc::prop ("any negative damping in any hand", [] {
         const auto hand = anyHand();
         const double limit = *rc::gen::element (1e-4, 1e-3, 1e-2), window = *rc::gen::element (0.0, 0.1, 1.0), drive = *rc::gen::element (0.5, 2.0, 10.0);
         auto guard = guardWith ({ .max_energy = limit, .energy_window = window });
@@ -180,13 +178,16 @@ TEST_CASE ("guard: an active load trips the energy watchdog exactly when it has 
         for (int k = 0; k < 3000; ++k)
         {
             const double x = hand (k), before = hand (k - 1);
-            if (k > 0) bucket = std::max (0.0, bucket + on_device * (x - before) - (window > 0.0 ? limit / window * dt : 0.0));
-            else if (window > 0.0) bucket = 0.0;
+            if (k > 0)
+                bucket = std::max (0.0, bucket + on_device * (x - before) - (window > 0.0 ? limit / window * dt : 0.0));
+            else if (window > 0.0)
+                bucket = 0.0;
             on_device = guard (pushing (drive * (x - before) / dt), at (x)).force.x();
             if (std::abs (bucket - limit) < 1e-9) return;   // too close to the limit to decide
             RC_ASSERT ((guard.stop() == Guard::Stop::energy) == (bucket > limit));
             if (bucket > limit) return;
-        } });
+        }
+    });
 }
 
 TEST_CASE ("guard: the energy that a runaway loop can deliver is bounded", "[framework][guard]")
@@ -231,8 +232,7 @@ TEST_CASE ("guard: no stop is a step, and a latched stop is cleared only by rear
         REQUIRE (guard (what.wanted, at (0.0)).force.x() == 4.0);
 
     double largest = 0.0;
-    const auto tick = [&] (const Reading& r)
-    {
+    const auto tick = [&] (const Reading& r) {
         const double now = guard (what.wanted, r).force.x();
         largest = std::max (largest, std::abs (now - before));
         before = now;
@@ -268,8 +268,7 @@ TEST_CASE ("guard: with a dead-man's switch, there is force only while the switc
     loose.pressure = by_button ? 1.0 : 0.2;
     auto guard = guardWith (limits);
     double before = 0.0, largest = 0.0;
-    const auto tick = [&] (const Reading& r)
-    {
+    const auto tick = [&] (const Reading& r) {
         const double now = guard (pushing (2.0), r).force.x();
         largest = std::max (largest, std::abs (now - before));
         return before = now;
@@ -327,8 +326,7 @@ TEST_CASE ("guard: an emergency stop is reported even if another cause withholds
 
 TEST_CASE ("guard: every cause is reported with its numbers", "[framework][guard]")
 {
-    const auto told = [] (const GuardLimits& limits, const Effort& wanted, const Reading& reading)
-    {
+    const auto told = [] (const GuardLimits& limits, const Effort& wanted, const Reading& reading) {
         auto guard = guardWith (limits);
         guard (pushing (10.0), at (0.0));
         guard (wanted, reading);
@@ -362,8 +360,7 @@ TEST_CASE ("the log of stops keeps the latest ones, and can be read while new on
 {
     GuardLog log;
     CHECK (log.since().empty());
-    const auto note = [&] (std::uint64_t tick)
-    { log.note ({ tick, "stylus", { .why = Guard::Stop::speed, .value = static_cast<double> (tick) } }); };
+    const auto note = [&] (std::uint64_t tick) { log.note ({ tick, "stylus", { .why = Guard::Stop::speed, .value = static_cast<double> (tick) } }); };
     note (7);
     REQUIRE (log.since().size() == 1);
     CHECK (log.since()[0].role == "stylus");
@@ -377,10 +374,10 @@ TEST_CASE ("the log of stops keeps the latest ones, and can be read while new on
     CHECK (all.front().tick == 206 - all.size() + 1);
     CHECK (log.since (198).size() == 2);
 
-    std::jthread writer ([&] (const std::stop_token& end)
-                         {
+    std::jthread writer ([&] (const std::stop_token& end) {
         for (std::uint64_t k = 1000; ! end.stop_requested(); ++k)
-            note (k); });
+            note (k);
+    });
     int torn = 0;
     for (int k = 0; k < 2000; ++k)
         for (const auto& entry : log.since())

@@ -19,8 +19,7 @@ inline void tryReport (std::shared_ptr<const host::hid::Profile> profile, std::s
     const std::span bytes (reinterpret_cast<const std::uint8_t*> (data.data()), data.size());
 
     // Tries the data as one report, and split into reports of every length in the profile, with ids prepended.
-    const auto decode = [&] (std::span<const std::uint8_t> report)
-    {
+    const auto decode = [&] (std::span<const std::uint8_t> report) {
         const auto before = model.sample();
         const auto& after = model.decode (report);
         if (! isFinite (after.position, after.rotation) || ! isFinite (after.pressure, after.time)) std::abort();
@@ -43,8 +42,7 @@ inline void tryReport (std::shared_ptr<const host::hid::Profile> profile, std::s
     HidEffort effort;
     std::vector<float> samples (data.size() / sizeof (float));
     if (! samples.empty()) std::memcpy (samples.data(), data.data(), samples.size() * sizeof (float));
-    const auto take = [&] (double& value)
-    {
+    const auto take = [&] (double& value) {
         if (data.size() < sizeof value) return;
         std::memcpy (&value, data.data(), sizeof value);
         data.remove_prefix (sizeof value);

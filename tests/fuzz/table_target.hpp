@@ -18,8 +18,7 @@ inline void tryTable (std::string_view text)
     if (! grid) return checkWhole (grid.error());
     if (grid->rows < 1 || grid->columns < 1) std::abort();
     if (grid->values.size() != static_cast<std::size_t> (grid->rows) * static_cast<std::size_t> (grid->columns)) std::abort();
-    if (! std::ranges::all_of (grid->values, [] (double v)
-                               { return isFinite (v); })) std::abort();
+    if (! std::ranges::all_of (grid->values, [] (double v) { return isFinite (v); })) std::abort();
 }
 
 }   // namespace tactus::fuzz

@@ -151,8 +151,7 @@ TEST_CASE ("every preset says where the numbers of its materials come from, and 
             {
                 if (! materials.contains (node.type.substr (0, node.type.find ('.'))) || node.type == "texture.antialias") continue;
                 INFO (node.name);
-                CHECK (std::ranges::any_of (sources.items(), [&] (const auto& entry)
-                                            { return entry.first.starts_with (node.name + "."); }));
+                CHECK (std::ranges::any_of (sources.items(), [&] (const auto& entry) { return entry.first.starts_with (node.name + "."); }));
             }
             for (const auto& [name, source] : sources.items())
             {
@@ -160,8 +159,7 @@ TEST_CASE ("every preset says where the numbers of its materials come from, and 
                 REQUIRE (source.is_string());
                 CHECK (source.get<std::string>().size() >= 5);
                 const auto node = name.substr (0, name.find_first_of ("./"));
-                CHECK (std::ranges::any_of (g.root.nodes, [&] (const graph::Node& n)
-                                            { return n.name == node; }));
+                CHECK (std::ranges::any_of (g.root.nodes, [&] (const graph::Node& n) { return n.name == node; }));
             }
         }
     }

@@ -37,8 +37,7 @@ TEST_CASE ("switching presets as fast as possible under a trembling hand never c
     const auto graphs = presets();
     host::FileAssets assets;
     CompileOptions options { .rate_hz = 4000.0, .assets = &assets, .services = { .nearest_triangle = host::nearestByEmbree } };
-    const auto first = std::ranges::find (graphs, std::string ("Dry wood"), [] (const auto& g)
-                                          { return g->name; });
+    const auto first = std::ranges::find (graphs, std::string ("Dry wood"), [] (const auto& g) { return g->name; });
     REQUIRE (first != graphs.end());
     test::Live live { **first, catalogue(), options, compile (**first, catalogue(), options).plan };
     test::ChanceHand hand (5);
@@ -48,8 +47,7 @@ TEST_CASE ("switching presets as fast as possible under a trembling hand never c
     std::atomic<int> switched = 0;
     int steps = 0, moved = 0;   // written by the tick thread; read after it is joined
     {
-        std::jthread ticking ([&, plan = static_cast<const Plan*> (&live.engine().plan())]() mutable
-                              {
+        std::jthread ticking ([&, plan = static_cast<const Plan*> (&live.engine().plan())]() mutable {
             while (! over)
             {
                 const auto before = hand.last;
@@ -61,7 +59,8 @@ TEST_CASE ("switching presets as fast as possible under a trembling hand never c
                     steps += ! ((hand.last.force - before.force).norm() <= 1e-9 * (1.0 + before.force.norm()));
                 }
                 plan = &live.engine().plan();
-            } });
+            }
+        });
         for (int round = 0; round < 4; ++round)
             for (const auto& graph : graphs)
             {

@@ -95,8 +95,7 @@ struct Log
             return false;
         }
         const bool good_sum = static_cast<std::uint32_t> (get32 (report, 60)) == crcOf (report.first (60));
-        const bool neutral = std::all_of (report.begin() + 2, report.begin() + 60, [] (auto b)
-                                          { return b == 0; });
+        const bool neutral = std::all_of (report.begin() + 2, report.begin() + 60, [] (auto b) { return b == 0; });
         const bool driven = (report[2] & 1) != 0;
         const char* kind = driven ? "driven" : "other";
         if (neutral) kind = "neutral";
@@ -119,8 +118,7 @@ struct Log
 /// Sends report n, with the faults that `args` request for it. Returns how many further reports it sent.
 std::uint32_t sendReport (VirtualDevice& device, Log& log, const std::vector<std::string>& args, std::uint32_t n)
 {
-    const auto every = [&] (const char* name)
-    {
+    const auto every = [&] (const char* name) {
         const auto each = static_cast<std::uint32_t> (option (args, name, 0.0));
         return each > 0 && n % each == each - 1;
     };
@@ -165,8 +163,7 @@ std::uint32_t sendReport (VirtualDevice& device, Log& log, const std::vector<std
 /// --stall (100 ms), --unplug (away for --away S).
 int board (const std::vector<std::string>& args)
 {
-    std::signal (SIGTERM, [] (int)
-                 { ended = 1; });
+    std::signal (SIGTERM, [] (int) { ended = 1; });
     const double seconds = option (args, "seconds", 10.0), period = 1.0 / option (args, "rate", 1000.0);
     const auto stall_at = static_cast<std::uint32_t> (option (args, "stall", 0.0)), unplug_at = static_cast<std::uint32_t> (option (args, "unplug", 0.0));
     const auto serial = text (args, "serial", "B7");
@@ -175,16 +172,14 @@ int board (const std::vector<std::string>& args)
 
     Log log;
     const auto gadget = text (args, "gadget", "");
-    const auto plug = [&]() -> std::unique_ptr<VirtualDevice>
-    {
+    const auto plug = [&]() -> std::unique_ptr<VirtualDevice> {
         if (! gadget.empty()) return std::make_unique<Gadget> (gadget.c_str());
         return std::make_unique<Uhid> ("Tactus test board", serial.c_str(), std::uint16_t { 0x16c0 }, std::uint16_t { 0x0486 }, descriptor);
     };
     const bool waits = option (args, "wait", 0.0) > 0.0;
     bool told = false;
     Mark mark (args);
-    const auto heard = [&] (std::span<const std::uint8_t> r)
-    {
+    const auto heard = [&] (std::span<const std::uint8_t> r) {
         told = true;
         if (log.got (r)) mark.count();
     };

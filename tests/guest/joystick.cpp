@@ -41,8 +41,7 @@ std::array<std::uint8_t, 25> reportAt (double t)
     constexpr double counts = 65535.0 / 0.12;
     std::array<std::uint8_t, 25> r {};
     r[0] = 1;
-    const auto put = [&] (std::size_t at, double metres)
-    {
+    const auto put = [&] (std::size_t at, double metres) {
         const auto v = static_cast<int> (std::lround (metres * counts));
         r[at] = static_cast<std::uint8_t> (v);
         r[at + 1] = static_cast<std::uint8_t> (v >> 8);
@@ -58,8 +57,7 @@ std::array<std::uint8_t, 25> reportAt (double t)
 /// --away S (comes back with another block)
 int joystick (const std::vector<std::string>& args)
 {
-    std::signal (SIGTERM, [] (int)
-                 { ended = 1; });
+    std::signal (SIGTERM, [] (int) { ended = 1; });
     std::ifstream file (text (args, "file", ""), std::ios::binary);
     const std::vector<char> bytes { std::istreambuf_iterator<char> (file), {} };
     if (bytes.empty() || bytes.size() > HID_MAX_DESCRIPTOR_SIZE) return 2;
@@ -68,19 +66,16 @@ int joystick (const std::vector<std::string>& args)
     Log log;
     std::uint8_t block = option (args, "blocks", 1.0) > 0.0 ? 3 : 0;
     bool asked = false;
-    const auto plug = [&]
-    {
+    const auto plug = [&] {
         auto device = std::make_unique<Uhid> ("Test joystick", "J1", std::uint16_t { 0x1209 }, std::uint16_t { 0xffb0 }, descriptor);
-        device->on_ask = [&] (std::uint8_t id) -> std::vector<std::uint8_t>
-        {
+        device->on_ask = [&] (std::uint8_t id) -> std::vector<std::uint8_t> {
             if (id != block_load || ! asked) return {};
             return { block_load, block, static_cast<std::uint8_t> (block > 0 ? 1 : 2), 0, 0x10 };
         };
         return device;
     };
     Mark mark (args);
-    const auto heard = [&] (std::span<const std::uint8_t> report)
-    {
+    const auto heard = [&] (std::span<const std::uint8_t> report) {
         if (report.size() == 4 && report[0] == set_force && (report[2] | report[3]) != 0) mark.count();
         asked = asked || (! report.empty() && report[0] == create_effect);
         log.add ("out", report);

@@ -16,8 +16,7 @@ int spaceMouse (const std::vector<std::string>& args)
                                           0x00, 0x25, 0x01, 0x95, 0x01, 0x75, 0x01, 0x91, 0x02, 0x95, 0x01, 0x75, 0x07, 0x91, 0x03, 0xc0, 0xc0 };
     Uhid device ("Test SpaceMouse", "", 0x256f, 0xc635, descriptor);   // the kernel has its own drivers for other models
     const double end = now() + option (args, "seconds", 10.0);
-    const auto two = [] (int v)
-    { return std::array { static_cast<std::uint8_t> (v), static_cast<std::uint8_t> (v >> 8) }; };
+    const auto two = [] (int v) { return std::array { static_cast<std::uint8_t> (v), static_cast<std::uint8_t> (v >> 8) }; };
     for (double due = now(); now() < end; due += 0.016)
     {
         device.serve (due, [] (auto) {});

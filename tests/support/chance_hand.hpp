@@ -23,8 +23,7 @@ public:
 
     Reading read() noexcept override
     {
-        const auto next = [this]
-        { return static_cast<double> (random()) / 2147483648.0 - 1.0; };
+        const auto next = [this] { return static_cast<double> (random()) / 2147483648.0 - 1.0; };
         for (int c = 0; c < 3; ++c)
             speed[c] = 0.98 * speed[c] + 2e-5 * next();
         position = 0.999 * position + speed;

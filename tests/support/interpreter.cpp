@@ -218,14 +218,12 @@ void Interpreter::route()
 void Interpreter::findWhatIsCarried()
 {
     CompileOptions options { .rate_hz = g.rate_hz };
-    const auto nameOf = [] (const End& e)
-    { return e.node + "." + e.port; };
+    const auto nameOf = [] (const End& e) { return e.node + "." + e.port; };
     for (const auto& w : wires)
         for (const auto* end : { &w.from, &w.to })
             options.records.push_back (nameOf (*end));
     const auto compiled = compile (g, catalogue(), options);
-    const auto quantityOf = [&] (const End& e)
-    {
+    const auto quantityOf = [&] (const End& e) {
         for (const auto& tap : compiled.plan->taps())
             if (tap.name == nameOf (e) || tap.name == nameOf (e) + ".x") return tap.quantity;
         throw std::out_of_range (nameOf (e));
@@ -257,8 +255,7 @@ std::vector<Interpreter::End> Interpreter::resolve (const graph::Patch& patch, c
             std::ranges::move (resolve (inside, deeper, { head.rest, e.port, e.index, e.component }, start), std::back_inserter (ends));
             continue;
         }
-        const auto look = [&]
-        {
+        const auto look = [&] {
             for (const auto* list : start ? std::vector { &inside.expose.outputs } : std::vector { &inside.expose.inputs, &inside.expose.params })
                 for (const auto& [shown, to] : *list)
                     if (shown == e.port) return resolve (inside, deeper, to, start);
@@ -425,19 +422,15 @@ void Interpreter::step (int section)
     if (s.done) return;
     s.done = true;
 
-    const auto passing = [&] (std::vector<int> Wire::*way, std::map<int, std::map<int, Crossing>> Wire::*crossings, auto visit)
-    {
+    const auto passing = [&] (std::vector<int> Wire::*way, std::map<int, std::map<int, Crossing>> Wire::*crossings, auto visit) {
         for (auto& w : wires)
             if (std::ranges::count (w.*way, section) > 0)
                 for (const int c : components (w))
                     visit (w, c, (w.*crossings)[c][section]);
     };
-    const auto entering = [&] (auto visit)
-    { passing (&Wire::enters, &Wire::entering, visit); };
-    const auto leaving = [&] (auto visit)
-    { passing (&Wire::leaves, &Wire::leaving, visit); };
-    const auto newEnd = [] (Crossing& x, double value)
-    {
+    const auto entering = [&] (auto visit) { passing (&Wire::enters, &Wire::entering, visit); };
+    const auto leaving = [&] (auto visit) { passing (&Wire::leaves, &Wire::leaving, visit); };
+    const auto newEnd = [] (Crossing& x, double value) {
         x.before = x.begun ? x.newest : value;
         x.newest = value;
         x.begun = true;
@@ -447,8 +440,7 @@ void Interpreter::step (int section)
     if (s.every > 1)
     {
         const auto every = static_cast<std::uint64_t> (s.every), phase = number % every;
-        entering ([&] (Wire& w, int c, Crossing& x)
-                  {
+        entering ([&] (Wire& w, int c, Crossing& x) {
             const double value = enteringValue (w, section, c);
             if (w.hits)
             {
@@ -456,14 +448,14 @@ void Interpreter::step (int section)
                 if (phase == 0) x.out = std::exchange (x.gathered, 0.0);
             }
             else if (phase == 0)
-                x.out = value; });
+                x.out = value;
+        });
         if (phase == 0)
         {
             s.number = number / every;
             run (section);
         }
-        leaving ([&] (Wire& w, int c, Crossing& x)
-                 {
+        leaving ([&] (Wire& w, int c, Crossing& x) {
             const double value = leavingValue (w, section, c);
             if (phase == 0) newEnd (x, value);
             if (w.hits)
@@ -471,31 +463,30 @@ void Interpreter::step (int section)
             else if (s.linear && ! w.steps)
                 x.out = std::lerp (x.before, x.newest, static_cast<double> (phase) / s.every);
             else
-                x.out = value; });
+                x.out = value;
+        });
         return;
     }
 
-    entering ([&] (Wire& w, int c, Crossing& x)
-              { newEnd (x, enteringValue (w, section, c)); });
+    entering ([&] (Wire& w, int c, Crossing& x) { newEnd (x, enteringValue (w, section, c)); });
     for (int i = 0; i < s.times; ++i)
     {
         s.number = number * static_cast<std::uint64_t> (s.times) + static_cast<std::uint64_t> (i);
-        entering ([&] (Wire& w, int, Crossing& x)
-                  {
+        entering ([&] (Wire& w, int, Crossing& x) {
             if (w.hits)
                 x.out = i == 0 ? x.newest : 0.0;
             else if (w.steps)
                 x.out = x.newest;
             else
-                x.out = std::lerp (x.before, x.newest, (i + 1.0) / s.times); });
+                x.out = std::lerp (x.before, x.newest, (i + 1.0) / s.times);
+        });
         run (section);
-        leaving ([&] (Wire& w, int c, Crossing& x)
-                 { x.gathered += leavingValue (w, section, c); });
+        leaving ([&] (Wire& w, int c, Crossing& x) { x.gathered += leavingValue (w, section, c); });
     }
-    leaving ([&] (Wire& w, int c, Crossing& x)
-             {
+    leaving ([&] (Wire& w, int c, Crossing& x) {
         const double sum = std::exchange (x.gathered, 0.0);
-        x.out = w.hits ? sum : leavingValue (w, section, c); });
+        x.out = w.hits ? sum : leavingValue (w, section, c);
+    });
 }
 
 void Interpreter::tick (const std::map<std::string, Reading>& readings)

@@ -38,8 +38,7 @@ struct Parted : Sketch
 
     void expose (const std::string& patch, const Json& inputs, const Json& outputs, const Json& params = Json::object())
     {
-        const auto list = [] (const Json& names)
-        {
+        const auto list = [] (const Json& names) {
             std::vector<std::pair<std::string, graph::Endpoint>> all;
             for (const auto& [name, end] : names.items())
                 all.emplace_back (name, *graph::parseEndpoint (end.get<std::string>()));

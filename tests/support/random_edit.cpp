@@ -111,8 +111,7 @@ private:
         const std::string id (sheet->id);
         if (const auto* choice = oneOf (sheet->choices)) return graph::SetParam { in, node.name, id, Json (*choice) };
 
-        const auto number = [&]
-        {
+        const auto number = [&] {
             const auto& usual = sheet->limits.usual;
             const double low = std::isfinite (usual.min) ? usual.min : -1.0, high = std::isfinite (usual.max) ? usual.max : low + 2.0;
             return sheet->limits.hard.clamp (std::uniform_real_distribution { low, high }(random));
@@ -179,14 +178,12 @@ private:
 
 graph::Graph prefixed (graph::Graph g, const std::string& prefix, const std::string& role)
 {
-    const auto path = [&] (std::string names)
-    {
+    const auto path = [&] (std::string names) {
         for (auto at = names.find ('/'); at != std::string::npos; at = names.find ('/', at + 1))
             names.insert (at + 1, prefix);
         return names.starts_with ('[') ? names : prefix + names;
     };
-    const auto rename = [&] (graph::Patch& patch)
-    {
+    const auto rename = [&] (graph::Patch& patch) {
         for (auto& n : patch.nodes)
         {
             n.name = prefix + n.name;
@@ -229,10 +226,8 @@ graph::Command randomEdit (std::mt19937& random, const graph::Graph& g, const st
 
 graph::Command randomRegrouping (std::mt19937& random, const graph::Graph& g)
 {
-    const auto below = [&] (std::size_t n)
-    { return std::uniform_int_distribution<std::size_t> { 0, n - 1 }(random); };
-    const auto fresh = [&] (const char* prefix)
-    { return prefix + std::to_string (random() % 100000); };
+    const auto below = [&] (std::size_t n) { return std::uniform_int_distribution<std::size_t> { 0, n - 1 }(random); };
+    const auto fresh = [&] (const char* prefix) { return prefix + std::to_string (random() % 100000); };
     std::string in;
     const graph::Patch* patch = &g.root;
     if (! g.graphs.empty() && below (2) == 0)

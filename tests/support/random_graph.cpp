@@ -122,8 +122,9 @@ private:
         for (const auto* role : { "left", "right" })
             if (oneIn (2))
                 n.roles[role] = oneIn (2) ? Json ("left") : Json (std::vector<std::string> (static_cast<std::size_t> (countOf (n)), "left"));
-        for (auto& [role, means] : n.roles.items())
-            if (means.is_array()) means[0] = "right";
+        if (n.roles.is_object())
+            for (auto& [role, means] : n.roles.asObject())
+                if (means.is_array()) means[0] = "right";
         for (const auto& m : inside.nodes)
         {
             const auto* type = catalogue().find (m.type);
@@ -204,8 +205,7 @@ private:
         {
             if (n.type.starts_with ("graph:")) continue;
             const auto& type = *catalogue().find (n.type);
-            const auto add = [&] (auto& list, const std::vector<PortSheet>& rows)
-            {
+            const auto add = [&] (auto& list, const std::vector<PortSheet>& rows) {
                 for (const auto& row : rows)
                     if (! row.list && row.choices.empty() && oneIn (2))
                         list.emplace_back (n.name + "_" + std::string (row.id), graph::Endpoint { n.name, std::string (row.id) });
@@ -304,8 +304,7 @@ std::optional<graph::Wire> randomWire (std::mt19937& random, const graph::Node& 
 graph::Graph shuffled (graph::Graph g, unsigned seed)
 {
     std::mt19937 random { seed };
-    const auto shuffle = [&] (graph::Patch& p)
-    {
+    const auto shuffle = [&] (graph::Patch& p) {
         std::ranges::shuffle (p.nodes, random);
         std::ranges::shuffle (p.wires, random);
     };

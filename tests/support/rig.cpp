@@ -12,8 +12,7 @@ namespace
 template <typename Sheets>
 auto& named (std::string_view id, Sheets& sheets)
 {
-    const auto at = std::ranges::find (sheets, id, [] (const auto& s)
-                                       { return s.id; });
+    const auto at = std::ranges::find (sheets, id, [] (const auto& s) { return s.id; });
     INFO ("the node has no '" << id << "'");
     REQUIRE (at != sheets.end());
     return *at;
@@ -29,8 +28,7 @@ const NodeType& typeNamed (std::string_view id)
 
 std::size_t firstOf (std::string_view id, const std::vector<Rig::Component>& components, int index)
 {
-    const auto at = std::ranges::find_if (components, [&] (const auto& c)
-                                          { return c.port->id == id && c.index == index; });
+    const auto at = std::ranges::find_if (components, [&] (const auto& c) { return c.port->id == id && c.index == index; });
     INFO ("the node has no '" << id << "[" << index << "]'");
     REQUIRE (at != components.end());
     return static_cast<std::size_t> (at - components.begin());
@@ -82,8 +80,7 @@ void Rig::prepare()
     if (sheet.prepare) sheet.prepare (node.get(), setup);
     moved();
 
-    const auto list = [this] (const std::vector<PortSheet>& ports)
-    {
+    const auto list = [this] (const std::vector<PortSheet>& ports) {
         std::vector<Component> all;
         for (const auto& p : ports)
             for (int i = 0; i < p.width * (p.list ? list_size : 1); ++i)

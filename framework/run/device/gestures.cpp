@@ -38,7 +38,14 @@ double through (const Rest (&rests)[n], double t) noexcept
 
 Vec3 stroke (double t)
 {
-    static constexpr Rest x[] { { 0.5, -30 * mm }, { 1.1, 30 * mm }, { 1.2, 30 * mm }, { 1.8, -30 * mm }, { 1.9, -30 * mm }, { 2.5, 30 * mm }, { 2.6, 30 * mm }, { 3.2, -30 * mm } };
+    static constexpr Rest x[] { { 0.5, -30 * mm },
+                                { 1.1, 30 * mm },
+                                { 1.2, 30 * mm },
+                                { 1.8, -30 * mm },
+                                { 1.9, -30 * mm },
+                                { 2.5, 30 * mm },
+                                { 2.6, 30 * mm },
+                                { 3.2, -30 * mm } };
     static constexpr Rest z[] { { 0.0, 10 * mm }, { 0.5, -2 * mm }, { 3.2, -2 * mm }, { 3.8, 10 * mm } };
     return { through (x, t), 0.0, through (z, t) };
 }
@@ -59,7 +66,17 @@ Vec3 touch (double t)
 Vec3 tap (double t)
 {
     // The surface is four fifths of the way down, where the hand still has three quarters of its top speed.
-    static constexpr Rest z[] { { 0.2, 8 * mm }, { 0.5, -2 * mm }, { 0.65, 8 * mm }, { 0.85, -2 * mm }, { 1.0, 8 * mm }, { 1.13, -2 * mm }, { 1.25, 8 * mm }, { 1.34, -2 * mm }, { 1.44, 8 * mm }, { 1.5, -2 * mm }, { 1.6, 8 * mm } };
+    static constexpr Rest z[] { { 0.2, 8 * mm },
+                                { 0.5, -2 * mm },
+                                { 0.65, 8 * mm },
+                                { 0.85, -2 * mm },
+                                { 1.0, 8 * mm },
+                                { 1.13, -2 * mm },
+                                { 1.25, 8 * mm },
+                                { 1.34, -2 * mm },
+                                { 1.44, 8 * mm },
+                                { 1.5, -2 * mm },
+                                { 1.6, 8 * mm } };
     return { 0.0, 0.0, through (z, t) };
 }
 
@@ -75,14 +92,24 @@ Vec3 sweep (double t)
 {
     // Strokes of 30 mm with peaks of 10, 25, 60, 120, 240 and 400 mm/s: a stroke lasts 15/8 of length over peak.
     static constexpr double pause = 0.1, start = 0.5;
-    static constexpr auto lasts = [] (double peak)
-    { return 15.0 / 8.0 * 30 * mm / peak; };
+    static constexpr auto lasts = [] (double peak) { return 15.0 / 8.0 * 30 * mm / peak; };
     static constexpr double t1 = start + lasts (0.010), t2 = t1 + pause + lasts (0.025), t3 = t2 + pause + lasts (0.060),
                             t4 = t3 + pause + lasts (0.120), t5 = t4 + pause + lasts (0.240), t6 = t5 + pause + lasts (0.400);
     static_assert (t6 + 0.4 < 11.2);
 
     static constexpr double left = -15 * mm, right = 15 * mm;
-    static constexpr Rest x[] { { start, left }, { t1, right }, { t1 + pause, right }, { t2, left }, { t2 + pause, left }, { t3, right }, { t3 + pause, right }, { t4, left }, { t4 + pause, left }, { t5, right }, { t5 + pause, right }, { t6, left } };
+    static constexpr Rest x[] { { start, left },
+                                { t1, right },
+                                { t1 + pause, right },
+                                { t2, left },
+                                { t2 + pause, left },
+                                { t3, right },
+                                { t3 + pause, right },
+                                { t4, left },
+                                { t4 + pause, left },
+                                { t5, right },
+                                { t5 + pause, right },
+                                { t6, left } };
     static constexpr Rest z[] { { 0.0, 10 * mm }, { start, -2 * mm }, { t6, -2 * mm }, { t6 + 0.4, 10 * mm } };
     return { through (x, t), 0.0, through (z, t) };
 }
@@ -93,8 +120,7 @@ Vec3 hold (double t)
     static constexpr Rest amount[] { { 0.0, 0.0 }, { 1.0, 1.0 }, { 5.0, 1.0 }, { 6.0, 0.0 } };
 
     // Physiological tremor: 8 to 12 Hz, tens of micrometres, not the same in each direction, never quite periodic.
-    const auto wave = [t] (double frequency, double phase)
-    { return std::sin (turn * (frequency * t + phase)); };
+    const auto wave = [t] (double frequency, double phase) { return std::sin (turn * (frequency * t + phase)); };
     const Vec3 tremor { 30 * um * wave (8.7, 0.0) + 15 * um * wave (11.3, 0.3),
                         20 * um * wave (9.4, 0.6) + 15 * um * wave (10.9, 0.1),
                         15 * um * wave (8.3, 0.8) + 10 * um * wave (11.8, 0.5) };

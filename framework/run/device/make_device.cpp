@@ -215,8 +215,7 @@ MadeDevice makeDevice (const Json& description, const Folder& folder)
     in.require ("driver", "write one of: sim, trace, gesture");
     const auto id = in.text ("driver");
 
-    const auto* driver = std::ranges::find_if (drivers, [&] (const Driver& d)
-                                               { return d.id == id; });
+    const auto* driver = std::ranges::find_if (drivers, [&] (const Driver& d) { return d.id == id; });
     if (driver == std::end (drivers))
     {
         // Without the driver, the valid keys are unknown, so only this problem is reported.
@@ -305,7 +304,9 @@ Result<DeviceOption> parseDeviceOption (std::string_view text, const std::vector
 
     constexpr std::string_view audio = "audio";
     if (what == audio || (what.starts_with (audio) && what.substr (audio.size()).starts_with (':')))
-        return DeviceOption { .role = role, .description = soundCard (role, what.substr (std::min (what.size(), audio.size() + 1)), described), .folder = folder_of_graph };
+        return DeviceOption { .role = role,
+                              .description = soundCard (role, what.substr (std::min (what.size(), audio.size() + 1)), described),
+                              .folder = folder_of_graph };
 
     constexpr std::pair<std::string_view, const char*> with_a_name[] { { "trace", "path" }, { "gesture", "path" }, { "hid", "profile" } };
     for (const auto& [driver, key] : with_a_name)

@@ -28,8 +28,7 @@ Path::Point TracePath::at (double t) const noexcept
 {
     if (knots.empty()) return {};
 
-    const auto next = std::upper_bound (knots.begin(), knots.end(), t, [] (double time, const Knot& knot)
-                                        { return time < knot.t; });
+    const auto next = std::upper_bound (knots.begin(), knots.end(), t, [] (double time, const Knot& knot) { return time < knot.t; });
     if (next == knots.begin()) return { .position = knots.front().position };
     if (next == knots.end()) return { .position = knots.back().position };
 

@@ -71,10 +71,9 @@ std::string seconds (double t) { return numberText (t) + " s"; }
 Messages checkColumns (std::span<const std::string> columns, std::size_t values)
 {
     Messages messages;
-    const auto add = [&] (const char* id, const char* where, std::string text, std::string remedy) -> Message&
-    { return messages.emplace_back (Message::error (id, where, std::move (text), std::move (remedy))); };
-    const auto first = [&] (const auto& name)
-    { return std::find (columns.begin(), columns.end(), name); };
+    const auto add = [&] (const char* id, const char* where, std::string text,
+                          std::string remedy) -> Message& { return messages.emplace_back (Message::error (id, where, std::move (text), std::move (remedy))); };
+    const auto first = [&] (const auto& name) { return std::find (columns.begin(), columns.end(), name); };
 
     TraceData::Row row;
     int axes = 0;

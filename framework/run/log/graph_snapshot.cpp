@@ -38,7 +38,10 @@ public:
         auto includes = Json::object();
         for (const auto& [written, file] : graph.files)
             includes[written] = add (file);
-        all.push_back ({ { "text", writeGraph (graph) }, { "folder", relativeTo (folder, graph.folder) }, { "ids", graph::idsOf (graph) }, { "includes", std::move (includes) } });
+        all.push_back ({ { "text", writeGraph (graph) },
+                         { "folder", relativeTo (folder, graph.folder) },
+                         { "ids", graph::idsOf (graph) },
+                         { "includes", std::move (includes) } });
         return all.size() - 1;
     }
 
@@ -118,9 +121,15 @@ Messages checkAssets (const Json& snapshot, const fs::path& folder)
         const auto file = (folder / path).lexically_normal();
         const auto now = fileHash (file);
         if (! now)
-            messages.push_back ({ .id = "log/asset_missing", .where = "/assets/" + pointerPart (path), .text = quote (file.string()) + ", which the run used, cannot be read", .remedy = "restore it; paths are relative to the folder of the log" });
+            messages.push_back ({ .id = "log/asset_missing",
+                                  .where = "/assets/" + pointerPart (path),
+                                  .text = quote (file.string()) + ", which the run used, cannot be read",
+                                  .remedy = "restore it; paths are relative to the folder of the log" });
         else if (Json (*now) != hash)
-            messages.push_back ({ .id = "log/asset_changed", .where = "/assets/" + pointerPart (path), .text = quote (file.string()) + " has changed since the run used it", .remedy = "restore the old file, or name a graph to play it with the new one" });
+            messages.push_back ({ .id = "log/asset_changed",
+                                  .where = "/assets/" + pointerPart (path),
+                                  .text = quote (file.string()) + " has changed since the run used it",
+                                  .remedy = "restore the old file, or name a graph to play it with the new one" });
     }
     return messages;
 }

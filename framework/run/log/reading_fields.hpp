@@ -66,8 +66,7 @@ inline LoggedReading toLogged (const Reading& r) noexcept { return { toNumbers (
 inline Reading toReading (const LoggedReading& logged) noexcept
 {
     const auto& n = logged.numbers;
-    const auto vector = [&] (std::size_t i)
-    { return Vec3 (n[i], n[i + 1], n[i + 2]); };
+    const auto vector = [&] (std::size_t i) { return Vec3 (n[i], n[i + 1], n[i + 2]); };
     constexpr double most_buttons = 4294967295.0;
     return {
         .position = vector (0),

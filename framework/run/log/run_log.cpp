@@ -60,13 +60,25 @@ Json toJson (const std::map<std::string, DeviceLayout>& devices)
     auto json = Json::object();
     for (const auto& [role, has] : devices)
         if (has != DeviceLayout {})
-            json[role] = { { "axes", has.axes }, { "efforts", has.efforts }, { "buttons", has.buttons }, { "signal_inputs", has.signal_inputs }, { "signal_outputs", has.signal_outputs } };
+            json[role] = { { "axes", has.axes },
+                           { "efforts", has.efforts },
+                           { "buttons", has.buttons },
+                           { "signal_inputs", has.signal_inputs },
+                           { "signal_outputs", has.signal_outputs } };
     return json;
 }
 
 std::string headLine (const RunHead& head)
 {
-    return textOf ({ { "format", run_format }, { "version", run_version }, { "program", head.program }, { "rate_hz", head.rate_hz }, { "sets", head.sets }, { "feeds", head.feeds }, { "guards", toJson (head.guards) }, { "devices", toJson (head.devices) } }) + "\n";
+    return textOf ({ { "format", run_format },
+                     { "version", run_version },
+                     { "program", head.program },
+                     { "rate_hz", head.rate_hz },
+                     { "sets", head.sets },
+                     { "feeds", head.feeds },
+                     { "guards", toJson (head.guards) },
+                     { "devices", toJson (head.devices) } })
+           + "\n";
 }
 
 bool same (std::span<const double> a, std::span<const double> b) noexcept
@@ -126,8 +138,7 @@ Result<> RunLog::drain()
 void RunLog::take()
 {
     auto& words = taken.words();
-    const auto number = [&]
-    { return std::bit_cast<double> (words.pop()); };
+    const auto number = [&] { return std::bit_cast<double> (words.pop()); };
     const auto begin = words.pop();
     const auto of = static_cast<std::size_t> (begin >> 8u);
     switch (static_cast<RunJournal::Kind> (begin & 0xffu))
@@ -194,8 +205,7 @@ void RunLog::takeOver (std::uint64_t serial)
 LoggedReading RunLog::takeReading()
 {
     auto& words = taken.words();
-    const auto number = [&]
-    { return std::bit_cast<double> (words.pop()); };
+    const auto number = [&] { return std::bit_cast<double> (words.pop()); };
     LoggedReading reading;
     std::ranges::generate (reading.numbers, number);
     const auto sizes = words.pop();
@@ -209,8 +219,7 @@ LoggedReading RunLog::takeReading()
 void RunLog::takeTick (std::size_t roles, std::size_t feeds)
 {
     auto& words = taken.words();
-    const auto number = [&]
-    { return std::bit_cast<double> (words.pop()); };
+    const auto number = [&] { return std::bit_cast<double> (words.pop()); };
 
     if (! kept.empty()) add ("kept", "[" + kept + "]");
     if (! turns.empty()) add ("turn", "{" + turns + "}");
@@ -228,8 +237,10 @@ void RunLog::takeTick (std::size_t roles, std::size_t feeds)
         const auto& role = expected.front().plan->roles()[r].name;
         auto& before = readings.try_emplace (role, toLogged ({})).first->second;
         std::string changed;
-        const auto change = [&] (std::string_view key, const std::string& value)
-        { changed += (changed.empty() ? "\"" : ",\"") + std::string (key) + "\":" + value; };
+        const auto change = [&] (std::string_view key, const std::string& value) {
+            if (! changed.empty()) changed += ",";
+            changed += "\"" + std::string (key) + "\":" + value;
+        };
         for (const auto& [key, first, size] : reading_fields)
             if (const auto field = std::span (reading.numbers).subspan (first, size); ! same (field, std::span (before.numbers).subspan (first, size)))
                 change (key, textOf (field));

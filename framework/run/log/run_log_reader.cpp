@@ -85,15 +85,11 @@ public:
         for (auto& [role, has] : object.asObject())
         {
             auto& device = to[role];
-            const auto names = [this] (std::vector<std::string>& all)
-            {
-                return [this, &all] (Json& v, const std::string& place)
-                { texts (v, place, all); };
+            const auto names = [this] (std::vector<std::string>& all) {
+                return [this, &all] (Json& v, const std::string& place) { texts (v, place, all); };
             };
-            const auto count = [this] (int& n)
-            {
-                return [this, &n] (Json& v, const std::string& place)
-                {
+            const auto count = [this] (int& n) {
+                return [this, &n] (Json& v, const std::string& place) {
                     whole (v, place, n);
                     if (n < 0 || n > Channels::most) wrong (place, "a device has at most " + std::to_string (Channels::most) + " signals in each direction");
                 };
@@ -116,10 +112,10 @@ public:
             auto& guard = to[role];
             std::vector<KnownKey> keys;
             for (const auto& field : guard_fields)
-                keys.push_back ({ field.key, JsonKind::any, [this, &guard, value = field.value] (Json& v, const std::string& place)
-                                  { number (v, place, guard.*value); } });
-            keys.push_back ({ dead_man_buttons, JsonKind::any, [this, &guard] (Json& v, const std::string& place)
-                              { whole (v, place, guard.dead_man_buttons); } });
+                keys.push_back ({ field.key, JsonKind::any,
+                                  [this, &guard, value = field.value] (Json& v, const std::string& place) { number (v, place, guard.*value); } });
+            keys.push_back ({ dead_man_buttons, JsonKind::any,
+                              [this, &guard] (Json& v, const std::string& place) { whole (v, place, guard.dead_man_buttons); } });
             if (const auto place = where + "/" + pointerPart (role); fields.isKind (limits, JsonKind::object, place)) read (limits, place, keys);
         }
     }
@@ -128,11 +124,12 @@ public:
     {
         std::vector<KnownKey> keys;
         for (const auto& field : reading_fields)
-            keys.push_back ({ field.key, JsonKind::any, [&] (Json& value, const std::string& place)
-                              { numbers (value, place, std::span (to.numbers).subspan (field.first, field.size)); } });
+        {
+            const auto part = std::span (to.numbers).subspan (field.first, field.size);
+            keys.push_back ({ field.key, JsonKind::any, [this, part] (Json& v, const std::string& place) { numbers (v, place, part); } });
+        }
         for (const auto& field : channel_fields)
-            keys.push_back ({ field.key, JsonKind::list, [&, value = field.value] (Json& v, const std::string& place)
-                              { numbers (v, place, to.*value); } });
+            keys.push_back ({ field.key, JsonKind::list, [&, value = field.value] (Json& v, const std::string& place) { numbers (v, place, to.*value); } });
         if (fields.isKind (object, JsonKind::object, where)) read (object, where, keys);
     }
 
@@ -205,8 +202,10 @@ Result<> RunLogReader::readHead()
 {
     const auto text = line();
     number = 1;
-    const auto no_log = [&] (const std::string& why)
-    { return at ("log/not_a_log", "this is not a run log: " + why, "name the file that `tactus play --log` wrote"); };
+    const auto no_log = [&] (const std::string& why) {
+        const auto what = "this is not a run log: " + why;
+        return at ("log/not_a_log", what, "name the file that `tactus play --log` wrote");
+    };
     if (! text) return no_log ("it has no complete line");
 
     Line head { *text };
@@ -219,21 +218,15 @@ Result<> RunLogReader::readHead()
     if (version.get<std::int64_t>() > run_version) return at ("log/newer_version", "the log was written by a newer Tactus", "replay it with that version");
 
     head.read (head.json.root, "", {
-                                       { "program", JsonKind::text, [&] (Json& v, const std::string&)
-                                         { begin.program = v.get<std::string>(); } },
-                                       { "rate_hz", JsonKind::number, [&] (Json& v, const std::string& where)
-                                         {
-                                             begin.rate_hz = v.get<double>();
-                                             if (! (begin.rate_hz >= 1.0 && begin.rate_hz <= 1e6)) head.wrong (where, "the rate must be from 1 to 1000000 Hz");
-                                         } },
-                                       { "sets", JsonKind::list, [&] (Json& v, const std::string& where)
-                                         { head.texts (v, where, begin.sets); } },
-                                       { "feeds", JsonKind::list, [&] (Json& v, const std::string& where)
-                                         { head.texts (v, where, begin.feeds); } },
-                                       { "guards", JsonKind::object, [&] (Json& v, const std::string& where)
-                                         { head.guards (v, where, begin.guards); } },
-                                       { "devices", JsonKind::object, [&] (Json& v, const std::string& where)
-                                         { head.devices (v, where, begin.devices); } },
+                                       { "program", JsonKind::text, [&] (Json& v, const std::string&) { begin.program = v.get<std::string>(); } },
+                                       { "rate_hz", JsonKind::number, [&] (Json& v, const std::string& where) {
+                                            begin.rate_hz = v.get<double>();
+                                            if (! (begin.rate_hz >= 1.0 && begin.rate_hz <= 1e6)) head.wrong (where, "the rate must be from 1 to 1000000 Hz");
+                                        } },
+                                       { "sets", JsonKind::list, [&] (Json& v, const std::string& where) { head.texts (v, where, begin.sets); } },
+                                       { "feeds", JsonKind::list, [&] (Json& v, const std::string& where) { head.texts (v, where, begin.feeds); } },
+                                       { "guards", JsonKind::object, [&] (Json& v, const std::string& where) { head.guards (v, where, begin.guards); } },
+                                       { "devices", JsonKind::object, [&] (Json& v, const std::string& where) { head.devices (v, where, begin.devices); } },
                                    });
     if (head.problem()) return toError (head, placeOf (number));
     if (begin.rate_hz == 0.0) return at ("log/missing", "the first line has no rate_hz", as_written);
@@ -263,60 +256,45 @@ Result<RunTick> RunLogReader::readTick (const std::string& text)
     tick.line = number;
     std::optional<std::uint64_t> k;
     const std::vector<KnownKey> keys {
-        { "tick", JsonKind::any, [&] (Json& v, const std::string& where)
-          { line.whole (v, where, k.emplace()); } },
-        { "graph", JsonKind::object, [&] (Json& v, const std::string&)
-          { tick.graph = std::move (v); } },
-        { "guards", JsonKind::object, [&] (Json& v, const std::string& where)
-          { line.guards (v, where, tick.guards); } },
-        { "devices", JsonKind::object, [&] (Json& v, const std::string& where)
-          { line.devices (v, where, tick.devices); } },
-        { "kept", JsonKind::list, [&] (Json& v, const std::string& where)
-          { line.texts (v, where, tick.kept); } },
-        { "turn", JsonKind::object, [&] (Json& v, const std::string& where)
-          {
-              for (const auto& [param, target] : v.items())
-                  line.number (target, where + "/" + pointerPart (param), tick.turns.emplace_back (param, 0.0).second);
-          } },
-        { "hit", JsonKind::object, [&] (Json& v, const std::string& where)
-          {
-              for (const auto& [input, speed] : v.items())
-                  line.number (speed, where + "/" + pointerPart (input), tick.hits.emplace_back (input, 0.0).second);
-          } },
-        { "late", JsonKind::list, [&] (Json& v, const std::string& where)
-          {
-              for (const auto& question : v)
-                  line.whole (question, where, tick.late.emplace_back());
-              if (! std::ranges::is_sorted (tick.late)) line.wrong (where, "the queries are not in order");
-          } },
-        { "halt", JsonKind::truth, [&] (Json& v, const std::string&)
-          { tick.halt = v.get<bool>(); } },
-        { "rearm", JsonKind::truth, [&] (Json& v, const std::string&)
-          { tick.rearm = v.get<bool>(); } },
-        { "emergency", JsonKind::truth, [&] (Json& v, const std::string&)
-          { tick.emergency = v.get<bool>(); } },
-        { "read", JsonKind::object, [&] (Json& v, const std::string& where)
-          {
-              for (auto& [name_of_role, fields] : v.asObject())
-              {
-                  auto& reading = readings.try_emplace (name_of_role, toLogged ({})).first->second;
-                  line.reading (fields, where + "/" + pointerPart (name_of_role), reading);
-                  tick.readings.emplace_back (name_of_role, toReading (reading));
-              }
-          } },
-        { "feed", JsonKind::list, [&] (Json& v, const std::string& where)
-          {
-              if (v.size() != begin.feeds.size())
-                  return line.wrong (where, "there are " + std::to_string (v.size()) + " values for the " + std::to_string (begin.feeds.size())
-                                                + " feeds of the first line");
-              tick.feed.emplace (v.size());
-              for (std::size_t i = 0; i < v.size(); ++i)
-                  line.number (v[i], where + "/" + std::to_string (i), (*tick.feed)[i]);
-          } },
-        { "end", JsonKind::truth, [&] (Json& v, const std::string&)
-          { if (v.get<bool>()) tick.last = RunTick::Last::end; } },
-        { "broken", JsonKind::truth, [&] (Json& v, const std::string&)
-          { if (v.get<bool>()) tick.last = RunTick::Last::broken; } },
+        { "tick", JsonKind::any, [&] (Json& v, const std::string& where) { line.whole (v, where, k.emplace()); } },
+        { "graph", JsonKind::object, [&] (Json& v, const std::string&) { tick.graph = std::move (v); } },
+        { "guards", JsonKind::object, [&] (Json& v, const std::string& where) { line.guards (v, where, tick.guards); } },
+        { "devices", JsonKind::object, [&] (Json& v, const std::string& where) { line.devices (v, where, tick.devices); } },
+        { "kept", JsonKind::list, [&] (Json& v, const std::string& where) { line.texts (v, where, tick.kept); } },
+        { "turn", JsonKind::object, [&] (Json& v, const std::string& where) {
+             for (const auto& [param, target] : v.items())
+                 line.number (target, where + "/" + pointerPart (param), tick.turns.emplace_back (param, 0.0).second);
+         } },
+        { "hit", JsonKind::object, [&] (Json& v, const std::string& where) {
+             for (const auto& [input, speed] : v.items())
+                 line.number (speed, where + "/" + pointerPart (input), tick.hits.emplace_back (input, 0.0).second);
+         } },
+        { "late", JsonKind::list, [&] (Json& v, const std::string& where) {
+             for (const auto& question : v)
+                 line.whole (question, where, tick.late.emplace_back());
+             if (! std::ranges::is_sorted (tick.late)) line.wrong (where, "the queries are not in order");
+         } },
+        { "halt", JsonKind::truth, [&] (Json& v, const std::string&) { tick.halt = v.get<bool>(); } },
+        { "rearm", JsonKind::truth, [&] (Json& v, const std::string&) { tick.rearm = v.get<bool>(); } },
+        { "emergency", JsonKind::truth, [&] (Json& v, const std::string&) { tick.emergency = v.get<bool>(); } },
+        { "read", JsonKind::object, [&] (Json& v, const std::string& where) {
+             for (auto& [name_of_role, fields] : v.asObject())
+             {
+                 auto& reading = readings.try_emplace (name_of_role, toLogged ({})).first->second;
+                 line.reading (fields, where + "/" + pointerPart (name_of_role), reading);
+                 tick.readings.emplace_back (name_of_role, toReading (reading));
+             }
+         } },
+        { "feed", JsonKind::list, [&] (Json& v, const std::string& where) {
+             if (v.size() != begin.feeds.size())
+                 return line.wrong (where, "there are " + std::to_string (v.size()) + " values for the " + std::to_string (begin.feeds.size())
+                                               + " feeds of the first line");
+             tick.feed.emplace (v.size());
+             for (std::size_t i = 0; i < v.size(); ++i)
+                 line.number (v[i], where + "/" + std::to_string (i), (*tick.feed)[i]);
+         } },
+        { "end", JsonKind::truth, [&] (Json& v, const std::string&) { if (v.get<bool>()) tick.last = RunTick::Last::end; } },
+        { "broken", JsonKind::truth, [&] (Json& v, const std::string&) { if (v.get<bool>()) tick.last = RunTick::Last::broken; } },
     };
 
     if (! line.problem() && line.fields.isKind (line.json.root, JsonKind::object, "")) line.read (line.json.root, "", keys);

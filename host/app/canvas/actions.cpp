@@ -98,8 +98,7 @@ graph::Command removeSelected (const graph::Graph& g, const std::string& name, c
     const auto& patch = patchOf (g, name);
     graph::Batch batch { "delete", {} };
     const auto names = namesOf (patch, ids);
-    const auto goes = [&] (const std::string& node)
-    { return std::ranges::count (names, graph::firstNameOf (node)) > 0; };
+    const auto goes = [&] (const std::string& node) { return std::ranges::count (names, graph::firstNameOf (node)) > 0; };
 
     std::vector<graph::Wire> through;
     for (const auto& n : scene.nodes())

@@ -14,10 +14,8 @@ constexpr float least_gap = 16.0f;
 /// Spaces the boxes out between the first and the last. Those two stay in place if the others fit between them.
 void spread (std::vector<juce::Rectangle<float>>& boxes, bool vertical)
 {
-    const auto begin = [&] (std::size_t i)
-    { return vertical ? boxes[i].getY() : boxes[i].getX(); };
-    const auto size = [&] (std::size_t i)
-    { return vertical ? boxes[i].getHeight() : boxes[i].getWidth(); };
+    const auto begin = [&] (std::size_t i) { return vertical ? boxes[i].getY() : boxes[i].getX(); };
+    const auto size = [&] (std::size_t i) { return vertical ? boxes[i].getHeight() : boxes[i].getWidth(); };
     std::vector<std::size_t> order (boxes.size());
     std::iota (order.begin(), order.end(), std::size_t { 0 });
     std::ranges::stable_sort (order, {}, begin);

@@ -79,8 +79,7 @@ std::vector<int> columnsOf (std::size_t size, const Wires& wires)
     // Move a source next to its nearest destination.
     for (auto box = ready.rbegin(); box != ready.rend(); ++box)
     {
-        const bool is_source = std::ranges::none_of (wires, [&] (const auto& w)
-                                                     { return w.second == *box; });
+        const bool is_source = std::ranges::none_of (wires, [&] (const auto& w) { return w.second == *box; });
         if (! is_source || next[at (*box)].empty() || column[at (*box)] > 0) continue;
         int nearest = column[at (next[at (*box)].front())];
         for (const int to : next[at (*box)])
@@ -161,8 +160,7 @@ private:
             ++count[at (moved)];
         }
         for (auto& boxes : columns)
-            std::ranges::stable_sort (boxes, {}, [&] (int b)
-                                      { return count[at (b)] > 0 ? pull[at (b)] / static_cast<float> (count[at (b)]) : middle (b); });
+            std::ranges::stable_sort (boxes, {}, [&] (int b) { return count[at (b)] > 0 ? pull[at (b)] / static_cast<float> (count[at (b)]) : middle (b); });
         stackAll();
     }
 };

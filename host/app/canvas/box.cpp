@@ -32,8 +32,7 @@ std::string valueText (const Json& value, const FacePort& port)
         return symbol.empty() || symbol == "1" ? number : number + ' ' + std::string (symbol);
     }
     if (! value.is_array()) return {};
-    const auto partText = [] (const Json& part)
-    {
+    const auto partText = [] (const Json& part) {
         if (part.is_number()) return numberText (part.get<double>());
         return part.is_string() ? part.get<std::string>() : "?";
     };
@@ -45,8 +44,7 @@ std::string valueText (const Json& value, const FacePort& port)
 
 const Socket* Box::find (Role role, std::string_view id) const noexcept
 {
-    const auto socket = std::ranges::find_if (sockets, [&] (const Socket& s)
-                                              { return s.port->role == role && s.port->id == id; });
+    const auto socket = std::ranges::find_if (sockets, [&] (const Socket& s) { return s.port->role == role && s.port->id == id; });
     return socket == sockets.end() ? nullptr : &*socket;
 }
 
@@ -74,8 +72,7 @@ Box boxOf (const graph::Node& node, const Face& face, const std::function<bool (
 {
     const auto params = shownParams (node, face, wired);
     Box box;
-    const auto label = [&] (const std::string& text)
-    { return widthOf (text, Box::label_size, false); };
+    const auto label = [&] (const std::string& text) { return widthOf (text, Box::label_size, false); };
     const auto rows = std::max (face.inputs.size(), face.outputs.size());
     box.width = glyph_width + std::min (Box::widest_title, widthOf (node.name, Box::title_size, true)) + 2 * Box::padding;
     for (std::size_t i = 0; i < rows; ++i)

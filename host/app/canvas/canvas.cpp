@@ -51,8 +51,7 @@ void updateBreadcrumbs (Canvas::Breadcrumbs& path, const graph::Graph& g)
         if (node != nullptr && node->type.starts_with ("graph:") && g.find (subgraph) == nullptr) subgraph = node->type.substr (6);
         if (node == nullptr || ! leadsTo (*node, subgraph))
         {
-            const auto other = std::ranges::find_if (in->nodes, [&] (const graph::Node& n)
-                                                     { return leadsTo (n, subgraph); });
+            const auto other = std::ranges::find_if (in->nodes, [&] (const graph::Node& n) { return leadsTo (n, subgraph); });
             if (other == in->nodes.end()) return path.resize (i);
             name = other->name;
         }
@@ -76,10 +75,10 @@ void Canvas::documentChanged()
 {
     updateBreadcrumbs (entered, document.graph());
     rebuild();
-    std::erase_if (highlights.selected, [this] (graph::Id id)
-                   {
+    std::erase_if (highlights.selected, [this] (graph::Id id) {
         if (isNote (id)) return noteOf (id) >= shown->notes().size();
-        return shown->find (id) == nullptr && shown->findWire (id) == nullptr; });
+        return shown->find (id) == nullptr && shown->findWire (id) == nullptr;
+    });
     if (onBreadcrumbs) onBreadcrumbs();
     if (onSelection) onSelection();
 }
@@ -87,8 +86,8 @@ void Canvas::documentChanged()
 void Canvas::rebuild()
 {
     const auto& look = lookOf (*this);
-    shown = std::make_unique<Scene> (document.graph(), patch(), catalogue, [&look] (const std::string& text, float size, bool bold)
-                                     { return look.font (size, bold).getStringWidthFloat (text); });
+    shown = std::make_unique<Scene> (document.graph(), patch(), catalogue,
+                                     [&look] (const std::string& text, float size, bool bold) { return look.font (size, bold).getStringWidthFloat (text); });
     repaint();
 }
 
@@ -197,8 +196,7 @@ void Canvas::frameAll()
 void Canvas::frameSelection()
 {
     juce::Rectangle<float> area;
-    const auto include = [&] (juce::Rectangle<float> r)
-    { area = area.isEmpty() ? r : area.getUnion (r); };
+    const auto include = [&] (juce::Rectangle<float> r) { area = area.isEmpty() ? r : area.getUnion (r); };
     for (const auto* n : selectedNodes())
         include (n->bounds());
     for (std::size_t i = 0; i < shown->notes().size(); ++i)
@@ -268,8 +266,7 @@ std::unique_ptr<Drag> Canvas::dragFor (const juce::MouseEvent& e)
     }
 
     const bool add = e.mods.isShiftDown() || e.mods.isCommandDown();
-    const auto grab = [&] (graph::Id id)
-    {
+    const auto grab = [&] (graph::Id id) {
         auto chosen = highlights.selected;
         if (add)
         {
@@ -347,8 +344,7 @@ void Canvas::showMenu()
         juce::PopupMenu::Item item (c.name);
         const auto keys = juce::StringArray::fromTokens (c.keys, "|", {});
         if (! keys.isEmpty()) item.shortcutKeyDescription = juce::KeyPress::createFromDescription (keys[0]).getTextDescription();
-        item.action = [safe = SafePointer (this), &c]
-        {
+        item.action = [safe = SafePointer (this), &c] {
             if (safe != nullptr && c.can (*safe)) c.run (*safe);
         };
         menu.addItem (std::move (item));

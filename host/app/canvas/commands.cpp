@@ -23,8 +23,7 @@ bool hasSubgraph (const Canvas& c) noexcept { return hasOneNode (c) && c.selecte
 
 bool hasWire (const Canvas& c) noexcept
 {
-    return std::ranges::any_of (c.scene().wires(), [&] (const SceneWire& w)
-                                { return c.selection().contains (w.id); });
+    return std::ranges::any_of (c.scene().wires(), [&] (const SceneWire& w) { return c.selection().contains (w.id); });
 }
 
 template <Alignment how>

@@ -75,8 +75,7 @@ class Move final : public Drag
 public:
     Move (Canvas& c, const juce::MouseEvent& e) : canvas (c), grabbed (c.view().toCanvas (e.position)), notes (c.scene().notes())
     {
-        const auto isCarried = [&] (const SceneNode& n)
-        {
+        const auto isCarried = [&] (const SceneNode& n) {
             for (std::size_t i = 0; i < notes.size(); ++i)
                 if (notes[i].isRegion() && c.selection().contains (noteId (i)) && notes[i].area.contains (n.bounds())) return true;
             return false;
@@ -223,8 +222,7 @@ public:
         const auto* socket = node == nullptr ? nullptr : node->box.find (start.role, start.port);
         if (socket == nullptr) return;
         begin = end_at = node->placeOf (*socket);
-        c.highlighted().fits = [this] (const SceneNode& n, const FacePort& p)
-        { return check (n, p).has_value(); };
+        c.highlighted().fits = [this] (const SceneNode& n, const FacePort& p) { return check (n, p).has_value(); };
     }
 
     ~DrawWire() override

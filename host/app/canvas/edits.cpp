@@ -240,12 +240,12 @@ void Canvas::editNote (std::size_t i)
     if (i >= shown->notes().size()) return;
     const auto& note = shown->notes()[i];
     const auto area = note.isRegion() ? note.area.withHeight (Box::header_height) : note.area;
-    openEditor (area, juce::String::fromUTF8 (note.text.c_str()), ! note.isRegion(), [this, i] (const juce::String& text)
-                {
+    openEditor (area, juce::String::fromUTF8 (note.text.c_str()), ! note.isRegion(), [this, i] (const juce::String& text) {
         auto notes = shown->notes();
         if (i >= notes.size()) return;
         notes[i].text = text.toStdString();
-        perform (setNotes (document.graph(), patch(), notes, "edit note")); });
+        perform (setNotes (document.graph(), patch(), notes, "edit note"));
+    });
 }
 
 void Canvas::setParam (const SceneNode& shown_node, const FacePort& port, const std::optional<Json>& value, graph::Step step)
@@ -263,13 +263,13 @@ void Canvas::editParam (const SceneNode& node, const Socket& socket)
     const auto* sheet = socket.port->sheet;
     if (sheet == nullptr || socket.port->width != 1 || socket.port->isChoice()) return;
     const PortId id { node.id, Role::param, socket.port->id };
-    openEditor (socket.row.translated (node.at.x, node.at.y), socket.value, false, [this, id] (const juce::String& text)
-                {
+    openEditor (socket.row.translated (node.at.x, node.at.y), socket.value, false, [this, id] (const juce::String& text) {
         const auto param = shown->findPort (id);
         if (! param || param.port->sheet == nullptr) return;
         const auto read = readQuantity (readValue (text.trim().toStdString()), *param.port->sheet);
         if (! read) return notice (juce::String (param.node->name + '.' + id.port + ": " + read.error().text));
-        setParam (*param.node, *param.port, read->toJson()); });
+        setParam (*param.node, *param.port, read->toJson());
+    });
 }
 
 void Canvas::openEditor (juce::Rectangle<float> area, const juce::String& text, bool several_lines, std::function<void (const juce::String&)> done)
@@ -283,10 +283,8 @@ void Canvas::openEditor (juce::Rectangle<float> area, const juce::String& text, 
     editor->setText (text, false);
     const auto box = juce::Rectangle<float> (window.toPixels (area.getTopLeft()), window.toPixels (area.getBottomRight())).toNearestInt();
     editor->setBounds (box.withWidth (std::max (120, box.getWidth())).withHeight (std::max (24, box.getHeight())));
-    editor->onReturnKey = editor->onFocusLost = [this]
-    { closeEditor (true); };
-    editor->onEscapeKey = [this]
-    { closeEditor (false); };
+    editor->onReturnKey = editor->onFocusLost = [this] { closeEditor (true); };
+    editor->onEscapeKey = [this] { closeEditor (false); };
     addAndMakeVisible (*editor);
     takeFocus (*editor);
     editor->selectAll();
@@ -329,13 +327,13 @@ void Canvas::wireFromSelection()
                     entries.push_back ({ from.name + '.' + out.id + " -> " + n.name + '.' + in.id, {}, in.about });
                     wires.push_back ({ { from.id, Role::output, out.id }, { n.id, in.role, in.id } });
                 }
-    onChoose ("Connect " + juce::String (from.name) + " to...", entries, [this, wires, entries] (const std::string& chosen)
-              {
+    onChoose ("Connect " + juce::String (from.name) + " to...", entries, [this, wires, entries] (const std::string& chosen) {
         const auto entry = std::ranges::find (entries, chosen, &PaletteEntry::type);
         if (entry == entries.end()) return;
         const auto& [out, in] = wires[static_cast<std::size_t> (entry - entries.begin())];
         const auto a = shown->findPort (out), b = shown->findPort (in);
-        if (a && b) join (a, b); });
+        if (a && b) join (a, b);
+    });
 }
 
 void Canvas::exposeFromSelection()
@@ -351,24 +349,21 @@ void Canvas::exposeFromSelection()
             entries.push_back ({ node.name + '.' + p.id, {}, p.about });
             ports.push_back ({ node.id, role, p.id });
         }
-    onChoose ("Expose or hide port", entries, [this, entries, ports] (const std::string& chosen)
-              {
+    onChoose ("Expose or hide port", entries, [this, entries, ports] (const std::string& chosen) {
         const auto entry = std::ranges::find (entries, chosen, &PaletteEntry::type);
         if (entry == entries.end() || entered.empty()) return;
         const auto found = shown->findPort (ports[static_cast<std::size_t> (entry - entries.begin())]);
-        if (found) perform (toggleExposed (document.graph(), patch(), found.node->name, *found.port)); });
+        if (found) perform (toggleExposed (document.graph(), patch(), found.node->name, *found.port));
+    });
 }
 
 juce::Point<float> Canvas::freePlace (juce::Point<float> at) const
 {
     const juce::Point<float> usual_size { 160.0f, 96.0f };
-    const auto isTaken = [&]
-    {
+    const auto isTaken = [&] {
         const juce::Rectangle<float> box { at, at + usual_size };
-        return std::ranges::any_of (shown->nodes(), [&] (const SceneNode& n)
-                                    { return n.bounds().intersects (box); })
-               || std::ranges::any_of (shown->notes(), [&] (const Note& n)
-                                       { return ! n.isRegion() && n.area.intersects (box); });
+        return std::ranges::any_of (shown->nodes(), [&] (const SceneNode& n) { return n.bounds().intersects (box); })
+               || std::ranges::any_of (shown->notes(), [&] (const Note& n) { return ! n.isRegion() && n.area.intersects (box); });
     };
     while (isTaken())
         at.y += 2 * Box::grid;
@@ -416,12 +411,12 @@ void Canvas::join (const ScenePort& from, const ScenePort& to)
     for (const auto* axis : axes)
         entries.push_back ({ vector.node->name + '.' + vector.port->id + axis, {}, of_output ? "Send this component" : "Feed this component" });
     const PortId out { from.node->id, Role::output, from.port->id }, in { to.node->id, to.port->role, to.port->id };
-    onChoose ("Which component?", entries, [this, out, in, entries, of_output] (const std::string& chosen)
-              {
+    onChoose ("Which component?", entries, [this, out, in, entries, of_output] (const std::string& chosen) {
         const auto component = static_cast<int> (std::ranges::find (entries, chosen, &PaletteEntry::type) - entries.begin());
         const auto a = shown->findPort (out), b = shown->findPort (in);
         if (component >= 3 || ! a || ! b) return;
-        perform (connect (document.graph(), patch(), { *a.node, *a.port, of_output ? component : -1 }, { *b.node, *b.port, of_output ? -1 : component })); });
+        perform (connect (document.graph(), patch(), { *a.node, *a.port, of_output ? component : -1 }, { *b.node, *b.port, of_output ? -1 : component }));
+    });
 }
 
 }   // namespace tactus::host

@@ -251,8 +251,10 @@ void paintGrid (juce::Graphics& g, const View& view, juce::Rectangle<int> area, 
     while (step < 14.0f)
         step *= 2.0f;
     g.setColour (theme.dots);
-    const auto first = [step] (float origin, int begin)
-    { return static_cast<float> (begin) + std::fmod (std::fmod (origin - static_cast<float> (begin), step) + step, step); };
+    const auto first = [step] (float origin, int begin) {
+        const auto edge = static_cast<float> (begin);
+        return edge + std::fmod (std::fmod (origin - edge, step) + step, step);
+    };
     for (float y = first (view.origin.y, area.getY()); y < static_cast<float> (area.getBottom()); y += step)
         for (float x = first (view.origin.x, area.getX()); x < static_cast<float> (area.getRight()); x += step)
             g.fillRect (x, y, 1.5f, 1.5f);

@@ -70,8 +70,7 @@ std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Poin
         return { { from.x, low + 2 * clearance }, { to.x, low + 2 * clearance } };
     }
 
-    std::erase_if (met, [&] (const juce::Rectangle<float>& o)
-                   { return o.getRight() > to.x || o.getX() < from.x || ! runsThrough (direct, o); });
+    std::erase_if (met, [&] (const juce::Rectangle<float>& o) { return o.getRight() > to.x || o.getX() < from.x || ! runsThrough (direct, o); });
     std::ranges::sort (met, {}, &juce::Rectangle<float>::getX);
     std::vector<juce::Point<float>> by;
     for (std::size_t i = 0; i < met.size();)

@@ -30,8 +30,8 @@ Quantity SceneNode::quantityOf (const FacePort& port) const
 
 const Socket* SceneNode::paramAt (juce::Point<float> p) const noexcept
 {
-    const auto socket = std::ranges::find_if (box.sockets, [&] (const Socket& s)
-                                              { return s.port->role == Role::param && s.row.translated (at.x, at.y).contains (p); });
+    const auto socket = std::ranges::find_if (box.sockets,
+                                              [&] (const Socket& s) { return s.port->role == Role::param && s.row.translated (at.x, at.y).contains (p); });
     return socket == box.sockets.end() ? nullptr : &*socket;
 }
 
@@ -58,14 +58,11 @@ void Scene::addNodes (const graph::Graph& graph, const std::string& name, const 
         made.type = node.type;
         made.bypass = node.bypass;
         made.face = std::make_unique<Face> (faceOf (graph, patch, node, catalogue));
-        const auto wired = [&] (const FacePort& p)
-        {
-            return std::ranges::any_of (patch.wires, [&] (const graph::Wire& w)
-                                        { return w.to.node == node.name && made.face->endOf (w.to) == &p; });
+        const auto wired = [&] (const FacePort& p) {
+            return std::ranges::any_of (patch.wires, [&] (const graph::Wire& w) { return w.to.node == node.name && made.face->endOf (w.to) == &p; });
         };
         made.box = boxOf (
-            node, *made.face, wired, [&] (const FacePort& p)
-            { return paramNow (graph, name, node, p).value; },
+            node, *made.face, wired, [&] (const FacePort& p) { return paramNow (graph, name, node, p).value; },
             widthOf);
         indices.emplace (node.name, static_cast<int> (all_nodes.size()) - 1);
     }
@@ -91,8 +88,7 @@ void Scene::place (const graph::Patch& patch)
     for (const auto i : unplaced)
     {
         if (const auto beside = besideNeighbour (i, unplaced, wires)) all_nodes[i].at = *beside;
-        const auto isFree = [&]
-        {
+        const auto isFree = [&] {
             for (std::size_t k = 0; k < all_nodes.size(); ++k)
                 if (k != i && all_nodes[k].bounds().expanded (Box::grid).intersects (all_nodes[i].bounds())) return false;
             return true;
@@ -107,8 +103,7 @@ std::optional<juce::Point<float>> Scene::besideNeighbour (std::size_t i, const s
                                                           const std::vector<std::pair<int, int>>& wires) const
 {
     constexpr float gap = 64.0f;
-    const auto isPlaced = [&] (int node)
-    { return at (node) != i && std::ranges::count (unplaced, at (node)) == 0; };
+    const auto isPlaced = [&] (int node) { return at (node) != i && std::ranges::count (unplaced, at (node)) == 0; };
     for (const auto& [from, to] : wires)
         if (at (from) == i && isPlaced (to)) return all_nodes[at (to)].at.translated (-gap - all_nodes[i].box.width, 0.0f);
     for (const auto& [from, to] : wires)
@@ -166,8 +161,7 @@ void Scene::addWires (const graph::Patch& patch)
 
 void Scene::addExposed (const graph::Patch& patch)
 {
-    const auto add = [&] (const std::vector<std::pair<std::string, graph::Endpoint>>& ports, Role role)
-    {
+    const auto add = [&] (const std::vector<std::pair<std::string, graph::Endpoint>>& ports, Role role) {
         for (const auto& [name, end] : ports)
         {
             const int n = indexOf (end.node);
@@ -193,10 +187,8 @@ void Scene::routeWires()
     // Parallel wires run side by side.
     constexpr float apart = 6.0f;
     std::vector<std::pair<juce::Point<float>, juce::Point<float>>> taken;
-    const auto isTaken = [&] (juce::Point<float> a, juce::Point<float> b)
-    {
-        const auto overlaps = [&] (const auto& t)
-        {
+    const auto isTaken = [&] (juce::Point<float> a, juce::Point<float> b) {
+        const auto overlaps = [&] (const auto& t) {
             const bool is_level = std::abs (t.first.y - a.y) < apart - 1.0f;
             return is_level && std::min (t.first.x, t.second.x) < std::max (a.x, b.x) && std::min (a.x, b.x) < std::max (t.first.x, t.second.x);
         };

@@ -25,15 +25,13 @@ constexpr std::pair<const char*, const char*> clocks[] { { "", "automatic" }, { 
 
 std::string labelOf (const std::string& clock)
 {
-    const auto known = std::ranges::find (clocks, clock, [] (const auto& c)
-                                          { return std::string_view (c.first); });
+    const auto known = std::ranges::find (clocks, clock, [] (const auto& c) { return std::string_view (c.first); });
     return known != std::end (clocks) ? known->second : clock;
 }
 
 std::string clockLabelled (const std::string& label)
 {
-    const auto known = std::ranges::find (clocks, label, [] (const auto& c)
-                                          { return std::string_view (c.second); });
+    const auto known = std::ranges::find (clocks, label, [] (const auto& c) { return std::string_view (c.second); });
     return known != std::end (clocks) ? known->first : label;
 }
 
@@ -113,8 +111,7 @@ std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<cons
         const auto fitting = hid::matching (profiles.profiles, d);
         if (fitting.empty()) continue;
         Json description { { "driver", "hid" }, { "profile", fitting.front()->id } };
-        const auto alike = std::ranges::count_if (connected, [&] (const auto& other)
-                                                  { return hid::fit (*fitting.front(), other) > 0; });
+        const auto alike = std::ranges::count_if (connected, [&] (const auto& other) { return hid::fit (*fitting.front(), other) > 0; });
         const bool needs_serial = alike > 1 && ! d.serial.empty();
         if (needs_serial) description["serial"] = d.serial;
         BindingChoice choice { fitting.front()->name + (needs_serial ? ", serial " + d.serial : ""), std::move (description) };
@@ -125,8 +122,7 @@ std::vector<BindingChoice> bindingChoices (const Json* bound_now, std::span<cons
     if (bound_now != nullptr)
     {
         const auto now = deviceOf (*bound_now);
-        if (std::ranges::none_of (all, [&] (const auto& c)
-                                  { return c.description == now; }))
+        if (std::ranges::none_of (all, [&] (const auto& c) { return c.description == now; }))
             all.push_back ({ nameOf (now), now });
     }
     return all;
@@ -169,12 +165,12 @@ void DevicesPanel::bind (const std::string& role, const std::string& label)
     const auto& choices = shape.choices[static_cast<std::size_t> (at - shape.roles.begin())];
     const auto choice = std::ranges::find (choices, label, &BindingChoice::label);
     if (choice == choices.end()) return;
-    edit ([role, to = choice->description] (DeviceSession& s)
-          {
+    edit ([role, to = choice->description] (DeviceSession& s) {
         if (to.is_null())
             s.unbind (role);
         else
-            s.bind (role, rebound (s.binding (role), to)); });
+            s.bind (role, rebound (s.binding (role), to));
+    });
 }
 
 void DevicesPanel::setPart (const std::string& role, const std::string& pointer, const juce::String& text)
@@ -190,8 +186,7 @@ void DevicesPanel::setPart (const std::string& role, const std::string& pointer,
         value = isListOfChannels (pointer) ? readChannelsText (text.toStdString(), value) : readText (text);
     }
     if (complain (checkBinding (binding, setup.session().file.parent_path(), setup.profiles()))) return;
-    edit ([&] (DeviceSession& s)
-          { s.bind (role, binding); });
+    edit ([&] (DeviceSession& s) { s.bind (role, binding); });
 }
 
 void DevicesPanel::refresh()
@@ -234,8 +229,7 @@ void DevicesPanel::rebuild()
     columns.push_back (soundCard());
     for (auto& c : columns)
     {
-        c->onHeight = [this]
-        { resized(); };
+        c->onHeight = [this] { resized(); };
         sheet.addAndMakeVisible (*c);
         c->refresh (nullptr);
     }
@@ -250,17 +244,13 @@ std::unique_ptr<Column> DevicesPanel::clockCard()
     for (const auto& [clock, label] : clocks)
         choices.emplace_back (label);
     choices.insert (choices.end(), shape.roles.begin(), shape.roles.end());
-    const auto chosen = [this]
-    { return labelOf (setup.session().session.clock()); };
+    const auto chosen = [this] { return labelOf (setup.session().session.clock()); };
     if (std::ranges::count (choices, chosen()) == 0) choices.push_back (chosen());
     card->add (choiceRow (
         "source", choices, chosen,
-        [this] (const std::string& to)
-        { edit ([&] (DeviceSession& s)
-                { s.setClock (clockLabelled (to)); }); },
+        [this] (const std::string& to) { edit ([&] (DeviceSession& s) { s.setClock (clockLabelled (to)); }); },
         "What ticks the run: the reports of a role's device, the blocks of the sound card, or a timer at the rate of the graph"));
-    card->add (remark ([this]
-                       { return clockRemark(); }));
+    card->add (remark ([this] { return clockRemark(); }));
     card->add ("Saved in " + asText (setup.session().file.string()) + ", not in the graph.", TextBlock::Kind::small);
     return card;
 }
@@ -274,29 +264,23 @@ std::unique_ptr<Column> DevicesPanel::roleCard (std::size_t i)
     for (const auto& c : shape.choices[i])
         labels.push_back (c.label);
     card->add (choiceRow (
-        "device", labels, [this, role, choices = shape.choices[i]]
-        {
+        "device", labels, [this, role, choices = shape.choices[i]] {
         const auto* now = bindingOf (role);
         const auto at = std::ranges::find_if (choices, [&] (const auto& c)
                                               { return now == nullptr ? c.description.is_null() : c.description == deviceOf (*now); });
         return at == choices.end() ? std::string() : at->label; },
-        [this, role] (const std::string& to)
-        { bind (role, to); },
+        [this, role] (const std::string& to) { bind (role, to); },
         "The device for this role, in every graph"));
-    card->add (remark ([this, role]
-                       { return fitRemark (role); }));
-    card->add (remark ([this, role]
-                       { return statusRemark (role); }));
+    card->add (remark ([this, role] { return fitRemark (role); }));
+    card->add (remark ([this, role] { return statusRemark (role); }));
     if (shape.drivers[i].empty()) return card;
     for (const auto& part : partsOf (shape.drivers[i]))
         card->add (textRow (
-            part.label, [this, role, at = JsonPointer (part.pointer), is_list = isListOfChannels (part.pointer)]
-            {
+            part.label, [this, role, at = JsonPointer (part.pointer), is_list = isListOfChannels (part.pointer)] {
             const auto* now = bindingOf (role);
             if (now == nullptr || ! now->contains (at)) return juce::String();
             return is_list ? asText (textOfChannels (now->at (at))) : written (now->at (at)); },
-            [this, role, pointer = std::string (part.pointer)] (const juce::String& text)
-            { setPart (role, pointer, text); },
+            [this, role, pointer = std::string (part.pointer)] (const juce::String& text) { setPart (role, pointer, text); },
             part.about));
     return card;
 }
@@ -315,18 +299,17 @@ void DevicesPanel::setSound (const std::function<void (Json&)>& change)
     Messages messages;
     audio::readAudioSettings (sound, "", messages);
     if (complain (messages)) return;
-    edit ([&] (DeviceSession& s)
-          { s.setAudio (sound); });
+    edit ([&] (DeviceSession& s) { s.setAudio (sound); });
 }
 
 void DevicesPanel::setCard (const std::string& pointer, const juce::String& text)
 {
-    setSound ([&] (Json& sound)
-              {
+    setSound ([&] (Json& sound) {
         if (text.trim().isEmpty())
             remove (sound, pointer);
         else
-            sound[JsonPointer (pointer)] = readText (text); });
+            sound[JsonPointer (pointer)] = readText (text);
+    });
 }
 
 void DevicesPanel::setRoute (std::size_t i, const juce::String& text)
@@ -350,8 +333,7 @@ void DevicesPanel::setRoute (std::size_t i, const juce::String& text)
         else
             all[i] = *std::move (route);
     }
-    setSound ([&] (Json& sound)
-              { sound["routes"] = all; });
+    setSound ([&] (Json& sound) { sound["routes"] = all; });
 }
 
 /// The sound card of all runs, and the ports that they play on it.
@@ -361,23 +343,18 @@ std::unique_ptr<Column> DevicesPanel::soundCard()
     card->add ("Sound card", TextBlock::Kind::title);
     for (std::size_t i = 0; i <= shape.routes; ++i)
         card->add (textRow (
-            i < shape.routes || i == 0 ? "route" : "add route", [this, i]
-            {
+            i < shape.routes || i == 0 ? "route" : "add route", [this, i] {
             const auto all = routes();
             return i < all.size() ? asText (textOfRoute (all[i])) : juce::String(); },
-            [this, i] (const juce::String& text)
-            { setRoute (i, text); },
+            [this, i] (const juce::String& text) { setRoute (i, text); },
             "PORT=CHANNEL@FULLSCALE, such as mix.out=3@4 N: a port of the graph, a channel of the card, and the value at full scale"));
-    card->add (remark ([this]
-                       { return soundRemark(); }));
+    card->add (remark ([this] { return soundRemark(); }));
     for (const auto& part : parts_of_card)
         card->add (textRow (
-            part.label, [this, at = JsonPointer (part.pointer)]
-            {
+            part.label, [this, at = JsonPointer (part.pointer)] {
             const auto* now = setup.session().session.audio();
             return now != nullptr && now->contains (at) ? written (now->at (at)) : juce::String(); },
-            [this, pointer = std::string (part.pointer)] (const juce::String& text)
-            { setCard (pointer, text); },
+            [this, pointer = std::string (part.pointer)] (const juce::String& text) { setCard (pointer, text); },
             part.about));
     return card;
 }
@@ -400,8 +377,7 @@ Remark DevicesPanel::fitRemark (const std::string& role) const
     const auto* fit = fitOf (role);
     if (fit == nullptr) return {};
     Remark r { asText ("Needs " + describe (fit->needs) + "."), false };
-    const auto addProblem = [&] (const std::string& what)
-    {
+    const auto addProblem = [&] (const std::string& what) {
         r.text << "\n"
                << asText (what);
         r.is_problem = true;

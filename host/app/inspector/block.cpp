@@ -32,8 +32,7 @@ juce::TextLayout TextBlock::layout (int width) const
 void Column::add (std::unique_ptr<Block> b)
 {
     addAndMakeVisible (*b);
-    b->onHeight = [this]
-    {
+    b->onHeight = [this] {
         if (onHeight) onHeight();
     };
     blocks.push_back (std::move (b));

@@ -38,24 +38,18 @@ public:
         name.setEditable (false, true, false);
         name.setBorderSize ({ 0, 0, 0, 0 });
         name.setTooltip ("Double-click to rename");
-        name.onTextChange = [this]
-        { change (document, id, [text = name.getText().toStdString()] (auto& c)
-                  { c.name = text; }); };
+        name.onTextChange = [this] { change (document, id, [text = name.getText().toStdString()] (auto& c) { c.name = text; }); };
         fader.setSliderStyle (juce::Slider::LinearBar);
         fader.setRange (0.0, 1.0);
         fader.setNumDecimalPlacesToDisplay (2);
-        fader.onDragStart = fader.onDragEnd = [this]
-        { continues = false; };
-        fader.onValueChange = [this]
-        {
+        fader.onDragStart = fader.onDragEnd = [this] { continues = false; };
+        fader.onValueChange = [this] {
             change (
-                document, id, [v = fader.getValue()] (auto& c)
-                { c.value = v; },
+                document, id, [v = fader.getValue()] (auto& c) { c.value = v; },
                 continues ? graph::Step::joined : graph::Step::own);
             continues = fader.isMouseButtonDown();
         };
-        cross.onClick = [this]
-        { document.perform (graph::RemoveControl { id }); };
+        cross.onClick = [this] { document.perform (graph::RemoveControl { id }); };
         addAndMakeVisible (name);
         addAndMakeVisible (fader);
         addAndMakeVisible (cross);
@@ -116,24 +110,19 @@ protected:
         {
             const auto path = c->to[i].path;
             add (juce::String (path) + ", range", TextBlock::Kind::small);
-            const auto end = [this, i] (Json graph::Control::Target::*which)
-            {
-                return Binding { [this, i, which]
-                                 {
-                                     const auto* now = find (document, id);
-                                     return now == nullptr || i >= now->to.size() ? Json() : now->to[i].*which;
-                                 },
-                                 [this, i, which] (std::optional<Json> v, bool continues)
-                                 {
+            const auto end = [this, i] (Json graph::Control::Target::*which) {
+                return Binding { [this, i, which] {
+                                    const auto* now = find (document, id);
+                                    return now == nullptr || i >= now->to.size() ? Json() : now->to[i].*which;
+                                },
+                                 [this, i, which] (std::optional<Json> v, bool continues) {
                                      change (
-                                         document, id, [&] (auto& to)
-                                         {
+                                         document, id, [&] (auto& to) {
                                       if (v && i < to.to.size()) to.to[i].*which = *v; },
                                          continues ? graph::Step::joined : graph::Step::own);
                                  } };
             };
-            const auto remove = [this, path]
-            {
+            const auto remove = [this, path] {
                 if (auto command = removeTarget (document.graph(), id, path)) document.perform (std::move (*command));
             };
             const auto sheet = sheetOfTarget (path);

@@ -35,8 +35,7 @@ Remark describeRole (const Document& d, const std::string& role)
     const auto description = descriptionOf (d, role);
     if (description.is_null()) return { "This role has no description. It runs simulated, without a hand. Add a description below.", false };
     Remark r { "A physical device, identified by its profile.", false };
-    const auto append = [&] (const Messages& messages)
-    {
+    const auto append = [&] (const Messages& messages) {
         for (const auto& m : messages)
         {
             r.text << (r.text.isEmpty() ? "" : "\n") << fromUtf8 (m.where + ": " + m.text + (m.remedy.empty() ? "" : "; " + m.remedy));
@@ -61,14 +60,12 @@ const char* const driver_help = "sim: a simulated tool in a hand; trace: a recor
 /// Adds the row for one value of a device description.
 void addValue (Document& document, const std::string& role, const std::string& path, Column& column)
 {
-    const auto get = [&document, role, path]
-    {
+    const auto get = [&document, role, path] {
         const auto all = descriptionOf (document, role);
         const auto pointer = JsonPointer (path);
         return all.contains (pointer) ? editText (all.at (pointer)) : juce::String();
     };
-    const auto set = [&document, role, path] (const Json& value)
-    {
+    const auto set = [&document, role, path] (const Json& value) {
         auto all = descriptionOf (document, role);
         if (all.is_null()) all = Json::object();
         all[JsonPointer (path)] = value;
@@ -77,15 +74,12 @@ void addValue (Document& document, const std::string& role, const std::string& p
     const auto label = juce::String (path.substr (1)).replaceCharacter ('/', ' ');
     if (path == "/driver")
         column.add (choiceRow (
-            label, { "sim", "trace", "gesture", "hid", "audio" }, [get]
-            { return get().toStdString(); },
-            [set] (const std::string& t)
-            { set (Json (t)); },
+            label, { "sim", "trace", "gesture", "hid", "audio" }, [get] { return get().toStdString(); },
+            [set] (const std::string& t) { set (Json (t)); },
             driver_help));
     else
         column.add (textRow (
-            label, get, [set] (const juce::String& t)
-            { set (parseText (t)); },
+            label, get, [set] (const juce::String& t) { set (parseText (t)); },
             "A number, with or without a unit. Takes effect when the device restarts."));
 }
 }   // namespace
@@ -99,23 +93,19 @@ void describeDevice (const Inspected& at, const graph::Node& node, Column& colum
     for (const auto& [name, description] : document.graph().devices)
         roles.push_back (name);
     if (! role.empty() && std::ranges::count (roles, role) == 0) roles.push_back (role);
-    const auto getRole = [at, name = node.name]
-    {
+    const auto getRole = [at, name = node.name] {
         const auto* n = at.node (name);
         return n == nullptr ? std::string() : n->role;
     };
-    const auto setRole = [at, name = node.name] (const std::string& to)
-    { at.document.perform (graph::SetNodeKey { at.patch, name, "role", Json (to) }); };
+    const auto setRole = [at, name = node.name] (const std::string& to) { at.document.perform (graph::SetNodeKey { at.patch, name, "role", Json (to) }); };
     column.add (choiceRow ("role", roles, getRole, setRole, "The device this node belongs to"));
     if (role.empty()) return;
-    column.add (remark ([&document, role]
-                        { return describeRole (document, role); }));
+    column.add (remark ([&document, role] { return describeRole (document, role); }));
 
     const auto now = descriptionOf (document, role);
     if (now.is_null())
     {
-        const auto describe = [&document, role]
-        { document.perform (graph::SetDevice { role, defaultDevice() }); };
+        const auto describe = [&document, role] { document.perform (graph::SetDevice { role, defaultDevice() }); };
         column.add (buttonRow ("Add description", describe, "A simulated tool in a stroking hand"));
         return;
     }
@@ -124,10 +114,8 @@ void describeDevice (const Inspected& at, const graph::Node& node, Column& colum
     for (const auto& path : paths)
         addValue (document, role, path, column);
     column.add (textRow (
-        "description", [&document, role]
-        { return editText (descriptionOf (document, role)); },
-        [&document, role, refused = at.refused] (const juce::String& t)
-        {
+        "description", [&document, role] { return editText (descriptionOf (document, role)); },
+        [&document, role, refused = at.refused] (const juce::String& t) {
         auto value = parseText (t);
         if (value.is_object())
             document.perform (graph::SetDevice { role, std::move (value) });

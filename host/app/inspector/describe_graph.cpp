@@ -47,8 +47,7 @@ void describeSubgraph (const Inspected& at, Column& column)
     column.add ("A subgraph. Its exposed ports can be wired and set from outside.", TextBlock::Kind::text);
     const auto* patch = at.in();
     if (patch == nullptr) return;
-    const auto list = [&] (const char* title, const std::vector<std::pair<std::string, graph::Endpoint>>& shown)
-    {
+    const auto list = [&] (const char* title, const std::vector<std::pair<std::string, graph::Endpoint>>& shown) {
         if (shown.empty()) return;
         column.add (title, TextBlock::Kind::heading);
         for (const auto& [name, end] : shown)
@@ -69,47 +68,37 @@ void describeGraph (const Inspected& at, Column& column)
     const auto& graph = document.graph();
     column.add (graph.name.empty() ? juce::String ("Untitled graph") : fromUtf8 (graph.name), TextBlock::Kind::title);
 
-    const auto header = [&document] (auto set)
-    {
+    const auto header = [&document] (auto set) {
         graph::SetHeader h;
         set (h);
         document.perform (std::move (h));
     };
-    const auto row = [&] (const char* label, std::string graph::Graph::*member, std::optional<std::string> graph::SetHeader::*to, const char* help, int lines)
-    {
+    const auto row = [&] (const char* label, std::string graph::Graph::*member, std::optional<std::string> graph::SetHeader::*to, const char* help, int lines) {
         column.add (textRow (
-            label, [&document, member]
-            { return fromUtf8 (document.graph().*member); },
-            [header, to] (const juce::String& t)
-            { header ([&] (auto& h)
-                      { h.*to = t.trim().toStdString(); }); },
+            label, [&document, member] { return fromUtf8 (document.graph().*member); },
+            [header, to] (const juce::String& t) { header ([&] (auto& h) { h.*to = t.trim().toStdString(); }); },
             help, lines));
     };
     row ("name", &graph::Graph::name, &graph::SetHeader::name, "The name of the graph", 1);
     row ("about", &graph::Graph::about, &graph::SetHeader::about, "What it feels like", 6);
-    const auto tags = [&document]
-    {
+    const auto tags = [&document] {
         juce::StringArray all;
         for (const auto& t : document.graph().tags)
             all.add (fromUtf8 (t));
         return all.joinIntoString (", ");
     };
-    const auto setTags = [header] (const juce::String& t)
-    {
+    const auto setTags = [header] (const juce::String& t) {
         std::vector<std::string> all;
         for (const auto& tag : juce::StringArray::fromTokens (t, ",", ""))
             if (tag.trim().isNotEmpty()) all.push_back (tag.trim().toStdString());
-        header ([&] (auto& h)
-                { h.tags = all; });
+        header ([&] (auto& h) { h.tags = all; });
     };
     column.add (textRow ("tags", tags, setTags, "Search keywords, separated by commas", 2));
     static constexpr double usual_rate_hz = 4000.0;
     const Limits limits { .hard = { 1, 1e6 }, .usual = { 1000, 16000 } };
     const auto rate = sheetOfNumber ("rate_hz", unit::hertz, "the tick rate; takes effect at the next start", limits, usual_rate_hz);
-    const Binding rate_binding { [&document]
-                                 { return Json (document.graph().rate_hz); },
-                                 [&document, rate] (std::optional<Json> v, bool continues)
-                                 {
+    const Binding rate_binding { [&document] { return Json (document.graph().rate_hz); },
+                                 [&document, rate] (std::optional<Json> v, bool continues) {
                                      graph::SetHeader h;
                                      h.rate_hz = std::round (siOf (v.value_or (Json (usual_rate_hz)), rate, usual_rate_hz));
                                      document.perform (std::move (h), continues ? graph::Step::joined : graph::Step::own);
@@ -121,8 +110,7 @@ void describeGraph (const Inspected& at, Column& column)
     for (const auto& c : graph.controls)
         column.add (controlEditor (document, at.catalogue, c.id, at.refused));
     column.add (buttonRow (
-        "+ control", [&document]
-        { document.perform (newControl (document.graph())); },
+        "+ control", [&document] { document.perform (newControl (document.graph())); },
         "Add a control"));
 }
 

@@ -17,13 +17,15 @@ namespace
 template <typename Edit, typename Values>
 Binding bindingOf (const Inspected& at, const std::string& name, const std::string& key, Values graph::Node::*values)
 {
-    return { [at, name, key, values]
-             {
-                 const auto* n = at.node (name);
-                 return n != nullptr && (n->*values).contains (key) ? Json ((n->*values).at (key)) : Json();
-             },
-             [&document = at.document, patch = at.patch, name, key] (std::optional<Json> value, bool continues)
-             { document.perform (Edit { patch, name, key, std::move (value) }, continues ? graph::Step::joined : graph::Step::own); } };
+    const auto get = [at, name, key, values] {
+        const auto* n = at.node (name);
+        return n != nullptr && (n->*values).contains (key) ? Json ((n->*values).at (key)) : Json();
+    };
+    const auto set = [&document = at.document, patch = at.patch, name, key] (std::optional<Json> value, bool continues) {
+        const auto step = continues ? graph::Step::joined : graph::Step::own;
+        document.perform (Edit { patch, name, key, std::move (value) }, step);
+    };
+    return { get, set };
 }
 
 /// The messages about a node.
@@ -56,8 +58,7 @@ void listPorts (const std::vector<FacePort>& ports, const char* title, Column& c
 void describeSubgraphNode (const Inspected& at, const graph::Node& node, Column& column)
 {
     column.add ("Instances and rate", TextBlock::Kind::heading);
-    const auto addInteger = [&] (const char* key, const char* about)
-    {
+    const auto addInteger = [&] (const char* key, const char* about) {
         const auto sheet = sheetOfNumber (key, unit::count, about, { .hard = { 1, 1e6 }, .usual = { 1, 16 } }, 1.0);
         column.add (numberRow (key, sheet, bindingOf<graph::SetNodeKey> (at, node.name, key, &graph::Node::extra).asInteger(), at.refused));
     };
@@ -66,25 +67,20 @@ void describeSubgraphNode (const Inspected& at, const graph::Node& node, Column&
     addInteger ("times", "runs n times per tick; only without feedback to the hand");
 
     column.add ("Overrides", TextBlock::Kind::heading);
-    const auto set = [&document = at.document, patch = at.patch, name = node.name] (const std::string& path, const juce::String& t)
-    {
+    const auto set = [&document = at.document, patch = at.patch, name = node.name] (const std::string& path, const juce::String& t) {
         auto value = t.trim().isEmpty() ? std::nullopt : std::optional (parseText (t));
         document.perform (graph::SetOverride { patch, name, path, std::move (value) });
     };
     for (const auto& [path, value] : node.overrides.items())
         column.add (textRow (
-            fromUtf8 (path), [at, name = node.name, path = path]
-            {
+            fromUtf8 (path), [at, name = node.name, path = path] {
             const auto* n = at.node (name);
             return n == nullptr || ! n->overrides.contains (path) ? juce::String() : editText (n->overrides.at (path)); },
-            [set, path = path] (const juce::String& t)
-            { set (path, t); },
+            [set, path = path] (const juce::String& t) { set (path, t); },
             "For this node only. Leave empty to use the subgraph's value."));
     column.add (textRow (
-        "add override", []
-        { return juce::String(); },
-        [set, refused = at.refused] (const juce::String& t)
-        {
+        "add override", [] { return juce::String(); },
+        [set, refused = at.refused] (const juce::String& t) {
         if (t.trim().isEmpty()) return;
         if (! t.contains ("=")) return refused ("Write a parameter and a value: drag.mu = 0.4, or [3]/drag.mu = 0.4 for one instance");
         set (t.upToFirstOccurrenceOf ("=", false, false).trim().toStdString(), t.fromFirstOccurrenceOf ("=", false, false)); },
@@ -121,8 +117,7 @@ void describeNode (const Inspected& at, const graph::Node& node, bool help, cons
     if (face.kind == Face::Kind::placeholder)
         column.add ("Unknown node type. The node keeps its parameters and wires; its outputs are 0.", TextBlock::Kind::text);
     if (face.kind == Face::Kind::subgraph) column.add ("A subgraph. Double-click it on the canvas to enter.", TextBlock::Kind::text);
-    column.add (remark ([at, name = node.name]
-                        { return problemsOf (at, name); }));
+    column.add (remark ([at, name = node.name] { return problemsOf (at, name); }));
     if (help)
     {
         listPorts (face.inputs, "Inputs", column);

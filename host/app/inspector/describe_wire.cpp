@@ -47,34 +47,28 @@ std::string unitAt (const Inspected& at, const graph::Endpoint& e, bool start)
 
 void addEnd (const Inspected& at, graph::Id id, const char* label, graph::Endpoint graph::Wire::*which, const char* help, Column& column)
 {
-    const auto get = [at, id, which]
-    {
+    const auto get = [at, id, which] {
         const auto* w = find (at, id);
         return w == nullptr ? juce::String() : juce::String (graph::toText (w->*which));
     };
-    const auto set = [at, id, which] (const juce::String& t)
-    {
+    const auto set = [at, id, which] (const juce::String& t) {
         const auto e = graph::parseEndpoint (t.trim().toStdString());
         if (! e) return at.refused (juce::String (e.error().text));
-        change (at, id, [&] (auto& w)
-                { w.*which = *e; });
+        change (at, id, [&] (auto& w) { w.*which = *e; });
     };
     column.add (textRow (label, get, set, help));
 }
 
 void addDelay (const Inspected& at, graph::Id id, Column& column)
 {
-    const Binding delay { [at, id]
-                          {
-                              const auto* w = find (at, id);
-                              return w == nullptr || w->delay == 0 ? Json() : Json (w->delay);
-                          },
-                          [at, id] (std::optional<Json> v, bool continues)
-                          {
+    const Binding delay { [at, id] {
+                             const auto* w = find (at, id);
+                             return w == nullptr || w->delay == 0 ? Json() : Json (w->delay);
+                         },
+                          [at, id] (std::optional<Json> v, bool continues) {
                               const int ticks = v && v->is_number() ? static_cast<int> (std::lround (v->get<double>())) : 0;
                               change (
-                                  at, id, [&] (auto& w)
-                                  { w.delay = ticks; },
+                                  at, id, [&] (auto& w) { w.delay = ticks; },
                                   continues);
                           } };
     const Limits limits { .hard = { 0, static_cast<double> (graph::longest_delay) }, .usual = { 0, 16 } };
@@ -87,42 +81,34 @@ void describeWire (const Inspected& at, graph::Id id, Column& column)
     column.add ("Wire", TextBlock::Kind::title);
     addEnd (at, id, "from", &graph::Wire::from, "Source: node.output", column);
     addEnd (at, id, "to", &graph::Wire::to, "Destination: node.input or node.param", column);
-    column.add (remark ([at, id]
-                        {
+    column.add (remark ([at, id] {
         const auto* w = find (at, id);
         if (w == nullptr) return Remark {};
         const auto from = unitAt (at, w->from, true), to = unitAt (at, w->to, false);
         if (from != to && ! to.starts_with (open) && ! from.starts_with (open)) return Remark { juce::String (from + " into " + to), false };
-        return Remark { juce::String ("carries " + (from.starts_with (open) ? to : from)), false }; }));
+        return Remark { juce::String ("carries " + (from.starts_with (open) ? to : from)), false };
+    }));
     addDelay (at, id, column);
     column.add (textRow (
-        "gain", [at, id]
-        {
+        "gain", [at, id] {
         const auto* w = find (at, id);
         return w == nullptr ? juce::String() : editText (w->gain); },
-        [at, id] (const juce::String& t)
-        {
+        [at, id] (const juce::String& t) {
         const auto value = t.trim().isEmpty() ? Json() : parseText (t);
         change (at, id, [&] (auto& w)
                 { w.gain = value; }); },
         "A factor, with or without a unit, such as \"1e-4 m/N\". Empty means 1."));
     column.add (switchRow (
-        "enabled", [at, id]
-        {
+        "enabled", [at, id] {
         const auto* w = find (at, id);
         return w != nullptr && w->enabled.value_or (true); },
-        [at, id] (bool on)
-        { change (at, id, [&] (auto& w)
-                  { w.enabled = on ? std::nullopt : std::optional (false); }); },
+        [at, id] (bool on) { change (at, id, [&] (auto& w) { w.enabled = on ? std::nullopt : std::optional (false); }); },
         "A disabled wire carries nothing"));
     column.add (switchRow (
-        "adds", [at, id]
-        {
+        "adds", [at, id] {
         const auto* w = find (at, id);
         return w != nullptr && w->add; },
-        [at, id] (bool on)
-        { change (at, id, [&] (auto& w)
-                  { w.add = on; }); },
+        [at, id] (bool on) { change (at, id, [&] (auto& w) { w.add = on; }); },
         "For a parameter: adds to the stored value instead of replacing it"));
 }
 

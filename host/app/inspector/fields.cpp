@@ -12,13 +12,11 @@ namespace tactus::host
 
 Binding Binding::member (const std::string& key) const
 {
-    return { [get = get, key]
-             {
-                 const auto all = get();
-                 return all.is_object() && all.contains (key) ? Json (all.at (key)) : Json();
-             },
-             [get = get, set = set, key] (std::optional<Json> value, bool continues)
-             {
+    return { [get = get, key] {
+                const auto all = get();
+                return all.is_object() && all.contains (key) ? Json (all.at (key)) : Json();
+            },
+             [get = get, set = set, key] (std::optional<Json> value, bool continues) {
                  auto all = get();
                  if (! all.is_object()) all = Json::object();
                  if (value)
@@ -31,13 +29,11 @@ Binding Binding::member (const std::string& key) const
 
 Binding Binding::entry (std::size_t i) const
 {
-    return { [get = get, i]
-             {
-                 const auto all = get();
-                 return all.is_array() && i < all.size() ? Json (all[i]) : Json();
-             },
-             [get = get, set = set, i] (std::optional<Json> value, bool continues)
-             {
+    return { [get = get, i] {
+                const auto all = get();
+                return all.is_array() && i < all.size() ? Json (all[i]) : Json();
+            },
+             [get = get, set = set, i] (std::optional<Json> value, bool continues) {
                  auto all = get();
                  if (! all.is_array() || i >= all.size()) return;
                  all[i] = value ? *value : Json();
@@ -47,11 +43,10 @@ Binding Binding::entry (std::size_t i) const
 
 Binding Binding::asInteger() const
 {
-    return { get, [set = set] (std::optional<Json> value, bool continues)
-             {
-                 if (value && value->is_number()) value = Json (static_cast<std::int64_t> (std::llround (value->get<double>())));
-                 set (std::move (value), continues);
-             } };
+    return { get, [set = set] (std::optional<Json> value, bool continues) {
+                if (value && value->is_number()) value = Json (static_cast<std::int64_t> (std::llround (value->get<double>())));
+                set (std::move (value), continues);
+            } };
 }
 
 Json parseText (const juce::String& text)
@@ -71,10 +66,8 @@ TextField::TextField()
     setFont (lookOf (*this).font (12.0f));
     setIndents (8, 5);
     setSelectAllWhenFocused (true);
-    onReturnKey = onFocusLost = [this]
-    { apply(); };
-    onEscapeKey = [this]
-    {
+    onReturnKey = onFocusLost = [this] { apply(); };
+    onEscapeKey = [this] {
         setText (shown, false);
         unfocusAllComponents();
     };
@@ -110,8 +103,7 @@ public:
             field.setMultiLine (true);
             field.setReturnKeyStartsNewLine (false);
         }
-        field.onApply = [set = std::move (set)] (const juce::String& text)
-        { set (text); };
+        field.onApply = [set = std::move (set)] (const juce::String& text) { set (text); };
         addAndMakeVisible (field);
         TextRow::refresh (nullptr);
     }
@@ -146,8 +138,7 @@ public:
         box.setTooltip (about);
         for (std::size_t i = 0; i < choices.size(); ++i)
             box.addItem (choices[i], static_cast<int> (i) + 1);
-        box.onChange = [this, set = std::move (set)]
-        {
+        box.onChange = [this, set = std::move (set)] {
             if (const int i = box.getSelectedId(); i > 0) set (choices[static_cast<std::size_t> (i - 1)]);
         };
         addAndMakeVisible (box);
@@ -180,8 +171,7 @@ public:
     {
         setTooltip (about);
         button.setTooltip (about);
-        button.onClick = [this, set = std::move (set)]
-        { set (! button.getToggleState()); };
+        button.onClick = [this, set = std::move (set)] { set (! button.getToggleState()); };
         addAndMakeVisible (button);
         SwitchRow::refresh (nullptr);
     }
@@ -206,8 +196,7 @@ public:
         : SetRow (l), sheet (s), binding (std::move (at)), field (sheet)
     {
         setTooltip (field.getTooltip());
-        onReset = [this]
-        { binding.set (std::nullopt, false); };
+        onReset = [this] { binding.set (std::nullopt, false); };
         field.onChange = binding.set;
         field.onRefused = std::move (refused);
         addAndMakeVisible (field);

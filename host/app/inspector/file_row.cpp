@@ -47,10 +47,11 @@ public:
         : label (std::move (l)), kind (k), binding (std::move (s)), context (c)
     {
         field.setTooltip (about);
-        field.onApply = [this] (const juce::String& text)
-        { binding.set (text.trim().isEmpty() ? std::nullopt : std::optional<Json> (text.trim().toStdString()), false); };
-        browse.onClick = [this]
-        { openChooser(); };
+        field.onApply = [this] (const juce::String& text) {
+            const auto path = text.trim();
+            binding.set (path.isEmpty() ? std::nullopt : std::optional<Json> (path.toStdString()), false);
+        };
+        browse.onClick = [this] { openChooser(); };
         addAndMakeVisible (field);
         addAndMakeVisible (browse);
     }
@@ -133,8 +134,7 @@ private:
         const auto folder = context.folder();
         const auto start = folder.empty() ? juce::File() : juce::File::getCurrentWorkingDirectory().getChildFile (folder);
         chooser = std::make_unique<juce::FileChooser> ("Choose a file", start, patternsOf (kind));
-        const auto chosen = [safe = juce::Component::SafePointer (this)] (const juce::FileChooser& c)
-        {
+        const auto chosen = [safe = juce::Component::SafePointer (this)] (const juce::FileChooser& c) {
             if (safe != nullptr && c.getResult() != juce::File()) safe->setFile (c.getResult().getFullPathName());
         };
         chooser->launchAsync (juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles, chosen);

@@ -56,17 +56,15 @@ FileText describeFile (const std::string& written, SettingSheet::Kind kind, cons
     switch (kind)
     {
     case SettingSheet::Kind::signal:
-        return read (assets.signal (path), [] (const auto& s)
-                     { return describe (*s); });
+        return read (assets.signal (path), [] (const auto& s) { return describe (*s); });
     case SettingSheet::Kind::image:
-        return read (assets.image (path), [] (const auto& g)
-                     { return FileText { std::to_string (g->columns) + " \xc3\x97 " + std::to_string (g->rows) + " pixels", false, g }; });
+        return read (assets.image (path),
+                     [] (const auto& g) { return FileText { std::to_string (g->columns) + " \xc3\x97 " + std::to_string (g->rows) + " pixels", false, g }; });
     case SettingSheet::Kind::table:
-        return read (assets.table (path), [] (const auto& g)
-                     { return FileText { std::to_string (g->rows) + " rows of " + std::to_string (g->columns) + " numbers" }; });
+        return read (assets.table (path),
+                     [] (const auto& g) { return FileText { std::to_string (g->rows) + " rows of " + std::to_string (g->columns) + " numbers" }; });
     default:
-        return read (assets.mesh (path), [] (const auto& m)
-                     { return describe (*m); });
+        return read (assets.mesh (path), [] (const auto& m) { return describe (*m); });
     }
 }
 

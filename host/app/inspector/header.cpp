@@ -17,19 +17,19 @@ public:
         auto& document = at.document;
         name.setFont (lookOf (*this).font (15.0f, true));
         name.setTooltip ("Node name: letters, digits and _");
-        name.onApply = [&document, patch = at.patch, before = node.name, this] (const juce::String& to)
-        {
+        name.onApply = [&document, patch = at.patch, before = node.name, this] (const juce::String& to) {
             if (! document.perform (graph::RenameNode { patch, before, to.trim().toStdString() })) name.show (before);
         };
-        bypass.onClick = [&document, patch = at.patch, n = node.name, this]
-        { document.perform (graph::SetNodeKey { patch, n, "bypass", bypass.getToggleState() ? std::nullopt : std::optional<Json> (true) }); };
+        bypass.onClick = [&document, patch = at.patch, n = node.name, this] {
+            const auto value = bypass.getToggleState() ? std::nullopt : std::optional<Json> (true);
+            document.perform (graph::SetNodeKey { patch, n, "bypass", value });
+        };
         help.setToggleState (help_shown, juce::dontSendNotification);
         help.onClick = std::move (toggleHelp);
         addAndMakeVisible (name);
         addAndMakeVisible (bypass);
         addAndMakeVisible (help);
-        bypass.setColour ([] (const Theme& t)
-                          { return t.warning; });
+        bypass.setColour ([] (const Theme& t) { return t.warning; });
         NodeHeader::refresh (&node);
     }
 

@@ -34,14 +34,11 @@ void Inspector::setHelp (bool on)
 
 Inspected Inspector::inspected()
 {
-    const auto refused = [this] (const juce::String& why)
-    {
+    const auto refused = [this] (const juce::String& why) {
         if (onHint) onHint (why);
     };
-    const auto folder = [this]
-    { return document.graph().folder; };
-    const auto messages = [this]
-    { return messagesNow ? messagesNow() : Messages {}; };
+    const auto folder = [this] { return document.graph().folder; };
+    const auto messages = [this] { return messagesNow ? messagesNow() : Messages {}; };
     return { document, catalogue, patch, refused, EditorContext { files, folder, refused }, messages };
 }
 
@@ -68,8 +65,7 @@ Inspector::Selected Inspector::selected (const Inspected& at) const
 std::unique_ptr<Column> Inspector::makeColumn (const Inspected& at, const Selected& s)
 {
     auto made = std::make_unique<Column>();
-    const auto toggleHelp = [this]
-    { setHelp (! help); };
+    const auto toggleHelp = [this] { setHelp (! help); };
     if (s.nodes.size() == 1)
         describeNode (at, *s.nodes[0], help, toggleHelp, *made);
     else if (s.isOneWire())
@@ -81,8 +77,7 @@ std::unique_ptr<Column> Inspector::makeColumn (const Inspected& at, const Select
         made->add (juce::String (s.nodes.size()) + " nodes, " + juce::String (s.wires.size()) + " wires", TextBlock::Kind::title);
         made->add ("Drag to move, B to bypass, G to group into a subgraph, Delete to delete.", TextBlock::Kind::small);
     }
-    made->onHeight = [this]
-    { resized(); };
+    made->onHeight = [this] { resized(); };
     return made;
 }
 

@@ -22,8 +22,7 @@ void addPoints (Binding lists, const SettingSheet& sheet, const EditorContext& c
     column.add (std::make_unique<TableHead> (std::move (head)));
     for (std::size_t i = 0; i < n; ++i)
     {
-        const auto remove = [lists, i]
-        {
+        const auto remove = [lists, i] {
             auto all = lists.get();
             for (auto& list : all)
                 list.erase (i);
@@ -33,15 +32,12 @@ void addPoints (Binding lists, const SettingSheet& sheet, const EditorContext& c
                                             { cellSheet (sheet.unit, "y"), lists.entry (1).entry (i) } };
         column.add (std::make_unique<TableRow> (std::move (cells), remove, context.refused));
     }
-    const auto append = [lists]
-    {
+    const auto append = [lists] {
         auto all = lists.get();
         if (! all.is_array() || all.size() != 2 || ! all[0].is_array() || ! all[1].is_array()) all = Json::array ({ Json::array(), Json::array() });
         // Extrapolates from the last two points.
-        const auto next = [] (const Json& list, double first)
-        {
-            const auto number = [] (const Json& v)
-            {
+        const auto next = [] (const Json& list, double first) {
+            const auto number = [] (const Json& v) {
                 const auto read = readQuantity (v, cellSheet (UnitRule (UnitRule::Kind::open), ""));
                 return read ? *read : QuantityText {};
             };
@@ -63,8 +59,7 @@ void addPoints (Binding lists, const SettingSheet& sheet, const EditorContext& c
 template <typename T>
 std::unique_ptr<Block> plot (const SettingSheet& sheet, const Binding& binding, const std::string& without)
 {
-    return std::make_unique<PlotBlock> ([&sheet, binding, without]() -> Result<PlotData>
-                                        {
+    return std::make_unique<PlotBlock> ([&sheet, binding, without]() -> Result<PlotData> {
         const auto nothing = Message::error ("plot/empty", {}, without);
         const auto now = binding.get();
         if (now.is_null()) return nothing;
@@ -75,7 +70,8 @@ std::unique_ptr<Block> plot (const SettingSheet& sheet, const Binding& binding, 
         if (value == nullptr) return nothing;
         auto data = plotOf (*value, sheet.x_unit, sheet.unit);
         if (data.x.empty()) return nothing;
-        return data; });
+        return data;
+    });
 }
 
 const char* const law_help = "none: no law; power: k e^n; exponential: a (exp (b e) - 1); table: linear between points; dissipation: a times the stiffness law";
@@ -97,10 +93,8 @@ protected:
 
     void fill() override
     {
-        const auto get = [binding = binding]
-        { return lawKindOf (binding.get()); };
-        const auto set = [this] (const std::string& kind)
-        {
+        const auto get = [binding = binding] { return lawKindOf (binding.get()); };
+        const auto set = [this] (const std::string& kind) {
             if (kind == lawKindOf (binding.get())) return;
             auto law = lawOfKind (kind, now());
             binding.set (law.is_null() ? std::nullopt : std::optional (std::move (law)), false);
@@ -108,8 +102,8 @@ protected:
         add (choiceRow ("kind", lawKinds(), get, set, law_help));
         const auto kind = get();
         const auto numbers = binding.member (kind);
-        const auto number = [&] (const char* label, Binding at, const UnitRule& unit, const char* about, Limits limits)
-        { add (numberRow (label, sheetOfNumber (label, unit, about, limits, 0.0), std::move (at), context.refused)); };
+        const auto number = [&] (const char* label, Binding at, const UnitRule& unit, const char* about,
+                                 Limits limits) { add (numberRow (label, sheetOfNumber (label, unit, about, limits, 0.0), std::move (at), context.refused)); };
         if (kind == "power")
         {
             number ("k", numbers.entry (0), UnitRule (UnitRule::Kind::open), "factor of k e^n", { .hard = { 0, inf } });

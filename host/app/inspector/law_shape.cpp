@@ -31,8 +31,7 @@ Json lawOfKind (const std::string& kind, const Law& before)
         at = 1e-3;
         force = pressed;
     }
-    const auto forceAt = [&] (double part)
-    { return before && before.kind != Law::Kind::dissipation ? before (part * at) : part * force; };
+    const auto forceAt = [&] (double part) { return before && before.kind != Law::Kind::dissipation ? before (part * at) : part * force; };
     if (kind == "power") return { { "power", { rounded (force / at), 1 } } };
     if (kind == "exponential") return { { "exponential", { rounded (force / std::expm1 (1.0)), rounded (1.0 / at) } } };
     if (kind == "dissipation") return { { "dissipation", 1 } };

@@ -117,18 +117,15 @@ void NumberField::openEditor()
     editor->setFont (lookOf (*this).font (12.0f));
     editor->setJustification (juce::Justification::centredRight);
     editor->setText (value.toText(), false);
-    editor->onReturnKey = [this]
-    {
+    editor->onReturnKey = [this] {
         apply();
         takeFocus (*this);
     };
-    editor->onEscapeKey = [this]
-    {
+    editor->onEscapeKey = [this] {
         closeEditor();
         takeFocus (*this);
     };
-    editor->onFocusLost = [this]
-    { apply(); };
+    editor->onFocusLost = [this] { apply(); };
     addAndMakeVisible (*editor);
     resized();
     takeFocus (*editor);
@@ -147,9 +144,9 @@ void NumberField::closeEditor()
 {
     // Deleted later: this may be called from the editor itself.
     editor->setVisible (false);
-    juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this)]
-                                     {
-        if (safe != nullptr && ! safe->isEditing()) safe->editor.reset(); });
+    juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this)] {
+        if (safe != nullptr && ! safe->isEditing()) safe->editor.reset();
+    });
 }
 
 void NumberField::type (const juce::String& text)
@@ -240,8 +237,7 @@ juce::String tooltipOf (const PortSheet& sheet)
 {
     const auto symbol = unitText (sheet.unit).toStdString();
     const auto unit = symbol.empty() ? symbol : ' ' + symbol;
-    const auto range = [&] (const Interval& i)
-    {
+    const auto range = [&] (const Interval& i) {
         if (std::isinf (i.min) && std::isinf (i.max)) return std::string();
         if (std::isinf (i.max)) return "at least " + numberText (i.min) + unit;
         if (std::isinf (i.min)) return "at most " + numberText (i.max) + unit;

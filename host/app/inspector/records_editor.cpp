@@ -39,30 +39,26 @@ protected:
     void fill() override
     {
         const bool is_tones = fieldOf (sheet, "frequency") != nullptr && fieldOf (sheet, "amplitude") != nullptr;
-        if (is_tones) add (std::make_unique<PlotBlock> ([this]
-                                                        { return tones(); }));
+        if (is_tones) add (std::make_unique<PlotBlock> ([this] { return tones(); }));
         std::vector<std::pair<juce::String, juce::String>> names;
         for (const auto& f : sheet.fields)
             names.emplace_back (std::string (f.id), unitText (f.unit));
         add (std::make_unique<TableHead> (std::move (names)));
-        const Binding all { [this]
-                            { return records(); },
+        const Binding all { [this] { return records(); },
                             binding.set };
         for (std::size_t i = 0; i < all.get().size(); ++i)
         {
             std::vector<TableRow::Cell> cells;
             for (const auto& f : sheet.fields)
                 cells.push_back ({ sheetOf (f), all.entry (i).member (std::string (f.id)), ! isNumber (f) });
-            const auto remove = [all, i]
-            {
+            const auto remove = [all, i] {
                 auto left = all.get();
                 left.erase (i);
                 all.set (std::move (left), false);
             };
             add (std::make_unique<TableRow> (std::move (cells), remove, context.refused));
         }
-        const auto append = [all]
-        {
+        const auto append = [all] {
             auto more = all.get();
             more.push_back (more.empty() ? Json::object() : Json (more.back()));
             all.set (std::move (more), false);
@@ -101,8 +97,7 @@ private:
         for (const auto& r : all)
         {
             if (! r.is_object()) continue;
-            const auto number = [&] (const char* id)
-            {
+            const auto number = [&] (const char* id) {
                 const auto field = sheetOf (*fieldOf (sheet, id));
                 return siOf (r.contains (id) ? Json (r.at (id)) : Json (field.initial[0]), field);
             };

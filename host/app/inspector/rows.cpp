@@ -29,25 +29,24 @@ public:
         : SetRow (f.id), document (d), patch (std::move (p)), node_name (std::move (n)), port (f), refused (r)
     {
         setTooltip (tooltipOf (*port.sheet));
-        onReset = [this]
-        { change (std::nullopt, false); };
+        onReset = [this] { change (std::nullopt, false); };
         if (patch.empty() && port.width == 1 && ! port.isChoice())
-            onWantsMenu = [this] (juce::PopupMenu& menu)
-            { fillMenu (menu); };
+            onWantsMenu = [this] (juce::PopupMenu& menu) { fillMenu (menu); };
         const int fields = port.isChoice() ? 0 : port.width;
         for (int i = 0; i < fields; ++i)
         {
             auto& field = *numbers.emplace_back (std::make_unique<NumberField> (*port.sheet));
-            field.onChange = [this, i] (std::optional<Json> v, bool continues)
-            { change (v && port.width == 3 ? std::optional (withComponent (static_cast<std::size_t> (i), *v)) : std::move (v), continues); };
+            field.onChange = [this, i] (std::optional<Json> v, bool continues) {
+                const bool is_component = v && port.width == 3;
+                change (is_component ? std::optional (withComponent (static_cast<std::size_t> (i), *v)) : std::move (v), continues);
+            };
             field.onRefused = refused;
             addAndMakeVisible (field);
         }
         if (! port.isChoice()) return;
         for (std::size_t i = 0; i < port.sheet->choices.size(); ++i)
             choice.addItem (juce::String (std::string (port.sheet->choices[i])), static_cast<int> (i) + 1);
-        choice.onChange = [this]
-        { change (Json (std::string (port.sheet->choices[static_cast<std::size_t> (choice.getSelectedId() - 1)])), false); };
+        choice.onChange = [this] { change (Json (std::string (port.sheet->choices[static_cast<std::size_t> (choice.getSelectedId() - 1)])), false); };
         choice.setTooltip (getTooltip());
         addAndMakeVisible (choice);
     }
@@ -100,17 +99,16 @@ private:
     {
         if (const auto param = controlOf (document.graph(), node_name + '.' + port.id))
         {
-            menu.addItem ("Release from " + juce::String (param->name), [safe = juce::Component::SafePointer (this)]
-                          {
-                if (safe != nullptr) release (safe->document, safe->node_name, safe->port); });
+            menu.addItem ("Release from " + juce::String (param->name), [safe = juce::Component::SafePointer (this)] {
+                if (safe != nullptr) release (safe->document, safe->node_name, safe->port);
+            });
             return;
         }
         menu.addSectionHeader ("Assign to control");
-        const auto item = [&] (const juce::String& what, const std::string& id)
-        {
-            menu.addItem (what, [safe = juce::Component::SafePointer (this), id]
-                          {
-                if (safe != nullptr) controlBy (safe->document, safe->node_name, safe->port, id); });
+        const auto item = [&] (const juce::String& what, const std::string& id) {
+            menu.addItem (what, [safe = juce::Component::SafePointer (this), id] {
+                if (safe != nullptr) controlBy (safe->document, safe->node_name, safe->port, id);
+            });
         };
         for (const auto& c : document.graph().controls)
             item (c.name.empty() ? c.id : c.name, c.id);

@@ -47,8 +47,7 @@ private:
 
 SetRow::SetRow (juce::String l) : label_text (std::move (l)), arrow (std::make_unique<Arrow>()), watch (std::make_unique<Watch> (*this))
 {
-    arrow->onClick = [this]
-    {
+    arrow->onClick = [this] {
         if (onReset) onReset();
     };
     addChildComponent (*arrow);

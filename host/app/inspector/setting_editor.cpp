@@ -28,8 +28,7 @@ public:
         field.setReturnKeyStartsNewLine (false);
         field.setTooltip (std::string (s.about));
         field.setTextToShowWhenEmpty ("JSON: " + std::string (name (s.kind)), themeOf (*this).dim);
-        field.onApply = [this] (const juce::String& text)
-        {
+        field.onApply = [this] (const juce::String& text) {
             binding.set (text.trim().isEmpty() ? std::nullopt : std::optional (parseText (text)), false);
         };
         addAndMakeVisible (field);
@@ -70,8 +69,7 @@ public:
         {
             auto& f = *fields.emplace_back (std::make_unique<NumberField> (sheets[i]));
             f.onRefused = context.refused;
-            f.onChange = [this, i] (std::optional<Json> value, bool continues)
-            {
+            f.onChange = [this, i] (std::optional<Json> value, bool continues) {
                 auto all = written();
                 all[i] = value ? *value : Json (sheets[i].initial[0]);
                 binding.set (std::move (all), continues);
@@ -156,8 +154,7 @@ protected:
         const auto now = binding.get();
         if (now.is_object() && now.contains ("nodes"))
         {
-            const auto count = [&] (const char* key)
-            { return std::to_string (now.contains (key) && now[key].is_array() ? now[key].size() : 0); };
+            const auto count = [&] (const char* key) { return std::to_string (now.contains (key) && now[key].is_array() ? now[key].size() : 0); };
             const auto size = count ("nodes") + " nodes and " + count ("triangles") + " triangles, stored in the graph. Edit them as JSON.";
             add (size, TextBlock::Kind::small);
         }
@@ -199,16 +196,13 @@ public:
     SettingBlock (const SettingSheet& s, Binding at, const EditorContext& context, std::unique_ptr<Block> b)
         : sheet (s), binding (std::move (at)), folder (context.folder), assets (&context.assets), body (std::move (b)), text (s, binding)
     {
-        as_text.onClick = [this]
-        {
+        as_text.onClick = [this] {
             as_text.setToggleState (! as_text.getToggleState(), juce::dontSendNotification);
             choose();
             if (onHeight) onHeight();
         };
-        reset.onClick = [this]
-        { binding.set (std::nullopt, false); };
-        body->onHeight = [this]
-        {
+        reset.onClick = [this] { binding.set (std::nullopt, false); };
+        body->onHeight = [this] {
             if (onHeight) onHeight();
         };
         addChildComponent (*body);
@@ -316,15 +310,15 @@ std::unique_ptr<Block> settingEditor (const SettingSheet& sheet, Binding binding
     }
     if (sheet.kind == Kind::text)
     {
-        const auto get = [binding]
-        {
+        const auto get = [binding] {
             const auto now = binding.get();
             return now.is_string() ? fromUtf8 (now.get<std::string>()) : juce::String();
         };
-        return textRow (
-            label, get, [binding] (const juce::String& t)
-            { binding.set (t.trim().isEmpty() ? std::nullopt : std::optional<Json> (t.trim().toStdString()), false); },
-            about, 2);
+        const auto set = [binding] (const juce::String& t) {
+            const auto text = t.trim();
+            binding.set (text.isEmpty() ? std::nullopt : std::optional<Json> (text.toStdString()), false);
+        };
+        return textRow (label, get, set, about, 2);
     }
     auto body = bodyOf (sheet, binding, context);
     if (! body) body = std::make_unique<JsonText> (sheet, binding);

@@ -27,15 +27,16 @@ TableRow::TableRow (std::vector<Cell> c, std::function<void()> remove, const std
         {
             auto field = std::make_unique<TextField>();
             field->setTooltip (std::string (cell.sheet.about));
-            field->onApply = [binding = cell.binding] (const juce::String& text)
-            { binding.set (parseText (text), false); };
+            field->onApply = [binding = cell.binding] (const juce::String& text) { binding.set (parseText (text), false); };
             fields.push_back (std::move (field));
         }
         else
         {
             auto field = std::make_unique<NumberField> (cell.sheet);
-            field->onChange = [binding = cell.binding, initial = cell.sheet.initial[0]] (std::optional<Json> v, bool continues)
-            { binding.set (v ? *v : Json (initial), continues); };
+            field->onChange = [binding = cell.binding, initial = cell.sheet.initial[0]] (std::optional<Json> v, bool continues) {
+                if (! v) v = Json (initial);
+                binding.set (std::move (v), continues);
+            };
             field->onRefused = refused;
             fields.push_back (std::move (field));
         }

@@ -67,8 +67,7 @@ void Fader::paint (juce::Graphics& g)
 {
     const auto& theme = themeOf (*this);
     const auto area = slot();
-    const auto yOf = [&] (double position)
-    { return area.getBottom() - area.getHeight() * static_cast<float> (position); };
+    const auto yOf = [&] (double position) { return area.getBottom() - area.getHeight() * static_cast<float> (position); };
 
     const auto groove = area.withSizeKeepingCentre (4.0f, area.getHeight());
     g.setColour (theme.hairline);

@@ -18,10 +18,8 @@ constexpr auto introduction = "A layer mixer mixes textures and vibrations. Each
 LayersPanel::LayersPanel (Document& d, Traces& t, const Catalogue& c) : document (d), catalogue (c), traces (t)
 {
     setTitle ("Layers");
-    more.onClick = [this]
-    { openMenu(); };
-    first.onClick = [this]
-    { addMixerNow(); };
+    more.onClick = [this] { openMenu(); };
+    first.onClick = [this] { addMixerNow(); };
     scroll.setViewedComponent (&row, false);
     scroll.setScrollBarsShown (false, true);
     scroll.setScrollBarThickness (8);
@@ -74,8 +72,7 @@ void LayersPanel::rebuildNames()
     {
         auto& b = *names.emplace_back (std::make_unique<ToolButton> (juce::String (all[i].path), ToolButton::Kind::tab));
         b.setToggleState (all[i].id == chosen.id, juce::dontSendNotification);
-        b.onClick = [this, i]
-        { choose (i); };
+        b.onClick = [this, i] { choose (i); };
         addAndMakeVisible (b);
     }
 }
@@ -86,16 +83,13 @@ void LayersPanel::rebuildStrips (std::size_t layers)
     total.reset();
     if (! all.empty())
     {
-        const auto hint = [this] (const juce::String& text)
-        {
+        const auto hint = [this] (const juce::String& text) {
             if (onHint) onHint (text);
         };
-        const auto select = [this] (const std::string& patch, graph::Id id)
-        {
+        const auto select = [this] (const std::string& patch, graph::Id id) {
             if (onSelect) onSelect (patch, id);
         };
-        const auto dragged = [this] (int layer, int x, bool let_go)
-        { drag (layer, x, let_go); };
+        const auto dragged = [this] (int layer, int x, bool let_go) { drag (layer, x, let_go); };
         const auto context = std::make_shared<const MixerContext> (MixerContext { document, catalogue, chosen, hint, select, dragged });
         for (std::size_t i = 0; i < layers; ++i)
             row.addAndMakeVisible (*strips.emplace_back (std::make_unique<LayerStrip> (context, static_cast<int> (i))));
@@ -134,13 +128,13 @@ void LayersPanel::choose (std::size_t mixer)
 {
     if (mixer >= all.size()) return;
     // Asynchronous, because the rebuild deletes the button that was clicked.
-    juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), id = all[mixer].id]
-                                     {
+    juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), id = all[mixer].id] {
         if (safe == nullptr) return;
         const auto at = std::ranges::find (safe->all, id, &MixerPlace::id);
         if (at == safe->all.end()) return;
         safe->chosen = { id, {}, {}, {} };
-        safe->rebuild(); });
+        safe->rebuild();
+    });
 }
 
 void LayersPanel::add (const std::string& type)
@@ -160,9 +154,9 @@ void LayersPanel::add (const std::string& type)
 void LayersPanel::addMixerNow()
 {
     if (auto added = addMixer (document.graph(), catalogue))
-        juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), command = std::move (added->command)]
-                                         {
-            if (safe != nullptr) safe->document.perform (command); });
+        juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), command = std::move (added->command)] {
+            if (safe != nullptr) safe->document.perform (command);
+        });
 }
 
 void LayersPanel::openMenu()
@@ -179,9 +173,9 @@ void LayersPanel::openMenu()
         types.push_back (id);
         menu.addItem (static_cast<int> (types.size()), std::string (t->info.name));
     }
-    menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (more), [safe = juce::Component::SafePointer (this), types] (int chosen_item)
-                        {
-        if (safe != nullptr && chosen_item > 0) safe->add (types[static_cast<std::size_t> (chosen_item - 1)]); });
+    menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (more), [safe = juce::Component::SafePointer (this), types] (int chosen_item) {
+        if (safe != nullptr && chosen_item > 0) safe->add (types[static_cast<std::size_t> (chosen_item - 1)]);
+    });
 }
 
 void LayersPanel::drag (int layer, int x, bool let_go)
@@ -191,11 +185,11 @@ void LayersPanel::drag (int layer, int x, bool let_go)
     repaint();
     const int place = to > layer ? to - 1 : to;
     if (! let_go || place == layer) return;
-    juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), layer, place]
-                                     {
+    juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), layer, place] {
         if (safe == nullptr) return;
         const auto& graph = safe->document.graph();
-        if (findMixer (graph, safe->chosen) != nullptr) safe->document.perform (moveLayer (graph, safe->chosen, safe->catalogue, layer, place)); });
+        if (findMixer (graph, safe->chosen) != nullptr) safe->document.perform (moveLayer (graph, safe->chosen, safe->catalogue, layer, place));
+    });
 }
 
 void LayersPanel::paint (juce::Graphics& g)

@@ -63,8 +63,7 @@ bool isRemoved (const graph::Endpoint& e) { return e.index == removed; }
 /// Moves the params and names of the layers to their new places.
 void permuteValues (graph::Node& node, const Catalogue& catalogue, const std::vector<int>& to, int layers)
 {
-    const auto moved = [&] (const Json& before, const Json& initial)
-    {
+    const auto moved = [&] (const Json& before, const Json& initial) {
         auto list = Json::array();
         for (int i = 0; i < layers; ++i)
             list.push_back (initial);
@@ -72,7 +71,7 @@ void permuteValues (graph::Node& node, const Catalogue& catalogue, const std::ve
             if (to[i] >= 0) list[static_cast<std::size_t> (to[i])] = before[i];
         return list;
     };
-    for (auto& [key, value] : node.params.items())
+    for (auto& [key, value] : node.params.asObject())
         if (const auto* sheet = listSheet (catalogue, key); sheet != nullptr && sheet->list && value.is_array()) value = moved (value, sheet->initial[0]);
     const auto names = layerNames (node, static_cast<int> (to.size()));
     std::vector<std::string> renamed (static_cast<std::size_t> (layers));
@@ -86,10 +85,8 @@ void permuteValues (graph::Node& node, const Catalogue& catalogue, const std::ve
 void sweep (graph::Graph& g)
 {
     const auto index = '[' + std::to_string (removed) + ']';
-    const auto sweepPatch = [&] (graph::Patch& p)
-    {
-        std::erase_if (p.wires, [] (const graph::Wire& w)
-                       { return isRemoved (w.from) || isRemoved (w.to); });
+    const auto sweepPatch = [&] (graph::Patch& p) {
+        std::erase_if (p.wires, [] (const graph::Wire& w) { return isRemoved (w.from) || isRemoved (w.to); });
         for (auto& n : p.nodes)
         {
             auto left = Json::object();
@@ -102,10 +99,10 @@ void sweep (graph::Graph& g)
     for (auto& [id, p] : g.graphs)
         sweepPatch (p);
     for (auto& c : g.controls)
-        std::erase_if (c.to, [] (const graph::Control::Target& t)
-                       {
+        std::erase_if (c.to, [] (const graph::Control::Target& t) {
             const auto e = graph::parseEndpoint (t.path);
-            return e && isRemoved (*e); });
+            return e && isRemoved (*e);
+        });
 }
 
 /// An edit of the whole mixer: `to` is the new place of each layer, or -1 to remove it.
@@ -115,11 +112,11 @@ Result<graph::Command> permuted (const graph::Graph& g, const MixerPlace& at, co
     const auto after = std::make_shared<graph::Graph> (g);
     auto* patch = at.patch.empty() ? &after->root : const_cast<graph::Patch*> (std::as_const (*after).find (at.patch));
     permuteValues (*std::ranges::find (patch->nodes, at.id, &graph::Node::id), catalogue, to, layers);
-    graph::forEachEndpoint (*after, [&] (graph::Endpoint& e, const graph::Waypoint& w)
-                            {
+    graph::forEachEndpoint (*after, [&] (graph::Endpoint& e, const graph::Waypoint& w) {
         if (w.patch == patch && w.name == at.node && w.end == e.node.size() && e.index >= 0 && e.index < static_cast<int> (to.size()))
             if (const int i = to[static_cast<std::size_t> (e.index)]; i != e.index) e.index = i < 0 ? removed : i;
-        return true; });
+        return true;
+    });
 
     for (const auto* shown : { &patch->expose.inputs, &patch->expose.params, &patch->expose.outputs })
         for (const auto& [port, e] : *shown)
@@ -167,8 +164,7 @@ int rankOf (const graph::Node& node, const FacePort& out, const PortSheet& input
 std::optional<graph::Endpoint> sourceFor (const PortSheet& input, const graph::Graph& g, const graph::Patch& patch, const std::set<std::string>& excluded,
                                           const Catalogue& catalogue)
 {
-    const auto fits = [&] (const FacePort& out)
-    {
+    const auto fits = [&] (const FacePort& out) {
         const bool is_list = out.id.find ('[') != std::string::npos;
         return ! is_list && out.width == input.width && out.quantity() == input.unit.unit.quantity && out.quantity() != Quantity::any;
     };
@@ -190,10 +186,10 @@ std::optional<graph::Endpoint> sourceFor (const PortSheet& input, const graph::G
 
 const PortSheet* layerOutput (const NodeType& type)
 {
-    const auto at = std::ranges::find_if (type.outputs, [] (const PortSheet& o)
-                                          {
+    const auto at = std::ranges::find_if (type.outputs, [] (const PortSheet& o) {
         const bool is_force = o.unit.kind == UnitRule::Kind::fixed && o.unit.unit.quantity == Quantity::force;
-        return is_force && o.width == 1 && ! o.list; });
+        return is_force && o.width == 1 && ! o.list;
+    });
     return at == type.outputs.end() ? nullptr : &*at;
 }
 
@@ -208,8 +204,7 @@ struct Stream
 Stream streamInto (const graph::Patch& patch, const graph::Node& sink)
 {
     std::vector<Stream> streams;
-    const auto add = [&] (const graph::Wire& w)
-    {
+    const auto add = [&] (const graph::Wire& w) {
         auto at = std::ranges::find (streams, w.to, &Stream::to);
         if (at == streams.end()) at = streams.insert (at, Stream { w.to, {} });
         at->wires.push_back (&w);
@@ -223,8 +218,7 @@ Stream streamInto (const graph::Patch& patch, const graph::Node& sink)
         for (const auto& into : patch.wires)
             if (into.to.node == from->name) add (into);
     }
-    const auto best = std::ranges::max_element (streams, {}, [] (const Stream& s)
-                                                { return s.wires.size(); });
+    const auto best = std::ranges::max_element (streams, {}, [] (const Stream& s) { return s.wires.size(); });
     return best == streams.end() ? Stream {} : *best;
 }
 
@@ -308,8 +302,7 @@ graph::Command setLayerValue (const graph::Node& node, const MixerPlace& at, con
     while (all.size() <= static_cast<std::size_t> (layer))
         all.push_back (initial);
     all[static_cast<std::size_t> (layer)] = value.value_or (initial);
-    const bool plain = std::ranges::all_of (all, [&] (const Json& v)
-                                            { return v == initial; });
+    const bool plain = std::ranges::all_of (all, [&] (const Json& v) { return v == initial; });
     return graph::SetParam { at.patch, at.node, param, plain ? std::nullopt : std::optional (all) };
 }
 

@@ -74,8 +74,7 @@ void paintMeter (juce::Graphics& g, juce::Rectangle<float> area, const Meter& me
     g.fillRoundedRectangle (bar, 2.0f);
     g.setColour (theme.hairline);
     g.drawRoundedRectangle (bar.reduced (0.5f), 2.0f, 1.0f);
-    const auto yOf = [&] (double level)
-    { return bar.getBottom() - bar.getHeight() * static_cast<float> (meterPosition (level)); };
+    const auto yOf = [&] (double level) { return bar.getBottom() - bar.getHeight() * static_cast<float> (meterPosition (level)); };
     g.setColour (colour);
     g.fillRoundedRectangle (bar.reduced (1.5f, 1.0f).withTop (std::min (bar.getBottom() - 1.0f, yOf (meter.rms()))), 1.5f);
     if (meter.peak() > 1e-3) g.fillRect (bar.withHeight (2.0f).withCentre ({ bar.getCentreX(), std::max (bar.getY() + 1.0f, yOf (meter.peak())) }));
@@ -114,31 +113,20 @@ LayerStrip::LayerStrip (std::shared_ptr<const MixerContext> c, int i)
     name.setBorderSize ({ 0, 4, 0, 4 });
     source.setJustification (juce::Justification::centredLeft);
     name.setTooltip ("Double-click to rename, drag to move");
-    name.onTextChange = [this]
-    { rename (name.getText()); };
+    name.onTextChange = [this] { rename (name.getText()); };
     name.addMouseListener (this, false);
-    source.onClick = [this]
-    {
+    source.onClick = [this] {
         if (wired && context->select) context->select (context->place.patch, fed_by);
     };
-    close.onClick = [this]
-    { remove(); };
-    mute.setColour ([] (const Theme& t)
-                    { return t.warning; });
-    const auto flip = [this] (const char* param, const ToolButton& b)
-    { setValue (param, b.getToggleState() ? std::nullopt : std::optional<Json> (1), false); };
-    mute.onClick = [this, flip]
-    { flip ("mute", mute); };
-    solo.onClick = [this, flip]
-    { flip ("solo", solo); };
-    fader.onChange = [this] (std::optional<double> to, bool goes_on)
-    { setGain (to ? std::optional<Json> (*to) : std::nullopt, goes_on); };
-    fader.onTextEntry = [this]
-    { gain_field.openEditor(); };
-    gain_field.onChange = [this] (std::optional<Json> to, bool goes_on)
-    { setGain (std::move (to), goes_on); };
-    priority.onChange = [this] (std::optional<Json> to, bool goes_on)
-    { setValue ("priority", std::move (to), goes_on); };
+    close.onClick = [this] { remove(); };
+    mute.setColour ([] (const Theme& t) { return t.warning; });
+    const auto flip = [this] (const char* param, const ToolButton& b) { setValue (param, b.getToggleState() ? std::nullopt : std::optional<Json> (1), false); };
+    mute.onClick = [this, flip] { flip ("mute", mute); };
+    solo.onClick = [this, flip] { flip ("solo", solo); };
+    fader.onChange = [this] (std::optional<double> to, bool goes_on) { setGain (to ? std::optional<Json> (*to) : std::nullopt, goes_on); };
+    fader.onTextEntry = [this] { gain_field.openEditor(); };
+    gain_field.onChange = [this] (std::optional<Json> to, bool goes_on) { setGain (std::move (to), goes_on); };
+    priority.onChange = [this] (std::optional<Json> to, bool goes_on) { setValue ("priority", std::move (to), goes_on); };
     gain_field.setCaption ("gain");
     priority.setCaption ("P");
     gain_field.onRefused = priority.onRefused = context->hint;
@@ -181,8 +169,7 @@ void LayerStrip::show()
 
     heard = ! mute.getToggleState();
     if (const auto solos = node->params.find ("solo"); heard && solos != node->params.end() && solos->is_array())
-        heard = solo.getToggleState() || std::ranges::none_of (*solos, [] (const Json& v)
-                                                               { return v.is_number() && v.get<double>() > 0.5; });
+        heard = solo.getToggleState() || std::ranges::none_of (*solos, [] (const Json& v) { return v.is_number() && v.get<double>() > 0.5; });
 
     const auto* w = wireInto (graph, context->place, layer);
     const auto* patch = context->place.patch.empty() ? &graph.root : graph.find (context->place.patch);
@@ -237,9 +224,9 @@ void LayerStrip::remove()
         return;
     }
     // Asynchronous, because the command deletes this strip, whose button is being clicked.
-    juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), command = *std::move (command)]
-                                     {
-        if (safe != nullptr) std::shared_ptr (safe->context)->perform (command); });
+    juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), command = *std::move (command)] {
+        if (safe != nullptr) std::shared_ptr (safe->context)->perform (command);
+    });
 }
 
 void LayerStrip::refresh (const Traces::Client& traces, double dt_s, bool with_spectrum)
@@ -346,10 +333,11 @@ void LayerStrip::mouseUp (const juce::MouseEvent& e)
 MixStrip::MixStrip (std::shared_ptr<const MixerContext> c)
     : context (std::move (c)), duck (sheetOf (context->catalogue, "duck_db")), ceiling (sheetOf (context->catalogue, "ceiling"))
 {
-    const auto bind = [this] (NumberField& field, const char* param)
-    {
-        field.onChange = [this, param] (std::optional<Json> to, bool goes_on)
-        { context->perform (graph::SetParam { context->place.patch, context->place.node, param, std::move (to) }, goes_on); };
+    const auto bind = [this] (NumberField& field, const char* param) {
+        field.onChange = [this, param] (std::optional<Json> to, bool continues) {
+            const auto& at = context->place;
+            context->perform (graph::SetParam { at.patch, at.node, param, std::move (to) }, continues);
+        };
         field.onRefused = context->hint;
         addAndMakeVisible (field);
     };
@@ -362,8 +350,7 @@ void MixStrip::show()
 {
     const auto* node = context->node();
     if (node == nullptr) return;
-    const auto value = [&] (const char* param)
-    {
+    const auto value = [&] (const char* param) {
         const auto own = node->params.find (param);
         return own != node->params.end() ? Json (*own) : Json (sheetOf (context->catalogue, param).initial[0]);
     };

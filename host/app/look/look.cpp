@@ -114,8 +114,7 @@ void drawNumber (juce::Graphics& g, const juce::String& text, juce::Rectangle<fl
 {
     const auto font = g.getCurrentFont();
     const float digit = font.getStringWidthFloat ("0");
-    const auto isDigit = [] (juce::juce_wchar c)
-    { return c >= '0' && c <= '9'; };
+    const auto isDigit = [] (juce::juce_wchar c) { return c >= '0' && c <= '9'; };
     float x = area.getRight();
     for (int i = text.length(); --i >= 0;)
     {

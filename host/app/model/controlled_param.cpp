@@ -80,8 +80,7 @@ std::optional<graph::Command> removeTarget (const graph::Graph& g, const std::st
     const auto* control = find (g, id);
     if (control == nullptr) return std::nullopt;
     auto to = *control;
-    std::erase_if (to.to, [&] (const auto& t)
-                   { return t.path == path; });
+    std::erase_if (to.to, [&] (const auto& t) { return t.path == path; });
     return graph::ChangeControl { id, std::move (to) };
 }
 

@@ -16,8 +16,7 @@ bool Document::perform (graph::Command command, graph::Step step)
     const auto before = edits.position();
     if (const auto done = edits.perform (std::move (command), step); ! done)
     {
-        notify ([&] (Listener& l)
-                { l.documentRefused (done.error()); });
+        notify ([&] (Listener& l) { l.documentRefused (done.error()); });
         return false;
     }
     origins.resize (before + 1);   // drops the redo steps

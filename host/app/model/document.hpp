@@ -77,8 +77,7 @@ private:
 
     void notifyChanged()
     {
-        notify ([] (Listener& l)
-                { l.documentChanged(); });
+        notify ([] (Listener& l) { l.documentChanged(); });
     }
 
     Origin& origin() const noexcept { return *origins[edits.position()]; }

@@ -107,8 +107,7 @@ private:
     {
         Face face;
         face.kind = Face::Kind::placeholder;
-        const auto add = [] (std::vector<FacePort>& ports, Role role, const std::string& id)
-        {
+        const auto add = [] (std::vector<FacePort>& ports, Role role, const std::string& id) {
             if (std::ranges::count (ports, id, &FacePort::id) == 0) ports.push_back ({ role, id, {}, UnitRule (UnitRule::Kind::open), 1, nullptr });
         };
         for (const auto& w : patch.wires)

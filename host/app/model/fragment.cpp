@@ -47,8 +47,7 @@ std::optional<juce::Point<double>> cornerOf (const std::string& text)
 
 std::string freeName (const graph::Patch& patch, const std::set<std::string>& also_taken, const std::string& wanted)
 {
-    const auto taken = [&] (const std::string& name)
-    { return patch.find (name) != nullptr || also_taken.contains (name); };
+    const auto taken = [&] (const std::string& name) { return patch.find (name) != nullptr || also_taken.contains (name); };
     if (! taken (wanted)) return wanted;
     const auto stem = stemOf (wanted);
     for (int i = 2;; ++i)
@@ -98,8 +97,7 @@ Result<graph::Command> paste (const graph::Graph& g, const std::string& patch_na
         made.insert (node.id);
         batch.commands.push_back (graph::AddNode { patch_name, node });
     }
-    const auto rename = [&] (graph::Endpoint& e)
-    {
+    const auto rename = [&] (graph::Endpoint& e) {
         const auto first = graph::firstNameOf (e.node);
         if (const auto to = renamed.find (first); to != renamed.end()) e.node = to->second + e.node.substr (first.size());
     };

@@ -71,8 +71,7 @@ std::optional<Json> withValue (const graph::Node& node, const FacePort& port, co
     while (all.size() <= *entry)
         all.push_back (port.sheet->initial[0]);
     all[*entry] = value ? *value : Json (port.sheet->initial[0]);
-    const bool plain = std::ranges::all_of (all, [&] (const Json& v)
-                                            { return v == Json (port.sheet->initial[0]); });
+    const bool plain = std::ranges::all_of (all, [&] (const Json& v) { return v == Json (port.sheet->initial[0]); });
     return plain ? std::nullopt : std::optional (std::move (all));
 }
 

@@ -48,10 +48,10 @@ void Quantities::visit (const graph::Graph& owner, const graph::Patch& patch)
     {
         by_name.emplace (node.name, nodes.size());
         nodes.push_back ({ faceOf (owner, patch, node, catalogue), static_cast<int> (parent.size()) });
-        eachPort (nodes.back().face, [&] (const FacePort& port)
-                  {
+        eachPort (nodes.back().face, [&] (const FacePort& port) {
             parent.push_back (static_cast<int> (parent.size()));
-            known.push_back (port.quantity()); });
+            known.push_back (port.quantity());
+        });
     }
     for (const auto& node_ports : nodes)
         joinPortsOf (node_ports);
@@ -61,12 +61,13 @@ void Quantities::visit (const graph::Graph& owner, const graph::Patch& patch)
 
 void Quantities::joinPortsOf (const NodePorts& node_ports)
 {
-    eachPort (node_ports.face, [&] (const FacePort& port)
-              { eachPort (node_ports.face, [&] (const FacePort& other)
-                          {
-        const bool follows_it = follows (port.unit) && port.unit.a == baseOf (other.id);
-        const bool both_open = port.unit.kind == UnitRule::Kind::open && other.unit.kind == UnitRule::Kind::open && baseOf (port.id) == baseOf (other.id);
-        if (follows_it || both_open) join (numberOf (node_ports, &port), numberOf (node_ports, &other)); }); });
+    eachPort (node_ports.face, [&] (const FacePort& port) {
+        eachPort (node_ports.face, [&] (const FacePort& other) {
+            const bool follows_it = follows (port.unit) && port.unit.a == baseOf (other.id);
+            const bool both_open = port.unit.kind == UnitRule::Kind::open && other.unit.kind == UnitRule::Kind::open && baseOf (port.id) == baseOf (other.id);
+            if (follows_it || both_open) join (numberOf (node_ports, &port), numberOf (node_ports, &other));
+        });
+    });
 }
 
 void Quantities::joinAlongWires (const graph::Patch& patch)
@@ -87,8 +88,7 @@ void Quantities::joinWithInside (const graph::Graph& owner, const graph::Patch& 
         if (inside == nullptr) continue;
         visit (*its_owner, *inside);
         const auto& outer = patches.at (&patch).nodes[i];
-        const auto joinExposed = [&] (const std::vector<std::pair<std::string, graph::Endpoint>>& names, Role role)
-        {
+        const auto joinExposed = [&] (const std::vector<std::pair<std::string, graph::Endpoint>>& names, Role role) {
             for (const auto& [name, end] : names)
                 if (const auto* inner = portsOf (*inside, end.node))
                 {

@@ -19,14 +19,12 @@ bool addsUp (Quantity q) noexcept { return q == Quantity::force || q == Quantity
 
 Result<> checkWireByComponent (const WireEnd& from, const WireEnd& to)
 {
-    const auto refuse = [] (std::string why)
-    { return Message::error ("wire/refused", {}, std::move (why)); };
+    const auto refuse = [] (std::string why) { return Message::error ("wire/refused", {}, std::move (why)); };
     if (from.port->role != Role::output) return refuse ("a wire starts at an output");
     if (to.port->role == Role::output) return refuse ("a wire ends at an input or a parameter");
     if (to.port->isChoice()) return refuse ("a choice cannot be wired");
 
-    const auto unitAt = [] (const WireEnd& e) -> std::optional<Unit>
-    {
+    const auto unitAt = [] (const WireEnd& e) -> std::optional<Unit> {
         if (e.port->unit.kind == UnitRule::Kind::fixed) return e.port->unit.unit;
         if (e.quantity != Quantity::any) return unitOf (e.quantity);
         return std::nullopt;

@@ -12,8 +12,7 @@ namespace
 {
 std::string lower (std::string text)
 {
-    std::ranges::transform (text, text.begin(), [] (unsigned char c)
-                            { return static_cast<char> (std::tolower (c)); });
+    std::ranges::transform (text, text.begin(), [] (unsigned char c) { return static_cast<char> (std::tolower (c)); });
     return text;
 }
 
@@ -28,17 +27,16 @@ std::vector<std::string> wordsOf (const std::string& text)
 
 bool containsAll (const std::string& text, const std::vector<std::string>& words)
 {
-    return std::ranges::all_of (words, [text = lower (text)] (const std::string& w)
-                                { return text.find (w) != std::string::npos; });
+    return std::ranges::all_of (words, [text = lower (text)] (const std::string& w) { return text.find (w) != std::string::npos; });
 }
 
 bool fitsSomewhere (const Face& face, const WireEnd& end)
 {
     const bool starts_here = end.port->role != Role::output;
-    return std::ranges::any_of (starts_here ? face.outputs : face.inputs, [&] (const FacePort& p)
-                                {
+    return std::ranges::any_of (starts_here ? face.outputs : face.inputs, [&] (const FacePort& p) {
         const WireEnd own { &p, p.quantity() };
-        return (starts_here ? checkWire (own, end) : checkWire (end, own)).has_value(); });
+        return (starts_here ? checkWire (own, end) : checkWire (end, own)).has_value();
+    });
 }
 
 /// 0 if the id or name starts with the query, 1 if it contains it, else 2.
@@ -55,18 +53,15 @@ std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::
 {
     const auto words = wordsOf (query);
     std::vector<PaletteEntry> found;
-    const auto consider = [&] (PaletteEntry entry, const Face& face)
-    {
+    const auto consider = [&] (PaletteEntry entry, const Face& face) {
         std::string all = entry.type + ' ' + entry.name + ' ' + entry.summary;
         for (const auto* ports : { &face.inputs, &face.params, &face.outputs })
             for (const auto& p : *ports)
                 all += ' ' + p.id + ' ' + std::string (p.unit.unit.symbol) + ' ' + std::string (name (p.quantity()));
-        const bool fitting = std::ranges::all_of (fits, [&] (const WireEnd& end)
-                                                  { return fitsSomewhere (face, end); });
+        const bool fitting = std::ranges::all_of (fits, [&] (const WireEnd& end) { return fitsSomewhere (face, end); });
         if (fitting && containsAll (all, words)) found.push_back (std::move (entry));
     };
-    const auto face = [&] (const std::string& type)
-    {
+    const auto face = [&] (const std::string& type) {
         graph::Node node;
         node.type = type;
         return faceOf (g, g.root, node, catalogue);
@@ -80,8 +75,7 @@ std::vector<PaletteEntry> searchPalette (const std::string& query, const graph::
     }
 
     const auto whole = lower (query);
-    if (! whole.empty()) std::ranges::stable_sort (found, {}, [&] (const PaletteEntry& e)
-                                                   { return rank (e, whole); });
+    if (! whole.empty()) std::ranges::stable_sort (found, {}, [&] (const PaletteEntry& e) { return rank (e, whole); });
     return found;
 }
 
@@ -89,8 +83,7 @@ std::vector<PaletteEntry> matching (const std::vector<PaletteEntry>& entries, co
 {
     const auto words = wordsOf (query);
     auto found = entries;
-    std::erase_if (found, [&] (const PaletteEntry& e)
-                   { return ! containsAll (e.type + ' ' + e.name + ' ' + e.summary, words); });
+    std::erase_if (found, [&] (const PaletteEntry& e) { return ! containsAll (e.type + ' ' + e.name + ' ' + e.summary, words); });
     return found;
 }
 

@@ -30,19 +30,14 @@ PresetBrowser::PresetBrowser (const Catalogue& c, Settings& s, PictureStore& p)
     query.setFont (look.font (13.0f));
     query.setIndents (8, 4);
     query.setTextToShowWhenEmpty ("Search presets", look.theme().dim);
-    query.onTextChange = [this]
-    { update(); };
-    query.onEscapeKey = [this]
-    { search ({}); };
-    query.onReturnKey = [this]
-    {
+    query.onTextChange = [this] { update(); };
+    query.onEscapeKey = [this] { search ({}); };
+    query.onReturnKey = [this] {
         for (int i = 0; i < getNumRows(); ++i)
             if (rowAt (i)->preset != nullptr) return openRow (i);
     };
-    chips.onChange = [this]
-    { update(); };
-    chips.onResize = [this]
-    { resized(); };
+    chips.onChange = [this] { update(); };
+    chips.onResize = [this] { resized(); };
     list.setTitle ("Presets");
     list.setRowHeight (row_height);
     list.setColour (juce::ListBox::backgroundColourId, juce::Colours::transparentBlack);
@@ -91,8 +86,7 @@ void PresetBrowser::update()
     found = matching (presets, text, chips.chosen());
     found_own = matching (own, text, chips.chosen());
     shown.clear();
-    const auto section = [this] (const char* heading, const std::vector<Preset>& all, bool is_own, auto&& isWanted)
-    {
+    const auto section = [this] (const char* heading, const std::vector<Preset>& all, bool is_own, auto&& isWanted) {
         bool has_heading = false;
         for (const auto& p : all)
         {
@@ -101,15 +95,12 @@ void PresetBrowser::update()
             shown.push_back ({ {}, &p, is_own });
         }
     };
-    const auto isFavourite = [this] (const Preset& p)
-    { return settings.isFavourite (p.file); };
-    const auto isAny = [] (const Preset&)
-    { return true; };
+    const auto isFavourite = [this] (const Preset& p) { return settings.isFavourite (p.file); };
+    const auto isAny = [] (const Preset&) { return true; };
     if (text.empty() && chips.chosen().empty()) section ("Recent", recent, true, isAny);
     section ("Favourites", found, false, isFavourite);
     section ("My graphs", found_own, true, isAny);
-    section ("Presets", found, false, [&] (const Preset& p)
-             { return ! isFavourite (p); });
+    section ("Presets", found, false, [&] (const Preset& p) { return ! isFavourite (p); });
     if (std::ranges::count (shown, nullptr, &Row::preset) == 1) shown.erase (shown.begin());   // a single section needs no heading
 
     auto all = found;

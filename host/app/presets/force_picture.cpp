@@ -26,8 +26,7 @@ std::string firstError (const Messages& messages)
 ForcePicture pictureOf (const std::filesystem::path& file, const Catalogue& catalogue, const std::atomic<bool>& cancelled)
 {
     ForcePicture picture;
-    const auto refuse = [&] (std::string why)
-    {
+    const auto refuse = [&] (std::string why) {
         picture.problem = std::move (why);
         return picture;
     };

@@ -36,16 +36,14 @@ Preset presetOf (const fs::path& file, const Catalogue& catalogue)
     const auto error = std::ranges::find (loaded.messages, Message::Severity::error, &Message::severity);
     if (error != loaded.messages.end()) p.problem = error->text;
     if (p.name.empty()) p.name = file.stem().string();
-    const auto note = [&] (const graph::Patch& patch)
-    {
+    const auto note = [&] (const graph::Patch& patch) {
         for (const auto& node : patch.nodes)
             if (! node.type.starts_with ("graph:") && ! node.type.starts_with ("file:")) p.types.insert (node.type);
     };
     note (graph.root);
     for (const auto& [name, patch] : graph.graphs)
         note (patch);
-    std::ranges::copy_if (p.types, std::back_inserter (p.placeholders), [&] (const std::string& type)
-                          { return catalogue.find (type) == nullptr; });
+    std::ranges::copy_if (p.types, std::back_inserter (p.placeholders), [&] (const std::string& type) { return catalogue.find (type) == nullptr; });
     return p;
 }
 
@@ -83,17 +81,18 @@ fs::path ownFolder()
 std::vector<Preset> matching (const std::vector<Preset>& presets, const std::string& query, const std::set<std::string>& tags)
 {
     auto found = presets;
-    std::erase_if (found, [&] (const Preset& p)
-                   { return std::ranges::any_of (tags, [&] (const std::string& t)
-                                                 { return std::ranges::count (p.tags, t) == 0; }); });
+    std::erase_if (found, [&] (const Preset& p) {
+        const auto isMissing = [&] (const std::string& t) { return std::ranges::count (p.tags, t) == 0; };
+        return std::ranges::any_of (tags, isMissing);
+    });
     std::istringstream words { lowered (query) };
     for (std::string word; words >> word;)
-        std::erase_if (found, [&] (const Preset& p)
-                       {
+        std::erase_if (found, [&] (const Preset& p) {
             std::string all = p.name + ' ' + p.about;
             for (const auto& t : p.tags)
                 all += ' ' + t;
-            return lowered (all).find (word) == std::string::npos; });
+            return lowered (all).find (word) == std::string::npos;
+        });
     return found;
 }
 

@@ -14,8 +14,7 @@ const char* const fewer = "fewer";
 
 void TagChips::show (std::vector<std::string> tags)
 {
-    std::ranges::stable_partition (tags, [this] (const std::string& t)
-                                   { return selected.contains (t); });
+    std::ranges::stable_partition (tags, [this] (const std::string& t) { return selected.contains (t); });
     all = std::move (tags);
     repaint();
 }

@@ -60,8 +60,7 @@ Culprit culpritOf (const graph::Graph& g, const Message& m)
             culprit.node = node->name;
             if (parts.size() > 3 && parts[2] == "params") culprit.param = parts[3];
         }
-    if (parts[0] == "wires" && ! parts[1].empty() && std::ranges::all_of (parts[1], [] (char c)
-                                                                          { return c >= '0' && c <= '9'; }))
+    if (parts[0] == "wires" && ! parts[1].empty() && std::ranges::all_of (parts[1], [] (char c) { return c >= '0' && c <= '9'; }))
         if (const auto i = std::strtoull (parts[1].c_str(), nullptr, 10); i < patch->wires.size()) culprit.id = patch->wires[i].id;
     return culprit;
 }

@@ -22,8 +22,7 @@ public:
         const auto fix = fixOf (list.document.graph(), message);
         if (! fix) return;
         button = std::make_unique<juce::TextButton> (fromUtf8 (fix->label));
-        button->onClick = [this]
-        {
+        button->onClick = [this] {
             // The graph may have changed since the button was made.
             if (auto now = fixOf (list.document.graph(), message)) list.document.perform (std::move (now->command));
         };
@@ -81,8 +80,7 @@ void ProblemList::show (const Messages& messages)
     if (asked && std::ranges::equal (messages, shown, isSame)) return;
     asked = true;
     shown = messages;
-    std::ranges::stable_partition (shown, [] (const Message& m)
-                                   { return m.severity == Message::Severity::error; });
+    std::ranges::stable_partition (shown, [] (const Message& m) { return m.severity == Message::Severity::error; });
     rows.clear();
     for (const auto& m : shown)
         column.addAndMakeVisible (*rows.emplace_back (std::make_unique<Row> (*this, m)));

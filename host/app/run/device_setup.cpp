@@ -48,8 +48,7 @@ void DeviceSetup::scan (bool on)
     }
     changed.notify_all();
     if (on && ! scanner.joinable())
-        scanner = std::jthread ([this]
-                                { scanLoop(); });
+        scanner = std::jthread ([this] { scanLoop(); });
 }
 
 std::vector<hid::ConnectedDevice> DeviceSetup::connected() const
@@ -64,15 +63,13 @@ void DeviceSetup::scanLoop()
     std::unique_lock lock (mutex);
     while (! ends)
     {
-        changed.wait (lock, [this]
-                      { return ends || scans; });
+        changed.wait (lock, [this] { return ends || scans; });
         if (ends) return;
         lock.unlock();
         auto connected_now = hid::eachOnce (devices.connected(), known);
         lock.lock();
         found = std::move (connected_now);
-        changed.wait_for (lock, 1s, [this]
-                          { return ends; });
+        changed.wait_for (lock, 1s, [this] { return ends; });
     }
 }
 

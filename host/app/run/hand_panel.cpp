@@ -77,19 +77,16 @@ HandPanel::HandPanel (Playback& p, Sound& s) : playback (p), sound (s), play (st
     source.setSelectedId (as_described, juce::dontSendNotification);
     source.setTooltip ("What moves the tool. The device of the graph is the one bound in the Devices panel, or else the one described in the graph. "
                        "Drop a recording (CSV with t,x,y,z) here to play it.");
-    source.onChange = [this]
-    { choose(); };
+    source.onChange = [this] { choose(); };
 
-    play->onClick = [this]
-    {
+    play->onClick = [this] {
         if (transport != nullptr) transport->play (play->getToggleState());
     };
     position.setSliderStyle (juce::Slider::LinearBar);
     position.setNumDecimalPlacesToDisplay (2);
     position.setTextValueSuffix (" s");
     position.setTooltip ("Position in the gesture. Drag to seek.");
-    position.onValueChange = [this]
-    {
+    position.onValueChange = [this] {
         if (transport != nullptr) transport->seek (position.getValue());
     };
     speed.setSliderStyle (juce::Slider::LinearBar);
@@ -100,12 +97,10 @@ HandPanel::HandPanel (Playback& p, Sound& s) : playback (p), sound (s), play (st
     speed.setValue (1.0, juce::dontSendNotification);
     speed.setDoubleClickReturnValue (true, 1.0);
     speed.setTooltip ("Playback speed. Double-click to reset to 1 x.");
-    speed.onValueChange = [this]
-    {
+    speed.onValueChange = [this] {
         if (transport != nullptr) transport->setSpeed (speed.getValue());
     };
-    listen->onClick = [this]
-    {
+    listen->onClick = [this] {
         if (sound.isOn())
             sound.stop();
         else if (const auto started = sound.start(); ! started && onHint)

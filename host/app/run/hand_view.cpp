@@ -39,8 +39,7 @@ juce::Point<float> HandView::toPixels (const Vec3& p) const
 {
     const auto area = surface();
     const float scale = area.getWidth() / static_cast<float> (2.0 * half_width_m);
-    const auto near = [] (double m)
-    { return static_cast<float> (std::clamp (m, -100.0, 100.0)); };
+    const auto near = [] (double m) { return static_cast<float> (std::clamp (m, -100.0, 100.0)); };
     return { area.getCentreX() + near (p.x()) * scale, area.getCentreY() - near (p.y()) * scale };
 }
 
@@ -147,8 +146,7 @@ void HandView::paint (juce::Graphics& g)
     const auto at = toPixels (tool->position);
     constexpr float pixels_per_newton = 40.0f;
     constexpr double longest = 100.0;   // N
-    const auto pixels = [&] (double newton)
-    { return static_cast<float> (std::clamp (newton, -longest, longest)) * pixels_per_newton; };
+    const auto pixels = [&] (double newton) { return static_cast<float> (std::clamp (newton, -longest, longest)) * pixels_per_newton; };
     const juce::Point<float> push { pixels (tool->force.x()), -pixels (tool->force.y()) };
     g.setColour (theme.of (Quantity::force));
     if (push.getDistanceFromOrigin() > 2.0f) g.drawArrow ({ at, at + push }, 2.5f, 9.0f, 9.0f);
@@ -165,8 +163,10 @@ void HandView::paintHeight (juce::Graphics& g) const
     const auto bar = getLocalBounds().toFloat().removeFromRight (56.0f);
     g.setColour (theme.canvas);
     g.fillRoundedRectangle (bar, 4.0f);
-    const auto heightOf = [&] (double z)
-    { return bar.getCentreY() - static_cast<float> (std::clamp (z / height_range_m, -1.0, 1.0)) * (bar.getHeight() / 2 - 8.0f); };
+    const auto heightOf = [&, reach = bar.getHeight() / 2 - 8.0f] (double z) {
+        const auto part = std::clamp (z / height_range_m, -1.0, 1.0);
+        return bar.getCentreY() - static_cast<float> (part) * reach;
+    };
     g.setColour (theme.dots);
     g.fillRect (bar.withTop (heightOf (0.0)));
     g.setFont (look.font (11.0f));

@@ -21,8 +21,7 @@ void LiveFeed::refresh()
 void LiveFeed::showStates (Live& live)
 {
     std::vector<std::string> ports;
-    const auto watch = [&] (const std::string& port)
-    {
+    const auto watch = [&] (const std::string& port) {
         const auto full_name = canvas.address (port);
         if (ports.size() < most_ports && std::ranges::count (ports, full_name) == 0) ports.push_back (full_name);
         const auto traces = probes.of (full_name);

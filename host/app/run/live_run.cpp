@@ -38,8 +38,7 @@ const Json* descriptionOf (const graph::Graph& g, const std::string& role)
 LiveRun::LiveRun (Document& d, const Catalogue& c, Sound* s) : document (d), catalogue (c), sound (s)
 {
     document.add (*this);
-    probes.onWanted = [this]
-    {
+    probes.onWanted = [this] {
         if (isLive()) takeOver();
     };
     documentChanged();
@@ -57,13 +56,11 @@ void LiveRun::setupChanged()
 {
     if (! wanted || ! isRunning() || setup == nullptr) return;
     const auto& now = setup->session().session;
-    const auto differs = [&] (const auto& role)
-    {
+    const auto differs = [&] (const auto& role) {
         const auto *before = run_session.binding (role.name), *after = now.binding (role.name);
         return before == nullptr || after == nullptr ? before != after : *before != *after;
     };
-    const auto sounds = [] (const DeviceSession& s)
-    { return s.audio() != nullptr ? *s.audio() : Json(); };
+    const auto sounds = [] (const DeviceSession& s) { return s.audio() != nullptr ? *s.audio() : Json(); };
     if (now.clock() != run_session.clock() || sounds (now) != sounds (run_session) || std::ranges::any_of (run->engine().newest().roles(), differs))
         beginAnew (true);
 }
@@ -95,8 +92,7 @@ MadeDevice LiveRun::make (const Json& description, const std::filesystem::path& 
 Run::RoleDevice LiveRun::openBySession (const std::string& role, const Plan& plan, Messages& messages)
 {
     const auto& session = setup->session();
-    const auto openOne = [&] (const Json& description, const std::filesystem::path& folder)
-    { return make (description, folder, role, plan); };
+    const auto openOne = [&] (const Json& description, const std::filesystem::path& folder) { return make (description, folder, role, plan); };
     const auto binding = bindingOf (session, role);
     auto bound = openBound (session, role, *binding, openOne, setup->system(), setup->profiles(), Absence::waits);
     std::ranges::move (bound.messages, std::back_inserter (messages));
@@ -155,8 +151,10 @@ ClockChoice LiveRun::decideClock (const Plan& plan) const
         else
             described.emplace_back (role.name, Json { { "driver", "sim" } });
     }
-    const auto rateOf = [&] (const Described& d, bool may_wait)
-    { return tickRateOf (d.second, system, profiles, may_wait && setup != nullptr && setup->session().session.binding (d.first) != nullptr); };
+    const auto rateOf = [&] (const Described& d, bool may_wait) {
+        const bool is_bound = setup != nullptr && setup->session().session.binding (d.first) != nullptr;
+        return tickRateOf (d.second, system, profiles, may_wait && is_bound);
+    };
     return chooseClock ({ {}, setup != nullptr ? setup->session().session.clock() : std::string(), {} }, described, rateOf);
 }
 
@@ -268,8 +266,8 @@ std::unique_ptr<Run> LiveRun::makeRun (Run::Queries queries)
 {
     CompileOptions options { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } };
     auto made = std::make_unique<Run> (
-        catalogue, std::move (options), [this] (const std::string& role, const graph::Graph&, const Plan& plan, Messages& messages)
-        { return open (role, plan, messages); },
+        catalogue, std::move (options),
+        [this] (const std::string& role, const graph::Graph&, const Plan& plan, Messages& messages) { return open (role, plan, messages); },
         queries);
     made->add (probes);
     if (rig) made->add (*rig);
@@ -395,8 +393,7 @@ void LiveRun::rearm() noexcept
 bool LiveRun::isStoppedForGood() const
 {
     const auto now = status();
-    return isRunning() && std::ranges::any_of (now->shown(), [] (const RunStatus::Role& r)
-                                               { return Guard::latches (r.stop); });
+    return isRunning() && std::ranges::any_of (now->shown(), [] (const RunStatus::Role& r) { return Guard::latches (r.stop); });
 }
 
 std::optional<RunStatus> LiveRun::status() const { return isLive() ? std::optional (run->live().status()) : std::nullopt; }
@@ -454,8 +451,7 @@ void LiveRun::point (const Vec3& p)
 
 std::optional<LiveRun::Tool> LiveRun::tool() const
 {
-    const auto hasDevice = [this] (const auto& d)
-    { return d.first == hand_role; };
+    const auto hasDevice = [this] (const auto& d) { return d.first == hand_role; };
     if (! isRunning() || std::ranges::none_of (run->devices(), hasDevice)) return std::nullopt;
     const auto values = seen.load();
     return Tool { Vec3 (values.data()), Vec3 (values.data() + 3) };
@@ -463,8 +459,7 @@ std::optional<LiveRun::Tool> LiveRun::tool() const
 
 void LiveRun::after (const Plan& plan, std::uint64_t, bool) noexcept
 {
-    const auto role = std::ranges::find_if (plan.roles(), [this] (const auto& r)
-                                            { return r.name == hand_role; });
+    const auto role = std::ranges::find_if (plan.roles(), [this] (const auto& r) { return r.name == hand_role; });
     if (role == plan.roles().end()) return;
     const auto& device = *role->state;
     const auto &p = device.reading.position, &f = device.applied.force;

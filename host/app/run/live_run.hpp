@@ -99,8 +99,11 @@ public:
     /// The state of the real devices, whether present or awaited; empty while nothing runs.
     const std::vector<DeviceHealth>& health() const noexcept { return watch.health(); }
 
-    const std::string& clockRole() const noexcept { return clock_role; }                                        ///< its device ticks the run; empty: a timer does
-    double rate() const noexcept { return run && run->hasEngine() ? run->rate() : document.graph().rate_hz; }   ///< the run's tick rate, in Hz
+    /// The role whose device ticks the run; empty if a timer does.
+    const std::string& clockRole() const noexcept { return clock_role; }
+
+    /// The run's tick rate, in Hz.
+    double rate() const noexcept { return run && run->hasEngine() ? run->rate() : document.graph().rate_hz; }
 
     /// The largest of the shortest delays from a source to a sink, in ticks; empty if no source is connected to a sink.
     std::optional<std::int64_t> delay() const;

@@ -111,8 +111,7 @@ void OscServer::endCapture()
 /// Notices that an edit or a new run has removed a probed port.
 void OscServer::checkProbes()
 {
-    const bool lost = std::ranges::any_of (components, [&] (const std::string& c)
-                                           { return probed.of (c).empty(); });
+    const bool lost = std::ranges::any_of (components, [&] (const std::string& c) { return probed.of (c).empty(); });
     if (lost || (captures && ! live_run.isCapturing())) control.graphChanged();
 }
 
@@ -133,8 +132,7 @@ void OscServer::sendValues()
     std::vector<double> values (traces.size());
     for (sent = std::max (sent, begin); sent < end; ++sent)
     {
-        std::ranges::transform (traces, values.begin(), [&] (const auto& t)
-                                { return t->at (sent); });
+        std::ranges::transform (traces, values.begin(), [&] (const auto& t) { return t->at (sent); });
         control.values (sent, values);
     }
 }

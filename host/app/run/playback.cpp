@@ -8,8 +8,7 @@ Playback::Playback (Document& document, const Catalogue& c, Sound& sound, Device
     : catalogue (c), before_run (std::move (b)), live_run (document, c, &sound)
 {
     live_run.use (setup);
-    setup.onChange = [this]
-    { live_run.setupChanged(); };
+    setup.onChange = [this] { live_run.setupChanged(); };
 }
 
 void Playback::start (LiveRun::Hand hand)

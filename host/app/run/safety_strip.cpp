@@ -78,11 +78,9 @@ SafetyStrip::SafetyStrip (Playback& p) : playback (p), button (std::make_unique<
 {
     rearm->setButtonText ("REARM");
     rearm->setTooltip ("Lets the forces rise again, slowly. Press it only once it is safe.");
-    rearm->onClick = [this]
-    { playback.current().rearm(); };
+    rearm->onClick = [this] { playback.current().rearm(); };
     addChildComponent (*rearm);
-    button->onClick = [this]
-    { shown.running ? playback.stop() : playback.restart(); };
+    button->onClick = [this] { shown.running ? playback.stop() : playback.restart(); };
     button->setTooltip ("Ramps all forces to zero immediately. Esc does the same. With Shift+Esc, the graph keeps running without forces.");
     addAndMakeVisible (*button);
 }
@@ -165,8 +163,7 @@ void SafetyStrip::paint (juce::Graphics& g)
     g.setColour (theme.hairline);
     g.drawHorizontalLine (getHeight() - 1, 0.0f, static_cast<float> (getWidth()));
 
-    const auto colourFor = [&] (juce::Colour unless_alarmed)
-    { return shown.alarmed ? theme.stop : unless_alarmed; };
+    const auto colourFor = [&] (juce::Colour unless_alarmed) { return shown.alarmed ? theme.stop : unless_alarmed; };
     auto area = getLocalBounds().withTrimmedRight (shown.stopped_for_good ? 2 * button_width : button_width).reduced (16, 0).toFloat();
     const auto calm = shown.running ? theme.of (Quantity::energy) : theme.dim;
     g.setColour (colourFor (shown.warned ? theme.warning : calm));
@@ -174,8 +171,7 @@ void SafetyStrip::paint (juce::Graphics& g)
     area.removeFromLeft (22.0f);
 
     constexpr float gap = 24.0f;
-    const auto add = [&] (const juce::String& text, float least, juce::Colour colour, bool bold = false)
-    {
+    const auto add = [&] (const juce::String& text, float least, juce::Colour colour, bool bold = false) {
         const auto font = look.font (13.0f, bold);
         g.setFont (font);
         g.setColour (colour);

@@ -64,8 +64,7 @@ void Traces::planComes (const Plan& plan)
     for (std::size_t i = 0; i < plan.taps().size(); ++i)
     {
         const auto& tap = plan.taps()[i];
-        if (std::ranges::none_of (wanted, [&] (const std::string& port)
-                                  { return isPartOf (tap.name, port); })) continue;
+        if (std::ranges::none_of (wanted, [&] (const std::string& port) { return isPartOf (tap.name, port); })) continue;
         if (chosen.size() == ProbeRing::most)
         {
             too_many.push_back (tap.name);
@@ -92,11 +91,11 @@ void Traces::planComes (const Plan& plan)
 
 void Traces::collect()
 {
-    ring.drain ([this] (const ProbeRing::Frame& frame)
-                {
+    ring.drain ([this] (const ProbeRing::Frame& frame) {
         if (std::ranges::count (selected, frame.plan) == 0 || frame.size != in_frame.size()) return;
         for (std::size_t i = 0; i < frame.size; ++i)
-            in_frame[i]->add (frame.tick, frame.values[i]); });
+            in_frame[i]->add (frame.tick, frame.values[i]);
+    });
 }
 
 }   // namespace tactus::host

@@ -115,14 +115,12 @@ void EnergyMeter::add (const std::array<double, 3>& p, const std::array<double, 
 
 std::string describe (const EnergyBalance& b)
 {
-    const auto joule = [] (double v)
-    {
+    const auto joule = [] (double v) {
         auto text = withPrefix (v, "J", 2);
         const auto gap = text.find (' ');
         return gap == std::string::npos ? text : text.replace (gap, 1, "\u00a0");   // keeps the number and its unit on one line
     };
-    const auto matters = [&] (double v, double share)
-    { return v > share * b.moved && v > 1e-7; };
+    const auto matters = [&] (double v, double share) { return v > share * b.moved && v > 1e-7; };
     std::string text = b.isPassive() ? "passive" : "active: " + joule (-b.worst - b.stored_first) + " more came out than went in";
     text += (b.isPassive() ? ": work of the hand " : "; work of the hand ") + joule (b.work);
     text += ", " + joule (b.stored) + " stored, " + joule (b.dissipated) + " dissipated";

@@ -55,8 +55,7 @@ void EnergyPlot::show (const Signals& signals)
 void EnergyPlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t)
 {
     Points floor, heat, top;
-    const auto flush = [&]
-    {
+    const auto flush = [&] {
         drawBetween (g, lane, floor, heat, theme().of (Quantity::energy).withAlpha (0.35f));
         drawBetween (g, lane, heat, top, theme().of (Quantity::length).withAlpha (0.55f));
         floor.clear();
@@ -100,8 +99,7 @@ void EnergyPlot::paintOver (juce::Graphics& g)
 
 std::vector<ScopePlot::Action> EnergyPlot::actions()
 {
-    return { { "reset", "Restarts the energy balance from zero", [this] (juce::Component&)
-               { meter.restart(); } } };
+    return { { "reset", "Restarts the energy balance from zero", [this] (juce::Component&) { meter.restart(); } } };
 }
 
 juce::String EnergyPlot::emptyText() const

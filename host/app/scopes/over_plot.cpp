@@ -27,8 +27,7 @@ void OverPlot::show (const Signals& signals)
             piece = {};
     head.reset();
     lanes.clear();
-    const auto tracesOf = [&] (const std::string& port)
-    { return port.empty() ? TraceList {} : signals (port); };
+    const auto tracesOf = [&] (const std::string& port) { return port.empty() ? TraceList {} : signals (port); };
     const auto xs = tracesOf (spec.x), ys = tracesOf (spec.y), states = tracesOf (spec.state);
     if (xs.empty() || ys.empty()) return;
 
@@ -40,8 +39,7 @@ void OverPlot::show (const Signals& signals)
     else
     {
         // The component that moves most. To take over, another must move clearly more, so that the choice does not change at every reversal.
-        const auto travel = [&] (std::size_t i)
-        {
+        const auto travel = [&] (std::size_t i) {
             const auto e = extentOf (*xs[i], static_cast<double> (from), static_cast<double> (end));
             return e.isEmpty() ? 0.0 : e.size();
         };
@@ -76,16 +74,14 @@ void OverPlot::draw (const Trace& x, const Trace& y, const Trace* state, std::ui
     const auto first = std::max ({ from, x.begin(), y.begin() });
     std::vector<double> heights;
     heights.reserve (static_cast<std::size_t> (to > first ? to - first : 0));
-    y.each (first, to, [&] (std::uint64_t, double v)
-            { heights.push_back (v); });
+    y.each (first, to, [&] (std::uint64_t, double v) { heights.push_back (v); });
 
     std::optional<juce::Point<float>> last;
     std::size_t last_age = 0;
     float column = 0.0f;
     std::array<juce::Range<float>, parts> spans;
     std::array<bool, parts> is_spanned {};
-    const auto flush = [&]
-    {
+    const auto flush = [&] {
         for (std::size_t part = 0; part < parts; ++part)
             if (is_spanned[part])
             {
@@ -94,8 +90,7 @@ void OverPlot::draw (const Trace& x, const Trace& y, const Trace* state, std::ui
             }
         is_spanned = {};
     };
-    x.each (first, to, [&] (std::uint64_t tick, double v)
-            {
+    x.each (first, to, [&] (std::uint64_t tick, double v) {
         const double height = heights[static_cast<std::size_t> (tick - first)];
         if (! isPlottable (v) || ! isPlottable (height))
         {
@@ -120,7 +115,8 @@ void OverPlot::draw (const Trace& x, const Trace& y, const Trace* state, std::ui
         }
         const auto moved = juce::Range<float>::between (before.y, p.y);
         spans[part] = is_spanned[part] ? spans[part].getUnionWith (moved) : moved;
-        is_spanned[part] = true; });
+        is_spanned[part] = true;
+    });
     flush();
     head = last;
 }
@@ -181,8 +177,7 @@ std::vector<ScopePlot::Action> OverPlot::actions()
 {
     static constexpr const char* names[] = { "x", "y", "z" };
     const auto along = spec.component < 0 ? "along " + juce::String (names[component % 3]) + " (auto)" : "along " + juce::String (names[spec.component % 3]);
-    const auto next = [this] (juce::Component&)
-    {
+    const auto next = [this] (juce::Component&) {
         spec.component = spec.component >= 2 ? -1 : spec.component + 1;
         spec.zoomed.clear();
         if (context.onChange) context.onChange();

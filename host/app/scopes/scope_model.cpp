@@ -11,8 +11,7 @@ bool holdsProbes (const ScopeSpec& s) { return s.kind == ScopeKind::time || s.ki
 
 bool ScopeModel::shows (const std::string& port) const
 {
-    return std::ranges::any_of (scopes, [&] (const auto& s)
-                                { return holdsProbes (*s) && std::ranges::count (s->ports, port) > 0; });
+    return std::ranges::any_of (scopes, [&] (const auto& s) { return holdsProbes (*s) && std::ranges::count (s->ports, port) > 0; });
 }
 
 bool ScopeModel::probe (const std::string& port)

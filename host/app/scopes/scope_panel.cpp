@@ -12,8 +12,7 @@ ScopePanel::ScopePanel (Document& d, Traces& t, const Catalogue& c) : document (
     {
         auto& b = *adders.emplace_back (std::make_unique<FlatButton> ("+ " + titleOf (kind)));
         b.setTooltip ("Adds a scope");
-        b.onClick = [this, kind]
-        {
+        b.onClick = [this, kind] {
             if (model.scopes.size() < most_scopes)
                 add (kind);
             else if (onHint)
@@ -22,15 +21,12 @@ ScopePanel::ScopePanel (Document& d, Traces& t, const Catalogue& c) : document (
         addAndMakeVisible (b);
     }
     freeze_button.setTooltip ("Freezes all scopes, or lets them continue. The run is not affected. Key: X");
-    freeze_button.onClick = [this]
-    { freezeAll (! isFrozen()); };
+    freeze_button.onClick = [this] { freezeAll (! isFrozen()); };
     addAndMakeVisible (freeze_button);
-    suggestion.onClick = [this]
-    { probe (suggestion.getName().toStdString()); };
+    suggestion.onClick = [this] { probe (suggestion.getName().toStdString()); };
     addChildComponent (suggestion);
 
-    context.onChange = [this]
-    {
+    context.onChange = [this] {
         requestPorts();
         for (auto& v : views)
             v->redraw();
@@ -80,18 +76,14 @@ void ScopePanel::requestPorts()
 
 void ScopePanel::showView (ScopeSpec& s)
 {
-    auto& v = *views.emplace_back (std::make_unique<ScopeView> (s, context, [this] (const std::string& port)
-                                                                { return client.of (port); }));
-    v.onClose = [this, &s]
-    {
-        juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), which = &s]
-                                         {
-            if (safe != nullptr) safe->close (*which); });
+    auto& v = *views.emplace_back (std::make_unique<ScopeView> (s, context, [this] (const std::string& port) { return client.of (port); }));
+    v.onClose = [this, &s] {
+        juce::MessageManager::callAsync ([safe = juce::Component::SafePointer (this), which = &s] {
+            if (safe != nullptr) safe->close (*which);
+        });
     };
-    v.onFreeze = [this]
-    { freeze_button.setToggleState (isFrozen(), juce::dontSendNotification); };
-    v.onSave = [this, &v] (juce::Component& below)
-    { save (v, below); };
+    v.onFreeze = [this] { freeze_button.setToggleState (isFrozen(), juce::dontSendNotification); };
+    v.onSave = [this, &v] (juce::Component& below) { save (v, below); };
     v.addMouseListener (this, true);
     addAndMakeVisible (v);
 }
@@ -130,8 +122,7 @@ bool ScopePanel::probe (const std::string& port)
 
 bool ScopePanel::isFrozen() const
 {
-    return ! views.empty() && std::ranges::all_of (views, [] (const auto& v)
-                                                   { return v->isFrozen(); });
+    return ! views.empty() && std::ranges::all_of (views, [] (const auto& v) { return v->isFrozen(); });
 }
 
 void ScopePanel::freezeAll (bool on)
@@ -168,19 +159,16 @@ void ScopePanel::save (ScopeView& view, juce::Component& below)
     const auto time = juce::Time::getCurrentTime().formatted (" %Y-%m-%d %H-%M-%S");
     const auto name = juce::String (graph.empty() ? "scope" : graph) + " " + titleOf (view.shown().kind).toLowerCase() + time;
     juce::PopupMenu menu;
-    const auto add = [&] (const juce::String& label, const char* extension, auto write)
-    {
+    const auto add = [&] (const juce::String& label, const char* extension, auto write) {
         const auto file = folder.getChildFile (juce::File::createLegalFileName (name + extension));
-        menu.addItem (label, [safe = juce::Component::SafePointer (this), which = juce::Component::SafePointer (&view), file, write]
-                      {
+        menu.addItem (label, [safe = juce::Component::SafePointer (this), which = juce::Component::SafePointer (&view), file, write] {
             if (safe == nullptr || which == nullptr) return;
             file.getParentDirectory().createDirectory();
-            safe->report (write (*which, file.getFullPathName().toStdString()), file); });
+            safe->report (write (*which, file.getFullPathName().toStdString()), file);
+        });
     };
-    add ("Image (PNG)", ".png", [] (ScopeView& v, const std::filesystem::path& p)
-         { return v.saveImage (p); });
-    add ("Data (CSV)", ".csv", [] (ScopeView& v, const std::filesystem::path& p)
-         { return v.saveData (p); });
+    add ("Image (PNG)", ".png", [] (ScopeView& v, const std::filesystem::path& p) { return v.saveImage (p); });
+    add ("Data (CSV)", ".csv", [] (ScopeView& v, const std::filesystem::path& p) { return v.saveData (p); });
     menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (below));
 }
 
@@ -222,8 +210,8 @@ void ScopePanel::resized()
     for (auto& a : adders)
         a->setBounds (row.removeFromLeft (std::min (row.getWidth(), a->wantedWidth())));
 
-    const auto& first = std::ranges::find_if (context.ports, [] (const ScopePort& p)
-                                              { return p.port.role == Role::output && p.port.quantity() == Quantity::force; });
+    const auto& first = std::ranges::find_if (context.ports,
+                                              [] (const ScopePort& p) { return p.port.role == Role::output && p.port.quantity() == Quantity::force; });
     suggestion.setVisible (views.empty() && first != context.ports.end());
     if (suggestion.isVisible())
     {

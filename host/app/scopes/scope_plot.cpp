@@ -55,15 +55,14 @@ Extent ScopePlot::rangeOf (const std::string& unit, const Extent& seen)
 
 ScopePlot::Action ScopePlot::lengthAction (std::vector<double> seconds, const juce::String& about)
 {
-    const auto open = [this, seconds] (juce::Component& below)
-    {
+    const auto open = [this, seconds] (juce::Component& below) {
         juce::PopupMenu menu;
         for (const double s : seconds)
-            menu.addItem (juce::String (withPrefix (s, "s", 1)), true, std::abs (spec.seconds - s) < 1e-6 * s, [safe = juce::Component::SafePointer (this), s]
-                          {
+            menu.addItem (juce::String (withPrefix (s, "s", 1)), true, std::abs (spec.seconds - s) < 1e-6 * s, [safe = juce::Component::SafePointer (this), s] {
                 if (safe == nullptr) return;
                 safe->spec.seconds = s;
-                if (safe->context.onChange) safe->context.onChange(); });
+                if (safe->context.onChange) safe->context.onChange();
+            });
         menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (below));
     };
     return { juce::String::fromUTF8 (withPrefix (spec.seconds, "s", 2).c_str()), about, open };
@@ -112,8 +111,7 @@ void ScopePlot::paintScales (juce::Graphics& g, const Lane& lane) const
     const juce::Rectangle<float> label_area (0.0f, lane.area.getY() - 6.0f, gutter - 6.0f, 14.0f);
     if (lane.shows_y) g.drawText (label, label_area, juce::Justification::centredRight, false);
 
-    const auto vertical = [&] (double at, const juce::String& text, bool strong)
-    {
+    const auto vertical = [&] (double at, const juce::String& text, bool strong) {
         const float x = lane.toPixels (at, lane.y.low).x;
         g.setColour (strong ? theme().dim.withAlpha (0.5f) : theme().dots);
         g.fillRect (x - 0.5f, lane.area.getY(), 1.0f, lane.area.getHeight());
@@ -158,8 +156,7 @@ void ScopePlot::paintCursors (juce::Graphics& g) const
     if (cursors.empty()) return;
     const auto& lane = lanes[cursors[0].lane];
     const auto x_unit = lane.x_unit, unit = lane.unit;
-    const auto text = [] (double v, const std::string& u)
-    { return juce::String::fromUTF8 (withPrefix (v, u).c_str()); };
+    const auto text = [] (double v, const std::string& u) { return juce::String::fromUTF8 (withPrefix (v, u).c_str()); };
     juce::StringArray lines;
     if (cursors.size() < 2)
         lines = { text (cursors[0].x, x_unit) + ", " + text (cursors[0].y, unit) };
@@ -293,8 +290,7 @@ void choosePort (juce::Component& below, const std::vector<ScopePort>& ports, st
         {
             if (ports[i].port.role != role) node.addSeparator();
             role = ports[i].port.role;
-            node.addItem (juce::String (ports[i].port.id), [chosen, port = ports[i].name]
-                          { chosen (port); });
+            node.addItem (juce::String (ports[i].port.id), [chosen, port = ports[i].name] { chosen (port); });
         }
         menu.addSubMenu (juce::String (path), node);
     }

@@ -46,8 +46,7 @@ bool tellsSliding (std::string_view type) { return type.starts_with ("friction."
 
 bool isWired (const graph::Patch& patch, const std::string& node, const std::string& port)
 {
-    return std::ranges::any_of (patch.wires, [&] (const graph::Wire& w)
-                                { return w.to.node == node && w.to.port == port; });
+    return std::ranges::any_of (patch.wires, [&] (const graph::Wire& w) { return w.to.node == node && w.to.port == port; });
 }
 }   // namespace
 
@@ -79,8 +78,7 @@ std::string stateFor (const std::string& port, const std::vector<ScopePort>& por
 
 bool isThere (const std::string& port, const std::vector<ScopePort>& ports)
 {
-    return std::ranges::any_of (ports, [&] (const ScopePort& p)
-                                { return isPartOf (port, p.name) || isPartOf (p.name, port); });
+    return std::ranges::any_of (ports, [&] (const ScopePort& p) { return isPartOf (port, p.name) || isPartOf (p.name, port); });
 }
 
 ScopeSpec suggestedScope (ScopeKind kind, const graph::Graph& g, const Catalogue& c)
@@ -129,19 +127,16 @@ std::vector<ScopeSpec> suggestedScopes (const graph::Graph& g, const Catalogue& 
 
 void follow (ScopeModel& model, const std::vector<ScopePort>& before, const std::vector<ScopePort>& after)
 {
-    const auto idOf = [&] (const std::string& path) -> graph::Id
-    {
+    const auto idOf = [&] (const std::string& path) -> graph::Id {
         const auto at = std::ranges::find (before, path, &ScopePort::path);
         return at == before.end() ? 0 : at->node;
     };
-    const auto moved = [&] (std::string& path)
-    {
+    const auto moved = [&] (std::string& path) {
         if (path.empty() || std::ranges::find (after, path, &ScopePort::path) != after.end()) return;
         if (const auto id = idOf (path))
             if (const auto at = std::ranges::find (after, id, &ScopePort::node); at != after.end()) path = at->path;
     };
-    const auto port = [&] (std::string& name)
-    {
+    const auto port = [&] (std::string& name) {
         const auto dot = name.find ('.');
         if (dot == std::string::npos) return;
         auto path = name.substr (0, dot);

@@ -73,17 +73,14 @@ ScopeView::ScopeView (ScopeSpec& s, ScopeContext& c, Signals from) : spec (s), c
     freeze_button = std::make_unique<FlatButton> ("Freeze this scope", twoBars());
     save_button = std::make_unique<FlatButton> ("Save as image or data", downArrow());
     close_button = std::make_unique<FlatButton> ("Close this scope", cross());
-    freeze_button->onClick = [this]
-    {
+    freeze_button->onClick = [this] {
         freeze (! isFrozen());
         if (onFreeze) onFreeze();
     };
-    save_button->onClick = [this]
-    {
+    save_button->onClick = [this] {
         if (onSave) onSave (*save_button);
     };
-    close_button->onClick = [this]
-    {
+    close_button->onClick = [this] {
         if (onClose) onClose();
     };
     for (auto* b : { freeze_button.get(), save_button.get(), close_button.get() })
@@ -116,8 +113,7 @@ void ScopeView::freeze (bool on)
 
 void ScopeView::redraw()
 {
-    drawing->show ([this] (const std::string& port)
-                   { return of (port); });
+    drawing->show ([this] (const std::string& port) { return of (port); });
 }
 
 void ScopeView::refresh()
@@ -149,11 +145,10 @@ void ScopeView::add (Chip c)
     chip.is_wrong = is_gone;
     chip.setTooltip (c.about);
     // Asynchronous, because the action may delete the chip.
-    (c.is_removable ? chip.onCross : chip.onClick) = [safe = juce::Component::SafePointer (this), act = std::move (c.onClick)]
-    {
-        juce::MessageManager::callAsync ([safe, act]
-                                         {
-            if (safe != nullptr) act(); });
+    (c.is_removable ? chip.onCross : chip.onClick) = [safe = juce::Component::SafePointer (this), act = std::move (c.onClick)] {
+        juce::MessageManager::callAsync ([safe, act] {
+            if (safe != nullptr) act();
+        });
     };
     addAndMakeVisible (chip);
 }
@@ -165,14 +160,14 @@ void ScopeView::changed()
 
 void ScopeView::choosePortFor (std::string ScopeSpec::*field)
 {
-    choosePort (*drawing, context.ports, [safe = juce::Component::SafePointer (this), field] (const std::string& port)
-                {
+    choosePort (*drawing, context.ports, [safe = juce::Component::SafePointer (this), field] (const std::string& port) {
         if (safe == nullptr) return;
         auto& s = safe->spec;
         s.*field = port;
         if (field == &ScopeSpec::y) s.state = stateFor (port, safe->context.ports);
         s.zoomed.clear();
-        safe->changed(); });
+        safe->changed();
+    });
 }
 
 void ScopeView::rebuildHeader()
@@ -183,8 +178,7 @@ void ScopeView::rebuildHeader()
     {
         auto& b = *links.emplace_back (std::make_unique<FlatButton> (a.text));
         b.setTooltip (a.about);
-        b.onClick = [&b, click = a.onClick]
-        { click (b); };
+        b.onClick = [&b, click = a.onClick] { click (b); };
         addAndMakeVisible (b);
     }
     switch (spec.kind)
@@ -214,20 +208,18 @@ void ScopeView::addTraceChips()
         const auto traces = of (port);
         const auto nth = traces.empty() ? 0 : ports_of_unit[traces.front()->unit()]++;
         const auto dot = traces.empty() ? theme.dim : traceColour (theme, traces.front()->quantity(), nth, 0);
-        const auto remove = [this, port]
-        {
+        const auto remove = [this, port] {
             std::erase (spec.ports, port);
             changed();
         };
         add ({ port, port, dot, remove, "Click the cross to remove this port", true });
     }
-    const auto addPort = [this]
-    {
-        choosePort (*drawing, context.ports, [safe = juce::Component::SafePointer (this)] (const std::string& port)
-                    {
+    const auto addPort = [this] {
+        choosePort (*drawing, context.ports, [safe = juce::Component::SafePointer (this)] (const std::string& port) {
             if (safe == nullptr || std::ranges::count (safe->spec.ports, port) > 0) return;
             safe->spec.ports.push_back (port);
-            safe->changed(); });
+            safe->changed();
+        });
     };
     add ({ .text = "+", .onClick = addPort, .about = "Add a port" });
 }
@@ -237,10 +229,8 @@ void ScopeView::addAxisChips()
     const bool is_energy = spec.kind == ScopeKind::energy;
     if (is_energy && spec.x.empty()) return;
     const auto& theme = themeOf (*this);
-    const auto chooseY = [this]
-    { choosePortFor (&ScopeSpec::y); };
-    const auto chooseX = [this]
-    { choosePortFor (&ScopeSpec::x); };
+    const auto chooseY = [this] { choosePortFor (&ScopeSpec::y); };
+    const auto chooseX = [this] { choosePortFor (&ScopeSpec::x); };
     if (is_energy)
     {
         add ({ spec.y, spec.y, theme.of (Quantity::force), chooseY, "Force on the tool, for the work of the hand; click to change" });
@@ -254,16 +244,15 @@ void ScopeView::addAxisChips()
 void ScopeView::addNodeChip()
 {
     if (spec.node.empty()) return;
-    const auto choose = [this]
-    {
+    const auto choose = [this] {
         juce::PopupMenu menu;
         for (const auto& p : context.ports)
             if (p.port.role == Role::output && p.port.id == "deflection" && p.type.starts_with ("friction."))
-                menu.addItem (juce::String (p.path), [safe = juce::Component::SafePointer (this), path = p.path]
-                              {
+                menu.addItem (juce::String (p.path), [safe = juce::Component::SafePointer (this), path = p.path] {
                     if (safe == nullptr) return;
                     safe->spec.node = path;
-                    safe->changed(); });
+                    safe->changed();
+                });
         menu.showMenuAsync (juce::PopupMenu::Options().withTargetComponent (*drawing));
     };
     const auto port = spec.node + ".deflection";

@@ -78,8 +78,7 @@ void SpectrumPlot::scale (Lane& lane, std::size_t index, double rate)
 
 std::vector<ScopePlot::Action> SpectrumPlot::actions()
 {
-    const auto toggle = [this] (juce::Component&)
-    {
+    const auto toggle = [this] (juce::Component&) {
         spec.in_decibels = ! spec.in_decibels;
         refreshes = 0;
         if (context.onChange) context.onChange();
@@ -125,8 +124,7 @@ void SpectrumPlot::paintLane (juce::Graphics& g, const Lane&, std::size_t index)
 void SpectrumPlot::paintOver (juce::Graphics& g)
 {
     const auto& area = lanes.front().area;
-    const auto text = [] (double v, const std::string& unit)
-    { return juce::String::fromUTF8 (withPrefix (v, unit).c_str()); };
+    const auto text = [] (double v, const std::string& unit) { return juce::String::fromUTF8 (withPrefix (v, unit).c_str()); };
     if (spec.cursors.empty() && highest)
     {
         const auto corner = area.withTop (area.getBottom() - 48.0f).withWidth (std::min (132.0f, area.getWidth()));

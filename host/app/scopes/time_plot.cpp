@@ -78,8 +78,7 @@ void TimePlot::show (const Signals& signals)
 
 std::vector<ScopePlot::Action> TimePlot::actions()
 {
-    const auto next = [this] (juce::Component&)
-    {
+    const auto next = [this] (juce::Component&) {
         auto& edge = spec.trigger.edge;
         if (edge == Edge::off && ! lanes.empty()) spec.trigger.level = 0.5 * (lanes.front().y.low + lanes.front().y.high);
         edge = nextOf (edge);

@@ -25,8 +25,7 @@ std::optional<ToolPicture> toolPicture (const std::string& node, const Signals& 
         }
     if (end <= begin) return std::nullopt;
     const auto tick = end - 1;
-    const auto vector = [tick] (const TraceList& l)
-    { return Vec3 (l[0]->at (tick), l[1]->at (tick), l[2]->at (tick)); };
+    const auto vector = [tick] (const TraceList& l) { return Vec3 (l[0]->at (tick), l[1]->at (tick), l[2]->at (tick)); };
 
     ToolPicture p { vector (position), vector (deflection), vector (force) };
     const double s = state[0]->at (tick);

@@ -71,12 +71,10 @@ void ToolPlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t)
 {
     const auto& p = *now;
     const PlaneView plane (p.normal);
-    const auto pixel = [&] (const Vec3& v)
-    { return lane.toPixels (v.dot (plane.right), v.dot (plane.up)); };
+    const auto pixel = [&] (const Vec3& v) { return lane.toPixels (v.dot (plane.right), v.dot (plane.up)); };
     const float per_metre = lane.area.getHeight() / static_cast<float> (lane.y.size());
 
-    const auto trail = [&] (const std::deque<Vec3>& points, juce::Colour colour, float thickness)
-    {
+    const auto trail = [&] (const std::deque<Vec3>& points, juce::Colour colour, float thickness) {
         for (std::size_t i = 1; i < points.size(); ++i)
         {
             if (! isFinite (points[i]) || ! isFinite (points[i - 1])) continue;
@@ -90,8 +88,7 @@ void ToolPlot::paintLane (juce::Graphics& g, const Lane& lane, std::size_t)
     const auto tool = pixel (p.tool), anchor = pixel (p.anchor());
     if (p.touches())
     {
-        const auto circle = [&] (double radius)
-        {
+        const auto circle = [&] (double radius) {
             const float size = 2.0f * per_metre * static_cast<float> (radius);
             return juce::Rectangle<float> (size, size).withCentre (anchor);
         };
@@ -135,8 +132,7 @@ void ToolPlot::paintOver (juce::Graphics& g)
     auto area = getLocalBounds().toFloat().reduced (8.0f, 6.0f);
     auto line = area.removeFromTop (16.0f);
     g.setFont (look.font (12.0f, true));
-    const auto draw = [&] (const char* state, juce::Colour colour)
-    {
+    const auto draw = [&] (const char* state, juce::Colour colour) {
         g.setColour (colour);
         g.drawText (state, line, juce::Justification::centredLeft, true);
     };
@@ -149,8 +145,7 @@ void ToolPlot::paintOver (juce::Graphics& g)
     else
         draw ("sliding: the anchor is dragged", theme().of (Quantity::force));
 
-    const auto text = [] (double v, const char* unit)
-    { return juce::String::fromUTF8 (withPrefix (v, unit).c_str()); };
+    const auto text = [] (double v, const char* unit) { return juce::String::fromUTF8 (withPrefix (v, unit).c_str()); };
     if (p.touches())
     {
         const Entry deflection { theme().of (Quantity::length), "z " + text (p.deflection.norm(), "m") };

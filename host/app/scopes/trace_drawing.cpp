@@ -12,8 +12,10 @@ constexpr float thickness = 1.5f;
 void drawTrace (juce::Graphics& g, const Lane& lane, const TraceColumns& columns, double tick_of_zero, double rate_hz, juce::Colour colour)
 {
     g.setColour (colour);
-    const auto x = [&] (std::size_t i)
-    { return lane.toPixels ((columns.first + (static_cast<double> (i)) * columns.ticks_each - tick_of_zero) / rate_hz, lane.y.low).x; };
+    const auto x = [&] (std::size_t i) {
+        const double tick = columns.first + static_cast<double> (i) * columns.ticks_each - tick_of_zero;
+        return lane.toPixels (tick / rate_hz, lane.y.low).x;
+    };
     if (columns.ticks_each <= 1.0)
     {
         juce::Path path;

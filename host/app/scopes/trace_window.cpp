@@ -18,19 +18,19 @@ TraceColumns columnsOf (const Trace& trace, double from, double to, std::size_t 
     const double first = std::floor (from / columns.ticks_each);
     columns.first = first * columns.ticks_each;
     columns.all.resize (static_cast<std::size_t> (std::max (0.0, std::ceil (to / columns.ticks_each) - first)));
-    trace.each (tickAtOrAfter (from), tickAtOrAfter (to), [&] (std::uint64_t tick, double v)
-                {
+    trace.each (tickAtOrAfter (from), tickAtOrAfter (to), [&] (std::uint64_t tick, double v) {
         const auto i = static_cast<std::size_t> (std::max (0.0, std::floor (static_cast<double> (tick) / columns.ticks_each) - first));
-        if (isPlottable (v) && i < columns.all.size()) columns.all[i].extent.include (v); });
+        if (isPlottable (v) && i < columns.all.size()) columns.all[i].extent.include (v);
+    });
     return columns;
 }
 
 Extent extentOf (const Trace& trace, double from, double to)
 {
     Extent extent;
-    trace.each (tickAtOrAfter (from), tickAtOrAfter (to), [&] (std::uint64_t, double v)
-                {
-        if (isPlottable (v)) extent.include (v); });
+    trace.each (tickAtOrAfter (from), tickAtOrAfter (to), [&] (std::uint64_t, double v) {
+        if (isPlottable (v)) extent.include (v);
+    });
     return extent;
 }
 
@@ -40,8 +40,7 @@ std::optional<std::uint64_t> latestCrossing (const Trace& trace, const ScopeTrig
     const double sign = trigger.edge == ScopeTrigger::Edge::rising ? 1.0 : -1.0;
     std::optional<std::uint64_t> found;
     bool armed = false;
-    trace.each (trace.begin(), before, [&] (std::uint64_t tick, double v)
-                {
+    trace.each (trace.begin(), before, [&] (std::uint64_t tick, double v) {
         const double beyond = sign * (v - trigger.level);
         if (! (beyond < 0.0 || beyond >= 0.0))
             armed = false;
@@ -51,7 +50,8 @@ std::optional<std::uint64_t> latestCrossing (const Trace& trace, const ScopeTrig
         {
             found = tick;
             armed = false;
-        } });
+        }
+    });
     return found;
 }
 

@@ -36,8 +36,7 @@ std::string textAt (const Json& object, const char* key)
 
 std::string howLongAgo (double seconds)
 {
-    const auto count = [] (double n, const char* unit)
-    { return std::to_string (static_cast<long long> (std::max (0.0, std::floor (n)))) + ' ' + unit; };
+    const auto count = [] (double n, const char* unit) { return std::to_string (static_cast<long long> (std::max (0.0, std::floor (n)))) + ' ' + unit; };
     if (seconds < 120.0) return count (seconds, "s");
     if (seconds < 7200.0) return count (seconds / 60.0, "min");
     if (seconds < 172800.0) return count (seconds / 3600.0, "hours");
@@ -84,8 +83,7 @@ RestoredGraph restore (const AutosavedDocument& d)
     if (error != read.messages.end()) restored.problem = error->text;
     auto& graph = restored.graph = std::move (read.graph);
     graph.folder = (d.file.empty() ? d.preset : d.file).parent_path().string();
-    const auto include = [&] (const graph::Patch& patch)
-    {
+    const auto include = [&] (const graph::Patch& patch) {
         for (const auto& node : patch.nodes)
         {
             if (! node.type.starts_with ("file:")) continue;
@@ -179,8 +177,7 @@ std::vector<CrashedSession> findCrashedSessions (const fs::path& home)
         else
             all.push_back (std::move (s));
     }
-    std::ranges::sort (all, std::greater {}, [] (const CrashedSession& s)
-                       { return s.document().at_s; });
+    std::ranges::sort (all, std::greater {}, [] (const CrashedSession& s) { return s.document().at_s; });
     return all;
 }
 

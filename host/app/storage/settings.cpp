@@ -82,32 +82,30 @@ ReadSettings readSettings (const std::string& text)
         return read;
     }
     Reader reader (json);
-    reader.take ("theme", &Json::is_string, [&] (const Json& v)
-                 {
+    reader.take ("theme", &Json::is_string, [&] (const Json& v) {
         s.light = v == "light";
-        return v == "light" || v == "dark"; });
-    reader.take ("scale", &Json::is_number, [&] (const Json& v)
-                 {
+        return v == "light" || v == "dark";
+    });
+    reader.take ("scale", &Json::is_number, [&] (const Json& v) {
         const auto scale = v.get<double>();
         const bool fits = scale == 0.0 || (scale >= least_scale && scale <= most_scale);
         if (fits) s.scale = scale;
-        return fits; });
-    reader.take ("welcomed", &Json::is_boolean, [&] (const Json& v)
-                 {
+        return fits;
+    });
+    reader.take ("welcomed", &Json::is_boolean, [&] (const Json& v) {
         s.welcomed = v.get<bool>();
-        return true; });
-    reader.take ("panels", &Json::is_object, [&] (const Json& v)
-                 {
+        return true;
+    });
+    reader.take ("panels", &Json::is_object, [&] (const Json& v) {
         for (const auto& [name, size] : v.items())
         {
             if (! size.is_number_integer() || size.get<int>() < 0 || size.get<int>() > largest_panel) return false;
             s.panels[name] = size.get<int>();
         }
-        return true; });
-    reader.take ("recent", &Json::is_array, [&] (const Json& v)
-                 { return readPaths (v, s.recent); });
-    reader.take ("favourites", &Json::is_array, [&] (const Json& v)
-                 { return readPaths (v, s.favourites); });
+        return true;
+    });
+    reader.take ("recent", &Json::is_array, [&] (const Json& v) { return readPaths (v, s.recent); });
+    reader.take ("favourites", &Json::is_array, [&] (const Json& v) { return readPaths (v, s.favourites); });
     if (s.recent.size() > Settings::most_recent) s.recent.resize (Settings::most_recent);
     if (! reader.wrong.empty()) read.problem = "invalid values for " + reader.wrong;
     s.others = std::move (json);

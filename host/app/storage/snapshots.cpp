@@ -47,12 +47,15 @@ void recall (const graph::Patch& patch, const std::string& name, const Json& nod
     {
         const auto& then = at (nodes, n.name);
         if (at (then, "type") != n.type) continue;
-        if (at (then, "params").is_object())
-            differences (n.params, at (then, "params"), [&] (const std::string& key, std::optional<Json> value, graph::Place place)
-                         { commands.push_back (graph::SetParam { name, n.name, key, std::move (value), place }); });
-        if (at (then, "overrides").is_object())
-            differences (n.overrides, at (then, "overrides"), [&] (const std::string& key, std::optional<Json> value, graph::Place place)
-                         { commands.push_back (graph::SetOverride { name, n.name, key, std::move (value), place }); });
+        const auto restore = [&]<typename Set> (const Json& now, const char* part) {
+            const auto set = [&] (const std::string& key, std::optional<Json> value, graph::Place place) {
+                Set command { name, n.name, key, std::move (value), place };
+                commands.push_back (std::move (command));
+            };
+            if (at (then, part).is_object()) differences (now, at (then, part), set);
+        };
+        restore.template operator()<graph::SetParam> (n.params, "params");
+        restore.template operator()<graph::SetOverride> (n.overrides, "overrides");
     }
 }
 }   // namespace

@@ -111,8 +111,7 @@ graph::Graph exampleOf (const NodeType& type, const Catalogue& catalogue)
     // because that input was wired to a force above.
     const auto motor = b.faceOf ("motor");
     const auto& into = *motor.find (Role::input, "force");
-    const auto isForce = [&] (const FacePort& p, int width)
-    {
+    const auto isForce = [&] (const FacePort& p, int width) {
         const bool follows = p.unit.kind == UnitRule::Kind::same && p.unit.unit.dimension == unit::gain.dimension;
         const auto* of = follows ? face.find (Role::input, std::string (p.unit.a) + (face.find (Role::input, p.unit.a) != nullptr ? "" : "[0]")) : nullptr;
         return p.width == width && (p.quantity() == Quantity::force || (of != nullptr && of->unit.kind != UnitRule::Kind::fixed));

@@ -160,16 +160,13 @@ HelpPanel::HelpPanel (const Catalogue& c) : catalogue (c)
     scroll.setScrollBarThickness (8);
     addAndMakeVisible (scroll);
     example.setFirst (true);
-    example.onClick = [this]
-    {
+    example.onClick = [this] {
         const auto of = shown_type;
         close();
         if (onExample) onExample (of);
     };
-    keys.onClick = [this]
-    { showKeys(); };
-    done.onClick = [this]
-    { close(); };
+    keys.onClick = [this] { showKeys(); };
+    done.onClick = [this] { close(); };
     for (auto* b : { &example, &keys, &done })
         addAndMakeVisible (b);
 }
@@ -190,8 +187,7 @@ void HelpPanel::showNode (const std::string& type)
         made->add (text (node->info.id), TextBlock::Kind::small);
         made->add (text (node->info.summary), TextBlock::Kind::text);
         const auto doc = docOf (node->info.id);
-        const auto source = std::ranges::find_if (doc, [] (const DocPart& p)
-                                                  { return p.text.starts_with ("Source:"); });
+        const auto source = std::ranges::find_if (doc, [] (const DocPart& p) { return p.text.starts_with ("Source:"); });
         addDoc (*made, { doc.begin(), source });
         addPorts (*made, "Inputs", node->inputs);
         addPorts (*made, "Parameters", node->params);

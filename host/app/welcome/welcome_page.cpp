@@ -28,8 +28,7 @@ std::vector<Preset> firstOnes (const std::vector<Preset>& presets, std::size_t m
 {
     constexpr std::array names { "Dry wood", "Soft pad", "Aluminium bar", "Layered cloth", "Notched rail", "Rubber ball" };
     std::vector<Preset> found;
-    const auto take = [&] (const Preset& p)
-    {
+    const auto take = [&] (const Preset& p) {
         if (found.size() < most && p.problem.empty() && p.placeholders.empty() && std::ranges::count (found, p.file, &Preset::file) == 0) found.push_back (p);
     };
     for (const auto* name : names)
@@ -102,12 +101,10 @@ public:
 WelcomePage::WelcomePage (PictureStore& p) : pictures (p)
 {
     setTitle ("Welcome");
-    create.onClick = [this]
-    {
+    create.onClick = [this] {
         if (onNew) onNew();
     };
-    open.onClick = [this]
-    {
+    open.onClick = [this] {
         if (onOpen) onOpen();
     };
     addAndMakeVisible (create);
@@ -123,8 +120,7 @@ void WelcomePage::show (const std::vector<Preset>& presets, const std::vector<st
     for (const auto& p : chosen)
     {
         auto& card = *all.emplace_back (std::make_unique<Card> (p, pictures));
-        card.onClick = [this, file = p.file]
-        {
+        card.onClick = [this, file = p.file] {
             if (onFeel) onFeel (file);
         };
         addAndMakeVisible (card);
@@ -135,8 +131,7 @@ void WelcomePage::show (const std::vector<Preset>& presets, const std::vector<st
     {
         if (files.size() == most_files || ! std::filesystem::is_regular_file (file, failed)) continue;
         auto& f = *files.emplace_back (std::make_unique<RecentFile> (file));
-        f.onClick = [this, file]
-        {
+        f.onClick = [this, file] {
             if (onOpenFile) onOpenFile (file);
         };
         addAndMakeVisible (f);

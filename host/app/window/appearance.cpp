@@ -13,8 +13,7 @@ void colourDialogs (Look& look)
     using Browser = juce::FileBrowserComponent;
     using Files = juce::DirectoryContentsDisplayComponent;
     const auto& theme = look.theme();
-    const auto set = [&look] (std::initializer_list<int> ids, juce::Colour colour)
-    {
+    const auto set = [&look] (std::initializer_list<int> ids, juce::Colour colour) {
         for (const int id : ids)
             look.setColour (id, colour);
     };

@@ -13,8 +13,7 @@ namespace tactus::host
 namespace fs = std::filesystem;
 
 Files::Files (Document& d, Question& q, Settings& s, Callbacks c)
-    : clock ([]
-             { return static_cast<double> (juce::Time::currentTimeMillis()) / 1000.0; }),
+    : clock ([] { return static_cast<double> (juce::Time::currentTimeMillis()) / 1000.0; }),
       document (d), question (q), settings (s), callbacks (std::move (c))
 {
     document.add (*this);
@@ -43,8 +42,7 @@ void Files::whenSaved (const juce::String& why, std::function<void()> act)
     const auto text = document.file().empty() ? juce::String ("The graph has no file yet. You will be asked where to save it.")
                                               : "Saving overwrites " + juce::String (document.file().string()) + ".";
     question.ask ("Save changes to '" + juce::String (name()) + "' " + why + "?", text,
-                  { { "Save", [this, act]
-                      { save (act); } },
+                  { { "Save", [this, act] { save (act); } },
                     { "Don't save", act },
                     { "Cancel", {} } });
 }
@@ -59,16 +57,15 @@ void Files::show (graph::Graph g, Document::Source source, const std::string& st
 
 void Files::create()
 {
-    whenSaved ("before creating a new graph", [this]
-               {
+    whenSaved ("before creating a new graph", [this] {
         show ({}, {}, "new graph", false, false);
-        callbacks.notify ("New graph. Press Space or double-click the canvas to add a node."); });
+        callbacks.notify ("New graph. Press Space or double-click the canvas to add a node.");
+    });
 }
 
 void Files::openGraph (graph::Graph g, const std::string& step)
 {
-    whenSaved ("before opening another graph", [this, g = std::move (g), step]
-               { show (g, {}, step, true, false); });
+    whenSaved ("before opening another graph", [this, g = std::move (g), step] { show (g, {}, step, true, false); });
 }
 
 void Files::load (const fs::path& file, Document::Source source, bool by_pointer)
@@ -95,22 +92,19 @@ void Files::open()
     std::error_code failed;
     auto begin = document.file().parent_path();
     if (begin.empty()) begin = fs::is_directory (ownFolder(), failed) ? ownFolder() : presetFolder();
-    callbacks.choose (false, begin, [this] (const fs::path& file)
-                      { open (file); });
+    callbacks.choose (false, begin, [this] (const fs::path& file) { open (file); });
 }
 
 void Files::open (const fs::path& file)
 {
     std::error_code failed;
     const auto whole = fs::absolute (file, failed);
-    whenSaved ("before opening another graph", [this, whole]
-               { load (whole, { .file = whole }, false); });
+    whenSaved ("before opening another graph", [this, whole] { load (whole, { .file = whole }, false); });
 }
 
 void Files::openCopy (const fs::path& preset, bool by_pointer)
 {
-    whenSaved ("before opening another graph", [this, preset, by_pointer]
-               { load (preset, { .preset = preset }, by_pointer); });
+    whenSaved ("before opening another graph", [this, preset, by_pointer] { load (preset, { .preset = preset }, by_pointer); });
 }
 
 //==============================================================================
@@ -131,11 +125,11 @@ void Files::saveAs (std::function<void()> then)
         fs::create_directories (folder, failed);
     }
     const auto begin = document.file().empty() ? folder / (called.toStdString() + ".json") : document.file();
-    callbacks.choose (true, begin, [this, then = std::move (then)] (const fs::path& chosen)
-                      {
+    callbacks.choose (true, begin, [this, then = std::move (then)] (const fs::path& chosen) {
         auto file = chosen;
         if (file.extension() != ".json") file += ".json";
-        saveTo (file, then); });
+        saveTo (file, then);
+    });
 }
 
 void Files::saveTo (const fs::path& file, const std::function<void()>& then)
@@ -170,22 +164,18 @@ void Files::askAboutNext()
 {
     if (crashed.empty()) return;
     const auto q = questionAbout (crashed.front(), clock());
-    const auto forget = [this]
-    {
+    const auto forget = [this] {
         crashed.front().discard();
         crashed.erase (crashed.begin());
         askAboutNext();
     };
-    const auto later = [this]
-    { crashed.clear(); };   // the next start asks again
+    const auto later = [this] { crashed.clear(); };   // the next start asks again
     std::vector<Question::Choice> choices;
     if (q.can_recover)
     {
-        choices.push_back ({ "Recover without running", [this]
-                             { restoreNext (false); } });
+        choices.push_back ({ "Recover without running", [this] { restoreNext (false); } });
         if (! safe)
-            choices.insert (q.safe_first ? choices.end() : choices.begin(), { "Recover", [this]
-                                                                              { restoreNext (true); } });
+            choices.insert (q.safe_first ? choices.end() : choices.begin(), { "Recover", [this] { restoreNext (true); } });
     }
     choices.push_back ({ "Discard", forget });
     choices.push_back ({ "Later", later });

@@ -17,8 +17,7 @@ constexpr int least_canvas = 240;   // pixels, each way
 
 MainView::MainView (const Catalogue& c)
     : catalogue (c), pictures (c), files (edited, question, settings, fileCallbacks()),
-      playback (edited, c, sound, device_setup, [this]
-                { files.beforeRun(); }),
+      playback (edited, c, sound, device_setup, [this] { files.beforeRun(); }),
       patching (edited, c), inspector (edited, c), live (patching, playback.run()),
       presets (left.add<PresetBrowser> ("Presets", c, settings, pictures)),
       scopes (bottom.add<ScopePanel> ("Scopes", edited, playback.run().traces(), c)),
@@ -29,8 +28,8 @@ MainView::MainView (const Catalogue& c)
 {
     left.add<HistoryPanel> ("History", edited);
     setWantsKeyboardFocus (true);
-    chooseFile = [this] (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)> chosen)
-    { askForFile (saves, begin, std::move (chosen)); };
+    chooseFile = [this] (bool saves, const std::filesystem::path& begin,
+                         std::function<void (const std::filesystem::path&)> chosen) { askForFile (saves, begin, std::move (chosen)); };
     connectPresets();
     connectCanvas();
     connectTopBar();
@@ -56,8 +55,7 @@ void MainView::addPanels()
         addAndMakeVisible (c);
     for (auto* edge : { &left_edge, &right_edge, &bottom_edge })
     {
-        edge->onMove = [this]
-        {
+        edge->onMove = [this] {
             settings.panels = { { "left", left_edge.size() }, { "right", right_edge.size() }, { "bottom", bottom_edge.size() } };
             saveSettingsSoon();
             resized();
@@ -121,11 +119,11 @@ void MainView::open (const std::filesystem::path& file)
 
 void MainView::closeWhenSaved (std::function<void()> close)
 {
-    files.whenSaved ("before closing Tactus", [this, close = std::move (close)]
-                     {
+    files.whenSaved ("before closing Tactus", [this, close = std::move (close)] {
         run().letGo();
         files.end();
-        close(); });
+        close();
+    });
 }
 
 void MainView::closeSuddenly()

@@ -101,8 +101,7 @@ void MainView::endPreview()
 
 bool MainView::fileKey (const juce::KeyPress& key)
 {
-    const auto is = [&] (const char* description)
-    { return key == juce::KeyPress::createFromDescription (description); };
+    const auto is = [&] (const char* description) { return key == juce::KeyPress::createFromDescription (description); };
     if (is ("ctrl + n"))
         files.create();
     else if (is ("ctrl + o"))
@@ -148,8 +147,7 @@ void MainView::store (int number)
 
 void MainView::openMenu (juce::Component& at)
 {
-    const auto item = [this] (const juce::String& text, const juce::String& keys, std::function<void()> act, bool is_ticked = false)
-    {
+    const auto item = [this] (const juce::String& text, const juce::String& keys, std::function<void()> act, bool is_ticked = false) {
         juce::PopupMenu::Item i (text);
         i.shortcutKeyDescription = keys;
         i.isTicked = is_ticked;
@@ -161,13 +159,10 @@ void MainView::openMenu (juce::Component& at)
     };
     juce::PopupMenu menu, recent, size;
     for (const auto& file : settings.recent)
-        recent.addItem (item (file.filename().string(), file.parent_path().string(), [this, file]
-                              { files.open (file); }));
-    const auto addSize = [&] (const juce::String& name, double scale)
-    {
+        recent.addItem (item (file.filename().string(), file.parent_path().string(), [this, file] { files.open (file); }));
+    const auto addSize = [&] (const juce::String& name, double scale) {
         size.addItem (item (
-            name, {}, [this, scale]
-            {
+            name, {}, [this, scale] {
             settings.scale = scale;
             applyScale (scale);
             saveSettingsSoon(); },
@@ -177,29 +172,22 @@ void MainView::openMenu (juce::Component& at)
     for (const double scale : scales)
         addSize (juce::String (juce::roundToInt (100.0 * scale)) + " %", scale);
 
-    menu.addItem (item ("New", "Ctrl+N", [this]
-                        { files.create(); }));
-    menu.addItem (item ("Open ...", "Ctrl+O", [this]
-                        { files.open(); }));
+    menu.addItem (item ("New", "Ctrl+N", [this] { files.create(); }));
+    menu.addItem (item ("Open ...", "Ctrl+O", [this] { files.open(); }));
     menu.addSubMenu ("Open recent", recent, ! settings.recent.empty());
-    menu.addItem (item ("Save", "Ctrl+S", [this]
-                        { files.save(); }));
-    menu.addItem (item ("Save as ...", "Ctrl+Shift+S", [this]
-                        { files.saveAs(); }));
+    menu.addItem (item ("Save", "Ctrl+S", [this] { files.save(); }));
+    menu.addItem (item ("Save as ...", "Ctrl+Shift+S", [this] { files.saveAs(); }));
     menu.addSeparator();
     menu.addItem (item (
-        "Light theme", {}, [this]
-        {
+        "Light theme", {}, [this] {
         settings.light = light = ! light;
         applyTheme (*getTopLevelComponent(), light ? Theme::light() : Theme::dark());
         saveSettingsSoon(); },
         light));
     menu.addSubMenu ("Interface scale", size);
     menu.addSeparator();
-    menu.addItem (item ("Help on selected node", "F1", [this]
-                        { helpOnSelection(); }));
-    menu.addItem (item ("Keyboard shortcuts", {}, [this]
-                        { help.showKeys(); }));
+    menu.addItem (item ("Help on selected node", "F1", [this] { helpOnSelection(); }));
+    menu.addItem (item ("Keyboard shortcuts", {}, [this] { help.showKeys(); }));
     menu.showMenuAsync (juce::PopupMenu::Options().withParentComponent (this).withTargetComponent (at).withMinimumWidth (240).withStandardItemHeight (28));
 }
 
@@ -208,10 +196,10 @@ void MainView::askForFile (bool saves, const std::filesystem::path& begin, std::
     chooser = std::make_unique<juce::FileChooser> (saves ? "Save graph" : "Open graph", juce::File (begin.string()), "*.json");
     using Choice = juce::FileBrowserComponent;
     const int how = saves ? Choice::saveMode | Choice::canSelectFiles | Choice::warnAboutOverwriting : Choice::openMode | Choice::canSelectFiles;
-    chooser->launchAsync (how, [this, chosen = std::move (chosen)] (const juce::FileChooser& c)
-                          {
+    chooser->launchAsync (how, [this, chosen = std::move (chosen)] (const juce::FileChooser& c) {
         takeFocus (patching);
-        if (const auto file = c.getResult(); file != juce::File()) chosen (file.getFullPathName().toStdString()); });
+        if (const auto file = c.getResult(); file != juce::File()) chosen (file.getFullPathName().toStdString());
+    });
 }
 
 void MainView::saveSettingsSoon()

@@ -10,101 +10,73 @@ namespace tactus::host
 Files::Callbacks MainView::fileCallbacks()
 {
     return {
-        .notify = [this] (const juce::String& text)
-        { status.notify (text); },
-        .stop = [this]
-        { run().stop(); },
-        .run = [this] (bool by_pointer)
-        { playback.start (by_pointer && ! hasBoundRole() ? LiveRun::Hand::pointer() : LiveRun::Hand {}); },
-        .isRunning = [this]
-        { return playback.current().isRunning(); },
-        .onSettings = [this]
-        {
+        .notify = [this] (const juce::String& text) { status.notify (text); },
+        .stop = [this] { run().stop(); },
+        .run = [this] (bool by_pointer) { playback.start (by_pointer && ! hasBoundRole() ? LiveRun::Hand::pointer() : LiveRun::Hand {}); },
+        .isRunning = [this] { return playback.current().isRunning(); },
+        .onSettings = [this] {
             saveSettingsSoon();
             presets.reload(); },
-        .choose = [this] (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)> chosen)
-        { chooseFile (saves, begin, std::move (chosen)); }
+        .choose = [this] (bool saves, const std::filesystem::path& begin,
+                          std::function<void (const std::filesystem::path&)> chosen) { chooseFile (saves, begin, std::move (chosen)); }
     };
 }
 
 bool MainView::hasBoundRole() const
 {
     const auto& session = device_setup.session().session;
-    return std::ranges::any_of (rolesNamed (edited.graph()), [&] (const std::string& role)
-                                { return session.binding (role) != nullptr; });
+    return std::ranges::any_of (rolesNamed (edited.graph()), [&] (const std::string& role) { return session.binding (role) != nullptr; });
 }
 
 void MainView::connectPresets()
 {
-    presets.onOpen = [this] (const Preset& p, bool is_own)
-    { is_own ? files.open (p.file) : files.openCopy (p.file, false); };
-    presets.onSettings = [this]
-    { saveSettingsSoon(); };
-    presets.onPreview = [this] (const std::filesystem::path& file)
-    { preview (file); };
-    presets.onPreviewEnd = [this]
-    { endPreview(); };
+    presets.onOpen = [this] (const Preset& p, bool is_own) { is_own ? files.open (p.file) : files.openCopy (p.file, false); };
+    presets.onSettings = [this] { saveSettingsSoon(); };
+    presets.onPreview = [this] (const std::filesystem::path& file) { preview (file); };
+    presets.onPreviewEnd = [this] { endPreview(); };
 }
 
 void MainView::connectCanvas()
 {
-    const auto hint = [this] (const juce::String& text)
-    { status.hint (text); };
+    const auto hint = [this] (const juce::String& text) { status.hint (text); };
     patching.onHint = inspector.onHint = hand.onHint = scopes.onHint = layers.onHint = devices.onHint = hint;
-    patching.onNotice = [this] (const juce::String& text)
-    { status.notify (text); };
-    patching.onBreadcrumbs = [this]
-    { documentChanged(); };
-    patching.onSelection = [this]
-    { inspector.inspect (patching.patch(), patching.selection()); };
-    patching.onNodeRequested = [this] (const NodeRequest& request)
-    { openNodePalette (palette, patching, catalogue, request); };
-    patching.onChoose = [this] (const juce::String& purpose, std::vector<PaletteEntry> entries, std::function<void (const std::string&)> chosen)
-    { openPalette (palette, patching, purpose, std::move (entries), std::move (chosen)); };
-    patching.onProbe = [this] (const std::vector<std::string>& ports)
-    {
+    patching.onNotice = [this] (const juce::String& text) { status.notify (text); };
+    patching.onBreadcrumbs = [this] { documentChanged(); };
+    patching.onSelection = [this] { inspector.inspect (patching.patch(), patching.selection()); };
+    patching.onNodeRequested = [this] (const NodeRequest& request) { openNodePalette (palette, patching, catalogue, request); };
+    patching.onChoose = [this] (const juce::String& purpose, auto entries, auto onChosen) {
+        openPalette (palette, patching, purpose, std::move (entries), std::move (onChosen));
+    };
+    patching.onProbe = [this] (const std::vector<std::string>& ports) {
         for (const auto& port : ports)
             scopes.probe (port);
         bottom.show (scopes);
     };
-    inspector.messagesNow = [this]
-    { return run().messages(); };
-    layers.onSelect = [this] (const std::string& patch, graph::Id node)
-    { patching.show (patch, node); };
-    problems.onShow = [this] (const Culprit& c)
-    { patching.show (c.patch, c.id); };
+    inspector.messagesNow = [this] { return run().messages(); };
+    layers.onSelect = [this] (const std::string& patch, graph::Id node) { patching.show (patch, node); };
+    problems.onShow = [this] (const Culprit& c) { patching.show (c.patch, c.id); };
 }
 
 void MainView::connectTopBar()
 {
-    top.onLeave = [this] (std::size_t depth)
-    { patching.leaveTo (depth); };
-    top.onRecall = [this] (int number)
-    { recall (number); };
-    top.onStore = [this] (int number)
-    { store (number); };
-    top.onHelp = [this]
-    { helpOnSelection(); };
-    top.onMenu = [this] (juce::Component& at)
-    { openMenu (at); };
+    top.onLeave = [this] (std::size_t depth) { patching.leaveTo (depth); };
+    top.onRecall = [this] (int number) { recall (number); };
+    top.onStore = [this] (int number) { store (number); };
+    top.onHelp = [this] { helpOnSelection(); };
+    top.onMenu = [this] (juce::Component& at) { openMenu (at); };
 }
 
 void MainView::connectWelcome()
 {
-    welcome.onFeel = [this] (const std::filesystem::path& file)
-    {
+    welcome.onFeel = [this] (const std::filesystem::path& file) {
         files.openCopy (file, true);
         status.notify (files.isSafe() ? "Safe mode: press START, then press and drag on the surface below."
                                       : "Press and drag on the surface below: the mouse is your hand.");
     };
-    welcome.onOpenFile = [this] (const std::filesystem::path& file)
-    { files.open (file); };
-    welcome.onNew = [this]
-    { files.create(); };
-    welcome.onOpen = [this]
-    { files.open(); };
-    help.onExample = [this] (const std::string& type)
-    { openExample (type); };
+    welcome.onOpenFile = [this] (const std::filesystem::path& file) { files.open (file); };
+    welcome.onNew = [this] { files.create(); };
+    welcome.onOpen = [this] { files.open(); };
+    help.onExample = [this] (const std::string& type) { openExample (type); };
 }
 
 void MainView::openOscPort (const OscListen& where)

@@ -12,8 +12,7 @@ namespace
 std::vector<WireEnd> endsOf (const NodeRequest& request, const Scene& scene)
 {
     std::vector<WireEnd> found;
-    const auto add = [&] (const SceneNode* node, Role role, const std::string& id)
-    {
+    const auto add = [&] (const SceneNode* node, Role role, const std::string& id) {
         const auto* port = node == nullptr ? nullptr : node->face->find (role, id);
         if (port != nullptr) found.push_back ({ port, node->quantityOf (*port) });
     };
@@ -41,10 +40,9 @@ void openNodePalette (Palette& palette, Canvas& canvas, const Catalogue& catalog
     else if (request.start)
         purpose = "Connect " + juce::String (request.start->port) + " to";
     place (palette, canvas.view().toPixels (request.at).toInt() + canvas.getPosition());
-    palette.open ([&canvas, &catalogue, request] (const std::string& query)
-                  { return searchPalette (query, canvas.edited().graph(), catalogue, endsOf (request, canvas.scene())); },
-                  purpose, [&canvas, request] (const std::string& type)
-                  {
+    palette.open ([&canvas, &catalogue,
+                   request] (const std::string& query) { return searchPalette (query, canvas.edited().graph(), catalogue, endsOf (request, canvas.scene())); },
+                  purpose, [&canvas, request] (const std::string& type) {
         canvas.addNodeAt (type, request);
         takeFocus (canvas); });
 }
@@ -53,10 +51,8 @@ void openPalette (Palette& palette, Canvas& canvas, const juce::String& purpose,
                   std::function<void (const std::string&)> chosen)
 {
     place (palette, palette.getParentComponent()->getMouseXYRelative());
-    palette.open ([all = std::move (entries)] (const std::string& query)
-                  { return matching (all, query); },
-                  purpose, [&canvas, chosen = std::move (chosen)] (const std::string& type)
-                  {
+    palette.open ([all = std::move (entries)] (const std::string& query) { return matching (all, query); },
+                  purpose, [&canvas, chosen = std::move (chosen)] (const std::string& type) {
         chosen (type);
         takeFocus (canvas); });
 }

@@ -38,8 +38,7 @@ Json placesOf (juce::Component& window, const Canvas& canvas)
 {
     auto places = Json::object();
     const auto& scene = canvas.scene();
-    const auto put = [&] (const std::string& name, juce::Point<float> at)
-    { places[name] = pixel (canvas.localPointToGlobal (canvas.view().toPixels (at))); };
+    const auto put = [&] (const std::string& name, juce::Point<float> at) { places[name] = pixel (canvas.localPointToGlobal (canvas.view().toPixels (at))); };
     for (const auto& n : scene.nodes())
     {
         put (n.name, n.at + juce::Point<float> (n.box.width / 2, Box::header_height / 2));

@@ -25,8 +25,7 @@ void Question::ask (const juce::String& title, const juce::String& text, std::ve
     for (std::size_t i = 0; i < choices.size(); ++i)
     {
         auto& b = *buttons.emplace_back (std::make_unique<PlainButton> (choices[i].label));
-        b.onClick = [this, i]
-        { answer (i); };
+        b.onClick = [this, i] { answer (i); };
         addAndMakeVisible (b);
     }
     mark (0);

@@ -93,23 +93,18 @@ TopBar::TopBar (Document& d)
     {
         auto& slot = slots[static_cast<std::size_t> (n - 1)];
         slot = std::make_unique<Slot> (n);
-        slot->onClick = [this, n, s = slot.get()]
-        {
+        slot->onClick = [this, n, s = slot.get()] {
             const bool stores = ! s->isStored() || juce::ModifierKeys::currentModifiers.isShiftDown() || juce::ModifierKeys::currentModifiers.isCtrlDown();
             if (const auto& act = stores ? onStore : onRecall) act (n);
         };
         addAndMakeVisible (*slot);
     }
-    undo->onClick = [this]
-    { document.undo(); };
-    redo->onClick = [this]
-    { document.redo(); };
-    help->onClick = [this]
-    {
+    undo->onClick = [this] { document.undo(); };
+    redo->onClick = [this] { document.redo(); };
+    help->onClick = [this] {
         if (onHelp) onHelp();
     };
-    menu->onClick = [this]
-    {
+    menu->onClick = [this] {
         if (onMenu) onMenu (*menu);
     };
     for (auto* b : { undo.get(), redo.get(), help.get(), menu.get() })
@@ -135,8 +130,7 @@ void TopBar::show (std::vector<juce::String> t)
 void TopBar::resized()
 {
     auto area = getLocalBounds().withTrimmedRight (8);
-    const auto put = [&area] (juce::Component& c, int width, int gap)
-    {
+    const auto put = [&area] (juce::Component& c, int width, int gap) {
         c.setBounds (area.removeFromRight (width).withSizeKeepingCentre (width, width));
         area.removeFromRight (gap);
     };
@@ -193,8 +187,7 @@ void TopBar::paint (juce::Graphics& g)
 void TopBar::mouseMove (const juce::MouseEvent& e)
 {
     const auto all = places();
-    const bool over = std::any_of (all.begin(), all.empty() ? all.end() : std::prev (all.end()), [&] (const auto& r)
-                                   { return r.contains (e.position); });
+    const bool over = std::any_of (all.begin(), all.empty() ? all.end() : std::prev (all.end()), [&] (const auto& r) { return r.contains (e.position); });
     setMouseCursor (over ? juce::MouseCursor::PointingHandCursor : juce::MouseCursor::NormalCursor);
 }
 

@@ -142,13 +142,11 @@ TEST_CASE ("csv: a missing file, a folder and a bad table give different errors"
 
 TEST_CASE ("csv: no text crashes the reader", "[host][io][csv]")
 {
-    const auto bytes = [] (const std::string& text)
-    {
+    const auto bytes = [] (const std::string& text) {
         std::ignore = readTable (text, "any");
     };
 
-    const auto almost_tables = []
-    {
+    const auto almost_tables = [] {
         const auto text = *rc::gen::container<std::string> (rc::gen::elementOf ("a1,,\n\r\" .-+einf\t\0\xEF\xBB\xBF"s));
         if (const auto table = readTable (text, "any"))
             RC_ASSERT (table->values.size() == table->rows() * table->columns.size());
@@ -164,8 +162,7 @@ TEST_CASE ("csv: every number reads back to the same double", "[host][io][csv]")
 {
     const TemporaryFolder folder;
 
-    const auto round_trip = [&] (const std::vector<std::pair<std::uint64_t, std::uint64_t>>& bits)
-    {
+    const auto round_trip = [&] (const std::vector<std::pair<std::uint64_t, std::uint64_t>>& bits) {
         const std::vector<std::string> columns { "a", "b, \"quoted\"" };
         auto writer = TableWriter::create (folder / "out.csv", columns);
         RC_ASSERT (writer.has_value());
@@ -215,8 +212,7 @@ TEST_CASE ("csv: an unfinished table leaves nothing behind", "[host][io][csv]")
 TEST_CASE ("csv: a header that cannot be read back is not written", "[host][io][csv]")
 {
     const TemporaryFolder folder;
-    const auto create = [&] (std::vector<std::string> columns)
-    { return TableWriter::create (folder / "out.csv", columns).error().id; };
+    const auto create = [&] (std::vector<std::string> columns) { return TableWriter::create (folder / "out.csv", columns).error().id; };
 
     CHECK (create ({}) == "csv/empty");
     CHECK (create ({ "", "a" }) == "csv/empty_column_name");

@@ -103,10 +103,8 @@ TEST_CASE ("a newer version is refused with a single message")
 TEST_CASE ("old versions are migrated step by step")
 {
     static constexpr std::array<Migration, 2> steps { {
-        { 2, [] (Json& f)
-          { rename (f, "title", "name"); } },
-        { 1, [] (Json& f)
-          { rename (f, "heading", "title"); } },
+        { 2, [] (Json& f) { rename (f, "title", "name"); } },
+        { 1, [] (Json& f) { rename (f, "heading", "title"); } },
     } };
     const FileFormat third { 3, steps };
 

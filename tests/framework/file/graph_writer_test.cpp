@@ -67,27 +67,27 @@ TEST_CASE ("numbers are short and read back to the same double")
     CHECK (jsonNumber (1e22) == "1e22");
     CHECK (jsonNumber (-2.5e100) == "-2.5e100");
     CHECK (jsonNumber (5e-324) == "5e-324");
-    rc::prop ("any finite double", []
-              {
-                  const auto bits = *rc::gen::arbitrary<std::uint64_t>();
-                  double value = 0.0, back = 0.0;
-                  std::memcpy (&value, &bits, sizeof value);
-                  RC_PRE (value - value == 0.0);
-                  const auto text = jsonNumber (value);
-                  std::from_chars (text.data(), text.data() + text.size(), back);
-                  RC_ASSERT (std::memcmp (&value, &back, sizeof value) == 0);
-                  RC_ASSERT (Json::parse (text).is_number_float()); });
+    rc::prop ("any finite double", [] {
+        const auto bits = *rc::gen::arbitrary<std::uint64_t>();
+        double value = 0.0, back = 0.0;
+        std::memcpy (&value, &bits, sizeof value);
+        RC_PRE (value - value == 0.0);
+        const auto text = jsonNumber (value);
+        std::from_chars (text.data(), text.data() + text.size(), back);
+        RC_ASSERT (std::memcmp (&value, &back, sizeof value) == 0);
+        RC_ASSERT (Json::parse (text).is_number_float());
+    });
 }
 
 TEST_CASE ("files do not change when loaded and saved, byte for byte")
 {
-    rc::prop ("random graphs", []
-              {
-                  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
-                  const auto text = writeGraph (test::wildGraph (seed));
-                  const auto loaded = readGraph (text);
-                  RC_ASSERT (! hasErrors (loaded.messages));
-                  RC_ASSERT (writeGraph (loaded.graph) == text); });
+    rc::prop ("random graphs", [] {
+        const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+        const auto text = writeGraph (test::wildGraph (seed));
+        const auto loaded = readGraph (text);
+        RC_ASSERT (! hasErrors (loaded.messages));
+        RC_ASSERT (writeGraph (loaded.graph) == text);
+    });
 }
 
 TEST_CASE ("text that is not UTF-8 cannot break a file")

@@ -39,8 +39,7 @@ Graph woodGraph()
 std::string fingerprint (const Graph& g)
 {
     auto text = writeGraph (g);
-    const auto ids = [&] (const Patch& patch)
-    {
+    const auto ids = [&] (const Patch& patch) {
         for (const auto& n : patch.nodes)
             text.append (std::to_string (n.id)).append (1, ' ');
         for (const auto& w : patch.wires)
@@ -115,8 +114,8 @@ public:
         case 5:
             return SetNodeKey { patch, nodeIn (p), oneOf ({ "role", "type" }), maybe (oneOf ({ "stylus", "graph:sub1", "Bad" })) };
         case 6:
-            return SetNodeKey { patch, nodeIn (p), oneOf ({ "count", "ui", "note", "bypass" }), maybe (oneIn (2) ? Json (2) : oneIn (2) ? Json (true)
-                                                                                                                                        : Json::object()) };
+            return SetNodeKey { patch, nodeIn (p), oneOf ({ "count", "ui", "note", "bypass" }),
+                                maybe (oneIn (2) ? Json (2) : (oneIn (2) ? Json (true) : Json::object())) };
         case 7:
             if (oneIn (2)) return SetOverride { patch, nodeIn (p), oneOf ({ "n1.mu", "[1]/n1.mu", "[*]/n2[0]/n1.x", "bad" }), maybe (1), place() };
             return SetNodeKey { patch, nodeIn (p), "overrides", maybe (Json { { "n1.mu", 1 }, { "[1]/n1.mu", 2 }, { "n2/n1.x", 3 } }) };
@@ -298,8 +297,7 @@ TEST_CASE ("when nodes are collapsed to a subgraph, all references to them follo
     CHECK (g.find ("wavelet") == nullptr);
     CHECK (g.root.find ("drag")->id == drag);
     auto as_it_was = woodGraph();
-    const auto wiresOf = [] (const Graph& graph)
-    {
+    const auto wiresOf = [] (const Graph& graph) {
         std::vector<std::string> all;
         for (const auto& w : graph.root.wires)
             all.push_back (toText (w));
@@ -444,8 +442,7 @@ TEST_CASE ("a turned parameter is stored under the name that was used to turn it
 {
     auto g = woodGraph();
     g.graphs[0].second.expose.params = { { "angle", { "wave", "angle" } } };
-    const auto keep = [&] (const std::string& name, std::optional<Json> value)
-    {
+    const auto keep = [&] (const std::string& name, std::optional<Json> value) {
         auto command = paramEdit (g, name, std::move (value));
         if (! command) return command.error().id;
         perform (g, *command);
@@ -616,34 +613,34 @@ TEST_CASE ("history names its steps, and turning a knob is one step")
 
 TEST_CASE ("every edit can be undone and redone, with the same bytes and ids")
 {
-    rc::prop ("random edits of random graphs", []
-              {
-                  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
-                  auto start = test::wildGraph (seed);
-                  if (! start.root.nodes.empty() && seed % 3 == 0) start.root.nodes[0].name = "ghost";   // its wires now refer to a node that does not exist
+    rc::prop ("random edits of random graphs", [] {
+        const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+        auto start = test::wildGraph (seed);
+        if (! start.root.nodes.empty() && seed % 3 == 0) start.root.nodes[0].name = "ghost";   // its wires now refer to a node that does not exist
 
-                  History history (std::move (start));
-                  Meddler meddler (seed);
-                  std::vector<std::string> states { fingerprint (history.graph()) };
-                  for (int i = 0; i < 30; ++i)
-                  {
-                      const auto before = fingerprint (history.graph());
-                      if (history.perform (meddler.any (history.graph())))
-                          states.push_back (fingerprint (history.graph()));
-                      else
-                          RC_ASSERT (fingerprint (history.graph()) == before);
-                  }
-                  RC_ASSERT (! hasErrors (readGraph (writeGraph (history.graph())).messages));
+        History history (std::move (start));
+        Meddler meddler (seed);
+        std::vector<std::string> states { fingerprint (history.graph()) };
+        for (int i = 0; i < 30; ++i)
+        {
+            const auto before = fingerprint (history.graph());
+            if (history.perform (meddler.any (history.graph())))
+                states.push_back (fingerprint (history.graph()));
+            else
+                RC_ASSERT (fingerprint (history.graph()) == before);
+        }
+        RC_ASSERT (! hasErrors (readGraph (writeGraph (history.graph())).messages));
 
-                  RC_ASSERT (history.position() + 1 == states.size());
-                  for (auto i = states.size() - 1; i > 0; --i)
-                  {
-                      RC_ASSERT (history.undo());
-                      RC_ASSERT (fingerprint (history.graph()) == states[i - 1]);
-                  }
-                  for (std::size_t i = 1; i < states.size(); ++i)
-                  {
-                      RC_ASSERT (history.redo());
-                      RC_ASSERT (fingerprint (history.graph()) == states[i]);
-                  } });
+        RC_ASSERT (history.position() + 1 == states.size());
+        for (auto i = states.size() - 1; i > 0; --i)
+        {
+            RC_ASSERT (history.undo());
+            RC_ASSERT (fingerprint (history.graph()) == states[i - 1]);
+        }
+        for (std::size_t i = 1; i < states.size(); ++i)
+        {
+            RC_ASSERT (history.redo());
+            RC_ASSERT (fingerprint (history.graph()) == states[i]);
+        }
+    });
 }

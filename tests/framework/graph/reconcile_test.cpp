@@ -85,8 +85,7 @@ TEST_CASE ("a delayed wire with the same text is preferred to one with a differe
 
 TEST_CASE ("a file that is shuffled and read again gets all its ids back, including in subgraphs, and none twice", "[graph]")
 {
-    rc::prop ("any graph", [] (std::uint64_t seed)
-              {
+    rc::prop ("any graph", [] (std::uint64_t seed) {
         const auto before = test::wildGraph (seed);
         auto now = readGraph (writeGraph (before)).graph;
         std::mt19937_64 chance { seed };
@@ -98,13 +97,13 @@ TEST_CASE ("a file that is shuffled and read again gets all its ids back, includ
         for (const auto& [name, patch] : now.graphs)
             RC_ASSERT (identities (patch) == identities (*before.find (name)));
         const auto all = ids (now.root);
-        RC_ASSERT (std::set (all.begin(), all.end()).size() == all.size()); });
+        RC_ASSERT (std::set (all.begin(), all.end()).size() == all.size());
+    });
 }
 
 TEST_CASE ("for any two graphs, no id is assigned twice", "[graph]")
 {
-    rc::prop ("any two", [] (std::uint64_t a, std::uint64_t b)
-              {
+    rc::prop ("any two", [] (std::uint64_t a, std::uint64_t b) {
         const auto before = test::wildGraph (a);
         auto now = test::wildGraph (b);
         const auto text = writeGraph (now);
@@ -112,8 +111,7 @@ TEST_CASE ("for any two graphs, no id is assigned twice", "[graph]")
         RC_ASSERT (writeGraph (now) == text);
         std::set<Id> all;
         std::size_t count = 0;
-        const auto add = [&] (const Patch& patch)
-        {
+        const auto add = [&] (const Patch& patch) {
             const auto some = ids (patch);
             all.insert (some.begin(), some.end());
             count += some.size();
@@ -121,13 +119,13 @@ TEST_CASE ("for any two graphs, no id is assigned twice", "[graph]")
         add (now.root);
         for (const auto& [name, patch] : now.graphs)
             add (patch);
-        RC_ASSERT (all.size() == count); });
+        RC_ASSERT (all.size() == count);
+    });
 }
 
 TEST_CASE ("included files keep their ids too, and a file that is included twice remains a single file", "[graph]")
 {
-    const auto grain = [] (double gain)
-    {
+    const auto grain = [] (double gain) {
         auto inner = Sketch {}.node ("wave", "signal.gain", { { "gain", gain } }).graph;
         auto leaf = std::make_shared<const Graph> (std::move (inner));
         Graph branch[2];
@@ -138,8 +136,7 @@ TEST_CASE ("included files keep their ids too, and a file that is included twice
         root.files["b.json"] = std::make_shared<const Graph> (branch[1]);
         return root;
     };
-    const auto leafOf = [] (const Graph& g, const char* path)
-    { return g.files.at (path)->files.at ("leaf.json"); };
+    const auto leafOf = [] (const Graph& g, const char* path) { return g.files.at (path)->files.at ("leaf.json"); };
 
     const auto before = grain (1.0);
     auto now = grain (2.0);
@@ -151,8 +148,7 @@ TEST_CASE ("included files keep their ids too, and a file that is included twice
 
 TEST_CASE ("a plan compiled from a file that was read again continues the previous plan bit for bit", "[graph]")
 {
-    const auto text = [] (const std::string& more)
-    {
+    const auto text = [] (const std::string& more) {
         return R"({ "format": "tactus-graph", "version": 1, "nodes": { "one": { "type": "signal.constant", "params": { "value": 1 } }, )" + more
                + R"( "count": { "type": "signal.add" }, "late": { "type": "signal.gain" } },
                    "wires": [ "one.out -> count.in[0]", "count.out -> [1] -> count.in[1]", "count.out -> [4] -> late.in" ] })";

@@ -132,8 +132,7 @@ private:
         {
             for (int i = dice.upTo (6); i > 0; --i)
                 patch.wires.push_back (wire (patch));
-            const auto show = [&] (auto& list, const char* name)
-            {
+            const auto show = [&] (auto& list, const char* name) {
                 for (int i = dice.upTo (2); i > 0; --i)
                     list.emplace_back (numbered (name, i), end (patch));
             };

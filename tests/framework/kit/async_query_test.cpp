@@ -102,8 +102,7 @@ void checkAnswers (const std::vector<bool>& asks, const Run& run, int ticks, std
 
 TEST_CASE ("without a thread, a question is answered after exactly the given number of ticks, and nothing is late", "[slow]")
 {
-    rc::prop ("any questions", []
-              {
+    rc::prop ("any questions", [] {
         const int ticks = *rc::gen::inRange (1, 9);
         const auto asks = asksFrom (*rc::gen::container<std::vector<int>> (rc::gen::inRange (0, 3)));
         Slow slow { square, ticks, nullptr };
@@ -113,7 +112,8 @@ TEST_CASE ("without a thread, a question is answered after exactly the given num
             const auto then = static_cast<long long> (k) - ticks;
             const bool due = then >= 0 && asks[static_cast<std::size_t> (then)];
             RC_ASSERT (answer == (due ? std::optional (square (then)) : std::nullopt));
-        } });
+        }
+    });
 }
 
 TEST_CASE ("with a thread that is on time, the answers are the same", "[slow]")
@@ -171,13 +171,11 @@ TEST_CASE ("a late answer is dropped, and its slot stays occupied until the answ
 TEST_CASE ("a run with several queries can be repeated exactly from the record of its late answers", "[slow]")
 {
     int late_runs = 0, answered_runs = 0;
-    rc::prop ("any late answers", [&]
-              {
+    rc::prop ("any late answers", [&] {
         const auto lengths = *rc::gen::container<std::vector<int>> (3, rc::gen::inRange (1, 7));
         const auto asks = asksFrom (*rc::gen::container<std::vector<int>> (30, rc::gen::inRange (0, 4)));
         const auto lags = *rc::gen::container<std::vector<Question>> (asks.size(), rc::gen::inRange<Question> (0, 8));
-        const auto ask = [&] (std::deque<Slow>& streams, std::size_t k, Run& run)
-        {
+        const auto ask = [&] (std::deque<Slow>& streams, std::size_t k, Run& run) {
             for (auto& slow : streams)
                 run.answers.push_back (slow (asked (asks, k)));
         };
@@ -218,7 +216,8 @@ TEST_CASE ("a run with several queries can be repeated exactly from the record o
         }
         for (std::size_t k = 0; k < asks.size(); ++k)
             ask (streams, k, again);
-        RC_ASSERT (again.answers == live.answers); });
+        RC_ASSERT (again.answers == live.answers);
+    });
     CHECK (late_runs > 10);
     CHECK (answered_runs > 10);
 }

@@ -61,11 +61,9 @@ TEST_CASE ("expression: the branch that is not taken may be invalid", "[framewor
 
 TEST_CASE ("expression: functions are those of the standard library", "[framework][expression]")
 {
-    rc::prop ("at any two numbers", []
-              {
+    rc::prop ("at any two numbers", [] {
         const double a = *rc::gen::inRange (-1000, 1000) / 100.0, b = *rc::gen::inRange (-1000, 1000) / 100.0;
-        const auto same = [&] (const std::string& text, double wanted)
-        {
+        const auto same = [&] (const std::string& text, double wanted) {
             const double got = valueOf (text, a, b);
             RC_ASSERT (got == wanted || (std::isnan (got) && std::isnan (wanted)));
         };
@@ -88,7 +86,8 @@ TEST_CASE ("expression: functions are those of the standard library", "[framewor
         same ("clamp (in0, -2, in1)", a < -2.0 ? -2.0 : std::min (a, b));
         same ("pow (in0, in1)", std::pow (a, b));
         same ("in0 ^ in1", std::pow (a, b));
-        same ("pi * in0 + e", std::numbers::pi * a + std::numbers::e); });
+        same ("pi * in0 + e", std::numbers::pi * a + std::numbers::e);
+    });
 }
 
 TEST_CASE ("expression: errors are reported with their column", "[framework][expression]")
@@ -108,8 +107,7 @@ TEST_CASE ("expression: errors are reported with their column", "[framework][exp
 
 TEST_CASE ("expression: nesting is limited, so that no text can exhaust the stack", "[framework][expression]")
 {
-    const auto nested = [] (int n, const std::string& open, const std::string& close)
-    {
+    const auto nested = [] (int n, const std::string& open, const std::string& close) {
         std::string text;
         for (int i = 0; i < n; ++i)
             text += open;
@@ -129,8 +127,7 @@ TEST_CASE ("expression: nesting is limited, so that no text can exhaust the stac
 
 TEST_CASE ("expression: any text either compiles or is refused", "[framework][expression]")
 {
-    rc::prop ("text from its alphabet", []
-              {
+    rc::prop ("text from its alphabet", [] {
         static const std::string words[] { "in0", "in1", "in[", "]", "(", ")", "+", "-", "*", "/", "^", "?",
                                            ":", "<", "==", ",", "1", "2.5", "pi", "clamp", "min", "sin", " " };
         const auto picks = *rc::gen::container<std::vector<std::size_t>> (rc::gen::inRange<std::size_t> (0, std::size (words)));
@@ -143,5 +140,6 @@ TEST_CASE ("expression: any text either compiles or is refused", "[framework][ex
         const double one = 1.0;
         const double* const sources[] { &one, &one };
         const double value = formula (InputList<double> { sources, 2 });
-        if (! problem.empty()) RC_ASSERT (value == 0.0); });
+        if (! problem.empty()) RC_ASSERT (value == 0.0);
+    });
 }

@@ -65,23 +65,23 @@ Spot stepFrom (const MeshWalk& walk, const Spot& here, const Vec3& p)
 
 TEST_CASE ("the nearest of all triangles does not depend on the initial guess", "[nearest]")
 {
-    rc::prop ("any sheet", []
-              {
+    rc::prop ("any sheet", [] {
         const MeshWalk walk { anySheet() };
         const Vec3 p = anyPoint() * *rc::gen::element (1e-12, 1.0, 1e6);
         const int guess = *rc::gen::inRange (-1, static_cast<int> (walk.mesh().triangles.size()));
-        RC_ASSERT (same (walk.nearestOfAll (p, guess), walk.spotOn (nearestOfAll (walk.mesh(), p), p))); });
+        RC_ASSERT (same (walk.nearestOfAll (p, guess), walk.spotOn (nearestOfAll (walk.mesh(), p), p)));
+    });
 }
 
 TEST_CASE ("a walk skips no nearer triangle", "[nearest]")
 {
-    rc::prop ("any sheet", []
-              {
+    rc::prop ("any sheet", [] {
         const MeshWalk walk { anySheet() };
         const Vec3 p = anyPoint();
         const int from = *rc::gen::inRange (0, static_cast<int> (walk.mesh().triangles.size()));
         Spot here = walk.spotOn (from, p);
         for (Spot next = stepFrom (walk, here, p); next.triangle != here.triangle; next = stepFrom (walk, here, p))
             here = next;
-        RC_ASSERT (same (walk.nearest (from, p), here)); });
+        RC_ASSERT (same (walk.nearest (from, p), here));
+    });
 }

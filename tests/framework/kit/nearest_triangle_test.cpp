@@ -35,21 +35,21 @@ TEST_CASE ("the weights of the nearest point are valid, and no other point is ne
 {
     // A point of a convex body is nearest to p if and only if no other point of the body lies in front of it, as seen from p.
     // For a triangle it is enough to check the corners.
-    rc::prop ("any triangle, even one without area", []
-              {
+    rc::prop ("any triangle, even one without area", [] {
         const Vec3 a = anyPoint(), b = anyPoint(), c = anyPoint(), p = anyPoint();
         const auto on = checkWeights (a, b, c, p);
         for (const auto& corner : { a, b, c })
-            RC_ASSERT ((p - on.point).dot (corner - on.point) < 1e-10); });
+            RC_ASSERT ((p - on.point).dot (corner - on.point) < 1e-10);
+    });
 
-    rc::prop ("slivers", []
-              {
+    rc::prop ("slivers", [] {
         const Vec3 a = anyPoint(), b = anyPoint(), p = anyPoint();
         const double t = *rc::gen::inRange (-3, 14) * 0.1, thin = std::pow (10.0, -*rc::gen::inRange (1, 17));
         const Vec3 c = a + t * (b - a) + thin * anyPoint();
         const double least = distance (checkWeights (a, b, c, p), p);
         for (const auto& edge : { nearestOn (a, b, b, p), nearestOn (b, c, c, p), nearestOn (c, a, a, p) })
-            RC_ASSERT (least < distance (edge, p) + 1e-9); });
+            RC_ASSERT (least < distance (edge, p) + 1e-9);
+    });
 }
 
 TEST_CASE ("a point above a triangle, next to it, and beyond its corner", "[nearest]")
@@ -64,8 +64,7 @@ TEST_CASE ("a point above a triangle, next to it, and beyond its corner", "[near
 
 TEST_CASE ("the nearest of all triangles is found; if there are several, the first one", "[nearest]")
 {
-    rc::prop ("any mesh", []
-              {
+    rc::prop ("any mesh", [] {
         Mesh mesh;
         for (int i = *rc::gen::inRange (1, 9); i > 0; --i)
             for (int corner = 0; corner < 3; ++corner)
@@ -75,8 +74,8 @@ TEST_CASE ("the nearest of all triangles is found; if there are several, the fir
 
         const Vec3 p = anyPoint();
         const int found = nearestOfAll (mesh, p);
-        const auto distance = [&] (int t)
-        { return (nearestOn (mesh, t, p).point - p).squaredNorm(); };
+        const auto distance = [&] (int t) { return (nearestOn (mesh, t, p).point - p).squaredNorm(); };
         for (int t = 0; t < static_cast<int> (mesh.triangles.size()); ++t)
-            RC_ASSERT ((t < found ? distance (t) > distance (found) : distance (t) >= distance (found))); });
+            RC_ASSERT ((t < found ? distance (t) > distance (found) : distance (t) >= distance (found)));
+    });
 }

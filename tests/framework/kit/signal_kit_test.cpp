@@ -21,8 +21,7 @@ TEST_CASE ("lattice: the same filter as the recursion it was derived from", "[fr
     REQUIRE (reflections.size() == 3);
 
     Lattice lattice;
-    lattice.start (3, []
-                   { return 0.0; });
+    lattice.start (3, [] { return 0.0; });
     double gain = 1.0;   // the y of the recursion is sqrt (prod (1 - k^2)) times the y of the lattice
     for (std::size_t i = 0; i < 3; ++i)
         gain *= std::sqrt (lattice.set (i, reflections[i]));
@@ -53,8 +52,7 @@ TEST_CASE ("stream resampler: with equal rates, samples pass through bit for bit
     StreamResampler resampler;
     resampler.prepare (1.0);
     for (int i = 0; i < 10; ++i)
-        CHECK (resampler ([i]
-                          { return 0.1 * i; })
+        CHECK (resampler ([i] { return 0.1 * i; })
                == 0.1 * i);
 }
 
@@ -67,8 +65,7 @@ TEST_CASE ("stream resampler: a sine in the pass band passes, but one above half
         {
             const double turn = 2.0 * std::numbers::pi * frequency * std::min (1.0, 1.0 / ratio);
             int n = 0;
-            const auto next = [&]
-            { return std::sin (turn * n++); };
+            const auto next = [&] { return std::sin (turn * n++); };
             StreamResampler resampler;
             resampler.prepare (ratio);
             resampler.fill (next);
@@ -94,8 +91,7 @@ TEST_CASE ("recording: bent ends are 0, and the middle is unchanged", "[framewor
 
 TEST_CASE ("recording: the forward-backward low-pass is 6 dB down at its cutoff and adds no delay", "[framework][signal]")
 {
-    const auto filtered = [] (double frequency_hz)
-    {
+    const auto filtered = [] (double frequency_hz) {
         std::vector<double> samples;
         for (int i = -4000; i <= 4000; ++i)
             samples.push_back (std::cos (2.0 * std::numbers::pi * frequency_hz * i / 8000.0));

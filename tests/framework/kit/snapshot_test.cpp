@@ -45,8 +45,7 @@ TEST_CASE ("a reader sees every snapshot complete, and never one older than the 
     std::atomic<std::uint64_t> seen { 0 };
     std::vector<std::thread> readers;
     for (int r = 0; r < 2; ++r)
-        readers.emplace_back ([&]
-                              {
+        readers.emplace_back ([&] {
             std::uint64_t last = 0, n = 0;
             for (; ! done; ++n)
             {
@@ -54,7 +53,8 @@ TEST_CASE ("a reader sees every snapshot complete, and never one older than the 
                 broken += std::ranges::count (now, now[0]) != static_cast<std::ptrdiff_t> (now.size()) || now[0] < last;
                 last = now[0];
             }
-            seen += n; });
+            seen += n;
+        });
     for (std::uint64_t n = 1; n <= 200000; ++n)
     {
         snapshot.store (allOf (n));

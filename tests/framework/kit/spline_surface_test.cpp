@@ -60,8 +60,7 @@ TEST_CASE ("mirrored grid: a wave below the cutoff remains, and one above it is 
 
 TEST_CASE ("spline surface: it passes through its points, and its slopes match its heights", "[framework][grid]")
 {
-    rc::prop ("any grid", []
-              {
+    rc::prop ("any grid", [] {
         const auto grid = anyGrid();
         const SplineSurface surface { grid };
         for (int row = 0; row < grid.y.points(); ++row)
@@ -71,16 +70,17 @@ TEST_CASE ("spline surface: it passes through its points, and its slopes match i
         const double x = 1e-5 * *rc::gen::inRange (-2000, 2001), y = 1e-5 * *rc::gen::inRange (-2000, 2001), h = 1e-7;
         const auto at = surface (x, y);
         RC_ASSERT (std::abs (at.slope_x - (surface (x + h, y).height - surface (x - h, y).height) / (2 * h)) < 1e-3);
-        RC_ASSERT (std::abs (at.slope_y - (surface (x, y + h).height - surface (x, y - h).height) / (2 * h)) < 1e-3); });
+        RC_ASSERT (std::abs (at.slope_y - (surface (x, y + h).height - surface (x, y - h).height) / (2 * h)) < 1e-3);
+    });
 }
 
 TEST_CASE ("spline surface: no slope changes faster than the largest curvature allows", "[framework][grid]")
 {
-    rc::prop ("any grid, along x and along y", []
-              {
+    rc::prop ("any grid, along x and along y", [] {
         const SplineSurface surface { anyGrid() };
         const double most = surface.largestCurvature() * (1.0 + 1e-9) + 1e-6, h = 1e-6;
         const double x = 1e-5 * *rc::gen::inRange (-2000, 2001), y = 1e-5 * *rc::gen::inRange (-2000, 2001);
         RC_ASSERT (std::abs (surface (x + h, y).slope_x - surface (x, y).slope_x) <= most * h);
-        RC_ASSERT (std::abs (surface (x, y + h).slope_y - surface (x, y).slope_y) <= most * h); });
+        RC_ASSERT (std::abs (surface (x, y + h).slope_y - surface (x, y).slope_y) <= most * h);
+    });
 }

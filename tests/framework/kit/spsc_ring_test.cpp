@@ -13,8 +13,7 @@ using tactus::SpscRing;
 
 TEST_CASE ("pieces arrive whole and in order, or not at all", "[runtime]")
 {
-    rc::prop ("pieces of any length, fetched occasionally", []
-              {
+    rc::prop ("pieces of any length, fetched occasionally", [] {
         const auto capacity = *rc::gen::inRange<std::size_t> (1, 30);
         SpscRing<std::uint64_t> ring { capacity };
         std::vector<std::uint64_t> sent, got;
@@ -36,7 +35,8 @@ TEST_CASE ("pieces arrive whole and in order, or not at all", "[runtime]")
         }
         while (ring.size() > 0)
             got.push_back (ring.pop());
-        RC_ASSERT (got == sent); });
+        RC_ASSERT (got == sent);
+    });
 }
 
 TEST_CASE ("a discarded piece never arrives", "[runtime]")
@@ -59,15 +59,15 @@ TEST_CASE ("two threads share a ring, and no piece is torn", "[runtime][threads]
     SpscRing<std::uint64_t> ring { 64 };
     std::atomic<bool> done = false;
     std::uint64_t sent = 0;
-    std::jthread ticking ([&]
-                          {
+    std::jthread ticking ([&] {
         for (std::uint64_t p = 0; p < pieces; ++p)
         {
             for (std::uint64_t i = 0; i < length; ++i)
                 ring.put (length * p + i);
             sent += ring.commit();
         }
-        done = true; });
+        done = true;
+    });
 
     std::uint64_t got = 0, torn = 0;
     for (bool last = false; ! last;)
@@ -104,8 +104,7 @@ TEST_CASE ("frames arrive contiguously, and a full ring counts the frames it los
     CHECK (ring.removed() == 2);
     CHECK (ring.front().size() == 4);   // up to the end of the ring
     std::vector<float> got;
-    ring.drain ([&] (std::span<const float> frame)
-                { got.insert (got.end(), frame.begin(), frame.end()); });
+    ring.drain ([&] (std::span<const float> frame) { got.insert (got.end(), frame.begin(), frame.end()); });
     CHECK (got == std::vector { 2.0f, 20.0f, 3.0f, 30.0f, 4.0f, 40.0f, 5.0f, 50.0f });
     CHECK (ring.front().empty());
 }

@@ -11,15 +11,14 @@ using namespace tactus;
 
 TEST_CASE ("length: correct for vectors of any size", "[framework][length]")
 {
-    rc::prop ("scaling a vector by a power of two scales its length, from tiny to huge", []
-              {
-                  const auto component = rc::gen::map (rc::gen::inRange (-1000, 1001), [] (int i)
-                                                       { return 1e-3 * i; });
-                  const Vec3 v { *component, *component, *component };
-                  const int exponent = *rc::gen::inRange (-1000, 1001);
-                  const double expected = std::sqrt (v.squaredNorm());
-                  const Vec3 scaled { std::ldexp (v.x(), exponent), std::ldexp (v.y(), exponent), std::ldexp (v.z(), exponent) };
-                  RC_ASSERT (std::abs (std::ldexp (length (scaled), -exponent) - expected) <= 1e-14 * expected); });
+    rc::prop ("scaling a vector by a power of two scales its length, from tiny to huge", [] {
+        const auto component = rc::gen::map (rc::gen::inRange (-1000, 1001), [] (int i) { return 1e-3 * i; });
+        const Vec3 v { *component, *component, *component };
+        const int exponent = *rc::gen::inRange (-1000, 1001);
+        const double expected = std::sqrt (v.squaredNorm());
+        const Vec3 scaled { std::ldexp (v.x(), exponent), std::ldexp (v.y(), exponent), std::ldexp (v.z(), exponent) };
+        RC_ASSERT (std::abs (std::ldexp (length (scaled), -exponent) - expected) <= 1e-14 * expected);
+    });
 
     CHECK (length (Vec3::Zero()) == 0.0);
     CHECK (length (Vec3 { 3e300, 4e300, 0.0 }) == Approx (5e300));

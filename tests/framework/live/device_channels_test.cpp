@@ -87,8 +87,7 @@ TEST_CASE ("a missing part of a device is reported once per role and name, with 
     engine.attach ("left", bare);
     const auto messages = missingParts (*plan);
     REQUIRE (messages.size() == 3);
-    CHECK (std::ranges::all_of (messages, [] (const Message& m)
-                                { return m.id == "device/missing_part" && m.severity == Message::Severity::warning; }));
+    CHECK (std::ranges::all_of (messages, [] (const Message& m) { return m.id == "device/missing_part" && m.severity == Message::Severity::warning; }));
     const auto all = test::text (messages);
     INFO (all);
     CHECK (all.find ("/nodes/left: 'left' (device.axis): the device of the role 'left' has no axis 'trigger'; it has no axes at all; it reads 0 until you set")
@@ -102,12 +101,10 @@ TEST_CASE ("a missing part of a device is reported once per role and name, with 
 
 TEST_CASE ("efforts and signals of several nodes have bit-identical sums in any order", "[live][property]")
 {
-    rc::prop ("any values", []
-              {
+    rc::prop ("any values", [] {
         const auto values = *rc::gen::container<std::vector<double>> (6, rc::gen::element (1e-17, 0.1, 0.2, 0.3, -0.7, 1e9));
         std::vector<std::size_t> order { 0, 1, 2, 3, 4, 5 };
-        const auto run = [&]
-        {
+        const auto run = [&] {
             Sketch s;
             for (const auto i : order)
             {
@@ -126,7 +123,8 @@ TEST_CASE ("efforts and signals of several nodes have bit-identical sums in any 
         const auto first = run();
         std::ranges::shuffle (order, std::mt19937 { *rc::gen::arbitrary<unsigned>() });
         RC_ASSERT (run() == first);
-        RC_ASSERT (first.first == first.second); });
+        RC_ASSERT (first.first == first.second);
+    });
 }
 
 TEST_CASE ("a plan that takes over causes no step in axes or signals", "[live]")

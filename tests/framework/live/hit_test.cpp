@@ -78,8 +78,7 @@ TEST_CASE ("a hit from outside is at its input for one tick, whatever value the 
 
 TEST_CASE ("a hit sounds once in a section that runs only on some ticks, or several times per tick", "[live][hit]")
 {
-    const auto total = [] (Json extra, int tick)
-    {
+    const auto total = [] (Json extra, int tick) {
         Engine engine { inside (std::move (extra)).compile ({ .records = { "sec/ring.hit", "sec/ring.value" } }).plan };
         ticked (engine, tick);
         REQUIRE (idOf (strike (engine, "sec/ring.hit", 0.5)) == "");
@@ -108,13 +107,11 @@ TEST_CASE ("an edit neither loses nor doubles a hit", "[live][hit]")
     test::Live live { sketch.graph, catalogue(), watched, sketch.compile (watched).plan };
     auto& engine = live.engine();
     ticked (engine, 2);
-    rc::prop ("before and after any edit", [&]
-              {
+    rc::prop ("before and after any edit", [&] {
         double asked = 0.0, heard = 0.0;
         for (int k = 0; k < 20; ++k)
         {
-            const auto step = [&]
-            {
+            const auto step = [&] {
                 if (*rc::gen::inRange (0, 3) > 0) return;
                 RC_ASSERT (strike (engine, "ring.hit", 0.25));
                 asked += 0.25;
@@ -129,14 +126,14 @@ TEST_CASE ("an edit neither loses nor doubles a hit", "[live][hit]")
             engine.tick();
             heard += *engine.plan().taps()[0].value;
         }
-        RC_ASSERT (heard == asked); });
+        RC_ASSERT (heard == asked);
+    });
 }
 
 TEST_CASE ("exposed hit inputs are triggered by their exposed names, and all instances by the common name", "[live][hit]")
 {
     Engine engine { inside ({ { "count", 3 } }).compile ({ .records = { "sec[0]/ring.hit", "sec[1]/ring.hit", "sec[2]/ring.hit" } }).plan };
-    const auto after = [&] (const char* name)
-    {
+    const auto after = [&] (const char* name) {
         CHECK (idOf (strike (engine, name, 1.0)) == "");
         engine.tick();
         std::string seen;

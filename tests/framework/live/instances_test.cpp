@@ -115,8 +115,7 @@ TEST_CASE ("instances continue when they are expanded to nodes, collapsed again,
     bench.tick (5);
     bench.count (3);
     bench.tick (5);   // so that the instances differ
-    const auto check = [&] (const std::string& first, const std::string& last, double ticks)
-    {
+    const auto check = [&] (const std::string& first, const std::string& last, double ticks) {
         bench.tick();
         CHECK (bench.counted (first) == ticks);
         CHECK (bench.heard (first) == ticks - 4.0);
@@ -153,8 +152,7 @@ TEST_CASE ("a parameter is turned in all instances or in one, by any of its name
 {
     Bench bench { counters (3) };
     bench.tick();
-    const auto turn = [&] (const std::string& name, double value, std::vector<double> expected)
-    {
+    const auto turn = [&] (const std::string& name, double value, std::vector<double> expected) {
         INFO (name);
         CHECK (bench.live.set (name, value));
         bench.tick (200);
@@ -215,8 +213,7 @@ TEST_CASE ("adding and removing fingers of one hand does not affect the other ha
         s.graph.root.nodes.back().overrides = { { "[1]/drag.mu", 0.9 }, { "[2]/wall.offset", "0.5 mm" } };
     }
     constexpr std::size_t ticks = 2000;
-    const auto felt = [&] (bool edited)
-    {
+    const auto felt = [&] (bool edited) {
         Bench bench { s };
         test::ChanceHand left { 1, ticks }, right { 2, ticks };
         bench.live.engine().attach ("left", left);

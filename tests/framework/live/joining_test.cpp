@@ -61,8 +61,7 @@ TEST_CASE ("a device joins on the tick that picks up the plan with its role, and
     test::ChanceHand hand { 1 }, other { 1 };
     engine.attach ("stylus", hand);
     alone.attach ("stylus", other);
-    const auto tick = [&] (int n)
-    {
+    const auto tick = [&] (int n) {
         const NoAllocation watch;
         for (int k = 0; k < n; ++k)
         {

@@ -50,8 +50,7 @@ TEST_CASE ("a journal gets each event on the tick on which it takes effect", "[l
     auto& engine = live.engine();
     Notes notes;
     engine.report (notes);
-    const auto plan = [&]
-    { return "plan " + std::to_string (engine.newest().serial()); };
+    const auto plan = [&] { return "plan " + std::to_string (engine.newest().serial()); };
     CHECK (notes.taken() == std::vector<std::string> { plan() });
 
     REQUIRE (live.set ("amp.gain", 2.0));
@@ -126,8 +125,7 @@ TEST_CASE ("a plan can be picked up before its tick, and values set later apply 
 
 TEST_CASE ("every knob of a graph is found by its name", "[plan][property]")
 {
-    rc::prop ("any graph", []
-              {
+    rc::prop ("any graph", [] {
         const auto graph = test::randomGraph (*rc::gen::arbitrary<unsigned>(), 15);
         const auto plan = compile (graph, catalogue()).plan;
         RC_ASSERT (plan);
@@ -147,7 +145,8 @@ TEST_CASE ("every knob of a graph is found by its name", "[plan][property]")
                     RC_ASSERT (refs[0].knobs == instance.knobs);
                     RC_ASSERT (refs[0].index == first + c);
                 }
-        } });
+        }
+    });
 }
 
 TEST_CASE ("a graph that is read again can get its ids back", "[graph]")

@@ -93,8 +93,8 @@ public:
         }
         const auto tick = plan.nextTick() - 1;
         if (taken_over && ! role->untouched) touched_at = tick;
-        const bool comes_late = std::ranges::any_of (plan.rests(), [&] (std::uint64_t rests)
-                                                     { return tick % rests == 0 && tick > touched_at && tick < touched_at + rests; });
+        const bool comes_late = std::ranges::any_of (plan.rests(),
+                                                     [&] (std::uint64_t rests) { return tick % rests == 0 && tick > touched_at && tick < touched_at + rests; });
         if ((taken_over && ! role->untouched) || comes_late)
         {
             difference = (last.force - wanted.force).cwiseAbs() + (last.torque - wanted.torque).cwiseAbs();
@@ -193,8 +193,7 @@ TEST_CASE ("ten seconds of edits on one side do not affect the other side, and c
         std::mt19937 random { seed };
         BumplessRule rule;
         int failing = 0;
-        const auto edited = play (both, records, seed, ticks, &rule, [&] (test::Live& live, Felt& felt)
-                                  {
+        const auto edited = play (both, records, seed, ticks, &rule, [&] (test::Live& live, Felt& felt) {
             for (auto edits = random() % (is_long ? 48 : 8) == 0 ? 1 + random() % 3 : 0; edits > 0; --edits)
             {
                 const auto messages =
@@ -203,7 +202,8 @@ TEST_CASE ("ten seconds of edits on one side do not affect the other side, and c
                 failing = hasErrors (messages) ? failing + 1 : 0;
                 while (failing > 1)
                     failing = hasErrors (live.undo()) ? failing : 0;
-            } });
+            }
+        });
         const auto quiet = play (both, records, seed, ticks, nullptr, [] (test::Live&, Felt&) {});
 
         INFO ("seed " << seed << ", " << edited.taken << " plans taken, " << edited.refused << " refused");
@@ -223,8 +223,7 @@ TEST_CASE ("renaming, collapsing and expanding while a graph runs leaves all sin
         constexpr std::size_t ticks = 1000;
         std::mt19937 random { seed };
         int done = 0, broken = 0, collapsed = 0, expanded = 0;
-        const auto regroup = [&] (test::Live& live, Felt&)
-        {
+        const auto regroup = [&] (test::Live& live, Felt&) {
             if (random() % 8 != 0) return;
             const bool back = random() % 8 == 0;
             const auto command = test::randomRegrouping (random, live.graph());

@@ -83,8 +83,7 @@ TEST_CASE ("a new target during a ramp starts a ramp from the current value", "[
 
 TEST_CASE ("no matter how it is turned, a parameter never steps by more than one tick of a 20 ms ramp", "[live][property]")
 {
-    rc::prop ("targets from 0 to 1 at any ticks, between edits of another node", []
-              {
+    rc::prop ("targets from 0 to 1 at any ticks, between edits of another node", [] {
         Bench bench { amplified().node ("other", "signal.abs") };
         bench.tick();
         double last = 1.0, target = 1.0;
@@ -103,7 +102,8 @@ TEST_CASE ("no matter how it is turned, a parameter never steps by more than one
                 last = value;
             }
         }
-        RC_ASSERT (bench.tick (ramp) == target); });
+        RC_ASSERT (bench.tick (ramp) == target);
+    });
 }
 
 TEST_CASE ("the stored value of a wired parameter ramps beneath the wire", "[live]")
@@ -185,8 +185,7 @@ TEST_CASE ("a turned parameter of a node that has never ticked keeps its value a
     bench.edit (graph::SetNodeKey { "", "one", "note", Json ("moved") });
     bench.edit (graph::AddWire { "", *graph::parseWire ("one.out -> new.in") });
     CHECK (bench.live.engine().param ("new.gain")->knobs == gain.knobs);
-    const auto out = [&]
-    {
+    const auto out = [&] {
         const auto& plan = bench.live.engine().plan();
         const auto node = std::ranges::find (plan.flat().nodes, "new", &plan::FlatNode::path);
         return *plan.instances()[static_cast<std::size_t> (node - plan.flat().nodes.begin())].param (0);
@@ -290,12 +289,11 @@ TEST_CASE ("a parameter set from another thread ends at the last value; values t
     Bench bench { amplified() };
     bench.tick();
     const auto gain = *bench.live.engine().param ("amp.gain");
-    std::thread turner { [&]
-                         {
-                             for (int i = 0; i <= 20000; ++i)
-                                 bench.live.engine().set (gain, 1e-3 * i);
-                             bench.live.engine().set (gain, std::nan (""));
-                         } };
+    std::thread turner { [&] {
+        for (int i = 0; i <= 20000; ++i)
+            bench.live.engine().set (gain, 1e-3 * i);
+        bench.live.engine().set (gain, std::nan (""));
+    } };
     double last = 1.0;
     bool rises = true;
     for (int k = 0; k < 2000; ++k)

@@ -186,8 +186,7 @@ TEST_CASE ("a different rate is like a new setting: a node keeps ringing at the 
     sketch.graph.root.nodes.back().extra = { { "every", 2 } };
     sketch.node ("after", "signal.gain").wire ("sec.value -> after.in");
     Bench bench { sketch, { "sec.hit", "other.hit" }, { "sec/bar.value", "other/bar.value" } };
-    const auto nodeOf = [&] (const std::string& path)
-    {
+    const auto nodeOf = [&] (const std::string& path) {
         const auto& plan = bench.live.engine().plan();
         return plan.instances()[static_cast<std::size_t> (std::ranges::find (plan.flat().nodes, path, &plan::FlatNode::path) - plan.flat().nodes.begin())]
             .node.get();
@@ -237,8 +236,7 @@ TEST_CASE ("a change in a section that runs only on some ticks takes effect when
     sketch.graph.graphs[0].second.nodes[0].role = "stylus";
     sketch.node ("push", "signal.constant", { { "value", "2 N" } });
     Bench bench { sketch, {}, {} };
-    const auto applied = [&]
-    { return bench.live.engine().plan().roles()[0].state->applied.force.x(); };
+    const auto applied = [&] { return bench.live.engine().plan().roles()[0].state->applied.force.x(); };
     for (int n = 0; n < 21; ++n)
         bench.tick();
     bench.edit (graph::AddWire { "", *graph::parseWire ("push.out -> sec.force.x") });

@@ -26,16 +26,16 @@ TEST_CASE ("a forbidden system call is detected", "[live]")
         WARN ("skipped: seccomp filters are not available here");
         return;
     }
-    CHECK (test::inChild ([]
-                          {
-        test::forbidSystemCalls();
-        return 7; })
+    CHECK (test::inChild ([] {
+               test::forbidSystemCalls();
+               return 7;
+           })
                .status
            == 7);
-    CHECK (test::inChild ([]
-                          {
-        test::forbidSystemCalls();
-        return getppid() > 0 ? 1 : 2; })
+    CHECK (test::inChild ([] {
+               test::forbidSystemCalls();
+               return getppid() > 0 ? 1 : 2;
+           })
                .signal
            == SIGSYS);
 }
@@ -48,8 +48,7 @@ TEST_CASE ("in a free run with edits at full speed, ticks make no system calls",
         return;
     }
     const auto graph = test::sideBySide (test::prefixed (test::randomGraph (5, 40), "s_", "left"), test::prefixed (test::randomGraph (6, 40), "e_", "right"));
-    const auto end = test::inChild ([&]
-                                    {
+    const auto end = test::inChild ([&] {
         auto [plan, messages] = compile (graph, catalogue(), { .rate_hz = 4000.0 });
         if (! plan) return 1;
         test::Live live { graph, catalogue(), { .rate_hz = 4000.0 }, plan };
@@ -57,8 +56,7 @@ TEST_CASE ("in a free run with edits at full speed, ticks make no system calls",
         live.engine().attach ("left", left);
         live.engine().attach ("right", right);
         std::atomic<int> edits = 0;
-        std::thread editor { [&]
-                             {
+        std::thread editor { [&] {
             for (std::mt19937 random { 7 };; ++edits)
             {
                 if (live.history().position() > 50)
@@ -79,7 +77,8 @@ TEST_CASE ("in a free run with edits at full speed, ticks make no system calls",
             taken += last != &live.engine().plan();
             last = &live.engine().plan();
         }
-        _exit (edits >= 50 ? 0 : 2); });
+        _exit (edits >= 50 ? 0 : 2);
+    });
     CHECK (end.signal == 0);
     CHECK (end.status == 0);
 }

@@ -63,8 +63,7 @@ Sketch counting()
 /// A bar that is hit on the first tick.
 Sketch struck()
 {
-    auto mode = [] (double f)
-    { return Json { { "frequency", f }, { "decay", 5.0 }, { "amplitude", 1.0 } }; };
+    auto mode = [] (double f) { return Json { { "frequency", f }, { "decay", 5.0 }, { "amplitude", 1.0 } }; };
     return Sketch {}
         .node ("bar", "vibration.modal", Json::object(), { { "modes", Json::array ({ mode (100.0) }) } })
         .node ("motor", "device.force")
@@ -219,8 +218,7 @@ TEST_CASE ("a second takeover during a fade starts a new fade from the current e
     bench.tick();
     bench.edit (graph::RemoveWire { "", bench.wireId (0) });
     bench.tick (21);
-    const auto applied = [&]
-    { return bench.live.engine().plan().roles()[0].state->applied.force.x(); };
+    const auto applied = [&] { return bench.live.engine().plan().roles()[0].state->applied.force.x(); };
     CHECK (applied() == Approx (1.0));
     bench.live.undo();
     bench.tick();
@@ -290,7 +288,6 @@ TEST_CASE ("unused plans are freed, and never more than three are kept", "[live]
     }
     bench.tick();
     CHECK (bench.live.engine().clear() == 1);
-    CHECK (std::ranges::count_if (plans, [] (const auto& p)
-                                  { return ! p.expired(); })
+    CHECK (std::ranges::count_if (plans, [] (const auto& p) { return ! p.expired(); })
            == 1);
 }

@@ -43,8 +43,7 @@ TEST_CASE ("a graph that is edited and turned from other threads keeps ticking, 
     std::atomic<bool> stop = false;
     std::atomic<int> taken = 0, unclean = 0;
     std::uint64_t ticks = 0;
-    std::thread ticker { [&]
-                         {
+    std::thread ticker { [&] {
                              const Plan* last = nullptr;
                              for (; ! stop; ++ticks)
                              {
@@ -57,8 +56,7 @@ TEST_CASE ("a graph that is edited and turned from other threads keeps ticking, 
                                  last = &live.engine().plan();
                                  if (ticks % 16 == 0) std::this_thread::yield();
                              } } };
-    std::thread turner { [&]
-                         {
+    std::thread turner { [&] {
                              for (int i = 0; ! stop; ++i)
                              {
                                  live.engine().set (turned, i % 100);

@@ -38,8 +38,7 @@ TEST_CASE ("a parameter turned live becomes bit-identical to one given with --se
     const auto graph = wood();
     Engine engine { compile (graph, catalogue()).plan };
     engine.tick();
-    const auto same = [&] (const std::string& name, const std::string& text, const std::string& component)
-    {
+    const auto same = [&] (const std::string& name, const std::string& text, const std::string& component) {
         INFO (text);
         CHECK (idOf (turnParam (engine, name, readValue (text))) == "");
         CHECK (arrived (engine, component) == compiled (graph, name, readValue (text), component));
@@ -57,20 +56,19 @@ TEST_CASE ("a control turned live moves all its targets to the same values as th
     const auto graph = wood();
     Engine engine { compile (graph, catalogue()).plan };
     engine.tick();
-    rc::prop ("any value of the control", [&]
-              {
+    rc::prop ("any value of the control", [&] {
         const double at = *rc::gen::inRange (0, 1001) / 1000.0;
         RC_ASSERT (idOf (turnControl (engine, graph, "roughness", at)) == "");
         for (const auto* target : { "grain.amplitude", "drag.mu" })
-            RC_ASSERT (arrived (engine, target) == compiled (graph, "roughness", at, target)); });
+            RC_ASSERT (arrived (engine, target) == compiled (graph, "roughness", at, target));
+    });
 }
 
 TEST_CASE ("an impossible turn is refused with a reason and has no effect", "[turn]")
 {
     const auto graph = wood();
     Engine engine { compile (graph, catalogue()).plan };
-    const auto refused = [&] (const std::string& name, const std::string& text)
-    { return idOf (turnParam (engine, name, readValue (text))); };
+    const auto refused = [&] (const std::string& name, const std::string& text) { return idOf (turnParam (engine, name, readValue (text))); };
     CHECK (refused ("drug.mu", "1") == "port/unknown_node");
     CHECK (refused ("drag.nu", "1") == "param/unknown");
     CHECK (refused ("drag.mu", "-1") == "param/out_of_range");

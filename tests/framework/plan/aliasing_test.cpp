@@ -9,15 +9,13 @@ using namespace tactus::test;
 TEST_CASE ("aliasing is reported where the rate decreases", "[plan][rates]")
 {
     const auto into = [] (std::string type, Json params, Json settings, int k, const std::string& output, const std::string& filter = "signal.gain",
-                          Json filtered = Json::object())
-    {
+                          Json filtered = Json::object()) {
         auto sketch = doubling (every (k));
         sketch.node ("source", std::move (type), std::move (params), std::move (settings)).node ("filter", filter, std::move (filtered));
         sketch.wire (output + " -> filter.in").wire ("filter.out -> sec.in");
         return sketch.compile().messages;
     };
-    const auto mode = [] (double f)
-    { return Json { { "modes", Json::array ({ { { "frequency", f }, { "decay", 20.0 }, { "amplitude", 0.5 } } }) } }; };
+    const auto mode = [] (double f) { return Json { { "modes", Json::array ({ { { "frequency", f }, { "decay", 20.0 }, { "amplitude", 0.5 } } }) } }; };
     CHECK (has (into ("vibration.modal", Json::object(), mode (800.0), 4, "source.value"), "rate/aliasing"));   // 1 kHz
     CHECK_FALSE (has (into ("vibration.modal", Json::object(), mode (300.0), 4, "source.value"), "rate/aliasing"));
     CHECK_FALSE (has (into ("vibration.modal", Json::object(), mode (800.0), 4, "source.value", "filter.one_pole", { { "cutoff", 200.0 } }), "rate/aliasing"));

@@ -207,8 +207,7 @@ TEST_CASE ("controls set their targets, but --set and wires take precedence", "[
     sketch.graph.controls.push_back (control);
 
     CHECK (run (sketch, "amp.out") == 3.0);
-    const auto with = [&] (std::string name, Json value)
-    {
+    const auto with = [&] (std::string name, Json value) {
         auto plan = sketch.compile ({ .records = { "amp.out" }, .overrides = { { std::move (name), std::move (value) } } }).plan;
         plan->tick();
         return *plan->taps()[0].value;
@@ -339,8 +338,7 @@ TEST_CASE ("the quantity of a generic port does not depend on the order of wires
     const auto twice = Sketch {}.node ("knock", "contact.impact").node ("amp", "signal.gain").wire ("knock.hit -> amp.in").wire ("knock.hit -> amp.in");
     CHECK (problems (twice).empty());
 
-    const auto mixed = [] (bool hit_first)
-    {
+    const auto mixed = [] (bool hit_first) {
         auto sketch = Sketch {}.node ("knock", "contact.impact").node ("hand", "device.truth").node ("amp", "signal.gain");
         hit_first ? sketch.wire ("knock.hit -> amp.in").wire ("hand.velocity.x -> amp.in")
                   : sketch.wire ("hand.velocity.x -> amp.in").wire ("knock.hit -> amp.in");
@@ -374,8 +372,7 @@ TEST_CASE ("a record keeps the requested name, even for an exposed port", "[plan
     sketch.add (inside, "wave", "texture.grating");
     inside.expose.outputs = { { "force", { "wave", "force" } } };
     sketch.node ("grain", "graph:grain").node ("mix", "signal.mix");
-    const auto names = [&] (std::vector<std::string> records)
-    {
+    const auto names = [&] (std::vector<std::string> records) {
         std::vector<std::string> all;
         const auto plan = sketch.compile ({ .records = std::move (records) }).plan;
         for (const auto& tap : plan->taps())

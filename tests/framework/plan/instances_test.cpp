@@ -153,8 +153,7 @@ TEST_CASE ("a feed column drives all instances except those with their own colum
 
 TEST_CASE ("a role is given to all instances, or one role to each", "[instances]")
 {
-    const auto rolesOf = [] (const std::string& finger)
-    {
+    const auto rolesOf = [] (const std::string& finger) {
         std::vector<std::string> names;
         const auto plan = compile (fingers (finger), catalogue()).plan;
         REQUIRE (plan);
@@ -172,8 +171,7 @@ TEST_CASE ("a role is given to all instances, or one role to each", "[instances]
     auto plan = compile (fingers (R"("count": 2, "roles": { "tip": [ "thumb", "index" ] })"), catalogue(), { .records = { "finger.pressure" } }).plan;
     REQUIRE (plan);
     for (auto& role : plan->roles())
-        role.state->reading.pressure = role.name == "thumb" ? 1.0 : role.name == "index" ? 2.0
-                                                                                         : 9.0;
+        role.state->reading.pressure = role.name == "thumb" ? 1.0 : (role.name == "index" ? 2.0 : 9.0);
     plan->tick();
     CHECK (*plan->taps()[0].value == 1.0);
     CHECK (*plan->taps()[1].value == 2.0);
@@ -192,8 +190,7 @@ TEST_CASE ("instances inside instances can be addressed individually or all toge
     s.graph.root.nodes[4] = test::Sketch::makeNode ("palm", "graph:palm");
     s.graph.root.nodes[4].extra["count"] = 2;
     s.graph.root.wires[0].from.node = "palm";
-    const auto offsets = [&] (const Json& overrides)
-    {
+    const auto offsets = [&] (const Json& overrides) {
         s.graph.root.nodes[4].overrides = overrides;
         return values (s.graph, { "palm/finger/wall.offset" });
     };

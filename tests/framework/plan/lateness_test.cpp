@@ -8,8 +8,10 @@ using namespace tactus::test;
 
 TEST_CASE ("the delay of a section on the path from hand to motor is reported in ticks of the graph", "[plan][rates]")
 {
-    const auto warnings = [] (Json rate, const std::string& inside, const std::string& outside = "sec.out -> motor.force.x")
-    { return fromHandToMotor (std::move (rate), inside, outside).compile().messages; };
+    const auto warnings = [] (Json rate, const std::string& inside, const std::string& outside = "sec.out -> motor.force.x") {
+        auto graph = fromHandToMotor (std::move (rate), inside, outside);
+        return graph.compile().messages;
+    };
     CHECK (warnings (every (4), "split.x -> late.in").empty());
 
     const auto inside = warnings (every (4), "split.x -> [2] -> late.in");

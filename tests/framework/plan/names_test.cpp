@@ -10,19 +10,19 @@ using namespace tactus::plan;
 
 TEST_CASE ("names: each name keeps its number, and a name that was not added is not found", "[plan][names]")
 {
-    rc::prop ("numbers are the same as in a map", []
-              {
-                  const auto word = rc::gen::container<std::string> (rc::gen::elementOf (std::string ("ab/")));
-                  const auto added = *rc::gen::container<std::vector<std::string>> (word), asked = *rc::gen::container<std::vector<std::string>> (word);
+    rc::prop ("numbers are the same as in a map", [] {
+        const auto word = rc::gen::container<std::string> (rc::gen::elementOf (std::string ("ab/")));
+        const auto added = *rc::gen::container<std::vector<std::string>> (word), asked = *rc::gen::container<std::vector<std::string>> (word);
 
-                  Names names;
-                  std::map<std::string, std::size_t> numbers;
-                  for (const auto& name : added)
-                      RC_ASSERT (names.add (name) == numbers.try_emplace (name, numbers.size()).first->second);
-                  RC_ASSERT (names.size() == numbers.size());
-                  for (const auto& list : { added, asked })
-                      for (const auto& name : list)
-                          RC_ASSERT (names.find (name) == (numbers.contains (name) ? numbers[name] : Names::none)); });
+        Names names;
+        std::map<std::string, std::size_t> numbers;
+        for (const auto& name : added)
+            RC_ASSERT (names.add (name) == numbers.try_emplace (name, numbers.size()).first->second);
+        RC_ASSERT (names.size() == numbers.size());
+        for (const auto& list : { added, asked })
+            for (const auto& name : list)
+                RC_ASSERT (names.find (name) == (numbers.contains (name) ? numbers[name] : Names::none));
+    });
 }
 
 TEST_CASE ("names: thousands of names are distinguished", "[plan][names]")

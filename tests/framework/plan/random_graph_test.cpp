@@ -127,29 +127,28 @@ TEST_CASE ("each record of a plan has an owner, and each node that runs on its o
 
 TEST_CASE ("a plan is bit-identical to an interpreter of the graph", "[plan][property]")
 {
-    rc::prop ("on random graphs of up to 200 nodes", []
-              {
+    rc::prop ("on random graphs of up to 200 nodes", [] {
         const auto seed = *rc::gen::arbitrary<unsigned>();
         const auto g = test::randomGraph (seed, *rc::gen::inRange (2, 200));
         RC_LOG (difference (interpret (g, seed), runPlan (g, seed)));
-        RC_ASSERT (interpret (g, seed) == runPlan (g, seed)); });
+        RC_ASSERT (interpret (g, seed) == runPlan (g, seed));
+    });
 }
 
 TEST_CASE ("the order of nodes and wires in the file does not change a single bit", "[plan][property]")
 {
-    rc::prop ("on random graphs of up to 200 nodes", []
-              {
+    rc::prop ("on random graphs of up to 200 nodes", [] {
         const auto seed = *rc::gen::arbitrary<unsigned>();
         const auto g = test::randomGraph (seed, *rc::gen::inRange (2, 200));
         const auto other = test::shuffled (g, seed + 1);
         RC_LOG (difference (runPlan (g, seed), runPlan (other, seed)));
-        RC_ASSERT (runPlan (g, seed) == runPlan (other, seed)); });
+        RC_ASSERT (runPlan (g, seed) == runPlan (other, seed));
+    });
 }
 
 TEST_CASE ("a subgraph with several instances is bit-identical to separate nodes", "[plan][property]")
 {
-    rc::prop ("on random graphs of up to 200 nodes", []
-              {
+    rc::prop ("on random graphs of up to 200 nodes", [] {
         const auto seed = *rc::gen::arbitrary<unsigned>();
         const auto g = test::randomGraph (seed, *rc::gen::inRange (13, 200));
         auto drawn = g;
@@ -175,7 +174,8 @@ TEST_CASE ("a subgraph with several instances is bit-identical to separate nodes
             row = std::move (renamed);
         }
         RC_LOG (difference (run, other));
-        RC_ASSERT (run == other); });
+        RC_ASSERT (run == other);
+    });
 }
 
 TEST_CASE ("a tick allocates nothing and takes no lock, whatever the graph", "[plan][property]")

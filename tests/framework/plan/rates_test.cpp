@@ -28,14 +28,14 @@ Parted knocking (Json rate)
 
 std::vector<double> randomSignal (int size)
 {
-    return *rc::gen::container<std::vector<double>> (static_cast<std::size_t> (size), rc::gen::map (rc::gen::inRange (-1000000, 1000000), [] (int i)
-                                                                                                    { return 1e-3 * i; }));
+    const auto value = rc::gen::map (rc::gen::inRange (-1000000, 1000000), [] (int i) { return 1e-3 * i; });
+    return *rc::gen::container<std::vector<double>> (static_cast<std::size_t> (size), value);
 }
 
 std::vector<double> randomHits (int size)
 {
-    return *rc::gen::container<std::vector<double>> (static_cast<std::size_t> (size), rc::gen::map (rc::gen::inRange (-6, 6), [] (int i)
-                                                                                                    { return std::max (i, 0); }));
+    const auto hit = rc::gen::map (rc::gen::inRange (-6, 6), [] (int i) { return std::max (i, 0); });
+    return *rc::gen::container<std::vector<double>> (static_cast<std::size_t> (size), hit);
 }
 
 /// Counts the ticks of the section it is in.
@@ -50,8 +50,7 @@ void addCounter (Sketch& sketch, graph::Patch& patch)
 
 TEST_CASE ("`every k` runs on the inputs of every k-th tick, and holds its outputs", "[plan][rates][property]")
 {
-    rc::prop ("for any signal", []
-              {
+    rc::prop ("for any signal", [] {
         const int k = *rc::gen::inRange (2, 9);
         const auto in = randomSignal (40);
         Run run { doubling (every (k)), { "sec.in" }, { "after.out", "sec/amp.in" } };
@@ -60,13 +59,13 @@ TEST_CASE ("`every k` runs on the inputs of every k-th tick, and holds its outpu
             const auto held = in[n - n % static_cast<std::size_t> (k)];
             RC_ASSERT (*run.tick ({ in[n] }).value == 2.0 * held);
             RC_ASSERT (*run.plan->taps()[1].value == held);
-        } });
+        }
+    });
 }
 
 TEST_CASE ("`every k` prepares nodes for its own rate: a filter inside is that filter on every k-th sample", "[plan][rates][property]")
 {
-    rc::prop ("for any signal", []
-              {
+    rc::prop ("for any signal", [] {
         const int k = *rc::gen::inRange (2, 9);
         const auto in = randomSignal (60);
         Parted slow { every (k) };
@@ -78,24 +77,24 @@ TEST_CASE ("`every k` prepares nodes for its own rate: a filter inside is that f
             const auto value = *run.tick ({ in[n] }).value;
             if (n % static_cast<std::size_t> (k) == 0) reference.tick ({ in[n] });
             RC_ASSERT (value == *reference.plan->taps()[0].value);
-        } });
+        }
+    });
 }
 
 TEST_CASE ("`linear` is exact on ramps, delayed by k ticks", "[plan][rates][property]")
 {
-    rc::prop ("for any slope", []
-              {
+    rc::prop ("for any slope", [] {
         const int k = *rc::gen::inRange (2, 9);
         const double slope = 1e-3 * *rc::gen::inRange (-1000, 1000);
         Run run { doubling (every (k, "linear")), { "sec.in" }, { "after.out" } };
         for (int n = 0; n < 40; ++n)
-            RC_ASSERT (std::abs (*run.tick ({ slope * n }).value - 2.0 * slope * std::max (n - k, 0)) < 1e-12); });
+            RC_ASSERT (std::abs (*run.tick ({ slope * n }).value - 2.0 * slope * std::max (n - k, 0)) < 1e-12);
+    });
 }
 
 TEST_CASE ("`linear` ends each line on the value itself", "[plan][rates][property]")
 {
-    rc::prop ("for any signal", []
-              {
+    rc::prop ("for any signal", [] {
         const int k = *rc::gen::inRange (2, 9);
         const auto in = randomSignal (40);
         Run run { doubling (every (k, "linear")), { "sec.in" }, { "after.out" } };
@@ -104,7 +103,8 @@ TEST_CASE ("`linear` ends each line on the value itself", "[plan][rates][propert
             const auto late = static_cast<std::size_t> (k);
             const auto value = *run.tick ({ in[n] }).value;
             if (n % late == 0 && n >= late) RC_ASSERT (value == 2.0 * in[n - late]);
-        } });
+        }
+    });
 }
 
 TEST_CASE ("states are held, even with linear hold", "[plan][rates]")
@@ -131,8 +131,7 @@ TEST_CASE ("states are held, even with linear hold", "[plan][rates]")
 
 TEST_CASE ("each hit enters and leaves a section once, and none is lost", "[plan][rates][property]")
 {
-    rc::prop ("every k", []
-              {
+    rc::prop ("every k", [] {
         const int k = *rc::gen::inRange (2, 9);
         const auto hits = randomHits (5 * k);
         Run run { knocking (every (k, *rc::gen::arbitrary<bool>() ? "linear" : "latch")), { "before.in" }, { "bar.hit" } };
@@ -142,9 +141,9 @@ TEST_CASE ("each hit enters and leaves a section once, and none is lost", "[plan
             waiting += hits[n];
             const double there = *run.tick ({ hits[n] }).value;
             RC_ASSERT (there == (n % static_cast<std::size_t> (k) == 0 ? std::exchange (waiting, 0.0) : 0.0));
-        } });
-    rc::prop ("times m", []
-              {
+        }
+    });
+    rc::prop ("times m", [] {
         const int m = *rc::gen::inRange (2, 9);
         Run run { knocking (times (m)), { "before.in" }, { "bar.hit", "sec/amp.out" } };
         for (const double hit : randomHits (40))
@@ -154,9 +153,9 @@ TEST_CASE ("each hit enters and leaves a section once, and none is lost", "[plan
             RC_ASSERT (inside.per_tick == m);
             for (int i = 0; i < m; ++i)
                 RC_ASSERT (inside.samples[i] == (i == 0 ? hit : 0.0));
-        } });
-    rc::prop ("several ticks of a section deliver one hit", []
-              {
+        }
+    });
+    rc::prop ("several ticks of a section deliver one hit", [] {
         const int m = *rc::gen::inRange (2, 5), k = *rc::gen::inRange (2, 5);
         Parted sketch { times (m), Json::object(), Json::object() };
         sketch.subgraph ("inner");
@@ -176,13 +175,13 @@ TEST_CASE ("each hit enters and leaves a section once, and none is lost", "[plan
         }
         for (int n = 0; n < k; ++n)
             out += *run.tick ({ 0.0 }).value;
-        RC_ASSERT (in == out); });
+        RC_ASSERT (in == out);
+    });
 }
 
 TEST_CASE ("a bar inside `times m` equals a bar at m times the rate, hit on the first of m samples", "[plan][rates][property]")
 {
-    rc::prop ("bit for bit", []
-              {
+    rc::prop ("bit for bit", [] {
         const int m = *rc::gen::inRange (2, 7);
         const Json modes = Json::array (
             { { { "frequency", 180.0 }, { "decay", 20.0 }, { "amplitude", 0.5 } }, { { "frequency", 2900.0 }, { "decay", 90.0 }, { "amplitude", 0.2 } } });
@@ -204,13 +203,13 @@ TEST_CASE ("a bar inside `times m` equals a bar at m times the rate, hit on the 
             }
             RC_ASSERT (*tap.value == tap.samples[m - 1]);
         }
-        RC_ASSERT (loudest > 0.0); });
+        RC_ASSERT (loudest > 0.0);
+    });
 }
 
 TEST_CASE ("signals enter `times m` as straight lines that end on the value of the tick; the first line is level", "[plan][rates][property]")
 {
-    rc::prop ("for any signal", []
-              {
+    rc::prop ("for any signal", [] {
         const int m = *rc::gen::inRange (2, 7);
         const auto in = randomSignal (30);
         Run run { doubling (times (m)), { "sec.in" }, { "sec.out", "after.out" } };
@@ -222,16 +221,19 @@ TEST_CASE ("signals enter `times m` as straight lines that end on the value of t
                 RC_ASSERT (std::abs (tap.samples[i] - 2.0 * (before + (in[n] - before) * (i + 1) / m)) < 1e-9);
             RC_ASSERT (tap.samples[m - 1] == 2.0 * in[n]);
             RC_ASSERT (*run.plan->taps()[1].value == 2.0 * in[n]);
-        } });
+        }
+    });
 }
 
 TEST_CASE ("factors of nested sections multiply, for both kinds", "[plan][rates]")
 {
-    const auto [outer, inner, ticks, expected] = GENERATE (table<Json, Json, int, double> ({ { every (2), every (3), 12, 2.0 },
-                                                                                             { times (2), times (3), 4, 24.0 },
-                                                                                             { times (4), every (2), 5, 10.0 },
-                                                                                             { every (2), times (3), 8, 12.0 },
-                                                                                             { every (5), every (2), 11, 2.0 } }));
+    const auto [outer, inner, ticks, expected] = GENERATE (table<Json, Json, int, double> ({
+        { every (2), every (3), 12, 2.0 },
+        { times (2), times (3), 4, 24.0 },
+        { times (4), every (2), 5, 10.0 },
+        { every (2), times (3), 8, 12.0 },
+        { every (5), every (2), 11, 2.0 },
+    }));
     Parted sketch { outer, Json::object(), { { "n", "inner.n" } } };
     auto use = Sketch::makeNode ("inner", "graph:inner");
     use.extra = inner;
@@ -262,8 +264,7 @@ TEST_CASE ("a factor of 1 makes no section", "[plan][rates]")
 
 TEST_CASE ("delays in a section count its own ticks, and are reported in ticks of the graph", "[plan][rates]")
 {
-    const auto delays = [] (Json rate, const std::string& inside, const std::string& outside)
-    {
+    const auto delays = [] (Json rate, const std::string& inside, const std::string& outside) {
         Run run { fromHandToMotor (std::move (rate), inside, outside), {}, {} };
         REQUIRE (run.plan->delays().size() == 1);
         return std::pair { run.plan->delays()[0].shortest, run.plan->delays()[0].longest };
@@ -364,10 +365,11 @@ TEST_CASE ("`times` that returns to the hand is refused, port by port", "[plan][
 
 TEST_CASE ("mistakes with rates are reported, each with its own id and place", "[plan][rates]")
 {
-    const auto problem = [] (Json rate)
-    { return doubling (std::move (rate)).compile().messages; };
-    const auto is = [] (const Messages& messages, std::string_view id, std::string_view where)
-    { return messages.size() == 1 && messages[0].id == id && messages[0].where == where && ! messages[0].remedy.empty(); };
+    const auto problem = [] (Json rate) { return doubling (std::move (rate)).compile().messages; };
+    const auto is = [] (const Messages& messages, std::string_view id, std::string_view where) {
+        if (messages.size() != 1) return false;
+        return messages[0].id == id && messages[0].where == where && ! messages[0].remedy.empty();
+    };
 
     CHECK (is (problem ({ { "every", 0 } }), "rate/value", "/nodes/sec/every"));
     CHECK (is (problem ({ { "every", 2.5 } }), "rate/value", "/nodes/sec/every"));
@@ -385,8 +387,7 @@ TEST_CASE ("mistakes with rates are reported, each with its own id and place", "
 
 TEST_CASE ("a node's own warning refers to the rate at which the node runs", "[plan][rates]")
 {
-    const auto knock = [] (Json rate)
-    {
+    const auto knock = [] (Json rate) {
         Parted sketch { std::move (rate), { { "hit", "knock.hit" } }, Json::object() };
         sketch.add (sketch.part(), "knock", "shock.hunt_crossley");
         return sketch.compile().messages;

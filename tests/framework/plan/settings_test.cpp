@@ -346,8 +346,7 @@ TEST_CASE ("a surface may have frames, and curves and ratios for each node", "[p
 
 TEST_CASE ("every error in a surface is reported at its place", "[plan][settings]")
 {
-    const auto fault = [] (const char* key, const Json& value)
-    { return refusal ("surface", with (square(), key, value)); };
+    const auto fault = [] (const char* key, const Json& value) { return refusal ("surface", with (square(), key, value)); };
 
     CHECK (contains (refusal ("surface", 3), ": it must be an object with"));
     CHECK (contains (fault ("curvs", 3), "/curvs: it has no 'curvs' (did you mean 'curves'?)"));
@@ -414,8 +413,7 @@ TEST_CASE ("no value of a setting breaks the reader", "[plan][settings]")
                                      { 0, 0, 0 },
                                      { { "mesh", "m" } },
                                      { { "frequency", 1 } } };
-    rc::prop ("any nesting of fragments", [&]
-              {
+    rc::prop ("any nesting of fragments", [&] {
         Json value = *rc::gen::elementOf (scraps);
         for (int depth = *rc::gen::inRange (0, 5); depth > 0; --depth)
         {
@@ -437,5 +435,6 @@ TEST_CASE ("no value of a setting breaks the reader", "[plan][settings]")
                 sheet.set (type().make().get(), *read);
             else
                 RC_ASSERT_FALSE (read.error().text.empty());
-        } });
+        }
+    });
 }

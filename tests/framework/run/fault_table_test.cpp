@@ -106,8 +106,7 @@ Measured measure (const Fault& fault)
     Bench bench { fault.limits };
     Measured m;
     double before = 0.0;
-    const auto ticksUntil = [&] (double wanted, int most) -> Ms
-    {
+    const auto ticksUntil = [&] (double wanted, int most) -> Ms {
         for (int k = 1; k <= most; ++k)
         {
             bench.tick();
@@ -149,8 +148,7 @@ std::string inWords (double v)
 
 std::string rowOf (const Fault& fault, const Measured& m)
 {
-    const auto ms = [] (Ms v, const char* otherwise)
-    { return v ? inWords (*v) : std::string (otherwise); };
+    const auto ms = [] (Ms v, const char* otherwise) { return v ? inWords (*v) : std::string (otherwise); };
     return "| " + fault.name + " | " + ms (m.to_zero, "keeps running") + " | " + inWords (m.largest_step) + " | "
            + (m.message.empty() ? "" : "\"" + m.message + "\"") + " | "
            + (! m.to_zero ? "" : (fault.rearm ? "rearm, then " : "") + ms (m.back, "never")) + " |";
@@ -161,71 +159,46 @@ std::vector<Fault> faults()
 {
     // Limits as in the profile of a small desktop device.
     const GuardLimits profile { .max_force = 3.3, .max_slew = 2000.0, .ramp = 0.1, .watchdog = 0.02 };
-    const auto with = [&] (auto change)
-    {
+    const auto with = [&] (auto change) {
         auto limits = profile;
         change (limits);
         return limits;
     };
     const auto nothing = [] (Bench&) {};
-    const auto still = [] (Bench& b)
-    { b.tool.speed = 0.0; };
+    const auto still = [] (Bench& b) { b.tool.speed = 0.0; };
 
     return {
-        { "a force in the graph is not a number", profile, [] (Bench& b)
-          { b.beside = not_a_number; },
-          [] (Bench& b)
-          { b.beside = 0.0; } },
-        { "a parameter of a model is not a number: the model outputs 0", profile, [] (Bench& b)
-          { b.pushes = not_a_number; },
-          [] (Bench& b)
-          { b.pushes = push; } },
-        { "the device's reading is not a number", profile, [] (Bench& b)
-          { b.tool.reading.position.x() = not_a_number; },
-          [] (Bench& b)
-          { b.tool.reading.position.x() = 0.0; } },
-        { "the device reports that it has no reading", profile, [] (Bench& b)
-          { b.tool.reading.valid = false; },
-          [] (Bench& b)
-          { b.tool.reading.valid = true; } },
-        { "the device falls silent (watchdog 20 ms)", profile, [] (Bench& b)
-          { b.tool.is_silent = true; },
-          [] (Bench& b)
-          { b.tool.is_silent = false; } },
-        { "an edit that does not compile", profile, [] (Bench& b)
-          { CHECK (hasErrors (b.live.perform (graph::AddWire { .patch = {}, .wire = *graph::parseWire ("nobody.out -> push.in") }))); },
+        { "a force in the graph is not a number", profile, [] (Bench& b) { b.beside = not_a_number; },
+          [] (Bench& b) { b.beside = 0.0; } },
+        { "a parameter of a model is not a number: the model outputs 0", profile, [] (Bench& b) { b.pushes = not_a_number; },
+          [] (Bench& b) { b.pushes = push; } },
+        { "the device's reading is not a number", profile, [] (Bench& b) { b.tool.reading.position.x() = not_a_number; },
+          [] (Bench& b) { b.tool.reading.position.x() = 0.0; } },
+        { "the device reports that it has no reading", profile, [] (Bench& b) { b.tool.reading.valid = false; },
+          [] (Bench& b) { b.tool.reading.valid = true; } },
+        { "the device falls silent (watchdog 20 ms)", profile, [] (Bench& b) { b.tool.is_silent = true; },
+          [] (Bench& b) { b.tool.is_silent = false; } },
+        { "an edit that does not compile", profile,
+          [] (Bench& b) { CHECK (hasErrors (b.live.perform (graph::AddWire { .patch = {}, .wire = *graph::parseWire ("nobody.out -> push.in") }))); },
           nothing },
-        { "an edit that removes the motor", profile, [] (Bench& b)
-          { CHECK_FALSE (hasErrors (b.live.perform (graph::SetNodeKey { .patch = {}, .node = "motor", .key = "bypass", .value = true }))); },
-          [] (Bench& b)
-          { b.live.undo(); } },
-        { "the hand releases the dead-man's switch", with ([] (auto& l)
-                                                           { l.dead_man_buttons = 1; }),
-          [] (Bench& b)
-          { b.tool.reading.buttons = 0; },
-          [] (Bench& b)
-          { b.tool.reading.buttons = 1; } },
-        { "the end of a run, the stop button", profile, [] (Bench& b)
-          { b.live.engine().halt(); },
-          [] (Bench& b)
-          { b.live.engine().resume(); } },
-        { "the emergency stop", profile, [] (Bench& b)
-          { b.live.engine().emergencyStop(); },
+        { "an edit that removes the motor", profile,
+          [] (Bench& b) { CHECK_FALSE (hasErrors (b.live.perform (graph::SetNodeKey { .patch = {}, .node = "motor", .key = "bypass", .value = true }))); },
+          [] (Bench& b) { b.live.undo(); } },
+        { "the hand releases the dead-man's switch", with ([] (auto& l) { l.dead_man_buttons = 1; }),
+          [] (Bench& b) { b.tool.reading.buttons = 0; },
+          [] (Bench& b) { b.tool.reading.buttons = 1; } },
+        { "the end of a run, the stop button", profile, [] (Bench& b) { b.live.engine().halt(); },
+          [] (Bench& b) { b.live.engine().resume(); } },
+        { "the emergency stop", profile, [] (Bench& b) { b.live.engine().emergencyStop(); },
           nothing, true },
-        { "the tool is torn away at 3 m/s (limit 1 m/s)", with ([] (auto& l)
-                                                                { l.max_speed = 1.0; }),
-          [] (Bench& b)
-          { b.tool.speed = -3.0; },
+        { "the tool is torn away at 3 m/s (limit 1 m/s)", with ([] (auto& l) { l.max_speed = 1.0; }),
+          [] (Bench& b) { b.tool.speed = -3.0; },
           still, true },
-        { "the device drives the hand with 0.4 W (limit 20 mJ in 1 s)", with ([] (auto& l)
-                                                                              { l.max_energy = 0.02; l.energy_window = 1.0; }),
-          [] (Bench& b)
-          { b.tool.speed = 0.2; },
+        { "the device drives the hand with 0.4 W (limit 20 mJ in 1 s)", with ([] (auto& l) { l.max_energy = 0.02; l.energy_window = 1.0; }),
+          [] (Bench& b) { b.tool.speed = 0.2; },
           still, true },
-        { "2 N for longer than allowed (limit 0.4 N*s in 1 s)", with ([] (auto& l)
-                                                                      { l.max_impulse = 0.4; l.impulse_window = 1.0; }),
-          [] (Bench& b)
-          { b.live.engine().rearm(); },   // the window starts here
+        { "2 N for longer than allowed (limit 0.4 N*s in 1 s)", with ([] (auto& l) { l.max_impulse = 0.4; l.impulse_window = 1.0; }),
+          [] (Bench& b) { b.live.engine().rearm(); },   // the window starts here
           nothing, true },
     };
 }

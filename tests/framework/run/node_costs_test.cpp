@@ -70,8 +70,7 @@ struct Costly
 
 const Catalogue& catalogueWithCosts()
 {
-    static const Catalogue all = []
-    {
+    static const Catalogue all = [] {
         std::vector<NodeType> types (catalogue().begin(), catalogue().end());
         types.push_back (describe<Costly>());
         return Catalogue { std::move (types) };
@@ -175,8 +174,7 @@ TEST_CASE ("the cost of a node is measured, including driven inputs, sums and de
     NodeCosts costs { clock };
     costs.begin();
     CHECK (costs.of (*plan).empty());
-    const auto run = [&] (Plan& p)
-    {
+    const auto run = [&] (Plan& p) {
         for (int k = 0; k < 2000; ++k)
         {
             costs.earn (1.0);

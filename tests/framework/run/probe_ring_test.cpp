@@ -31,16 +31,14 @@ TEST_CASE ("the selected taps are captured in order, every n-th tick; frames tha
 {
     const auto plan = counter();
     ProbeRing ring;
-    const auto run = [&] (std::uint64_t from, std::uint64_t to)
-    {
+    const auto run = [&] (std::uint64_t from, std::uint64_t to) {
         for (auto k = from; k < to; ++k)
         {
             plan->tick();
             ring.note (*plan, k);
         }
         std::vector<ProbeRing::Frame> frames;
-        ring.drain ([&] (const auto& frame)
-                    { frames.push_back (frame); });
+        ring.drain ([&] (const auto& frame) { frames.push_back (frame); });
         return frames;
     };
     CHECK (run (0, 10).empty());
@@ -93,26 +91,26 @@ TEST_CASE ("frames arrive complete and in order while the selection changes, and
     const auto plan = counter();
     ProbeRing ring;
     std::atomic<bool> done { false };
-    std::thread ticking ([&]
-                         {
+    std::thread ticking ([&] {
         for (std::uint64_t k = 0; k < 50000; ++k)
         {
             plan->tick();
             ring.note (*plan, k);
         }
-        done = true; });
+        done = true;
+    });
     std::size_t broken = 0;
     std::uint64_t last = 0;
     const std::size_t taps[] { 0, 1 };
     for (std::uint32_t i = 0; ! done; ++i)
     {
         ring.select (std::span (taps).first (1 + i % 2), 1 + i % 3);
-        ring.drain ([&] (const ProbeRing::Frame& f)
-                    {
+        ring.drain ([&] (const ProbeRing::Frame& f) {
             for (std::size_t v = 0; v < f.size; ++v)
                 broken += f.values[v] != static_cast<double> (f.tick + 1);
             broken += f.tick < last;
-            last = f.tick; });
+            last = f.tick;
+        });
     }
     ticking.join();
     CHECK (broken == 0);

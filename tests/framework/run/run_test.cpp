@@ -35,8 +35,7 @@ struct Hands
 {
     Run::OpenDevice opener()
     {
-        return [this] (const std::string& role, const graph::Graph&, const Plan&, Messages&) -> Run::RoleDevice
-        {
+        return [this] (const std::string& role, const graph::Graph&, const Plan&, Messages&) -> Run::RoleDevice {
             auto hand = std::make_unique<Hand>();
             hands[role] = hand.get();
             return { std::move (hand) };
@@ -228,10 +227,10 @@ TEST_CASE ("probes see the values of ports, and a failed probe leaves the earlie
     for (int k = 0; k < 5; ++k)
         run.tick();
     int seen = 0;
-    probes.drain ([&] (std::uint64_t, std::span<const double> values)
-                  {
+    probes.drain ([&] (std::uint64_t, std::span<const double> values) {
         CHECK (values.size() == 3);
-        ++seen; });
+        ++seen;
+    });
     CHECK (seen == 5);
 }
 

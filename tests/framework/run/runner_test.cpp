@@ -111,15 +111,14 @@ TEST_CASE ("a run that is stopped in any way brings the force to zero smoothly a
     static std::atomic<bool> signalled;
     signalled = false;
     Rubbed run { { .max_slew = 50.0 } };
-    Runner runner { run.engine, run.clock, rate_hz, { .stop_wanted = []() noexcept
-                                                      { return signalled.load(); } } };
+    Runner runner { run.engine, run.clock, rate_hz, { .stop_wanted = []() noexcept { return signalled.load(); } } };
     const bool by_signal = GENERATE (true, false);
-    const auto end = play (runner, [&]
-                           {
+    const auto end = play (runner, [&] {
         while (runner.status().force < 0.5)
             std::this_thread::yield();
         CHECK_FALSE (runner.isOver());
-        by_signal ? signalled = true : (runner.stop(), true); });
+        by_signal ? signalled = true : (runner.stop(), true);
+    });
     CHECK (end.end == End::asked);
     CHECK (runner.isOver());
     CHECK (run.hand.last.force.isZero (0.0));
@@ -199,11 +198,11 @@ TEST_CASE ("the status shows why a guard stops, with its numbers, while the run 
     FreeRun clock;
     Runner runner { engine, clock, rate_hz, {} };
     RunStatus seen;
-    play (runner, [&]
-          {
+    play (runner, [&] {
         while ((seen = runner.status()).roles[0].stop == Guard::Stop::none)
             std::this_thread::yield();
-        runner.stop(); });
+        runner.stop();
+    });
     CHECK (seen.ticks >= 400);
     CHECK (seen.roles[0].stop == Guard::Stop::stale);
     CHECK (seen.roles[0].latest == Guard::Stop::stale);
@@ -216,11 +215,11 @@ TEST_CASE ("an audio card can own the clock and tick a block at a time on its ow
     {
         void drive (Ticked& t) noexcept override
         {
-            std::jthread ([&]
-                          {
+            std::jthread ([&] {
                 for (bool more = true; more;)
                     for (int i = 0; i < 64 && more; ++i)
-                        more = t.tick (0.0); })
+                        more = t.tick (0.0);
+            })
                 .join();
         }
     } card;
@@ -255,11 +254,11 @@ TEST_CASE ("a device can own the clock; when it falls silent, its guard removes 
     Engine engine { rubbed().compile ({ .rate_hz = rate_hz }).plan };
     engine.attach ("stylus", stylus, { .watchdog = 0.020 });
     Runner runner { engine, stylus, rate_hz, {} };
-    const auto end = play (runner, [&]
-                           {
+    const auto end = play (runner, [&] {
         while (runner.status().roles[0].stop != Guard::Stop::stale || runner.status().force > 0.0)
             std::this_thread::yield();
-        runner.stop(); });
+        runner.stop();
+    });
     CHECK (end.end == End::asked);
     CHECK (end.peak > 0.5);
     CHECK (stylus.force == 0.0);
@@ -323,14 +322,14 @@ TEST_CASE ("in a free run, a tick makes no system calls", "[runtime]")
             _exit (0);
         }
     };
-    const auto end = test::inChild ([]
-                                    {
+    const auto end = test::inChild ([] {
         Sealed clock;
         Rubbed run;
         Runner runner { run.engine, clock, rate_hz, { .length = 100000 } };
         runner.start();
         runner.wait();
-        return 1; });
+        return 1;
+    });
     CHECK (end.signal == 0);
     CHECK (end.status == 0);
 }

@@ -86,32 +86,32 @@ TEST_CASE ("an editor, a turned knob, a probe reader, a recorder and a status re
     std::atomic<std::uint64_t> probed = 0, recorded = 0, looked = 0;
     std::atomic<int> broken = 0;
     std::vector<std::jthread> others;
-    const auto beside = [&] (auto what)
-    {
-        others.emplace_back ([what] (const std::stop_token& over) mutable
-                             {
+    const auto beside = [&] (auto what) {
+        others.emplace_back ([what] (const std::stop_token& over) mutable {
             for (; ! over.stop_requested(); std::this_thread::yield())
-                what(); });
+                what();
+        });
     };
-    beside ([&, i = 0]() mutable
-            { live.engine().set (gain, i++ % 100); });
-    beside ([&]
-            { taps.probes.drain ([&] (const ProbeRing::Frame& f)
-                                 {
+    beside ([&, i = 0]() mutable { live.engine().set (gain, i++ % 100); });
+    beside ([&] {
+        taps.probes.drain ([&] (const ProbeRing::Frame& f) {
             broken += f.size != 2 || f.tick % 3 != 0 || f.values[0] != static_cast<double> (f.tick + 1);
-            ++probed; }); });
-    beside ([&, last = 0.0]() mutable
-            { taps.frames.drain ([&] (std::span<const double> f)
-                                 {
+            ++probed;
+        });
+    });
+    beside ([&, last = 0.0]() mutable {
+        taps.frames.drain ([&] (std::span<const double> f) {
             broken += ! (f[0] > last) || ! (f[1] >= 0.0 && f[1] < 100.0);
             last = f[0];
-            ++recorded; }); });
-    beside ([&, last = RunStatus {}]() mutable
-            {
+            ++recorded;
+        });
+    });
+    beside ([&, last = RunStatus {}]() mutable {
         const auto now = runner.status();
         broken += now.ticks < last.ticks || now.peak < now.force || (now.ticks > 0 && now.shown().empty()) || runner.account().lateness().quantile (0.99) < 0.0;
         last = now;
-        ++looked; });
+        ++looked;
+    });
 
     std::mt19937 random { 7 };
     const auto* wanted = std::getenv ("TACTUS_LIVE_SECONDS");

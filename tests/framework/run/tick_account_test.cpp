@@ -12,8 +12,7 @@ using namespace tactus;
 
 TEST_CASE ("a quantile is accurate to within one bin and never exceeds the longest duration", "[runtime]")
 {
-    rc::prop ("any durations", [] (std::vector<std::uint32_t> microseconds, std::uint32_t permille)
-              {
+    rc::prop ("any durations", [] (std::vector<std::uint32_t> microseconds, std::uint32_t permille) {
         RC_PRE (! microseconds.empty());
         Durations durations;
         for (auto& us : microseconds)
@@ -27,7 +26,8 @@ TEST_CASE ("a quantile is accurate to within one bin and never exceeds the longe
         RC_ASSERT (durations.longest() == longest);
         RC_ASSERT (quantile <= longest);
         RC_ASSERT (quantile >= std::min (longest, exact * (1.0 - 1e-9)));
-        RC_ASSERT (quantile <= exact * 1.0906); });
+        RC_ASSERT (quantile <= exact * 1.0906);
+    });
     CHECK (Durations {}.quantile (0.5) == 0.0);
 }
 
@@ -50,11 +50,11 @@ TEST_CASE ("reading an account while it is being written is not a race", "[runti
 {
     TickAccount account { 1e-3 };
     std::atomic<bool> done { false };
-    std::thread keeper ([&]
-                        {
+    std::thread keeper ([&] {
         for (int k = 0; k < 20000; ++k)
             account.note (1e-6 * k, 1e-6);
-        done = true; });
+        done = true;
+    });
     std::uint64_t last = 0;
     bool forward = true;
     while (! done)

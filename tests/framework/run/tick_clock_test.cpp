@@ -28,16 +28,15 @@ TEST_CASE ("an absolute timer never begins a tick early, and does not catch up o
     double least = begin;
     int k = 0;
     bool early = false, negative = false;
-    Each each { [&] (double late)
-                {
-                    const double now = timer.now();
-                    negative = negative || late < 0.0;
-                    early = early || now < least - 1e-6;
-                    least = now - late + period;
-                    if (k == 20) std::this_thread::sleep_for (std::chrono::milliseconds (20));
-                    if (late > period) least = now - 1e-3;   // restarts from here, give or take the time between two clock reads
-                    return ++k < 50;
-                } };
+    Each each { [&] (double late) {
+        const double now = timer.now();
+        negative = negative || late < 0.0;
+        early = early || now < least - 1e-6;
+        least = now - late + period;
+        if (k == 20) std::this_thread::sleep_for (std::chrono::milliseconds (20));
+        if (late > period) least = now - 1e-3;   // restarts from here, give or take the time between two clock reads
+        return ++k < 50;
+    } };
     timer.drive (each);
     CHECK (k == 50);
     CHECK_FALSE (negative);
@@ -49,11 +48,10 @@ TEST_CASE ("a free run ticks until a tick returns that it was the last one", "[r
 {
     int k = 0;
     double latest = 0.0;
-    Each each { [&] (double late)
-                {
-                    latest = std::max (latest, late);
-                    return ++k < 1000;
-                } };
+    Each each { [&] (double late) {
+        latest = std::max (latest, late);
+        return ++k < 1000;
+    } };
     FreeRun {}.drive (each);
     CHECK (k == 1000);
     CHECK (latest == 0.0);

@@ -42,8 +42,7 @@ bool isEdge (double before, double now, const Trigger& t)
 TEST_CASE ("a window holds the ticks around the first edge that has enough ticks before it", "[runtime][property]")
 {
     int complete = 0;
-    rc::prop ("any signal, any trigger", [&]
-              {
+    rc::prop ("any signal, any trigger", [&] {
         const Trigger trigger {
             .level = 1.0,
             .edge = *rc::gen::element (Trigger::Edge::rising, Trigger::Edge::falling, Trigger::Edge::either),
@@ -68,7 +67,8 @@ TEST_CASE ("a window holds the ticks around the first edge that has enough ticks
         ++complete;
         RC_ASSERT (capture->triggeredAt() == at);
         for (std::size_t i = 0; i < trigger.ticks(); ++i)
-            RC_ASSERT (capture->frame (i)[0] == static_cast<double> (at - trigger.before + i)); });
+            RC_ASSERT (capture->frame (i)[0] == static_cast<double> (at - trigger.before + i));
+    });
     CHECK (complete > 10);
 }
 
@@ -92,8 +92,7 @@ TEST_CASE ("captures can be armed and disarmed during ticking, and the tick allo
     Stand stand;
     std::atomic<bool> done = false;
     int allocations = 0, locks = 0;
-    std::jthread ticking ([&]
-                          {
+    std::jthread ticking ([&] {
         const NoAllocation watch;
         for (std::uint64_t k = 0; ! done; ++k)
         {
@@ -102,7 +101,8 @@ TEST_CASE ("captures can be armed and disarmed during ticking, and the tick allo
             slot.note (stand.plan, k);
         }
         allocations = watch.allocations();
-        locks = watch.locks(); });
+        locks = watch.locks();
+    });
 
     int wrong = 0;
     for (int i = 0; i < 300; ++i)

@@ -122,7 +122,7 @@ public:
     {
         juce::MessageManager::getInstance()->runDispatchLoopUntil (ms);
         juce::ModifierKeys::currentModifiers = {};
-        test::Stage::plugIn();
+        host::test::Stage::plugIn();
         // Close dialogs of JUCE, which are separate windows.
         for (int i = juce::Desktop::getInstance().getNumComponents(); --i >= 0;)
             if (auto* c = juce::Desktop::getInstance().getComponent (i); c != &*stage) c->exitModalState (0);
@@ -154,7 +154,7 @@ private:
     Look look;
 
 public:
-    std::optional<test::Stage> stage;
+    std::optional<host::test::Stage> stage;
     std::unique_ptr<MainView> view;
 
 private:
@@ -170,20 +170,19 @@ private:
     void begin()
     {
         view = std::make_unique<MainView> (catalogue());
-        view->chooseFile = [this] (bool saves, const fs::path& from, const std::function<void (const fs::path&)>& chosen)
-        {
+        view->chooseFile = [this] (bool saves, const fs::path& from, const std::function<void (const fs::path&)>& chosen) {
             if (! isAtHome (from)) throw std::runtime_error ("the window looks for a file in " + from.string());
             const auto file = someFile (saves);
             if (upTo (4) == 0) return;
             if (upTo (4) != 0) return chosen (file);
-            juce::MessageManager::callAsync ([safe = juce::Component::SafePointer<juce::Component> (view.get()), chosen, file]
-                                             { if (safe != nullptr) chosen (file); });
+            juce::MessageManager::callAsync (
+                [safe = juce::Component::SafePointer<juce::Component> (view.get()), chosen, file] { if (safe != nullptr) chosen (file); });
         };
         stage->fill (*view);
         MainView::Start how { .home = home, .safe = upTo (5) == 0, .light = upTo (4) == 0 };
         if (upTo (3) != 0) how.files.push_back (oneOf (shipped));
         view->begin (how);
-        test::Stage::plugIn();
+        host::test::Stage::plugIn();
         view->grabKeyboardFocus();
     }
 
@@ -218,8 +217,7 @@ private:
     juce::Component* something()
     {
         std::vector<juce::Component*> all;
-        const auto add = [&] (auto&& self, juce::Component& c) -> void
-        {
+        const auto add = [&] (auto&& self, juce::Component& c) -> void {
             if (! c.isVisible() || c.getWidth() <= 0 || c.getHeight() <= 0) return;
             bool has_none = true;
             for (auto* child : c.getChildren())
@@ -444,8 +442,7 @@ private:
         if (editor == nullptr || upTo (3) == 0)
         {
             std::vector<juce::Component*> all;
-            const auto add = [&] (auto&& self, juce::Component& c) -> void
-            {
+            const auto add = [&] (auto&& self, juce::Component& c) -> void {
                 if (! c.isShowing()) return;
                 if (dynamic_cast<juce::TextEditor*> (&c) != nullptr || dynamic_cast<juce::Label*> (&c) != nullptr) all.push_back (&c);
                 for (auto* child : c.getChildren())
@@ -516,8 +513,7 @@ private:
     std::string startOrStop()
     {
         std::string found = "no";
-        const auto look_in = [&] (auto&& self, juce::Component& c) -> void
-        {
+        const auto look_in = [&] (auto&& self, juce::Component& c) -> void {
             const auto* button = dynamic_cast<juce::Button*> (&c);
             if (button != nullptr && (button->getButtonText() == "STOP" || button->getButtonText() == "START"))
             {
@@ -535,8 +531,7 @@ private:
     std::string goInHistory()
     {
         std::string done = "no history";
-        const auto look_in = [&] (auto&& self, juce::Component& c) -> void
-        {
+        const auto look_in = [&] (auto&& self, juce::Component& c) -> void {
             if (auto* panel = dynamic_cast<HistoryPanel*> (&c))
             {
                 const int row = upTo (static_cast<int> (view->document().history().names().size()) + 2);
@@ -643,8 +638,7 @@ std::string disagreement (MainView& view)
     }
 
     const auto& scene = canvas.scene();
-    const auto isSame = [] (const SceneNode& s, const graph::Node& n)
-    { return s.id == n.id && s.name == n.name && s.type == n.type && s.bypass == n.bypass; };
+    const auto isSame = [] (const SceneNode& s, const graph::Node& n) { return s.id == n.id && s.name == n.name && s.type == n.type && s.bypass == n.bypass; };
     if (! std::ranges::equal (scene.nodes(), patch->nodes, isSame)) return "the nodes on the canvas are not those of '" + here + "'";
     std::vector<graph::Id> wires, drawn;
     for (const auto& w : patch->wires)
@@ -718,8 +712,7 @@ void play (unsigned seed, int actions, bool prints)
     Monkey monkey (seed);
     FileAssets assets;
     std::deque<std::string> done;
-    const auto check = [&] (const std::string& fault)
-    {
+    const auto check = [&] (const std::string& fault) {
         if (fault.empty()) return;
         std::string log;
         for (const auto& action : done)

@@ -31,8 +31,7 @@ std::string problem (const std::string& bytes)
 
 TEST_CASE ("a 16-bit PNG keeps every grey value, row by row from the top", "[host][assets][image]")
 {
-    rc::prop ("any picture", []
-              {
+    rc::prop ("any picture", [] {
         const int rows = *rc::gen::inRange (1, 6), columns = *rc::gen::inRange (1, 6);
         const auto values = *rc::gen::container<Words> (static_cast<std::size_t> (rows * columns), rc::gen::arbitrary<std::uint16_t>());
         const auto grid =
@@ -41,7 +40,8 @@ TEST_CASE ("a 16-bit PNG keeps every grey value, row by row from the top", "[hos
         RC_ASSERT (grid->rows == rows);
         RC_ASSERT (grid->columns == columns);
         for (std::size_t i = 0; i < values.size(); ++i)
-            RC_ASSERT (grid->values[i] == values[i] / 65535.0); });
+            RC_ASSERT (grid->values[i] == values[i] / 65535.0);
+    });
 }
 
 TEST_CASE ("8-bit greys map to the range 0 to 1, colours map to their luminance, and transparency is ignored", "[host][assets][image]")
@@ -94,11 +94,11 @@ TEST_CASE ("no damaged image crashes the reader", "[host][assets][image]")
     const std::vector<std::string> all { test::png (9, 7, SPNG_COLOR_TYPE_TRUECOLOR_ALPHA, Words (9 * 7 * 4, 300)),
                                          test::png (9, 7, SPNG_COLOR_TYPE_GRAYSCALE, Bytes (9 * 7, 3)),
                                          test::jpeg (9, 7, std::vector<unsigned char> (9 * 7, 3)) };
-    rc::prop ("any bytes changed or cut off", [&]
-              {
+    rc::prop ("any bytes changed or cut off", [&] {
         auto bytes = *rc::gen::elementOf (all);
         for (const auto& [at, value] : *rc::gen::container<std::vector<std::pair<std::uint16_t, char>>> (rc::gen::arbitrary<std::pair<std::uint16_t, char>>()))
             bytes[at % bytes.size()] = value;
         bytes.resize (*rc::gen::inRange<std::size_t> (0, bytes.size() + 1));
-        if (const auto id = problem (bytes); ! id.empty()) RC_ASSERT (id.starts_with ("image/")); });
+        if (const auto id = problem (bytes); ! id.empty()) RC_ASSERT (id.starts_with ("image/"));
+    });
 }

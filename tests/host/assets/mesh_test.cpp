@@ -204,8 +204,7 @@ TEST_CASE ("an unreadable mesh gives an error with a position", "[host][assets][
 TEST_CASE ("no damaged mesh crashes the reader", "[host][assets][mesh]")
 {
     const auto all = samples();
-    rc::prop ("any bytes changed, doubled or cut off", [&]
-              {
+    rc::prop ("any bytes changed, doubled or cut off", [&] {
         auto [name, bytes] = *rc::gen::elementOf (all);
         for (const auto& [at, value] : *rc::gen::container<std::vector<std::pair<std::uint16_t, char>>> (rc::gen::arbitrary<std::pair<std::uint16_t, char>>()))
             bytes[at % bytes.size()] = value;
@@ -217,5 +216,6 @@ TEST_CASE ("no damaged mesh crashes the reader", "[host][assets][mesh]")
         if (mesh)
             for (const auto& t : mesh->triangles)
                 for (const int corner : t)
-                    RC_ASSERT ((corner >= 0 && corner < static_cast<int> (mesh->points.size()))); });
+                    RC_ASSERT ((corner >= 0 && corner < static_cast<int> (mesh->points.size())));
+    });
 }

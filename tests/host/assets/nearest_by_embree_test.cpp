@@ -22,8 +22,7 @@ Mesh bumpyPatch (int n)
     for (int i = 0; i <= n; ++i)
         for (int j = 0; j <= n; ++j)
             mesh.points.emplace_back (0.1 * i / n, 0.1 * j / n, 0.003 * std::sin (0.7 * i) * std::cos (0.4 * j));
-    const auto at = [n] (int i, int j)
-    { return i * (n + 1) + j; };
+    const auto at = [n] (int i, int j) { return i * (n + 1) + j; };
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j)
         {
@@ -38,13 +37,11 @@ std::shared_ptr<const Mesh> shared (Mesh mesh) { return std::make_shared<const M
 
 TEST_CASE ("Embree finds exactly the triangle that a search through all of them finds", "[host][assets][nearest]")
 {
-    rc::prop ("any mesh, of any size and at any place, from near and far", []
-              {
+    rc::prop ("any mesh, of any size and at any place, from near and far", [] {
         std::mt19937 dice (*rc::gen::arbitrary<unsigned>());
         std::normal_distribution<double> normal;
         const double size = std::pow (10.0, *rc::gen::inRange (-9, 10)), off = std::pow (10.0, *rc::gen::inRange (-3, 7));
-        const auto any = [&] (double s)
-        { return Vec3 (s * normal (dice), s * normal (dice), s * normal (dice)); };
+        const auto any = [&] (double s) { return Vec3 (s * normal (dice), s * normal (dice), s * normal (dice)); };
 
         Mesh mesh;
         const Vec3 place = any (size * off);
@@ -63,7 +60,8 @@ TEST_CASE ("Embree finds exactly the triangle that a search through all of them 
             RC_ASSERT ((*nearest) (p) == nearestOfAll (*all, p));
         }
         for (const auto& corner : all->points)
-            RC_ASSERT ((*nearest) (corner) == nearestOfAll (*all, corner)); });
+            RC_ASSERT ((*nearest) (corner) == nearestOfAll (*all, corner));
+    });
 }
 
 TEST_CASE ("Embree finds the right triangle among a hundred thousand, without allocating", "[host][assets][nearest]")

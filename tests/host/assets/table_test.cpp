@@ -72,8 +72,7 @@ TEST_CASE ("an unreadable table gives an error with a position", "[host][assets]
 
 TEST_CASE ("numbers written as text are read back bit for bit", "[host][assets][table]")
 {
-    rc::prop ("any grid, any separator", []
-              {
+    rc::prop ("any grid, any separator", [] {
         const int rows = *rc::gen::inRange (1, 6), columns = *rc::gen::inRange (3, 6);
         const auto separator = *rc::gen::element<std::string> (",", ";", "\t", " ", " , ", "; ");
         const auto end = *rc::gen::element<std::string> ("\n", "\r\n", "\r", "\n\n");
@@ -89,7 +88,8 @@ TEST_CASE ("numbers written as text are read back bit for bit", "[host][assets][
         RC_ASSERT (grid);
         RC_ASSERT (grid->rows == rows);
         RC_ASSERT (grid->columns == columns);
-        RC_ASSERT (grid->values == values); });
+        RC_ASSERT (grid->values == values);
+    });
 }
 
 TEST_CASE ("profilometer files are read unchanged", "[host][assets][table][data]")

@@ -53,13 +53,11 @@ bool soon (const std::function<bool()>& isSo)
 TEST_CASE ("blocks trigger as many ticks as fit into their length, at any rates", "[audio]")
 {
     rc::prop ("no tick is lost or made up",
-              []
-              {
+              [] {
                   const double tick_hz = *rc::gen::element (500.0, 1000.0, 4000.0, 44'100.0, 48'000.0), card_hz = *rc::gen::element (44'100.0, 48'000.0);
                   AudioClock clock { tick_hz };
                   Counted ticked;
-                  std::jthread driver ([&]
-                                       { clock.drive (ticked); });
+                  std::jthread driver ([&] { clock.drive (ticked); });
                   int frames = 0;
                   while (ticked.count == 0)   // waits until it is driven
                   {
@@ -97,35 +95,30 @@ TEST_CASE ("if the card that ticks the run goes away, a timer ticks with all for
     Runner runner { engine, clock, rate_hz, {} };
 
     std::atomic<bool> plays = true;
-    std::jthread card ([&] (const std::stop_token& stop)
-                       {
+    std::jthread card ([&] (const std::stop_token& stop) {
         while (! stop.stop_requested())
         {
             if (plays) clock.block (96, 48'000.0);
             std::this_thread::sleep_for (1ms);
-        } });
+        }
+    });
     runner.start();
-    REQUIRE (soon ([&]
-                   { return device.force == 2.0; }));
+    REQUIRE (soon ([&] { return device.force == 2.0; }));
     CHECK_FALSE (runner.status().clock_replaced);
 
     plays = false;
-    REQUIRE (soon ([&]
-                   { return runner.status().clock_replaced && device.force == 0.0; }));
+    REQUIRE (soon ([&] { return runner.status().clock_replaced && device.force == 0.0; }));
     CHECK (runner.status().phase == RunStatus::Phase::running);
     const auto ticks = runner.status().ticks;
-    CHECK (soon ([&]
-                 { return runner.status().ticks > ticks + 20; }));
+    CHECK (soon ([&] { return runner.status().ticks > ticks + 20; }));
     CHECK (device.force == 0.0);
     CHECK (clock.ticksByTimer() > 20);
 
     plays = true;
-    REQUIRE (soon ([&]
-                   { return device.force == 2.0; }));
+    REQUIRE (soon ([&] { return device.force == 2.0; }));
     CHECK_FALSE (runner.status().clock_replaced);
     runner.stop();
-    CHECK (soon ([&]
-                 { return runner.isOver(); }));
+    CHECK (soon ([&] { return runner.isOver(); }));
     CHECK (device.force == 0.0);
     CHECK (device.largest_step <= 2.0 / (Guard::fade_s * rate_hz) + 1e-9);
 }
@@ -136,9 +129,7 @@ TEST_CASE ("a run ticked by a card stops on request even if no block ever arrive
     AudioClock clock { 1000.0 };
     Runner runner { engine, clock, 1000.0, {} };
     runner.start();
-    REQUIRE (soon ([&]
-                   { return clock.ticksByTimer() > 3; }));
+    REQUIRE (soon ([&] { return clock.ticksByTimer() > 3; }));
     runner.stop();
-    CHECK (soon ([&]
-                 { return runner.isOver(); }));
+    CHECK (soon ([&] { return runner.isOver(); }));
 }

@@ -133,8 +133,7 @@ TEST_CASE ("samples beyond full scale are limited and counted; values that are n
     Stage fed { test::Sketch {}.node ("a", "signal.constant").node ("b", "signal.gain").wire ("a.out -> b.in"), { route ("b.out", 1) } };
     fed.engine->plan();
     rc::prop ("for any value, the card gets numbers from -1 to 1",
-              []
-              {
+              [] {
                   const double value =
                       *rc::gen::elementOf (std::vector<double> { 0.5, 1e300, -1e300, std::numeric_limits<double>::infinity(), std::nan (""), 1e-320, -3.0 });
                   double now = 0.0;
@@ -203,8 +202,7 @@ TEST_CASE ("routes fade to silence when the run halts and on an emergency stop",
     Stage s { constants(), { route ("two.out", 1, 4.0) } };
     s.run (0.5);
     REQUIRE (s.level (0) == Approx (0.5).margin (1e-3));
-    const auto stopAndGo = [&] (const std::function<void()>& stop, bool halts)
-    {
+    const auto stopAndGo = [&] (const std::function<void()>& stop, bool halts) {
         const auto from = s.card.played[0].size();
         stop();
         s.run (0.05, halts);
@@ -214,8 +212,7 @@ TEST_CASE ("routes fade to silence when the run halts and on an emergency stop",
             largest = std::max (largest, std::abs (static_cast<double> (s.card.played[0][i] - s.card.played[0][i - 1])));
         CHECK (largest < 0.5 * 1.5 / (PortMixer::shut_s * 48'000.0));
     };
-    stopAndGo ([&]
-               { s.engine->emergencyStop(); },
+    stopAndGo ([&] { s.engine->emergencyStop(); },
                false);
     s.engine->rearm();
     s.run (0.5);
@@ -227,8 +224,7 @@ TEST_CASE ("routes survive edits; a route whose port is removed is silent until 
 {
     Stage s { constants(), { route ("two.out", 1, 4.0) } };
     s.run (0.5);
-    const auto submit = [&] (const test::Sketch& next, std::vector<std::string> records)
-    {
+    const auto submit = [&] (const test::Sketch& next, std::vector<std::string> records) {
         auto compiled = tactus::compile (next.graph, catalogue(), { .rate_hz = s.rate_hz, .records = std::move (records), .before = &s.engine->newest() });
         REQUIRE (compiled.plan);
         s.engine->submit (compiled.plan);

@@ -135,8 +135,7 @@ TEST_CASE ("a card that went away is closed and reopened when it is back; until 
     FakeCards cards;
     CardKeeper keeper { cards, silent };
     auto now = CardKeeper::Clock::now();
-    const auto attendFor = [&] (std::chrono::milliseconds time, bool plays)
-    {
+    const auto attendFor = [&] (std::chrono::milliseconds time, bool plays) {
         for (const auto end = now + time; now < end; now += 20ms)
         {
             if (plays) cards.play();

@@ -23,8 +23,7 @@ public:
 
     Result<std::unique_ptr<host::audio::OpenCard>> open (const host::audio::CardWanted& w, int outs, int ins, host::audio::CardUser& u) override
     {
-        const auto refused = [] (const char* id)
-        {
+        const auto refused = [] (const char* id) {
             Message m;
             m.id = id;
             m.text = "the fake card does not open";

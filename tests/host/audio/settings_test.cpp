@@ -45,8 +45,7 @@ TEST_CASE ("the audio settings of a session are read", "[audio]")
 
 TEST_CASE ("all errors in the audio settings of a session are reported, with their position", "[audio]")
 {
-    const auto messagesOf = [] (const char* text)
-    {
+    const auto messagesOf = [] (const char* text) {
         Messages messages;
         readAudioSettings (Json::parse (text), "/audio", messages);
         return messages;
@@ -71,11 +70,9 @@ TEST_CASE ("all errors in the audio settings of a session are reported, with the
 TEST_CASE ("settings with any value replaced by any other are read or refused", "[audio]")
 {
     rc::prop ("one value replaced",
-              []
-              {
+              [] {
                   const Json flat = whole.flatten();
-                  const auto keys = [&]
-                  {
+                  const auto keys = [&] {
                       std::vector<std::string> all { "/routes", "/routes/0", "" };
                       for (const auto& [key, value] : flat.items())
                           all.push_back (key);
@@ -110,8 +107,7 @@ TEST_CASE ("a route on the command line is a port, a channel and optionally a fu
         REQUIRE_FALSE (wrong);
         CHECK (wrong.error().id == "audio/route");
     }
-    rc::prop ("any text", [] (const std::string& text)
-              { static_cast<void> (parseRoute (text)); });
+    rc::prop ("any text", [] (const std::string& text) { static_cast<void> (parseRoute (text)); });
 
     const std::vector<std::string> types { "JACK", "ALSA" };
     CHECK (parseCard ("jack", types) == CardWanted { .type = "JACK", .output = "", .input = "" });
@@ -136,8 +132,7 @@ TEST_CASE ("a role uses the channels in its description, or else the channels of
     CHECK (test::has (checkAudio ({ { "driver", "audio" }, { "outputs", Json::array() }, { "guard", { { "max_signal", "x" } } } }), "device/unit"));
     CHECK (test::has (makeDevice ({ { "driver", "audio" } }, {}).messages, "device/real"));
 
-    const auto guarded = [] (const char* limit)
-    {
+    const auto guarded = [] (const char* limit) {
         return checkAudio (Json::parse (R"({ "driver": "audio", "outputs": [ { "channel": 1, "full_scale": "4 N" } ], "guard": { "max_signal": )"
                                         + std::string (limit) + " } }"));
     };
@@ -157,8 +152,7 @@ TEST_CASE ("a role uses the channels in its description, or else the channels of
 TEST_CASE ("an option binds a role to the sound card as the graph describes it, or to a named card", "[audio]")
 {
     const std::vector<std::pair<std::string, Json>> described { { "shaker", { { "driver", "audio" }, { "outputs", { { { "channel", 3 } } } } } } };
-    const auto of = [&] (const char* text)
-    { return parseDeviceOption (text, described, {}).value().description; };
+    const auto of = [&] (const char* text) { return parseDeviceOption (text, described, {}).value().description; };
     CHECK (of ("shaker=audio") == described[0].second);
     CHECK (of ("shaker=audio:JACK:system")["card"] == "JACK:system");
     CHECK (of ("shaker=audio:JACK:system")["outputs"].size() == 1);

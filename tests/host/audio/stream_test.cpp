@@ -31,10 +31,8 @@ struct Played
     void run (double seconds)
     {
         clocks.run (
-            seconds, [&]
-            { if (ticks) tick(); ++time; },
-            [&]
-            { if (plays) play(); });
+            seconds, [&] { if (ticks) tick(); ++time; },
+            [&] { if (plays) play(); });
     }
 
     void tick()
@@ -117,8 +115,7 @@ TEST_CASE ("clocks 200 ppm apart play a sine for ten minutes without a click, an
 TEST_CASE ("at any rates, block sizes and clocks, nothing runs dry and a sine keeps its amplitude", "[audio]")
 {
     rc::prop ("sines below 0.3 of the tick rate",
-              []
-              {
+              [] {
                   const double tick_hz = *rc::gen::element (500.0, 1000.0, 4000.0, 10'000.0, 48'000.0);
                   const double card_hz = *rc::gen::element (22'050.0, 44'100.0, 48'000.0);
                   const int block = *rc::gen::element (16, 64, 100, 441, 1024);
@@ -181,8 +178,7 @@ TEST_CASE ("a card that paused does not play late, and does not click", "[audio]
 TEST_CASE ("if blocks tick the run, every tick's sample is played unchanged", "[audio]")
 {
     rc::prop ("bit for bit at the card's rate, a block late",
-              []
-              {
+              [] {
                   const int block = *rc::gen::inRange (1, 300);
                   OutStream stream { { .lanes = 2, .tick_side_hz = 48'000.0 } };
                   stream.prepare ({ 48'000.0, block, Clocks::one });
@@ -204,8 +200,7 @@ TEST_CASE ("if blocks tick the run, every tick's sample is played unchanged", "[
                       for (int i = 0; i < block; ++i)
                           heard.push_back (frames[2 * static_cast<std::size_t> (i)]);
                   }
-                  const auto first = std::ranges::find_if (heard, [] (float v)
-                                                           { return v >= 1.0f; });
+                  const auto first = std::ranges::find_if (heard, [] (float v) { return v >= 1.0f; });
                   RC_ASSERT (stream.report().underruns == 0u);
                   RC_ASSERT (back.report().underruns == 0u);
                   for (auto at = first + 240; at < heard.end(); ++at)   // after the fade-in
@@ -222,13 +217,10 @@ TEST_CASE ("an input keeps its pitch and amplitude, and fades out if it stops", 
         stream.prepare ({ clocks.card_hz, clocks.block });
         std::vector<float> block (128), read;
         std::int64_t sample = 0;
-        const auto run = [&] (double seconds, bool there)
-        {
+        const auto run = [&] (double seconds, bool there) {
             clocks.run (
-                seconds, [&]
-                { read.push_back (stream.pop()[0]); },
-                [&]
-                {
+                seconds, [&] { read.push_back (stream.pop()[0]); },
+                [&] {
                     if (! there) return;
                     for (auto& v : block)
                         v = static_cast<float> (std::sin (2.0 * pi * 100.0 * static_cast<double> (sample++) / clocks.card_hz));
@@ -264,13 +256,11 @@ TEST_CASE ("running streams neither allocate nor lock", "[audio]")
     in.prepare ({ clocks.card_hz, clocks.block });
     std::vector<float> three (3, 0.1f), out_block (3 * 64), in_block (2 * 64);
     bool there = true;
-    const std::function<void()> tick = [&]
-    {
+    const std::function<void()> tick = [&] {
         if (there) out.push (three);
         in.pop();
     };
-    const std::function<void()> play = [&]
-    {
+    const std::function<void()> play = [&] {
         in.take (in_block);
         out.render (out_block);
     };

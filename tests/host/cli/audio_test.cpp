@@ -49,8 +49,7 @@ TEST_CASE ("a render uses no sound card, and a graph that names one is valid on 
     CHECK (holds (refused.err, "device/real"));
 
     Scratch scratch;
-    const auto graphWith = [&] (const std::string& outputs)
-    {
+    const auto graphWith = [&] (const std::string& outputs) {
         return scratch.write ("graph.json", R"({ "format": "tactus-graph", "version": 1, "rate_hz": 1000,
             "devices": { "shaker": { "driver": "audio", "outputs": )"
                                                 + outputs + R"( } },

@@ -118,8 +118,7 @@ TEST_CASE ("a published liver mesh is pressed and stroked live, with the search 
     for (auto& p : metres.points)
         p *= 0.01;
     const MeshWalk body { metres };
-    const Vec3 top = *std::ranges::max_element (body.mesh().points, {}, [] (const Vec3& p)
-                                                { return p.y(); });
+    const Vec3 top = *std::ranges::max_element (body.mesh().points, {}, [] (const Vec3& p) { return p.y(); });
 
     const test::Scratch scratch;
     const auto tip = strokeOver (body, top + Vec3 (-0.006, 0.0, 0.0), Vec3 (0.016, 0.0, 0.0));
@@ -127,17 +126,16 @@ TEST_CASE ("a published liver mesh is pressed and stroked live, with the search 
         REQUIRE ((tip[k] - tip[k - 1]).norm() < 1e-4);   // otherwise the nearest point, and thus the hand, has jumped
     writeTrace (scratch.path ("stroke.csv"), tip);
     const std::string records = "liver.force,liver.depth,liver.triangle,liver.state,liver.stored_energy,liver.dissipated_energy,hand.position";
-    const auto arguments = [&] (const std::string& command, int search_ticks, const std::string& out) -> std::vector<std::string>
-    {
-        const auto graph = scratch.write ("liver.json", R"({ "format": "tactus-graph", "version": 1, "name": "Liver", "rate_hz": 4000, "nodes": {
+    const auto arguments = [&] (const std::string& command, int search_ticks, const std::string& out) -> std::vector<std::string> {
+        const auto json = R"({ "format": "tactus-graph", "version": 1, "name": "Liver", "rate_hz": 4000, "nodes": {
             "hand": { "type": "device.position", "role": "tip" },
             "liver": { "type": "deform.surface", "settings": { "surface": { "mesh": ")"
-                                                            + mesh + R"(", "mu": 0.3,
+                          + mesh + R"(", "mu": 0.3,
                 "curves": [ [ { "power": [60, 1] }, { "power": [60, 1] }, { "exponential": [0.2, 400] } ] ] }, "scale": 0.01, "search_ticks": )"
-                                                            + std::to_string (search_ticks)
-                                                            + R"( } },
+                          + std::to_string (search_ticks) + R"( } },
             "motor": { "type": "device.force", "role": "tip" } },
-            "wires": [ "hand.position -> liver.position", "liver.force -> motor.force" ] })");
+            "wires": [ "hand.position -> liver.position", "liver.force -> motor.force" ] })";
+        const auto graph = scratch.write ("liver.json", json);
         return { command, graph, "--device", "tip=trace:" + scratch.path ("stroke.csv"), "--record", records, "--out", scratch.path (out) };
     };
 
@@ -158,8 +156,7 @@ TEST_CASE ("a published liver mesh is pressed and stroked live, with the search 
     const auto table = rendered (scratch.path ("again.csv"));
     const auto depth = column (table, "liver.depth"), state = column (table, "liver.state"), triangle = column (table, "liver.triangle"),
                lost = column (table, "liver.dissipated_energy");
-    const auto touched = std::ranges::count_if (state, [] (double s)
-                                                { return s > 0.0; });
+    const auto touched = std::ranges::count_if (state, [] (double s) { return s > 0.0; });
     CHECK (touched > 3000);
     CHECK (touched < 3800);
     CHECK (*std::ranges::max_element (depth) < 0.003);
@@ -198,13 +195,11 @@ TEST_CASE ("a line of a profilometer scan is felt as measured, and the force nev
     REQUIRE (line.columns > 9000);
 
     const test::Scratch scratch;
-    const auto stroke = [&] (double speed, double seconds)
-    {
-        const auto graph = scratch.write ("relief.json", R"({ "format": "tactus-graph", "version": 1, "name": "Relief", "rate_hz": 4000, "nodes": {
+    const auto stroke = [&] (double speed, double seconds) {
+        const auto json = R"({ "format": "tactus-graph", "version": 1, "name": "Relief", "rate_hz": 4000, "nodes": {
             "relief": { "type": "texture.height_map", "params": { "gain": "2 N" }, "settings": { "map": { "csv": ")"
-                                                             + folder
-                                                             + R"(/dektak-1.csv", "pitch": )" + std::to_string (pitch * 1e6)
-                                                             + R"(e-6, "height": "1 um" } } } }, "wires": [] })");
+                          + folder + R"(/dektak-1.csv", "pitch": )" + std::to_string (pitch * 1e6) + R"(e-6, "height": "1 um" } } } }, "wires": [] })";
+        const auto graph = scratch.write ("relief.json", json);
         const std::string names[] { "t", "relief.position.x" };
         auto feed = TableWriter::create (scratch.path ("feed.csv"), names);
         REQUIRE (feed);
@@ -224,8 +219,7 @@ TEST_CASE ("a line of a profilometer scan is felt as measured, and the force nev
     for (std::size_t k = 10; k < value.size(); ++k)
     {
         const double at = (0.2e-3 + 0.1e-3 * static_cast<double> (k) / rate) / pitch, whole = std::floor (at);
-        const auto measured = [&] (double index)
-        { return 1e-6 * line (0, static_cast<int> (index)); };
+        const auto measured = [&] (double index) { return 1e-6 * line (0, static_cast<int> (index)); };
         const double there = std::lerp (measured (whole), measured (whole + 1.0), at - whole);
         error2 += std::pow (value[k] - there, 2);
         roughness2 += std::pow (there - 0.5 * (measured (whole - 60.0) + measured (whole + 60.0)), 2);   // against 20 um of the line

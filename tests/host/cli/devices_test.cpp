@@ -59,8 +59,7 @@ TEST_CASE ("a render refuses a real device, and says what to do instead", "[cli]
 TEST_CASE ("a graph that names a real device is valid on any machine", "[cli][hid]")
 {
     Scratch scratch;
-    const auto graphWith = [&] (const std::string& profile)
-    {
+    const auto graphWith = [&] (const std::string& profile) {
         return scratch.write ("graph.json", R"({ "format": "tactus-graph", "version": 1, "rate_hz": 1000,
             "devices": { "tool": { "driver": "hid", "profile": ")"
                                                 + profile + R"(", "guard": { "max_force": "1 N" } } },

@@ -30,13 +30,11 @@ TEST_CASE ("SIGUSR1 triggers the emergency stop of a play: no force, the ticks c
                      "--out", recorded } };
     REQUIRE (play.says ("Ctrl-C stops"));
     const auto said = play.err();
-    const auto behind = [&] (const std::string& words)
-    { return said.substr (said.find (words) + words.size()); };
+    const auto behind = [&] (const std::string& words) { return said.substr (said.find (words) + words.size()); };
     const int port = std::stoi (behind ("OSC on 127.0.0.1:"));
     const auto token = behind ("token to rearm: ").substr (0, 6);
     const auto us = std::move (*host::OscPort::open (0));
-    const auto rearm = [&]
-    {
+    const auto rearm = [&] {
         us->send (port, juce::OSCMessage ("/tactus/rearm", juce::String (token), us->number()));
         const auto answer = us->next (std::chrono::seconds (20));
         REQUIRE (answer);
@@ -63,8 +61,7 @@ TEST_CASE ("SIGUSR1 triggers the emergency stop of a play: no force, the ticks c
     std::vector<std::size_t> lengths;   // length of each phase in ticks: on, off, on
     for (std::size_t k = 1; k < table->rows(); ++k)
     {
-        const auto is_off = [&] (std::size_t row)
-        { return table->at (row, 1) == 0.0; };
+        const auto is_off = [&] (std::size_t row) { return table->at (row, 1) == 0.0; };
         if (lengths.empty() || is_off (k) != is_off (k - 1)) lengths.push_back (0);
         ++lengths.back();
     }

@@ -38,8 +38,7 @@ class Flood
 {
 public:
     explicit Flood (int port)
-        : thread ([this, port] (const std::stop_token& stop)
-                  { run (port, stop); })
+        : thread ([this, port] (const std::stop_token& stop) { run (port, stop); })
     {
     }
 

@@ -207,8 +207,7 @@ TEST_CASE ("render reproduces an uneven patch that is pressed and stroked, with 
                 axes.push_back (Json::object ({ { law[0], { law[1], law[2] } } }));
         }
     }
-    const auto patch = [&] (const std::string& name, const std::string& friction)
-    {
+    const auto patch = [&] (const std::string& name, const std::string& friction) {
         return "\"" + name + R"(": { "type": "deform.surface", "params": { "friction": ")" + friction + R"(" }, "settings": { "surface": )"
                + surface.dump() + " } }";
     };
@@ -228,8 +227,7 @@ TEST_CASE ("render reproduces an uneven patch that is pressed and stroked, with 
 
 TEST_CASE ("render reproduces a tool pushed against a sampled wall", "[golden]")
 {
-    const auto wall = [] (const std::string& device, const std::string& params)
-    {
+    const auto wall = [] (const std::string& device, const std::string& params) {
         return graph (R"("hand": { "type": "device.position", "role": "tool" }, "truth": { "type": "device.truth", "role": "tool" },
                          "wall": { "type": "deform.plane", "params": { "normal": [-1, 0, 0], )"
                           + params + R"( } }, "motor": { "type": "device.force", "role": "tool" })",
@@ -238,8 +236,7 @@ TEST_CASE ("render reproduces a tool pushed against a sampled wall", "[golden]")
                              "velocity": [0.1, 0, 0], "hand_force": [0.5, 0, 0])"
                           + device + "} }");
     };
-    const auto records = [] (const std::string& name) -> Map
-    {
+    const auto records = [] (const std::string& name) -> Map {
         return { { "truth.position.x", "x_" + name }, { "truth.velocity.x", "v_" + name }, { "motor.force.x", "f_" + name } };
     };
     const std::string coupled = graph (R"("hand": { "type": "device.position", "role": "tool" }, "truth": { "type": "device.truth", "role": "tool" },
@@ -257,8 +254,7 @@ TEST_CASE ("render reproduces a tool pushed against a sampled wall", "[golden]")
 
 TEST_CASE ("render reproduces the passivity controller in both pairings, and the predictive hold", "[golden]")
 {
-    const auto controller = [] (const std::string& name, const std::string& pairing)
-    {
+    const auto controller = [] (const std::string& name, const std::string& pairing) {
         return "\"" + name + R"(": { "type": "safety.passivity", "params": { "alpha_max": 12, "pairing": ")" + pairing + R"(" } })";
     };
     Map feeds { { "ahead.in.x", "f_env" } }, records { { "ahead.out.x", "f_predictive" } };

@@ -29,14 +29,12 @@ TEST_CASE ("a hit lasts one tick, is logged, and is repeated byte for byte", "[c
     const std::string before = "OSC on 127.0.0.1:";
     const auto port = std::to_string (std::stoi (text.substr (text.find (before) + before.size())));
 
-    const auto hit = [&] (const std::string& what)
-    { return runTactus ({ "hit", what, "--osc", port }); };
+    const auto hit = [&] (const std::string& what) { return runTactus ({ "hit", what, "--osc", port }); };
     CHECK (hit ("ring.hit").status == 0);
     CHECK (hit ("ring.hit=0.5").status == 0);
     for (const auto* wrong : { "ring", "ring.hit=", "ring.hit=fast", "=1" })
         CHECK (hit (wrong).status == 2);
-    const auto refused = [&] (const char* what, const char* id)
-    {
+    const auto refused = [&] (const char* what, const char* id) {
         const auto ran = hit (what);
         CHECK (ran.status == 1);
         CHECK (ran.err.find (id) != std::string::npos);

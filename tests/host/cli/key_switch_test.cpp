@@ -262,96 +262,96 @@ TEST_CASE ("a measured key releases no energy, whatever the finger does", "[data
         CHECK (host::loss (*measured) == Approx (workAlong (recording.x, recording.force)).epsilon (0.005));   // the gauge has an offset of -2 mN
         const double stiffness = 1e4, step = 5 * um;
         const auto key = host::keyFrom (host::simplified (host::withoutGain (*measured), 10 * mN), name, stiffness);
-        rc::prop (name, [&]
-                  {
-                      PressedKey pressed { key, step };
-                      const auto strokes = randomStrokes (measured->travel.back(), step);
-                      pressed.follow (strokes);
-                      RC_ASSERT (pressed.work >= -missed (strokes.size(), stiffness, step));
-                      RC_ASSERT (pressed.least >= -narrowest (stiffness)); });
+        rc::prop (name, [&] {
+            PressedKey pressed { key, step };
+            const auto strokes = randomStrokes (measured->travel.back(), step);
+            pressed.follow (strokes);
+            RC_ASSERT (pressed.work >= -missed (strokes.size(), stiffness, step));
+            RC_ASSERT (pressed.least >= -narrowest (stiffness));
+        });
     }
 }
 
 TEST_CASE ("any two curves, if down is above up, make a key that follows both, releases no energy and never pulls", "[cli]")
 {
-    rc::prop ("no closed path releases energy", []
-              {
-                  const auto loop = host::simplified (randomLoop(), 1 * mN);
-                  const double stiffness = *rc::gen::element (2e3, 1e4, 1e5), step = 1 * um;
-                  PressedKey pressed { host::keyFrom (loop, "Random", stiffness), step };
-                  const auto strokes = randomStrokes (1.1 * loop.travel.back(), step);
-                  pressed.follow (strokes);
-                  RC_ASSERT (pressed.work >= -missed (strokes.size(), stiffness, step));
-                  RC_ASSERT (pressed.least >= -narrowest (stiffness)); });
+    rc::prop ("no closed path releases energy", [] {
+        const auto loop = host::simplified (randomLoop(), 1 * mN);
+        const double stiffness = *rc::gen::element (2e3, 1e4, 1e5), step = 1 * um;
+        PressedKey pressed { host::keyFrom (loop, "Random", stiffness), step };
+        const auto strokes = randomStrokes (1.1 * loop.travel.back(), step);
+        pressed.follow (strokes);
+        RC_ASSERT (pressed.work >= -missed (strokes.size(), stiffness, step));
+        RC_ASSERT (pressed.least >= -narrowest (stiffness));
+    });
 
-    rc::prop ("a stroke follows both curves if the bristle is stiff enough for their difference", []
-              {
-                  const auto loop = host::simplified (randomLoop(), 1 * mN);
-                  const double stiffness = 1e5, step = 1 * um;
-                  PressedKey pressed { host::keyFrom (loop, "Random", stiffness), step };
+    rc::prop ("a stroke follows both curves if the bristle is stiff enough for their difference", [] {
+        const auto loop = host::simplified (randomLoop(), 1 * mN);
+        const double stiffness = 1e5, step = 1 * um;
+        PressedKey pressed { host::keyFrom (loop, "Random", stiffness), step };
 
-                  for (std::size_t i = 1; i < loop.travel.size(); ++i)
-                  {
-                      pressed.to (std::lround (loop.travel[i] / step));
-                      RC_ASSERT (std::abs (pressed.force() - loop.press[i]) < 0.2 * mN + 1e-9 * stiffness);
-                  }
-                  pressed.to (std::lround (loop.travel.back() / step) + 20);   // 2 bounds reverse the bristle
-                  for (std::size_t i = loop.travel.size() - 1; i > 0; --i)
-                  {
-                      pressed.to (std::lround (loop.travel[i] / step));
-                      RC_ASSERT (std::abs (pressed.force() - loop.release[i]) < 0.2 * mN + 1e-9 * stiffness);
-                  } });
+        for (std::size_t i = 1; i < loop.travel.size(); ++i)
+        {
+            pressed.to (std::lround (loop.travel[i] / step));
+            RC_ASSERT (std::abs (pressed.force() - loop.press[i]) < 0.2 * mN + 1e-9 * stiffness);
+        }
+        pressed.to (std::lround (loop.travel.back() / step) + 20);   // 2 bounds reverse the bristle
+        for (std::size_t i = loop.travel.size() - 1; i > 0; --i)
+        {
+            pressed.to (std::lround (loop.travel[i] / step));
+            RC_ASSERT (std::abs (pressed.force() - loop.release[i]) < 0.2 * mN + 1e-9 * stiffness);
+        }
+    });
 }
 
 TEST_CASE ("a curve is simplified, and both directions stay within the tolerance", "[cli]")
 {
-    rc::prop ("for any curve and tolerance", []
-              {
-                   SwitchLoop fine { { 0.0 }, { 0.0 }, { 0.0 } };
-                   const int points = *rc::gen::inRange (2, 300);
-                   for (int i = 1; i <= points; ++i)
-                   {
-                       fine.travel.push_back (5 * um * i);
-                       fine.press.push_back (std::max (0.0, fine.press.back() + 1 * mN * *rc::gen::inRange (-20, 30)));
-                       fine.release.push_back (fine.press.back() * 0.01 * *rc::gen::inRange (80, 101));
-                   }
-                   const double tolerance = 1 * mN * *rc::gen::inRange (1, 50);
-                   const auto few = host::simplified (fine, tolerance);
-                   RC_ASSERT (few.travel.size() <= fine.travel.size());
-                   for (std::size_t i = 0; i < fine.travel.size(); ++i)
-                   {
-                       RC_ASSERT (std::abs (at (few.travel, few.press, fine.travel[i]) - fine.press[i]) <= tolerance + 0.11 * mN);
-                       RC_ASSERT (std::abs (at (few.travel, few.release, fine.travel[i]) - fine.release[i]) <= tolerance + 0.11 * mN);
-                   } });
+    rc::prop ("for any curve and tolerance", [] {
+        SwitchLoop fine { { 0.0 }, { 0.0 }, { 0.0 } };
+        const int points = *rc::gen::inRange (2, 300);
+        for (int i = 1; i <= points; ++i)
+        {
+            fine.travel.push_back (5 * um * i);
+            fine.press.push_back (std::max (0.0, fine.press.back() + 1 * mN * *rc::gen::inRange (-20, 30)));
+            fine.release.push_back (fine.press.back() * 0.01 * *rc::gen::inRange (80, 101));
+        }
+        const double tolerance = 1 * mN * *rc::gen::inRange (1, 50);
+        const auto few = host::simplified (fine, tolerance);
+        RC_ASSERT (few.travel.size() <= fine.travel.size());
+        for (std::size_t i = 0; i < fine.travel.size(); ++i)
+        {
+            RC_ASSERT (std::abs (at (few.travel, few.press, fine.travel[i]) - fine.press[i]) <= tolerance + 0.11 * mN);
+            RC_ASSERT (std::abs (at (few.travel, few.release, fine.travel[i]) - fine.release[i]) <= tolerance + 0.11 * mN);
+        }
+    });
 }
 
 TEST_CASE ("the law of a plane may fall with depth: it is still a potential, and never pulls", "[cli]")
 {
-    rc::prop ("the work equals the stored energy, on any path", []
-              {
-                  const auto loop = randomLoop();
-                  Rig plane { "deform.plane" };
-                  plane.set ("law", Law { .kind = Law::Kind::table, .table = { loop.travel, loop.press } }).prepare();
-                  const auto number = [&] (std::string_view id)
-                  { return static_cast<std::size_t> (std::ranges::find (plane.outputs, id, [] (const auto& c)
-                                                                        { return c.port->id; })
-                                                     - plane.outputs.begin()); };
-                  const auto resistance = number ("resistance"), stored = number ("stored_energy");
+    rc::prop ("the work equals the stored energy, on any path", [] {
+        const auto loop = randomLoop();
+        Rig plane { "deform.plane" };
+        plane.set ("law", Law { .kind = Law::Kind::table, .table = { loop.travel, loop.press } }).prepare();
+        const auto number = [&] (std::string_view id) {
+            const auto found = std::ranges::find (plane.outputs, id, [] (const auto& c) { return c.port->id; });
+            return static_cast<std::size_t> (found - plane.outputs.begin());
+        };
+        const auto resistance = number ("resistance"), stored = number ("stored_energy");
 
-                  long at = 0;
-                  double work = 0.0, force = 0.0;
-                  for (const long place : randomStrokes (loop.travel.back(), 1 * um))
-                      while (at != place)
-                      {
-                          const int way = at < place ? 1 : -1;
-                          at += way;
-                          plane.in.back() = -um * static_cast<double> (at);
-                          plane.tick();
-                          work += 0.5 * (plane.out (resistance) + force) * way * um;
-                          force = plane.out (resistance);
-                          RC_ASSERT (force >= 0.0);
-                          RC_ASSERT (std::abs (work - plane.out (stored)) < 1e-12);
-                      } });
+        long at = 0;
+        double work = 0.0, force = 0.0;
+        for (const long place : randomStrokes (loop.travel.back(), 1 * um))
+            while (at != place)
+            {
+                const int way = at < place ? 1 : -1;
+                at += way;
+                plane.in.back() = -um * static_cast<double> (at);
+                plane.tick();
+                work += 0.5 * (plane.out (resistance) + force) * way * um;
+                force = plane.out (resistance);
+                RC_ASSERT (force >= 0.0);
+                RC_ASSERT (std::abs (work - plane.out (stored)) < 1e-12);
+            }
+    });
 }
 
 TEST_CASE ("the preset key clicks, returns with less force than it was pressed, and releases no energy", "[graphs]")
@@ -362,8 +362,7 @@ TEST_CASE ("the preset key clicks, returns with less force than it was pressed, 
 
     constexpr double step = 5 * um, stiffness = 4e3;
     PressedKey key { loaded.graph, step };
-    const auto felt = [&key] (double depth)
-    {
+    const auto felt = [&key] (double depth) {
         key.to (std::lround (depth / step));
         return key.force();
     };
@@ -376,20 +375,19 @@ TEST_CASE ("the preset key clicks, returns with less force than it was pressed, 
     CHECK (before_again < before - 0.03);
     CHECK (felt (0.0) == Approx (0.0).margin (1e-12));
 
-    rc::prop ("at any setting, on any path", [&]
-              {
-                  PressedKey pressed { loaded.graph, step, { { "click", 0.01 * *rc::gen::inRange (0, 101) } } };
-                  const auto strokes = randomStrokes (4.2 * mm, step);
-                  pressed.follow (strokes);
-                  RC_ASSERT (pressed.work >= -missed (strokes.size(), stiffness, step));
-                  RC_ASSERT (pressed.least >= -narrowest (stiffness)); });
+    rc::prop ("at any setting, on any path", [&] {
+        PressedKey pressed { loaded.graph, step, { { "click", 0.01 * *rc::gen::inRange (0, 101) } } };
+        const auto strokes = randomStrokes (4.2 * mm, step);
+        pressed.follow (strokes);
+        RC_ASSERT (pressed.work >= -missed (strokes.size(), stiffness, step));
+        RC_ASSERT (pressed.least >= -narrowest (stiffness));
+    });
 }
 
 TEST_CASE ("a key's curve may be in any unit, and errors in it are reported", "[cli]")
 {
     const test::Scratch scratch;
-    const auto import = [&] (const std::string& text, const std::vector<std::string>& options = {})
-    {
+    const auto import = [&] (const std::string& text, const std::vector<std::string>& options = {}) {
         std::vector<std::string> arguments { scratch.write ("curve.csv", text) };
         arguments.insert (arguments.end(), options.begin(), options.end());
         return test::runProgram (TACTUS_SWITCH_TO_GRAPH, arguments);
@@ -406,8 +404,7 @@ TEST_CASE ("a key's curve may be in any unit, and errors in it are reported", "[
     // With a meter that has 100 um of play, the way up appears 100 um too high.
     CHECK (import ("x_um,force_mN\n0,0\n100,300\n4000,600\n3900,600\n3800,500\n0,200\n-100,0\n", { "--backlash", "0.1 mm" }).out == made.out);
 
-    const auto refused = [&] (const std::string& text, const std::string& id)
-    {
+    const auto refused = [&] (const std::string& text, const std::string& id) {
         const auto ran = import (text);
         INFO (text << ran.err);
         CHECK (ran.status == 1);

@@ -26,8 +26,7 @@ TEST_CASE ("a file that a run reads is never overwritten under any name, and no 
     const auto link = scratch.path ("link.csv");
     std::filesystem::create_symlink (pen, link);
 
-    const auto refused = [&] (const std::vector<std::string>& arguments, const std::string& id, const std::string& kept)
-    {
+    const auto refused = [&] (const std::vector<std::string>& arguments, const std::string& id, const std::string& kept) {
         const auto before = textOf (kept);
         const auto ran = runTactus (arguments);
         INFO (ran.err);

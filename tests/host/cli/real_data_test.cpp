@@ -101,8 +101,7 @@ TEST_CASE ("presliding friction measured under 5 N is reproduced: loop energy wi
     CHECK (energy == Approx (1.0).margin (0.03));
 
     const double middle = 0.5 * (*std::ranges::min_element (measured.position) + *std::ranges::max_element (measured.position));
-    const auto after = [&] (const std::vector<double>& v, double origin)
-    {
+    const auto after = [&] (const std::vector<double>& v, double origin) {
         std::vector<double> cut;
         for (std::size_t i = settled; i < v.size(); ++i)
             cut.push_back (v[i] - origin);

@@ -110,8 +110,7 @@ TEST_CASE ("devices come from the graph, a gesture, a trace or a file", "[cli]")
     const Scratch scratch;
     const auto trace = scratch.write ("t.csv", "t,x,y,z,pressure\n0,0,0,0.001,0\n0.5,0.01,0,-0.001,1\n1,0.02,0,0.001,0\n");
     const auto device = scratch.write ("d.json", R"({ "driver": "trace", "path": "t.csv" })");
-    const auto rows = [&] (const std::string& choice)
-    { return render (scratch, { wood, "--device", choice, "--record", "hand.position" }); };
+    const auto rows = [&] (const std::string& choice) { return render (scratch, { wood, "--device", choice, "--record", "hand.position" }); };
 
     CHECK (rows ("stylus=trace:" + trace).at (2500, 1) == 0.01);
     CHECK (rows ("stylus=" + device).at (2500, 3) == -0.001);
@@ -216,15 +215,13 @@ TEST_CASE ("a WAV has the rate of a faster section if all its ports are in that 
                             "expose": { "inputs": { "in": "twice.in" }, "outputs": { "out": "twice.out" } } } } })"),
                feed = scratch.write ("f.csv", "sec.in,amp.in\n0,1\n4,2\n0,3\n");
 
-    const auto column = [] (const Table& table, std::size_t c)
-    {
+    const auto column = [] (const Table& table, std::size_t c) {
         std::vector<double> values;
         for (std::size_t r = 0; r < table.rows(); ++r)
             values.push_back (table.at (r, c));
         return values;
     };
-    const auto recorded = [&] (const std::string& ports)
-    {
+    const auto recorded = [&] (const std::string& ports) {
         const auto ran = runTactus ({ "render", graph, "--feed", feed, "--record", ports, "--out", scratch.path ("out.csv"),
                                       "--out", scratch.path ("out.wav") });
         INFO (ran.err);

@@ -122,7 +122,7 @@ TEST_CASE ("a run with late answers of async queries is repeated byte for byte",
     auto text = textOf (TACTUS_SOURCE_DIR "/graphs/liver.json");
     auto graph = Json::parse (text);
     bool found = false;
-    for (auto& [name, node] : graph["nodes"].items())
+    for (auto& [name, node] : graph["nodes"].asObject())
         if (node["type"] == "deform.surface")
         {
             node["settings"]["surface"]["mesh"] = "liver.obj";
@@ -179,15 +179,13 @@ TEST_CASE ("a damaged log is replayed as far as possible, even with another grap
     CHECK (runTactus ({ "set", "drag.mu=0.3", "--osc", portOf (play) }).status == 0);
     REQUIRE (play.finish().status == 0);
     const auto log = textOf (scratch.path ("run.jsonl"));
-    const auto replay = [&] (const std::string& text, std::vector<std::string> more = {})
-    {
+    const auto replay = [&] (const std::string& text, std::vector<std::string> more = {}) {
         std::vector<std::string> arguments { "render" };
         arguments.insert (arguments.end(), more.begin(), more.end());
         arguments.insert (arguments.end(), { "--replay", scratch.write ("other.jsonl", text), "--record", "motor.force" });
         return runTactus (arguments);
     };
-    const auto rows = [] (const Ran& ran)
-    { return std::ranges::count (ran.out, '\n') - 1; };
+    const auto rows = [] (const Ran& ran) { return std::ranges::count (ran.out, '\n') - 1; };
 
     const auto whole = replay (log);
     CHECK (whole.err.empty());
@@ -224,8 +222,7 @@ TEST_CASE ("a damaged log is replayed as far as possible, even with another grap
     CHECK (felt.err.find ("[log/no_role]") != std::string::npos);
     CHECK (felt.err.find ("[log/not_turned]") != std::string::npos);
 
-    const auto refused = [&] (const Ran& ran, int status, const std::string& what)
-    {
+    const auto refused = [&] (const Ran& ran, int status, const std::string& what) {
         INFO (ran.err);
         CHECK (ran.status == status);
         CHECK (ran.err.find (what) != std::string::npos);

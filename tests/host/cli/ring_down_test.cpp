@@ -125,8 +125,7 @@ double strongest (std::span<const double> signal, double dt)
 /// An estimate of the decay: the logarithm of the energy ratio of the first and second halves.
 double decayBetweenHalves (std::span<const double> signal, double dt)
 {
-    const auto energy = [] (std::span<const double> part)
-    {
+    const auto energy = [] (std::span<const double> part) {
         double sum = 0.0;
         for (const double v : part)
             sum += v * v;
@@ -165,10 +164,10 @@ std::vector<double> rendered (const Tone& tone, double hit, std::size_t at, std:
         REQUIRE (feed->row (std::vector { i == at ? hit : 0.0 }));
     REQUIRE (feed->commit());
 
-    const auto graph = scratch.write ("graph.json", R"({ "format": "tactus-graph", "version": 1, "name": "Board", "nodes": {
+    const auto json = R"({ "format": "tactus-graph", "version": 1, "name": "Board", "nodes": {
         "ring": { "type": "vibration.modal", "settings": { "modes": [{ "frequency": )"
-                                                        + numberText (tone.frequency) + R"(, "decay": )" + numberText (tone.decay)
-                                                        + R"(, "amplitude": 1 }] } } }, "wires": [] })");
+                      + numberText (tone.frequency) + R"(, "decay": )" + numberText (tone.decay) + R"(, "amplitude": 1 }] } } }, "wires": [] })";
+    const auto graph = scratch.write ("graph.json", json);
     const auto ran = test::runTactus ({ "render", graph, "--feed", scratch.path ("feed.csv"),
                                         "--rate", std::to_string (std::lround (1.0 / dt)), "--record", "ring.value", "--out", scratch.path ("out.csv") });
     INFO (ran.err);
@@ -215,21 +214,23 @@ std::string figure (const std::string& name)
 
 TEST_CASE ("the fit recovers a decaying tone under noise and drift", "[cli]")
 {
-    rc::prop ("frequency within 0.1 %, decay within 2 %, amplitude within 2 %", []
-              {
-                  const Tone tone { .frequency = 1.0 * *rc::gen::inRange (400, 3000), .decay = 1.0 * *rc::gen::inRange (15, 90),
-                      .amplitude = 100.0, .phase = 0.1 * *rc::gen::inRange (-30, 30) };
-                  std::mt19937 random { *rc::gen::arbitrary<std::uint32_t>() };
-                  std::normal_distribution<double> noise { 0.0, 1.0 };
-                  const double dt = 5e-5, slant = 0.1 * *rc::gen::inRange (-100, 100);
-                  std::vector<double> signal;
-                  for (int i = 0; i < 1000; ++i)
-                      signal.push_back (tone (dt * i) + slant * (1.0 - 2e-3 * i) + noise (random));
+    rc::prop ("frequency within 0.1 %, decay within 2 %, amplitude within 2 %", [] {
+        const Tone tone { .frequency = 1.0 * *rc::gen::inRange (400, 3000),
+                          .decay = 1.0 * *rc::gen::inRange (15, 90),
+                          .amplitude = 100.0,
+                          .phase = 0.1 * *rc::gen::inRange (-30, 30) };
+        std::mt19937 random { *rc::gen::arbitrary<std::uint32_t>() };
+        std::normal_distribution<double> noise { 0.0, 1.0 };
+        const double dt = 5e-5, slant = 0.1 * *rc::gen::inRange (-100, 100);
+        std::vector<double> signal;
+        for (int i = 0; i < 1000; ++i)
+            signal.push_back (tone (dt * i) + slant * (1.0 - 2e-3 * i) + noise (random));
 
-                  const auto found = identify (signal, dt).tone;
-                  RC_ASSERT (std::abs (found.frequency / tone.frequency - 1.0) < 0.001);
-                  RC_ASSERT (std::abs (found.decay / tone.decay - 1.0) < 0.02);
-                  RC_ASSERT (std::abs (found.amplitude / tone.amplitude - 1.0) < 0.02); });
+        const auto found = identify (signal, dt).tone;
+        RC_ASSERT (std::abs (found.frequency / tone.frequency - 1.0) < 0.001);
+        RC_ASSERT (std::abs (found.decay / tone.decay - 1.0) < 0.02);
+        RC_ASSERT (std::abs (found.amplitude / tone.amplitude - 1.0) < 0.02);
+    });
 }
 
 // Long because it is one scenario whose steps depend on each other: window, fit, render, comparison and plot.
@@ -245,11 +246,10 @@ TEST_CASE ("a board that rang after a shock matches one mode of vibration.modal"
 
     // Above half of the peak, the ring is not a single mode yet; below a twentieth, it is lost in the drift.
     const double most = *std::ranges::max_element (signal);
-    const auto lastAbove = [&signal] (double level)
-    { return static_cast<std::size_t> (std::find_if (signal.rbegin(), signal.rend(), [level] (double v)
-                                                     { return std::abs (v) > level; })
-                                           .base()
-                                       - signal.begin()); };
+    const auto lastAbove = [&signal] (double level) {
+        const auto last = std::find_if (signal.rbegin(), signal.rend(), [level] (double v) { return std::abs (v) > level; });
+        return static_cast<std::size_t> (last.base() - signal.begin());
+    };
     const std::size_t from = lastAbove (0.5 * most), to = lastAbove (0.05 * most);
     const auto window = std::span (signal).subspan (from, to - from);
     const auto found = identify (window, dt);
@@ -286,8 +286,7 @@ TEST_CASE ("a board that rang after a shock matches one mode of vibration.modal"
     CHECK (again.frequency == Approx (tone.frequency).epsilon (1e-4));
     CHECK (again.decay == Approx (tone.decay).epsilon (1e-3));
 
-    const auto series = [&] (const std::string& label, std::size_t first, std::size_t last, std::size_t origin, const auto& value)
-    {
+    const auto series = [&] (const std::string& label, std::size_t first, std::size_t last, std::size_t origin, const auto& value) {
         host::Series s { .label = label };
         for (std::size_t i = first; i < last; ++i)
         {
@@ -296,12 +295,9 @@ TEST_CASE ("a board that rang after a shock matches one mode of vibration.modal"
         }
         return s;
     };
-    const auto heard = [&] (std::size_t i)
-    { return signal[i]; };
-    const auto level = [&] (std::size_t i)
-    { return recorded[i - from]; };
-    const auto made = [&] (std::size_t i)
-    { return ring[i]; };
+    const auto heard = [&] (std::size_t i) { return signal[i]; };
+    const auto level = [&] (std::size_t i) { return recorded[i - from]; };
+    const auto made = [&] (std::size_t i) { return ring[i]; };
     host::Figure picture { .title = "A board after a shock, recorded and synthesised" };
     const auto cycles = static_cast<std::size_t> (6.0 * period / dt);
     picture.panels.push_back ({ .title = "as recorded", .x = { "time", "s" }, .y = { "acceleration", "g" }, .series = {} });

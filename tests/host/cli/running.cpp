@@ -23,8 +23,7 @@ Running::Running (const std::string& program, const std::vector<std::string>& ar
 
     process = fork();
     if (process != 0) return;
-    const auto to = [] (const std::string& path, int descriptor)
-    { dup2 (open (path.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600), descriptor); };
+    const auto to = [] (const std::string& path, int descriptor) { dup2 (open (path.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600), descriptor); };
     to (out, 1);
     to (err, 2);
     execvp (words[0], words.data());
@@ -40,13 +39,13 @@ Running::~Running()
 
 bool Running::says (const std::string& text, int times)
 {
-    return eventually ([&]
-                       {
+    return eventually ([&] {
         const auto all = err();
         int n = 0;
         for (auto at = all.find (text); at != std::string::npos; at = all.find (text, at + 1))
             ++n;
-        return n >= times; });
+        return n >= times;
+    });
 }
 
 void Running::signal (int number) { kill (static_cast<pid_t> (process), number); }

@@ -64,8 +64,7 @@ TEST_CASE ("a bad binding is refused, and the session stays unchanged", "[sessio
     const Scratch scratch;
     const std::string before = R"({"format": "tactus-session", "version": 1})";
     const auto file = scratch.write ("session.json", before);
-    const auto refuses = [&] (std::vector<std::string> options, int status, const std::string& id)
-    {
+    const auto refuses = [&] (std::vector<std::string> options, int status, const std::string& id) {
         options.insert (options.begin(), { "session", "--file", file });
         const auto ran = runTactus (options);
         INFO (ran.err);
@@ -100,8 +99,7 @@ TEST_CASE ("a run uses the option, then the session, then the graph; a render ne
     const Scratch scratch;
     const auto bound = scratch.write ("session.json", R"({"format": "tactus-session", "version": 1,
         "roles": {"stylus": {"driver": "gesture", "path": "tap", "workspace": {"scale": 2, "offset": [1, 0, 0]}}}})");
-    const auto firstX = [&] (const std::string& session, std::vector<std::string> more)
-    {
+    const auto firstX = [&] (const std::string& session, std::vector<std::string> more) {
         const auto out = scratch.path ("out.csv");
         more.insert (more.end(), { "--record", "hand.position.x", "--out", out });
         const auto ran = play (session, more);

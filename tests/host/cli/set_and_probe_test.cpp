@@ -50,8 +50,7 @@ TEST_CASE ("another program can set parameters of a running graph and watch its 
     const auto set = runTactus ({ "set", "level=0.5", "--osc", port });
     INFO (set.err);
     CHECK (set.status == 0);
-    CHECK (test::eventually ([&]
-                             { return runTactus ({ "probe", "turn.out", "--osc", port, "--duration", "0.01" }).out.find (",5\n") != std::string::npos; }));
+    CHECK (test::eventually ([&] { return runTactus ({ "probe", "turn.out", "--osc", port, "--duration", "0.01" }).out.find (",5\n") != std::string::npos; }));
     CHECK (runTactus ({ "set", "turn.value=0.1", "--osc", port }).status == 0);
 
     const auto probe = runTactus ({ "probe", "count.out", "--osc", port, "--rate", "100", "--duration", "0.2" });
@@ -77,8 +76,7 @@ TEST_CASE ("set and probe report the errors of the running program", "[cli][osc]
 {
     Running play { { "play", wood, "--osc", "0", "--duration", "600" } };
     const auto port = portOf (play);
-    const auto refused = [&] (std::vector<std::string> arguments, const std::string& id)
-    {
+    const auto refused = [&] (std::vector<std::string> arguments, const std::string& id) {
         arguments.insert (arguments.end(), { "--osc", port });
         const auto ran = runTactus (arguments);
         INFO (ran.err);
@@ -117,23 +115,22 @@ TEST_CASE ("probing does not change a single bit of the recording", "[cli][osc]"
 TEST_CASE ("a probe continues when the graph is edited, and ends when its port is removed", "[cli][osc][watch]")
 {
     const Scratch scratch;
-    const auto text = [] (const std::string& more)
-    { return R"({ "format": "tactus-graph", "version": 1, "name": "G", "rate_hz": 500, "nodes": { )" + more
-             + R"( "last": { "type": "signal.constant" } }, "wires": [] })"; };
+    const auto text = [] (const std::string& more) {
+        const auto nodes = more + R"( "last": { "type": "signal.constant" } })";
+        return R"({ "format": "tactus-graph", "version": 1, "name": "G", "rate_hz": 500, "nodes": { )" + nodes + R"(, "wires": [] })";
+    };
     const auto graph = scratch.write ("g.json", text (R"("one": { "type": "signal.constant" },)"));
     Running play { { "play", graph, "--osc", "0", "--watch", "--duration", "600" } };
     const auto port = portOf (play);
     Running stays { { "probe", "last.out", "--osc", port } }, goes { { "probe", "one.out", "--osc", port } };
-    REQUIRE (test::eventually ([&]
-                               { return stays.out().size() > 50 && goes.out().size() > 50; }));
+    REQUIRE (test::eventually ([&] { return stays.out().size() > 50 && goes.out().size() > 50; }));
     scratch.write ("g.json", text (""));
     REQUIRE (play.says (": taken over"));
     const auto gone = goes.finish();
     CHECK (gone.status == 1);
     CHECK (gone.err.find ("[port/unknown") != std::string::npos);
     const auto before = stays.out().size();
-    CHECK (test::eventually ([&]
-                             { return stays.out().size() > before + 50; }));
+    CHECK (test::eventually ([&] { return stays.out().size() > before + 50; }));
     CHECK (stays.stop().status == 0);
     CHECK (play.stop().status == 0);
 }
@@ -147,8 +144,7 @@ TEST_CASE ("a window around an edge contains every tick", "[cli][osc]")
       "wires": [ "one.out -> count.in[0]", "count.out -> [1] -> count.in[1]" ] })");
     Running play { { "play", graph, "--osc", "0", "--duration", "600" } };
     const auto port = portOf (play);
-    const auto capture = [&] (std::vector<std::string> more)
-    {
+    const auto capture = [&] (std::vector<std::string> more) {
         std::vector<std::string> arguments { "probe", "count.out", "--osc", port, "--trigger", "saw.out" };
         arguments.insert (arguments.end(), more.begin(), more.end());
         return runTactus (arguments);

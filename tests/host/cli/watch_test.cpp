@@ -80,8 +80,7 @@ TEST_CASE ("a file with errors is reported with its place, and the previous grap
     const auto file = scratch.write ("g.json", counter());
     Running play { { "play", file, "--watch", "--record", "count.out", "--out", scratch.path ("p.csv") } };
     REQUIRE (play.says ("Ctrl-C stops"));
-    auto refused = [&, n = 0] (const std::string& text, const std::string& id, const std::string& line) mutable
-    {
+    auto refused = [&, n = 0] (const std::string& text, const std::string& id, const std::string& line) mutable {
         scratch.write ("g.json", text);
         INFO (id);
         CHECK (play.says ("not taken over", ++n));
@@ -150,10 +149,11 @@ TEST_CASE ("edits that cannot be applied live are reported: another device, anot
 TEST_CASE ("a file included by the graph is watched too", "[cli][watch]")
 {
     const Scratch scratch;
-    const auto inner = [&] (const std::string& value)
-    { return scratch.write ("inner.json",
-                            R"({ "format": "tactus-graph", "version": 1, "nodes": { "one": { "type": "signal.constant", "params": { "value": )" + value
-                                + R"( } } }, "wires": [], "expose": { "outputs": { "out": "one.out" } } })"); };
+    const auto inner = [&] (const std::string& value) {
+        const auto nodes = R"({ "one": { "type": "signal.constant", "params": { "value": )" + value + " } } }";
+        scratch.write ("inner.json", R"({ "format": "tactus-graph", "version": 1, "nodes": )" + nodes
+                                         + R"(, "wires": [], "expose": { "outputs": { "out": "one.out" } } })");
+    };
     inner ("1");
     const auto file = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 1, "rate_hz": 500,
       "nodes": { "part": { "type": "file:inner.json" }, "last": { "type": "signal.abs" } },

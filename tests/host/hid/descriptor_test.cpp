@@ -38,8 +38,7 @@ ReportDescriptor good (const Bytes& bytes)
 
 const DescribedField* fieldOf (const ReportDescriptor& d, Kind kind, Usage usage)
 {
-    const auto it = std::ranges::find_if (d.fields, [&] (const auto& f)
-                                          { return f.kind == kind && f.placeOf (usage); });
+    const auto it = std::ranges::find_if (d.fields, [&] (const auto& f) { return f.kind == kind && f.placeOf (usage); });
     return it == d.fields.end() ? nullptr : &*it;
 }
 
@@ -122,8 +121,7 @@ TEST_CASE ("pushed states, long usages, alternatives and unsigned maxima follow 
 
 TEST_CASE ("a broken or oversized descriptor is refused at little cost, and the error has a position")
 {
-    const auto idOf = [] (const Bytes& bytes)
-    {
+    const auto idOf = [] (const Bytes& bytes) {
         const auto read = readDescriptor (bytes);
         return read.messages.empty() ? std::string() : read.messages.front().id;
     };
@@ -145,8 +143,7 @@ TEST_CASE ("a broken or oversized descriptor is refused at little cost, and the 
     CHECK (idOf (Bytes (70'000, 0)) == "descriptor/too_long");
     CHECK (readDescriptor (test::bytes ("05 01 c0")).messages.front().where == "byte 2");
 
-    const auto repeated = [] (std::string_view hex, int times)
-    {
+    const auto repeated = [] (std::string_view hex, int times) {
         std::string text;
         for (int i = 0; i < times; ++i)
             text += hex;
@@ -162,13 +159,12 @@ TEST_CASE ("a broken or oversized descriptor is refused at little cost, and the 
 
 TEST_CASE ("any bytes give either a descriptor or errors, and any descriptor with force feedback can be driven")
 {
-    rc::prop ("any bytes", []
-              { fuzz::tryDescriptor (*rc::gen::container<std::string> (rc::gen::arbitrary<char>())); });
-    rc::prop ("a wheel with one byte changed", []
-              {
+    rc::prop ("any bytes", [] { fuzz::tryDescriptor (*rc::gen::container<std::string> (rc::gen::arbitrary<char>())); });
+    rc::prop ("a wheel with one byte changed", [] {
         auto bytes = test::wheel();
         bytes[*rc::gen::inRange<std::size_t> (0, bytes.size())] = *rc::gen::arbitrary<std::uint8_t>();
-        fuzz::tryDescriptor ({ reinterpret_cast<const char*> (bytes.data()), bytes.size() }); });
+        fuzz::tryDescriptor ({ reinterpret_cast<const char*> (bytes.data()), bytes.size() });
+    });
 }
 
 TEST_CASE ("a force feedback wheel is driven by one constant force that ends on its own")
@@ -179,8 +175,7 @@ TEST_CASE ("a force feedback wheel is driven by one constant force that ends on 
     CHECK (messages.empty());
     CHECK (hexOf (device->createEffect()) == "06 01");
     CHECK (hexOf (device->blockLoad()) == "07 00 00");
-    const auto blockOf = [&] (const PidDevice& of, const char* answer)
-    { return numberIn (of.answer(), test::bytes (answer)).value(); };
+    const auto blockOf = [&] (const PidDevice& of, const char* answer) { return numberIn (of.answer(), test::bytes (answer)).value(); };
     CHECK (blockOf (*device, "07 05 01") == 5u);
     CHECK (numberIn (device->answer(), test::bytes ("07 05 02")).error().id == "pid/full");
     CHECK (numberIn (device->answer(), test::bytes ("07 05 03")).error().id == "pid/refused");
@@ -208,8 +203,7 @@ TEST_CASE ("a force feedback wheel is driven by one constant force that ends on 
     CHECK (hexOf (model.exit().back().bytes) == "05 03");   // stop all
 
     CHECK (model.effortNames() == std::vector<std::string> { "force" });
-    const auto sent = [&] (double share)
-    {
+    const auto sent = [&] (double share) {
         HidEffort effort;
         effort.efforts[0] = share;
         return hexOf (model.encode (0, effort));
@@ -287,8 +281,7 @@ TEST_CASE ("OpenFFBoard's descriptor gives its reports, and the same force as st
     CHECK (numberIn (device->answer(), test::bytes ("12 00 02 00 00")).error().id == "pid/full");
 
     HidModel model (std::make_shared<Profile> (device->profile ({ .full_force = 4.0, .travel = { { "x", 0.2 }, { "y", 0.1 } } })));
-    const auto sent = [&] (double newton)
-    { return hexOf (model.encode (0, { { newton, 0.0, 0.0 }, Vec3::Zero(), {} })); };
+    const auto sent = [&] (double newton) { return hexOf (model.encode (0, { { newton, 0.0, 0.0 }, Vec3::Zero(), {} })); };
     Bytes resting (25);
     resting[0] = 1;
     REQUIRE (model.decode (resting).refusal == Refusal::none);
@@ -350,8 +343,7 @@ TEST_CASE ("SpaceMouse profiles read the same bytes as PySpaceMouse, with the sa
     }
 
     // "mappings.x     = [1, 1, 2, 1]": report, low byte, high byte, sign; pitch, roll, yaw are turns about x, y, z.
-    const auto numbersIn = [] (const std::string& line)
-    {
+    const auto numbersIn = [] (const std::string& line) {
         std::vector<long> numbers;
         const char* at = line.c_str() + line.find ('[') + 1;
         for (char* end = nullptr; *at != '\0' && *at != ']'; at = *end == ',' ? end + 1 : end)
@@ -383,8 +375,7 @@ TEST_CASE ("SpaceMouse profiles read the same bytes as PySpaceMouse, with the sa
         const auto map = numbersIn (line);
         const auto name = names.at (theirs);
         INFO (profile->id << " " << line);
-        const auto report = std::ranges::find_if (profile->inputs, [&] (const auto& r)
-                                                  { return *r.id == map[0]; });
+        const auto report = std::ranges::find_if (profile->inputs, [&] (const auto& r) { return *r.id == map[0]; });
         REQUIRE (report != profile->inputs.end());
         const auto field = std::ranges::find (report->fields, name, &InputField::name);
         REQUIRE (field != report->fields.end());
@@ -436,14 +427,11 @@ TEST_CASE ("descriptors of real devices give the same fields as on Windows")
                 const auto usage = usageOf (static_cast<unsigned> (cap["UsagePage"]),
                                             static_cast<unsigned> (cap["IsRange"] != 0 ? cap["Range.UsageMin"] : cap["NotRange.Usage"]));
                 const auto bit = static_cast<std::size_t> (8 * (cap["BytePosition"] - 1) + cap["BitPosition"]);
-                const bool found = std::ranges::any_of (d.fields,
-                                                        [&] (const DescribedField& f)
-                                                        {
-                                                            const auto n = f.placeOf (usage);
-                                                            return n && f.kind == kind && f.report == cap["ReportID"]
-                                                                   && f.size == static_cast<std::size_t> (cap["BitSize"])
-                                                                   && f.bit + (f.variable ? *n * f.size : 0) == bit;
-                                                        });
+                const bool found = std::ranges::any_of (d.fields, [&] (const DescribedField& f) {
+                    const auto n = f.placeOf (usage);
+                    return n && f.kind == kind && f.report == cap["ReportID"] && f.size == static_cast<std::size_t> (cap["BitSize"])
+                           && f.bit + (f.variable ? *n * f.size : 0) == bit;
+                });
                 INFO ("cap " << i << " usage " << std::hex << usage << " bit " << std::dec << bit);
                 CHECK (found);
                 ++compared;

@@ -144,23 +144,21 @@ TEST_CASE ("every profile has a sample of each report, names its sources, and gi
         CHECK (std::filesystem::path (profile->file).stem() == profile->id);
         CHECK_FALSE (profile->sources.empty());
         for (const auto& report : profile->outputs)
-            CHECK (std::ranges::any_of (profile->samples, [&] (const auto& s)
-                                        { return s.output == report.name; }));
+            CHECK (std::ranges::any_of (profile->samples, [&] (const auto& s) { return s.output == report.name; }));
 
         for (const auto& report : profile->inputs)
         {
-            const auto of_this = [&] (const Bytes& b)
-            { return ! report.id || b.front() == *report.id; };
-            const auto decodes = [&] (const GoldenSample& s)
-            { return s.output.empty() && std::ranges::any_of (s.input, of_this); };
+            const auto of_this = [&] (const Bytes& b) { return ! report.id || b.front() == *report.id; };
+            const auto decodes = [&] (const GoldenSample& s) { return s.output.empty() && std::ranges::any_of (s.input, of_this); };
             // A second report with the same layout needs no sample.
-            const auto same_layout = [&] (const InputReport& other)
-            { return &other != &report && other.fields.size() >= report.fields.size() && other.length == report.length; };
+            const auto same_layout = [&] (const InputReport& other) {
+                if (&other == &report) return false;
+                return other.fields.size() >= report.fields.size() && other.length == report.length;
+            };
             INFO ("report " << int (report.id.value_or (0)));
             CHECK ((std::ranges::any_of (profile->samples, decodes) || std::ranges::any_of (profile->inputs, same_layout)));
             if (report.verified)
-                CHECK (std::ranges::any_of (profile->samples, [&] (const auto& s)
-                                            { return s.captured && decodes (s); }));
+                CHECK (std::ranges::any_of (profile->samples, [&] (const auto& s) { return s.captured && decodes (s); }));
         }
     }
 }
@@ -194,8 +192,7 @@ TEST_CASE ("every profile with efforts has a neutral report, and rest efforts en
 
 TEST_CASE ("the most specific of the matching profiles comes first")
 {
-    const auto idsOf = [] (const DeviceInfo& device)
-    {
+    const auto idsOf = [] (const DeviceInfo& device) {
         std::vector<std::string> ids;
         for (const auto& profile : matching (profiles(), device))
             ids.push_back (profile->id);

@@ -19,9 +19,7 @@ namespace
 {
 Effort anyEffort (const HidModel& model)
 {
-    const auto any = [] (double size)
-    { return *rc::gen::map (rc::gen::inRange (-1000, 1001), [=] (int i)
-                            { return size * i / 1000.0; }); };
+    const auto any = [] (double size) { return *rc::gen::map (rc::gen::inRange (-1000, 1001), [=] (int i) { return size * i / 1000.0; }); };
     Effort e { { any (50.0), any (50.0), any (50.0) }, { any (5.0), any (5.0), any (5.0) } };
     for (std::size_t i = 0; i < model.effortNames().size(); ++i)   // more than it has of its own
         if (*rc::gen::arbitrary<bool>()) e.axes.set (static_cast<int> (i), any (*rc::gen::element (1.0, 1e3, 1e12)));
@@ -69,12 +67,10 @@ TEST_CASE ("no report carries more force, or a larger step of it, than the profi
 {
     int tested = 0;
     for (const std::string id : { "tactus_board", "woodenhaptics_usb" })
-        rc::prop (id + ": any efforts", [&]
-                  {
+        rc::prop (id + ": any efforts", [&] {
             const auto profile = test::profileOf (id);
             HidModel model (profile);
-            const auto sample = std::ranges::find_if (profile->samples, [] (const GoldenSample& s)
-                                                      { return s.output.empty() && ! s.input.empty(); });
+            const auto sample = std::ranges::find_if (profile->samples, [] (const GoldenSample& s) { return s.output.empty() && ! s.input.empty(); });
             RC_ASSERT (sample != profile->samples.end());
             for (const auto& report : sample->input)
                 model.decode (report);
@@ -105,6 +101,7 @@ TEST_CASE ("no report carries more force, or a larger step of it, than the profi
                 RC_ASSERT (carried (*profile, reports, profile->torque).norm() <= limits.max_torque + 2e-6);
                 last = force;
             }
-            ++tested; });
+            ++tested;
+        });
     CHECK (tested > 2);
 }

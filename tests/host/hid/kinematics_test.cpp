@@ -19,8 +19,7 @@ constexpr double pi = std::numbers::pi;
 /// A random number between two limits, never quite at either limit.
 rc::Gen<double> between (double low, double high)
 {
-    return rc::gen::map (rc::gen::inRange (1, 999'999), [=] (int i)
-                         { return low + (high - low) * i / 1e6; });
+    return rc::gen::map (rc::gen::inRange (1, 999'999), [=] (int i) { return low + (high - low) * i / 1e6; });
 }
 
 SerialArm woody() { return std::get<SerialArm> (test::profileOf ("woodenhaptics_usb")->kinematics); }
@@ -111,8 +110,7 @@ std::optional<Vec3> inverse (const FiveBar& bar, const Vec3& p)
 
 std::optional<Vec3> jointsAt (const KinematicsModel& model, const Vec3& position)
 {
-    return std::visit ([&] (const auto& m)
-                       { return inverse (m, position); },
+    return std::visit ([&] (const auto& m) { return inverse (m, position); },
                        model);
 }
 }   // namespace
@@ -121,8 +119,7 @@ TEST_CASE ("the work of the joints equals the work of the tool")
 {
     // tau · dq = F · dx for any small step. Central differences avoid any derivative from the code under test.
     for (const auto& m : mechanisms())
-        rc::prop (m.name + ": any pose, force and step", [&]
-                  {
+        rc::prop (m.name + ": any pose, force and step", [&] {
             const Kinematics k (m.model);
             const Vec3 q = anyJoints (m), force = anyVector (5.0);
             const bool flat = std::holds_alternative<FiveBar> (m.model);
@@ -133,7 +130,8 @@ TEST_CASE ("the work of the joints equals the work of the tool")
             const auto pose = k.pose (q);
             RC_PRE (pose.problem == PoseProblem::none);
             const double of_joints = Kinematics::torques (pose, force).dot (step), of_tool = force.dot (dx);
-            RC_ASSERT (std::abs (of_joints - of_tool) <= 1e-6 * (force.norm() * dx.norm() + 1e-6)); });
+            RC_ASSERT (std::abs (of_joints - of_tool) <= 1e-6 * (force.norm() * dx.norm() + 1e-6));
+        });
 }
 
 TEST_CASE ("the work of the motors equals the work of the tool, for gears and encoders of either direction")
@@ -142,30 +140,31 @@ TEST_CASE ("the work of the motors equals the work of the tool, for gears and en
     for (const auto& m : mechanisms())
     {
         if (! std::holds_alternative<SerialArm> (m.model) && ! std::holds_alternative<FiveBar> (m.model)) continue;
-        rc::prop (m.name + ": any pose", [&]
-                  {
+        rc::prop (m.name + ": any pose", [&] {
             const Kinematics k (m.model);
             const Vec3 q = anyJoints (m), force = anyVector (0.5);
             const Vec3 counts = k.counts (q);
             RC_PRE (k.pose (q).problem == PoseProblem::none);
             const Vec3 currents = k.motors (Kinematics::torques (k.pose (q), force));
-            const auto drive = [&] (std::size_t i)
-            { return std::holds_alternative<SerialArm> (m.model) ? std::get<SerialArm> (m.model).drives[i] : std::get<FiveBar> (m.model).drives[i]; };
+            const auto drive = [&] (std::size_t i) {
+                const auto* arm = std::get_if<SerialArm> (&m.model);
+                return arm != nullptr ? arm->drives[i] : std::get<FiveBar> (m.model).drives[i];
+            };
             for (int i = 0; i < (std::holds_alternative<SerialArm> (m.model) ? 3 : 2); ++i)
             {
                 const auto d = drive (static_cast<std::size_t> (i));
                 const double turn = 1e-4 * d.counts_per_turn / (2.0 * pi);   // the motor turns by 1e-4 rad
                 const Vec3 dx = k.pose (k.joints (counts + turn * Vec3::Unit (i))).position - k.pose (k.joints (counts - turn * Vec3::Unit (i))).position;
                 RC_ASSERT (std::abs (d.torque_constant * currents[i] * 2e-4 - force.dot (dx)) <= 1e-5 * (force.norm() * dx.norm() + 1e-9));
-            } });
+            }
+        });
     }
 }
 
 TEST_CASE ("joints to position and back are inverse")
 {
     for (const auto& m : mechanisms())
-        rc::prop (m.name + ": any pose", [&]
-                  {
+        rc::prop (m.name + ": any pose", [&] {
             const Kinematics k (m.model);
             const Vec3 q = anyJoints (m);
             RC_ASSERT (k.joints (k.counts (q)).isApprox (q, 1e-12));
@@ -175,7 +174,8 @@ TEST_CASE ("joints to position and back are inverse")
             RC_ASSERT (back.has_value());
             RC_ASSERT (k.pose (*back).position.isApprox (pose.position, 1e-9));
             const Vec3 away = *back - q;
-            RC_ASSERT ((std::holds_alternative<FiveBar> (m.model) ? away.head<2>().norm() : away.norm()) < 1e-6); });
+            RC_ASSERT ((std::holds_alternative<FiveBar> (m.model) ? away.head<2>().norm() : away.norm()) < 1e-6);
+        });
 
     CHECK_FALSE (jointsAt (woody(), { 5.0, 0.0, 0.0 }));
     CHECK_FALSE (jointsAt (pantograph(), { 0.0, 1.0, 0.0 }));
@@ -197,8 +197,7 @@ TEST_CASE ("in every pose, even a singular one, forces give finite and bounded e
     for (const auto& m : mechanisms())
     {
         const Kinematics k (m.model);
-        rc::prop (m.name + ": any joints and force", [&]
-                  {
+        rc::prop (m.name + ": any joints and force", [&] {
             // Straight angles, at which the links are in line, occur as often as other angles.
             Vec3 q;
             for (int i = 0; i < 3; ++i)
@@ -211,7 +210,8 @@ TEST_CASE ("in every pose, even a singular one, forces give finite and bounded e
             RC_ASSERT (isFinite (k.motors (torques)));
             if (std::holds_alternative<SerialArm> (m.model)) RC_ASSERT (torques.norm() <= 10.0 * 2.0 * 0.7);
             if (std::holds_alternative<FiveBar> (m.model)) RC_ASSERT (torques.norm() <= 10.0 * 2.0 * 0.063 / 0.02);
-            if (pose.strength == 0.0) RC_ASSERT (torques == Vec3::Zero() && pose.problem != PoseProblem::none); });
+            if (pose.strength == 0.0) RC_ASSERT (torques == Vec3::Zero() && pose.problem != PoseProblem::none);
+        });
 
         for (const double bad : { std::nan (""), HUGE_VAL })
         {
@@ -267,8 +267,7 @@ TEST_CASE ("if one motor saturates, all are reduced and the force keeps its dire
 {
     const auto arm = woody();
     const Kinematics k (arm);
-    rc::prop ("any force", [&]
-              {
+    rc::prop ("any force", [&] {
         const Vec3 torques = anyVector (20.0);
         const Vec3 currents = k.motors (torques);
         RC_ASSERT (currents.cwiseAbs().maxCoeff() <= 3.0 * (1.0 + 1e-12));
@@ -277,17 +276,16 @@ TEST_CASE ("if one motor saturates, all are reduced and the force keeps its dire
             wanted[i] = torques[i] * arm.drives[static_cast<std::size_t> (i)].ratio / 0.0603;
         RC_ASSERT (currents.cross (wanted).norm() <= 1e-9 * wanted.squaredNorm() + 1e-15);
         RC_ASSERT (currents.dot (wanted) >= 0.0);
-        if (wanted.cwiseAbs().maxCoeff() <= 3.0) RC_ASSERT (currents.isApprox (wanted, 1e-12)); });
+        if (wanted.cwiseAbs().maxCoeff() <= 3.0) RC_ASSERT (currents.isApprox (wanted, 1e-12));
+    });
 }
 
 TEST_CASE ("a force in Tactus axes does work along positions in Tactus axes")
 {
     // The whole chain: currents in the report times motor rotation equals the work of the force on the tool.
-    rc::prop ("any position of a WoodenHaptics", []
-              {
+    rc::prop ("any position of a WoodenHaptics", [] {
         HidModel model (test::profileOf ("woodenhaptics_usb"));
-        const auto report = [] (const Vec3& counts)
-        {
+        const auto report = [] (const Vec3& counts) {
             Bytes bytes (8);
             for (int i = 0; i < 3; ++i)
             {
@@ -312,5 +310,6 @@ TEST_CASE ("a force in Tactus axes does work along positions in Tactus axes")
             const Vec3 dx = there.decode (report (counts + 5.0 * Vec3::Unit (i))).position - back.decode (report (counts - 5.0 * Vec3::Unit (i))).position;
             const double of_motor = 0.0603 * raw * 1e-3 * 10.0 * turns[i], of_tool = effort.force.dot (dx);
             RC_ASSERT (std::abs (of_motor - of_tool) <= 0.0603 * 0.6e-3 * 10.0 * std::abs (turns[i]) + 1e-4 * dx.norm());
-        } });
+        }
+    });
 }

@@ -192,8 +192,7 @@ TEST_CASE ("every error in a profile is reported with its position")
         INFO (mistake.pointer << " = " << mistake.value.dump());
         const auto loaded = readProfile (with (mistake.pointer, mistake.value));
         CHECK_FALSE (loaded.profile);
-        const bool named = std::ranges::any_of (loaded.messages, [&] (const Message& m)
-                                                { return m.id == mistake.id; });
+        const bool named = std::ranges::any_of (loaded.messages, [&] (const Message& m) { return m.id == mistake.id; });
         if (! named)
             for (const auto& m : loaded.messages)
                 UNSCOPED_INFO (m.id << " " << m.where << ": " << m.text);
@@ -226,8 +225,7 @@ TEST_CASE ("all errors in a profile are reported together, with line and column"
         "  \"match\": [{ \"vid\": -1 }],\n  \"sources\": [\"a test\"], \"rate\": \"1 m\",\n"
         "  \"inputs\": [{ \"length\": 0, \"verified\": true }] }");
     CHECK_FALSE (loaded.profile);
-    const auto lineOf = [&] (const std::string& where)
-    {
+    const auto lineOf = [&] (const std::string& where) {
         const auto it = std::ranges::find (loaded.messages, where, &Message::where);
         return it == loaded.messages.end() ? 0 : it->line;
     };
@@ -238,10 +236,10 @@ TEST_CASE ("all errors in a profile are reported together, with line and column"
 
 TEST_CASE ("hexadecimal bytes read back as written")
 {
-    rc::prop ("any bytes", [] (const Bytes& bytes)
-              {
+    rc::prop ("any bytes", [] (const Bytes& bytes) {
         RC_PRE (bytes.size() <= longest_report);
-        RC_ASSERT (bytesOf (hexOf (bytes)) == bytes); });
+        RC_ASSERT (bytesOf (hexOf (bytes)) == bytes);
+    });
     CHECK (bytesOf ("00*3 FF")->size() == 4);
     for (const auto bad : { "0", "0x00", "00*", "00*0", "00*-1", "gg", "00,00", "+1" })
         CHECK_FALSE (bytesOf (bad));
@@ -273,14 +271,14 @@ TEST_CASE ("profiles with any value anywhere are read or refused, and those that
                                      { 1, 2, 3 },
                                      { "x", "x", "x" } };
 
-    rc::prop ("one value replaced by another", [&]
-              {
+    rc::prop ("one value replaced by another", [&] {
         const auto json = with (*rc::gen::elementOf (pointers), *rc::gen::elementOf (values));
-        fuzz::tryProfile (json.dump()); });
-    rc::prop ("a piece of the text removed", [&]
-              {
+        fuzz::tryProfile (json.dump());
+    });
+    rc::prop ("a piece of the text removed", [&] {
         auto text = *rc::gen::elementOf (texts);
         const auto at = *rc::gen::inRange<std::size_t> (0, text.size());
         text.erase (at, *rc::gen::inRange<std::size_t> (1, 40));
-        fuzz::tryProfile (text); });
+        fuzz::tryProfile (text);
+    });
 }

@@ -45,16 +45,14 @@ std::shared_ptr<Profile> deviceThatTakes (OutputField field, std::size_t length)
 
 rc::Gen<Bits> anyBits()
 {
-    return rc::gen::apply ([] (std::size_t at, std::size_t size, bool is_signed)
-                           { return Bits { .at = at, .size = size, .is_signed = is_signed }; },
+    return rc::gen::apply ([] (std::size_t at, std::size_t size, bool is_signed) { return Bits { .at = at, .size = size, .is_signed = is_signed }; },
                            rc::gen::inRange<std::size_t> (0, 64), rc::gen::inRange<std::size_t> (1, 33), rc::gen::arbitrary<bool>());
 }
 }   // namespace
 
 TEST_CASE ("bits read back as written, and their neighbours do not change")
 {
-    rc::prop ("any bits of any report", []
-              {
+    rc::prop ("any bits of any report", [] {
         const auto b = *anyBits();
         const auto before = *rc::gen::container<Bytes> (12, rc::gen::arbitrary<std::uint8_t>());
         const auto raw = *rc::gen::arbitrary<std::uint32_t>();
@@ -64,7 +62,8 @@ TEST_CASE ("bits read back as written, and their neighbours do not change")
         RC_ASSERT (bitsAt (b, report) == (raw & mask));
         RC_ASSERT ((rawOf (b, numberOf (b, bitsAt (b, report))) & mask) == (raw & mask));
         putBits (b, bitsAt (b, before), report);
-        RC_ASSERT (report == before); });
+        RC_ASSERT (report == before);
+    });
 
     const Bytes report { 0x12, 0x34, 0x80, 0xff };
     CHECK (numberOf ({ .size = 16 }, bitsAt ({ .size = 16 }, report)) == 0x3412);
@@ -76,8 +75,7 @@ TEST_CASE ("bits read back as written, and their neighbours do not change")
 
 TEST_CASE ("a counter of any size is unwrapped if each step is less than half its range")
 {
-    rc::prop ("any walk", []
-              {
+    rc::prop ("any walk", [] {
         const auto size = *rc::gen::inRange<std::size_t> (2, 33);
         auto bits = Bits { .size = size, .is_signed = *rc::gen::arbitrary<bool>() };
         auto field = fieldOf ("count", bits);
@@ -92,7 +90,8 @@ TEST_CASE ("a counter of any size is unwrapped if each step is less than half it
             Bytes report (4);
             putBits (bits, static_cast<std::uint32_t> (place), report);
             RC_ASSERT (model.decode (report).axes[0] == static_cast<double> (place));
-        } });
+        }
+    });
 }
 
 TEST_CASE ("lost reports are counted; repeated reports and restarts are not")
@@ -100,8 +99,7 @@ TEST_CASE ("lost reports are counted; repeated reports and restarts are not")
     auto profile = deviceWith ({ fieldOf ("n", { .size = 8 }) }, 1);
     profile->inputs[0].sequence = "n";
     HidModel model (profile);
-    const auto lost = [&] (std::uint8_t n)
-    { return model.decode (Bytes { n }).lost; };
+    const auto lost = [&] (std::uint8_t n) { return model.decode (Bytes { n }).lost; };
     CHECK (lost (250) == 0);
     CHECK (lost (251) == 0);
     CHECK (lost (251) == 0);
@@ -112,8 +110,7 @@ TEST_CASE ("lost reports are counted; repeated reports and restarts are not")
     CHECK (model.counts().lost == 4);
     CHECK (model.counts().restarts == 2);
 
-    rc::prop ("any losses", [&]
-              {
+    rc::prop ("any losses", [&] {
         HidModel any (profile);
         std::uint8_t n = *rc::gen::arbitrary<std::uint8_t>();
         any.decode (Bytes { n });
@@ -122,7 +119,8 @@ TEST_CASE ("lost reports are counted; repeated reports and restarts are not")
             const auto gone = *rc::gen::inRange<std::uint8_t> (0, 127);
             n = static_cast<std::uint8_t> (n + gone + 1);
             RC_ASSERT (any.decode (Bytes { n }).lost == gone);
-        } });
+        }
+    });
 }
 
 TEST_CASE ("a device's clock is converted to seconds since its first report")
@@ -153,8 +151,7 @@ TEST_CASE ("a report that is too short, too long, unknown, unmarked or not finit
     REQUIRE (board.decode (good).refusal == Refusal::none);
     const auto place = board.sample().position;
 
-    const auto refused = [&] (HidModel& model, const Bytes& report, Refusal why)
-    {
+    const auto refused = [&] (HidModel& model, const Bytes& report, Refusal why) {
         const auto before = model.counts().refused[static_cast<std::size_t> (why)];
         CHECK (model.decode (report).refusal == why);
         CHECK (model.counts().refused[static_cast<std::size_t> (why)] == before + 1);
@@ -180,8 +177,7 @@ TEST_CASE ("a report that is too short, too long, unknown, unmarked or not finit
     refused (mouse, {}, Refusal::too_short);
 
     HidModel floating (deviceWith ({ fieldOf ("x", { .size = 32, .is_signed = true, .is_float = true }), fieldOf ("y", { .at = 32 }) }, 5));
-    const auto with = [] (float x, std::uint8_t y)
-    {
+    const auto with = [] (float x, std::uint8_t y) {
         Bytes report (5, y);
         std::memcpy (report.data(), &x, sizeof x);
         return report;
@@ -230,8 +226,7 @@ TEST_CASE ("a hat presses one button or two")
 
 TEST_CASE ("an effort is encoded as the nearest number of its field; if it is not finite, the field stays neutral")
 {
-    rc::prop ("any effort", []
-              {
+    rc::prop ("any effort", [] {
         OutputField field;
         field.name = "push";
         field.bits = *anyBits();
@@ -252,7 +247,8 @@ TEST_CASE ("an effort is encoded as the nearest number of its field; if it is no
             effort.efforts[0] = none;
             const auto neutral = model.encode (0, effort);
             RC_ASSERT (Bytes (neutral.begin() + 1, neutral.end()) == Bytes (12, 0x55));
-        } });
+        }
+    });
 }
 
 TEST_CASE ("a sample that is not a number is encoded as silence")
@@ -297,14 +293,14 @@ TEST_CASE ("the checksum is a CRC-32 over a prefix and the bytes before it")
     CHECK (crc32 (std::span (bytes).subspan (4), crc32 (std::span (bytes).first (4))) == 0xcbf43926u);
 
     // The remainder over a message and its checksum is the same for all messages.
-    rc::prop ("any efforts", []
-              {
+    rc::prop ("any efforts", [] {
         HidModel pad (test::profileOf ("dualsense_bluetooth"));
         HidEffort effort;
         for (auto& e : effort.efforts)
             e = *rc::gen::element (0.0, 0.3, 1.0, -1.0);
         const auto sent = pad.encode (0, effort);
-        RC_ASSERT (crc32 (sent, crc32 (Bytes { 0xa2 })) == 0x2144df1cu); });
+        RC_ASSERT (crc32 (sent, crc32 (Bytes { 0xa2 })) == 0x2144df1cu);
+    });
 }
 
 TEST_CASE ("decoding and encoding neither allocate nor lock")
@@ -343,13 +339,13 @@ TEST_CASE ("decoding and encoding neither allocate nor lock")
 
 TEST_CASE ("every profile decodes or refuses any bytes")
 {
-    rc::prop ("any bytes, for any profile", []
-              {
+    rc::prop ("any bytes, for any profile", [] {
         const auto data = *rc::gen::container<std::string> (rc::gen::arbitrary<char>());
         const auto blown_up = data + data + data + data;
         for (const auto& profile : test::profiles())
         {
             fuzz::tryReport (profile, data);
             fuzz::tryReport (profile, blown_up);
-        } });
+        }
+    });
 }

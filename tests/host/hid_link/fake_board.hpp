@@ -32,8 +32,7 @@ struct BoardProfile
 
     std::shared_ptr<const host::hid::Profile> make() const
     {
-        const auto number = [] (double v)
-        { return Json (v).dump(); };
+        const auto number = [] (double v) { return Json (v).dump(); };
         auto loaded = host::hid::readProfileText (
             R"({"format": "tactus-profile", "version": 1, "id": "board", "name": "Board", "match": [{"vid": "0x1209", "pid": "0x0001"}], )" + steps + R"(
             "inputs": [{"length": 24, "verified": false, "why_not": "made up", "sequence": "count", "fields": [
@@ -115,26 +114,23 @@ public:
 
     void send (Bytes report)
     {
-        change ([&]
-                { waiting.push_back (std::move (report)); });
+        change ([&] { waiting.push_back (std::move (report)); });
     }
     void plug (bool in)
     {
-        change ([&]
-                {
+        change ([&] {
             plugged = in;
             ++plugging;
-            waiting.clear(); });
+            waiting.clear();
+        });
     }
     void failWrites (bool f)
     {
-        change ([&]
-                { failing = f; });
+        change ([&] { failing = f; });
     }
     void forbid (bool f)
     {
-        change ([&]
-                { forbidden = f; });
+        change ([&] { forbidden = f; });
     }
 
     std::vector<Told> told() const
@@ -186,8 +182,7 @@ private:
         Result<std::size_t> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override
         {
             std::unique_lock lock (board.mutex);
-            board.changed.wait_for (lock, timeout, [&]
-                                    { return gone() || ! board.waiting.empty(); });
+            board.changed.wait_for (lock, timeout, [&] { return gone() || ! board.waiting.empty(); });
             if (gone()) return host::hid::transferError ("Input/output error");
             if (board.waiting.empty()) return std::size_t { 0 };
             const auto report = std::move (board.waiting.front());

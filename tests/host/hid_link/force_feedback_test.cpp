@@ -58,8 +58,7 @@ public:
     Bytes last (std::uint8_t id) const
     {
         const auto all = told();
-        const auto it = std::find_if (all.rbegin(), all.rend(), [&] (const Told& t)
-                                      { return t.how != 'w' && ! t.bytes.empty() && t.bytes[0] == id; });
+        const auto it = std::find_if (all.rbegin(), all.rend(), [&] (const Told& t) { return t.how != 'w' && ! t.bytes.empty() && t.bytes[0] == id; });
         return it == all.rend() ? Bytes {} : it->bytes;
     }
     int magnitude() const
@@ -214,12 +213,10 @@ TEST_CASE ("a force feedback device without a profile is initialised, driven in 
     CHECK (wheel.magnitude() == 0);
 
     wheel.moveTo (16384);
-    CHECK (run.until (push (2.0), [&]
-                      { return wheel.magnitude() == -5000; }));   // half of 4 N; a push to the right comes from the left
+    CHECK (run.until (push (2.0), [&] { return wheel.magnitude() == -5000; }));   // half of 4 N; a push to the right comes from the left
     CHECK (run.reading.position.x() == Approx (0.03).epsilon (1e-3));
     CHECK (wheel.last (4) == Bytes { 4, 5, 1, 1 });
-    CHECK (run.until (push (-100.0), [&]
-                      { return wheel.magnitude() == 10000; }));
+    CHECK (run.until (push (-100.0), [&] { return wheel.magnitude() == 10000; }));
 
     made.device.reset();
     const auto told = wheel.told();
@@ -235,14 +232,11 @@ TEST_CASE ("the effect is restarted repeatedly, since it ends on its own", "[hid
     REQUIRE (made.device);
     Driven run (made);
     wheel.moveTo (1);
-    const auto starts = [&]
-    {
+    const auto starts = [&] {
         const auto told = wheel.told();
-        return std::ranges::count_if (told, [] (const auto& t)
-                                      { return t.bytes == Bytes { 4, 5, 1, 1 }; });
+        return std::ranges::count_if (told, [] (const auto& t) { return t.bytes == Bytes { 4, 5, 1, 1 }; });
     };
-    CHECK (run.until (push (1.0), [&]
-                      { return starts() >= 3; }));
+    CHECK (run.until (push (1.0), [&] { return starts() >= 3; }));
 }
 
 TEST_CASE ("a force feedback device that comes back may assign a different effect block", "[hid]")
@@ -252,20 +246,16 @@ TEST_CASE ("a force feedback device that comes back may assign a different effec
     REQUIRE (made.device);
     Driven run (made);
     wheel.moveTo (1);
-    REQUIRE (run.until (push (2.0), [&]
-                        { return wheel.magnitude() == -5000; }));
+    REQUIRE (run.until (push (2.0), [&] { return wheel.magnitude() == -5000; }));
 
     wheel.plug (false);
-    REQUIRE (run.until (push (2.0), [&]
-                        { return ! run.reading.valid; }));
+    REQUIRE (run.until (push (2.0), [&] { return ! run.reading.valid; }));
     wheel.free_block = 9;
     wheel.plug (true);
     const auto before = wheel.told().size();
-    REQUIRE (run.until (push (2.0), [&]
-                        { return wheel.last (2).at (1) == 9; }));
+    REQUIRE (run.until (push (2.0), [&] { return wheel.last (2).at (1) == 9; }));
     wheel.moveTo (2);
-    CHECK (run.until (push (2.0), [&]
-                      { return wheel.last (3) == Bytes { 3, 9, 0x78, 0xec }; }));   // -5000
+    CHECK (run.until (push (2.0), [&] { return wheel.last (3) == Bytes { 3, 9, 0x78, 0xec }; }));   // -5000
     made.device.reset();
 
     const auto told = wheel.told();
@@ -286,8 +276,7 @@ TEST_CASE ("an uncalibrated device uses a tenth of its force, with a warning", "
     wheel.moveTo (1);
     int most = 0;
     run.until (push (1000.0),
-               [&]
-               {
+               [&] {
                    most = std::max (most, std::abs (wheel.magnitude()));
                    return most == 1000 && run.guard.stop() == Guard::Stop::none && wheel.magnitude() == -1000;
                });
@@ -315,24 +304,21 @@ TEST_CASE ("a wheel reports its angle and takes a torque", "[hid]")
     CHECK (made.limits.max_torque == 2.5);
     Driven run (made);
     wheel.moveTo (-16384);
-    CHECK (run.until ({ .torque = { 0.0, 1.25, 0.0 } }, [&]
-                      { return wheel.magnitude() == 5000; }));
+    CHECK (run.until ({ .torque = { 0.0, 1.25, 0.0 } }, [&] { return wheel.magnitude() == 5000; }));
     CHECK (run.reading.rotation.y() == Approx (-0.25 * 5.0 * 3.14159265358979).epsilon (1e-3));
     CHECK (run.reading.position.isZero (0.0));
 }
 
 TEST_CASE ("a force feedback device that cannot be driven gives an error with a remedy", "[hid]")
 {
-    const auto attempt = [] (Wheel& wheel, const Json& description)
-    {
+    const auto attempt = [] (Wheel& wheel, const Json& description) {
         const auto made = openDevice (description, {}, wheel, {});
         CHECK_FALSE (made.device);
         REQUIRE_FALSE (made.messages.empty());
         CHECK_FALSE (made.messages.front().remedy.empty());
         return idOf (made);
     };
-    const auto with = [] (const char* key, const Json& value)
-    {
+    const auto with = [] (const char* key, const Json& value) {
         auto d = of_4_newton;
         d["calibration"][key] = value;
         return d;
@@ -377,8 +363,7 @@ TEST_CASE ("a force feedback device that cannot be driven gives an error with a 
 
 TEST_CASE ("no force exceeds what the calibration allows", "[hid]")
 {
-    rc::prop ("any requested force", []
-              {
+    rc::prop ("any requested force", [] {
         Messages messages;
         const auto pid = PidDevice::from (readDescriptor (test::wheel()).descriptor, messages);
         PidCalibration calibration { .full_force = *rc::gen::inRange (1, 1000) * 0.1 };
@@ -390,5 +375,6 @@ TEST_CASE ("no force exceeds what the calibration allows", "[hid]")
         const int counts = static_cast<std::int16_t> (report[2] | report[3] << 8);
         const double got = (calibration.is_reversed ? 1.0 : -1.0) * counts * calibration.full_force / 10000.0;
         const double most = calibration.full_force * calibration.usable;
-        RC_ASSERT (std::abs (got - std::clamp (asked, -most, most)) <= 0.5001 * calibration.full_force / 10000.0); });
+        RC_ASSERT (std::abs (got - std::clamp (asked, -most, most)) <= 0.5001 * calibration.full_force / 10000.0);
+    });
 }

@@ -95,21 +95,20 @@ TEST_CASE ("reports drive the ticks, a timer takes over while none arrive, then 
     std::uint16_t count = 0;
     bool was_timed = false, driven_again = false;
     board.send (boardReport (++count));
-    Each each { [&] (double late)
-                {
-                    ++k;
-                    CHECK (late >= 0.0);
-                    const bool now_timed = clock.isByTimer();
-                    timed += now_timed;
-                    driven_again = driven_again || (was_timed && ! now_timed && k > 60);
-                    was_timed = now_timed;
-                    if (k < 50)
-                        board.send (boardReport (++count));
-                    else if (k >= 60 && fell_silent_at == 0)
-                        fell_silent_at = k;
-                    if (k >= 60) board.send (boardReport (++count));
-                    return k < 120;
-                } };
+    Each each { [&] (double late) {
+        ++k;
+        CHECK (late >= 0.0);
+        const bool now_timed = clock.isByTimer();
+        timed += now_timed;
+        driven_again = driven_again || (was_timed && ! now_timed && k > 60);
+        was_timed = now_timed;
+        if (k < 50)
+            board.send (boardReport (++count));
+        else if (k >= 60 && fell_silent_at == 0)
+            fell_silent_at = k;
+        if (k >= 60) board.send (boardReport (++count));
+        return k < 120;
+    } };
     clock.drive (each);
     CHECK (k == 120);
     CHECK (timed >= 9);
@@ -123,8 +122,7 @@ TEST_CASE ("a live run over dry wood sends the same forces as the offline run, b
     FakeBoard board;
     constexpr int length = 1500;
     std::atomic<int> sent = 0;
-    const auto sendNext = [&]
-    {
+    const auto sendNext = [&] {
         const int k = ++sent;
         if (k > length) return;
         const auto [x, y, z] = placeAt (k);
@@ -160,14 +158,12 @@ TEST_CASE ("a live run over dry wood sends the same forces as the offline run, b
     for (std::size_t i = 0; i < readings.size(); ++i)
         engine.tick();
 
-    const auto numberOf = [] (const Reading& reading)
-    {
+    const auto numberOf = [] (const Reading& reading) {
         for (int k = 1; k <= length; ++k)
             if (const auto [x, y, z] = placeAt (k); reading.position == Vec3 (x * 1e-9, y * 1e-9, z * 1e-9)) return k;
         return 0;
     };
-    const auto micro = [] (double newton)
-    { return static_cast<std::int32_t> (std::floor (newton / 1e-6 + 0.5)); };
+    const auto micro = [] (double newton) { return static_cast<std::int32_t> (std::floor (newton / 1e-6 + 0.5)); };
     std::map<int, std::set<std::array<std::int32_t, 3>>> offline;   // several forces per number where the timer ticked
     for (std::size_t i = 0; i < readings.size(); ++i)
     {

@@ -25,8 +25,7 @@ void deliver (FakeBoard& board, HidDevice& device, Bytes report)
 {
     const auto before = device.port().counts().reports;
     board.send (std::move (report));
-    REQUIRE (board.until ([&]
-                          { return device.port().counts().reports > before; }));
+    REQUIRE (board.until ([&] { return device.port().counts().reports > before; }));
 }
 
 Reading tell (FakeBoard& board, HidDevice& device, Bytes report)
@@ -120,8 +119,7 @@ TEST_CASE ("a motor of the force cannot be reached by an axis effort, whatever a
     const GuardLimits limits { .max_force = 2.0, .max_slew = 100.0, .ramp = 0.01, .watchdog = 0.02 };
     Driven run { *device, limits };
     std::uint16_t count = 0;
-    const auto efforts = [&]
-    { return std::ranges::count_if (board.told(), &test::Told::isEffort); };
+    const auto efforts = [&] { return std::ranges::count_if (board.told(), &test::Told::isEffort); };
     for (int k = 0; k < 200; ++k)
     {
         deliver (board, *device, boardReport (++count));
@@ -130,8 +128,7 @@ TEST_CASE ("a motor of the force cannot be reached by an axis effort, whatever a
         wanted.axes = k % 50 < 40 ? Channels { 1000.0, -300.0, k % 7 == 0 ? -1e9 : 1e9 } : Channels {};   // fx, fy, fz
         const auto before = efforts();
         run.tick (wanted);
-        REQUIRE (board.until ([&]
-                              { return efforts() > before; }));   // so that no report replaces an earlier one
+        REQUIRE (board.until ([&] { return efforts() > before; }));   // so that no report replaces an earlier one
     }
     CHECK (driven (board) > 150);
 
@@ -193,8 +190,7 @@ TEST_CASE ("a device unplugged under force goes to rest, and starts from zero wh
     const auto device = openBoard (board);
     Driven run { *device, { .ramp = 0.01, .watchdog = 0.02 } };
     std::uint16_t count = 0;
-    const auto tickOn = [&]
-    {
+    const auto tickOn = [&] {
         deliver (board, *device, boardReport (++count));
         return run.tick().force.x();
     };
@@ -203,8 +199,7 @@ TEST_CASE ("a device unplugged under force goes to rest, and starts from zero wh
     REQUIRE (tickOn() == 1.0);
 
     board.plug (false);
-    REQUIRE (board.until ([&]
-                          { return ! device->port().isConnected(); }));
+    REQUIRE (board.until ([&] { return ! device->port().isConnected(); }));
     run.tick();
     CHECK_FALSE (run.reading.valid);
     for (int i = 0; i < 20; ++i)
@@ -215,8 +210,7 @@ TEST_CASE ("a device unplugged under force goes to rest, and starts from zero wh
     // It comes back under a different path, as real devices do.
     board.what.path = "fake/1";
     board.plug (true);
-    REQUIRE (board.until ([&]
-                          { return device->port().isConnected(); }));
+    REQUIRE (board.until ([&] { return device->port().isConnected(); }));
     CHECK (board.openings() == 2);
     CHECK (device->port().counts().departures == 1);
     CHECK (board.told().at (before + 2).bytes == Bytes { 0, 0xaa, 0x01 });   // the init steps again
@@ -243,17 +237,14 @@ TEST_CASE ("an effort from before a device went away is never sent afterwards", 
     device->write (none);
     device->read();
     device->write (push);
-    REQUIRE (board.until ([&]
-                          { return driven (board) > 0; }));
+    REQUIRE (board.until ([&] { return driven (board) > 0; }));
 
     board.plug (false);
-    REQUIRE (board.until ([&]
-                          { return ! device->port().isConnected(); }));
+    REQUIRE (board.until ([&] { return ! device->port().isConnected(); }));
     device->write (push);   // this effort is still on its way
     const auto before = driven (board);
     board.plug (true);
-    REQUIRE (board.until ([&]
-                          { return device->port().isConnected(); }));
+    REQUIRE (board.until ([&] { return device->port().isConnected(); }));
     device->write (push);
     for (int i = 0; i < 20; ++i)
     {
@@ -266,8 +257,7 @@ TEST_CASE ("an effort from before a device went away is never sent afterwards", 
     device->write (none);
     device->read();
     device->write (push);
-    CHECK (board.until ([&]
-                        { return driven (board) > before; }));
+    CHECK (board.until ([&] { return driven (board) > before; }));
 }
 
 TEST_CASE ("a port without new efforts sends its device to rest, and later efforts start from zero", "[hid]")
@@ -280,8 +270,7 @@ TEST_CASE ("a port without new efforts sends its device to rest, and later effor
     device->read();
     const auto offered = std::chrono::steady_clock::now();
     device->write (push);
-    REQUIRE (board.until ([&]
-                          { return driven (board) > 0 && device->port().counts().silences == 1; }));
+    REQUIRE (board.until ([&] { return driven (board) > 0 && device->port().counts().silences == 1; }));
     const auto told = board.told();
     CHECK (told.back().isNeutral());
     CHECK (told.back().at - offered > 99ms);
@@ -295,24 +284,21 @@ TEST_CASE ("a port without new efforts sends its device to rest, and later effor
     device->write (none);
     CHECK (tell (board, *device, boardReport (3)).valid);
     device->write (push);
-    CHECK (board.until ([&]
-                        { return driven (board) > before; }));
+    CHECK (board.until ([&] { return driven (board) > before; }));
 }
 
 TEST_CASE ("while a device is slow to take reports, only the latest effort is kept and sent", "[hid]")
 {
     FakeBoard board;
     std::atomic<bool> slow = false;
-    board.on_write = [&] (const Bytes&)
-    {
+    board.on_write = [&] (const Bytes&) {
         while (slow)
             std::this_thread::sleep_for (100us);
     };
     const auto device = openBoard (board, { .watchdog = 10.0 });
     tell (board, *device, boardReport (1));
     device->write ({});
-    REQUIRE (board.until ([&]
-                          { return driven (board) == 1; }));
+    REQUIRE (board.until ([&] { return driven (board) == 1; }));
     tell (board, *device, boardReport (2));
 
     slow = true;
@@ -321,8 +307,7 @@ TEST_CASE ("while a device is slow to take reports, only the latest effort is ke
     for (int i = 1; i <= 100; ++i)
         device->write ({ { 1e-3 * i, 0.0, 0.0 }, Vec3::Zero() });
     slow = false;
-    REQUIRE (board.until ([&]
-                          { return driven (board) == 3; }));
+    REQUIRE (board.until ([&] { return driven (board) == 3; }));
     std::this_thread::sleep_for (5ms);
     const auto told = board.told();
     REQUIRE (driven (board) == 3);
@@ -348,8 +333,7 @@ TEST_CASE ("reports are sent no faster than the maximum rate, and repeated while
     const auto busy = driven (board);
     CHECK (static_cast<double> (busy) <= 105.0 * took + 5.0);
     CHECK (busy >= 5);
-    CHECK (board.until ([&]
-                        { return driven (board) >= busy + 2; }));
+    CHECK (board.until ([&] { return driven (board) >= busy + 2; }));
 }
 
 TEST_CASE ("an effort is sent as soon as it is written, whichever clock drives the run", "[hid]")
@@ -360,8 +344,7 @@ TEST_CASE ("an effort is sent as soon as it is written, whichever clock drives t
     for (std::size_t sent = 1; sent <= 3; ++sent)
     {
         device->write ({});
-        CHECK (board.until ([&]
-                            { return driven (board) == sent; }));   // gives up after 10 s
+        CHECK (board.until ([&] { return driven (board) == sent; }));   // gives up after 10 s
     }
 }
 
@@ -372,15 +355,13 @@ TEST_CASE ("failed writes are counted and reported, and later writes still work"
     tell (board, *device, boardReport (1));
     board.failWrites (true);
     device->write ({});
-    REQUIRE (board.until ([&]
-                          { return device->port().counts().write_errors > 0; }));
+    REQUIRE (board.until ([&] { return device->port().counts().write_errors > 0; }));
     CHECK (device->port().trouble() == "Input/output error");
     CHECK (device->port().isConnected());
     board.failWrites (false);
     device->read();
     device->write ({});
-    CHECK (board.until ([&]
-                        { return driven (board) > 0; }));
+    CHECK (board.until ([&] { return driven (board) > 0; }));
 }
 
 TEST_CASE ("a reading ages when the ring overflows, however many old reports it holds", "[hid]")
@@ -414,15 +395,15 @@ TEST_CASE ("reading and driving a device neither allocates nor locks, and only w
         CHECK (watch.locks() == 0);
     }
     if (! test::canForbidSystemCalls()) return;
-    const auto end = test::inChild ([&]
-                                    {
+    const auto end = test::inChild ([&] {
         test::forbidSystemCalls (test::Allow::waking_threads);
         for (int i = 0; i < 100; ++i)
         {
             device->read();
             device->write ({});
         }
-        return 3; });
+        return 3;
+    });
     CHECK (end.signal == 0);
     CHECK (end.status == 3);
 }

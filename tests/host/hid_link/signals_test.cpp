@@ -47,8 +47,7 @@ void tick (HidDevice& device, const Channels& signals)
 
 TEST_CASE ("a stream gets its frames at its own rate, interpolated linearly between ticks", "[hid]")
 {
-    rc::prop ("any two rates", []
-              {
+    rc::prop ("any two rates", [] {
         const double rate = *rc::gen::inRange (100, 9000), dt = 1.0 / *rc::gen::inRange (100, 9000);
         const auto frames = *rc::gen::inRange<std::size_t> (1, 40);
         StreamFeed feed ({ .at = 0, .frames = frames, .rate = rate, .channels = { "a", "b" }, .is_signed = true, .bits = 8 }, 1);
@@ -56,23 +55,23 @@ TEST_CASE ("a stream gets its frames at its own rate, interpolated linearly betw
         std::vector<double> got;
         const int ticks = 500;
         for (int k = 1; k <= ticks; ++k)
-            feed.tick ({ 9.0, k * dt, -2.0 * k * dt }, [&] (std::span<const float> block)
-                       {
+            feed.tick ({ 9.0, k * dt, -2.0 * k * dt }, [&] (std::span<const float> block) {
                 RC_ASSERT (block.size() == 2 * frames);
                 for (std::size_t i = 0; i < frames; ++i)
                 {
                     got.push_back (static_cast<double> (block[2 * i]));
                     RC_ASSERT (std::abs (static_cast<double> (block[2 * i + 1]) + 2.0 * got.back()) < 1e-5);
-                } });
+                }
+            });
         for (std::size_t i = 0; i < got.size(); ++i)
             RC_ASSERT (std::abs (got[i] - static_cast<double> (i + 1) / rate) < 1e-5);   // the ramp of 1 per s, at the time of the frame
-        RC_ASSERT (std::abs (static_cast<double> (got.size()) - ticks * dt * rate) <= static_cast<double> (frames) + 1.0); });
+        RC_ASSERT (std::abs (static_cast<double> (got.size()) - ticks * dt * rate) <= static_cast<double> (frames) + 1.0);
+    });
 }
 
 TEST_CASE ("the amplitude and frequency of a tone are found at any rate", "[hid]")
 {
-    rc::prop ("any tone", []
-              {
+    rc::prop ("any tone", [] {
         const double hertz = *rc::gen::inRange (41, 600), dt = 1.0 / *rc::gen::inRange (4000, 10000), loud = *rc::gen::inRange (1, 100) * 0.01;
         VibrationTracker tracker;
         tracker.prepare (dt, 12.5e-3);
@@ -84,7 +83,8 @@ TEST_CASE ("the amplitude and frequency of a tone are found at any rate", "[hid]
         for (int k = 0; k < 2000; ++k)
             tracker.tick (0.0);
         RC_ASSERT (tracker.amplitude() == 0.0);
-        RC_ASSERT (tracker.frequency() == 0.0); });
+        RC_ASSERT (tracker.frequency() == 0.0);
+    });
 }
 
 TEST_CASE ("a DualSense gets samples over Bluetooth, with a counter and a checksum", "[hid]")
@@ -92,13 +92,10 @@ TEST_CASE ("a DualSense gets samples over Bluetooth, with a counter and a checks
     FakeBoard pad;
     const auto device = open (pad, "dualsense_bluetooth_samples", 1.0 / 3000.0);
     CHECK (device->layout().signal_outputs == 2);
-    const auto reports = [&]
-    { return sent (pad, 0x32); };
+    const auto reports = [&] { return sent (pad, 0x32); };
     // If the machine pauses for longer than the watchdog, the port sends neutral reports in between, and more ticks are needed.
-    const auto isSent = [&] (const Channels& signals, const char* frame)
-    {
-        return pad.until ([&]
-                          {
+    const auto isSent = [&] (const Channels& signals, const char* frame) {
+        return pad.until ([&] {
             tick (*device, {});
             for (int k = 0; k < 63; ++k)
                 tick (*device, signals);
@@ -115,7 +112,8 @@ TEST_CASE ("a DualSense gets samples over Bluetooth, with a counter and a checks
             const auto sum = crc32 (std::span (report).first (138), crc32 (test::bytes ("a2")));
             for (std::size_t i = 0; i < 4; ++i)
                 expected.push_back (static_cast<std::uint8_t> (sum >> (8 * i)));
-            return report == expected; });
+            return report == expected;
+        });
     };
     tick (*device, {});
     // Computed manually: 0.5 of 127 is 64, -0.25 is -32; values out of range are clipped.
@@ -127,29 +125,28 @@ TEST_CASE ("a DualSense gets samples over Bluetooth, with a counter and a checks
 
 TEST_CASE ("rumble motors get the amplitude of their signal, and HD rumble motors its frequency too", "[hid]")
 {
-    const auto vibrates = [] (const char* profile, std::uint8_t id, auto&& matches)
-    {
+    const auto vibrates = [] (const char* profile, std::uint8_t id, auto&& matches) {
         FakeBoard pad;
         const auto device = open (pad, profile, 1e-3);
         tick (*device, {});
         int k = 0;
-        CHECK (pad.until ([&]
-                          {
+        CHECK (pad.until ([&] {
             for (int i = 0; i < 20; ++i, ++k)
                 tick (*device, { 0.5 * std::sin (2.0 * std::numbers::pi * 100.0 * 1e-3 * k) });
             if (k % 200 == 0) tick (*device, {});   // if the machine paused, a tick at rest lets it start again
             const auto reports = sent (pad, id);
-            return ! reports.empty() && matches (reports.back()); }));
+            return ! reports.empty() && matches (reports.back());
+        }));
         tick (*device, {});
         return device->layout().signal_outputs;
     };
     // 0.5 of 255 is 128; a sine of 100 Hz at 1 kHz has its largest samples at 0.951.
-    CHECK (vibrates ("dualsense_usb", 0x02, [] (const test::Bytes& r)
-                     { return r[4] == std::lround (0.5 * std::sin (0.4 * std::numbers::pi) * 255.0) && r[3] == 0; })
+    CHECK (vibrates ("dualsense_usb", 0x02,
+                     [] (const test::Bytes& r) { return r[4] == std::lround (0.5 * std::sin (0.4 * std::numbers::pi) * 255.0) && r[3] == 0; })
            == 2);
     // 100 Hz: round (32 log2 (100/10)) - 0x40 = 106 - 64 = 42 in the low band of the left motor.
-    CHECK (vibrates ("switch_controllers", 0x10, [] (const test::Bytes& r)
-                     { return (r[4] & 0x7f) == 42 && r[5] > 0x40 && r[5] <= 0x72 && (r[6] << 8 | r[7]) == 0x0001; })
+    CHECK (vibrates ("switch_controllers", 0x10,
+                     [] (const test::Bytes& r) { return (r[4] & 0x7f) == 42 && r[5] > 0x40 && r[5] <= 0x72 && (r[6] << 8 | r[7]) == 0x0001; })
            == 4);
 }
 

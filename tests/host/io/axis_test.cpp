@@ -87,8 +87,7 @@ TEST_CASE ("axis: a range is never empty, and ticks and scale are finite for any
     CHECK (widened ({ 5.0, 5.0 }, 0.05).low == 4.5);
     CHECK (widened ({ 1.0, 1.0 + 1e-12 }, 0.05).low == Approx (0.9));
 
-    const auto anything = [] (double a, double b)
-    {
+    const auto anything = [] (double a, double b) {
         const auto exponent = *rc::gen::inRange (-310, 310);
         Extent values;
         for (double value : { a * std::pow (10.0, exponent), b * std::pow (10.0, exponent) })

@@ -176,8 +176,7 @@ TEST_CASE ("plot: any text can be drawn", "[host][io][plot]")
 
 TEST_CASE ("plot: any values can be drawn", "[host][io][plot]")
 {
-    const auto drawn = [] (const std::vector<std::pair<std::uint64_t, std::uint64_t>>& bits)
-    {
+    const auto drawn = [] (const std::vector<std::pair<std::uint64_t, std::uint64_t>>& bits) {
         const TemporaryFolder folder;
         Series series { .label = "any" };
         for (const auto& [x, y] : bits)

@@ -52,8 +52,7 @@ TEST_CASE ("polyline: a million points are reduced to a few per column, and the 
 
 TEST_CASE ("polyline: every pixel column keeps its first, lowest, highest and last point", "[host][io][plot]")
 {
-    const auto kept = [] (const std::vector<std::uint16_t>& heights)
-    {
+    const auto kept = [] (const std::vector<std::uint16_t>& heights) {
         std::vector<double> x, y;
         for (std::size_t k = 0; k < heights.size(); ++k)
         {
@@ -70,10 +69,8 @@ TEST_CASE ("polyline: every pixel column keeps its first, lowest, highest and la
         for (std::size_t k = 0; k < x.size(); ++k)
         {
             const auto column = std::floor (to_x (x[k]));
-            const auto isAbove = [&] (PixelPoint point)
-            { return std::floor (point.x) == column && point.y <= to_y (y[k]); };
-            const auto isBelow = [&] (PixelPoint point)
-            { return std::floor (point.x) == column && point.y >= to_y (y[k]); };
+            const auto isAbove = [&] (PixelPoint point) { return std::floor (point.x) == column && point.y <= to_y (y[k]); };
+            const auto isBelow = [&] (PixelPoint point) { return std::floor (point.x) == column && point.y >= to_y (y[k]); };
             RC_ASSERT (std::ranges::any_of (lines[0], isAbove));
             RC_ASSERT (std::ranges::any_of (lines[0], isBelow));
         }

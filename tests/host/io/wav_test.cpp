@@ -64,8 +64,7 @@ TEST_CASE ("wav: every float reads back bit for bit, at any size and number of c
 {
     const TemporaryFolder folder;
 
-    const auto round_trip = [&] (const std::vector<std::uint32_t>& bits)
-    {
+    const auto round_trip = [&] (const std::vector<std::uint32_t>& bits) {
         const auto channels = *rc::gen::inRange<std::size_t> (1, 12);
         const auto rate = *rc::gen::inRange (1, 1'000'000);
         const auto frames = bits.size() / channels;
@@ -252,8 +251,7 @@ TEST_CASE ("wav: no damaged header crashes the reader", "[host][io][wav]")
     const TemporaryFolder folder;
     const auto whole = wavOf (3, 2, 32, std::string (64, 'x'), 64);
 
-    const auto damaged = [&] (const std::vector<std::pair<std::uint8_t, char>>& changes)
-    {
+    const auto damaged = [&] (const std::vector<std::pair<std::uint8_t, char>>& changes) {
         auto bytes = whole;
         for (const auto& [at, value] : changes)
             bytes[at % bytes.size()] = value;

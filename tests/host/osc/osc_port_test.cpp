@@ -92,10 +92,8 @@ TEST_CASE ("a port in use is refused, and reported as taken", "[osc]")
 TEST_CASE ("a bundle is unpacked in order", "[osc]")
 {
     const auto port = anyPort();
-    const auto message = [] (const std::string& address)
-    { return padded (address) + padded (","); };
-    const auto element = [] (const std::string& bytes)
-    { return word (static_cast<std::uint32_t> (bytes.size())) + bytes; };
+    const auto message = [] (const std::string& address) { return padded (address) + padded (","); };
+    const auto element = [] (const std::string& bytes) { return word (static_cast<std::uint32_t> (bytes.size())) + bytes; };
     const auto head = padded ("#bundle") + std::string (8, '\0');
     Attacker send { port->number() };
     send (head + element (message ("/a")) + element (head + element (message ("/b"))) + element (message ("/c")));
@@ -108,8 +106,7 @@ TEST_CASE ("any bytes are either a packet or refused, and nothing beyond their e
     const auto right =
         padded ("#bundle") + std::string (8, '\0') + word (36) + padded ("/tactus/param") + padded (",sif") + padded ("ab") + word (7) + word (0x3f000000);
     CHECK (readPacket (right).right);
-    rc::prop ("any damage", [&] (std::vector<std::pair<std::uint16_t, char>> changes, std::uint16_t cut, std::string more)
-              {
+    rc::prop ("any damage", [&] (std::vector<std::pair<std::uint16_t, char>> changes, std::uint16_t cut, std::string more) {
         auto bytes = right;
         for (const auto& [place, c] : changes)
             bytes[place % bytes.size()] = c;
@@ -117,7 +114,8 @@ TEST_CASE ("any bytes are either a packet or refused, and nothing beyond their e
         bytes += more;
         const std::vector<char> exact (bytes.begin(), bytes.end());   // so that ASan detects reads beyond the end
         const auto packet = readPacket ({ exact.data(), exact.size() });
-        RC_ASSERT (packet.messages.size() <= bytes.size() / 8); });
+        RC_ASSERT (packet.messages.size() <= bytes.size() / 8);
+    });
     CHECK_FALSE (readPacket (nested (65000)).right);
     CHECK (readPacket (nested (160)).right);
 }
@@ -181,12 +179,12 @@ TEST_CASE ("malformed packets are harmless and counted", "[osc]")
     SECTION ("packets that are almost right")
     {
         const auto right = padded ("/tactus/param") + padded (",sfib") + padded ("drag.mu") + word (0x3f000000) + word (7) + word (4) + "abcd";
-        rc::prop ("any damage", [&] (std::vector<std::pair<std::uint16_t, char>> changes, std::uint16_t cut)
-                  {
+        rc::prop ("any damage", [&] (std::vector<std::pair<std::uint16_t, char>> changes, std::uint16_t cut) {
             auto bytes = right;
             for (const auto& [place, c] : changes)
                 bytes[place % bytes.size()] = c;
-            attack (bytes.substr (0, bytes.size() - cut % bytes.size())); });
+            attack (bytes.substr (0, bytes.size() - cut % bytes.size()));
+        });
         CHECK (alive());
     }
     SECTION ("more messages than are taken out of the queue")
@@ -214,18 +212,19 @@ TEST_CASE ("the listening address is a port, or an address with a port", "[osc]"
     }
     CHECK (warningOf (*readListen ("7770")).empty());
     CHECK (warningOf (*readListen ("0.0.0.0:7770")).find ("0.0.0.0") != std::string::npos);
-    rc::prop ("any text", []
-              {
+    rc::prop ("any text", [] {
         const auto text = *rc::gen::container<std::string> (rc::gen::elementOf (std::string ("0129.:-x")));
-        if (const auto listen = readListen (text)) RC_ASSERT (listen->port >= 0 && listen->port <= 65535 && isAddress (listen->address)); });
+        if (const auto listen = readListen (text)) RC_ASSERT (listen->port >= 0 && listen->port <= 65535 && isAddress (listen->address));
+    });
 }
 
 TEST_CASE ("a port that other machines can reach answers only this machine and the named one", "[osc]")
 {
-    const auto open = [] (const std::string& answered)
-    { return std::move (*OscPort::open (OscListen { .address = "0.0.0.0", .port = 0, .answered = answered })); };
-    const auto receive = [] (OscPort& port, const std::string& from)
-    {
+    const auto open = [] (const std::string& answered) {
+        const OscListen listen { .address = "0.0.0.0", .port = 0, .answered = answered };
+        return std::move (*OscPort::open (listen));
+    };
+    const auto receive = [] (OscPort& port, const std::string& from) {
         juce::DatagramSocket sender;
         REQUIRE (sender.bindToPort (0, from));
         const auto bytes = padded ("/tactus/stop") + padded (",");
@@ -240,12 +239,10 @@ TEST_CASE ("a port that other machines can reach answers only this machine and t
 
     juce::Array<juce::IPAddress> all;
     juce::IPAddress::findAllAddresses (all);
-    const auto* card = std::find_if (all.begin(), all.end(), [] (const auto& a)
-                                     { return ! a.isIPv6 && ! a.toString().startsWith ("127."); });
+    const auto* card = std::find_if (all.begin(), all.end(), [] (const auto& a) { return ! a.isIPv6 && ! a.toString().startsWith ("127."); });
     if (card == all.end()) return;   // this machine is not on a network
     const auto address = card->toString().toStdString();
-    const auto from_card = [&] (OscPort& port)
-    {
+    const auto from_card = [&] (OscPort& port) {
         juce::DatagramSocket sender;
         REQUIRE (sender.bindToPort (0, address));
         const auto bytes = padded ("/tactus/stop") + padded (",");

@@ -42,8 +42,7 @@ struct Puppet : Controlled
     Result<std::vector<std::string>> probe (const std::vector<std::string>& ports) override
     {
         std::vector<std::string> names;
-        const auto add = [&] (const std::string& name)
-        {
+        const auto add = [&] (const std::string& name) {
             if (std::ranges::find (names, name) == names.end()) names.push_back (name);
         };
         for (const auto& p : ports)
@@ -111,7 +110,8 @@ void run (TriggeredCapture& capture, int ticks, int edge)
 
 struct Stage
 {
-    explicit Stage (const OscListen& where = {}) : port (std::move (*OscPort::open (where))), other (std::move (*OscPort::open (0))), control (*port, puppet, "a1b2c3") {}
+    explicit Stage (const OscListen& where = {}) : port (std::move (*OscPort::open (where))), other (std::move (*OscPort::open (0))),
+                                                   control (*port, puppet, "a1b2c3") {}
 
     /// Sends a message, lets it be handled, and returns the answer. Waits for the receiving thread of the port.
     template <typename... Args>
@@ -154,8 +154,7 @@ std::string text (const OSCMessage& m, int i) { return m[i].getString().toStdStr
 TEST_CASE ("parameters are set by numbers, and by strings that give exact doubles", "[osc]")
 {
     Stage stage;
-    const auto said = [&] (auto value)
-    {
+    const auto said = [&] (auto value) {
         const auto answer = stage.ask ("/tactus/param", String ("drag.mu"), value, stage.me());
         CHECK (address (answer) == "/tactus/done");
         CHECK (text (answer, 0) == "/tactus/param");
@@ -295,8 +294,7 @@ TEST_CASE ("a probe sends the requested values at the requested rate, and ends i
 TEST_CASE ("on request, the costs of the most expensive nodes are sent, node by node", "[osc]")
 {
     Stage stage;
-    const auto told = [&] (auto... how_many)
-    {
+    const auto told = [&] (auto... how_many) {
         auto message = stage.ask ("/tactus/costs", stage.me(), how_many...);
         int n = 0;
         for (; address (message) == "/tactus/cost"; ++n)
@@ -390,8 +388,7 @@ TEST_CASE ("a trigger sends its complete window, then ends", "[osc]")
 TEST_CASE ("only one trigger is awaited at a time, until it expires", "[osc]")
 {
     Stage stage;
-    const auto id = [] (const OSCMessage& m)
-    { return address (m) == "/tactus/error" ? text (m, 2) : address (m); };
+    const auto id = [] (const OSCMessage& m) { return address (m) == "/tactus/error" ? text (m, 2) : address (m); };
     CHECK (id (stage.ask ("/tactus/trigger", String ("drag.force"), stage.me(), String ("drag.nothing"), 0.5f)) == "port/unknown");
     CHECK (id (stage.ask ("/tactus/trigger", String ("drag.force"), stage.me(), String ("drag.state"))) == "osc/arguments");
     for (const auto* edge : { "up", "" })
@@ -401,8 +398,7 @@ TEST_CASE ("only one trigger is awaited at a time, until it expires", "[osc]")
            == "osc/arguments");
     CHECK_FALSE (stage.puppet.capturing);
 
-    const auto ask = [&] (const char* port)
-    { return id (stage.ask ("/tactus/trigger", String (port), stage.me(), String ("drag.state"), 0.5f)); };
+    const auto ask = [&] (const char* port) { return id (stage.ask ("/tactus/trigger", String (port), stage.me(), String ("drag.state"), 0.5f)); };
     CHECK (ask ("drag.force") == "/tactus/done");
     CHECK (ask ("drag.state") == "probe/busy");
     stage.now += 4s;

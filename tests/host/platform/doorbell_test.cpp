@@ -33,8 +33,7 @@ TEST_CASE ("a million rings take no lock, allocate nothing, and none is lost", "
     constexpr int rings = 1'000'000;
     Doorbell bell;
     std::atomic<int> announced = 0, locks = 0, allocations = 0;
-    std::jthread ringer ([&]
-                         {
+    std::jthread ringer ([&] {
         const NoAllocation watch;
         for (int i = 1; i <= rings; ++i)
         {
@@ -42,7 +41,8 @@ TEST_CASE ("a million rings take no lock, allocate nothing, and none is lost", "
             bell.ring();
         }
         locks = watch.locks();
-        allocations = watch.allocations(); });
+        allocations = watch.allocations();
+    });
 
     // The last ring ends a wait that sees the last number. If a ring were lost, that wait would never end.
     int seen = 0;
@@ -61,13 +61,13 @@ TEST_CASE ("two threads take turns through two doorbells", "[platform][threads]"
     constexpr int turns = 20'000;
     Doorbell there, back;
     int shared = 0;   // not atomic: the doorbells order the accesses
-    std::jthread other ([&]
-                        {
+    std::jthread other ([&] {
         for (int i = 0; i < turns && there.wait (after (20s)); ++i)
         {
             ++shared;
             back.ring();
-        } });
+        }
+    });
     int answered = 0;
     for (; answered < turns; ++answered)
     {

@@ -33,14 +33,14 @@ std::vector<Failsafe::Report> rest() { return { { { 'r', 'e', 's', 't' }, false 
 std::string afterDying (const std::string& file, const std::function<void()>& die, const std::string& awaited)
 {
     std::ofstream { file };
-    test::inChild ([&]
-                   {
+    test::inChild ([&] {
         for (const int fault : { SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL })
             ::signal (fault, SIG_DFL);   // without the test runner's handlers
         const auto failsafe = Failsafe::arm (file, rest());
         if (! failsafe) return 1;
         die();
-        return 0; });
+        return 0;
+    });
     for (int i = 0; i < 1000 && contentOf (file) != awaited; ++i)   // the guardian writes a moment later
         std::this_thread::sleep_for (std::chrono::milliseconds (2));
     return contentOf (file);
@@ -52,8 +52,7 @@ TEST_CASE ("a killed process leaves its device at rest", "[platform]")
     const TemporaryFolder folder;
     const auto file = (folder / "device").string();
     CHECK (afterDying (
-               file, []
-               { ::kill (::getpid(), SIGKILL); },
+               file, [] { ::kill (::getpid(), SIGKILL); },
                "rest!")
            == "rest!");
 }
@@ -66,8 +65,7 @@ TEST_CASE ("a process that crashes brings its device to rest before it dies, and
     {
         INFO (fault);
         CHECK (afterDying (
-                   file, [fault]
-                   { ::raise (fault); },
+                   file, [fault] { ::raise (fault); },
                    "rest!rest!")
                == "rest!rest!");
     }
@@ -78,13 +76,13 @@ TEST_CASE ("a process that disarms its failsafe writes nothing", "[platform]")
     const TemporaryFolder folder;
     const auto file = (folder / "device").string();
     std::ofstream { file };
-    test::inChild ([&]
-                   {
+    test::inChild ([&] {
         {
             const auto failsafe = Failsafe::arm (file, rest());
         }
         ::kill (::getpid(), SIGKILL);
-        return 0; });
+        return 0;
+    });
     std::this_thread::sleep_for (std::chrono::milliseconds (50));
     CHECK (contentOf (file).empty());
 }

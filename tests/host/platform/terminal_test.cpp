@@ -55,8 +55,7 @@ TEST_CASE ("typed keys arrive one by one and are not echoed, and the terminal is
         WARN ("skipped: no terminal can be created here (/dev/ptmx, /dev/pts)");
         return;
     }
-    const auto end = test::inChild ([&]
-                                    {
+    const auto end = test::inChild ([&] {
         const int paper = typewriter.become();
         const auto before = modeOf (paper);
         {
@@ -72,17 +71,18 @@ TEST_CASE ("typed keys arrive one by one and are not echoed, and the terminal is
             if (keys.next() != 'r') return 7;
             if (keys.next() != 0) return 8;
         }
-        return modeOf (paper) == before ? 0 : 9; });
+        return modeOf (paper) == before ? 0 : 9;
+    });
     CHECK (end.signal == 0);
     CHECK (end.status == 0);
 }
 
 TEST_CASE ("without a terminal there are no keys", "[platform]")
 {
-    const auto end = test::inChild ([]
-                                    {
+    const auto end = test::inChild ([] {
         dup2 (open ("/dev/null", O_RDONLY), STDIN_FILENO);
         host::Keys keys;
-        return ! keys.areThere() && keys.next() == 0 ? 0 : 1; });
+        return ! keys.areThere() && keys.next() == 0 ? 0 : 1;
+    });
     CHECK (end.status == 0);
 }

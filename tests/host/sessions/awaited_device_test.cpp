@@ -39,8 +39,7 @@ LoadedSession sessionWith (const Json& binding)
 BoundDevice bindStylus (const Json& binding, hid::HidSystem& system, Absence absence = Absence::waits)
 {
     const auto session = sessionWith (binding);
-    const auto open = [&] (const Json& d, const std::filesystem::path& from)
-    { return hid::openDevice (d, from, system, profiles()); };
+    const auto open = [&] (const Json& d, const std::filesystem::path& from) { return hid::openDevice (d, from, system, profiles()); };
     return openBound (session, "stylus", *bindingOf (session, "stylus"), open, system, profiles(), absence);
 }
 
@@ -81,8 +80,7 @@ TEST_CASE ("a role whose device is missing waits without force, and then starts 
     guard.prepare (bound.limits, 1e-3);
     AwaitedDevice device { on_board, awaited (bound).profile(), board, 2ms };
     device.prepare (1e-3);
-    const auto tick = [&]
-    {
+    const auto tick = [&] {
         const auto applied = guard ({ { 1.0, 0.0, 0.0 }, Vec3::Zero() }, device.read());
         device.write (applied);
         return applied.force.x();
@@ -96,22 +94,20 @@ TEST_CASE ("a role whose device is missing waits without force, and then starts 
     }
     CHECK (guard.stop() == Guard::Stop::stale);
     CHECK (device.device() == nullptr);
-    REQUIRE (board.until ([&]
-                          { return ! device.trouble().empty(); }));
+    REQUIRE (board.until ([&] { return ! device.trouble().empty(); }));
     CHECK (board.told().empty());
 
     is_held_by_another ? board.forbid (false) : board.plug (true);
-    REQUIRE (board.until ([&]
-                          { return device.device() != nullptr; }));
+    REQUIRE (board.until ([&] { return device.device() != nullptr; }));
     std::uint16_t count = 0;
     double most_step = 0.0, before = 0.0;
-    const bool reached = board.until ([&]
-                                      {
+    const bool reached = board.until ([&] {
         board.send (boardReport (++count));
         const double now = tick();
         most_step = std::max (most_step, now - before);
         before = now;
-        return now == 1.0; });
+        return now == 1.0;
+    });
     CHECK (reached);
     CHECK (most_step < 0.2);   // a ramp of 10 ms at 1 kHz
     NoAllocation none;
@@ -124,10 +120,8 @@ TEST_CASE ("errors that no device can fix are reported immediately; with Absence
 {
     FakeBoard board;
     board.plug (false);
-    const auto idOf = [] (const BoundDevice& b)
-    { return b.messages.empty() ? std::string() : b.messages.front().id; };
-    const auto refused = [&] (const Json& binding, Absence absence, const std::string& id)
-    {
+    const auto idOf = [] (const BoundDevice& b) { return b.messages.empty() ? std::string() : b.messages.front().id; };
+    const auto refused = [&] (const Json& binding, Absence absence, const std::string& id) {
         const auto bound = bindStylus (binding, board, absence);
         CHECK_FALSE (bound.device);
         CHECK (hasErrors (bound.messages));
@@ -169,35 +163,30 @@ TEST_CASE ("while the clock of a run is away, no device gets a force, not even o
     RunClock clock { *real, 1000.0 };
     Runner runner { engine, clock, 1000.0, {} };
     std::atomic<bool> sending = true;
-    std::jthread reports { [&] (const std::stop_token& over)
-                           {
-                               for (std::uint16_t n = 0; ! over.stop_requested(); std::this_thread::sleep_for (1ms))
-                                   if (sending) board.send (boardReport (++n));
-                           } };
+    std::jthread reports { [&] (const std::stop_token& over) {
+        for (std::uint16_t n = 0; ! over.stop_requested(); std::this_thread::sleep_for (1ms))
+            if (sending) board.send (boardReport (++n));
+    } };
     runner.start();
-    const auto forces = [&]
-    {
+    const auto forces = [&] {
         const auto now = runner.status();
         std::set<double> all;
         for (const auto& role : now.shown())
             all.insert (role.force);
         return all;
     };
-    CHECK (board.until ([&]
-                        { return forces() == std::set { 1.0 }; }));
+    CHECK (board.until ([&] { return forces() == std::set { 1.0 }; }));
 
     const bool by_cable = GENERATE (false, true);
     by_cable ? board.plug (false) : void (sending = false);
-    CHECK (board.until ([&]
-                        { return runner.status().clock_replaced && forces() == std::set { 0.0 }; }));
+    CHECK (board.until ([&] { return runner.status().clock_replaced && forces() == std::set { 0.0 }; }));
     const auto held = runner.status();
     CHECK (held.roles[0].stop == Guard::Stop::stale);   // "beside", whose own reading is still valid
     CHECK (held.roles[1].stop == Guard::Stop::stale);
     CHECK (clock.isByTimer());
 
     by_cable ? board.plug (true) : void (sending = true);
-    CHECK (board.until ([&]
-                        { return ! runner.status().clock_replaced && forces() == std::set { 1.0 }; }));
+    CHECK (board.until ([&] { return ! runner.status().clock_replaced && forces() == std::set { 1.0 }; }));
     reports = {};
     sending = false;
     runner.stop();
@@ -217,20 +206,17 @@ TEST_CASE ("a run with an awaited clock is ticked by a timer at its rate, withou
     RunClock clock { real, 1000.0 };
     Runner runner { engine, clock, 1000.0, {} };
     runner.start();
-    REQUIRE (board.until ([&]
-                          { return runner.status().ticks > 30; }));
+    REQUIRE (board.until ([&] { return runner.status().ticks > 30; }));
     CHECK (runner.status().clock_replaced);
     CHECK (runner.status().peak == 0.0);
     CHECK (clock.ticksByTimer() >= 30);
 
     board.plug (true);
-    std::jthread reports { [&] (const std::stop_token& over)
-                           {
-                               for (std::uint16_t n = 0; ! over.stop_requested(); std::this_thread::sleep_for (1ms))
-                                   board.send (boardReport (++n));
-                           } };
-    CHECK (board.until ([&]
-                        { return ! clock.isByTimer() && runner.status().force == 1.0; }));
+    std::jthread reports { [&] (const std::stop_token& over) {
+        for (std::uint16_t n = 0; ! over.stop_requested(); std::this_thread::sleep_for (1ms))
+            board.send (boardReport (++n));
+    } };
+    CHECK (board.until ([&] { return ! clock.isByTimer() && runner.status().force == 1.0; }));
     runner.stop();
     runner.wait();
 }
@@ -259,21 +245,21 @@ TEST_CASE ("the state of a device is reported while it is awaited, while it is p
     const auto device = realDevice ("stylus", real);
     REQUIRE (device);
     HealthWatch watch { "stylus" };
-    REQUIRE (board.until ([&]
-                          {
+    REQUIRE (board.until ([&] {
         watch.look (std::span (&*device, 1));
-        return ! watch.health().front().trouble.empty(); }));
+        return ! watch.health().front().trouble.empty();
+    }));
     CHECK_FALSE (watch.health().front().has_come);
     CHECK (describe (watch.health().front()).find ("not available yet") == 0);
 
     board.plug (true);
     std::uint16_t n = 0;
-    CHECK (board.until ([&]
-                        {
+    CHECK (board.until ([&] {
         board.send (boardReport (++n));
         real.read();
         watch.look (std::span (&*device, 1));
-        return watch.health().front().rate_hz.has_value(); }));
+        return watch.health().front().rate_hz.has_value();
+    }));
     const auto there = watch.health().front();
     CHECK (there.connected);
     CHECK (there.ticks);
@@ -282,10 +268,10 @@ TEST_CASE ("the state of a device is reported while it is awaited, while it is p
     CHECK (describe (there).find ("reports/s") != std::string::npos);
 
     board.plug (false);
-    CHECK (board.until ([&]
-                        {
+    CHECK (board.until ([&] {
         watch.look (std::span (&*device, 1));
-        return ! watch.health().front().connected; }));
+        return ! watch.health().front().connected;
+    }));
     CHECK (describe (watch.health().front()) == "unplugged");
     CHECK_FALSE (watch.health().front().rate_hz);
 }
@@ -297,8 +283,7 @@ TEST_CASE ("the drift of a device is the speed of its clock relative to the cloc
     const std::vector<RealDevice> devices { { "stylus", owner.get(), nullptr }, { "thumb", follower.get(), nullptr } };
     HealthWatch by_device { "stylus", 0.05 }, too_early { "stylus" };
     std::uint16_t n = 0, m = 0;
-    const bool measured = boards[0].until ([&]
-                                           {
+    const bool measured = boards[0].until ([&] {
         for (int k = 0; k < 4; ++k)
             boards[0].send (boardReport (++n));
         for (int k = 0; k < 5; ++k)
@@ -308,7 +293,8 @@ TEST_CASE ("the drift of a device is the speed of its clock relative to the cloc
         follower->read();
         by_device.look (devices);
         too_early.look (devices);
-        return n > 400 && by_device.health()[1].drift_ppm; });
+        return n > 400 && by_device.health()[1].drift_ppm;
+    });
     REQUIRE (measured);
     const auto& thumb = by_device.health()[1];
     CHECK (*thumb.drift_ppm == Approx (250'000.0).epsilon (0.1));

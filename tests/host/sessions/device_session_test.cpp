@@ -76,8 +76,7 @@ Json anything (int depth)
     case 2:
         return *rc::gen::arbitrary<int>();
     case 3:
-        return *rc::gen::map (rc::gen::arbitrary<double>(), [] (double v)
-                              { return std::isfinite (v) ? v : 0.5; });
+        return *rc::gen::map (rc::gen::arbitrary<double>(), [] (double v) { return std::isfinite (v) ? v : 0.5; });
     case 4:
         return *rc::gen::container<std::string> (rc::gen::inRange<char> (32, 126));
     case 5:
@@ -100,8 +99,7 @@ Json anything (int depth)
 DeviceSession anySession()
 {
     DeviceSession s;
-    const auto name = []
-    { return *rc::gen::element<std::string> ("stylus", "thumb", "shaker_2", "a"); };
+    const auto name = [] { return *rc::gen::element<std::string> ("stylus", "thumb", "shaker_2", "a"); };
     for (int n = *rc::gen::inRange (0, 5); n > 0; --n)
         switch (*rc::gen::inRange (0, 4))
         {
@@ -150,33 +148,39 @@ TEST_CASE ("a session is read, changed and written, and unknown entries are kept
 
 TEST_CASE ("any session reads back byte for byte", "[sessions]")
 {
-    rc::prop ("round trip", []
-              {
+    rc::prop ("round trip", [] {
         const auto s = anySession();
         const auto text = writeSession (s);
         const auto read = readSession (text);
         RC_ASSERT (read.messages.empty());
         RC_ASSERT (read.session == s);
-        RC_ASSERT (writeSession (read.session) == text); });
+        RC_ASSERT (writeSession (read.session) == text);
+    });
 }
 
 TEST_CASE ("a damaged session is either read, or refused with a position; it is never used in part", "[sessions]")
 {
-    rc::prop ("damage", []
-              {
+    rc::prop ("damage", [] {
         std::string text = example;
         for (int n = *rc::gen::inRange (1, 4); n > 0; --n)
         {
             const auto at = *rc::gen::inRange<std::size_t> (0, text.size());
             switch (*rc::gen::inRange (0, 3))
             {
-            case 0: text.resize (at); break;
-            case 1: text[at] = *rc::gen::arbitrary<char>(); break;
-            default: text.erase (at, *rc::gen::inRange<std::size_t> (1, 20)); break;
+            case 0:
+                text.resize (at);
+                break;
+            case 1:
+                text[at] = *rc::gen::arbitrary<char>();
+                break;
+            default:
+                text.erase (at, *rc::gen::inRange<std::size_t> (1, 20));
+                break;
             }
             if (text.empty()) text = " ";
         }
-        fuzz::trySession (text); });
+        fuzz::trySession (text);
+    });
 }
 
 TEST_CASE ("every text of the session corpus is read or refused", "[sessions]") { CHECK (test::replay ("session", fuzz::trySession) > 10); }
@@ -229,8 +233,7 @@ TEST_CASE ("a damaged session file is set aside every time and never lost, but o
     auto loaded = loadDefaultSession (home.path());
     CHECK (idOf (loaded.messages) == "session/version");
     CHECK_FALSE (loaded.isGood());
-    const auto edited = editSession (loaded, [] (DeviceSession& s)
-                                     { s.setClock ("timer"); });
+    const auto edited = editSession (loaded, [] (DeviceSession& s) { s.setClock ("timer"); });
     CHECK_FALSE (edited.isGood());   // and the file is not overwritten
     CHECK (home.textOf ("session.json") == newer);
 }
@@ -243,8 +246,7 @@ TEST_CASE ("a named session file must exist, is only read, and can be created by
     CHECK_FALSE (loadSession (folder / "lab.json").isGood());
     CHECK (folder.textOf ("lab.json") == "{");
 
-    const auto made = editSession ({ {}, folder / "new/of/it.json" }, [] (DeviceSession& s)
-                                   { s.bind ("stylus", { { "driver", "sim" } }); });
+    const auto made = editSession ({ {}, folder / "new/of/it.json" }, [] (DeviceSession& s) { s.bind ("stylus", { { "driver", "sim" } }); });
     CHECK (made.isGood());
     const auto read = loadSession (folder / "new/of/it.json");
     CHECK (read.isGood());
@@ -259,9 +261,7 @@ TEST_CASE ("a named session file must exist, is only read, and can be created by
 TEST_CASE ("an edit keeps changes that another program made since the session was read", "[sessions]")
 {
     TemporaryFolder folder;
-    const auto bind = [] (const char* role)
-    { return [role] (DeviceSession& s)
-      { s.bind (role, { { "driver", "sim" } }); }; };
+    const auto bind = [] (const char* role) { return [role] (DeviceSession& s) { s.bind (role, { { "driver", "sim" } }); }; };
     const LoadedSession mine { {}, folder / "session.json" };
     editSession (mine, bind ("thumb"));
     CHECK (editSession (mine, bind ("index")).session.roles() == std::vector<std::string> { "thumb", "index" });

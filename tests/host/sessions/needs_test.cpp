@@ -90,8 +90,7 @@ TEST_CASE ("the parts that a device lacks according to its description match the
         const auto lacking = lackingOf (needed, { .others = has });
         CHECK (lacking.size() == said.size());
         for (const auto& m : said)
-            CHECK (std::ranges::any_of (lacking, [&] (const std::string& l)
-                                        { return m.text.find (l) != std::string::npos; }));
+            CHECK (std::ranges::any_of (lacking, [&] (const std::string& l) { return m.text.find (l) != std::string::npos; }));
     }
 }
 
@@ -164,15 +163,13 @@ TEST_CASE ("a binding has a short name", "[sessions]")
 TEST_CASE ("the clock option takes precedence over the session, which takes precedence over the first device that can tick", "[sessions]")
 {
     const std::vector<Described> devices { { "pen", { { "driver", "sim" } } }, { "stylus", { { "driver", "hid" } } }, { "thumb", { { "driver", "hid" } } } };
-    const TickRate rates = [] (const Described& d, bool may_wait) -> std::optional<double>
-    {
+    const TickRate rates = [] (const Described& d, bool may_wait) -> std::optional<double> {
         if (d.first == "stylus") return may_wait ? std::optional (500.0) : std::nullopt;   // not available yet
         return d.first == "thumb" ? std::optional (1000.0) : std::nullopt;
     };
-    const auto choose = [&] (const std::string& option, const std::string& session, std::optional<double> rate = {})
-    { return chooseClock ({ option, session, rate }, devices, rates); };
-    const auto idOf = [] (const ClockChoice& c)
-    { return c.messages.empty() ? std::string() : c.messages.front().id; };
+    const auto choose = [&] (const std::string& option, const std::string& session,
+                             std::optional<double> rate = {}) { return chooseClock ({ option, session, rate }, devices, rates); };
+    const auto idOf = [] (const ClockChoice& c) { return c.messages.empty() ? std::string() : c.messages.front().id; };
 
     CHECK (choose ("", "").role == "thumb");
     CHECK (choose ("", "").rate_hz == 1000.0);

@@ -10,8 +10,7 @@ using namespace tactus::host;
 
 TEST_CASE ("a rate is accurate to a few millionths within ten seconds, even if readings are late", "[sessions]")
 {
-    rc::prop ("rate", []
-              {
+    rc::prop ("rate", [] {
         const double hz = *rc::gen::element (60.0, 125.0, 1000.0, 8000.0) * (1.0 + 1e-6 * *rc::gen::inRange (-300, 301));
         const double begin = *rc::gen::inRange (0, 1'000'000);
         RateMeter meter;
@@ -25,7 +24,8 @@ TEST_CASE ("a rate is accurate to a few millionths within ten seconds, even if r
         const auto rate = meter.rate();
         RC_ASSERT (rate.has_value());
         RC_ASSERT (std::abs (rate->hz / hz - 1.0) < 12e-6);
-        RC_ASSERT (rate->error / hz < 5e-6); });
+        RC_ASSERT (rate->error / hz < 5e-6);
+    });
 }
 
 TEST_CASE ("without readings at different times there is no rate", "[sessions]")

@@ -54,8 +54,7 @@ struct Placed
 
 TEST_CASE ("positions are scaled and shifted, and everything else is unchanged", "[sessions]")
 {
-    rc::prop ("reading", []
-              {
+    rc::prop ("reading", [] {
         const auto w = anyWorkspace();
         Placed placed { w };
         auto& there = placed.put->reading;
@@ -75,7 +74,8 @@ TEST_CASE ("positions are scaled and shifted, and everything else is unchanged",
         RC_ASSERT (seen.true_velocity == w.scale * there.true_velocity);
         RC_ASSERT (seen.rotation == there.rotation);
         RC_ASSERT (seen.pressure == there.pressure && seen.buttons == there.buttons && seen.age == there.age && seen.valid == there.valid);
-        RC_ASSERT (seen.axes[0] == 0.25 && seen.signals[0] == 1.5); });
+        RC_ASSERT (seen.axes[0] == 0.25 && seen.signals[0] == 1.5);
+    });
 
     Placed placed { { 3.0, { 0.0, 0.0, 0.01 } } };
     CHECK (placed.device->layout().axes == std::vector<std::string> { "trigger" });
@@ -97,8 +97,7 @@ TEST_CASE ("a wall of stiffness K in the graph feels like K times the scale to a
                             .node ("motor", "device.force")
                             .wire ("hand.position -> wall.position")
                             .wire ("wall.force -> motor.force");
-    rc::prop ("stiffness", [&]
-              {
+    rc::prop ("stiffness", [&] {
         const double scale = std::pow (10.0, within (-0.6, 0.4)), push = within (0.2, 1.0);
         const Workspace w { scale, { 0.0, 0.0, within (-0.05, 0.05) } };
         // The position, on the device, of the surface that is at 0 in the graph.
@@ -112,13 +111,13 @@ TEST_CASE ("a wall of stiffness K in the graph feels like K times the scale to a
         for (int k = 0; k < 4000; ++k)
             engine.tick();
         const double depth = surface - tool->read().true_position.z();
-        RC_ASSERT (std::abs (push / depth / (400.0 * scale) - 1.0) < 1e-3); });
+        RC_ASSERT (std::abs (push / depth / (400.0 * scale) - 1.0) < 1e-3);
+    });
 }
 
 TEST_CASE ("at any scale, a guard stops a device exactly at the device's own limits", "[sessions]")
 {
-    rc::prop ("limits", []
-              {
+    rc::prop ("limits", [] {
         const auto w = anyWorkspace();
         GuardLimits limits { .max_force = 3.0 };
         const bool by_speed = *rc::gen::arbitrary<bool>();
@@ -146,7 +145,8 @@ TEST_CASE ("at any scale, a guard stops a device exactly at the device's own lim
             if (placed_stopped < 0 && placed.stop() != Guard::Stop::none) placed_stopped = k;
             RC_ASSERT (plain.stop() == placed.stop() || std::abs (plain_stopped - placed_stopped) <= 1);
         }
-        RC_ASSERT (std::abs (plain_stopped - placed_stopped) <= 1); });
+        RC_ASSERT (std::abs (plain_stopped - placed_stopped) <= 1);
+    });
 
     const auto limits = inWorkspace ({ .max_force = 3.0, .max_slew = 100.0, .max_speed = 1.0, .max_impulse = 2.0 }, { 0.5, Vec3::Zero() });
     CHECK (limits.max_force == 3.0);

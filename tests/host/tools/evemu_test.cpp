@@ -91,8 +91,7 @@ Motion motionOf (const TraceData& trace)
 
 const TraceData::Row& rowAt (const TraceData& trace, double t)
 {
-    return *std::ranges::find_if (trace.rows, [t] (const auto& row)
-                                  { return row.t >= t - 1e-9; });
+    return *std::ranges::find_if (trace.rows, [t] (const auto& row) { return row.t >= t - 1e-9; });
 }
 }   // namespace
 
@@ -130,8 +129,7 @@ TEST_CASE ("evemu: a landing has a finite speed and no delay", "[host][devices]"
     CHECK (motion.landing_speed < 0.5);
     CHECK (motion.landing_acceleration < 50.0);
 
-    const auto touch = std::ranges::find_if (trace.rows, [] (const auto& row)
-                                             { return row.position.z() < 0.0; });
+    const auto touch = std::ranges::find_if (trace.rows, [] (const auto& row) { return row.position.z() < 0.0; });
     CHECK (touch->t == Approx (0.104).margin (0.0101));
 }
 
@@ -220,8 +218,7 @@ TEST_CASE ("evemu: a recording without a pen, or one that lasts for years, is re
     }
 
     const std::string at = " 0003 0000 5\n", and_at = " 0003 0001 5\n", report = " 0000 0000 0\n";
-    const auto moment = [&] (const std::string& t)
-    { return "E: " + t + at + "E: " + t + and_at + "E: " + t + report; };
+    const auto moment = [&] (const std::string& t) { return "E: " + t + at + "E: " + t + and_at + "E: " + t + report; };
     const auto result = readEvemu (moment ("0.000000") + moment ("1364787581.497486"));
     REQUIRE (result.messages.size() == 1);
     CHECK (result.messages[0].id == "evemu/too_long");
@@ -230,8 +227,7 @@ TEST_CASE ("evemu: a recording without a pen, or one that lasts for years, is re
 TEST_CASE ("evemu: any text is either converted or refused", "[host][devices]")
 {
     rc::prop ("words of such files in any order",
-              []
-              {
+              [] {
                   const auto word =
                       rc::gen::element<std::string> ("E:", "A:", "#", "N:", "\n", "\n", "\r\n", " ", " ", "0003", "0000", "0018", "ffff", "0001", "014a",
                                                      "1.000000", "2.000000", "-1.000000", "5", "-5", "9223372036854775807", "1e9", "nan", "\0", "\xff");

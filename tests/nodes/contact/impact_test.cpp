@@ -51,8 +51,7 @@ TEST_CASE ("impact: a steady approach gives one hit with exactly its speed, at a
     for (const double rate : { 500.0, 1000.0, 4000.0, 10'000.0 })
         for (const double v : { 1e-3, 0.05, 2.0 })
         {
-            const auto [hits, speed] = strike (impact ({}, rate), 3000, [&] (int k)
-                                               { return v * (k - 1000.3) / rate; });
+            const auto [hits, speed] = strike (impact ({}, rate), 3000, [&] (int k) { return v * (k - 1000.3) / rate; });
             CHECK (hits == 1);
             CHECK (speed == Approx (v).epsilon (1e-9));
         }
@@ -67,8 +66,7 @@ TEST_CASE ("impact: a quantised ramp gives one hit, with the speed within the bo
     for (int trial = 0; trial < 2000; ++trial)
     {
         const double v = 0.005 * std::pow (200.0, uniform (random)), start = -0.05 - q * uniform (random);
-        const auto [hits, speed] = strike (impact(), int (0.06 / (v * T)), [&] (int k)
-                                           { return quantised (start + v * T * k, q); });
+        const auto [hits, speed] = strike (impact(), int (0.06 / (v * T)), [&] (int k) { return quantised (start + v * T * k, q); });
         REQUIRE (hits == 1);
         (v > 0.03 ? worst_fast : worst_slow) = std::max (v > 0.03 ? worst_fast : worst_slow, std::abs (speed / v - 1.0));
         REQUIRE (std::abs (speed - v) <= 2.0 * q / (16.0 * T) + 1e-12);
@@ -81,8 +79,8 @@ TEST_CASE ("impact: quantised positions that flicker at the surface count as one
 {
     // A hand hovers at the surface, with a tremor of a third of a quantum on either side.
     const double q = 1e-5;
-    const auto [hits, speed] = strike (impact ({ .release = 2e-5 }), 5000, [&] (int k)
-                                       { return quantised (k < 100 ? 1e-5 * (k - 100) : 0.5 * q + 0.4 * q * std::sin (0.7 * k), q); });
+    const auto [hits, speed] = strike (impact ({ .release = 2e-5 }), 5000,
+                                       [&] (int k) { return quantised (k < 100 ? 1e-5 * (k - 100) : 0.5 * q + 0.4 * q * std::sin (0.7 * k), q); });
     CHECK (hits == 1);
     CHECK (speed > 0.0);
 }
@@ -93,23 +91,20 @@ TEST_CASE ("impact: the speed is taken at the end of the approach, not over all 
     SECTION ("a falling tool")
     {
         const double drop = 0.05, v = std::sqrt (2.0 * 9.81 * drop);
-        const auto [hits, speed] = strike (impact(), 200, [&] (int k)
-                                           { return 0.5 * 9.81 * T * T * k * k - drop; });
+        const auto [hits, speed] = strike (impact(), 200, [&] (int k) { return 0.5 * 9.81 * T * T * k * k - drop; });
         CHECK (hits == 1);
         CHECK (speed == Approx (v).epsilon (0.03));
     }
     SECTION ("a tool that was at rest until the last tick")
     {
-        const auto [hits, speed] = strike (impact(), 400, [&] (int k)
-                                           { return k < 300 ? -1e-3 : -1e-3 + 0.4 * T * (k - 300); });
+        const auto [hits, speed] = strike (impact(), 400, [&] (int k) { return k < 300 ? -1e-3 : -1e-3 + 0.4 * T * (k - 300); });
         CHECK (hits == 1);
         CHECK (speed == Approx (0.4).epsilon (0.05));
     }
     SECTION ("a tool that moved away and turned back")
     {
         const std::vector<double> depths { -1e-5, -4e-4, 1e-4 };
-        const auto [hits, speed] = strike (impact(), 3, [&] (int k)
-                                           { return depths[std::size_t (k)]; });
+        const auto [hits, speed] = strike (impact(), 3, [&] (int k) { return depths[std::size_t (k)]; });
         CHECK (hits == 1);
         CHECK (speed > 0.0);
     }
@@ -128,11 +123,9 @@ TEST_CASE ("impact: a contact ends only `release` below the surface", "[nodes][c
 
 TEST_CASE ("impact: within the refractory time there is no second hit, and none is made up later", "[nodes][contact]")
 {
-    const auto hits = [] (double refractory)
-    {
+    const auto hits = [] (double refractory) {
         // Taps every 20 ms.
-        return strike (impact ({ .refractory = refractory }), 1000, [] (int k)
-                       { return 1e-3 * std::sin (2.0 * M_PI * k / 20.0 - 1.0); })
+        return strike (impact ({ .refractory = refractory }), 1000, [] (int k) { return 1e-3 * std::sin (2.0 * M_PI * k / 20.0 - 1.0); })
             .hits;
     };
     CHECK (hits (0.0) == 50);
@@ -150,10 +143,8 @@ TEST_CASE ("impact: within the refractory time there is no second hit, and none 
 
 TEST_CASE ("impact: a touch slower than min_speed is a contact without a hit", "[nodes][contact]")
 {
-    const auto hits = [] (double v)
-    { return strike (impact ({ .min_speed = 0.1 }), 1000, [&] (int k)
-                     { return v * 1e-3 * (k - 500.5); })
-          .hits; };
+    const auto hits = [] (double v) { return strike (impact ({ .min_speed = 0.1 }), 1000, [&] (int k) { return v * 1e-3 * (k - 500.5); })
+                                          .hits; };
     CHECK (hits (0.0999) == 0);
     CHECK (hits (0.1001) == 1);
 }
@@ -174,14 +165,14 @@ TEST_CASE ("impact: a tool that is inside from the start, or after a fault, trig
 
 TEST_CASE ("impact: no input breaks it", "[nodes][contact]")
 {
-    rc::prop ("hits are finite and not negative", []
-              {
-                  auto node = impact ({ .release = *rc::gen::element (0.0, 1e-5, 1e300), .refractory = *rc::gen::element (0.0, 0.01, 1e300) });
-                  for (int k = 0; k < 60; ++k)
-                  {
-                      const auto out = node.tick ({ .depth = *rc::gen::element (0.0, 1e-3, -1e-3, 1e-320, -1e300, 1e300, 1.7e308, -1.7e308,
-                          not_a_number, tactus::inf) });
-                      RC_ASSERT (tactus::isFinite (out.hit) && out.hit >= 0.0);
-                      RC_ASSERT (out.contact == 0.0 || out.contact == 1.0);
-                  } });
+    rc::prop ("hits are finite and not negative", [] {
+        auto node = impact ({ .release = *rc::gen::element (0.0, 1e-5, 1e300), .refractory = *rc::gen::element (0.0, 0.01, 1e300) });
+        for (int k = 0; k < 60; ++k)
+        {
+            const double depth = *rc::gen::element (0.0, 1e-3, -1e-3, 1e-320, -1e300, 1e300, 1.7e308, -1.7e308, not_a_number, tactus::inf);
+            const auto out = node.tick ({ .depth = depth });
+            RC_ASSERT (tactus::isFinite (out.hit) && out.hit >= 0.0);
+            RC_ASSERT (out.contact == 0.0 || out.contact == 1.0);
+        }
+    });
 }

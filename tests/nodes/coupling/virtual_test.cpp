@@ -72,9 +72,10 @@ TEST_CASE ("coupling: a mass against a hard wall matches the golden columns", "[
         fs.push_back (f);
         device.hold (f);
     }
-    const auto off = [&] (const std::string& column, const std::vector<double>& actual)
-    { return golden.worst (column, [&] (std::size_t i)
-                           { return actual[i]; }); };
+    const auto off = [&] (const std::string& column, const std::vector<double>& actual) {
+        const auto actualAt = [&] (std::size_t i) { return actual[i]; };
+        return golden.worst (column, actualAt);
+    };
     CHECK (off ("x_vc", xs) <= 1.0);
     CHECK (off ("v_vc", vs) <= 1.0);
     CHECK (off ("f_vc", fs) <= 1.0);
@@ -160,20 +161,20 @@ TEST_CASE ("coupling: after the tool leaves, the proxy catches up and does not p
 
 TEST_CASE ("coupling: it never pulls, and its force equals the force of the wall", "[nodes][coupling]")
 {
-    rc::prop ("any motion, any wall", []
-              {
-                  const double wall = *rc::gen::element (0.0, 10.0, 1e4, 1e6, 1e8), kc = *rc::gen::element (0.0, 100.0, 3000.0),
-                      bc = *rc::gen::element (0.0, 0.5, 10.0);
-                  auto node = ready<VirtualCoupling> ({ .stiffness = kc, .damping = bc, .wall_stiffness = wall });
-                  node.tick ({ .position = { 0, 0, 0.001 } });
-                  for (int k = 0; k < 50; ++k)
-                  {
-                      const double z = 1e-6 * *rc::gen::inRange (-5000, 3000);
-                      const auto out = node.tick ({ .position = { 0, 0, z } });
-                      RC_ASSERT (out.force.z() >= 0.0);
-                      const double inside = std::max (0.0, -out.proxy.z());
-                      RC_ASSERT (std::abs (out.force.z() - wall * inside) <= 1e-6 * out.force.z() + wall * 1e-17);
-                  } });
+    rc::prop ("any motion, any wall", [] {
+        const double wall = *rc::gen::element (0.0, 10.0, 1e4, 1e6, 1e8), kc = *rc::gen::element (0.0, 100.0, 3000.0),
+                     bc = *rc::gen::element (0.0, 0.5, 10.0);
+        auto node = ready<VirtualCoupling> ({ .stiffness = kc, .damping = bc, .wall_stiffness = wall });
+        node.tick ({ .position = { 0, 0, 0.001 } });
+        for (int k = 0; k < 50; ++k)
+        {
+            const double z = 1e-6 * *rc::gen::inRange (-5000, 3000);
+            const auto out = node.tick ({ .position = { 0, 0, z } });
+            RC_ASSERT (out.force.z() >= 0.0);
+            const double inside = std::max (0.0, -out.proxy.z());
+            RC_ASSERT (std::abs (out.force.z() - wall * inside) <= 1e-6 * out.force.z() + wall * 1e-17);
+        }
+    });
 }
 
 TEST_CASE ("coupling: a closed path generates no energy, damped or not", "[nodes][coupling][energy]")
@@ -222,18 +223,18 @@ TEST_CASE ("coupling: a fault gives 0, and the next sample counts as the first",
 
 TEST_CASE ("coupling: no input breaks it", "[nodes][coupling]")
 {
-    rc::prop ("outputs are finite", []
-              {
-                  const auto number = rc::gen::element (0.0, 1.0, -1.0, -1e-3, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
-                  const auto size = rc::gen::element (0.0, 1e-320, 1.0, 1e3, 1e300);
-                  const double kc = *size, bc = *size, wall = *size;
-                  auto node = ready<VirtualCoupling> ({ .stiffness = kc, .damping = bc, .wall_stiffness = wall });
-                  for (int k = 0; k < 20; ++k)
-                  {
-                      const double x = *number, y = *number, z = *number;
-                      const auto out = node.tick ({ .position = { x, y, z } });
-                      RC_ASSERT (tactus::isFinite (out.proxy, out.force, out.depth));
-                  } });
+    rc::prop ("outputs are finite", [] {
+        const auto number = rc::gen::element (0.0, 1.0, -1.0, -1e-3, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
+        const auto size = rc::gen::element (0.0, 1e-320, 1.0, 1e3, 1e300);
+        const double kc = *size, bc = *size, wall = *size;
+        auto node = ready<VirtualCoupling> ({ .stiffness = kc, .damping = bc, .wall_stiffness = wall });
+        for (int k = 0; k < 20; ++k)
+        {
+            const double x = *number, y = *number, z = *number;
+            const auto out = node.tick ({ .position = { x, y, z } });
+            RC_ASSERT (tactus::isFinite (out.proxy, out.force, out.depth));
+        }
+    });
 }
 
 TEST_CASE ("coupling: a new instance adopts the stretch", "[nodes][coupling]")

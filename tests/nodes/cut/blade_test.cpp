@@ -130,10 +130,8 @@ TEST_CASE ("blade: it matches the golden columns", "[nodes][cut][golden]")
     for (std::size_t i = 0; i < golden.rows(); ++i)
         outputs.push_back (bench.tick (golden (i, "delta")));
 
-    const auto meets = [&] (const std::string& column, double Blade::Outputs::*port)
-    {
-        const double worst = golden.worst (column, [&] (std::size_t i)
-                                           { return outputs[i].*port; });
+    const auto meets = [&] (const std::string& column, double Blade::Outputs::*port) {
+        const double worst = golden.worst (column, [&] (std::size_t i) { return outputs[i].*port; });
         INFO (column << " " << worst);
         CHECK (worst <= (column == "state" ? 0.0 : 1.0));
     };
@@ -197,8 +195,7 @@ TEST_CASE ("blade: rupture at the cutting force makes no crack and no dip", "[no
 
 TEST_CASE ("blade: rupture balances the energies of any two laws", "[nodes][cut][energy]")
 {
-    rc::prop ("G0 (d_r) = G1 (d_r - c1) + J_c w c1 + excess, with an excess only if the whole indentation opens", [] (unsigned seed)
-              {
+    rc::prop ("G0 (d_r) = G1 (d_r - c1) + J_c w c1 + excess, with an excess only if the whole indentation opens", [] (unsigned seed) {
         const Stuff s = Dice { seed }.stuff();
         const Law& g0 = s.settings.law;
         const Law& g1 = s.settings.cracked_law ? s.settings.cracked_law : g0;
@@ -217,13 +214,13 @@ TEST_CASE ("blade: rupture balances the energies of any two laws", "[nodes][cut]
 
         // The largest root: beyond it, the energy does not suffice for a crack.
         for (double beyond = c + 1e-4 * s.d_rupture; beyond < s.d_rupture; beyond += 0.01 * s.d_rupture)
-            RC_ASSERT (stored - g1.energy (s.d_rupture - beyond) - cost * beyond < 0.0); });
+            RC_ASSERT (stored - g1.energy (s.d_rupture - beyond) - cost * beyond < 0.0);
+    });
 }
 
 TEST_CASE ("blade: on a dense path the work of the hand is U + J_c w c + excess", "[nodes][cut][energy]")
 {
-    rc::prop ("any sample, any strokes", [] (unsigned seed)
-              {
+    rc::prop ("any sample, any strokes", [] (unsigned seed) {
         Dice dice { seed };
         const Stuff s = dice.stuff();
         Bench bench (s.params, s.settings);
@@ -241,13 +238,13 @@ TEST_CASE ("blade: on a dense path the work of the hand is U + J_c w c + excess"
             const double balance = bench.out.stored_energy + cost * bench.out.crack + excess;
             RC_ASSERT (std::abs (bench.work - balance) <= 1e-6 * balance);
             RC_ASSERT (std::abs (bench.taken() - balance) <= 1e-10 * balance);
-        } });
+        }
+    });
 }
 
 TEST_CASE ("blade: a closed path never generates energy", "[nodes][cut][energy]")
 {
-    rc::prop ("loops of random steps, far below and far beyond rupture, until cut through", [] (unsigned seed)
-              {
+    rc::prop ("loops of random steps, far below and far beyond rupture, until cut through", [] (unsigned seed) {
         Dice dice { seed };
         Stuff s = dice.stuff();
         if (dice.below (3) == 0) s.params.thickness = dice.uniform (0.2, 5.0) * s.d_rupture;
@@ -268,13 +265,13 @@ TEST_CASE ("blade: a closed path never generates energy", "[nodes][cut][energy]"
             RC_ASSERT (bench.depth > 0.0 || bench.out.stored_energy == 0.0);
             heat = bench.out.dissipated_energy;
             before = bench.taken();
-        } });
+        }
+    });
 }
 
 TEST_CASE ("blade: one jump past rupture ends where a slow blade does", "[nodes][cut]")
 {
-    rc::prop ("any sample, thick or thin, any depth", [] (unsigned seed)
-              {
+    rc::prop ("any sample, thick or thin, any depth", [] (unsigned seed) {
         Dice dice { seed };
         Stuff s = dice.stuff();
         if (dice.below (2) == 0) s.params.thickness = dice.uniform (0.01, 4.0) * s.d_rupture;
@@ -284,20 +281,19 @@ TEST_CASE ("blade: one jump past rupture ends where a slow blade does", "[nodes]
         RC_ASSERT (jump.out.state == 2.0);
         slow.move (to, 5000);
 
-        const auto near = [&] (double a, double b, double scale)
-        { return std::abs (a - b) <= 1e-8 * scale; };
+        const auto near = [&] (double a, double b, double scale) { return std::abs (a - b) <= 1e-8 * scale; };
         RC_ASSERT (near (jump.out.resistance, slow.out.resistance, s.params.rupture_force));
         RC_ASSERT (near (jump.out.crack, slow.out.crack, s.d_rupture));
         RC_ASSERT (near (jump.out.stored_energy, slow.out.stored_energy, slow.taken()));
         RC_ASSERT (near (jump.out.dissipated_energy, slow.out.dissipated_energy, slow.taken()));
         RC_ASSERT (near (jump.tick (-1.0).crack, slow.tick (-1.0).crack, s.d_rupture));
-        RC_ASSERT (jump.out.state == slow.out.state); });
+        RC_ASSERT (jump.out.state == slow.out.state);
+    });
 }
 
 TEST_CASE ("blade: back in its cut, it feels nothing down to the tip and does not rupture the sample again", "[nodes][cut]")
 {
-    rc::prop ("any sample", [] (unsigned seed)
-              {
+    rc::prop ("any sample", [] (unsigned seed) {
         Dice dice { seed };
         const Stuff s = dice.stuff();
         const Law& g1 = s.settings.cracked_law ? s.settings.cracked_law : s.settings.law;
@@ -317,13 +313,13 @@ TEST_CASE ("blade: back in its cut, it feels nothing down to the tip and does no
         RC_ASSERT (bench.out.crack == crack);
         bench.move (crack + 3.0 * g1.inverse (cost), 1000);
         RC_ASSERT (bench.out.state == 4.0);
-        RC_ASSERT (bench.most <= cost * (1.0 + 1e-6)); });
+        RC_ASSERT (bench.most <= cost * (1.0 + 1e-6));
+    });
 }
 
 TEST_CASE ("blade: the cutting force is J_c w, however stiff the sample", "[nodes][cut]")
 {
-    rc::prop ("any laws", [] (unsigned seed)
-              {
+    rc::prop ("any laws", [] (unsigned seed) {
         const Stuff s = Dice { seed }.stuff();
         Bench bench (s.params, s.settings);
         bench.tick (5.0 * s.d_rupture);
@@ -332,7 +328,8 @@ TEST_CASE ("blade: the cutting force is J_c w, however stiff the sample", "[node
             bench.tick (bench.depth + 2.0 * s.d_rupture);   // reloads, if rupture opened more than the indentation
             if (k > 0) RC_ASSERT (bench.out.state == 4.0);
             RC_ASSERT (std::abs (bench.out.resistance - s.params.width * s.params.toughness) <= 1e-9 * s.params.rupture_force);
-        } });
+        }
+    });
 }
 
 TEST_CASE ("blade: a slow blade does not chatter between cutting and holding", "[nodes][cut]")
@@ -349,8 +346,7 @@ TEST_CASE ("blade: a slow blade does not chatter between cutting and holding", "
 
 TEST_CASE ("blade: repeating a tick changes nothing but the state", "[nodes][cut]")
 {
-    rc::prop ("virgin, bursting, elastic, cutting, cut through", [] (unsigned seed)
-              {
+    rc::prop ("virgin, bursting, elastic, cutting, cut through", [] (unsigned seed) {
         Dice dice { seed };
         Stuff s = dice.stuff();
         if (dice.below (2) == 0) s.params.thickness = dice.uniform (1.0, 6.0) * s.d_rupture;
@@ -370,7 +366,8 @@ TEST_CASE ("blade: repeating a tick changes nothing but the state", "[nodes][cut
                 const double held = bench.depth > first.crack ? 3.0 : 0.0, expected = moved ? held : first.state;
                 RC_ASSERT (second.state == (through ? 5.0 : expected));
             }
-        } });
+        }
+    });
 }
 
 TEST_CASE ("blade: a sample that is cut through never gives a force again", "[nodes][cut][energy]")
@@ -464,8 +461,7 @@ TEST_CASE ("blade: an instance replaced in the middle of a cut keeps cutting", "
 
 TEST_CASE ("blade: impossible samples are reported", "[nodes][cut]")
 {
-    const auto problem = [] (const Blade::Params& params, const Blade::Settings& settings)
-    { return Bench (params, settings).node.problem(); };
+    const auto problem = [] (const Blade::Params& params, const Blade::Settings& settings) { return Bench (params, settings).node.problem(); };
 
     CHECK (problem ({}, {}) == "");
     CHECK (problem ({ .rupture_force = 4.0 }, {}) == "");

@@ -83,10 +83,8 @@ TEST_CASE ("scissors: they match the golden columns", "[nodes][cut][golden]")
     for (std::size_t i = 0; i < golden.rows(); ++i)
         outputs.push_back (bench.tick (golden (i, "theta")));
 
-    const auto meets = [&] (const std::string& column, double Scissors::Outputs::*port)
-    {
-        const double worst = golden.worst (column, [&] (std::size_t i)
-                                           { return outputs[i].*port; });
+    const auto meets = [&] (const std::string& column, double Scissors::Outputs::*port) {
+        const double worst = golden.worst (column, [&] (std::size_t i) { return outputs[i].*port; });
         INFO (column << " " << worst);
         CHECK (worst <= 1.0);
     };
@@ -98,8 +96,7 @@ TEST_CASE ("scissors: they match the golden columns", "[nodes][cut][golden]")
 
 TEST_CASE ("scissors: while they cut, the torque is J_c h x / sin (theta), however stiff the plate", "[nodes][cut]")
 {
-    rc::prop ("any plate", [] (unsigned seed)
-              {
+    rc::prop ("any plate", [] (unsigned seed) {
         auto params = Dice { seed }.plate();
         for (const double k : { 1.0, 3.0, 100.0 })
         {
@@ -117,13 +114,13 @@ TEST_CASE ("scissors: while they cut, the torque is J_c h x / sin (theta), howev
                 RC_ASSERT (std::abs (bench.out.torque - torque) <= 1e-9 * torque);
             }
             RC_ASSERT (cutting > 0);
-        } });
+        }
+    });
 }
 
 TEST_CASE ("scissors: the work of the hand is U + J_c h (x - x0)", "[nodes][cut][energy]")
 {
-    rc::prop ("any plate, any strokes", [] (unsigned seed)
-              {
+    rc::prop ("any plate, any strokes", [] (unsigned seed) {
         Dice dice { seed };
         const auto params = dice.plate();
         Bench bench (params);
@@ -134,13 +131,13 @@ TEST_CASE ("scissors: the work of the hand is U + J_c h (x - x0)", "[nodes][cut]
             const double balance = bench.out.stored_energy + cracked;
             RC_ASSERT (std::abs (bench.work - balance) <= 1e-4 * bench.handled + 1e-15);
             RC_ASSERT (std::abs (bench.out.dissipated_energy - cracked) <= 1e-9 * cracked);
-        } });
+        }
+    });
 }
 
 TEST_CASE ("scissors: a closed path never generates energy", "[nodes][cut][energy]")
 {
-    rc::prop ("any plate, strokes that end open", [] (unsigned seed)
-              {
+    rc::prop ("any plate, strokes that end open", [] (unsigned seed) {
         Dice dice { seed };
         Bench bench (dice.plate());
         for (int stroke = 0; stroke < 10; ++stroke)
@@ -150,13 +147,13 @@ TEST_CASE ("scissors: a closed path never generates energy", "[nodes][cut][energ
             bench.move (wide, 20'000);
             RC_ASSERT (bench.out.stored_energy == 0.0);
             RC_ASSERT (bench.work >= before - 1e-4 * bench.handled - 1e-15);
-        } });
+        }
+    });
 }
 
 TEST_CASE ("scissors: one jump cuts as far as closing slowly", "[nodes][cut]")
 {
-    rc::prop ("any plate, even when nearly closed", [] (unsigned seed)
-              {
+    rc::prop ("any plate, even when nearly closed", [] (unsigned seed) {
         Dice dice { seed };
         const auto params = dice.plate();
         Bench jump (params), slow (params);
@@ -165,7 +162,8 @@ TEST_CASE ("scissors: one jump cuts as far as closing slowly", "[nodes][cut]")
         slow.move (to, 20'000);
         RC_ASSERT (std::abs (jump.out.crack_front - slow.out.crack_front) <= 1e-5 * slow.out.crack_front);
         RC_ASSERT (std::abs (jump.out.dissipated_energy - slow.out.dissipated_energy) <= 1e-5 * slow.taken());
-        RC_ASSERT (std::abs (jump.out.torque - slow.out.torque) <= 1e-4 * slow.out.torque); });
+        RC_ASSERT (std::abs (jump.out.torque - slow.out.torque) <= 1e-4 * slow.out.torque);
+    });
 }
 
 TEST_CASE ("scissors: too parallel to cut, they leave the front at k h / (16 J_c)", "[nodes][cut]")
@@ -178,8 +176,7 @@ TEST_CASE ("scissors: too parallel to cut, they leave the front at k h / (16 J_c
 
 TEST_CASE ("scissors: opened and closed again, they feel nothing down to the front", "[nodes][cut]")
 {
-    rc::prop ("any plate", [] (unsigned seed)
-              {
+    rc::prop ("any plate", [] (unsigned seed) {
         const auto params = Dice { seed }.plate();
         Bench bench (params);
         bench.move (0.2, 1000);
@@ -193,13 +190,13 @@ TEST_CASE ("scissors: opened and closed again, they feel nothing down to the fro
         }
         bench.move (0.1, 1000);
         RC_ASSERT (bench.out.torque > 0.0);
-        RC_ASSERT (bench.out.crack_front >= front); });
+        RC_ASSERT (bench.out.crack_front >= front);
+    });
 }
 
 TEST_CASE ("scissors: repeating a tick changes nothing but the state", "[nodes][cut]")
 {
-    rc::prop ("open, elastic, cutting", [] (unsigned seed)
-              {
+    rc::prop ("open, elastic, cutting", [] (unsigned seed) {
         Dice dice { seed };
         Bench bench (dice.plate());
         for (int k = 0; k < 50; ++k)
@@ -214,7 +211,8 @@ TEST_CASE ("scissors: repeating a tick changes nothing but the state", "[nodes][
                 RC_ASSERT (second.dissipated_energy == first.dissipated_energy);
                 RC_ASSERT (second.state == std::min (first.state, 3.0));
             }
-        } });
+        }
+    });
 }
 
 TEST_CASE ("scissors: closing slowly they do not chatter between cutting and holding", "[nodes][cut]")

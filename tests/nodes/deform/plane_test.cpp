@@ -65,9 +65,8 @@ TEST_CASE ("plane: a mass against a sampled wall matches the golden columns", "[
         }
 
         INFO (name);
-        const auto off = [&] (const std::string& column, const std::vector<double>& actual)
-        { return golden.worst (column, [&] (std::size_t i)
-                               { return actual[i]; }); };
+        const auto off = [&] (const std::string& column,
+                              const std::vector<double>& actual) { return golden.worst (column, [&] (std::size_t i) { return actual[i]; }); };
         CHECK (off ("x_" + name, xs) <= (quantum > 0.0 ? 1e-6 / golden.tolerance ("x_") : 1.0));
         CHECK (off ("v_" + name, vs) <= 1.0);
         CHECK (off ("f_" + name, fs) <= 1.0);
@@ -222,19 +221,20 @@ TEST_CASE ("plane: a fault gives 0, and the next sample counts as the first", "[
 
 TEST_CASE ("plane: no input breaks it", "[nodes][deform]")
 {
-    rc::prop ("outputs are finite", []
-              {
-                  const auto number = rc::gen::element (0.0, 1.0, -1.0, -1e-3, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
-                  auto node = ready<Plane> ({ .stiffness = *rc::gen::element (0.0, 1e3, 1e300),
-                      .damping = *rc::gen::element (0.0, 5.0, 1e300), .dissipation = *rc::gen::element (0.0, 1.0, 1e300) });
-                  if (*rc::gen::arbitrary<bool>()) node.settings.law = { .kind = tactus::Law::Kind::exponential, .a = 1.0, .b = 300.0, .table = {} };
-                  for (int k = 0; k < 20; ++k)
-                  {
-                      const double x = *number, y = *number, z = *number;
-                      const auto out = node.tick ({ .position = { x, y, z } });
-                      RC_ASSERT (tactus::isFinite (out.force, out.resistance, out.depth, out.hit, out.stored_energy));
-                      RC_ASSERT (out.resistance >= 0.0);
-                  } });
+    rc::prop ("outputs are finite", [] {
+        const auto number = rc::gen::element (0.0, 1.0, -1.0, -1e-3, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
+        auto node = ready<Plane> ({ .stiffness = *rc::gen::element (0.0, 1e3, 1e300),
+                                    .damping = *rc::gen::element (0.0, 5.0, 1e300),
+                                    .dissipation = *rc::gen::element (0.0, 1.0, 1e300) });
+        if (*rc::gen::arbitrary<bool>()) node.settings.law = { .kind = tactus::Law::Kind::exponential, .a = 1.0, .b = 300.0, .table = {} };
+        for (int k = 0; k < 20; ++k)
+        {
+            const double x = *number, y = *number, z = *number;
+            const auto out = node.tick ({ .position = { x, y, z } });
+            RC_ASSERT (tactus::isFinite (out.force, out.resistance, out.depth, out.hit, out.stored_energy));
+            RC_ASSERT (out.resistance >= 0.0);
+        }
+    });
 }
 
 TEST_CASE ("plane: a new instance adopts the previous depth", "[nodes][deform]")

@@ -51,8 +51,7 @@ Mesh grid (int n, double length, Height height)
 
 Mesh flat (int n = 4, double length = 0.04)
 {
-    return grid (n, length, [] (double, double)
-                 { return 0.0; });
+    return grid (n, length, [] (double, double) { return 0.0; });
 }
 
 /// A ball about the origin: an octahedron whose faces are divided and pushed out.
@@ -62,8 +61,7 @@ Mesh ball (double radius, int divisions)
     const Vec3 tips[] { Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitX(), -Vec3::UnitY(), Vec3::UnitZ(), -Vec3::UnitZ() };
     const int n = 1 << divisions;
     std::map<std::array<long, 3>, int> known;
-    const auto point = [&] (const Vec3& p)
-    {
+    const auto point = [&] (const Vec3& p) {
         const std::array<long, 3> key { std::lround (p.x() * n), std::lround (p.y() * n), std::lround (p.z() * n) };
         const auto [at, fresh] = known.try_emplace (key, static_cast<int> (mesh.points.size()));
         if (fresh) mesh.points.push_back (radius * p.normalized());
@@ -73,8 +71,7 @@ Mesh ball (double radius, int divisions)
         for (const int pole : { 4, 5 })
         {
             const Vec3 a = tips[pole], b = tips[pole == 4 ? side : (side + 1) % 4], c = tips[pole == 4 ? (side + 1) % 4 : side];
-            const auto at = [&] (int i, int j)
-            { return point ((a * (n - i) + b * (i - j) + c * j) / n); };
+            const auto at = [&] (int i, int j) { return point ((a * (n - i) + b * (i - j) + c * j) / n); };
             for (int i = 0; i < n; ++i)
                 for (int j = 0; j <= i; ++j)
                 {
@@ -99,8 +96,7 @@ std::shared_ptr<const Surface> uneven (Mesh mesh, unsigned seed, double mu = 0.5
     std::vector<Ratio> ratios;
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
     {
-        const auto z = [&]() -> Law
-        {
+        const auto z = [&]() -> Law {
             if (i % 3 == 0) return exponential (0.1 + one (dice), 200.0 * one (dice) + 50.0);
             if (i % 3 == 1) return power (2e4 * (1.0 + one (dice)), 1.5);
             return { .kind = Law::Kind::table, .table = { { 1e-3, 3e-3 }, { 0.5 * one (dice), 2.0 + one (dice) } } };
@@ -184,8 +180,7 @@ TEST_CASE ("surface: one triangle with one curve, computed manually", "[nodes][d
 TEST_CASE ("surface: tools are mixed, and the mix is latched", "[nodes][deform]")
 {
     auto node = made (body (flat(), { { curves (100.0, 1000.0) }, { curves (100.0, 3000.0) }, { curves (100.0, 100.0) } }, { { .number = 0.5 } }));
-    const auto press = [&] (double tool, double depth)
-    { return node.tick ({ .position = Vec3 (0.02, 0.01, -depth), .tool = tool }).resistance; };
+    const auto press = [&] (double tool, double depth) { return node.tick ({ .position = Vec3 (0.02, 0.01, -depth), .tool = tool }).resistance; };
 
     CHECK (press (0.25, 1e-3) == Approx (1.5));
     CHECK (press (2.0, 1e-3) == Approx (1.5));   // not in contact
@@ -199,8 +194,7 @@ TEST_CASE ("surface: tools are mixed, and the mix is latched", "[nodes][deform]"
 
 TEST_CASE ("surface: a closed path that sticks gives and takes nothing, whatever the mesh, frames and curves", "[nodes][deform]")
 {
-    rc::prop ("work over loops", [] (unsigned seed)
-              {
+    rc::prop ("work over loops", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::uniform_real_distribution<double> one (-1.0, 1.0);
         const double bump = 0.003 * one (dice);
@@ -223,17 +217,16 @@ TEST_CASE ("surface: a closed path that sticks gives and takes nothing, whatever
             most = std::max (most, std::abs (hand.work));
         }
         RC_ASSERT (std::abs (hand.out.stored_energy - before) <= 1e-12 * std::max (1.0, before));
-        RC_ASSERT (std::abs (hand.work) <= 1e-6 * (most + before) + 1e-12); });
+        RC_ASSERT (std::abs (hand.work) <= 1e-6 * (most + before) + 1e-12);
+    });
 }
 
 TEST_CASE ("surface: the work of the hand is the stored plus the lost energy", "[nodes][deform]")
 {
-    rc::prop ("random strokes in and out", [] (unsigned seed)
-              {
+    rc::prop ("random strokes in and out", [] (unsigned seed) {
         const auto surface = uneven (flat(), seed);
         double moved = 0.0;
-        const auto missing = [&] (int steps)
-        {
+        const auto missing = [&] (int steps) {
             std::mt19937 dice (seed);
             std::uniform_real_distribution<double> one (-1.0, 1.0);
             Hand hand { made (surface) };
@@ -245,16 +238,15 @@ TEST_CASE ("surface: the work of the hand is the stored plus the lost energy", "
         };
         // The slip within a step is of the order of the step. A stroke that only grazes has few steps in contact, so it is
         // repeated in finer steps: a real error would remain, however fine they are.
-        const auto extrapolated = [&] (int steps)
-        { return std::abs (2.0 * missing (2 * steps) - missing (steps)); };
+        const auto extrapolated = [&] (int steps) { return std::abs (2.0 * missing (2 * steps) - missing (steps)); };
         const double at_once = extrapolated (1000);
-        RC_ASSERT ((at_once <= 5e-3 * moved || extrapolated (16000) <= 5e-3 * moved)); });
+        RC_ASSERT ((at_once <= 5e-3 * moved || extrapolated (16000) <= 5e-3 * moved));
+    });
 }
 
 TEST_CASE ("surface: a pad of uniform softness never generates energy on a closed path", "[nodes][deform]")
 {
-    rc::prop ("random strokes", [] (unsigned seed)
-              {
+    rc::prop ("random strokes", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::uniform_real_distribution<double> one (-1.0, 1.0);
         auto node = made (body (flat(), { { { power (400.0), power (900.0), exponential (0.5, 300.0) } } }, { { .number = std::abs (one (dice)) } }));
@@ -265,18 +257,20 @@ TEST_CASE ("surface: a pad of uniform softness never generates energy on a close
             const auto out = node.tick ({ .position = Vec3 (0.02 + 0.015 * one (dice), 0.02 + 0.015 * one (dice), 0.003 * one (dice)) });
             RC_ASSERT (out.dissipated_energy >= lost - 1e-12);
             lost = out.dissipated_energy;
-        } });
+        }
+    });
 }
 
 TEST_CASE ("surface: without friction, moving from soft to stiff and back costs nothing", "[nodes][deform]")
 {
-    rc::prop ("closed paths over level frames", [] (unsigned seed)
-              {
+    rc::prop ("closed paths over level frames", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::uniform_real_distribution<double> one (-1.0, 1.0);
         Hand hand { made (uneven (flat(), seed), Frictions::frictionless) };
-        const auto at = [a = one (dice), b = one (dice), c = one (dice)] (double phi)
-        { return Vec3 (0.02 + 0.012 * std::sin (phi + a), 0.02 + 0.012 * std::sin (2.0 * phi + b), -0.0015 - 0.001 * std::sin (phi + c)); };
+        const auto at = [a = one (dice), b = one (dice), c = one (dice)] (double phi) {
+            const double x = 0.02 + 0.012 * std::sin (phi + a), y = 0.02 + 0.012 * std::sin (2.0 * phi + b);
+            return Vec3 (x, y, -0.0015 - 0.001 * std::sin (phi + c));
+        };
         hand.p = at (0.0);
         hand.to (at (0.0));
         hand.work = 0.0;
@@ -287,7 +281,8 @@ TEST_CASE ("surface: without friction, moving from soft to stiff and back costs 
             RC_ASSERT (hand.out.state == 2.0);
             most = std::max (most, std::abs (hand.work));
         }
-        RC_ASSERT (std::abs (hand.work) <= 1e-2 * most); });   // the quadrature has an error at each edge, where the gradient steps
+        RC_ASSERT (std::abs (hand.work) <= 1e-2 * most);
+    });   // the quadrature has an error at each edge, where the gradient steps
 }
 
 TEST_CASE ("surface: without -dU/dc, pressing where it is soft and releasing where it is stiff would generate energy", "[nodes][deform]")
@@ -296,8 +291,7 @@ TEST_CASE ("surface: without -dU/dc, pressing where it is soft and releasing whe
     const auto mesh = flat (8);
     for (const auto& p : mesh.points)
         nodes.push_back (curves (400.0, 200.0 + 5e4 * p.x()));
-    const auto loop = [&] (Frictions friction, double mu)
-    {
+    const auto loop = [&] (Frictions friction, double mu) {
         Hand hand { made (body (mesh, { nodes }, { { .number = mu } }), friction) };
         hand.p = Vec3 (0.005, 0.02, 0.001);
         hand.line (Vec3 (0.005, 0.02, -0.003), 2000);
@@ -315,8 +309,7 @@ TEST_CASE ("surface: without -dU/dc, pressing where it is soft and releasing whe
 
 TEST_CASE ("surface: the force does not step where a slide crosses an edge", "[nodes][deform]")
 {
-    rc::prop ("slides over uneven meshes", [] (unsigned seed)
-              {
+    rc::prop ("slides over uneven meshes", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::uniform_real_distribution<double> one (-1.0, 1.0);
         const auto mesh = grid (4, 0.04, [&] (double x, double y) { return 0.001 * std::sin (100.0 * x + y * 70.0); });
@@ -336,7 +329,8 @@ TEST_CASE ("surface: the force does not step where a slide crosses an edge", "[n
         RC_ASSERT (across.size() > 3u);
         const double usual = *std::ranges::max_element (inside);
         for (const double step : across)
-            RC_ASSERT (step <= 3.0 * usual + 1e-9); });
+            RC_ASSERT (step <= 3.0 * usual + 1e-9);
+    });
 }
 
 TEST_CASE ("surface: a slipping tool drags its contact behind, by mu times the depth", "[nodes][deform]")
@@ -393,8 +387,7 @@ TEST_CASE ("surface: scale, origin and rotation place the mesh", "[nodes][deform
 
 TEST_CASE ("surface: a ball is felt from all sides, with a search of any length", "[nodes][deform]")
 {
-    rc::prop ("presses from random directions", [] (unsigned seed)
-              {
+    rc::prop ("presses from random directions", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::normal_distribution<double> bell;
         auto node = made (body (ball (0.03, 3), { { curves (400.0, 1000.0) } }, { { .number = 0.5 } }));
@@ -411,13 +404,13 @@ TEST_CASE ("surface: a ball is felt from all sides, with a search of any length"
             RC_ASSERT (out.force.dot (towards) > 0.9 * out.force.norm());
             RC_ASSERT (std::abs (out.depth - 0.002) < 5e-4);   // the ball has facets
             node.tick ({ .position = towards * 0.05 });
-        } });
+        }
+    });
 }
 
 TEST_CASE ("surface: a search changes no force in contact, and costs only the first ticks", "[nodes][deform]")
 {
-    rc::prop ("the same strokes, searched immediately or later", [] (unsigned seed)
-              {
+    rc::prop ("the same strokes, searched immediately or later", [] (unsigned seed) {
         const auto surface = uneven (grid (12, 0.04, [] (double x, double y) { return 0.002 * std::sin (90.0 * x) * std::sin (80.0 * y); }), seed);
         auto at_once = made (surface), later = made (surface);
         later.settings.search_ticks = 8;
@@ -425,12 +418,13 @@ TEST_CASE ("surface: a search changes no force in contact, and costs only the fi
         for (int k = 0; k < 1000; ++k)
         {
             const double t = 3e-3 * k;
-            const ElasticSurface::Inputs in { .position = Vec3 (0.02 + 0.015 * std::sin (3.0 * t + seed % 5),
-                0.02 + 0.015 * std::sin (2.0 * t), 0.003 * std::cos (5.0 * t)) };
+            const Vec3 position (0.02 + 0.015 * std::sin (3.0 * t + seed % 5), 0.02 + 0.015 * std::sin (2.0 * t), 0.003 * std::cos (5.0 * t));
+            const ElasticSurface::Inputs in { .position = position };
             const auto a = at_once.tick (in), b = later.tick (in);
             RC_ASSERT (k < 9 || a.force == b.force);
             RC_ASSERT (k < 9 || a.contact == b.contact);
-        } });
+        }
+    });
 }
 
 TEST_CASE ("surface: searched by a thread on 100 000 triangles, live runs are bit-identical and allocate nothing", "[nodes][deform]")
@@ -438,8 +432,7 @@ TEST_CASE ("surface: searched by a thread on 100 000 triangles, live runs are bi
     const auto surface = body (ball (0.03, 7), { { curves (400.0, 1000.0) } }, { { .number = 0.5 } });
     REQUIRE (surface->mesh->triangles.size() > 100'000);
 
-    const auto run = [&] (QueryService* answers, std::chrono::microseconds pause)
-    {
+    const auto run = [&] (QueryService* answers, std::chrono::microseconds pause) {
         ElasticSurface node;
         node.settings.surface = surface;
         node.settings.search_ticks = 40;
@@ -460,8 +453,7 @@ TEST_CASE ("surface: searched by a thread on 100 000 triangles, live runs are bi
         return forces;
     };
     const auto rendered = run (nullptr, {});
-    CHECK (std::ranges::any_of (rendered, [] (double f)
-                                { return f != 0.0; }));
+    CHECK (std::ranges::any_of (rendered, [] (double f) { return f != 0.0; }));
 
     for (std::chrono::microseconds pause { 500 };; pause *= 2)   // the busier the machine, the more time it gets
     {
@@ -477,8 +469,7 @@ TEST_CASE ("surface: searched by a thread on 100 000 triangles, live runs are bi
 TEST_CASE ("surface: a mesh that cannot be used is reported", "[nodes][deform]")
 {
     const std::vector<std::vector<Surface::Curves>> tools { { curves (1.0, 1.0) } };
-    const auto problem = [] (std::shared_ptr<const Surface> s)
-    {
+    const auto problem = [] (std::shared_ptr<const Surface> s) {
         ElasticSurface node;
         node.settings.surface = std::move (s);
         return node.problem();
@@ -544,8 +535,7 @@ TEST_CASE ("surface: past the rim of an open mesh there is nothing to touch", "[
 
 TEST_CASE ("surface: a closed body has no rim", "[nodes][deform]")
 {
-    rc::prop ("points inside and outside a ball", [] (unsigned seed)
-              {
+    rc::prop ("points inside and outside a ball", [] (unsigned seed) {
         std::mt19937 dice (seed);
         std::normal_distribution<double> bell;
         const MeshWalk walk { ball (0.03, 2) };
@@ -553,7 +543,8 @@ TEST_CASE ("surface: a closed body has no rim", "[nodes][deform]")
         {
             const Vec3 p = 0.03 * Vec3 (bell (dice), bell (dice), bell (dice));
             RC_ASSERT (! walk.isBeyondRim (walk.nearestOfAll (p), p));
-        } });
+        }
+    });
 }
 
 TEST_CASE ("surface: a path around the rim and up through the surface generates no energy", "[nodes][deform]")
@@ -579,8 +570,7 @@ TEST_CASE ("surface: a tool that was inside when the first search ended feels th
     node.settings.search_ticks = 20;
     node.prepare ({ .rate_hz = 1000.0 });
     double steepest = 0.0, before = 0.0;
-    const auto move = [&] (double depth)
-    {
+    const auto move = [&] (double depth) {
         const double force = node.tick ({ .position = Vec3 (0.02, 0.01, -depth) }).resistance;
         steepest = std::max (steepest, std::abs (force - before));
         before = force;
@@ -611,8 +601,7 @@ TEST_CASE ("surface: a surface that faces the wrong way, pulls, or has tilted fr
     const Law pulls { .kind = Law::Kind::table, .table = { { 0.005, 0.01 }, { 5.0, -5.0 } } };
     CHECK (made (body (flat(), { { { power (1.0), power (1.0), pulls } } }, {})).problem().find ("must not pull") != std::string::npos);
 
-    const auto bumpy = grid (4, 0.04, [] (double x, double y)
-                             { return 0.003 * std::sin (150.0 * x) * std::cos (110.0 * y); });
+    const auto bumpy = grid (4, 0.04, [] (double x, double y) { return 0.003 * std::sin (150.0 * x) * std::cos (110.0 * y); });
     CHECK (made (body (bumpy, tools, { { .number = 0.5 } }), Frictions::frictionless).warning ({}).find ("tilted") != std::string::npos);
     CHECK (made (uneven (flat(), 3, 0.0)).warning ({}).empty());   // no friction: no warning, although the nodes differ
 }

@@ -77,8 +77,7 @@ TEST_CASE ("device: a button is found by name or by number", "[nodes][device]")
 {
     auto device = padState();
     device.reading.buttons = 2;
-    const auto pressed = [&] (const char* button)
-    {
+    const auto pressed = [&] (const char* button) {
         DeviceButton node;
         node.settings.button = button;
         node.bind (device);
@@ -102,8 +101,7 @@ TEST_CASE ("device: a button is found by name or by number", "[nodes][device]")
     device.reading = {};
     CHECK (held.tick ({}).pressed == 0.0);
 
-    const auto missing = [] (const char* button)
-    {
+    const auto missing = [] (const char* button) {
         DeviceButton node;
         node.settings.button = button;
         return node.missing (pad);

@@ -43,8 +43,7 @@ std::complex<double> prototype (const BiquadFilter::Params& p, std::complex<doub
 
 TEST_CASE ("biquad: every kind has the response of its prototype in the cookbook", "[nodes][filter]")
 {
-    rc::prop ("any kind, cutoff, q, gain and frequency", []
-              {
+    rc::prop ("any kind, cutoff, q, gain and frequency", [] {
         const BiquadFilter::Params params {
             .cutoff = static_cast<double> (*rc::gen::inRange (10, 490)),
             .q = *rc::gen::inRange (30, 500) / 100.0,
@@ -53,7 +52,8 @@ TEST_CASE ("biquad: every kind has the response of its prototype in the cookbook
         };
         const double turns = *rc::gen::inRange (0, 500) / 1000.0;
         const auto wanted = prototype (params, bilinear (turns, params.cutoff / 1000.0));
-        RC_ASSERT (std::abs (Response { ready<BiquadFilter> (params) }(turns) - wanted) < 1e-8 * (1.0 + std::abs (wanted))); });
+        RC_ASSERT (std::abs (Response { ready<BiquadFilter> (params) }(turns)-wanted) < 1e-8 * (1.0 + std::abs (wanted)));
+    });
 }
 
 TEST_CASE ("biquad: peak and shelves do nothing at 0 dB", "[nodes][filter]")

@@ -25,11 +25,11 @@ std::complex<double> prototypeOf (const Butterworth2&, std::complex<double> s) {
 
 TEMPLATE_TEST_CASE ("low-pass: the response is the response of the analogue filter, after the bilinear transform", "[nodes][filter]", OnePole, Butterworth2)
 {
-    rc::prop ("any cutoff and frequency", []
-              {
+    rc::prop ("any cutoff and frequency", [] {
         const double cutoff = *rc::gen::inRange (5, 495) / 1000.0, turns = *rc::gen::inRange (0, 500) / 1000.0;
         const auto filter = ready<TestType> ({ .cutoff = 1000.0 * cutoff });
-        RC_ASSERT (std::abs (Response { filter }(turns) - prototypeOf (filter, bilinear (turns, cutoff))) < 1e-9); });
+        RC_ASSERT (std::abs (Response { filter }(turns)-prototypeOf (filter, bilinear (turns, cutoff))) < 1e-9);
+    });
 }
 
 TEMPLATE_TEST_CASE ("low-pass: 3 dB down at the cutoff, unity gain at 0 Hz, nothing at half the rate", "[nodes][filter]", OnePole, Butterworth2)

@@ -89,8 +89,7 @@ TEST_CASE ("friction: over a million random ticks it never generates energy", "[
                 std::mt19937 random (unsigned (adhesion) * 4 + unsigned (integrator) * 2 + turning);
                 std::uniform_real_distribution<double> uniform;
                 std::normal_distribution<double> gauss;
-                const auto vector = [&]
-                { return Vec3 { gauss (random), gauss (random), gauss (random) }; };
+                const auto vector = [&] { return Vec3 { gauss (random), gauss (random), gauss (random) }; };
 
                 Bench bench ({ .adhesion = adhesion, .integrator = integrator });
                 Vec3 p = vector() * 1e-3, n = Vec3 { 1, 2, 3 };
@@ -151,12 +150,10 @@ TEST_CASE ("friction: on a dense path the work of the hand is the stored plus th
 
 TEST_CASE ("friction: along any path, under any load, the work of the hand is the stored plus the lost energy", "[nodes][friction][energy]")
 {
-    rc::prop ("strokes, circles and tremor, pressed, eased and lifted, over a turning surface", [] (unsigned seed)
-              {
+    rc::prop ("strokes, circles and tremor, pressed, eased and lifted, over a turning surface", [] (unsigned seed) {
         std::mt19937 random (seed);
         std::uniform_real_distribution<double> uniform;
-        const auto any = [&] (const auto& list)
-        { return list.begin()[std::uniform_int_distribution<std::size_t> (0, list.size() - 1) (random)]; };
+        const auto any = [&] (const auto& list) { return list.begin()[std::uniform_int_distribution<std::size_t> (0, list.size() - 1) (random)]; };
 
         const double d_max = 1e-5 * std::pow (10.0, 2.0 * uniform (random)), reach = d_max * std::pow (10.0, 1.2 * uniform (random) - 0.5);
         const bool fixed = uniform (random) < 0.3;
@@ -190,7 +187,8 @@ TEST_CASE ("friction: along any path, under any load, the work of the hand is th
             if (params.load == Load::passive || fixed) RC_ASSERT (bench.trapezoid >= -1e-3 * handled);
         }
         RC_ASSERT (handled > 0.0);
-        RC_ASSERT (std::abs (bench.model() - bench.trapezoid) <= 1e-2 * handled); });
+        RC_ASSERT (std::abs (bench.model() - bench.trapezoid) <= 1e-2 * handled);
+    });
 }
 
 TEST_CASE ("friction: a closed path that never breaks away costs and gives nothing", "[nodes][friction][energy]")
@@ -251,8 +249,7 @@ TEST_CASE ("friction: loops have the areas of the closed forms", "[nodes][fricti
 TEST_CASE ("friction: stick, press harder, unshear: passive by default, but not as printed", "[nodes][friction][energy]")
 {
     // Eq. (3) with sigma following the load gives back sigma d^2 / 2 more than it took: 3.2e-6 J per loop here.
-    const auto strokes = [] (Load load, Adhesion adhesion)
-    {
+    const auto strokes = [] (Load load, Adhesion adhesion) {
         Bench bench ({ .mu = 0.4, .d_max = 1e-5, .adhesion = adhesion, .load = load });
         const double pull = 0.8e-5, soft = 0.5, hard = 3.0;
         const int n = 100;

@@ -50,8 +50,7 @@ TEST_CASE ("friction: along a line every form matches the golden columns", "[nod
     base.d_max = golden.param ("d_max");
     base.break_away = golden.param ("d_ba") / golden.param ("d_max");
 
-    const auto with = [&] (Adhesion adhesion, Integrator integrator, Load load, double ratio = 1.0)
-    {
+    const auto with = [&] (Adhesion adhesion, Integrator integrator, Load load, double ratio = 1.0) {
         auto params = base;
         params.adhesion = adhesion;
         params.integrator = integrator;
@@ -59,26 +58,21 @@ TEST_CASE ("friction: along a line every form matches the golden columns", "[nod
         params.static_ratio = ratio;
         return play1d (golden, params);
     };
-    const auto deflectionMeets = [&] (const std::string& column, const std::vector<ElastoPlastic::Outputs>& outputs)
-    {
+    const auto deflectionMeets = [&] (const std::string& column, const std::vector<ElastoPlastic::Outputs>& outputs) {
         INFO (column);
-        CHECK (golden.worst (column, [&] (std::size_t i)
-                             { return outputs[i].deflection.x(); })
+        CHECK (golden.worst (column, [&] (std::size_t i) { return outputs[i].deflection.x(); })
                <= 1.0);
     };
-    const auto forceMeets = [&] (const std::string& column, const std::vector<ElastoPlastic::Outputs>& outputs)
-    {
+    const auto forceMeets = [&] (const std::string& column, const std::vector<ElastoPlastic::Outputs>& outputs) {
         INFO (column);
-        CHECK (golden.worst (column, [&] (std::size_t i)
-                             { return outputs[i].force.x(); })
+        CHECK (golden.worst (column, [&] (std::size_t i) { return outputs[i].force.x(); })
                <= 1.0);
     };
 
     const auto eq3 = with (Adhesion::stick, Integrator::exponential, Load::scale);
     deflectionMeets ("d_eq3", eq3);
     forceMeets ("f_eq3", eq3);
-    CHECK (golden.worst ("state_eq3", [&] (std::size_t i)
-                         { return eq3[i].state; })
+    CHECK (golden.worst ("state_eq3", [&] (std::size_t i) { return eq3[i].state; })
            == 0.0);
 
     deflectionMeets ("d_euler2", with (Adhesion::dupont, Integrator::euler, Load::scale));
@@ -99,14 +93,12 @@ TEST_CASE ("friction: on a turning surface every form matches the golden columns
     params.break_away = golden.param ("d_ba") / golden.param ("d_max");
     params.load = Load::scale;
 
-    const auto meets = [&] (const std::string& column, const std::vector<ElastoPlastic::Outputs>& outputs, Vec3 ElastoPlastic::Outputs::*port)
-    {
+    const auto meets = [&] (const std::string& column, const std::vector<ElastoPlastic::Outputs>& outputs, Vec3 ElastoPlastic::Outputs::*port) {
         for (int axis = 0; axis < 3; ++axis)
         {
             const std::string component = column + "_" + "xyz"[axis];
             INFO (component);
-            CHECK (golden.worst (component, [&] (std::size_t i)
-                                 { return (outputs[i].*port)[axis]; })
+            CHECK (golden.worst (component, [&] (std::size_t i) { return (outputs[i].*port)[axis]; })
                    <= 1.0);
         }
     };
@@ -114,8 +106,7 @@ TEST_CASE ("friction: on a turning surface every form matches the golden columns
     const auto eq3 = play3d (golden, params);
     meets ("d_eq3", eq3, &ElastoPlastic::Outputs::deflection);
     meets ("f_eq3", eq3, &ElastoPlastic::Outputs::force);
-    CHECK (golden.worst ("state_eq3", [&] (std::size_t i)
-                         { return eq3[i].state; })
+    CHECK (golden.worst ("state_eq3", [&] (std::size_t i) { return eq3[i].state; })
            == 0.0);
 
     params.adhesion = Adhesion::dupont;
@@ -133,10 +124,9 @@ TEST_CASE ("friction: a grating on d_max matches the golden column", "[nodes][fr
     ElastoPlastic node;
     node.params.stiffness = golden.param ("mu") / golden.param ("d_max");
 
-    CHECK (golden.worst ("f_friction_mod", [&] (std::size_t i)
-                         {
-                             const double x = golden (i, "x");
-                             node.params.d_max = golden.param ("d_max") * (1.0 + golden.param ("mod") * std::sin (2.0 * M_PI * golden.param ("k") * x));
-                             return node.tick ({ .position = { x, 0, 0 }, .normal_force = golden (i, "dz") > 0.0 ? 1.0 : 0.0 }).force.x(); })
-           <= 1.0);
+    CHECK (golden.worst ("f_friction_mod", [&] (std::size_t i) {
+        const double x = golden (i, "x");
+        node.params.d_max = golden.param ("d_max") * (1.0 + golden.param ("mod") * std::sin (2.0 * M_PI * golden.param ("k") * x));
+        return node.tick ({ .position = { x, 0, 0 }, .normal_force = golden (i, "dz") > 0.0 ? 1.0 : 0.0 }).force.x();
+    }) <= 1.0);
 }

@@ -62,8 +62,7 @@ struct Drag
 
 bool sameBits (const Outputs& a, const Outputs& b)
 {
-    const auto same = [] (const auto& u, const auto& v)
-    { return std::memcmp (&u, &v, sizeof u) == 0; };
+    const auto same = [] (const auto& u, const auto& v) { return std::memcmp (&u, &v, sizeof u) == 0; };
     return same (a.force, b.force) && same (a.deflection, b.deflection) && same (a.stored_energy, b.stored_energy)
            && same (a.dissipated_energy, b.dissipated_energy);
 }
@@ -158,8 +157,7 @@ TEST_CASE ("friction: stick and slip alternate with the period d_stick - d_max",
 TEST_CASE ("friction: dahl creeps by the formula under a load far below break-away, and function 1 does not creep", "[nodes][friction]")
 {
     const double d_max = 1e-4, lo = 0.1 * d_max, hi = 0.5 * d_max;
-    const auto creepPerCycle = [&] (Adhesion adhesion)
-    {
+    const auto creepPerCycle = [&] (Adhesion adhesion) {
         Drag drag ({ .d_max = d_max, .adhesion = adhesion });
         const double step = 1e-4 * d_max;
         double first = 0.0, last = 0.0;
@@ -214,8 +212,7 @@ TEST_CASE ("friction: tremor of the hand wears down dahl's force, but not the fo
 TEST_CASE ("friction: a tool that leans and trembles for a minute stays where it is with function 1, not with dahl", "[nodes][friction]")
 {
     // A tool of 50 g that the hand pushes sideways at half of break-away, with a tremor of a tenth of it at 8 Hz.
-    const auto drift = [] (Adhesion adhesion)
-    {
+    const auto drift = [] (Adhesion adhesion) {
         const double dt = 1.0 / 4000.0, mass = 0.05, damping = 2.0, push = 0.2;
         ElastoPlastic node;
         node.params = { .mu = 0.4, .d_max = 1e-4, .adhesion = adhesion };
@@ -445,25 +442,25 @@ TEST_CASE ("friction: a new instance continues without a step in force", "[nodes
 
 TEST_CASE ("friction: no input breaks it", "[nodes][friction]")
 {
-    rc::prop ("outputs are finite and the state is known", []
-              {
-                  const auto number = rc::gen::element (0.0, -0.0, 1.0, -1.0, 1e-5, -3e-5, 1e-4, 1e-320, 1e-200, -1e160, 1e300, -1e308,
-                      not_a_number, tactus::inf, -tactus::inf);
-                  const auto positive = rc::gen::element (1e-9, 1e-5, 1e-4, 1.0, 1e150, 1e300);
-                  ElastoPlastic node;
-                  for (int k = 0; k < 40; ++k)
-                  {
-                      node.params.mu = *rc::gen::element (0.0, 0.4, 1e300, 1e-310);
-                      node.params.d_max = *positive;
-                      node.params.static_ratio = *rc::gen::element (1.0, 2.5, 1e300);
-                      node.params.break_away = *rc::gen::element (0.0, 0.7, 1.0);
-                      node.params.stiffness = *rc::gen::element (0.0, 1000.0, 1e300);
-                      node.params.adhesion = *rc::gen::elementOf (std::vector<Adhesion> (all_adhesions));
-                      node.params.integrator = *rc::gen::elementOf (std::vector<Integrator> (both_integrators));
-                      const Vec3 p { *number, *number, *number };
-                      const Vec3 n = *rc::gen::arbitrary<bool>() ? Vec3 { 0, 0, 1 } : Vec3 { *number, *number, *number };
-                      const auto out = node.tick ({ .position = p, .normal = n, .normal_force = *number });
-                      RC_ASSERT (tactus::isFinite (out.force, out.deflection, out.stored_energy, out.dissipated_energy));
-                      RC_ASSERT (out.state == -1.0 || out.state == 0.0 || out.state == 1.0 || out.state == 2.0);
-                  } });
+    rc::prop ("outputs are finite and the state is known", [] {
+        const auto number = rc::gen::element (0.0, -0.0, 1.0, -1.0, 1e-5, -3e-5, 1e-4, 1e-320, 1e-200, -1e160, 1e300, -1e308,
+                                              not_a_number, tactus::inf, -tactus::inf);
+        const auto positive = rc::gen::element (1e-9, 1e-5, 1e-4, 1.0, 1e150, 1e300);
+        ElastoPlastic node;
+        for (int k = 0; k < 40; ++k)
+        {
+            node.params.mu = *rc::gen::element (0.0, 0.4, 1e300, 1e-310);
+            node.params.d_max = *positive;
+            node.params.static_ratio = *rc::gen::element (1.0, 2.5, 1e300);
+            node.params.break_away = *rc::gen::element (0.0, 0.7, 1.0);
+            node.params.stiffness = *rc::gen::element (0.0, 1000.0, 1e300);
+            node.params.adhesion = *rc::gen::elementOf (std::vector<Adhesion> (all_adhesions));
+            node.params.integrator = *rc::gen::elementOf (std::vector<Integrator> (both_integrators));
+            const Vec3 p { *number, *number, *number };
+            const Vec3 n = *rc::gen::arbitrary<bool>() ? Vec3 { 0, 0, 1 } : Vec3 { *number, *number, *number };
+            const auto out = node.tick ({ .position = p, .normal = n, .normal_force = *number });
+            RC_ASSERT (tactus::isFinite (out.force, out.deflection, out.stored_energy, out.dissipated_energy));
+            RC_ASSERT (out.state == -1.0 || out.state == 0.0 || out.state == 1.0 || out.state == 2.0);
+        }
+    });
 }

@@ -33,8 +33,7 @@ TEST_CASE ("hold: it matches the golden column", "[nodes][hold][golden]")
 {
     const Golden golden ("passivity");
     auto node = hold();
-    CHECK (golden.worst ("f_predictive", [&] (std::size_t i)
-                         { return push (node, golden (i, "f_env")); })
+    CHECK (golden.worst ("f_predictive", [&] (std::size_t i) { return push (node, golden (i, "f_env")); })
            <= 1.0);
 }
 
@@ -48,19 +47,18 @@ TEST_CASE ("hold: on a steady slope it gives the force in the middle of the samp
 
 TEST_CASE ("hold: a steady force passes bit for bit", "[nodes][hold]")
 {
-    rc::prop ("any force", []
-              {
-                  const double f = 1e-3 * *rc::gen::inRange (-50'000, 50'000);
-                  auto node = hold();
-                  for (int k = 0; k < 5; ++k)
-                      RC_ASSERT (push (node, f) == f); });
+    rc::prop ("any force", [] {
+        const double f = 1e-3 * *rc::gen::inRange (-50'000, 50'000);
+        auto node = hold();
+        for (int k = 0; k < 5; ++k)
+            RC_ASSERT (push (node, f) == f);
+    });
 }
 
 TEST_CASE ("hold: it stops the leak of a sampled spring", "[nodes][hold][energy]")
 {
     // The hand pushes in and out along a path, whatever the force. The force is held over each sample.
-    const auto absorbed = [] (bool predicts)
-    {
+    const auto absorbed = [] (bool predicts) {
         auto node = hold();
         const double sigma = 1000.0, T = 1e-3;
         double energy = 0.0, p = 0.0, held = 0.0;
@@ -106,22 +104,21 @@ TEST_CASE ("hold: a force of 0 is not a change of contact", "[nodes][hold]")
 
 TEST_CASE ("hold: a force beyond the limit keeps its direction", "[nodes][hold]")
 {
-    rc::prop ("any two forces", []
-              {
-                  const auto force = []
-                  {
-                      const auto number = rc::gen::element (0.0, 1.0, -3.0, 40.0, -1e-9, 1e200, -1.7e308);
-                      const double x = *number, y = *number, z = *number;
-                      return Vec3 { x, y, z };
-                  };
-                  const double limit = *rc::gen::element (0.0, 0.5, 5.0, 1e10, 1e300);
-                  auto node = hold (limit);
-                  const Vec3 before = force(), now = force();
-                  node.tick ({ .in = before });
-                  const Vec3 out = node.tick ({ .in = now }).out;
-                  RC_ASSERT (tactus::isFinite (out));
-                  RC_ASSERT (out.stableNorm() <= limit * (1.0 + 1e-12));
-                  if (limit > 0.0) RC_ASSERT ((tactus::direction (out) - tactus::direction (0.375 * now - 0.125 * before)).norm() < 1e-9); });
+    rc::prop ("any two forces", [] {
+        const auto force = [] {
+            const auto number = rc::gen::element (0.0, 1.0, -3.0, 40.0, -1e-9, 1e200, -1.7e308);
+            const double x = *number, y = *number, z = *number;
+            return Vec3 { x, y, z };
+        };
+        const double limit = *rc::gen::element (0.0, 0.5, 5.0, 1e10, 1e300);
+        auto node = hold (limit);
+        const Vec3 before = force(), now = force();
+        node.tick ({ .in = before });
+        const Vec3 out = node.tick ({ .in = now }).out;
+        RC_ASSERT (tactus::isFinite (out));
+        RC_ASSERT (out.stableNorm() <= limit * (1.0 + 1e-12));
+        if (limit > 0.0) RC_ASSERT ((tactus::direction (out) - tactus::direction (0.375 * now - 0.125 * before)).norm() < 1e-9);
+    });
 }
 
 TEST_CASE ("hold: after a fault there is nothing to predict from", "[nodes][hold]")

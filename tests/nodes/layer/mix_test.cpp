@@ -70,8 +70,7 @@ TEST_CASE ("layer: by default it adds", "[nodes][layer]")
 
 TEST_CASE ("layer: each layer has its own gain", "[nodes][layer]")
 {
-    Desk desk { 2, params ([] (auto& p)
-                           { p.gain[1] = 0.5; }) };
+    Desk desk { 2, params ([] (auto& p) { p.gain[1] = 0.5; }) };
     const auto out = desk.mix ({ 1.0, 10.0 });
     CHECK (out.out == 6.0);
     CHECK (out.level[0] == 1.0);
@@ -80,8 +79,7 @@ TEST_CASE ("layer: each layer has its own gain", "[nodes][layer]")
 
 TEST_CASE ("layer: a layer that is muted from the start is never heard", "[nodes][layer]")
 {
-    Desk desk { 2, params ([] (auto& p)
-                           { p.mute[0] = 1.0; }) };
+    Desk desk { 2, params ([] (auto& p) { p.mute[0] = 1.0; }) };
     const auto out = desk.mix ({ 5.0, 0.25 });
     CHECK (out.out == 0.25);
     CHECK (out.level[0] == 0.0);
@@ -89,17 +87,13 @@ TEST_CASE ("layer: a layer that is muted from the start is never heard", "[nodes
 
 TEST_CASE ("layer: a solo silences the other layers, and mute wins over solo", "[nodes][layer]")
 {
-    Desk desk { 3, params ([] (auto& p)
-                           { p.solo[1] = 1.0; }) };
+    Desk desk { 3, params ([] (auto& p) { p.solo[1] = 1.0; }) };
     CHECK (desk.mix ({ 1.0, 10.0, 100.0 }).out == 10.0);
-    desk.change ([] (auto& p)
-                 { p.solo[2] = 1.0; });
+    desk.change ([] (auto& p) { p.solo[2] = 1.0; });
     CHECK (desk.mix ({ 1.0, 10.0, 100.0 }, 20).out == 110.0);
-    desk.change ([] (auto& p)
-                 { p.mute[1] = 1.0; });
+    desk.change ([] (auto& p) { p.mute[1] = 1.0; });
     CHECK (desk.mix ({ 1.0, 10.0, 100.0 }, 20).out == 100.0);
-    desk.change ([] (auto& p)
-                 { p.solo[1] = p.solo[2] = p.mute[1] = 0.0; });
+    desk.change ([] (auto& p) { p.solo[1] = p.solo[2] = p.mute[1] = 0.0; });
     CHECK (desk.mix ({ 1.0, 10.0, 100.0 }, 20).out == 111.0);
 }
 
@@ -107,8 +101,7 @@ TEST_CASE ("layer: mute and solo do not click", "[nodes][layer]")
 {
     Desk desk { 2 };
     double before = desk.mix ({ 1.0, 1.0 }).out;
-    const auto steps = [&] (auto edit)
-    {
+    const auto steps = [&] (auto edit) {
         desk.change (edit);
         double largest = 0.0;
         for (int k = 0; k < 20; ++k)
@@ -119,24 +112,20 @@ TEST_CASE ("layer: mute and solo do not click", "[nodes][layer]")
         }
         return largest;
     };
-    CHECK (steps ([] (auto& p)
-                  { p.mute[0] = 1.0; })
+    CHECK (steps ([] (auto& p) { p.mute[0] = 1.0; })
            == Approx (T / 10e-3));
     CHECK (before == 1.0);
-    CHECK (steps ([] (auto& p)
-                  { p.mute[0] = 0.0; })
+    CHECK (steps ([] (auto& p) { p.mute[0] = 0.0; })
            == Approx (T / 10e-3));
     CHECK (before == 2.0);
-    CHECK (steps ([] (auto& p)
-                  { p.solo[0] = 1.0; })
+    CHECK (steps ([] (auto& p) { p.solo[0] = 1.0; })
            == Approx (T / 10e-3));
     CHECK (before == 1.0);
 }
 
 TEST_CASE ("layer: a layer ducks those of lower priority while it sounds, by duck_db", "[nodes][layer]")
 {
-    Desk desk { 3, params ([] (auto& p)
-                           { p.priority[0] = 2.0;
+    Desk desk { 3, params ([] (auto& p) { p.priority[0] = 2.0;
                              p.priority[1] = p.priority[2] = 1.0;
                              p.duck_db = 20.0; }) };
     CHECK (desk.mix ({ 0.0, 1.0, 2.0 }, 200).out == 3.0);   // equal priorities do not duck each other
@@ -147,8 +136,7 @@ TEST_CASE ("layer: a layer ducks those of lower priority while it sounds, by duc
 
 TEST_CASE ("layer: it ducks once, however many layers sound", "[nodes][layer]")
 {
-    Desk desk { 3, params ([] (auto& p)
-                           { p.priority[0] = 3.0;
+    Desk desk { 3, params ([] (auto& p) { p.priority[0] = 3.0;
                              p.priority[1] = 2.0;
                              p.duck_db = 20.0; }) };
     CHECK (desk.mix ({ 1.0, 1.0, 1.0 }, 200).out == Approx (1.2));
@@ -156,16 +144,14 @@ TEST_CASE ("layer: it ducks once, however many layers sound", "[nodes][layer]")
 
 TEST_CASE ("layer: a muted layer ducks no other layer", "[nodes][layer]")
 {
-    Desk desk { 2, params ([] (auto& p)
-                           { p.priority[0] = 1.0;
+    Desk desk { 2, params ([] (auto& p) { p.priority[0] = 1.0;
                              p.mute[0] = 1.0; }) };
     CHECK (desk.mix ({ 5.0, 1.0 }, 100).out == 1.0);
 }
 
 TEST_CASE ("layer: ducking starts fast, ends slowly, and does not click", "[nodes][layer]")
 {
-    Desk desk { 2, params ([] (auto& p)
-                           { p.priority[0] = 1.0;
+    Desk desk { 2, params ([] (auto& p) { p.priority[0] = 1.0;
                              p.duck_db = 200.0; }) };
     desk.mix ({ 0.0, 1.0 });
     double d = 1.0;
@@ -188,8 +174,7 @@ TEST_CASE ("layer: ducking starts fast, ends slowly, and does not click", "[node
 
 TEST_CASE ("layer: a layer that begins long after another has ended starts at full strength", "[nodes][layer]")
 {
-    Desk desk { 2, params ([] (auto& p)
-                           { p.priority[0] = 1.0; }) };
+    Desk desk { 2, params ([] (auto& p) { p.priority[0] = 1.0; }) };
     desk.mix ({ 3.0, 0.0 }, 100);
     desk.mix ({ 0.0, 0.0 }, 3000);
     CHECK (desk.mix ({ 0.0, 1.0 }).out == 1.0);
@@ -205,54 +190,49 @@ TEST_CASE ("layer: the level rises immediately and decays over 50 ms", "[nodes][
 
 TEST_CASE ("layer: the ceiling is never exceeded, and below it nothing changes", "[nodes][layer]")
 {
-    rc::prop ("any layers", []
-              {
-                  const double ceiling = *rc::gen::element (0.5, 2.0, 20.0);
-                  Desk desk { 3, params ([&] (auto& p)
-                                         { p.ceiling = ceiling; }) };
-                  Desk open { 3 };
-                  for (int k = 0; k < 20; ++k)
-                  {
-                      const int a = *rc::gen::inRange (-1000, 1000), b = *rc::gen::inRange (-1000, 1000), c = *rc::gen::inRange (-1000, 1000);
-                      const std::vector<double> layers { 0.01 * a, 0.01 * b, 0.01 * c };
-                      const auto out = desk.mix (layers);
-                      const double sum = open.mix (layers).out;
-                      RC_ASSERT (std::abs (out.out) <= ceiling);
-                      RC_ASSERT (out.out == std::clamp (sum, -ceiling, ceiling));
-                      RC_ASSERT (out.reduction >= 0.0);
-                      RC_ASSERT ((out.reduction > 0.0) == (out.out != sum));
-                  } });
+    rc::prop ("any layers", [] {
+        const double ceiling = *rc::gen::element (0.5, 2.0, 20.0);
+        Desk desk { 3, params ([&] (auto& p) { p.ceiling = ceiling; }) };
+        Desk open { 3 };
+        for (int k = 0; k < 20; ++k)
+        {
+            const int a = *rc::gen::inRange (-1000, 1000), b = *rc::gen::inRange (-1000, 1000), c = *rc::gen::inRange (-1000, 1000);
+            const std::vector<double> layers { 0.01 * a, 0.01 * b, 0.01 * c };
+            const auto out = desk.mix (layers);
+            const double sum = open.mix (layers).out;
+            RC_ASSERT (std::abs (out.out) <= ceiling);
+            RC_ASSERT (out.out == std::clamp (sum, -ceiling, ceiling));
+            RC_ASSERT (out.reduction >= 0.0);
+            RC_ASSERT ((out.reduction > 0.0) == (out.out != sum));
+        }
+    });
 
-    Desk desk { 2, params ([] (auto& p)
-                           { p.ceiling = 2.0; }) };
+    Desk desk { 2, params ([] (auto& p) { p.ceiling = 2.0; }) };
     CHECK (desk.mix ({ -10.0, -10.0 }).out == -2.0);
     CHECK (desk.mix ({ -10.0, -10.0 }).reduction == Approx (20.0));
 }
 
 TEST_CASE ("layer: it mixes millinewtons as well as newtons", "[nodes][layer]")
 {
-    rc::prop ("a thousandth in, a thousandth out", []
-              {
-                  const auto priorities = params ([] (auto& p)
-                                                  { p.priority[1] = 1.0; });
-                  Desk large { 2, priorities }, small { 2, priorities };
-                  for (int k = 0; k < 200; ++k)
-                  {
-                      const int a = *rc::gen::inRange (-100, 100), b = *rc::gen::element (0, 0, 0, 50);
-                      const double out = large.mix ({ 1.0 * a, 1.0 * b }).out;
-                      RC_ASSERT (std::abs (small.mix ({ 1e-3 * a, 1e-3 * b }).out - 1e-3 * out) <= 1e-12);
-                  } });
+    rc::prop ("a thousandth in, a thousandth out", [] {
+        const auto priorities = params ([] (auto& p) { p.priority[1] = 1.0; });
+        Desk large { 2, priorities }, small { 2, priorities };
+        for (int k = 0; k < 200; ++k)
+        {
+            const int a = *rc::gen::inRange (-100, 100), b = *rc::gen::element (0, 0, 0, 50);
+            const double out = large.mix ({ 1.0 * a, 1.0 * b }).out;
+            RC_ASSERT (std::abs (small.mix ({ 1e-3 * a, 1e-3 * b }).out - 1e-3 * out) <= 1e-12);
+        }
+    });
 }
 
 TEST_CASE ("layer: a fault silences everything, and the next sample counts as the first", "[nodes][layer]")
 {
     for (const double bad : { not_a_number, tactus::inf, -tactus::inf })
     {
-        Desk desk { 2, params ([] (auto& p)
-                               { p.priority[0] = 1.0; }) };
+        Desk desk { 2, params ([] (auto& p) { p.priority[0] = 1.0; }) };
         desk.mix ({ 1.0, 1.0 }, 100);
-        desk.change ([] (auto& p)
-                     { p.mute[0] = 1.0; });
+        desk.change ([] (auto& p) { p.mute[0] = 1.0; });
         const auto out = desk.mix ({ bad, 1.0 });
         CHECK (out.out == 0.0);
         CHECK (out.level[1] == 0.0);
@@ -263,32 +243,31 @@ TEST_CASE ("layer: a fault silences everything, and the next sample counts as th
 
 TEST_CASE ("layer: no input breaks it", "[nodes][layer]")
 {
-    rc::prop ("outputs are finite", []
-              {
-                  const auto number = rc::gen::element (0.0, 1.0, -1.0, 1e-320, -1e160, 1e300, -1.7e308, 1.7e308, not_a_number, tactus::inf);
-                  const auto param = rc::gen::element (0.0, 1.0, -2.0, 1e300);
-                  LayerMix::Params p;
-                  for (int i = 0; i < 3; ++i)
-                  {
-                      p.gain[i] = *param;
-                      p.priority[i] = *param;
-                      p.mute[i] = *rc::gen::element (0.0, 1.0);
-                  }
-                  p.duck_db = *rc::gen::element (0.0, 12.0, 1e300);
-                  p.ceiling = *rc::gen::element (0.0, 1e-320, 1.0, 1e300);
-                  Desk desk { 3, p };
-                  for (int k = 0; k < 20; ++k)
-                  {
-                      const double a = *number, b = *number, c = *number;
-                      const auto out = desk.mix ({ a, b, c });
-                      RC_ASSERT (tactus::isFinite (out.out, out.reduction, out.level[0], out.level[1], out.level[2]));
-                  } });
+    rc::prop ("outputs are finite", [] {
+        const auto number = rc::gen::element (0.0, 1.0, -1.0, 1e-320, -1e160, 1e300, -1.7e308, 1.7e308, not_a_number, tactus::inf);
+        const auto param = rc::gen::element (0.0, 1.0, -2.0, 1e300);
+        LayerMix::Params p;
+        for (int i = 0; i < 3; ++i)
+        {
+            p.gain[i] = *param;
+            p.priority[i] = *param;
+            p.mute[i] = *rc::gen::element (0.0, 1.0);
+        }
+        p.duck_db = *rc::gen::element (0.0, 12.0, 1e300);
+        p.ceiling = *rc::gen::element (0.0, 1e-320, 1.0, 1e300);
+        Desk desk { 3, p };
+        for (int k = 0; k < 20; ++k)
+        {
+            const double a = *number, b = *number, c = *number;
+            const auto out = desk.mix ({ a, b, c });
+            RC_ASSERT (tactus::isFinite (out.out, out.reduction, out.level[0], out.level[1], out.level[2]));
+        }
+    });
 }
 
 TEST_CASE ("layer: a new instance keeps ducking", "[nodes][layer]")
 {
-    const auto priorities = params ([] (auto& p)
-                                    { p.priority[0] = 1.0; });
+    const auto priorities = params ([] (auto& p) { p.priority[0] = 1.0; });
     Desk old { 2, priorities }, next { 2, priorities };
     old.mix ({ 1.0, 1.0 }, 100);
     next.node.adopt (old.node);

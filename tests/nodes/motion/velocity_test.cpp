@@ -32,15 +32,15 @@ double quantised (double x) { return q * std::floor (x / q + 0.5); }
 
 TEST_CASE ("velocity: exact on ramps, whatever the noise setting", "[nodes][motion]")
 {
-    rc::prop ("any speed, position, noise and window", []
-              {
-                  const double v = 1e-4 * *rc::gen::inRange (-10'000, 10'000), from = 1e-3 * *rc::gen::inRange (-200, 200);
-                  auto node = velocity (*rc::gen::element (0.0, 1e-6, 1e-5, 1e-3), *rc::gen::inRange (2, 64));
-                  for (int k = 0; k < 100; ++k)
-                  {
-                      const double measured = along (node, from + v * T * k);
-                      if (k >= 2) RC_ASSERT (std::abs (measured - v) <= 1e-6 * std::abs (v) + 1e-12);
-                  } });
+    rc::prop ("any speed, position, noise and window", [] {
+        const double v = 1e-4 * *rc::gen::inRange (-10'000, 10'000), from = 1e-3 * *rc::gen::inRange (-200, 200);
+        auto node = velocity (*rc::gen::element (0.0, 1e-6, 1e-5, 1e-3), *rc::gen::inRange (2, 64));
+        for (int k = 0; k < 100; ++k)
+        {
+            const double measured = along (node, from + v * T * k);
+            if (k >= 2) RC_ASSERT (std::abs (measured - v) <= 1e-6 * std::abs (v) + 1e-12);
+        }
+    });
 }
 
 TEST_CASE ("velocity: a ramp is exact on the second sample if it exceeds the noise", "[nodes][motion]")
@@ -55,42 +55,42 @@ TEST_CASE ("velocity: a ramp is exact on the second sample if it exceeds the noi
 
 TEST_CASE ("velocity: half a quantum of noise never becomes speed", "[nodes][motion]")
 {
-    rc::prop ("a tool at rest, with noise", [] (unsigned seed)
-              {
-                  std::mt19937 random { seed };
-                  std::uniform_real_distribution noise { -0.5 * q, 0.5 * q };
-                  auto node = velocity (q);
-                  for (int k = 0; k < 500; ++k)
-                      RC_ASSERT (along (node, 0.03 + noise (random)) == 0.0); });
+    rc::prop ("a tool at rest, with noise", [] (unsigned seed) {
+        std::mt19937 random { seed };
+        std::uniform_real_distribution noise { -0.5 * q, 0.5 * q };
+        auto node = velocity (q);
+        for (int k = 0; k < 500; ++k)
+            RC_ASSERT (along (node, 0.03 + noise (random)) == 0.0);
+    });
 }
 
 TEST_CASE ("velocity: a position between two quanta never becomes speed either, without knowing the quantum", "[nodes][motion]")
 {
-    rc::prop ("a tool at rest between two quanta, with noise", [] (unsigned seed)
-              {
-                  std::mt19937 random { seed };
-                  std::uniform_real_distribution noise { -0.5 * q, 0.5 * q };
-                  auto node = velocity();
-                  for (int k = 0; k < 500; ++k)
-                  {
-                      const double v = along (node, quantised (3000.5 * q + noise (random)));
-                      if (k >= 2) RC_ASSERT (v == 0.0);
-                  } });
+    rc::prop ("a tool at rest between two quanta, with noise", [] (unsigned seed) {
+        std::mt19937 random { seed };
+        std::uniform_real_distribution noise { -0.5 * q, 0.5 * q };
+        auto node = velocity();
+        for (int k = 0; k < 500; ++k)
+        {
+            const double v = along (node, quantised (3000.5 * q + noise (random)));
+            if (k >= 2) RC_ASSERT (v == 0.0);
+        }
+    });
 }
 
 TEST_CASE ("velocity: a steady quantised motion is exact to one quantum per window", "[nodes][motion]")
 {
-    rc::prop ("any speed", []
-              {
-                  const double v = 1e-5 * *rc::gen::inRange (-20'000, 20'000);
-                  const int window = *rc::gen::inRange (4, 33);
-                  auto known = velocity (q, window);
-                  for (int k = 0; k < 300; ++k)
-                  {
-                      const double measured = along (known, quantised (v * T * k));
-                      const int n = std::min (k, window);
-                      if (k >= 1) RC_ASSERT (std::abs (measured - v) <= 2.0 * q / (n * T) * (1.0 + 1e-6));
-                  } });
+    rc::prop ("any speed", [] {
+        const double v = 1e-5 * *rc::gen::inRange (-20'000, 20'000);
+        const int window = *rc::gen::inRange (4, 33);
+        auto known = velocity (q, window);
+        for (int k = 0; k < 300; ++k)
+        {
+            const double measured = along (known, quantised (v * T * k));
+            const int n = std::min (k, window);
+            if (k >= 1) RC_ASSERT (std::abs (measured - v) <= 2.0 * q / (n * T) * (1.0 + 1e-6));
+        }
+    });
 }
 
 TEST_CASE ("velocity: it learns the quantum from a hand that starts slowly", "[nodes][motion]")
@@ -181,17 +181,17 @@ TEST_CASE ("velocity: a fault gives 0, and the motion across it does not count",
 
 TEST_CASE ("velocity: no input breaks it", "[nodes][motion]")
 {
-    rc::prop ("outputs are finite", []
-              {
-                  const auto number = rc::gen::element (0.0, 1.0, -1.0, 1e-3, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
-                  auto node = velocity (*rc::gen::element (0.0, 1e-320, 1e-5, 1e300), *rc::gen::element (1, 2, 16, Velocity::longest_window));
-                  for (int k = 0; k < 20; ++k)
-                  {
-                      const double x = *number, y = *number, z = *number;
-                      const auto out = node.tick ({ .position = { x, y, z } });
-                      RC_ASSERT (tactus::isFinite (out.velocity, out.speed));
-                      RC_ASSERT (out.speed >= 0.0);
-                  } });
+    rc::prop ("outputs are finite", [] {
+        const auto number = rc::gen::element (0.0, 1.0, -1.0, 1e-3, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
+        auto node = velocity (*rc::gen::element (0.0, 1e-320, 1e-5, 1e300), *rc::gen::element (1, 2, 16, Velocity::longest_window));
+        for (int k = 0; k < 20; ++k)
+        {
+            const double x = *number, y = *number, z = *number;
+            const auto out = node.tick ({ .position = { x, y, z } });
+            RC_ASSERT (tactus::isFinite (out.velocity, out.speed));
+            RC_ASSERT (out.speed >= 0.0);
+        }
+    });
 }
 
 TEST_CASE ("velocity: a new instance adopts the past samples", "[nodes][motion]")

@@ -81,14 +81,11 @@ TEST_CASE ("passivity: both pairings match the golden columns", "[nodes][safety]
             outs.push_back (step (node, golden (i, "p"), golden (i, "f_env")));
 
         INFO (suffix);
-        CHECK (golden.worst (std::string ("f_out") + suffix, [&] (std::size_t i)
-                             { return outs[i].force.x(); })
+        CHECK (golden.worst (std::string ("f_out") + suffix, [&] (std::size_t i) { return outs[i].force.x(); })
                <= 1.0);
-        CHECK (golden.worst (std::string ("E") + suffix, [&] (std::size_t i)
-                             { return outs[i].energy; })
+        CHECK (golden.worst (std::string ("E") + suffix, [&] (std::size_t i) { return outs[i].energy; })
                <= 1.0);
-        CHECK (golden.worst (std::string ("alpha") + suffix, [&] (std::size_t i)
-                             { return outs[i].alpha; })
+        CHECK (golden.worst (std::string ("alpha") + suffix, [&] (std::size_t i) { return outs[i].alpha; })
                <= 1.0);
     }
 }
@@ -170,44 +167,44 @@ TEST_CASE ("passivity: no alpha_max raises the damper above what the mass can be
 
 TEST_CASE ("passivity: a force that takes energy passes bit for bit", "[nodes][safety]")
 {
-    rc::prop ("a damper, moved any way", []
-              {
-                  auto node = ready<PassivityObserver> ({});
-                  double p = 0.0, before = 0.0;
-                  for (int k = 0; k < 50; ++k)
-                  {
-                      const double next = 1e-5 * *rc::gen::inRange (-100, 100);
-                      // opposes both this step and the previous one, in proportion to the smaller of the two,
-                      // so it takes energy whether it is held or not
-                      const double f = (next - p) * before > 0.0 ? -100.0 * std::min (std::abs (next - p), std::abs (before)) * (next > p ? 1.0 : -1.0) : 0.0;
-                      const auto out = step (node, next, f);
-                      if (out.energy >= 0.0) RC_ASSERT (out.force.x() == f);
-                      if (out.energy >= 0.0) RC_ASSERT (out.alpha == 0.0);
-                      before = next - p;
-                      p = next;
-                  } });
+    rc::prop ("a damper, moved any way", [] {
+        auto node = ready<PassivityObserver> ({});
+        double p = 0.0, before = 0.0;
+        for (int k = 0; k < 50; ++k)
+        {
+            const double next = 1e-5 * *rc::gen::inRange (-100, 100);
+            // opposes both this step and the previous one, in proportion to the smaller of the two,
+            // so it takes energy whether it is held or not
+            const double f = (next - p) * before > 0.0 ? -100.0 * std::min (std::abs (next - p), std::abs (before)) * (next > p ? 1.0 : -1.0) : 0.0;
+            const auto out = step (node, next, f);
+            if (out.energy >= 0.0) RC_ASSERT (out.force.x() == f);
+            if (out.energy >= 0.0) RC_ASSERT (out.alpha == 0.0);
+            before = next - p;
+            p = next;
+        }
+    });
 }
 
 TEST_CASE ("passivity: the energy is the work of the hand against the held force", "[nodes][safety][energy]")
 {
-    rc::prop ("any motion and force", []
-              {
-                  auto node = ready<PassivityObserver> ({ .alpha_max = 20.0 });
-                  double work = 0.0;
-                  Vec3 p = Vec3::Zero(), held = Vec3::Zero();
-                  for (int k = 0; k < 60; ++k)
-                  {
-                      const int x = *rc::gen::inRange (-100, 100), y = *rc::gen::inRange (-100, 100), f = *rc::gen::inRange (-100, 100);
-                      const Vec3 next { 1e-5 * x, 1e-5 * y, 0 };
-                      if (k > 0) work -= held.dot (next - p);
-                      const auto out = node.tick ({ .position = next, .force = { 0.01 * f, -0.02 * f, 1.0 }, .contact = 1.0 });
-                      RC_ASSERT (std::abs (out.energy - work) < 1e-12);
-                      RC_ASSERT (out.alpha >= 0.0);
-                      RC_ASSERT (out.alpha <= 20.0);
-                      if (out.energy >= 0.0) RC_ASSERT (out.alpha == 0.0);
-                      p = next;
-                      held = out.force;
-                  } });
+    rc::prop ("any motion and force", [] {
+        auto node = ready<PassivityObserver> ({ .alpha_max = 20.0 });
+        double work = 0.0;
+        Vec3 p = Vec3::Zero(), held = Vec3::Zero();
+        for (int k = 0; k < 60; ++k)
+        {
+            const int x = *rc::gen::inRange (-100, 100), y = *rc::gen::inRange (-100, 100), f = *rc::gen::inRange (-100, 100);
+            const Vec3 next { 1e-5 * x, 1e-5 * y, 0 };
+            if (k > 0) work -= held.dot (next - p);
+            const auto out = node.tick ({ .position = next, .force = { 0.01 * f, -0.02 * f, 1.0 }, .contact = 1.0 });
+            RC_ASSERT (std::abs (out.energy - work) < 1e-12);
+            RC_ASSERT (out.alpha >= 0.0);
+            RC_ASSERT (out.alpha <= 20.0);
+            if (out.energy >= 0.0) RC_ASSERT (out.alpha == 0.0);
+            p = next;
+            held = out.force;
+        }
+    });
 }
 
 TEST_CASE ("passivity: the damper only ever brakes", "[nodes][safety]")
@@ -279,19 +276,18 @@ TEST_CASE ("passivity: a change of pairing waits for the end of the contact", "[
 
 TEST_CASE ("passivity: no input breaks it", "[nodes][safety]")
 {
-    rc::prop ("outputs are finite", []
-              {
-                  const auto number = rc::gen::element (0.0, 1.0, -1.0, 1e-3, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
-                  const auto size = rc::gen::element (0.0, 1e-320, 0.1, 12.0, 1e300);
-                  const double alpha_max = *size, mass = *size;
-                  auto node = ready<PassivityObserver> ({ .alpha_max = alpha_max, .mass = mass,
-                      .pairing = *rc::gen::element (Pairing::zoh, Pairing::backward) });
-                  for (int k = 0; k < 20; ++k)
-                  {
-                      const double x = *number, y = *number, fx = *number, fy = *number, contact = *number;
-                      const auto out = node.tick ({ .position = { x, y, 0 }, .force = { fx, fy, 0 }, .contact = contact });
-                      RC_ASSERT (tactus::isFinite (out.force, out.energy, out.alpha));
-                  } });
+    rc::prop ("outputs are finite", [] {
+        const auto number = rc::gen::element (0.0, 1.0, -1.0, 1e-3, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
+        const auto size = rc::gen::element (0.0, 1e-320, 0.1, 12.0, 1e300);
+        const double alpha_max = *size, mass = *size;
+        auto node = ready<PassivityObserver> ({ .alpha_max = alpha_max, .mass = mass, .pairing = *rc::gen::element (Pairing::zoh, Pairing::backward) });
+        for (int k = 0; k < 20; ++k)
+        {
+            const double x = *number, y = *number, fx = *number, fy = *number, contact = *number;
+            const auto out = node.tick ({ .position = { x, y, 0 }, .force = { fx, fy, 0 }, .contact = contact });
+            RC_ASSERT (tactus::isFinite (out.force, out.energy, out.alpha));
+        }
+    });
 }
 
 TEST_CASE ("passivity: a new instance adopts the energy balance", "[nodes][safety]")

@@ -105,8 +105,7 @@ TEST_CASE ("shock: it matches the golden columns", "[nodes][shock][golden]")
         peak = std::max (peak, golden (i, "f_exact"));
         off = std::max (off, std::abs (f[i] - golden (i, "f_exact")));
     }
-    CHECK (golden.worst ("f_semi_implicit", [&] (std::size_t i)
-                         { return f[i]; })
+    CHECK (golden.worst ("f_semi_implicit", [&] (std::size_t i) { return f[i]; })
            <= 1.0);
     INFO ("off by " << off / peak << " of the peak");
     CHECK (off <= 0.003 * peak);   // the golden set allows 0.01
@@ -122,8 +121,7 @@ TEST_CASE ("shock: the closed form of restitution has its known values", "[nodes
 
 TEST_CASE ("shock: restitution, impulse and loop area follow Hunt and Crossley, whatever mass, stiffness and power", "[nodes][shock][energy]")
 {
-    rc::prop ("with a dissipation, or with the same as a law", [] (unsigned seed)
-              {
+    rc::prop ("with a dissipation, or with the same as a law", [] (unsigned seed) {
         Dice dice { seed };
         const double m = dice.size (0.005, 0.5), v = dice.size (0.02, 2.0), d_max = dice.size (1e-4, 5e-3), n = dice.uniform (1.0, 2.5);
         const double k = 0.5 * (n + 1.0) * m * v * v / std::pow (d_max, n + 1.0), x = dice.size (0.01, 5.0), e = restitution (x);
@@ -132,7 +130,8 @@ TEST_CASE ("shock: restitution, impulse and loop area follow Hunt and Crossley, 
         const Law damping = dice.below (2) == 0 ? dissipation (x / v) : power (k * x / v, n);
         const auto impact = strike (shock ({ .stiffness = power (k, n), .damping = damping }, rate, { .mass = m }), v, 1.0 / rate);
         RC_ASSERT (std::abs (impact.impulse / (m * v) - (1.0 + e)) <= 1e-3);
-        RC_ASSERT (std::abs (impact.loop / (0.5 * m * v * v) - (1.0 - e * e)) <= 1e-3); });
+        RC_ASSERT (std::abs (impact.loop / (0.5 * m * v * v) - (1.0 - e * e)) <= 1e-3);
+    });
 }
 
 TEST_CASE ("shock: without damping the mass returns at its initial speed", "[nodes][shock][energy]")
@@ -147,15 +146,15 @@ TEST_CASE ("shock: without damping the mass returns at its initial speed", "[nod
 
 TEST_CASE ("shock: a hit starts and ends at exactly 0, and never pulls", "[nodes][shock]")
 {
-    rc::prop ("any speed, mass, rate and damping", [] (unsigned seed)
-              {
+    rc::prop ("any speed, mass, rate and damping", [] (unsigned seed) {
         Dice dice { seed };
         auto node = shock ({ .damping = dissipation (dice.size (1e-3, 10.0)) }, dice.size (1000.0, 50'000.0), { .mass = dice.size (1e-3, 1.0) });
         RC_ASSERT (node.tick ({ .hit = dice.size (1e-3, 10.0) }).resistance == 0.0);
         for (int k = 0; k < 10'000; ++k)
             RC_ASSERT (node.tick ({}).resistance >= 0.0);
         for (int k = 0; k < 100; ++k)
-            RC_ASSERT (node.tick ({}).resistance == 0.0); });
+            RC_ASSERT (node.tick ({}).resistance == 0.0);
+    });
 }
 
 TEST_CASE ("shock: hits add up exactly, and none causes a step in another", "[nodes][shock]")
@@ -243,8 +242,7 @@ TEST_CASE ("shock: an instance replaced while it sounds keeps sounding", "[nodes
 
 TEST_CASE ("shock: a law that is not a spring or not a damper, and a contact that is too short, are reported", "[nodes][shock]")
 {
-    const auto problem = [] (const Law& stiffness, const Law& damping)
-    { return shock ({ .stiffness = stiffness, .damping = damping }).problem(); };
+    const auto problem = [] (const Law& stiffness, const Law& damping) { return shock ({ .stiffness = stiffness, .damping = damping }).problem(); };
     const std::string no_spring = "stiffness must push back, and must not fall with depth";
     CHECK (shock().problem() == "");
     CHECK (problem (power (0.0, 1.0), dissipation (1.0)) == no_spring);

@@ -60,8 +60,7 @@ TEST_CASE ("envelope: times of 0 make it the gate itself", "[nodes][signal]")
 
 TEST_CASE ("envelope: stays within 0 to 1 and never steps further than its fastest segment", "[nodes][signal]")
 {
-    rc::prop ("random gates", [] (const std::vector<bool>& gates)
-              {
+    rc::prop ("random gates", [] (const std::vector<bool>& gates) {
         auto node = ready<SignalEnvelope> ({ .attack = 0.004, .decay = 0.003, .sustain = 0.3, .release = 0.005 });
         double before = 0.0;
         for (const bool gate : gates)
@@ -71,5 +70,6 @@ TEST_CASE ("envelope: stays within 0 to 1 and never steps further than its faste
                 RC_ASSERT (out >= 0.0 && out <= 1.0);
                 RC_ASSERT (std::abs (out - before) <= 0.25 + 1e-9);
                 before = out;
-            } });
+            }
+    });
 }

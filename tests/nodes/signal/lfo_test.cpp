@@ -35,8 +35,7 @@ TEST_CASE ("lfo: a square wave switches on the exact tick for an hour", "[nodes]
 TEST_CASE ("lfo: shapes start at their phase, in step with the sine", "[nodes][signal]")
 {
     using Shape = SignalLfo::Shape;
-    const auto at = [] (Shape shape, double turn)
-    { return ready<SignalLfo> ({ .phase = 2 * pi * turn, .shape = shape }).tick ({}).out; };
+    const auto at = [] (Shape shape, double turn) { return ready<SignalLfo> ({ .phase = 2 * pi * turn, .shape = shape }).tick ({}).out; };
 
     CHECK (at (Shape::triangle, 0.0) == Approx (0.0).margin (1e-12));
     CHECK (at (Shape::triangle, 0.125) == Approx (0.5));
@@ -51,8 +50,7 @@ TEST_CASE ("lfo: shapes start at their phase, in step with the sine", "[nodes][s
 
 TEST_CASE ("lfo: a new frequency continues from the current phase", "[nodes][signal]")
 {
-    rc::prop ("any sequence of frequencies", [] (const std::vector<unsigned char>& frequencies)
-              {
+    rc::prop ("any sequence of frequencies", [] (const std::vector<unsigned char>& frequencies) {
         auto node = ready<SignalLfo> ({ .shape = SignalLfo::Shape::sine });
         double turn = 0.0;
         for (const double f : frequencies)
@@ -65,5 +63,6 @@ TEST_CASE ("lfo: a new frequency continues from the current phase", "[nodes][sig
                 RC_ASSERT (std::abs (node.tick ({}).out - std::sin (2 * pi * turn)) < 1e-9);
                 turn += f / 1000.0;
             }
-        } });
+        }
+    });
 }

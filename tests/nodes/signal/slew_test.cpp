@@ -38,8 +38,7 @@ TEST_CASE ("slew: starts at the first sample, and again after a nan", "[nodes][s
 
 TEST_CASE ("slew: never changes faster than its rate", "[nodes][signal]")
 {
-    rc::prop ("any signal", [] (const std::vector<short>& signal, unsigned short rate)
-              {
+    rc::prop ("any signal", [] (const std::vector<short>& signal, unsigned short rate) {
         auto node = slewOf (rate);
         double before = node.tick ({ .in = 0.0 }).out;
         for (const short s : signal)
@@ -47,7 +46,8 @@ TEST_CASE ("slew: never changes faster than its rate", "[nodes][signal]")
             const double out = node.tick ({ .in = s / 1000.0 }).out;
             RC_ASSERT (std::abs (out - before) <= rate / 1000.0 * (1.0 + 1e-12));
             before = out;
-        } });
+        }
+    });
 }
 
 TEST_CASE ("slew: a slower signal passes bit for bit", "[nodes][signal]")

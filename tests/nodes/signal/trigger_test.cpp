@@ -30,8 +30,7 @@ TEST_CASE ("trigger: a gate of 0 and 1 works by default", "[nodes][signal]")
 
 TEST_CASE ("trigger: noise narrower than the hysteresis makes no second hit", "[nodes][signal]")
 {
-    rc::prop ("any jitter", [] (const std::vector<signed char>& jitter)
-              {
+    rc::prop ("any jitter", [] (const std::vector<signed char>& jitter) {
         SignalTrigger node;
         node.params = { .threshold = 1.0, .hysteresis = 0.3 };
         node.tick ({ .in = 0.0 });
@@ -41,7 +40,8 @@ TEST_CASE ("trigger: noise narrower than the hysteresis makes no second hit", "[
             const auto out = node.tick ({ .in = 1.0 + j / 128.0 * 0.149 });
             RC_ASSERT (out.hit == 0.0);
             RC_ASSERT (out.gate == 1.0);
-        } });
+        }
+    });
 }
 
 TEST_CASE ("trigger: a signal that is high from the start triggers no hit", "[nodes][signal]")

@@ -37,11 +37,9 @@ TEST_CASE ("antialias: it matches the golden columns", "[nodes][texture][golden]
     std::vector<AntiAlias::Outputs> outs;
     for (std::size_t i = 0; i < golden.rows(); ++i)
         outs.push_back (node.tick ({ .position = { golden (i, "x"), golden (i, "y"), golden (i, "dz") } }));
-    CHECK (golden.worst ("v_diff", [&] (std::size_t i)
-                         { return outs[i].speed; })
+    CHECK (golden.worst ("v_diff", [&] (std::size_t i) { return outs[i].speed; })
            <= 1.0);
-    CHECK (golden.worst ("guard", [&] (std::size_t i)
-                         { return outs[i].gain; })
+    CHECK (golden.worst ("guard", [&] (std::size_t i) { return outs[i].gain; })
            <= 1.0);
 }
 
@@ -59,16 +57,16 @@ TEST_CASE ("antialias: a slow hand feels the whole texture, a fast one feels not
 
 TEST_CASE ("antialias: the faster, the softer, without a step", "[nodes][texture]")
 {
-    rc::prop ("two speeds", []
-              {
-                  const auto node = ready<AntiAlias> ({ .spatial_frequency = *rc::gen::element (0.0, 10.0, 200.0, 3000.0),
-                      .f_max = *rc::gen::element (1.0, 100.0, 400.0) });
-                  const double slow = 1e-4 * *rc::gen::inRange (0, 10'000), more = 1e-6 * *rc::gen::inRange (0, 100);
-                  const double a = at (node, slow).gain, b = at (node, slow + more).gain;
-                  RC_ASSERT (a >= b);
-                  RC_ASSERT (b >= 0.0);
-                  RC_ASSERT (a <= 1.0);
-                  RC_ASSERT (a - b <= M_PI * node.params.spatial_frequency / node.params.f_max * more + 1e-9); });
+    rc::prop ("two speeds", [] {
+        const auto node = ready<AntiAlias> ({ .spatial_frequency = *rc::gen::element (0.0, 10.0, 200.0, 3000.0),
+                                              .f_max = *rc::gen::element (1.0, 100.0, 400.0) });
+        const double slow = 1e-4 * *rc::gen::inRange (0, 10'000), more = 1e-6 * *rc::gen::inRange (0, 100);
+        const double a = at (node, slow).gain, b = at (node, slow + more).gain;
+        RC_ASSERT (a >= b);
+        RC_ASSERT (b >= 0.0);
+        RC_ASSERT (a <= 1.0);
+        RC_ASSERT (a - b <= M_PI * node.params.spatial_frequency / node.params.f_max * more + 1e-9);
+    });
 }
 
 TEST_CASE ("antialias: only speed along the grating counts", "[nodes][texture]")
@@ -125,20 +123,20 @@ TEST_CASE ("antialias: a fault gives 0, and the next sample has no speed", "[nod
 
 TEST_CASE ("antialias: no input breaks it", "[nodes][texture]")
 {
-    rc::prop ("outputs are finite", []
-              {
-                  const auto number = rc::gen::element (0.0, 1.0, -0.02, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
-                  const double k = *rc::gen::element (0.0, 200.0, 1e300), angle = *rc::gen::element (0.0, 3.0, 1e300),
-                      f_max = *rc::gen::element (0.0, 1e-320, 100.0, 1e300);
-                  auto node = ready<AntiAlias> ({ .spatial_frequency = k, .angle = angle, .f_max = f_max });
-                  for (int i = 0; i < 20; ++i)
-                  {
-                      const double x = *number, y = *number, z = *number;
-                      const auto out = node.tick ({ .position = { x, y, z } });
-                      RC_ASSERT (tactus::isFinite (out.gain, out.speed));
-                      RC_ASSERT (out.gain >= 0.0);
-                      RC_ASSERT (out.gain <= 1.0);
-                  } });
+    rc::prop ("outputs are finite", [] {
+        const auto number = rc::gen::element (0.0, 1.0, -0.02, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
+        const double k = *rc::gen::element (0.0, 200.0, 1e300), angle = *rc::gen::element (0.0, 3.0, 1e300),
+                     f_max = *rc::gen::element (0.0, 1e-320, 100.0, 1e300);
+        auto node = ready<AntiAlias> ({ .spatial_frequency = k, .angle = angle, .f_max = f_max });
+        for (int i = 0; i < 20; ++i)
+        {
+            const double x = *number, y = *number, z = *number;
+            const auto out = node.tick ({ .position = { x, y, z } });
+            RC_ASSERT (tactus::isFinite (out.gain, out.speed));
+            RC_ASSERT (out.gain >= 0.0);
+            RC_ASSERT (out.gain <= 1.0);
+        }
+    });
 }
 
 TEST_CASE ("antialias: a new instance adopts the previous position", "[nodes][texture]")

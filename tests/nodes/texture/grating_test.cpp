@@ -22,19 +22,16 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 TEST_CASE ("grating: along a line and across a plane it matches the golden columns", "[nodes][texture][golden]")
 {
     const Golden golden ("texture");
-    const auto position = [&] (std::size_t i)
-    { return Vec3 { golden (i, "x"), golden (i, "y"), golden (i, "dz") }; };
+    const auto position = [&] (std::size_t i) { return Vec3 { golden (i, "x"), golden (i, "y"), golden (i, "dz") }; };
 
     auto line = ready<Grating> ({ .amplitude = golden.param ("A"), .spatial_frequency = golden.param ("k"), .phase = golden.param ("phi") });
-    CHECK (golden.worst ("grating1d", [&] (std::size_t i)
-                         { return line.tick ({ .position = position (i) }).value; })
+    CHECK (golden.worst ("grating1d", [&] (std::size_t i) { return line.tick ({ .position = position (i) }).value; })
            <= 1.0);
 
     const double kx = golden.param ("kx"), ky = golden.param ("ky");
     auto wave = ready<Grating> ({ .amplitude = golden.param ("A"), .spatial_frequency = std::hypot (kx, ky), .angle = std::atan2 (ky, kx) });
     for (const int axis : { 0, 1 })
-        CHECK (golden.worst (axis == 0 ? "grating2d_x" : "grating2d_y", [&] (std::size_t i)
-                             { return wave.tick ({ .position = position (i) }).force[axis]; })
+        CHECK (golden.worst (axis == 0 ? "grating2d_x" : "grating2d_y", [&] (std::size_t i) { return wave.tick ({ .position = position (i) }).force[axis]; })
                <= 1.0);
 }
 
@@ -92,14 +89,14 @@ TEST_CASE ("grating: its steepest slope is 2 pi A k, as it claims", "[nodes][tex
 
 TEST_CASE ("grating: no input breaks it", "[nodes][texture]")
 {
-    rc::prop ("outputs are finite", []
-              {
-                  const auto number = rc::gen::element (0.0, 1.0, -0.02, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
-                  const double amplitude = *rc::gen::element (0.0, 0.3, 1e300), k = *rc::gen::element (0.0, 200.0, 1e300),
-                      angle = *rc::gen::element (0.0, 3.0, 1e300);
-                  auto node = ready<Grating> ({ .amplitude = amplitude, .spatial_frequency = k, .angle = angle });
-                  const double x = *number, y = *number, z = *number;
-                  const auto out = node.tick ({ .position = { x, y, z } });
-                  RC_ASSERT (tactus::isFinite (out.force, out.value));
-                  if (! tactus::isFinite (Vec3 { x, y, z })) RC_ASSERT (out.force.isZero (0.0)); });
+    rc::prop ("outputs are finite", [] {
+        const auto number = rc::gen::element (0.0, 1.0, -0.02, 1e-320, -1e160, 1e300, -1.7e308, not_a_number, tactus::inf);
+        const double amplitude = *rc::gen::element (0.0, 0.3, 1e300), k = *rc::gen::element (0.0, 200.0, 1e300),
+                     angle = *rc::gen::element (0.0, 3.0, 1e300);
+        auto node = ready<Grating> ({ .amplitude = amplitude, .spatial_frequency = k, .angle = angle });
+        const double x = *number, y = *number, z = *number;
+        const auto out = node.tick ({ .position = { x, y, z } });
+        RC_ASSERT (tactus::isFinite (out.force, out.value));
+        if (! tactus::isFinite (Vec3 { x, y, z })) RC_ASSERT (out.force.isZero (0.0));
+    });
 }

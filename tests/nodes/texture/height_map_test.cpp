@@ -43,8 +43,7 @@ std::shared_ptr<const Grid> rough (unsigned seed, int rows = 24, int columns = 3
 {
     std::mt19937 random { seed };
     std::uniform_real_distribution<double> heights { -1e-5, 1e-5 };
-    return grid (rows, columns, [&] (int, int)
-                 { return heights (random); });
+    return grid (rows, columns, [&] (int, int) { return heights (random); });
 }
 
 HeightMap over (std::shared_ptr<const Grid> csv, double rate_hz = 4000.0)
@@ -116,23 +115,22 @@ TEST_CASE ("height map: it passes through every point of the map", "[nodes][text
 
 TEST_CASE ("height map: the force is minus gain times the slope", "[nodes][texture]")
 {
-    rc::prop ("anywhere, inside and outside the map", []
-              {
-                  auto node = over (rough (*rc::gen::arbitrary<unsigned>()));
-                  node.params.gain = 0.1 * *rc::gen::inRange (-30, 30);
-                  const double x = 1e-6 * *rc::gen::inRange (-9000, 9000), y = 1e-6 * *rc::gen::inRange (-9000, 9000), h = 1e-8;
-                  const Vec3 force = at (node, x, y).force;
-                  RC_ASSERT (force.z() == 0.0);
-                  RC_ASSERT (std::abs (force.x() + node.params.gain * (at (node, x + h, y).value - at (node, x - h, y).value) / (2.0 * h)) < 1e-5);
-                  RC_ASSERT (std::abs (force.y() + node.params.gain * (at (node, x, y + h).value - at (node, x, y - h).value) / (2.0 * h)) < 1e-5); });
+    rc::prop ("anywhere, inside and outside the map", [] {
+        auto node = over (rough (*rc::gen::arbitrary<unsigned>()));
+        node.params.gain = 0.1 * *rc::gen::inRange (-30, 30);
+        const double x = 1e-6 * *rc::gen::inRange (-9000, 9000), y = 1e-6 * *rc::gen::inRange (-9000, 9000), h = 1e-8;
+        const Vec3 force = at (node, x, y).force;
+        RC_ASSERT (force.z() == 0.0);
+        RC_ASSERT (std::abs (force.x() + node.params.gain * (at (node, x + h, y).value - at (node, x - h, y).value) / (2.0 * h)) < 1e-5);
+        RC_ASSERT (std::abs (force.y() + node.params.gain * (at (node, x, y + h).value - at (node, x, y - h).value) / (2.0 * h)) < 1e-5);
+    });
 }
 
 TEST_CASE ("height map: a wave on the map is felt as the same wave", "[nodes][texture]")
 {
     // whole periods between the mirrored ends
     const double k = 10.0 / (60 * pitch), amplitude = 2e-5;
-    auto node = over (grid (61, 61, [&] (int row, int)
-                            { return amplitude * std::cos (2.0 * M_PI * k * row * pitch); }));
+    auto node = over (grid (61, 61, [&] (int row, int) { return amplitude * std::cos (2.0 * M_PI * k * row * pitch); }));
     for (double y = -3e-3; y < 9e-3; y += 1.7e-5)
     {
         const auto out = at (node, 1e-3, y);
@@ -144,20 +142,19 @@ TEST_CASE ("height map: a wave on the map is felt as the same wave", "[nodes][te
 
 TEST_CASE ("height map: the force never steps, and changes no faster than claimed", "[nodes][texture]")
 {
-    rc::prop ("two points, near or far", []
-              {
-                  auto node = over (rough (*rc::gen::arbitrary<unsigned>()));
-                  node.params.gain = 2.0;
-                  const double claimed = node.claims().stiffness;
-                  const double x = 1e-6 * *rc::gen::inRange (-4000, 4000), y = 1e-6 * *rc::gen::inRange (-4000, 4000);
-                  const double distance = std::pow (10.0, *rc::gen::inRange (-9, -3)), angle = *rc::gen::inRange (0, 628) / 100.0;
-                  const Vec3 change = at (node, x + distance * std::cos (angle), y + distance * std::sin (angle)).force - at (node, x, y).force;
-                  RC_ASSERT (change.norm() <= claimed * distance); });
+    rc::prop ("two points, near or far", [] {
+        auto node = over (rough (*rc::gen::arbitrary<unsigned>()));
+        node.params.gain = 2.0;
+        const double claimed = node.claims().stiffness;
+        const double x = 1e-6 * *rc::gen::inRange (-4000, 4000), y = 1e-6 * *rc::gen::inRange (-4000, 4000);
+        const double distance = std::pow (10.0, *rc::gen::inRange (-9, -3)), angle = *rc::gen::inRange (0, 628) / 100.0;
+        const Vec3 change = at (node, x + distance * std::cos (angle), y + distance * std::sin (angle)).force - at (node, x, y).force;
+        RC_ASSERT (change.norm() <= claimed * distance);
+    });
 
     // and the claim is not too loose: a wave has the slope of its wave
     const double k = 10.0 / (60 * pitch), amplitude = 2e-5;
-    auto wave = over (grid (61, 61, [&] (int row, int)
-                            { return amplitude * std::cos (2.0 * M_PI * k * row * pitch); }));
+    auto wave = over (grid (61, 61, [&] (int row, int) { return amplitude * std::cos (2.0 * M_PI * k * row * pitch); }));
     const double slope = amplitude * std::pow (2.0 * M_PI * k, 2);
     CHECK (wave.claims().spatial_frequency == Approx (0.6 / pitch));
     CHECK (wave.claims().stiffness > slope);
@@ -168,26 +165,25 @@ TEST_CASE ("height map: the force never steps, and changes no faster than claime
 
 TEST_CASE ("height map: scanned at any speed it has no energy above f_max", "[nodes][texture]")
 {
-    rc::prop ("a straight scan in any direction, from slow to far beyond half the tick rate", []
-              {
-                  auto node = over (rough (*rc::gen::arbitrary<unsigned>()));
-                  const double angle = *rc::gen::inRange (0, 628) / 100.0;
-                  const double points_a_tick = std::pow (2.0, 0.1 * *rc::gen::inRange (-45, 90));
-                  const Vec3 step = points_a_tick * pitch * Vec3 { std::cos (angle), std::sin (angle), 0.0 };
-                  const Vec3 from { 1e-6 * *rc::gen::inRange (0, 2000), 1e-6 * *rc::gen::inRange (0, 2000), 0.0 };
+    rc::prop ("a straight scan in any direction, from slow to far beyond half the tick rate", [] {
+        auto node = over (rough (*rc::gen::arbitrary<unsigned>()));
+        const double angle = *rc::gen::inRange (0, 628) / 100.0;
+        const double points_a_tick = std::pow (2.0, 0.1 * *rc::gen::inRange (-45, 90));
+        const Vec3 step = points_a_tick * pitch * Vec3 { std::cos (angle), std::sin (angle), 0.0 };
+        const Vec3 from { 1e-6 * *rc::gen::inRange (0, 2000), 1e-6 * *rc::gen::inRange (0, 2000), 0.0 };
 
-                  const auto forces = scan (node, from, step, 2048);
-                  const double below = energyFrom (0.0, forces), above = energyFrom (0.25 + 0.005, forces);
-                  const double at_rest = energyFrom (0.0, scan (node, from, 0.0837 * step / points_a_tick, 2048));   // the same path, scanned slowly
-                  RC_ASSERT (above < 3e-5 * below + 1e-13 * at_rest); });
+        const auto forces = scan (node, from, step, 2048);
+        const double below = energyFrom (0.0, forces), above = energyFrom (0.25 + 0.005, forces);
+        const double at_rest = energyFrom (0.0, scan (node, from, 0.0837 * step / points_a_tick, 2048));   // the same path, scanned slowly
+        RC_ASSERT (above < 3e-5 * below + 1e-13 * at_rest);
+    });
 }
 
 TEST_CASE ("height map: up to half of f_max nothing is lost; beyond it, detail goes first", "[nodes][texture]")
 {
     const auto map = rough (5);
     auto node = over (map);   // 4 kHz: f_max is 1 kHz, the finest level ends at 6000 1/m
-    const auto energyAt = [&] (double speed)
-    {
+    const auto energyAt = [&] (double speed) {
         HeightMap moving = node;
         double sum = 0.0;
         moving.tick ({ .position = { 1e-3 - speed / 4000.0, 0.7e-3, 0.0 } });
@@ -252,8 +248,7 @@ TEST_CASE ("height map: at a constant speed a closed loop does no work", "[nodes
     for (const double speed : { 0.5, 12.0, 18.0, 33.0, 70.0, 150.0 })
     {
         auto node = over (map, rate);
-        const auto path = [] (int k)
-        {
+        const auto path = [] (int k) {
             const double a = 2.0 * M_PI * k / 7000.0;
             return Vec3 { 1.3e-3 + 0.6e-3 * std::cos (a) + 0.2e-3 * std::sin (3.0 * a), 1.1e-3 + 0.7e-3 * std::sin (a) + 0.1e-3 * std::cos (2.0 * a), 0.0 };
         };
@@ -350,11 +345,9 @@ TEST_CASE ("height map: a measured profile is felt as measured, and does not buz
 
 TEST_CASE ("height map: a picture lies as it is seen from above, a table as its rows are numbered", "[nodes][texture]")
 {
-    const auto corner = grid (3, 4, [] (int row, int column)
-                              { return row == 0 && column == 3 ? 1.0 : 0.0; });
+    const auto corner = grid (3, 4, [] (int row, int column) { return row == 0 && column == 3 ? 1.0 : 0.0; });
     const auto type = describe<HeightMap>();
-    const auto heightAt = [&] (const Values& map, double x, double y)
-    {
+    const auto heightAt = [&] (const Values& map, double x, double y) {
         Rig rig { type };
         rig.set ("map", map);
         CHECK (rig.problem() == "");
@@ -430,8 +423,7 @@ TEST_CASE ("height map: a new map adopts the speed of the hand", "[nodes][textur
 
 TEST_CASE ("height map: an invalid map is refused with a sentence", "[nodes][texture]")
 {
-    const auto refused = [] (const HeightMap::Map& map)
-    {
+    const auto refused = [] (const HeightMap::Map& map) {
         HeightMap node;
         node.settings.map = map;
         return ! node.problem().empty();
@@ -449,25 +441,23 @@ TEST_CASE ("height map: an invalid map is refused with a sentence", "[nodes][tex
     CHECK (refused ({ .csv = { std::make_shared<const Grid> (huge) } }));
 
     HeightMap node;
-    node.settings.map.csv.grid = grid (3, 4, [] (int row, int column)
-                                       { return row == 1 && column == 2 ? not_a_number : 0.0; });
+    node.settings.map.csv.grid = grid (3, 4, [] (int row, int column) { return row == 1 && column == 2 ? not_a_number : 0.0; });
     CHECK (node.problem().find ("row 2, column 3") != std::string::npos);
 }
 
 TEST_CASE ("height map: no input breaks it, and a tick allocates nothing", "[nodes][texture]")
 {
-    rc::prop ("the outputs are finite", []
-              {
-                  auto node = over (rough (13, *rc::gen::inRange (1, 6), *rc::gen::inRange (1, 6)), *rc::gen::element (10.0, 4000.0, 48'000.0));
-                  node.params.gain = *rc::gen::element (0.0, 1.0, -1e300);
-                  for (int k = 0; k < 40; ++k)
-                  {
-                      const auto any = []
-                      { return *rc::gen::element (0.0, 1e-4, -1.0, 1e9, 1e300, -1.7e308, 5e-324, not_a_number, inf); };
-                      const HeightMap::Inputs in { { any(), any(), any() } };
-                      const NoAllocation watch;
-                      const auto out = node.tick (in);
-                      const bool allocated = watch.allocations() > 0;
-                      RC_ASSERT (isFinite (out.force) && isFinite (out.value) && ! allocated);
-                  } });
+    rc::prop ("the outputs are finite", [] {
+        auto node = over (rough (13, *rc::gen::inRange (1, 6), *rc::gen::inRange (1, 6)), *rc::gen::element (10.0, 4000.0, 48'000.0));
+        node.params.gain = *rc::gen::element (0.0, 1.0, -1e300);
+        for (int k = 0; k < 40; ++k)
+        {
+            const auto any = [] { return *rc::gen::element (0.0, 1e-4, -1.0, 1e9, 1e300, -1.7e308, 5e-324, not_a_number, inf); };
+            const HeightMap::Inputs in { { any(), any(), any() } };
+            const NoAllocation watch;
+            const auto out = node.tick (in);
+            const bool allocated = watch.allocations() > 0;
+            RC_ASSERT (isFinite (out.force) && isFinite (out.value) && ! allocated);
+        }
+    });
 }

@@ -139,46 +139,46 @@ const Model hiss = model (0.1, 1.0, coefficientsOf ({ -0.3, -0.4, 0.2, -0.1 }), 
 
 TEST_CASE ("texture noise: it is the process that its coefficients describe", "[nodes][texture]")
 {
-    rc::prop ("each sample is the weighted sum of the last ones plus new noise of the given variance", [] (unsigned seed)
-              {
-                  std::mt19937 random { seed };
-                  const auto a = coefficientsOf (randomReflections (random, 12, 0.9));
-                  const double variance = std::pow (10.0, std::uniform_real_distribution { -6.0, 0.0 }(random));
-                  auto node = sounding ({ model (0.1, 1.0, a, variance) }, rate_hz, 7);
-                  const auto y = heard (node, 100);
-                  double size = 0.0;
-                  for (const double c : a)
-                      size += std::abs (c);
-                  for (const double v : y)
-                      size = std::max (size, std::abs (v));
+    rc::prop ("each sample is the weighted sum of the last ones plus new noise of the given variance", [] (unsigned seed) {
+        std::mt19937 random { seed };
+        const auto a = coefficientsOf (randomReflections (random, 12, 0.9));
+        const double variance = std::pow (10.0, std::uniform_real_distribution { -6.0, 0.0 }(random));
+        auto node = sounding ({ model (0.1, 1.0, a, variance) }, rate_hz, 7);
+        const auto y = heard (node, 100);
+        double size = 0.0;
+        for (const double c : a)
+            size += std::abs (c);
+        for (const double v : y)
+            size = std::max (size, std::abs (v));
 
-                  Random noise { 7 };
-                  for (std::size_t k = 0; k < a.size(); ++k)
-                      noise.normal();   // used up by its initial state
-                  for (std::size_t n = 0; n < y.size(); ++n)
-                  {
-                      double fresh = y[n];
-                      for (std::size_t k = 0; k < a.size() && k < n; ++k)
-                          fresh -= a[k] * y[n - 1 - k];
-                      const double expected = std::sqrt (variance) * noise.normal();
-                      if (n >= a.size()) RC_ASSERT (std::abs (fresh - expected) <= 1e-10 * (1.0 + size));
-                  } });
+        Random noise { 7 };
+        for (std::size_t k = 0; k < a.size(); ++k)
+            noise.normal();   // used up by its initial state
+        for (std::size_t n = 0; n < y.size(); ++n)
+        {
+            double fresh = y[n];
+            for (std::size_t k = 0; k < a.size() && k < n; ++k)
+                fresh -= a[k] * y[n - 1 - k];
+            const double expected = std::sqrt (variance) * noise.normal();
+            if (n >= a.size()) RC_ASSERT (std::abs (fresh - expected) <= 1e-10 * (1.0 + size));
+        }
+    });
 }
 
 TEST_CASE ("texture noise: it has the variance of the process, starting at the first sample", "[nodes][texture]")
 {
-    rc::prop ("over a long run", [] (unsigned seed)
-              {
-                  std::mt19937 random { seed };
-                  const auto a = coefficientsOf (randomReflections (random, 6, 0.8));
-                  const auto c = covariance (a, 400);
-                  auto node = sounding ({ model (0.1, 1.0, a, 0.01) }, rate_hz, static_cast<int> (seed % 1000));
-                  const std::size_t ticks = 4000;
-                  double squares = 0.0;   // the variance of a mean square of a process with Gaussian samples
-                  for (std::size_t lag = 0; lag < c.size(); ++lag)
-                      squares += (lag == 0 ? 1.0 : 2.0) * c[lag] * c[lag];
-                  const double deviation = std::sqrt (2.0 * squares / static_cast<double> (ticks));
-                  RC_ASSERT (std::abs (meanSquare (heard (node, ticks)) / 0.01 - c[0]) < 6.0 * deviation); });
+    rc::prop ("over a long run", [] (unsigned seed) {
+        std::mt19937 random { seed };
+        const auto a = coefficientsOf (randomReflections (random, 6, 0.8));
+        const auto c = covariance (a, 400);
+        auto node = sounding ({ model (0.1, 1.0, a, 0.01) }, rate_hz, static_cast<int> (seed % 1000));
+        const std::size_t ticks = 4000;
+        double squares = 0.0;   // the variance of a mean square of a process with Gaussian samples
+        for (std::size_t lag = 0; lag < c.size(); ++lag)
+            squares += (lag == 0 ? 1.0 : 2.0) * c[lag] * c[lag];
+        const double deviation = std::sqrt (2.0 * squares / static_cast<double> (ticks));
+        RC_ASSERT (std::abs (meanSquare (heard (node, ticks)) / 0.01 - c[0]) < 6.0 * deviation);
+    });
 
     double first = 0.0;
     for (int seed = 0; seed < 2000; ++seed)
@@ -203,28 +203,27 @@ TEST_CASE ("texture noise: it has the spectrum of the process", "[nodes][texture
 TEST_CASE ("texture noise: between models the logarithm of the variance is interpolated; outside, the nearest model holds", "[nodes][texture]")
 {
     // Without coefficients a sample is its noise, so its size is known exactly.
-    const auto corners = [] (double v, double f)
-    { return std::exp (3.0 * v + 0.5 * f); };
+    const auto corners = [] (double v, double f) { return std::exp (3.0 * v + 0.5 * f); };
     std::vector<Model> models;
     for (const double v : { 0.05, 0.2, 0.4 })
         for (const double f : { 0.5, 2.0 })
             models.push_back (model (v, f, {}, corners (v, f)));
     std::reverse (models.begin(), models.end());
 
-    rc::prop ("at any speed and force", [&] (unsigned seed)
-              {
-                  std::mt19937 random { seed };
-                  auto node = sounding (models);
-                  node.params.gain = 2.0;
-                  Random noise { 1 };
-                  for (int k = 0; k < 20; ++k)
-                  {
-                      const double v = std::uniform_real_distribution { 0.0, 0.6 }(random), f = std::uniform_real_distribution { -0.5, 3.0 }(random);
-                      const double fade = std::min (1.0, v / 0.05) * std::clamp (f / 0.5, 0.0, 1.0);
-                      const double size = 2.0 * fade * std::sqrt (corners (std::clamp (v, 0.05, 0.4), std::clamp (f, 0.5, 2.0)));
-                      const double value = node.tick ({ random() % 2 ? v : -v, f }).value, expected = size * noise.normal();
-                      RC_ASSERT (std::abs (value - expected) <= 1e-12 * (1.0 + size));
-                  } });
+    rc::prop ("at any speed and force", [&] (unsigned seed) {
+        std::mt19937 random { seed };
+        auto node = sounding (models);
+        node.params.gain = 2.0;
+        Random noise { 1 };
+        for (int k = 0; k < 20; ++k)
+        {
+            const double v = std::uniform_real_distribution { 0.0, 0.6 }(random), f = std::uniform_real_distribution { -0.5, 3.0 }(random);
+            const double fade = std::min (1.0, v / 0.05) * std::clamp (f / 0.5, 0.0, 1.0);
+            const double size = 2.0 * fade * std::sqrt (corners (std::clamp (v, 0.05, 0.4), std::clamp (f, 0.5, 2.0)));
+            const double value = node.tick ({ random() % 2 ? v : -v, f }).value, expected = size * noise.normal();
+            RC_ASSERT (std::abs (value - expected) <= 1e-12 * (1.0 + size));
+        }
+    });
 
     // a hole in the grid is filled from its neighbour
     const std::vector<Model> three { model (0.1, 1.0, {}, 1.0), model (0.2, 1.0, {}, 2.0), model (0.1, 4.0, {}, 3.0) };
@@ -237,35 +236,35 @@ TEST_CASE ("texture noise: between models the logarithm of the variance is inter
 
 TEST_CASE ("texture noise: every model in between is stable, however fast speed and force change", "[nodes][texture]")
 {
-    rc::prop ("random models of different orders, inside, at the edges and far outside", [] (unsigned seed)
-              {
-                  std::mt19937 random { seed };
-                  std::vector<Model> models;
-                  std::vector<double> largest (20);
-                  for (int i = 0; i < 6; ++i)
-                  {
-                      const auto reflections = randomReflections (random, 20, 0.97);
-                      for (std::size_t k = 0; k < reflections.size(); ++k)
-                          largest[k] = std::max (largest[k], std::abs (reflections[k]));
-                      models.push_back (model (0.1 * (i % 3), 1.0 + i / 3, coefficientsOf (reflections), 0.01));
-                  }
-                  TextureNoise node;
-                  node.settings.models = models;
-                  RC_PRE (node.problem().empty());   // because of rounding, a model with a sharp resonance may count as unstable
-                  node.prepare ({ .rate_hz = rate_hz });
+    rc::prop ("random models of different orders, inside, at the edges and far outside", [] (unsigned seed) {
+        std::mt19937 random { seed };
+        std::vector<Model> models;
+        std::vector<double> largest (20);
+        for (int i = 0; i < 6; ++i)
+        {
+            const auto reflections = randomReflections (random, 20, 0.97);
+            for (std::size_t k = 0; k < reflections.size(); ++k)
+                largest[k] = std::max (largest[k], std::abs (reflections[k]));
+            models.push_back (model (0.1 * (i % 3), 1.0 + i / 3, coefficientsOf (reflections), 0.01));
+        }
+        TextureNoise node;
+        node.settings.models = models;
+        RC_PRE (node.problem().empty());   // because of rounding, a model with a sharp resonance may count as unstable
+        node.prepare ({ .rate_hz = rate_hz });
 
-                  double bound = 0.01;   // of the variance: each stage at its sharpest
-                  for (const double k : largest)
-                      bound /= 1.0 - k * k;
-                  std::uniform_real_distribution<double> speed { -0.1, 0.4 }, force { 0.5, 3.0 };
-                  double v = 0.1, f = 1.0, energy = 0.0;
-                  for (int k = 0; k < 2000; ++k)
-                  {
-                      if (random() % 3 == 0) v = random() % 10 ? speed (random) : 1e6;
-                      if (random() % 3 == 0) f = random() % 10 ? force (random) : 1e6;
-                      energy += std::pow (node.tick ({ v, f }).value, 2) / 2000.0;
-                  }
-                  RC_ASSERT (energy < 3.0 * bound); });
+        double bound = 0.01;   // of the variance: each stage at its sharpest
+        for (const double k : largest)
+            bound /= 1.0 - k * k;
+        std::uniform_real_distribution<double> speed { -0.1, 0.4 }, force { 0.5, 3.0 };
+        double v = 0.1, f = 1.0, energy = 0.0;
+        for (int k = 0; k < 2000; ++k)
+        {
+            if (random() % 3 == 0) v = random() % 10 ? speed (random) : 1e6;
+            if (random() % 3 == 0) f = random() % 10 ? force (random) : 1e6;
+            energy += std::pow (node.tick ({ v, f }).value, 2) / 2000.0;
+        }
+        RC_ASSERT (energy < 3.0 * bound);
+    });
 }
 
 TEST_CASE ("texture noise: it is silent at rest and out of contact, and grows from there without a step", "[nodes][texture]")
@@ -380,8 +379,7 @@ TEST_CASE ("texture noise: it reads its models from a file's records", "[nodes][
 
 TEST_CASE ("texture noise: models it cannot play are refused with a sentence", "[nodes][texture]")
 {
-    const auto refused = [] (const std::vector<Model>& models)
-    {
+    const auto refused = [] (const std::vector<Model>& models) {
         TextureNoise node;
         node.settings.models = models;
         return ! node.problem().empty();
@@ -412,18 +410,17 @@ TEST_CASE ("texture noise: models it cannot play are refused with a sentence", "
 
 TEST_CASE ("texture noise: no input breaks it, and a tick allocates nothing", "[nodes][texture]")
 {
-    rc::prop ("the output is finite", []
-              {
-                  auto node = sounding ({ rumble, model (0.2, 3.0, { 0.5 }, 1e30) }, *rc::gen::element (10.0, 1000.0, 48'000.0));
-                  node.params.gain = *rc::gen::element (0.0, 1.0, -1e300);
-                  for (int k = 0; k < 40; ++k)
-                  {
-                      const auto any = []
-                      { return *rc::gen::element (0.0, 0.1, 0.15, -1.0, 1e300, -1.7e308, 5e-324, not_a_number, inf); };
-                      const TextureNoise::Inputs in { any(), any() };
-                      const NoAllocation watch;
-                      const double value = node.tick (in).value;
-                      const bool allocated = watch.allocations() > 0;
-                      RC_ASSERT (isFinite (value) && ! allocated);
-                  } });
+    rc::prop ("the output is finite", [] {
+        auto node = sounding ({ rumble, model (0.2, 3.0, { 0.5 }, 1e30) }, *rc::gen::element (10.0, 1000.0, 48'000.0));
+        node.params.gain = *rc::gen::element (0.0, 1.0, -1e300);
+        for (int k = 0; k < 40; ++k)
+        {
+            const auto any = [] { return *rc::gen::element (0.0, 0.1, 0.15, -1.0, 1e300, -1.7e308, 5e-324, not_a_number, inf); };
+            const TextureNoise::Inputs in { any(), any() };
+            const NoAllocation watch;
+            const double value = node.tick (in).value;
+            const bool allocated = watch.allocations() > 0;
+            RC_ASSERT (isFinite (value) && ! allocated);
+        }
+    });
 }

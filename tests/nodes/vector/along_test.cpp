@@ -8,8 +8,7 @@ namespace
 {
 tactus::Vec3 anyVector()
 {
-    const auto part = rc::gen::map (rc::gen::arbitrary<int>(), [] (int i)
-                                    { return i / 1e5; });
+    const auto part = rc::gen::map (rc::gen::arbitrary<int>(), [] (int i) { return i / 1e5; });
     return { *part, *part, *part };
 }
 }   // namespace
@@ -18,13 +17,13 @@ using tactus::nodes::VectorAlong;
 
 TEST_CASE ("along: the parts add up to the vector, and have the right directions", "[nodes][vector]")
 {
-    rc::prop ("any vector and direction", []
-              {
+    rc::prop ("any vector and direction", [] {
         const auto in = anyVector(), direction = anyVector();
         const auto out = VectorAlong {}.tick ({ .in = in, .direction = direction });
         const auto u = tactus::direction (direction);
         RC_ASSERT ((out.along * u + out.across - in).norm() <= 1e-12 * in.norm());
-        RC_ASSERT (std::abs (out.across.dot (u)) <= 1e-12 * in.norm()); });
+        RC_ASSERT (std::abs (out.across.dot (u)) <= 1e-12 * in.norm());
+    });
 }
 
 TEST_CASE ("along: splits height from plane by default", "[nodes][vector]")

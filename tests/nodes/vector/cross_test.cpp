@@ -8,8 +8,7 @@ namespace
 {
 tactus::Vec3 anyVector()
 {
-    const auto part = rc::gen::map (rc::gen::arbitrary<int>(), [] (int i)
-                                    { return i / 1e5; });
+    const auto part = rc::gen::map (rc::gen::arbitrary<int>(), [] (int i) { return i / 1e5; });
     return { *part, *part, *part };
 }
 }   // namespace
@@ -21,13 +20,13 @@ TEST_CASE ("cross: is right-handed", "[nodes][vector]")
 
 TEST_CASE ("cross: is at right angles to both, and changes sign with their order", "[nodes][vector]")
 {
-    rc::prop ("any two vectors", []
-              {
+    rc::prop ("any two vectors", [] {
         const auto a = anyVector(), b = anyVector();
         tactus::nodes::VectorCross node;
         const auto c = node.tick ({ .a = a, .b = b }).out;
         const double tolerance = 1e-12 * (a.squaredNorm() * b.norm() + b.squaredNorm() * a.norm());
         RC_ASSERT (std::abs (c.dot (a)) <= tolerance);
         RC_ASSERT (std::abs (c.dot (b)) <= tolerance);
-        RC_ASSERT (node.tick ({ .a = b, .b = a }).out == -c); });
+        RC_ASSERT (node.tick ({ .a = b, .b = a }).out == -c);
+    });
 }

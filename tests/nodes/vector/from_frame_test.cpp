@@ -10,8 +10,7 @@ namespace
 {
 tactus::Vec3 anyVector()
 {
-    const auto part = rc::gen::map (rc::gen::arbitrary<int>(), [] (int i)
-                                    { return i / 1e5; });
+    const auto part = rc::gen::map (rc::gen::arbitrary<int>(), [] (int i) { return i / 1e5; });
     return { *part, *part, *part };
 }
 }   // namespace
@@ -38,8 +37,7 @@ TEST_CASE ("from frame: a quarter turn about z takes right to away", "[nodes][ve
 
 TEST_CASE ("from frame: rotation keeps lengths, angles and handedness", "[nodes][vector]")
 {
-    rc::prop ("any rotation", []
-              {
+    rc::prop ("any rotation", [] {
         const Vec3 rotation = anyVector() * 1e-4;
         const auto node = frameOf (Vec3::Zero(), rotation);
         tactus::Mat3 turn;
@@ -47,7 +45,8 @@ TEST_CASE ("from frame: rotation keeps lengths, angles and handedness", "[nodes]
             turn.col (i) = node.tick ({ .in = Vec3::Unit (i) }).out;
         RC_ASSERT ((turn.transpose() * turn - tactus::Mat3::Identity()).norm() < 1e-14);
         RC_ASSERT (std::abs (turn.determinant() - 1.0) < 1e-14);
-        RC_ASSERT ((turn * rotation - rotation).norm() <= 1e-14 * (1.0 + rotation.norm())); });
+        RC_ASSERT ((turn * rotation - rotation).norm() <= 1e-14 * (1.0 + rotation.norm()));
+    });
 }
 
 TEST_CASE ("from frame: small rotations add up like vectors", "[nodes][vector]")

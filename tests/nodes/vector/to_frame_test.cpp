@@ -9,16 +9,14 @@ namespace
 {
 tactus::Vec3 anyVector()
 {
-    const auto part = rc::gen::map (rc::gen::arbitrary<int>(), [] (int i)
-                                    { return i / 1e5; });
+    const auto part = rc::gen::map (rc::gen::arbitrary<int>(), [] (int i) { return i / 1e5; });
     return { *part, *part, *part };
 }
 }   // namespace
 
 TEST_CASE ("to frame: undoes from frame", "[nodes][vector]")
 {
-    rc::prop ("any frame, any point", []
-              {
+    rc::prop ("any frame, any point", [] {
         tactus::nodes::VectorFromFrame from;
         tactus::nodes::VectorToFrame to;
         from.params.origin = to.params.origin = anyVector();
@@ -27,5 +25,6 @@ TEST_CASE ("to frame: undoes from frame", "[nodes][vector]")
         to.update();
         const auto in = anyVector();
         const auto out = to.tick ({ .in = from.tick ({ .in = in }).out }).out;
-        RC_ASSERT ((out - in).norm() <= 1e-13 * (in.norm() + from.params.origin.norm())); });
+        RC_ASSERT ((out - in).norm() <= 1e-13 * (in.norm() + from.params.origin.norm()));
+    });
 }

@@ -38,8 +38,7 @@ TEST_CASE ("modal: it matches the golden column", "[nodes][vibration][golden]")
     const Golden golden ("modal");
     // The golden set gives modes as (a, b, omega): 1, -80, 2 pi 100 and 0.4, -30, 2 pi 230.
     auto node = modal ({ { 100.0, 80.0, 1.0 }, { 1445.132620651305 / (2.0 * M_PI), 30.0, 0.4 } }, 1.0 / golden.dt_s());
-    CHECK (golden.worst ("y_modal", [&] (std::size_t i)
-                         { return node.tick ({ .hit = golden (i, "hit_v") }).value; })
+    CHECK (golden.worst ("y_modal", [&] (std::size_t i) { return node.tick ({ .hit = golden (i, "hit_v") }).value; })
            <= 1.0);
 }
 
@@ -66,11 +65,9 @@ TEST_CASE ("modal: hits add up exactly, and none makes a click", "[nodes][vibrat
         REQUIRE (together == Approx (sum).margin (1e-15));
     }
 
-    rc::prop ("any modes, any number of hits: the sum of the closed forms", [] (unsigned seed)
-              {
+    rc::prop ("any modes, any number of hits: the sum of the closed forms", [] (unsigned seed) {
         std::mt19937 random { seed };
-        const auto uniform = [&] (double from, double to)
-        { return std::uniform_real_distribution { from, to }(random); };
+        const auto uniform = [&] (double from, double to) { return std::uniform_real_distribution { from, to }(random); };
 
         const double rate = uniform (1000.0, 20'000.0);
         std::vector<Modal::Mode> modes (1 + random() % 6);
@@ -96,7 +93,8 @@ TEST_CASE ("modal: hits add up exactly, and none makes a click", "[nodes][vibrat
                     sum += ring (mode, v, (k - tick) / rate);
             }
             RC_ASSERT (std::abs (node.tick ({ .hit = hit }).value - sum) <= 1e-11 * loudest);
-        } });
+        }
+    });
 
     // On the tick of a hit, the output is bit-identical to the output without the hit.
     auto struck = modal (wood), left = modal (wood);
@@ -184,12 +182,14 @@ TEST_CASE ("modal: the other modes keep ringing when a mode is added", "[nodes][
 
 TEST_CASE ("modal: no input breaks it", "[nodes][vibration]")
 {
-    rc::prop ("the output is finite", []
-              {
-                  const double gain = *rc::gen::element (0.0, 1.0, -1e300), pitch = *rc::gen::element (0.0, 1.0, 1e300),
-                      damping = *rc::gen::element (0.0, 1.0, 1e300);
-                  auto node = modal (wood, 4000.0, { .gain = gain, .pitch = pitch, .damping = damping });
-                  for (int k = 0; k < 60; ++k)
-                      RC_ASSERT (tactus::isFinite (node.tick ({ .hit = *rc::gen::element (0.0, 1.0, -1.0, 1e300, 1.7e308, 1e-320,
-                          not_a_number, tactus::inf) }).value)); });
+    rc::prop ("the output is finite", [] {
+        const double gain = *rc::gen::element (0.0, 1.0, -1e300), pitch = *rc::gen::element (0.0, 1.0, 1e300),
+                     damping = *rc::gen::element (0.0, 1.0, 1e300);
+        auto node = modal (wood, 4000.0, { .gain = gain, .pitch = pitch, .damping = damping });
+        for (int k = 0; k < 60; ++k)
+        {
+            const double hit = *rc::gen::element (0.0, 1.0, -1.0, 1e300, 1.7e308, 1e-320, not_a_number, tactus::inf);
+            RC_ASSERT (tactus::isFinite (node.tick ({ .hit = hit }).value));
+        }
+    });
 }

@@ -85,34 +85,33 @@ TEST_CASE ("wavetable: it matches the golden column", "[nodes][vibration][golden
     rig.set ("voices", golden.param ("voices"));
     CHECK (rig.problem() == "");
     rig.prepare();
-    CHECK (golden.worst ("y_wavetable", [&] (std::size_t i)
-                         {
-                             rig.input ("hit", golden (i, "hit_v"));
-                             rig.tick();
-                             return rig.out ("value"); })
-           <= 1.0);
+    CHECK (golden.worst ("y_wavetable", [&] (std::size_t i) {
+        rig.input ("hit", golden (i, "hit_v"));
+        rig.tick();
+        return rig.out ("value");
+    }) <= 1.0);
 }
 
 TEST_CASE ("wavetable: it is the ring of its modes, except for the linear interpolation between samples", "[nodes][vibration]")
 {
-    rc::prop ("the error is at most max |y''| / (8 rate^2), at any rate and pitch", []
-              {
-                  const double rate = *rc::gen::inRange (3000, 20'000), tick_rate = *rc::gen::inRange (900, 9000);
-                  const double pitch = 0.01 * *rc::gen::inRange (10, 100), v = 0.1 * *rc::gen::inRange (1, 50);
-                  std::vector<Mode> modes;
-                  double bound = 0.0;
-                  for (int i = *rc::gen::inRange (1, 5); i > 0; --i)
-                  {
-                      const Mode m { double (*rc::gen::inRange (20, 440)), double (*rc::gen::inRange (1, 300)), 0.1 * *rc::gen::inRange (-20, 20) };
-                      modes.push_back (m);
-                      bound += std::abs (m.amplitude) * (std::pow (2.0 * M_PI * m.frequency, 2) + m.decay * m.decay) / (8.0 * rate * rate);
-                  }
-                  auto node = playing (ofModes (modes, rate, 1000), tick_rate);
-                  node.params.pitch = pitch;
-                  const auto values = struck (node, 200, v);
-                  for (std::size_t k = 0; k < values.size(); ++k)
-                      if (const double t = pitch * static_cast<double> (k) / tick_rate; t < 998.0 / rate)
-                          RC_ASSERT (std::abs (values[k] - v * ring (modes, t)) <= v * bound + 1e-12); });
+    rc::prop ("the error is at most max |y''| / (8 rate^2), at any rate and pitch", [] {
+        const double rate = *rc::gen::inRange (3000, 20'000), tick_rate = *rc::gen::inRange (900, 9000);
+        const double pitch = 0.01 * *rc::gen::inRange (10, 100), v = 0.1 * *rc::gen::inRange (1, 50);
+        std::vector<Mode> modes;
+        double bound = 0.0;
+        for (int i = *rc::gen::inRange (1, 5); i > 0; --i)
+        {
+            const Mode m { double (*rc::gen::inRange (20, 440)), double (*rc::gen::inRange (1, 300)), 0.1 * *rc::gen::inRange (-20, 20) };
+            modes.push_back (m);
+            bound += std::abs (m.amplitude) * (std::pow (2.0 * M_PI * m.frequency, 2) + m.decay * m.decay) / (8.0 * rate * rate);
+        }
+        auto node = playing (ofModes (modes, rate, 1000), tick_rate);
+        node.params.pitch = pitch;
+        const auto values = struck (node, 200, v);
+        for (std::size_t k = 0; k < values.size(); ++k)
+            if (const double t = pitch * static_cast<double> (k) / tick_rate; t < 998.0 / rate)
+                RC_ASSERT (std::abs (values[k] - v * ring (modes, t)) <= v * bound + 1e-12);
+    });
 }
 
 TEST_CASE ("wavetable: a hit begins and ends at 0, and hits add up", "[nodes][vibration]")
@@ -196,22 +195,22 @@ TEST_CASE ("wavetable: a recording plays its channel at its own rate, sample for
 
 TEST_CASE ("wavetable: no recording clicks, wherever it begins and ends", "[nodes][vibration]")
 {
-    rc::prop ("from one tick to the next it moves no further than its own slope plus a bend of 2 ms", []
-              {
-                  const double wav_rate = *rc::gen::element (1000.0, 8000.0, 44'100.0), rate = *rc::gen::element (1000.0, 4000.0, 10'000.0);
-                  const double offset = 0.1 * *rc::gen::inRange (-20, 20);   // N s/m
-                  const double slope = 0.1 * *rc::gen::inRange (-20, 20);    // N s/m over the whole length
-                  const auto length = static_cast<std::size_t> (0.05 * wav_rate);
-                  std::vector<double> wav (length);
-                  for (std::size_t i = 0; i < length; ++i)
-                      wav[i] = offset + slope * static_cast<double> (i) / static_cast<double> (length);
-                  const auto values = struck (playing (recorded (wav_rate, { wav }), rate), static_cast<int> (0.08 * rate));
-                  const double steepest = std::abs (slope) / 0.05 + (std::abs (offset) + std::abs (slope)) * M_PI / 2.0 / 2e-3;   // per s
-                  for (std::size_t k = 1; k < values.size(); ++k)
-                      RC_ASSERT (std::abs (values[k] - values[k - 1]) <= 1.3 * steepest / rate + 1e-12);
-                  RC_ASSERT (values.front() == 0.0);
-                  RC_ASSERT (values.back() == 0.0);
-                  RC_ASSERT (std::abs (values[values.size() / 4]) > 0.9 * std::abs (offset + slope * 0.4) - 0.05); });
+    rc::prop ("from one tick to the next it moves no further than its own slope plus a bend of 2 ms", [] {
+        const double wav_rate = *rc::gen::element (1000.0, 8000.0, 44'100.0), rate = *rc::gen::element (1000.0, 4000.0, 10'000.0);
+        const double offset = 0.1 * *rc::gen::inRange (-20, 20);   // N s/m
+        const double slope = 0.1 * *rc::gen::inRange (-20, 20);    // N s/m over the whole length
+        const auto length = static_cast<std::size_t> (0.05 * wav_rate);
+        std::vector<double> wav (length);
+        for (std::size_t i = 0; i < length; ++i)
+            wav[i] = offset + slope * static_cast<double> (i) / static_cast<double> (length);
+        const auto values = struck (playing (recorded (wav_rate, { wav }), rate), static_cast<int> (0.08 * rate));
+        const double steepest = std::abs (slope) / 0.05 + (std::abs (offset) + std::abs (slope)) * M_PI / 2.0 / 2e-3;   // per s
+        for (std::size_t k = 1; k < values.size(); ++k)
+            RC_ASSERT (std::abs (values[k] - values[k - 1]) <= 1.3 * steepest / rate + 1e-12);
+        RC_ASSERT (values.front() == 0.0);
+        RC_ASSERT (values.back() == 0.0);
+        RC_ASSERT (std::abs (values[values.size() / 4]) > 0.9 * std::abs (offset + slope * 0.4) - 0.05);
+    });
 }
 
 TEST_CASE ("wavetable: an input that is not a hit is ignored, and the ring continues", "[nodes][vibration]")
@@ -254,8 +253,7 @@ TEST_CASE ("wavetable: with fewer voices, sounding hits still find a place", "[n
 
 TEST_CASE ("wavetable: a table it cannot play is refused with a sentence", "[nodes][vibration]")
 {
-    const auto refused = [] (const Wavetable::Table& table)
-    {
+    const auto refused = [] (const Wavetable::Table& table) {
         Wavetable node;
         node.settings.table = table;
         return ! node.problem().empty();
@@ -284,16 +282,16 @@ TEST_CASE ("wavetable: a table it cannot play is refused with a sentence", "[nod
 
 TEST_CASE ("wavetable: no input breaks it, and a tick allocates nothing", "[nodes][vibration]")
 {
-    rc::prop ("the output is finite", []
-              {
-                  auto node = playing (ofModes (wood, 8000.0, 300), *rc::gen::element (10.0, 4000.0, 48'000.0), 3);
-                  node.params = { .gain = *rc::gen::element (0.0, 1.0, -1e300), .pitch = *rc::gen::element (0.01, 1.0, 8.0) };
-                  for (int k = 0; k < 60; ++k)
-                  {
-                      const double hit = *rc::gen::element (0.0, 1.0, -1.0, 1e300, 1.7e308, 1e-320, not_a_number, inf);
-                      const NoAllocation watch;
-                      const double value = node.tick ({ .hit = hit }).value;
-                      const bool allocated = watch.allocations() > 0;
-                      RC_ASSERT (isFinite (value) && ! allocated);
-                  } });
+    rc::prop ("the output is finite", [] {
+        auto node = playing (ofModes (wood, 8000.0, 300), *rc::gen::element (10.0, 4000.0, 48'000.0), 3);
+        node.params = { .gain = *rc::gen::element (0.0, 1.0, -1e300), .pitch = *rc::gen::element (0.01, 1.0, 8.0) };
+        for (int k = 0; k < 60; ++k)
+        {
+            const double hit = *rc::gen::element (0.0, 1.0, -1.0, 1e300, 1.7e308, 1e-320, not_a_number, inf);
+            const NoAllocation watch;
+            const double value = node.tick ({ .hit = hit }).value;
+            const bool allocated = watch.allocations() > 0;
+            RC_ASSERT (isFinite (value) && ! allocated);
+        }
+    });
 }

@@ -29,8 +29,7 @@ Extent extentOf (const Gesture& gesture)
     const auto n = static_cast<int> (gesture.duration_s / h);
 
     // Two periods, so that the seam is included.
-    const auto at = [&] (int k)
-    { return gesture.position (h * ((k + n) % n)); };
+    const auto at = [&] (int k) { return gesture.position (h * ((k + n) % n)); };
 
     for (int k = 0; k < 2 * n; ++k)
     {

@@ -125,8 +125,7 @@ TEST_CASE ("device description: all problems are reported together, each with it
                "device/unknown_key /dampign",
            });
 
-    const auto remedy = [&] (std::string_view where)
-    { return std::ranges::find (m.messages, where, &Message::where)->remedy; };
+    const auto remedy = [&] (std::string_view where) { return std::ranges::find (m.messages, where, &Message::where)->remedy; };
     CHECK (remedy ("/mass") == "it must be more than 0 kg");
     CHECK (remedy ("/quantum") == "write a number in m, or a string such as \"1 m\"");
     CHECK (remedy ("/dampign") == "did you mean 'damping'?");
@@ -170,8 +169,7 @@ TEST_CASE ("device description: an impossible limit is an error, and an unknown 
            });
     CHECK (m.messages.back().text == "the device has no button 'grip'; it has no buttons at all");
     CHECK (m.limits.dead_man_buttons == ~std::uint64_t { 0 });
-    const auto foundFor = [] (const std::string& button)
-    { return found (made (R"({"driver": "sim", "guard": {"dead_man_button": )" + button + "}}")); };
+    const auto foundFor = [] (const std::string& button) { return found (made (R"({"driver": "sim", "guard": {"dead_man_button": )" + button + "}}")); };
     CHECK (foundFor ("32") == std::vector<std::string> { "device/out_of_range /guard/dead_man_button" });
     CHECK (foundFor ("true") == std::vector<std::string> { "device/kind /guard/dead_man_button" });
 }

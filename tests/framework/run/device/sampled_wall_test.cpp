@@ -93,14 +93,14 @@ TEST_CASE ("sampled wall: at a high rate, a mass rebounds according to Hunt and 
     CHECK (restitution (1.0) == Approx (0.593624).epsilon (1e-6));
     CHECK (restitution (5.0) == Approx (0.196980).epsilon (1e-5));
 
-    rc::prop ("any mass, law, speed and dissipation: speed of the rebound, and area of the loop of force against depth", [] (unsigned seed)
-              {
+    rc::prop ("any mass, law, speed and dissipation: speed of the rebound, and area of the loop of force against depth", [] (unsigned seed) {
         Dice dice { seed };
         const double m = dice.size (0.01, 0.5), v = dice.size (0.05, 1.0), d_max = v * dice.size (2e-3, 1e-2), n = dice.uniform (1.0, 2.0),
-            x = dice.size (0.05, 5.0);
+                     x = dice.size (0.05, 5.0);
         const double k = 0.5 * (n + 1.0) * m * v * v / std::pow (d_max, n + 1.0), rate = 2000.0 * v / d_max, e = restitution (x);
         Press press ({ { "dissipation", x / v } },
-            { .mass = m, .damping = 0.0, .position = { -0.4 * v / rate, 0, 0 }, .velocity = { v, 0, 0 } }, rate, { { "law", { { "power", { k, n } } } } });
+                     { .mass = m, .damping = 0.0, .position = { -0.4 * v / rate, 0, 0 }, .velocity = { v, 0, 0 } }, rate,
+                     { { "law", { { "power", { k, n } } } } });
 
         double loop = 0.0, f = 0.0, at = press.x();
         do
@@ -113,5 +113,6 @@ TEST_CASE ("sampled wall: at a high rate, a mass rebounds according to Hunt and 
         } while (at > 0.0 || press.v() > 0.0);
 
         RC_ASSERT (std::abs (-press.v() / v - e) < 1e-3);
-        RC_ASSERT (std::abs (loop / (0.5 * m * v * v) - (1.0 - e * e)) < 2e-3); });
+        RC_ASSERT (std::abs (loop / (0.5 * m * v * v) - (1.0 - e * e)) < 2e-3);
+    });
 }

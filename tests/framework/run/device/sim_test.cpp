@@ -29,8 +29,7 @@ double energy (const Simulation& sim, const Reading& now) { return 0.5 * sim.mas
 
 rc::Gen<double> within (double low, double high)
 {
-    return rc::gen::map (rc::gen::inRange (0, 1'000'001), [=] (int i)
-                         { return low + (high - low) * 1e-6 * i; });
+    return rc::gen::map (rc::gen::inRange (0, 1'000'001), [=] (int i) { return low + (high - low) * 1e-6 * i; });
 }
 
 Vec3 anyVector (double reach)
@@ -148,8 +147,7 @@ TEST_CASE ("sim: with the tiniest damping, the tool moves as without damping", "
 TEST_CASE ("sim: the step has no seam between small and large damping", "[host][devices]")
 {
     // At B T/M = 1/4 the closed form takes over from a series.
-    const auto after = [] (double h)
-    {
+    const auto after = [] (double h) {
         auto device = prepared ({ .mass = 1.0, .damping = h * 1e3 });
         device.write (pushing ({ 1.0, 0, 0 }));
         return device.read().true_position.x();
@@ -160,8 +158,7 @@ TEST_CASE ("sim: the step has no seam between small and large damping", "[host][
 TEST_CASE ("sim: left alone, a damped tool loses energy on every tick", "[host][devices]")
 {
     rc::prop ("any mass, damping and speed",
-              []
-              {
+              [] {
                   const Simulation sim { .mass = *within (1e-3, 2.0), .damping = *within (1e-3, 50.0), .velocity = anyVector (2.0) };
                   auto device = prepared (sim);
                   for (int k = 0; k < 50; ++k)
@@ -176,8 +173,7 @@ TEST_CASE ("sim: left alone, a damped tool loses energy on every tick", "[host][
 TEST_CASE ("sim: without damping, momentum equals the impulse of the force", "[host][devices]")
 {
     rc::prop ("any mass, any forces",
-              []
-              {
+              [] {
                   const Simulation sim { .mass = *within (1e-3, 2.0), .damping = 0.0, .velocity = anyVector (2.0) };
                   auto device = prepared (sim);
                   Vec3 momentum = sim.mass * sim.velocity;
@@ -193,8 +189,7 @@ TEST_CASE ("sim: without damping, momentum equals the impulse of the force", "[h
 
 TEST_CASE ("sim: the reported position is rounded half up to the quantum, but the true position is not", "[host][devices]")
 {
-    const auto seen = [] (double x)
-    { return prepared ({ .quantum = 1e-5, .position = { x, 0, 0 } }).read(); };
+    const auto seen = [] (double x) { return prepared ({ .quantum = 1e-5, .position = { x, 0, 0 } }).read(); };
 
     CHECK (seen (0.49e-5).position.x() == 0.0);
     CHECK (seen (0.5e-5).position.x() == 1e-5);
@@ -237,8 +232,7 @@ TEST_CASE ("sim: each tick of delay reduces the stiffness that a wall can have",
 {
     // Released 1 mm deep in a two-sided spring at 1 kHz: the limits in design.md, 2b/((2d+1) T) for d = 0, 1, 2.
     const auto [delay, limit] = GENERATE (table<int, double> ({ { 0, 4110.0 }, { 1, 1357.0 }, { 2, 817.0 } }));
-    const auto swing = [d = delay] (double stiffness)
-    {
+    const auto swing = [d = delay] (double stiffness) {
         auto device = prepared ({ .mass = 0.1, .damping = 2.0, .delay = d, .position = { 1e-3, 0, 0 } });
         double largest = 0.0;
         for (int k = 0; k < 4000; ++k)
@@ -288,8 +282,7 @@ TEST_CASE ("sim: a force that is not a number does no harm", "[host][devices]")
 TEST_CASE ("sim: preparing it again restarts it", "[host][devices]")
 {
     auto device = prepared ({ .delay = 2, .position = { 0, 0, 0.01 }, .hand = { 100, 2, std::make_shared<GesturePath> (*findGesture ("tap"), Placement()) } });
-    const auto run = [&]
-    {
+    const auto run = [&] {
         for (int k = 0; k < 100; ++k)
             device.write (pushing ({ 1, 0, 0 }));
         return device.read().true_position;

@@ -105,8 +105,7 @@ graph::Graph anyGraph (unsigned seed)
 std::uint64_t digestOf (const Plan& plan)
 {
     std::uint64_t digest = 0;
-    const auto add = [&] (double v)
-    { digest = (digest ^ (v != v ? 1u : std::bit_cast<std::uint64_t> (v))) * 0x100000001b3ull; };
+    const auto add = [&] (double v) { digest = (digest ^ (v != v ? 1u : std::bit_cast<std::uint64_t> (v))) * 0x100000001b3ull; };
     for (const auto& tap : plan.taps())
         add (*tap.value);
     for (const auto& role : plan.roles())
@@ -124,8 +123,7 @@ std::uint64_t digestOf (const Plan& plan)
 std::vector<std::uint64_t> run (const std::filesystem::path& file, unsigned seed, int ticks)
 {
     std::mt19937 random (seed);
-    const auto dice = [&] (unsigned sides)
-    { return random() % sides == 0; };
+    const auto dice = [&] (unsigned sides) { return random() % sides == 0; };
 
     graph::History edits (anyGraph (seed));
     auto first = compile (edits.graph(), catalogue(), { .rate_hz = rate_hz }).plan;
@@ -137,8 +135,7 @@ std::vector<std::uint64_t> run (const std::filesystem::path& file, unsigned seed
     engine.report (log->journal());
     first.reset();
 
-    const auto turn = [&]
-    {
+    const auto turn = [&] {
         const auto& plan = engine.newest();
         const auto i = random() % plan.instances().size();
         const auto& node = plan.flat().nodes[i];
@@ -147,8 +144,7 @@ std::vector<std::uint64_t> run (const std::filesystem::path& file, unsigned seed
         engine.set (*param, std::generate_canonical<double, 53> (random));
     };
 
-    const auto hit = [&]
-    {
+    const auto hit = [&] {
         const auto& plan = engine.newest();
         for (std::size_t i = 0; i < plan.instances().size(); ++i)
             if (plan.instances()[i].is_struck && dice (3))
@@ -259,11 +255,11 @@ TEST_CASE ("a run repeated from its log is bit-identical, no matter what was edi
 {
     const TemporaryFolder folder;
     const auto file = folder / "run.jsonl";
-    rc::prop ("any run", [&]
-              {
+    rc::prop ("any run", [&] {
         const auto seed = *rc::gen::arbitrary<unsigned>();
         const auto live = run (file, seed, 600);
-        RC_ASSERT (runAgain (file) == live); });
+        RC_ASSERT (runAgain (file) == live);
+    });
     CHECK (hits_again > 0);
 }
 
@@ -287,8 +283,10 @@ TEST_CASE ("every reading is read back bit for bit", "[runlog]")
     CHECK (reader.head().rate_hz == 4000.0);
     CHECK (reader.head().guards.at ("stylus") == GuardLimits {});
     int ticks = 0, different = 0;
-    const auto sameBits = [] (double a, double b)
-    { return std::isnan (a) ? std::isnan (b) : std::bit_cast<std::uint64_t> (a) == std::bit_cast<std::uint64_t> (b); };
+    const auto sameBits = [] (double a, double b) {
+        if (std::isnan (a)) return std::isnan (b);
+        return std::bit_cast<std::uint64_t> (a) == std::bit_cast<std::uint64_t> (b);
+    };
     for (auto line = *reader.next(); line && line->last == RunTick::Last::no; line = *reader.next(), ++ticks)
     {
         REQUIRE (line->tick == static_cast<std::uint64_t> (ticks));

@@ -104,8 +104,7 @@ TEST_CASE ("a log records the other parts of a device, the readings that were us
     CHECK (four.readings.at (0).second.axes.size() == 0);
     CHECK (four.readings.at (0).second.signals[0] == 2.0);
 
-    const auto head_with = [] (const std::string& what)
-    { return problem (R"({"format":"tactus-run","version":2,"rate_hz":1000.0,)" + what + "}\n"); };
+    const auto head_with = [] (const std::string& what) { return problem (R"({"format":"tactus-run","version":2,"rate_hz":1000.0,)" + what + "}\n"); };
     CHECK (head_with (R"("devices":{"a":{"axes":[1]}})").starts_with ("log/value"));
     CHECK (head_with (R"("devices":{"a":{"signal_inputs":33}})").starts_with ("log/value"));
     CHECK (head_with (R"("devices":{"a":{"signal_inputs":18446744073709551615}})").starts_with ("log/value"));
@@ -129,8 +128,7 @@ TEST_CASE ("the log of a program that died is read up to its last complete line"
 
 TEST_CASE ("problems in a log are reported with line and column", "[runlog]")
 {
-    const auto after = [] (const std::string& line)
-    { return problem (head + first + line + "\n"); };
+    const auto after = [] (const std::string& line) { return problem (head + first + line + "\n"); };
     CHECK (problem ("") == "log/not_a_log run.jsonl:1");
     CHECK (problem ("{}\n") == "log/not_a_log run.jsonl:1");
     CHECK (problem ("t,x\n0,1\n") == "log/not_a_log run.jsonl:1");

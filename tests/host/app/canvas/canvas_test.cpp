@@ -7,8 +7,8 @@
 
 using namespace tactus;
 using namespace tactus::host;
-using test::CanvasRig;
-using test::Hand;
+using host::test::CanvasRig;
+using host::test::Hand;
 
 namespace
 {
@@ -172,8 +172,7 @@ TEST_CASE ("copied text is a graph file and can be pasted", "[app][canvas]")
 TEST_CASE ("a param can be dragged, typed with a unit and reset on its node", "[app][canvas]")
 {
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
-    const auto ratio = [&]
-    { return rig.graph().root.find ("drag")->params.value ("static_ratio", Json()); };
+    const auto ratio = [&] { return rig.graph().root.find ("drag")->params.value ("static_ratio", Json()); };
     const auto first = ratio();
     const auto at = rig.value ("drag", "static_ratio");
     rig.hand().drag (at, at - juce::Point<float> (0.0f, 20.0f));
@@ -191,8 +190,7 @@ TEST_CASE ("a param can be dragged, typed with a unit and reset on its node", "[
     CHECK (ratio().is_null());
 
     // A param driven by a control moves the control, within its range.
-    const auto roughness = [&]
-    { return rig.graph().controls[0].value; };
+    const auto roughness = [&] { return rig.graph().controls[0].value; };
     rig.hand().drag (rig.value ("drag", "mu"), rig.value ("drag", "mu") - juce::Point<float> (0.0f, 400.0f));
     CHECK (roughness() == 1.0);
     CHECK (rig.node ("drag").box.find (Role::param, "mu")->value == "0.6");

@@ -9,7 +9,7 @@
 
 using namespace tactus;
 using namespace tactus::host;
-using test::CanvasRig;
+using host::test::CanvasRig;
 
 namespace
 {
@@ -47,17 +47,15 @@ TEST_CASE ("painting, panning and editing times with 200 and 1000 nodes", "[app]
     for (const int nodes : { 200, 1000 })
     {
         CanvasRig rig { chainOf (nodes) };
-        const auto paint = [&]
-        { rig.canvas->createComponentSnapshot (rig.canvas->getLocalBounds()); };
+        const auto paint = [&] { rig.canvas->createComponentSnapshot (rig.canvas->getLocalBounds()); };
         paint();   // creates the glyphs
         const double all = milliseconds (paint);
         rig.canvas->zoomBy (1.0f / rig.canvas->view().zoom);
-        const double near = milliseconds ([&]
-                                          {
+        const double near = milliseconds ([&] {
             rig.canvas->view().origin.x += 7.0f;
-            paint(); });
-        const double edit = milliseconds ([&]
-                                          { rig.document.perform (graph::SetParam { {}, "n2", "gain", Json (0.5) }); });
+            paint();
+        });
+        const double edit = milliseconds ([&] { rig.document.perform (graph::SetParam { {}, "n2", "gain", Json (0.5) }); });
         std::cout << nodes << " nodes: " << all << " ms to draw all, " << near << " ms per frame to pan at 100 %, " << edit << " ms to show an edit\n";
         CHECK (rig.canvas->scene().nodes().size() == static_cast<std::size_t> (nodes));
     }

@@ -26,13 +26,13 @@ float between (int low, int high) { return static_cast<float> (*rc::gen::inRange
 
 TEST_CASE ("a wire goes around an obstacle, wherever it is", "[app][route]")
 {
-    rc::prop ("one obstacle", []
-              {
+    rc::prop ("one obstacle", [] {
         const Point<float> from { 0.0f, 0.0f }, to { 600.0f, between (-200, 200) };
         const Box2 start { -100.0f, -50.0f, 100.0f, 100.0f }, end { to.x, to.y - 50.0f, 100.0f, 100.0f };
         const Box2 obstacle { between (200, 300), between (-200, 200), between (40, 120), between (30, 200) };
         const auto waypoints = routeAround (from, to, start, end, { obstacle });
-        RC_ASSERT (! touches (curveThrough (from, waypoints, to), obstacle)); });
+        RC_ASSERT (! touches (curveThrough (from, waypoints, to), obstacle));
+    });
 }
 
 TEST_CASE ("a wire with a free path is direct, and a wire that runs back goes below the nodes", "[app][route]")
@@ -74,8 +74,7 @@ TEST_CASE ("in the presets, few wires run behind nodes, and none overlap", "[app
 
 TEST_CASE ("aligning keeps the size and order of the boxes", "[app][align]")
 {
-    rc::prop ("any boxes", []
-              {
+    rc::prop ("any boxes", [] {
         std::vector<Box2> boxes;
         for (int i = *rc::gen::inRange (2, 8); i > 0; --i)
             boxes.emplace_back (between (0, 500), between (0, 500), between (20, 200), between (20, 200));
@@ -95,5 +94,6 @@ TEST_CASE ("aligning keeps the size and order of the boxes", "[app][align]")
                     if (how == Alignment::rows && boxes[i].getX() < boxes[k].getX()) RC_ASSERT (to[i].getX() < to[k].getX());
                 }
             }
-        } });
+        }
+    });
 }

@@ -23,10 +23,8 @@ struct Rig
     {
         setup.open (home.path());
         run.use (setup);
-        setup.onChange = [this]
-        { run.setupChanged(); };
-        panel.onHint = [this] (const juce::String& text)
-        { hint = text; };
+        setup.onChange = [this] { run.setupChanged(); };
+        panel.onHint = [this] (const juce::String& text) { hint = text; };
         panel.setSize (1000, 300);
         panel.setVisible (true);
     }
@@ -34,11 +32,11 @@ struct Rig
     template <typename F>
     bool until (F&& isSo)
     {
-        return board.until ([&]
-                            {
+        return board.until ([&] {
             run.attend();
             panel.refresh();
-            return isSo(); });
+            return isSo();
+        });
     }
 
     Json saved() const { return Json::parse (home.textOf ("session.json")); }
@@ -71,12 +69,11 @@ TEST_CASE ("binding a role in the window is saved immediately, and does not edit
 {
     Rig r;
     const auto before = r.rig.text();
-    REQUIRE (r.until ([&]
-                      { return ! r.setup.connected().empty() && r.panel.cards() == 3; }));   // the clock, the stylus, and the sound card
-    REQUIRE (r.until ([&]
-                      {
+    REQUIRE (r.until ([&] { return ! r.setup.connected().empty() && r.panel.cards() == 3; }));   // the clock, the stylus, and the sound card
+    REQUIRE (r.until ([&] {
         r.panel.bind ("stylus", "Board");
-        return ! r.bound().is_null(); }));
+        return ! r.bound().is_null();
+    }));
     CHECK (r.bound() == Json { { "driver", "hid" }, { "profile", "board" } });
     CHECK (r.saved()["roles"]["stylus"] == r.bound());
 
@@ -87,10 +84,12 @@ TEST_CASE ("binding a role in the window is saved immediately, and does not edit
     const Json workspace { { "scale", 2 }, { "offset", { 0, 0, "1 cm" } } }, guard { { "max_force", "2 N" } };
     CHECK (r.saved()["roles"]["stylus"] == Json { { "driver", "hid" }, { "profile", "board" }, { "workspace", workspace }, { "guard", guard } });
 
-    const auto [pointer, text] = GENERATE (table<std::string, std::string> ({ { "/workspace/scale", "0" },
-                                                                              { "/workspace/scale", "wide" },
-                                                                              { "/workspace/offset", "[1, 2]" },
-                                                                              { "/guard/max_force", "2 mm" } }));
+    const auto [pointer, text] = GENERATE (table<std::string, std::string> ({
+        { "/workspace/scale", "0" },
+        { "/workspace/scale", "wide" },
+        { "/workspace/offset", "[1, 2]" },
+        { "/guard/max_force", "2 mm" },
+    }));
     const auto good = r.home.textOf ("session.json");
     r.panel.setPart ("stylus", pointer, text);
     CHECK (r.hint.isNotEmpty());
@@ -110,25 +109,22 @@ TEST_CASE ("binding a role in the window is saved immediately, and does not edit
 TEST_CASE ("a run uses the bound device, is ticked by it, and restarts when the binding changes", "[app][sessions]")
 {
     Rig r;
-    REQUIRE (r.setup.edit ([] (DeviceSession& s)
-                           {
+    REQUIRE (r.setup.edit ([] (DeviceSession& s) {
         const Json workspace { { "scale", 2 }, { "offset", { 0, 0, "1 cm" } } };
-        s.bind ("stylus", { { "driver", "hid" }, { "profile", "board" }, { "workspace", workspace } }); }));
+        s.bind ("stylus", { { "driver", "hid" }, { "profile", "board" }, { "workspace", workspace } });
+    }));
     std::atomic<bool> sends = true;
-    std::jthread reports { [&] (const std::stop_token& over)
-                           {
-                               for (std::uint16_t n = 0; ! over.stop_requested(); std::this_thread::sleep_for (std::chrono::milliseconds (1)))
-                                   if (sends) r.board.send (boardReport (++n, 1'000'000, 0, -10'000'000));
-                           } };
+    std::jthread reports { [&] (const std::stop_token& over) {
+        for (std::uint16_t n = 0; ! over.stop_requested(); std::this_thread::sleep_for (std::chrono::milliseconds (1)))
+            if (sends) r.board.send (boardReport (++n, 1'000'000, 0, -10'000'000));
+    } };
     r.run.start ({});
     REQUIRE (r.run.isRunning());
     CHECK (r.run.clockRole() == "stylus");
     CHECK (r.run.rate() == 1000.0);
     CHECK (r.run.mostForce() == 3.0);
-    CHECK (r.until ([&]
-                    { return r.run.tool() && (r.run.tool()->position - Vec3 (0.002, 0.0, -0.01)).norm() < 1e-12 && r.run.tool()->force.norm() > 0.1; }));
-    CHECK (r.until ([&]
-                    { return ! r.run.health().empty() && r.run.health().front().rate_hz && r.run.health().front().ticks; }));
+    CHECK (r.until ([&] { return r.run.tool() && (r.run.tool()->position - Vec3 (0.002, 0.0, -0.01)).norm() < 1e-12 && r.run.tool()->force.norm() > 0.1; }));
+    CHECK (r.until ([&] { return ! r.run.health().empty() && r.run.health().front().rate_hz && r.run.health().front().ticks; }));
 
     // An edit of the graph keeps the device open.
     const auto openings = r.board.openings();
@@ -137,16 +133,12 @@ TEST_CASE ("a run uses the bound device, is ticked by it, and restarts when the 
     CHECK (r.board.openings() == openings);
 
     sends = false;
-    CHECK (r.until ([&]
-                    { return r.run.status()->clock_replaced && r.run.status()->force == 0.0; }));
+    CHECK (r.until ([&] { return r.run.status()->clock_replaced && r.run.status()->force == 0.0; }));
     sends = true;
-    CHECK (r.until ([&]
-                    { return ! r.run.status()->clock_replaced && r.run.status()->force > 0.1; }));
+    CHECK (r.until ([&] { return ! r.run.status()->clock_replaced && r.run.status()->force > 0.1; }));
 
-    REQUIRE (r.setup.edit ([] (DeviceSession& s)
-                           { s.bind ("stylus", { { "driver", "gesture" }, { "path", "tap" } }); }));
-    CHECK (r.until ([&]
-                    { return r.run.isRunning() && r.run.rate() == 4000.0 && r.run.clockRole().empty(); }));
+    REQUIRE (r.setup.edit ([] (DeviceSession& s) { s.bind ("stylus", { { "driver", "gesture" }, { "path", "tap" } }); }));
+    CHECK (r.until ([&] { return r.run.isRunning() && r.run.rate() == 4000.0 && r.run.clockRole().empty(); }));
     r.run.letGo();
     CHECK (r.run.health().empty());
 }
@@ -155,19 +147,17 @@ TEST_CASE ("a run in the window waits for a missing device, and the mouse can ta
 {
     Rig r;
     r.board.plug (false);
-    REQUIRE (r.setup.edit ([] (DeviceSession& s)
-                           {
+    REQUIRE (r.setup.edit ([] (DeviceSession& s) {
         s.bind ("stylus", { { "driver", "hid" }, { "profile", "board" } });
-        s.setClock ("stylus"); }));
+        s.setClock ("stylus");
+    }));
     r.run.start ({});
     REQUIRE (r.run.isRunning());
-    CHECK (r.until ([&]
-                    { return r.run.status()->clock_replaced && ! r.run.health().empty() && ! r.run.health().front().has_come; }));
+    CHECK (r.until ([&] { return r.run.status()->clock_replaced && ! r.run.health().empty() && ! r.run.health().front().has_come; }));
     CHECK (r.run.status()->peak == 0.0);
 
     r.run.start (LiveRun::Hand::pointer());
-    CHECK (r.until ([&]
-                    { return r.run.isRunning() && r.run.clockRole().empty() && r.run.rate() == 4000.0; }));
+    CHECK (r.until ([&] { return r.run.isRunning() && r.run.clockRole().empty() && r.run.rate() == 4000.0; }));
     CHECK (r.run.health().empty());
     r.run.letGo();
 }

@@ -31,8 +31,7 @@ TEST_CASE ("the channels of a role are typed as a list", "[app][sessions]")
     CHECK (readChannelsText ("left@4 N", {})[0]["channel"] == "left");   // rejected later, when the settings are checked
     CHECK (readChannelsText (" ", list).empty());
 
-    rc::prop ("any list reads back as it was typed", []
-              {
+    rc::prop ("any list reads back as it was typed", [] {
         auto channels = Json::array();
         for (const int channel : *rc::gen::unique<std::vector<int>> (rc::gen::inRange (1, 64)))
         {
@@ -40,5 +39,6 @@ TEST_CASE ("the channels of a role are typed as a list", "[app][sessions]")
             if (*rc::gen::arbitrary<bool>()) use["full_scale"] = std::to_string (*rc::gen::inRange (1, 50)) + " N";
             channels.push_back (use);
         }
-        RC_ASSERT (readChannelsText (textOfChannels (channels), {}) == channels); });
+        RC_ASSERT (readChannelsText (textOfChannels (channels), {}) == channels);
+    });
 }

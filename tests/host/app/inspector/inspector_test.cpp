@@ -14,7 +14,7 @@
 
 using namespace tactus;
 using namespace tactus::host;
-using test::InspectorRig;
+using tactus::test::InspectorRig;
 
 namespace
 {
@@ -116,8 +116,7 @@ TEST_CASE ("a field opens on Return or a digit, applies on Return and cancels on
         field.setBounds (0, 0, 120, 24);
         field.show (Json ("5 mm"));
         std::vector<std::string> values;
-        field.onChange = [&] (std::optional<Json> v, bool)
-        { values.push_back (v ? v->dump() : "default"); };
+        field.onChange = [&] (std::optional<Json> v, bool) { values.push_back (v ? v->dump() : "default"); };
 
         CHECK (field.keyPressed (juce::KeyPress ('7', {}, '7')));
         REQUIRE (field.isEditing());
@@ -171,8 +170,10 @@ TEST_CASE ("editing a driven parameter moves its control, and releasing it keeps
 TEST_CASE ("a parameter can be assigned to a control with its usual range, or to a new one at its current value", "[inspector]")
 {
     InspectorRig rig ("layered_cloth.json");
-    const auto port = [&] (const char* id)
-    { return *faceOf (rig.document->graph(), rig.document->graph().root, rig.node ("drag"), catalogue()).find (Role::param, id); };
+    const auto port = [&] (const char* id) {
+        const auto face = faceOf (rig.document->graph(), rig.document->graph().root, rig.node ("drag"), catalogue());
+        return *face.find (Role::param, id);
+    };
     controlBy (*rig.document, "drag", port ("mu"), "drape");
     REQUIRE (rig.document->graph().controls[1].to.size() == 2);
     CHECK (rig.document->graph().controls[1].to[1].path == "drag.mu");
@@ -306,8 +307,7 @@ TEST_CASE ("roles, devices and the graph's header can be edited", "[inspector]")
 TEST_CASE ("a wire can be re-plugged, delayed, scaled and disabled", "[inspector]")
 {
     InspectorRig rig ("bronze_bell.json");
-    const auto wire = [&]() -> const graph::Wire&
-    { return rig.document->graph().root.wires.front(); };
+    const auto wire = [&]() -> const graph::Wire& { return rig.document->graph().root.wires.front(); };
     rig.inspector->inspect ({}, { wire().id });
     rig.in<NumberField> ("delay")->type ("2");
     CHECK (wire().delay == 2);

@@ -25,8 +25,7 @@ struct InspectorRig
         juce::LookAndFeel::setDefaultLookAndFeel (&look);
         document = std::make_unique<host::Document> (std::move (g));
         inspector = std::make_unique<host::Inspector> (*document, catalogue());
-        inspector->onHint = [this] (const juce::String& t)
-        { hints.push_back (t.toStdString()); };
+        inspector->onHint = [this] (const juce::String& t) { hints.push_back (t.toStdString()); };
         inspector->setBounds (0, 0, 304, 600);
         inspector->setVisible (true);
     }

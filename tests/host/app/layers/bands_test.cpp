@@ -27,8 +27,7 @@ std::vector<double> tone (double amplitude, double hz, double rate, std::size_t 
 
 TEST_CASE ("a tone appears in the band of its frequency, with its mean square", "[layers]")
 {
-    CHECK (rc::check ([]
-                      {
+    CHECK (rc::check ([] {
         const double hz = 20.0 * std::pow (40.0, *rc::gen::inRange (0, 1001) * 1e-3), amplitude = *rc::gen::inRange (1, 1000) * 1e-2;
         const auto bands = bandsOf (tone (amplitude, hz, 4000.0, 4096), 4000.0);
         const double all = std::accumulate (bands.power.begin(), bands.power.end(), 0.0);
@@ -36,7 +35,8 @@ TEST_CASE ("a tone appears in the band of its frequency, with its mean square", 
         double near = 0.0;   // up to four lines of the window away
         for (int b = 0; b < Bands::count; ++b)
             if (Bands::edge (b + 1) > hz - 4.0 && Bands::edge (b) < hz + 4.0) near += bands.power[static_cast<std::size_t> (b)];
-        RC_ASSERT (near > 0.98 * all); }));
+        RC_ASSERT (near > 0.98 * all);
+    }));
 }
 
 TEST_CASE ("silence, too few samples and missed ticks give no power", "[layers]")
@@ -69,9 +69,9 @@ TEST_CASE ("fader position and gain are inverse, monotonic, and 1 at the unity m
     CHECK (Taper::gain (0.0) == 0.0);
     CHECK (Taper::gain (Taper::unity) == Approx (1.0));
     CHECK (Taper::gain (1.0) == Taper::most);
-    CHECK (rc::check ([]
-                      {
+    CHECK (rc::check ([] {
         const double p = *rc::gen::inRange (0, 1001) * 1e-3, q = *rc::gen::inRange (0, 1001) * 1e-3;
         RC_ASSERT (std::abs (Taper::position (Taper::gain (p)) - p) < 1e-12);
-        RC_ASSERT ((p < q) == (Taper::gain (p) < Taper::gain (q))); }));
+        RC_ASSERT ((p < q) == (Taper::gain (p) < Taper::gain (q)));
+    }));
 }

@@ -86,8 +86,7 @@ TEST_CASE ("dragging a fader sets the gain in one step, Shift makes it fine, and
     Fader fader;
     fader.setBounds (0, 0, 36, 116);   // a travel of 100
     std::vector<std::pair<std::optional<double>, bool>> changes;
-    fader.onChange = [&] (std::optional<double> v, bool goes_on)
-    { changes.emplace_back (v, goes_on); };
+    fader.onChange = [&] (std::optional<double> v, bool goes_on) { changes.emplace_back (v, goes_on); };
     fader.show (1.0);
     const juce::Point<float> from { 18.0f, 60.0f };
     const juce::ModifierKeys left (juce::ModifierKeys::leftButtonModifier);
@@ -190,7 +189,7 @@ TEST_CASE ("during a run, the strips show the level after gain, and the spectrum
 
 TEST_CASE ("with several mixers, the shown one is kept through a rename, and another is shown when it is deleted", "[layers]")
 {
-    test::Sketch sketch;
+    tactus::test::Sketch sketch;
     sketch.node ("a", "layer.mix").node ("b", "layer.mix", Json::object(), { { "inputs", 5 } });
     Rig rig (sketch.graph);
     REQUIRE (rig.panel->mixers().size() == 2);
@@ -213,7 +212,7 @@ TEST_CASE ("with several mixers, the shown one is kept through a rename, and ano
 
 TEST_CASE ("the master strip shows the gain reduction of the ceiling", "[layers]")
 {
-    test::Sketch sketch;
+    tactus::test::Sketch sketch;
     sketch.node ("loud", "signal.constant", { { "value", "2 N" } }).node ("motor", "device.force");
     sketch.node ("desk", "layer.mix", { { "ceiling", "1 N" } }, { { "inputs", 1 } });
     sketch.wire ("loud.out -> desk.in[0]").wire ("desk.out -> motor.force.z");

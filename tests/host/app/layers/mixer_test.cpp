@@ -59,7 +59,7 @@ std::vector<std::string> channels (const graph::Graph& g, const MixerPlace& mixe
 
 TEST_CASE ("each mixer of a graph is found once, including those in subgraphs", "[layers]")
 {
-    test::Sketch sketch;
+    tactus::test::Sketch sketch;
     sketch.node ("a", "layer.mix").node ("first", "graph:inner").node ("second", "graph:inner");
     sketch.add (sketch.subgraph ("inner"), "mix", "layer.mix");
     const auto mixers = mixersOf (sketch.graph);
@@ -91,7 +91,7 @@ TEST_CASE ("removing a layer removes its wires, keeps the other layers intact, a
 
 TEST_CASE ("neither the last layer nor one that a subgraph exposes can be removed", "[layers]")
 {
-    test::Sketch sketch;
+    tactus::test::Sketch sketch;
     sketch.node ("a", "graph:inner").node ("one", "layer.mix", Json::object(), { { "inputs", 1 } });
     auto& inner = sketch.subgraph ("inner");
     sketch.add (inner, "mix", "layer.mix");
@@ -105,8 +105,7 @@ TEST_CASE ("neither the last layer nor one that a subgraph exposes can be remove
 
 TEST_CASE ("a moved layer keeps everything that belongs to it, and moving it back restores the file", "[layers]")
 {
-    CHECK (rc::check ([]
-                      {
+    CHECK (rc::check ([] {
         graph::History history (bell());
         const auto before = writeGraph (history.graph());
         const auto mixer = mixersOf (history.graph()).front();
@@ -118,7 +117,8 @@ TEST_CASE ("a moved layer keeps everything that belongs to it, and moving it bac
         all.insert (all.begin() + to, moved);
         RC_ASSERT (channels (history.graph(), mixer) == all);
         RC_ASSERT (history.perform (moveLayer (history.graph(), mixer, catalogue(), to, from)).has_value());
-        RC_ASSERT (writeGraph (history.graph()) == before); }));
+        RC_ASSERT (writeGraph (history.graph()) == before);
+    }));
 }
 
 TEST_CASE ("every texture and vibration that can be a layer is added, wired, and compiles", "[layers]")
@@ -144,7 +144,7 @@ TEST_CASE ("every texture and vibration that can be a layer is added, wired, and
 
 TEST_CASE ("the inputs of a new layer are never wired to anything downstream of the mixer", "[layers]")
 {
-    test::Sketch sketch;
+    tactus::test::Sketch sketch;
     sketch.node ("desk", "layer.mix").node ("late", "contact.impact").wire ("desk.out -> late.depth");
     sketch.graph.root.wires.clear();
     sketch.node ("map", "signal.gain").wire ("desk.out -> map.in").wire ("map.out -> late.depth");
@@ -195,8 +195,7 @@ TEST_CASE ("layer values are set one by one, and a list of defaults is not writt
 {
     graph::History history (bell());
     const auto mixer = mixersOf (history.graph()).front();
-    const auto node = [&]() -> const graph::Node&
-    { return *findMixer (history.graph(), mixer); };
+    const auto node = [&]() -> const graph::Node& { return *findMixer (history.graph(), mixer); };
     REQUIRE (history.perform (setLayerValue (node(), mixer, catalogue(), "mute", 2, Json (1))));
     CHECK (node().params["mute"].dump() == "[0.0,0.0,1]");
     CHECK (layerValue (node(), catalogue(), "mute", 2) == 1);

@@ -104,17 +104,15 @@ TEST_CASE ("each history position keeps its graph and file under random edits, o
     for (unsigned seed = 0; seed < 40; ++seed)
     {
         std::mt19937 chance (seed);
-        const auto upTo = [&] (int n)
-        { return std::uniform_int_distribution<int> (0, n) (chance); };
+        const auto upTo = [&] (int n) { return std::uniform_int_distribution<int> (0, n) (chance); };
         struct Moment
         {
             std::string graph;
             fs::path file, preset;
             const void* identity;
         };
-        Document d (test::prefixed (graphOf ("dry_wood.json"), "a_", "stylus"), "first.json");
-        const auto now = [&]
-        { return Moment { writeGraph (d.graph()), d.file(), d.preset(), d.identity() }; };
+        Document d (tactus::test::prefixed (graphOf ("dry_wood.json"), "a_", "stylus"), "first.json");
+        const auto now = [&] { return Moment { writeGraph (d.graph()), d.file(), d.preset(), d.identity() }; };
         std::vector<Moment> expected { now() };
         for (int i = 0; i < 60; ++i)
         {
@@ -124,7 +122,7 @@ TEST_CASE ("each history position keeps its graph and file under random edits, o
             {
                 const auto step = upTo (2) == 0 && position > 0 ? graph::Step::joined : graph::Step::own;
                 auto after = now();   // an edit changes neither the file nor the preset
-                if (! d.perform (test::randomEdit (chance, d.graph(), "a_", "stylus"), step)) continue;
+                if (! d.perform (tactus::test::randomEdit (chance, d.graph(), "a_", "stylus"), step)) continue;
                 after.graph = writeGraph (d.graph());
                 expected.resize (position + 1);
                 if (step == graph::Step::joined)
@@ -136,7 +134,7 @@ TEST_CASE ("each history position keeps its graph and file under random edits, o
             {
                 const auto file = "f" + std::to_string (i) + ".json";
                 const bool is_copy = upTo (1) == 0;
-                const auto other = is_copy ? graphOf ("liver.json") : test::prefixed (graphOf ("soft_pad.json"), "a_", "stylus");
+                const auto other = is_copy ? graphOf ("liver.json") : tactus::test::prefixed (graphOf ("soft_pad.json"), "a_", "stylus");
                 d.open (other, is_copy ? Document::Source { .preset = file } : Document::Source { .file = file }, "open");
                 expected.resize (position + 1);
                 expected.push_back ({ writeGraph (other), is_copy ? fs::path() : fs::path (file), is_copy ? fs::path (file) : fs::path(), d.identity() });

@@ -8,7 +8,7 @@
 
 using namespace tactus;
 using namespace tactus::host;
-using test::Sketch;
+using tactus::test::Sketch;
 
 TEST_CASE ("the corner of copied text is the minimum of its node positions", "[fragment]")
 {

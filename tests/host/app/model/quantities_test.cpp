@@ -11,7 +11,7 @@
 
 using namespace tactus;
 using namespace tactus::host;
-using test::Sketch;
+using tactus::test::Sketch;
 
 TEST_CASE ("the quantity of a generic port propagates into and out of a subgraph", "[quantities]")
 {

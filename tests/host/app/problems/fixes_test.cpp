@@ -23,8 +23,7 @@ graph::Graph graphOf (const std::string& body)
 Messages errorsOf (const graph::Graph& g)
 {
     auto messages = compile (g, catalogue(), {}).messages;
-    std::erase_if (messages, [] (const Message& m)
-                   { return m.severity != Message::Severity::error; });
+    std::erase_if (messages, [] (const Message& m) { return m.severity != Message::Severity::error; });
     return messages;
 }
 
@@ -34,8 +33,7 @@ Messages fixAll (graph::Graph& g)
     for (int i = 0; i < 20; ++i)
     {
         const auto errors = errorsOf (g);
-        const auto fixable = std::ranges::find_if (errors, [&] (const Message& m)
-                                                   { return fixOf (g, m).has_value(); });
+        const auto fixable = std::ranges::find_if (errors, [&] (const Message& m) { return fixOf (g, m).has_value(); });
         if (fixable == errors.end()) return errors;
         const auto done = graph::apply (g, fixOf (g, *fixable)->command);
         REQUIRE (done.has_value());

@@ -5,7 +5,7 @@
 
 using namespace tactus;
 using namespace tactus::host;
-using test::CanvasRig;
+using host::test::CanvasRig;
 
 TEST_CASE ("the transport sliders can be moved after the run has ended and before the panel shows it", "[app][run]")
 {

@@ -17,7 +17,7 @@
 
 using namespace tactus;
 using namespace tactus::host;
-using test::CanvasRig;
+using host::test::CanvasRig;
 
 namespace
 {
@@ -43,11 +43,9 @@ std::vector<std::uint64_t> bitsOf (CanvasRig& rig, std::size_t ticks, const std:
     Traces::Client probe { p.traces() };
     probe.want ({ "motor.force" });
     p.start ({});
-    const auto traces = [&]
-    { return probe.of ("motor.force"); };
+    const auto traces = [&] { return probe.of ("motor.force"); };
     REQUIRE (until (
-        p, [&]
-        { return traces().size() == 3 && traces()[0]->end() >= ticks; },
+        p, [&] { return traces().size() == 3 && traces()[0]->end() >= ticks; },
         meanwhile));
     std::vector<std::uint64_t> bits;
     for (std::size_t k = 0; k < ticks; ++k)
@@ -65,8 +63,7 @@ TEST_CASE ("nothing the user does in the window changes the forces at the motor"
     CanvasRig quiet { CanvasRig::preset ("dry_wood") }, busy { CanvasRig::preset ("dry_wood") };
     const auto expected = bitsOf (quiet, ticks, [] {});
     int n = 0;
-    const auto got = bitsOf (busy, ticks, [&]
-                             {
+    const auto got = bitsOf (busy, ticks, [&] {
         ++n;
         // There and back, so that the drag stays clear of other nodes and does not change their params.
         const auto way = juce::Point<float> (16.0f, 8.0f) * (n % 2 == 0 ? 1.0f : -1.0f);
@@ -78,7 +75,8 @@ TEST_CASE ("nothing the user does in the window changes the forces at the motor"
         {
             busy.hand().key ("ctrl + z");
             busy.hand().key ("ctrl + y");
-        } });
+        }
+    });
     CHECK (busy.graph().root.find ("drag")->params == quiet.graph().root.find ("drag")->params);
     CHECK (n > 5);
 
@@ -105,18 +103,15 @@ TEST_CASE ("stop removes the forces, start restores them, and an edit does not r
     CHECK_FALSE (p.isRunning());
 
     p.start ({});
-    REQUIRE (until (p, [&]
-                    { return p.status()->peak > 0.1; }));
+    REQUIRE (until (p, [&] { return p.status()->peak > 0.1; }));
     p.stop();
-    REQUIRE (until (p, [&]
-                    { return ! p.isRunning(); }));
+    REQUIRE (until (p, [&] { return ! p.isRunning(); }));
     CHECK (p.status()->force == 0.0);
     rig.hand().key ("b");
     p.attend();
     CHECK_FALSE (p.isRunning());
     p.start (LiveRun::Hand::pointer());
-    CHECK (until (p, [&]
-                  { return p.isRunning() && p.tool().has_value(); }));
+    CHECK (until (p, [&] { return p.isRunning() && p.tool().has_value(); }));
 }
 
 TEST_CASE ("the emergency stop removes the forces while the graph keeps running, until it is rearmed", "[app][run]")
@@ -126,39 +121,31 @@ TEST_CASE ("the emergency stop removes the forces while the graph keeps running,
     p.emergencyStop();   // with nothing running
     CHECK_FALSE (p.isStoppedForGood());
     p.start ({});
-    const auto force = [&]
-    { return p.status()->force; };
-    REQUIRE (until (p, [&]
-                    { return force() > 0.1; }));
+    const auto force = [&] { return p.status()->force; };
+    REQUIRE (until (p, [&] { return force() > 0.1; }));
     CHECK_FALSE (p.isStoppedForGood());
 
     p.emergencyStop();
-    REQUIRE (until (p, [&]
-                    { return p.isStoppedForGood() && force() == 0.0; }));
+    REQUIRE (until (p, [&] { return p.isStoppedForGood() && force() == 0.0; }));
     const auto tick = p.status()->ticks;
-    REQUIRE (until (p, [&]
-                    { return p.status()->ticks > tick + 400; }));
+    REQUIRE (until (p, [&] { return p.status()->ticks > tick + 400; }));
     CHECK (force() == 0.0);
     rig.hand().key ("b");   // an edit does not bring the force back
     p.attend();
     CHECK (p.isStoppedForGood());
 
     rig.document.perform (graph::SetHeader { .rate_hz = 5000.0 });   // nor does an edit that restarts the run
-    REQUIRE (until (p, [&]
-                    { return p.isRunning() && p.rate() == 5000.0 && p.status()->ticks > 8000; }));
+    REQUIRE (until (p, [&] { return p.isRunning() && p.rate() == 5000.0 && p.status()->ticks > 8000; }));
     CHECK (p.isStoppedForGood());
     CHECK (p.status()->peak == 0.0);
 
-    CHECK (until (p, [&]
-                  { return p.canRearm(); }));   // a second after the stop
+    CHECK (until (p, [&] { return p.canRearm(); }));   // a second after the stop
     p.rearm();
-    CHECK (until (p, [&]
-                  { return force() > 0.1; }));
+    CHECK (until (p, [&] { return force() > 0.1; }));
     CHECK_FALSE (p.isStoppedForGood());
     p.emergencyStop();
     p.start ({});   // the user does
-    CHECK (until (p, [&]
-                  { return p.isRunning() && force() > 0.1; }));
+    CHECK (until (p, [&] { return p.isRunning() && force() > 0.1; }));
 }
 
 TEST_CASE ("the tool follows the mouse, and meets the surface where the mouse points", "[app][run]")
@@ -167,12 +154,10 @@ TEST_CASE ("the tool follows the mouse, and meets the surface where the mouse po
     LiveRun p { rig.document, catalogue() };
     p.start (LiveRun::Hand::pointer());
     p.point ({ 0.01, -0.02, 0.005 });
-    REQUIRE (until (p, [&]
-                    { return p.tool() && (p.tool()->position - Vec3 (0.01, -0.02, 0.005)).norm() < 1e-3; }));
+    REQUIRE (until (p, [&] { return p.tool() && (p.tool()->position - Vec3 (0.01, -0.02, 0.005)).norm() < 1e-3; }));
     CHECK (p.tool()->force.norm() < 1e-3);
     p.point ({ 0.01, -0.02, -0.004 });
-    CHECK (until (p, [&]
-                  { return p.tool()->force.z() > 0.1; }));
+    CHECK (until (p, [&] { return p.tool()->force.z() > 0.1; }));
 }
 
 TEST_CASE ("if an edit breaks a running graph, the previous graph keeps running and the problem is reported", "[app][run]")
@@ -180,8 +165,7 @@ TEST_CASE ("if an edit breaks a running graph, the previous graph keeps running 
     CanvasRig rig { CanvasRig::preset ("dry_wood") };
     LiveRun p { rig.document, catalogue() };
     p.start ({});
-    REQUIRE (until (p, [&]
-                    { return p.tool().has_value(); }));
+    REQUIRE (until (p, [&] { return p.tool().has_value(); }));
     rig.hand().drag (rig.port ("drag", Role::output, "deflection"), rig.port ("drag", Role::input, "position"));
     graph::Wire loop;
     loop.from = { "drag", "deflection" };
@@ -215,11 +199,8 @@ TEST_CASE ("a missing sound card is reported, and the run continues without it",
     setup.open (home.path());
     LiveRun p { rig.document, catalogue() };
     p.use (setup);
-    setup.onChange = [&]
-    { p.setupChanged(); };
-    const auto play = [&] (const char* sound)
-    { REQUIRE (setup.edit ([&] (DeviceSession& s)
-                           { s.setAudio (Json::parse (sound)); })); };
+    setup.onChange = [&] { p.setupChanged(); };
+    const auto play = [&] (const char* sound) { REQUIRE (setup.edit ([&] (DeviceSession& s) { s.setAudio (Json::parse (sound)); })); };
     play (R"({ "output": "nobody has this card", "routes": [ { "port": "drag.force.x", "channel": 1, "full_scale": "4 N" } ] })");
     CHECK_FALSE (p.audioStatus());
     p.start ({});
@@ -227,15 +208,12 @@ TEST_CASE ("a missing sound card is reported, and the run continues without it",
     CHECK_FALSE (hasErrors (p.messages()));
     REQUIRE (p.audioStatus());
     CHECK_FALSE (p.audioStatus()->is_open);
-    CHECK (until (p, [&]
-                  { return p.status()->ticks > 100; }));
+    CHECK (until (p, [&] { return p.status()->ticks > 100; }));
 
     play (R"({ "output": "nobody has this card", "routes": [ { "port": "drag.forse.x", "channel": 1 } ] })");   // restarts the run
-    CHECK (until (p, [&]
-                  { return std::ranges::count (p.messages(), "audio/port", &Message::id) == 1; }));
+    CHECK (until (p, [&] { return std::ranges::count (p.messages(), "audio/port", &Message::id) == 1; }));
     CHECK_FALSE (hasErrors (p.messages()));
-    CHECK (until (p, [&]
-                  { return p.isRunning() && p.status()->ticks > 100; }));
+    CHECK (until (p, [&] { return p.isRunning() && p.status()->ticks > 100; }));
 }
 
 TEST_CASE ("the role of a sound card never becomes the hand, even if it comes first", "[app][run]")
@@ -252,12 +230,10 @@ TEST_CASE ("the role of a sound card never becomes the hand, even if it comes fi
     LiveRun p { rig.document, catalogue() };
     p.start (LiveRun::Hand::pointer());
     p.point (Vec3 (0.01, 0.0, -0.002));
-    CHECK (until (p, [&]
-                  { return p.tool() && p.tool()->position.z() < 0.0 && p.tool()->force.z() > 0.1; }));
+    CHECK (until (p, [&] { return p.tool() && p.tool()->position.z() < 0.0 && p.tool()->force.z() > 0.1; }));
     CHECK (p.stiffnessLeft());
     p.start ({});   // moved by the stylus's own gesture
-    CHECK (until (p, [&]
-                  { return p.isRunning() && p.transport() != nullptr && p.status()->peak > 0.1; }));
+    CHECK (until (p, [&] { return p.isRunning() && p.transport() != nullptr && p.status()->peak > 0.1; }));
 }
 
 TEST_CASE ("if a run's clock is a sound card that is missing, its forces stay at zero", "[app][run]")
@@ -266,15 +242,14 @@ TEST_CASE ("if a run's clock is a sound card that is missing, its forces stay at
     const TemporaryFolder home;
     DeviceSetup setup;
     setup.open (home.path());
-    REQUIRE (setup.edit ([] (DeviceSession& s)
-                         {
+    REQUIRE (setup.edit ([] (DeviceSession& s) {
         s.setClock ("audio");
-        s.setAudio ({ { "output", "nobody has this card" } }); }));
+        s.setAudio ({ { "output", "nobody has this card" } });
+    }));
     LiveRun p { rig.document, catalogue() };
     p.use (setup);
     p.start ({});
-    REQUIRE (until (p, [&]
-                    { return p.status() && p.status()->ticks > 1000; }));
+    REQUIRE (until (p, [&] { return p.status() && p.status()->ticks > 1000; }));
     CHECK (p.status()->clock_replaced);
     CHECK (p.audioStatus()->by_timer);
     CHECK (p.status()->peak == 0.0);

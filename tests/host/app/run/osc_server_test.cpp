@@ -11,7 +11,7 @@
 using namespace tactus;
 using namespace tactus::host;
 using juce::OSCMessage;
-using test::CanvasRig;
+using host::test::CanvasRig;
 using namespace std::chrono_literals;
 
 namespace
@@ -47,8 +47,7 @@ struct Rig
     {
         other->send (server.port(), OSCMessage (address, args...));
         std::optional<OSCMessage> answer;
-        REQUIRE (until ([&]
-                        { return answer || (answer = other->next()); }));
+        REQUIRE (until ([&] { return answer || (answer = other->next()); }));
         return *answer;
     }
 
@@ -64,8 +63,7 @@ TEST_CASE ("values set over OSC are felt, appear in the window, and are one undo
     Rig r { "dry_wood" };
     CHECK (r.text (r.ask ("/tactus/param", juce::String ("drag.mu"), 0.3f, r.me()), 2) == "run/stopped");
     CHECK_FALSE (isError (r.ask ("/tactus/start", r.me())));
-    REQUIRE (r.until ([&]
-                      { return r.live_run.isRunning(); }));
+    REQUIRE (r.until ([&] { return r.live_run.isRunning(); }));
 
     const auto before = r.rig.document.history().position();
     CHECK_FALSE (isError (r.ask ("/tactus/param", juce::String ("board.stiffness"), juce::String ("1.5 N/mm"), r.me())));
@@ -84,8 +82,7 @@ TEST_CASE ("values set over OSC are felt, appear in the window, and are one undo
     CHECK (r.rig.document.history().position() == here);
 
     r.other->send (r.server.port(), OSCMessage ("/tactus/stop"));
-    CHECK (r.until ([&]
-                    { return ! r.live_run.isRunning(); }));
+    CHECK (r.until ([&] { return ! r.live_run.isRunning(); }));
 }
 
 TEST_CASE ("an OSC client can probe a port of the window, even after an edit, until the port is removed", "[app][osc]")
@@ -96,11 +93,9 @@ TEST_CASE ("an OSC client can probe a port of the window, even after an edit, un
     REQUIRE_FALSE (isError (done));
     CHECK (done.size() == 6);
     CHECK (r.text (done, 3) == "drag.force.x");
-    const auto next = [&]
-    {
+    const auto next = [&] {
         std::optional<OSCMessage> value;
-        REQUIRE (r.until ([&]
-                          { return value || (value = r.other->next()); }));
+        REQUIRE (r.until ([&] { return value || (value = r.other->next()); }));
         return *value;
     };
     const auto first = next();
@@ -112,11 +107,11 @@ TEST_CASE ("an OSC client can probe a port of the window, even after an edit, un
     CHECK (next().getAddressPattern().toString() == "/tactus/value");
     r.rig.document.perform (graph::RemoveNode { "", "drag" });
     std::optional<OSCMessage> ended;
-    CHECK (r.until ([&]
-                    {
+    CHECK (r.until ([&] {
         while (auto m = r.other->next())
             if (isError (*m)) ended = m;
-        return ended.has_value(); }));
+        return ended.has_value();
+    }));
 }
 
 TEST_CASE ("an OSC client can wait for an edge in the window", "[app][osc]")
@@ -126,11 +121,11 @@ TEST_CASE ("an OSC client can wait for an edge in the window", "[app][osc]")
     const juce::String port = "drag.force", watched = "board.depth", edge = "rising";
     REQUIRE_FALSE (isError (r.ask ("/tactus/trigger", port, r.me(), watched, 1e-4f, edge, 10, 20, 30.0f)));
     std::size_t numbers = 0;
-    CHECK (r.until ([&]
-                    {
+    CHECK (r.until ([&] {
         while (auto m = r.other->next())
             if (m->getAddressPattern().toString() == "/tactus/capture") numbers += static_cast<std::size_t> (m->size()) - 4;
-        return numbers == 31 * 3; }));
+        return numbers == 31 * 3;
+    }));
     CHECK (isError (r.ask ("/tactus/trigger", juce::String ("drag.force"), r.me(), juce::String ("drag.force"), 0.5f)));
     CHECK_FALSE (r.live_run.isCapturing());
 }
@@ -139,8 +134,7 @@ TEST_CASE ("random packets do not harm the window", "[app][osc]")
 {
     Rig r { "dry_wood" };
     r.live_run.start ({});
-    REQUIRE (r.until ([&]
-                      { return r.live_run.isRunning(); }));
+    REQUIRE (r.until ([&] { return r.live_run.isRunning(); }));
     std::mt19937 dice { 5 };
     juce::DatagramSocket socket;
     for (int i = 0; i < 20000; ++i)
@@ -154,10 +148,10 @@ TEST_CASE ("random packets do not harm the window", "[app][osc]")
         if (i % 500 == 0) r.server.attend();
     }
     std::optional<OSCMessage> status;   // packets that do not fit into the queue are dropped
-    CHECK (r.until ([&]
-                    {
+    CHECK (r.until ([&] {
         if (! status) r.other->send (r.server.port(), OSCMessage ("/tactus/status", r.me()));
-        return status || (status = r.other->next()); }));
+        return status || (status = r.other->next());
+    }));
     CHECK (r.text (*status, 0) == "Dry wood");
     CHECK (r.live_run.isRunning());
     CHECK (r.live_run.messages().empty());

@@ -33,8 +33,7 @@ TEST_CASE ("REARM never appears in the place of STOP", "[app][run]")
     Look look;
     strip.setLookAndFeel (&look);
     strip.setSize (1280, SafetyStrip::height);
-    const auto until = [&] (auto isSo)
-    {
+    const auto until = [&] (auto isSo) {
         for (int i = 0; i < 2000; ++i)
         {
             run.attend();
@@ -47,14 +46,12 @@ TEST_CASE ("REARM never appears in the place of STOP", "[app][run]")
     strip.refresh();
     REQUIRE (buttonCalled (strip, "START"));
     run.start ({});
-    REQUIRE (until ([&]
-                    { return buttonCalled (strip, "STOP") != nullptr; }));
+    REQUIRE (until ([&] { return buttonCalled (strip, "STOP") != nullptr; }));
     CHECK (buttonCalled (strip, "REARM") == nullptr);
     const auto place = buttonCalled (strip, "STOP")->getBounds();
 
     run.emergencyStop();
-    REQUIRE (until ([&]
-                    { return buttonCalled (strip, "REARM") != nullptr; }));
+    REQUIRE (until ([&] { return buttonCalled (strip, "REARM") != nullptr; }));
     REQUIRE (buttonCalled (strip, "STOP"));
     CHECK (buttonCalled (strip, "STOP")->getBounds() == place);
     CHECK_FALSE (buttonCalled (strip, "REARM")->getBounds().intersects (place));
@@ -62,14 +59,11 @@ TEST_CASE ("REARM never appears in the place of STOP", "[app][run]")
     CHECK_FALSE (buttonCalled (strip, "REARM")->isEnabled());   // a double click on STOP must not rearm
     buttonCalled (strip, "REARM")->onClick();
     CHECK (run.isStoppedForGood());
-    REQUIRE (until ([&]
-                    { return buttonCalled (strip, "REARM")->isEnabled(); }));
+    REQUIRE (until ([&] { return buttonCalled (strip, "REARM")->isEnabled(); }));
     buttonCalled (strip, "REARM")->onClick();
-    CHECK (until ([&]
-                  { return buttonCalled (strip, "REARM") == nullptr && run.isRunning(); }));
+    CHECK (until ([&] { return buttonCalled (strip, "REARM") == nullptr && run.isRunning(); }));
     run.emergencyStop();
     buttonCalled (strip, "STOP")->onClick();
-    CHECK (until ([&]
-                  { return ! run.isRunning(); }));
+    CHECK (until ([&] { return ! run.isRunning(); }));
     strip.setLookAndFeel (nullptr);
 }

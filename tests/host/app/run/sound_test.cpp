@@ -35,8 +35,7 @@ TEST_CASE ("a vibration is played at its pitch, without clicks", "[app][sound]")
     FakeCards card;
     Sound sound { card };
     sound.setVolume (1.0f);
-    const auto heard = play (sound, card, 4000.0, 2.0, [] (double t)
-                             { return std::sin (2.0 * M_PI * 250.0 * t); });
+    const auto heard = play (sound, card, 4000.0, 2.0, [] (double t) { return std::sin (2.0 * M_PI * 250.0 * t); });
     int rises = 0;
     float loudest = 0.0f, steepest = 0.0f;
     for (std::size_t i = 48000; i < heard.size(); ++i)
@@ -55,13 +54,10 @@ TEST_CASE ("a constant force is silent, and so are values that are not numbers",
 {
     FakeCards card;
     Sound sound { card };
-    const auto constant = play (sound, card, 1000.0, 2.0, [] (double)
-                                { return 3.0; });
+    const auto constant = play (sound, card, 1000.0, 2.0, [] (double) { return 3.0; });
     CHECK (std::abs (constant.back()) < 1e-3f);
-    const auto broken = play (sound, card, 1000.0, 1.0, [] (double)
-                              { return std::nan (""); });
-    CHECK (std::ranges::all_of (broken, [] (float x)
-                                { return std::isfinite (x); }));
+    const auto broken = play (sound, card, 1000.0, 1.0, [] (double) { return std::nan (""); });
+    CHECK (std::ranges::all_of (broken, [] (float x) { return std::isfinite (x); }));
 }
 
 TEST_CASE ("without a sound card there is an error, and a run at another rate can be heard too", "[app][sound]")

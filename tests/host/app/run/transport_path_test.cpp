@@ -28,8 +28,7 @@ TEST_CASE ("a path that is only played equals the original path", "[app][transpo
 
 TEST_CASE ("the hand never jumps on a pause, a seek or a change of speed, and its velocity matches its position", "[app][transport]")
 {
-    rc::prop ("any use of the transport", []
-              {
+    rc::prop ("any use of the transport", [] {
         const auto path = stroke();
         TransportPath played { path };
         const double dt = 1.0 / 4000.0;
@@ -39,17 +38,26 @@ TEST_CASE ("the hand never jumps on a pause, a seek or a change of speed, and it
             if (k % 800 == 0)
                 switch (*rc::gen::inRange (0, 4))
                 {
-                case 0: played.play (false); break;
-                case 1: played.play (true); break;
-                case 2: played.seek (*rc::gen::inRange (0, 1000) * 1e-3 * path->duration()); break;
-                default: played.setSpeed (*rc::gen::inRange (10, 200) * 1e-2); break;
+                case 0:
+                    played.play (false);
+                    break;
+                case 1:
+                    played.play (true);
+                    break;
+                case 2:
+                    played.seek (*rc::gen::inRange (0, 1000) * 1e-3 * path->duration());
+                    break;
+                default:
+                    played.setSpeed (*rc::gen::inRange (10, 200) * 1e-2);
+                    break;
                 }
             const auto now = played.at (k * dt);
             const Vec3 step = now.position - before.position;
             RC_ASSERT (step.norm() < 3.0 * dt);   // m/s: enough to catch up over a whole stroke
             RC_ASSERT ((step / dt - 0.5 * (now.velocity + before.velocity)).norm() < 0.05);
             before = now;
-        } });
+        }
+    });
 }
 
 TEST_CASE ("a paused hand comes to rest, and continues from there", "[app][transport]")
@@ -57,8 +65,7 @@ TEST_CASE ("a paused hand comes to rest, and continues from there", "[app][trans
     const auto path = stroke();
     TransportPath played { path };
     int k = 0;
-    const auto run = [&] (double seconds)
-    {
+    const auto run = [&] (double seconds) {
         auto p = played.at (k / 4000.0);
         for (const int end = k + static_cast<int> (4000 * seconds); k < end; ++k)
             p = played.at (k / 4000.0);

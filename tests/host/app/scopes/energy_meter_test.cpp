@@ -132,8 +132,7 @@ TEST_CASE ("scopes: a force along the motion of the tool is reported as active, 
 
 TEST_CASE ("scopes: a preloaded spring may give back the energy that it stores, but no more", "[app][scopes]")
 {
-    const auto let_out = [] (double held)
-    {
+    const auto let_out = [] (double held) {
         Recorded r;
         for (int k = 0; k <= 1000; ++k)
             r.add (Vec3 (1e-4 * k, 0, 0), Vec3 (1.0, 0, 0), held * (1.0 - k / 1000.0), 0.0);   // gives 0.1 J

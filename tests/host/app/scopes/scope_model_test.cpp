@@ -50,8 +50,7 @@ TEST_CASE ("scopes: the first click gives one cursor, the second two, the third 
 
 TEST_CASE ("scopes: an automatic range always contains the signal", "[app][scopes]")
 {
-    rc::prop ("any values", [] (const std::vector<std::pair<short, unsigned char>>& all)
-              {
+    rc::prop ("any values", [] (const std::vector<std::pair<short, unsigned char>>& all) {
         AutoRange range (3);
         for (const auto& [low, size] : all)
         {
@@ -60,7 +59,8 @@ TEST_CASE ("scopes: an automatic range always contains the signal", "[app][scope
             RC_ASSERT (shown.low <= seen.low);
             RC_ASSERT (shown.high >= seen.high);
             RC_ASSERT (shown.size() > 0.0);
-        } });
+        }
+    });
 }
 
 TEST_CASE ("scopes: an automatic range adapts immediately when a resting signal moves", "[app][scopes]")

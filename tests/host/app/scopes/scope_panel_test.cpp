@@ -74,8 +74,7 @@ struct Bench
 
     ScopeView& view (ScopeKind kind)
     {
-        const auto at = std::ranges::find_if (panel->shown(), [&] (const auto& v)
-                                              { return v->shown().kind == kind; });
+        const auto at = std::ranges::find_if (panel->shown(), [&] (const auto& v) { return v->shown().kind == kind; });
         REQUIRE (at != panel->shown().end());
         return **at;
     }
@@ -131,8 +130,7 @@ TEST_CASE ("scopes: a run is plotted in the colour of its quantity", "[app][scop
     Bench b;
     auto& plot = b.view (ScopeKind::time).plot();
     const auto force = b.look.theme().of (Quantity::force);
-    const auto picture = [&]
-    { return plot.createComponentSnapshot (plot.getLocalBounds()); };
+    const auto picture = [&] { return plot.createComponentSnapshot (plot.getLocalBounds()); };
     b.panel->refresh();
     CHECK (plot.shownLanes().empty());
     CHECK (countOf (picture(), force) == 0);
@@ -147,8 +145,7 @@ TEST_CASE ("scopes: against displacement, sticking and sliding have different co
     constexpr int in_legend = 64;
     Bench b;
     auto& plot = b.view (ScopeKind::over).plot();
-    const auto count = [&] (Quantity q)
-    { return countOf (plot.createComponentSnapshot (plot.getLocalBounds()), b.look.theme().of (q)); };
+    const auto count = [&] (Quantity q) { return countOf (plot.createComponentSnapshot (plot.getLocalBounds()), b.look.theme().of (q)); };
     b.run (6000);
     CHECK (count (Quantity::length) > 3 * in_legend);   // it sticks and slips
 
@@ -193,14 +190,12 @@ TEST_CASE ("scopes: the cross of a port removes it, its name does not", "[app][s
     Bench b;
     b.run (100);
     auto& view = b.view (ScopeKind::time);
-    const auto chip = [&]() -> FlatButton&
-    {
+    const auto chip = [&]() -> FlatButton& {
         for (auto* child : view.getChildren())
             if (auto* button = dynamic_cast<FlatButton*> (child); button != nullptr && button->getButtonText() == "motor.force") return *button;
         throw std::runtime_error ("no chip");
     };
-    const auto at = [&] (float x)
-    {
+    const auto at = [&] (float x) {
         clickAt (chip(), { x, 12.0f });
         juce::MessageManager::getInstance()->runDispatchLoopUntil (20);
     };
@@ -368,14 +363,12 @@ TEST_CASE ("scopes: a real-time run is shown, and stays shown when a port is add
     b.live_run.start (LiveRun::Hand {});
     REQUIRE (b.live_run.isRunning());
     Traces::Client client (b.live_run.traces());
-    const auto ticksOf = [&] (const std::string& port)
-    {
+    const auto ticksOf = [&] (const std::string& port) {
         const auto traces = client.of (port);
         return traces.empty() ? std::uint64_t { 0 } : traces.front()->end() - traces.front()->begin();
     };
     // Waits up to ten seconds, for slow machines.
-    const auto waitFor = [&] (const std::string& port, std::uint64_t ticks)
-    {
+    const auto waitFor = [&] (const std::string& port, std::uint64_t ticks) {
         for (int i = 0; i < 1000 && ticksOf (port) < ticks; ++i)
         {
             juce::Thread::sleep (10);

@@ -46,8 +46,7 @@ TEST_CASE ("scopes: every listed port can be recorded under its name, in every p
         for (const auto& port : options.records)
         {
             INFO (port);
-            CHECK (std::ranges::any_of (compiled.plan->taps(), [&] (const Tap& t)
-                                        { return isPartOf (t.name, port); }));
+            CHECK (std::ranges::any_of (compiled.plan->taps(), [&] (const Tap& t) { return isPartOf (t.name, port); }));
         }
     }
 }
@@ -102,8 +101,7 @@ TEST_CASE ("scopes: a scope follows a renamed node, and keeps the name of a remo
         model.scopes.push_back (std::make_unique<ScopeSpec> (std::move (s)));
     model.scopes.push_back (std::make_unique<ScopeSpec> (suggestedScope (ScopeKind::tool, edits.graph(), catalogue())));
     const auto& over = *model.scopes[1];
-    const auto edit = [&] (graph::Command command)
-    {
+    const auto edit = [&] (graph::Command command) {
         const auto before = scopePorts (edits.graph(), catalogue());
         REQUIRE (edits.perform (std::move (command), graph::Step::own));
         follow (model, before, scopePorts (edits.graph(), catalogue()));

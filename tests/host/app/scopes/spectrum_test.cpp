@@ -25,8 +25,7 @@ std::vector<double> sine (double amplitude, double hz, double phase, std::size_t
 
 TEST_CASE ("scopes: a sine of any amplitude, frequency and phase shows its amplitude at its frequency", "[app][scopes]")
 {
-    rc::prop ("on an offset, in a window of any length", []
-              {
+    rc::prop ("on an offset, in a window of any length", [] {
         const auto n = *rc::gen::inRange<std::size_t> (1000, 6000);
         const double bin = rate / static_cast<double> (n);
         const double hz = bin * (8.0 + *rc::gen::inRange (0, 10000) / 10000.0 * (0.5 * static_cast<double> (n) - 16.0));
@@ -41,7 +40,8 @@ TEST_CASE ("scopes: a sine of any amplitude, frequency and phase shows its ampli
         for (const double a : spectrum.amplitude)
             highest = std::max (highest, a);
         RC_ASSERT (highest > 0.98 * amplitude);
-        RC_ASSERT (highest < 1.005 * amplitude); });
+        RC_ASSERT (highest < 1.005 * amplitude);
+    });
 }
 
 TEST_CASE ("scopes: a faint sine next to a loud one shows its own amplitude", "[app][scopes]")

@@ -40,8 +40,7 @@ struct Rub
     void move (const Vec3& p, double load = 1.0)
     {
         node.input ("position", p).input ("normal_force", load).tick();
-        const auto vector = [this] (const char* port, const Vec3& v)
-        {
+        const auto vector = [this] (const char* port, const Vec3& v) {
             for (int i = 0; i < 3; ++i)
                 ports[port][static_cast<std::size_t> (i)]->add (tick, v[i]);
         };
@@ -57,10 +56,10 @@ struct Rub
 
     std::optional<ToolPicture> picture() const
     {
-        return toolPicture ("drag", [this] (const std::string& port)
-                            {
+        return toolPicture ("drag", [this] (const std::string& port) {
             const auto at = ports.find (port);
-            return at == ports.end() ? TraceList {} : TraceList (at->second.begin(), at->second.end()); });
+            return at == ports.end() ? TraceList {} : TraceList (at->second.begin(), at->second.end());
+        });
     }
 };
 }   // namespace
@@ -102,15 +101,15 @@ TEST_CASE ("scopes: a plane of any orientation is seen from above, without mirro
 {
     CHECK (PlaneView (Vec3::UnitZ()).right == Vec3::UnitX());
     CHECK (PlaneView (Vec3::UnitZ()).up == Vec3::UnitY());
-    rc::prop ("any normal", [] (short x, short y, short z)
-              {
+    rc::prop ("any normal", [] (short x, short y, short z) {
         const Vec3 n (x, y, z);
         RC_PRE (n.norm() > 0.0);
         const PlaneView v (n);
         RC_ASSERT (std::abs (v.right.norm() - 1.0) < 1e-9);
         RC_ASSERT (std::abs (v.up.norm() - 1.0) < 1e-9);
         RC_ASSERT (std::abs (v.right.dot (n.normalized())) < 1e-9);
-        RC_ASSERT (v.right.cross (v.up).dot (n.normalized()) > 0.999); });
+        RC_ASSERT (v.right.cross (v.up).dot (n.normalized()) > 0.999);
+    });
 }
 
 TEST_CASE ("scopes: saved traces read back tick by tick, with nan where a trace has no value", "[app][scopes]")

@@ -20,8 +20,7 @@ std::vector<double> thousandths (const std::vector<short>& from)
 
 TEST_CASE ("scopes: a column of pixels keeps the lowest and highest of its ticks, and gaps stay gaps", "[app][scopes]")
 {
-    rc::prop ("any signal, window and width", [] (const std::vector<short>& signal)
-              {
+    rc::prop ("any signal, window and width", [] (const std::vector<short>& signal) {
         const auto values = thousandths (signal);
         const auto first = *rc::gen::inRange<std::uint64_t> (0, 50000);
         const auto trace = traceOf (values, first);
@@ -44,7 +43,8 @@ TEST_CASE ("scopes: a column of pixels keeps the lowest and highest of its ticks
         {
             RC_ASSERT (columns.all[i].extent.low == expected[i].low);
             RC_ASSERT (columns.all[i].extent.high == expected[i].high);
-        } });
+        }
+    });
 }
 
 TEST_CASE ("scopes: columns keep the same ticks while the window moves, so that peaks do not shimmer", "[app][scopes]")
@@ -66,18 +66,20 @@ TEST_CASE ("scopes: columns keep the same ticks while the window moves, so that 
 
 TEST_CASE ("scopes: the trigger is the latest crossing on the selected edge", "[app][scopes]")
 {
-    rc::prop ("any signal and level", [] (const std::vector<short>& signal, bool rises, short level)
-              {
+    rc::prop ("any signal and level", [] (const std::vector<short>& signal, bool rises, short level) {
         const auto values = thousandths (signal);
         const auto trace = traceOf (values, 100);
         const ScopeTrigger trigger { rises ? ScopeTrigger::Edge::rising : ScopeTrigger::Edge::falling, level / 3000.0 };
         const auto before = *rc::gen::inRange<std::uint64_t> (90, 250);
-        const auto passed = [&] (std::size_t i)
-        { return rises ? values[i - 1] < trigger.level && values[i] >= trigger.level : values[i - 1] > trigger.level && values[i] <= trigger.level; };
+        const auto passed = [&] (std::size_t i) {
+            if (rises) return values[i - 1] < trigger.level && values[i] >= trigger.level;
+            return values[i - 1] > trigger.level && values[i] <= trigger.level;
+        };
         std::optional<std::uint64_t> expected;
         for (std::size_t i = 1; i < values.size() && 100 + i < before; ++i)
             if (passed (i)) expected = 100 + i;
-        RC_ASSERT (latestCrossing (*trace, trigger, 0.0, before) == expected); });
+        RC_ASSERT (latestCrossing (*trace, trigger, 0.0, before) == expected);
+    });
 }
 
 TEST_CASE ("scopes: noise around the level triggers only once, and a gap is not a crossing", "[app][scopes]")
@@ -114,10 +116,10 @@ TEST_CASE ("scopes: a trace visits its ticks in order, even across the end of it
     for (std::uint64_t i = 0; i < 250; ++i)
         trace->add (i, static_cast<double> (i));
     std::uint64_t expected = 150, count = 0;
-    trace->each (0, 1000, [&] (std::uint64_t tick, double v)
-                 {
+    trace->each (0, 1000, [&] (std::uint64_t tick, double v) {
         CHECK (tick == expected++);
         CHECK (v == static_cast<double> (tick));
-        ++count; });
+        ++count;
+    });
     CHECK (count == 100);
 }

@@ -198,10 +198,10 @@ TEST_CASE ("a session is not damaged by another instance that looks for crashed 
 {
     TemporaryFolder home;
     std::atomic<bool> stops { false };
-    std::thread looking ([&]
-                         {
+    std::thread looking ([&] {
         while (! stops)
-            findCrashedSessions (home.path()); });
+            findCrashedSessions (home.path());
+    });
     for (int i = 0; i < 300; ++i)
     {
         RecoverySession session (home.path());

@@ -89,8 +89,7 @@ TEST_CASE ("snapshots include subgraphs and their overrides, and are saved in th
     graph::History h (graphOf ("two_fingers.json"));
     REQUIRE_FALSE (h.graph().graphs.empty());
     const auto& [name, patch] = h.graph().graphs.front();
-    const auto inner = std::ranges::find_if (patch.nodes, [] (const graph::Node& n)
-                                             { return ! n.params.empty(); });
+    const auto inner = std::ranges::find_if (patch.nodes, [] (const graph::Node& n) { return ! n.params.empty(); });
     REQUIRE (inner != patch.nodes.end());
     const auto subgraph = name, node = inner->name, key = inner->params.begin().key();
     const auto value = inner->params.begin().value();

@@ -20,17 +20,13 @@ public:
         juce::LookAndFeel::setDefaultLookAndFeel (&look);
         canvas = std::make_unique<Canvas> (document, catalogue());
         canvas->setBounds (0, 0, 1200, 800);
-        canvas->onHint = canvas->onNotice = [this] (const juce::String& text)
-        { hint = text; };
-        canvas->onChoose = [this] (const juce::String&, const std::vector<PaletteEntry>& entries, const std::function<void (const std::string&)>& chosen)
-        {
+        canvas->onHint = canvas->onNotice = [this] (const juce::String& text) { hint = text; };
+        canvas->onChoose = [this] (const juce::String&, const std::vector<PaletteEntry>& entries, const std::function<void (const std::string&)>& chosen) {
             choices = entries;
             if (choice < entries.size()) chosen (entries[choice].type);
         };
-        canvas->onNodeRequested = [this] (const NodeRequest& r)
-        { request = r; };
-        canvas->onProbe = [this] (std::vector<std::string> ports)
-        { probed = std::move (ports); };
+        canvas->onNodeRequested = [this] (const NodeRequest& r) { request = r; };
+        canvas->onProbe = [this] (std::vector<std::string> ports) { probed = std::move (ports); };
     }
 
     ~CanvasRig()

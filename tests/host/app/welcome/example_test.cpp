@@ -20,8 +20,10 @@ TEST_CASE ("every node has a small example that compiles")
         for (const auto& m : compiled.messages)
             UNSCOPED_INFO (m.where << ": " << m.text << " [" << m.id << "]");
         // Some nodes need a setting that only the user can choose; the inspector asks for it.
-        const bool needs_setting = std::ranges::any_of (compiled.messages, [] (const Message& m)
-                                                        { return m.where.starts_with ("/nodes/node") && m.where.find ("wires") == std::string::npos; });
+        const bool needs_setting = std::ranges::any_of (compiled.messages, [] (const Message& m) {
+            const bool is_in_node = m.where.starts_with ("/nodes/node");
+            return is_in_node && m.where.find ("wires") == std::string::npos;
+        });
         CHECK ((compiled.plan != nullptr || needs_setting));
         CHECK (readGraph (writeGraph (graph)).messages.empty());
     }
@@ -33,9 +35,7 @@ TEST_CASE ("the example of a node with a force output wires it to the motor")
     {
         const auto graph = exampleOf (*catalogue().find (id), catalogue());
         INFO (writeGraph (graph));
-        CHECK (std::ranges::any_of (graph.root.wires, [] (const graph::Wire& w)
-                                    { return w.from.node == "node"; }));
-        CHECK (std::ranges::any_of (graph.root.wires, [] (const graph::Wire& w)
-                                    { return w.to.node == "node"; }));
+        CHECK (std::ranges::any_of (graph.root.wires, [] (const graph::Wire& w) { return w.from.node == "node"; }));
+        CHECK (std::ranges::any_of (graph.root.wires, [] (const graph::Wire& w) { return w.to.node == "node"; }));
     }
 }

@@ -40,26 +40,20 @@ struct Rig
     std::unique_ptr<Files> make()
     {
         Files::Callbacks callbacks {
-            .notify = [this] (const juce::String& t)
-            { notice = t; },
-            .stop = [this]
-            { runs = false; },
-            .run = [this] (bool pointer)
-            {
+            .notify = [this] (const juce::String& t) { notice = t; },
+            .stop = [this] { runs = false; },
+            .run = [this] (bool pointer) {
                 files->beforeRun();
                 runs = true;
                 by_pointer = pointer;
                 ++starts; },
-            .isRunning = [this]
-            { return runs; },
+            .isRunning = [this] { return runs; },
             .onSettings = [] {},
-            .choose = [this] (bool, const fs::path&, const std::function<void (const fs::path&)>& then)
-            {
+            .choose = [this] (bool, const fs::path&, const std::function<void (const fs::path&)>& then) {
                 if (! chosen.empty()) then (chosen); }
         };
         auto made = std::make_unique<Files> (document, question, settings, std::move (callbacks));
-        made->clock = [this]
-        { return now; };
+        made->clock = [this] { return now; };
         return made;
     }
 
@@ -140,12 +134,8 @@ TEST_CASE ("opening another graph asks about unsaved changes, and Cancel changes
     d.edit (0.9);
     const auto edited = writeGraph (d.document.graph());
     const int starts = d.starts;
-    for (const auto& act : std::vector<std::function<void()>> { [&]
-                                                                { d.files->open (pad); },
-                                                                [&]
-                                                                { d.files->create(); },
-                                                                [&]
-                                                                { d.files->openCopy (pad, false); } })
+    const std::vector<std::function<void()>> acts { [&] { d.files->open (pad); }, [&] { d.files->create(); }, [&] { d.files->openCopy (pad, false); } };
+    for (const auto& act : acts)
     {
         act();
         REQUIRE (d.question.isOpen());

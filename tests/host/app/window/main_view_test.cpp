@@ -100,8 +100,7 @@ TEST_CASE ("digits recall snapshots, and Ctrl+digit stores them")
 {
     Opened o;
     o.view->begin ({ o.home.path(), true, false, { o.wood } });
-    const auto mu = [&]
-    { return o.view->document().graph().root.find ("drag")->params["mu"]; };
+    const auto mu = [&] { return o.view->document().graph().root.find ("drag")->params["mu"]; };
     o.press ("2");
     CHECK (o.view->statusText().contains ("empty"));
     o.press ("ctrl + 2");
@@ -118,9 +117,7 @@ TEST_CASE ("the window closes only after the question about unsaved changes is a
     Opened o;
     o.view->begin ({ o.home.path(), true, false, { o.wood } });
     int closed = 0;
-    const auto close = [&]
-    { o.view->closeWhenSaved ([&]
-                              { ++closed; }); };
+    const auto close = [&] { o.view->closeWhenSaved ([&] { ++closed; }); };
     REQUIRE (o.view->document().perform (graph::SetParam { "", "drag", "mu", Json (0.5) }));
     close();
     REQUIRE (o.view->asked().isOpen());
@@ -161,8 +158,7 @@ TEST_CASE ("help on a node shows its datasheet, and its example opens a graph th
         INFO (type.info.id);
         const auto& g = o.view->document().graph();
         bool has = false;
-        const auto look = [&] (const graph::Patch& p)
-        {
+        const auto look = [&] (const graph::Patch& p) {
             for (const auto& n : p.nodes)
                 has = has || n.type == type.info.id;
         };
@@ -194,8 +190,7 @@ TEST_CASE ("the browser searches by words and lists favourites first")
 
     Preset opened;
     bool is_own = true;
-    browser.onOpen = [&] (const Preset& p, bool own)
-    {
+    browser.onOpen = [&] (const Preset& p, bool own) {
         opened = p;
         is_own = own;
     };
