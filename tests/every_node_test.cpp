@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every node promises. A new node is tested against this without a test of its own.
+// What every node promises. These tests cover a new node too, even if it has no test of its own.
 
 #include "support/no_allocation.hpp"
 #include "support/rig.hpp"
@@ -30,7 +30,7 @@ public:
     int below (int n) { return std::uniform_int_distribution { 0, n - 1 }(random); }
     bool once_in (int n) { return below (n) == 0; }
 
-    /// A size from 0 to the largest double, including the sizes of hands and forces.
+    /// A magnitude from 0 to almost the largest double. Typical magnitudes of hand movements and forces are among them.
     double size()
     {
         static constexpr double sizes[] { 0.0, 5e-324, 1e-310, 1e-200, 1e-9, 1e-6, 1e-3, 1e-2, 1.0, 10.0, 1e3, 1e9, 1e150, 1e300, 1.7e308 };
@@ -90,7 +90,7 @@ void randomSettings (Rig& rig, Dice& dice)
     }
 }
 
-/// New inputs for the next tick: sometimes the same again, otherwise each of the run's size or of its own random size.
+/// Inputs for the next tick: sometimes unchanged, otherwise random. Most are as large as `size`, some have a random magnitude.
 void randomInputs (Rig& rig, Dice& dice, double size)
 {
     if (dice.once_in (4)) return;
@@ -133,7 +133,7 @@ bool sameBits (const std::vector<double>& a, const std::vector<double>& b)
         [] (double v) { return std::bit_cast<std::uint64_t> (v); });
 }
 
-/// The value of an output on a fault: 0, except for states, and for what a material does not forget.
+/// The value of an output on a fault: -1 for states and triangles, the previous value for what a material remembers, otherwise 0.
 double onFault (std::string_view type, std::string_view output, double before)
 {
     if (output == "state" || output == "triangle") return -1.0;
@@ -245,7 +245,7 @@ TEST_CASE ("every node answers a non-finite input with 0 and goes on", "[nodes][
                 twin.in[at] = 0.0;
                 rig.tick();
                 twin.tick();
-                if (type.peek)   // its outputs came before the input; the next ones depend on it
+                if (type.peek)   // a node with peek() gives its outputs before it reads the inputs, so the fault shows one tick later
                 {
                     randomTameInputs (rig, dice);
                     rig.in[at] = 0.0;
@@ -280,7 +280,7 @@ TEST_CASE ("every node works again after a fault", "[nodes][contract]")
         if (type.inputs.empty()) continue;
         DYNAMIC_SECTION (type.info.id)
         {
-            // An output that moves on a node without a fault sooner or later moves again on a node that had one.
+            // If an output is ever nonzero on a node without a fault, it must also become nonzero on a node after a fault.
             std::vector<char> lives, lives_on;
             Dice dice { 1 };
             for (int trial = 0; trial < 50; ++trial)

@@ -33,7 +33,7 @@ Message AtomicFile::unwritable (const std::string& reason) const
                            "choose another file, create its folder, or free some space");
 }
 
-Message AtomicFile::writeError() const { return unwritable (errno != 0 ? std::generic_category().message (errno) : "the system gives no reason"); }
+Message AtomicFile::writeError() const { return unwritable (errno != 0 ? std::generic_category().message (errno) : "the system gave no reason"); }
 
 Result<AtomicFile> AtomicFile::create (const fs::path& path)
 {

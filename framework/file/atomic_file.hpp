@@ -43,7 +43,7 @@ private:
     void discard() noexcept;
 
     std::filesystem::path target;
-    std::filesystem::path temporary;   // empty: nothing to remove
+    std::filesystem::path temporary;   // path of the temporary file; empty if there is none to remove
     std::ofstream out;
 };
 

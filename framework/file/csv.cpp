@@ -26,7 +26,7 @@ constexpr std::string_view spaces = " \t";
 struct Field
 {
     std::string_view text;    // without surrounding spaces and quotes
-    std::size_t column = 1;   // of its first byte
+    std::size_t column = 1;   // column of its first byte
 };
 
 std::string_view trim (std::string_view text)

@@ -33,9 +33,9 @@ struct Table
 /// any line ends, blank lines at the end, spaces around fields and double quotes are accepted. Columns keep their order. A
 /// header alone is a table without rows. Accepts any text.
 ///
-/// Errors: csv/empty, csv/no_header, csv/empty_column_name, csv/duplicate_column, csv/empty_field,
-/// csv/not_a_number, csv/out_of_range, csv/ragged_row, csv/blank_line, csv/broken_quote, csv/nul_byte,
-/// csv/line_too_long, csv/unreadable. `where` is name:line:column, counted in bytes from 1.
+/// Errors: csv/empty, csv/no_header, csv/empty_column_name, csv/duplicate_column, csv/empty_field, csv/not_a_number,
+/// csv/out_of_range, csv/ragged_row, csv/blank_line, csv/broken_quote, csv/nul_byte, csv/line_too_long, csv/unreadable. `where`
+/// is name:line:column. Lines and columns count from 1, and columns count bytes.
 Result<Table> readTable (std::string_view text, std::string_view name);
 Result<Table> readTable (std::istream& in, std::string_view name);
 Result<Table> readTable (const std::filesystem::path& path);

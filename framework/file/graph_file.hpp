@@ -41,7 +41,7 @@ struct LoadedGraph
     Messages messages;    ///< sorted by line and column
     TextPositions positions;
 
-    /// The position of a pointer, or of its nearest parent that exists in the file; for messages of later steps.
+    /// The position of the value at a pointer, or of its nearest parent that exists in the file; for messages of later steps.
     TextPosition positionOf (std::string_view pointer) const;
 };
 

@@ -28,14 +28,14 @@ Message unreadable (const fs::path& path, const std::string& reason)
                            "check the path; a path in a file is relative to the folder of that file");
 }
 
-/// The text of a file. Reads at most one byte more than allowed, so that it also stops on endless files.
+/// The text of a file. Stops soon after the largest allowed size, so that it also returns for an endless file.
 Result<std::string> readText (const fs::path& path)
 {
     std::error_code failure;
     if (fs::is_directory (path, failure)) return unreadable (path, "it is a folder");
     errno = 0;
     std::ifstream in (path, std::ios::binary);
-    if (! in) return unreadable (path, errno != 0 ? std::generic_category().message (errno) : "the system gives no reason");
+    if (! in) return unreadable (path, errno != 0 ? std::generic_category().message (errno) : "the system gave no reason");
 
     std::string text;
     char block[1u << 16u];
@@ -112,10 +112,10 @@ private:
             for (auto file = first; file != chain.end(); ++file)
                 round += file->filename().string() + " -> ";
             return refuse (Message::error ("file/cycle", {}, "the file contains itself: " + round + identity.filename().string(),
-                                           "remove the node from one of these files"));
+                                           "remove one of the nodes through which these files include each other"));
         }
         if (chain.size() >= longest_chain)
-            return refuse (Message::error ("file/too_deep", {}, "include files are nested more than " + std::to_string (longest_chain) + " levels deep",
+            return refuse (Message::error ("file/too_deep", {}, "included files are nested more than " + std::to_string (longest_chain) + " levels deep",
                                            "move subgraphs into one file"));
 
         auto& graph = loaded_files[identity];

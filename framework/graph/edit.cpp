@@ -128,7 +128,7 @@ public:
         it->name = c.to;
         if (checked() && anythingTwice())
         {
-            // A reference to a node that never existed uses the new name.
+            // The new name already occurs in a reference, to a node that does not exist.
             takeBack (back.commands);
             return Message::error ("edit/name_taken", {}, "a control or an override already refers to " + quote (c.to),
                                    "remove that target first, or choose another name");

@@ -149,12 +149,12 @@ struct CollapseNodes
     std::string subgraph;   ///< name of the new subgraph
 };
 
-/// The reverse: replaces a subgraph node by the contents of its subgraph, with the params, overrides and roles of the node applied.
-/// Removes the subgraph if no other node uses it. If it is shared, its nodes and wires are copied, and the copies record their
-/// origin. A node whose name is taken outside gets a new one that begins with the name of the subgraph node. A node with a
-/// `count` becomes one node per instance, "finger_0", "finger_1" …, each of which can be expanded in turn. A wire from all
-/// instances becomes one wire per instance; compile rejects these (wire/two_into_one) if their sum went into a port that takes
-/// a single wire.
+/// The reverse of CollapseNodes: replaces a subgraph node by the contents of its subgraph, with the params, overrides and roles
+/// of the node applied. Removes the subgraph if no other node uses it. If it is shared, its nodes and wires are copied, and the
+/// copies record their origin. A node whose name is taken outside gets a new one that begins with the name of the subgraph node.
+/// A node with a `count` becomes one node per instance, "finger_0", "finger_1" …, each of which can be expanded in turn. A wire
+/// from all instances becomes one wire per instance; compile rejects these (wire/two_into_one) if their sum went into a port that
+/// takes a single wire.
 struct ExpandNode
 {
     std::string patch, name;

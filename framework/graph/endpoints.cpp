@@ -35,7 +35,7 @@ private:
         return n != nullptr && n->type.starts_with ("graph:") ? graph.find (std::string_view (n->type).substr (6)) : nullptr;
     }
 
-    /// True if the endpoint was rewritten.
+    /// Returns true if `visit` rewrote the endpoint.
     bool follow (Endpoint& e, const Patch* from, Side side, std::size_t begin = 0)
     {
         const auto as_written = e;

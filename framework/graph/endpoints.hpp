@@ -23,7 +23,7 @@ struct Waypoint
     const Patch* patch;
     Side side;
     std::string name;         ///< without an instance
-    std::size_t begin, end;   ///< in Endpoint::node
+    std::size_t begin, end;   ///< where the name, with its instance, begins and ends in Endpoint::node
 };
 
 /// Calls `visit` for each name in the path of each endpoint of a graph, from the outside in, until it returns false. If `visit`

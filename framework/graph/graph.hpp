@@ -22,7 +22,7 @@ using Id = std::uint64_t;
 
 Id newId() noexcept;   // [any thread]
 
-/// The node or wire that a copy was made from; for one of several instances, also its number.
+/// The node or wire that a copy was made from; for one of several instances, also the number of that instance.
 struct Ancestor
 {
     Id id = 0;
@@ -47,7 +47,7 @@ struct Wire
     Id id = newId();
     std::vector<Ancestor> origin {};   ///< for a copy made by expanding: the subgraph nodes that enclose the original, then the original; state follows it
     Endpoint from, to;
-    int delay = 0;                 ///< ticks; 0 is no delay
+    int delay = 0;                 ///< in ticks; 0: no delay
     bool add = false;              ///< `(+)`: adds to the stored value of a parameter instead of replacing it
     Json gain;                     ///< as written: null, a number, or a string with a unit
     std::optional<bool> enabled;   ///< as written; a wire is enabled by default
@@ -57,14 +57,14 @@ struct Wire
 struct Node
 {
     Id id = newId();
-    std::vector<Ancestor> origin {};   ///< as for a wire
+    std::vector<Ancestor> origin {};   ///< as in Wire
     std::string name;
     std::string type;               ///< id in the catalogue, "graph:NAME" or "file:path.json"
-    std::string role;               ///< for a device node
+    std::string role;               ///< of a device node; else empty
     Json params = Json::object();   ///< values as written, so that "0.4 mm" stays "0.4 mm"
     Json settings = Json::object();
-    Json roles;                        ///< subgraph: inner role to outer role
-    Json overrides = Json::object();   ///< subgraph: inner params, relative to this node
+    Json roles;                        ///< of a subgraph node: maps inner roles to outer ones
+    Json overrides = Json::object();   ///< of a subgraph node: values of inner params, by their paths relative to this node
     bool bypass = false;
     Json extra = Json::object();   ///< `count`, `every`, `times`, `hold`, and unknown keys
 };
@@ -91,8 +91,8 @@ struct Control
 {
     struct Target
     {
-        std::string path;   ///< node.param, paths into subgraphs allowed
-        Json low, high;     ///< as written
+        std::string path;   ///< node.param; may lead into subgraphs
+        Json low, high;     ///< values of the parameter when the control is at 0 and at 1, as written
     };
 
     std::string id, name;
@@ -106,7 +106,7 @@ struct Graph
     std::string name, about;
     std::vector<std::string> tags;
     double rate_hz = 4000.0;
-    std::vector<std::pair<std::string, Json>> devices;   ///< role and its description, for the host
+    std::vector<std::pair<std::string, Json>> devices;   ///< descriptions of devices, by role; for the host
     Patch root;
     std::vector<Control> controls;
     std::vector<std::pair<std::string, Patch>> graphs;   ///< subgraphs by name

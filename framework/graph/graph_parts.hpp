@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Parts of a graph in the form that they have in a file. Edits use them, because they must not create anything that a file
-/// cannot hold, and so does copying between graphs.
+/// Parts of a graph in the form that they have in a file. Edits use these functions, because an edit must not create anything
+/// that a file cannot hold. Copying between graphs uses them, too.
 
 #include "graph.hpp"
 

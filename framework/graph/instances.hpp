@@ -38,7 +38,7 @@ int namedInstances (std::string_view) noexcept;
 /// empty if it does not match. "finger.force", "finger[*].force" and "finger[3].force" match all of "finger[3].force.x" except ".x".
 std::optional<std::size_t> covers (std::string_view name, std::string_view text) noexcept;
 
-/// The ancestry of a node, a wire, or an instance of a node: the origin of a copy, else itself.
+/// The ancestry of a node, a wire, or an instance of a node: for a copy, its origin; for anything else, the thing itself.
 template <typename Thing>
 std::vector<Ancestor> ancestryOf (const Thing& x, int instance = 0)
 {

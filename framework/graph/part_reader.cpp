@@ -140,7 +140,7 @@ void PartReader::readWire (Json& value, const std::string& where, Patch& patch)
     }
     if (! value.is_object())
     {
-        error ("file/wrong_kind", where, "a wire should be a string or an object with a 'wire'", "write \"node.port -> node.port\"");
+        error ("file/wrong_kind", where, "a wire should be a string, or an object with a key 'wire'", "write \"node.port -> node.port\"");
         return;
     }
 
@@ -155,7 +155,7 @@ void PartReader::readWire (Json& value, const std::string& where, Patch& patch)
             { "enabled", JsonKind::truth, [&] (Json& v, const std::string&) { rest.enabled = v.get<bool>(); } },
             { "ui", JsonKind::object, keep ("ui", rest.extra) } },
           rest.extra);
-    if (! value.contains ("wire")) error ("file/missing_key", where, "the wire has no 'wire' with its two ends", "add \"wire\": \"node.port -> node.port\"");
+    if (! value.contains ("wire")) error ("file/missing_key", where, "the wire has no key 'wire' for its two ends", "add \"wire\": \"node.port -> node.port\"");
     if (! wire) return;
     wire->gain = std::move (rest.gain);
     wire->enabled = rest.enabled;

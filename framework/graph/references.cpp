@@ -133,7 +133,7 @@ private:
     Graph& graph;
     const Patch* patch;
     std::string_view node;
-    const std::string_view* to;   ///< null: drop the references
+    const std::string_view* to;   ///< the new name; null: drop the references
     std::vector<Command> back;
 };
 }   // namespace

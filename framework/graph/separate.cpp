@@ -217,7 +217,7 @@ private:
     Patch& patch;
     const Node& node;
     const int count;
-    std::vector<std::string> names;   // of the new nodes, by instance
+    std::vector<std::string> names;   // names of the new nodes, by instance
     Result<> done;
 };
 }   // namespace

@@ -17,15 +17,16 @@ bool isId (std::string_view) noexcept;
 /// The longest delay of a wire, in ticks; it lasts minutes. A tick or two is enough to open a loop.
 inline constexpr int longest_delay = 1'000'000;
 
-/// Reads "hand.position.x", "mix.in[2]", "grain/wave.phase", "finger[3]/drag.mu". On an error (port/syntax), only
-/// `text` is set in the message.
+/// Reads "hand.position.x", "mix.in[2]", "grain/wave.phase", "finger[3]/drag.mu". An error (port/syntax) has neither a location
+/// nor a remedy.
 Result<Endpoint> parseEndpoint (std::string_view);
 
 /// Reads the key of an override, which is relative to its node: an endpoint, or "[3]/drag.mu" for one instance, whose path is then
 /// "[3]/drag". Errors as for parseEndpoint.
 Result<Endpoint> parseOverride (std::string_view);
 
-/// Reads "a.out -> b.in", "a.out -> [3] -> b.in", "a.out -> [1] -> (+) b.mu". On an error (wire/syntax), only `text` is set in the message.
+/// Reads "a.out -> b.in", "a.out -> [3] -> b.in", "a.out -> [1] -> (+) b.mu". An error (wire/syntax) has neither a location nor a
+/// remedy.
 Result<Wire> parseWire (std::string_view);
 
 std::string toText (const Endpoint&);

@@ -42,7 +42,7 @@ struct Sheet
     std::shared_ptr<const Grid> grid;
 };
 
-/// Triangles between points, by index from 0, counter-clockwise as seen from outside.
+/// Triangles, given by the indices of their points from 0, counter-clockwise as seen from outside.
 struct Mesh
 {
     std::vector<Vec3> points;

@@ -5,9 +5,9 @@
 /// asked on tick k is answered on tick k + `ticks`, never earlier and never later, so that every run of the same inputs
 /// gives the same bits.
 ///
-/// In a live run a QueryThread computes the answers. If an answer is not ready when it is due, it is dropped, and no other
-/// question takes its place until the thread has finished with it: such a tick is *late*, and the journal records it.
-/// Without a thread, as when rendering, answers are computed when they are due. ReplayedQueries repeats recorded lateness.
+/// In a live run a QueryThread computes the answers. An answer that is not ready when it is due is dropped, and its slot takes no
+/// other question until the thread has finished with it. Such a tick is *late*, and the journal records it. Without a thread, as
+/// when rendering, answers are computed when they are due. ReplayedQueries repeats recorded lateness.
 
 #include "at.hpp"
 
@@ -85,7 +85,7 @@ public:
         }
         std::optional<Answer> due;
         if (! slot.dropped && state == State::answered) due = slot.answer;
-        if (! slot.dropped && state == State::asked) due = how (slot.question);   // no thread
+        if (! slot.dropped && state == State::asked) due = how (slot.question);   // without a thread, answers are computed now
         slot.dropped = false;
         slot.state.store (State::empty, std::memory_order_relaxed);
         if (next)

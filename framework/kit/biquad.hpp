@@ -29,8 +29,8 @@ struct Biquad
     double b0 = 1.0, b1 = 0.0, b2 = 0.0, a1 = 0.0, a2 = 0.0;
 };
 
-/// The memory of a biquad in transposed direct form II, the form that tolerates moving coefficients best.
-/// A sample it cannot process, non-finite or too large, gives 0 and resets it.
+/// The memory of a biquad in transposed direct form II, the form that tolerates moving coefficients best. A sample that the
+/// filter cannot process, non-finite or too large, gives 0 and resets the filter.
 class BiquadState
 {
 public:

@@ -18,7 +18,7 @@ public:
     ExpressionParser (std::string_view text_, int inputs_) : text (text_), inputs (inputs_) {}
 
     std::vector<Expression::Step> program;
-    std::string error;   // the first one
+    std::string error;   // only the first error
 
     void parse()
     {
@@ -36,7 +36,7 @@ private:
     std::string_view text;
     int inputs;
     std::size_t at = 0;
-    int depth = 0;     // of nesting at this point
+    int depth = 0;     // nesting depth at this point
     int stacked = 0;   // values on the stack at this point
 
     struct Function
@@ -154,7 +154,7 @@ private:
     void power()
     {
         value();
-        if (take ("^")) sign(), emit ({ Op::power });   // sign: allows 2^-1, and is right-associative
+        if (take ("^")) sign(), emit ({ Op::power });   // calling sign() allows 2^-1, and makes ^ right-associative
     }
 
     void value()
@@ -285,7 +285,7 @@ private:
             ++at;
     }
 
-    static bool beginsCharacter (char c) { return (static_cast<unsigned char> (c) & 0xc0u) != 0x80u; }   // of UTF-8
+    static bool beginsCharacter (char c) { return (static_cast<unsigned char> (c) & 0xc0u) != 0x80u; }   // in UTF-8
     static bool isDigit (char c) { return c >= '0' && c <= '9'; }
     static bool isLetter (char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 };
@@ -328,7 +328,7 @@ int Expression::operandsOf (Op op) noexcept
     }
 }
 
-// One case per line; clang-format 14 would take three.
+// One case per line; clang-format 14 would spread each over three lines.
 // clang-format off
 double Expression::result (const Step& step, const double* operands, const InputList<double>& in) noexcept
 {

@@ -73,8 +73,8 @@ private:
     struct Step
     {
         Op op;
-        int input = 0;        // its number, for Op::input
-        double value = 0.0;   // for Op::constant
+        int input = 0;        // for Op::input: number of the input
+        double value = 0.0;   // for Op::constant: its value
     };
 
     static int operandsOf (Op) noexcept;

@@ -21,8 +21,8 @@ std::vector<double> reflectionsOf (std::vector<double> a);
 class Lattice
 {
 public:
-    /// Starts with this many stages. The backward signals of a lattice that has run for long are independent and of variance 1,
-    /// so they are taken from `normal`. [main thread]
+    /// Starts with this many stages. The backward signals of a lattice that has run for a long time are independent and of
+    /// variance 1, so they are taken from `normal`. [main thread]
     template <typename Normal>
     void start (std::size_t order, Normal&& normal)
     {
@@ -57,7 +57,7 @@ public:
         return f;
     }
 
-    /// Takes over the signals of the stages that both have. [tick thread]
+    /// Copies the signals of the stages that both lattices have. [tick thread]
     void adopt (const Lattice& old) noexcept
     {
         for (std::size_t i = 0; i < stages.size() && i < old.stages.size(); ++i)

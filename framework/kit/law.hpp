@@ -32,7 +32,7 @@ struct Law
     };
 
     Kind kind = Kind::none;
-    double a = 0.0, b = 1.0;   ///< k and n, or a and b, or a
+    double a = 0.0, b = 1.0;   ///< power: k and n; exponential: a and b; dissipation: only a
     Curve table {};
 
     explicit operator bool() const noexcept { return kind != Kind::none; }

@@ -13,7 +13,7 @@ namespace
 {
 std::vector<std::array<bool, 3>> rimOf (const Mesh& mesh)
 {
-    std::map<std::pair<int, int>, int> sides;   // of each edge
+    std::map<std::pair<int, int>, int> sides;   // number of triangles at each edge
     const auto edge = [] (const std::array<int, 3>& corners,
                           std::size_t opposite) { return std::minmax (corners[(opposite + 1) % 3], corners[(opposite + 2) % 3]); };
     for (const auto& corners : mesh.triangles)
@@ -32,7 +32,7 @@ MeshWalk::MeshWalk (Mesh m) : body (std::move (m)), rim (rimOf (body)), first (b
     double size = 0.0;
     for (const auto& point : body.points)
         size = std::max (size, point.cwiseAbs().maxCoeff());
-    const Vec3 slack = Vec3::Constant (1e-12 * size);   // far more than the error of a computed point
+    const Vec3 slack = Vec3::Constant (1e-12 * size);   // far more than the rounding error of a computed point
     for (int t = 0; t < body.size(); ++t)
     {
         const auto [a, b, c] = cornersOf (body, t);
@@ -77,7 +77,7 @@ public:
     }
 
 private:
-    static constexpr double rounding = 1e-12;   // relative
+    static constexpr double rounding = 1e-12;   // relative bound on rounding errors
     static constexpr double endless = std::numeric_limits<double>::infinity();
 
     Vec3 centre;
@@ -111,8 +111,8 @@ Spot MeshWalk::nearestOfAll (const Vec3& p, int guess) const noexcept
 
 Spot MeshWalk::nearest (int from, const Vec3& p) const noexcept
 {
-    constexpr int most = 1000;         // steps: more than a hand needs in a tick on any mesh, and a bound on the walk
-    constexpr double nearer = 1e-12;   // relative: neighbours on a common edge are equally near but for rounding
+    constexpr int most = 1000;         // most steps of a walk: more than a hand needs in a tick on any mesh
+    constexpr double nearer = 1e-12;   // relative margin: at a common edge, two triangles are equally near except for rounding
 
     Spot here = spotOn (from, p);
     for (int step = 0; step < most; ++step)
@@ -145,7 +145,7 @@ Spot MeshWalk::nearest (int from, const Vec3& p) const noexcept
 
 bool MeshWalk::isBeyondRim (const Spot& spot, const Vec3& p) const noexcept
 {
-    constexpr double further = 0.7071;   // share of the distance: more outwards than up or down
+    constexpr double further = 0.7071;   // cos 45 degrees: p is farther out than it is up or down
     const Vec3 away = p - spot.on.point;
     const auto passes = [&] (int triangle) {
         for (int i = 0; i < 3; ++i)
@@ -154,7 +154,7 @@ bool MeshWalk::isBeyondRim (const Spot& spot, const Vec3& p) const noexcept
             const Vec3& a = body.corner (triangle, (i + 1) % 3);
             const Vec3& b = body.corner (triangle, (i + 2) % 3);
             const Vec3 along = b - a, inward = body.corner (triangle, i) - a;
-            if (along.cross (spot.on.point - a).norm() > 1e-9 * along.squaredNorm()) continue;   // on another edge
+            if (along.cross (spot.on.point - a).norm() > 1e-9 * along.squaredNorm()) continue;   // the spot is not on this edge
             const Vec3 outward = -direction (inward - along * (inward.dot (along) / along.squaredNorm()));
             const Vec3 up = direction (along.cross (inward));
             if (outward.dot (away) > 0.0 && (away - up.dot (away) * up).norm() > further * away.norm()) return true;

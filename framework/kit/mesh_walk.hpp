@@ -42,8 +42,8 @@ public:
 
     Spot spotOn (int triangle, const Vec3& p) const noexcept { return { triangle, nearestOn (body, triangle, p) }; }
 
-    /// Walks from a triangle towards p while each step comes nearer, and returns where it ends. On an edge it stays on its
-    /// current triangle. [any thread]
+    /// Walks from a triangle towards p while each step comes nearer, and returns where it ends. If it ends on an edge, it stays
+    /// on its current triangle. [any thread]
     Spot nearest (int from, const Vec3& p) const noexcept;
 
     /// True if the spot lies on the rim of an open mesh and p is beyond it: p is farther out past the rim than it is above or
@@ -63,12 +63,12 @@ private:
     class Reach;
 
     Mesh body;
-    static constexpr int block = 8;   // triangles; neighbours in a list are mostly neighbours on the mesh
+    static constexpr int block = 8;   // in triangles; triangles that follow each other in a list are mostly neighbours on the mesh
 
     std::vector<Box> boxes;
     std::vector<Box> blocks;                // each encloses `block` successive triangles
-    std::vector<std::array<bool, 3>> rim;   // of each triangle: the edge opposite each corner has no other triangle
-    std::vector<int> first, around;         // around[first[i]] … around[first[i + 1]]: the triangles that share point i
+    std::vector<std::array<bool, 3>> rim;   // by triangle, then corner: true if the edge opposite that corner belongs to no other triangle
+    std::vector<int> first, around;         // the triangles that share point i: from around[first[i]] to just before around[first[i + 1]]
 };
 
 /// True for a closed mesh whose triangles run clockwise as seen from outside. An open mesh has no inside.

@@ -16,7 +16,7 @@ Mesh placed (const Mesh& mesh, double scale, const Vec3& origin, const Mat3& tur
     return result;
 }
 
-/// The frame with this u^z that the shortest rotation makes from (x, -y, -z), so that neighbours get similar frames.
+/// The frame with this u^z that results from turning (x, -y, -z) by the shortest rotation, so that neighbours get similar frames.
 Mat3 frameInto (const Vec3& z)
 {
     Mat3 frame;

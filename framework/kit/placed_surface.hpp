@@ -31,10 +31,10 @@ public:
     struct Felt
     {
         Mat3 frame = Mat3::Identity();       ///< rows u^x, u^y, u^z
-        Vec3 d = Vec3::Zero();               ///< deflection along them, m
-        Vec3 f = Vec3::Zero();               ///< force along them, N
+        Vec3 d = Vec3::Zero();               ///< deflection along these axes, m
+        Vec3 f = Vec3::Zero();               ///< force along these axes, N
         std::array<double, 3> energies {};   ///< sum_nu F_i^nu of each corner, J
-        double energy = 0.0;                 ///< stored, J
+        double energy = 0.0;                 ///< stored energy, J
     };
 
     const MeshWalk& walk() const noexcept { return mesh_walk; }
@@ -53,8 +53,8 @@ private:
 
     std::shared_ptr<const Surface> surface;
     MeshWalk mesh_walk;
-    std::vector<Mat3> frames, squared;   // of each node: as given, and made orthonormal
-    std::vector<bool> even;              // of each triangle: its corners have the same frame
+    std::vector<Mat3> frames, squared;   // by node: the frames as given, and the same frames made orthonormal
+    std::vector<bool> even;              // by triangle: true if its corners have the same frame
 };
 
 //==============================================================================
@@ -146,7 +146,7 @@ inline double PlacedSurface::ratio (const Spot& spot, double depth) const noexce
     return sum;
 }
 
-/// On a triangle; or, where a crease or the rim holds the contact point, along that edge.
+/// The slope over the triangle; or, where a crease or the rim holds the contact point, along that edge.
 inline Vec3 PlacedSurface::slope (const Spot& spot, const Felt& felt, const Vec3& p) const noexcept
 {
     const auto& [triangle, on] = spot;

@@ -11,7 +11,7 @@ namespace tactus
 
 namespace
 {
-/// The six B-splines that reach a place on an axis, and their slopes.
+/// The six B-splines that are nonzero at a position on an axis: their weights and slopes there.
 struct Reach
 {
     std::array<int, 6> index {};
@@ -90,7 +90,8 @@ SplineSurface::Point SplineSurface::operator() (double at_x, double at_y) const 
     return sum;
 }
 
-/// The second derivatives of a B-spline are averages of the second differences of its weights, so these bound them.
+/// The second derivatives of a B-spline are averages of the second differences of its weights, so these differences bound the
+/// derivatives.
 double SplineSurface::largestCurvature() const noexcept
 {
     const auto weight = [this] (int column, int row) { return weights (weights.y.mirrored (row), weights.x.mirrored (column)); };

@@ -119,17 +119,17 @@ public:
     std::size_t width() const noexcept { return per_frame; }
 
 private:
-    static constexpr std::size_t cache_line = 64;   // bytes; the threads must not share a line
+    static constexpr std::size_t cache_line = 64;   // in bytes; the two threads must not share a cache line
 
     std::size_t place (std::uint64_t n) const noexcept { return static_cast<std::size_t> (n % capacity) * per_frame; }
     std::span<T> frame (std::uint64_t n) noexcept { return std::span (values).subspan (place (n), per_frame); }
 
-    std::uint64_t capacity;   // frames
+    std::uint64_t capacity;   // in frames
     std::size_t per_frame;
     std::vector<T> values;
 
     alignas (cache_line) std::atomic<std::uint64_t> committed = 0;
-    std::uint64_t written = 0;   // committed frames and those of the batch   [producer thread]
+    std::uint64_t written = 0;   // number of frames committed or in the current batch   [producer thread]
     bool full = false;           // the batch did not fit                    [producer thread]
     std::atomic<std::size_t> lost_batches = 0;
 

@@ -19,7 +19,8 @@ namespace tactus
 class StreamResampler
 {
 public:
-    /// `ratio`: old rate over new rate. Forgets everything. Call fill() before the first sample, unless passesThrough(). [main thread]
+    /// `ratio`: old rate over new rate. Clears the memory. Call fill() before the first sample, unless passesThrough().
+    /// [main thread]
     void prepare (double new_ratio)
     {
         ratio = new_ratio;
@@ -31,7 +32,7 @@ public:
 
         constexpr double zeros = 16.2;   // 18 samples of the slower rate on either side
         constexpr std::size_t entries = 1 << 13;
-        const double cutoff = 0.45 * std::min (1.0, 1.0 / ratio);   // per old sample
+        const double cutoff = 0.45 * std::min (1.0, 1.0 / ratio);   // in cycles per old sample
         reach = 0.5 * zeros / cutoff;
         for (std::size_t i = 0; i < entries; ++i)
         {
@@ -53,7 +54,7 @@ public:
         newest = recent.size() - 1;
     }
 
-    /// The next new sample. Calls `next` for as many old ones as it takes. [tick thread]
+    /// The next new sample. Calls `next` for as many old samples as it needs. [tick thread]
     template <typename Next>
     double operator() (Next&& next) noexcept
     {
@@ -91,7 +92,7 @@ private:
     std::vector<double> kernel;   // from its middle outwards
     std::vector<double> recent;   // ring of old samples
     std::size_t newest = 0;
-    double phase = 0.0;   // of the new sample after the newest old one, in old samples
+    double phase = 0.0;   // time from the newest old sample to the new sample, in old samples
 };
 
 }   // namespace tactus

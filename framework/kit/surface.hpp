@@ -26,8 +26,8 @@ struct Surface
 
     std::shared_ptr<const Mesh> mesh;
     std::vector<Eigen::Matrix3d> frames;       ///< one per node, rows u^x, u^y, u^z, with u^z inward; empty: derived from the mesh
-    std::vector<std::vector<Curves>> curves;   ///< for each tool: one per node, or one for all
-    std::vector<Ratio> mu;                     ///< largest sideways deflection of the contact, over its depth: one per node, or one for all
+    std::vector<std::vector<Curves>> curves;   ///< by tool: one per node, or one for all nodes
+    std::vector<Ratio> mu;                     ///< largest sideways deflection of the contact, over its depth: one per node, or one for all nodes
 };
 
 }   // namespace tactus

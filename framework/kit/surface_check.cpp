@@ -43,7 +43,7 @@ std::string problemOf (const Surface& s)
     for (std::size_t i = 0; i < s.frames.size(); ++i)
         if (! (s.frames[i] * s.frames[i].transpose()).isIdentity (1e-6) || s.frames[i].determinant() < 0.0)
             return "the frame of node " + std::to_string (i) + " is not orthonormal and right-handed: its rows must have length 1"
-                   + ", be at right angles, and u^z = u^x x u^y";
+                   + " and be at right angles, with u^z = u^x x u^y";
     for (std::size_t t = 0; t < s.curves.size(); ++t)
         for (std::size_t i = 0; i < s.curves[t].size(); ++i)
             if (const Law& z = s.curves[t][i][2]; ! z.table.empty() && *std::ranges::min_element (z.table.y) < 0.0)
@@ -89,7 +89,7 @@ std::string slipGain (const Surface& s, double scale)
     constexpr double deep = 0.02;   // deeper than a hand presses
     const auto [triangle, depth] = shallowestGain (s, scale);
     if (depth > deep) return {};
-    return "pressed deeper than " + lengthText (depth) + ", a slip over triangle " + std::to_string (triangle)
+    return "when the tool is pressed in deeper than " + lengthText (depth) + ", a slip over triangle " + std::to_string (triangle)
            + " generates energy: its nodes differ too much for so little friction. Raise mu or the curves of x and y, or make the curves of z more alike";
 }
 
@@ -98,7 +98,7 @@ SlipGain shallowestGain (const Surface& s, double scale)
     SlipGain least;
     for (const auto& tool : s.curves)
     {
-        if (tool.size() == 1) continue;   // the same everywhere
+        if (tool.size() == 1) continue;   // its curves are the same everywhere
         for (int t = 0; t < s.mesh->size(); ++t)
         {
             auto corners = cornersOf (*s.mesh, t);

@@ -17,7 +17,7 @@ std::string wrongSide (const Surface&);                ///< it faces inwards, an
 std::string leaning (const Surface&);                  ///< frames are tilted against their triangles, so without friction there is no potential
 std::string slipGain (const Surface&, double scale);   ///< a slip generates energy at a depth a hand can reach
 
-/// The smallest depth at which a slip anywhere generates energy, f_t (mu_c d^z) < |dU/dc|, and the place where it does. The
+/// The smallest depth at which a slip anywhere generates energy, f_t (mu_c d^z) < |dU/dc|, and the triangle where it does. The
 /// search uses a grid of depths.
 struct SlipGain
 {

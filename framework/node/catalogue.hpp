@@ -25,7 +25,7 @@ struct PortSheet
     int width;            ///< components: 1 for a scalar, 3 for a vector
     bool list;            ///< an array port: its length is the setting `inputs`
     std::size_t offset;   ///< offset of the value in its Params or Outputs struct
-    double initial[3];    ///< default of each component; of each entry, for a list
+    double initial[3];    ///< default of each component; for a list, of each entry
 };
 
 /// A node type. The functions take the node and its outputs as void*. `sources` holds one pointer per input component, in the

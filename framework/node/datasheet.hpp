@@ -37,7 +37,7 @@ inline constexpr double inf = std::numeric_limits<double>::infinity();
 struct Info
 {
     std::string_view id;        ///< used in graph files, so it never changes
-    std::string_view name;      ///< what the host shows
+    std::string_view name;      ///< as the host shows it
     std::string_view summary;   ///< one sentence
     std::string_view source;    ///< where the equations come from
 };
@@ -56,7 +56,8 @@ struct Interval
 };
 
 /// Outside `hard` the model has no meaning: such a value is an error in a file and is clamped on a wire. `usual` is the range of
-/// a slider; values outside it are fine. A latched parameter is read at contact onset, or on the hit, and keeps its value until the end.
+/// a slider; values outside it are fine. A latched parameter is read at contact onset, or on the hit, and keeps that value until
+/// the contact, or the response to the hit, ends.
 struct Limits
 {
     Interval hard {};

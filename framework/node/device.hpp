@@ -39,7 +39,7 @@ public:
     int size() const noexcept { return count; }
     bool has (int i) const noexcept { return i >= 0 && i < count; }
 
-    /// 0 for a channel it does not have.
+    /// The value of a channel; 0 if it does not exist.
     double operator[] (int i) const noexcept { return has (i) ? values[i] : 0.0; }
 
     /// Missing channels before i become 0. Does nothing if there is no room.
@@ -58,7 +58,7 @@ public:
 
 private:
     int count = 0;
-    double values[most];   // the first `count` of them
+    double values[most];   // only the first `count` are in use
 };
 
 inline bool isFinite (const Channels& all) noexcept
@@ -96,7 +96,7 @@ struct DeviceLayout
 {
     std::vector<std::string> axes {};      ///< axes that can be read: triggers, sticks, joints. Each in m, rad or 1
     std::vector<std::string> efforts {};   ///< axes that can be pushed
-    std::vector<std::string> buttons {};   ///< by bit; "" for one without a name
+    std::vector<std::string> buttons {};   ///< names by bit; "" for a button without a name
     int signal_inputs = 0, signal_outputs = 0;
 
     bool operator== (const DeviceLayout&) const = default;

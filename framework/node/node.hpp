@@ -29,8 +29,8 @@
 ///   bind (state)              gives a device node the DeviceState of its role: before prepare, with the settings in place,
 ///                             and again when the role gets its device, then without allocating          [main or tick thread]
 ///   missing (layout) -> string  the part that a device node needs and the device of its role lacks, worded to follow "has";
-///                             empty if none. Without it the node reads 0, or has no effect              [main thread]
-///   effort() -> Effort        makes the node a sink: what it asks its role to apply, after tick         [tick thread]
+///                             empty if none. Without that part the node reads 0, or has no effect       [main thread]
+///   effort() -> Effort        makes the node a sink: the effort that it adds to its role, after tick    [tick thread]
 ///
 /// A tick is noexcept and total. On a non-finite input it gives 0 on all outputs (-1 on `state`), re-opens the contact, and
 /// continues with the next finite sample as if nothing had been touched before.

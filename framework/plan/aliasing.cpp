@@ -191,7 +191,7 @@ void warnOfAliasing (Flat& flat, const PortUnits& units, const Setup& setup)
         const auto content = estimate.upstream (w.from->node, slowest);
         const bool out_of_times = outside < before;
         if (content.kind == Content::Kind::none || (content.kind == Content::Kind::unknown && ! out_of_times)) continue;
-        const auto what = content.kind == Content::Kind::some ? content.what : "its content above this is unknown";
+        const auto what = content.kind == Content::Kind::some ? content.what : "what it contains at higher frequencies is unknown";
         warn (w.origin, "\"" + graph::toText (*w.written) + "\" goes from " + numberText (before) + " Hz to " + numberText (slowest) + " Hz, and " + what
                             + folded (slowest));
     }

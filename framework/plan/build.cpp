@@ -280,7 +280,8 @@ private:
         if (const auto* old = heldFrom (i)) parts.takeover.held.push_back ({ outputsOf (i), old->outputs, flat.node (i).type->outputs_size });
     }
 
-    /// Holds the sums at the inputs of a node, with these initial values. Until the node runs, only a tap can see them.
+    /// Holds the previous values of the sums and strikes at the inputs of a node; the first ones have these indices. Until the
+    /// node runs, only a tap can see the values.
     void keepSums (int i, std::size_t first_sum, std::size_t first_strike)
     {
         const bool any = first_sum < storage->sums.size() || first_strike < storage->strikes.size();
@@ -480,7 +481,7 @@ private:
                 first += at (n.slots (in));
             }
             const bool is_factor =
-                out.width == 1 && out.unit.kind == UnitRule::Kind::fixed && out.unit.unit.quantity == Quantity::gain;   // a dimensionless vector is a direction
+                out.width == 1 && out.unit.kind == UnitRule::Kind::fixed && out.unit.unit.quantity == Quantity::gain;   // a vector would be a direction
             if (is_factor) *to = 1.0;
         }
         stepsOf (i).body.add ({ &Bypass::step, &bypass, sourcesOf (i), nullptr }, i);

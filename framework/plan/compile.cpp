@@ -28,7 +28,7 @@ bool canRun (const Messages& messages)
 /// Delayed wires take memory, and even a short file can request more than the machine has.
 void checkDelays (Flat& flat)
 {
-    constexpr double most = 5e7;   // samples, 400 MB
+    constexpr double most = 5e7;   // in samples; they take 400 MB
     double total = 0.0;
     for (const auto& w : flat.wires)
         total += static_cast<double> (w.delay) * flat.widthOf (w.to);

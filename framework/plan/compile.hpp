@@ -29,7 +29,7 @@ struct CompileOptions
     Assets* assets = nullptr;                   ///< loads the files that settings name
     Services services {};                       ///< services that nodes may use
     const Plan* before = nullptr;               ///< the plan that the new one will take over from, with Plan::takeOver
-    const Plan* withdrawn = nullptr;            ///< a plan that was compiled to follow `before` but never ran: its new nodes keep turned values
+    const Plan* withdrawn = nullptr;            ///< a plan compiled to follow `before` that never ran: nodes that it added keep their turned values
     std::vector<std::string> kept {};           ///< parameters that an edit must not change, because they were turned after it
 };
 

@@ -42,13 +42,13 @@ struct Scope
 
     const graph::Graph* owner = nullptr;
     const graph::Patch* patch = nullptr;
-    std::string prefix;   // of the paths inside
-    int number = 0;       // in Flat::scopes
+    std::string prefix;   // prefix of the paths inside
+    int number = 0;       // index in Flat::scopes
     int stand_in = -1;    // the node that provides its ports while the subgraph is bypassed
-    int section = 0;      // in Flat::sections
+    int section = 0;      // index in Flat::sections
     Origin origin {};     // of the patch
     Names names;
-    std::vector<Member> members;   // by the numbers of their names
+    std::vector<Member> members;   // by number of the name in `names`
     std::vector<Exposed> exposed;
 
     /// The member of a name, or null.

@@ -13,7 +13,7 @@ namespace tactus::plan
 template <typename T>
 std::shared_ptr<const T> load (Assets::Loaded<T> (Assets::*kind) (const std::string&), const Json& json, const Files& files, const std::string& key)
 {
-    if (! json.is_string() || json.asString().empty()) throw Problem { "it must be the path of a file, relative to the graph's", key };
+    if (! json.is_string() || json.asString().empty()) throw Problem { "it must be the path of a file, relative to the folder of the graph", key };
     const auto& path = json.asString();
     if (files.assets == nullptr) throw Problem { "this program cannot read '" + path + "': it was built without file access", key };
 

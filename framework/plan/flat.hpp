@@ -106,7 +106,7 @@ struct FlatWire
     int delay = 0;
     bool add = false;
     double gain = 1.0;
-    std::optional<Dimension> gain_dimension {};   ///< if the gain has a unit
+    std::optional<Dimension> gain_dimension {};   ///< dimension of the gain; empty if it has no unit
     Origin origin {};
     const graph::Wire* written = nullptr;   ///< the wire in the graph; valid only during compiling
     Identity identity {};                   ///< shared by all flat wires that one wire of the graph becomes between instances
@@ -127,7 +127,7 @@ struct Section
     int around = -1;   ///< number in Flat::sections; -1 for the graph itself
     Kind kind = Kind::every;
     int factor = 1;
-    bool linear = false;   ///< its outputs are interpolated linearly between values
+    bool linear = false;   ///< its outputs are interpolated linearly between its runs
     std::string path {};   ///< path of the subgraph node
     Origin origin {};
 };
@@ -138,7 +138,7 @@ struct Flat
     std::vector<FlatWire> wires;
     std::vector<double> values;                                            ///< values of all params, node by node and row by row
     std::vector<Assignment> assignments;                                   ///< in order of precedence, lowest first
-    std::deque<NodeType> made_types;                                       ///< of bypassed subgraphs
+    std::deque<NodeType> made_types;                                       ///< types of bypassed subgraphs
     std::deque<std::string> made_names;                                    ///< text that no graph contains: port names of made_types, text of origins
     std::deque<Place> places;                                              ///< what origins point to
     std::vector<Identity> scopes { { -1, 0 } };                            ///< the graph itself, then the subgraph node of each patch that was expanded

@@ -17,8 +17,8 @@ namespace tactus::plan
 namespace
 {
 constexpr int max_depth = 32;
-constexpr std::size_t max_nodes = 1'000'000;   // nested subgraphs multiply: a small file can request 2^32
-constexpr std::size_t max_wires = 2'000'000;   // from all instances to all instances; values given to them have the same limit
+constexpr std::size_t max_nodes = 1'000'000;   // nested subgraphs multiply: a small file can request 2^32 nodes
+constexpr std::size_t max_wires = 2'000'000;   // a wire may lead from all instances to all instances; values given to instances have the same limit
 
 /// Reserves room in large steps, so that many small additions do not move everything each time.
 template <typename T>
@@ -77,7 +77,7 @@ private:
     std::optional<Origin> too_large;            // the place where the graph became too large
     Ports starts, ends;                         // of the wire or value being read
 
-    // Takes views, not copies: the place keeps pointing to the name.
+    // These take views, because the Place that they make keeps pointing to the name.
     Origin at (Origin around, std::string_view name) { return flat.at (around, name); }
     Origin at (Origin around, std::string_view name, std::string_view inner) { return flat.at (around, name, inner); }
 

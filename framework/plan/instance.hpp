@@ -16,7 +16,7 @@ namespace tactus::plan
 /// A node in a plan; its entry in the flat graph has the same number.
 struct Instance
 {
-    std::uint64_t serial = 0;                 ///< of the node; a replacement gets a new one
+    std::uint64_t serial = 0;                 ///< serial number of the node; a replacement gets a new one
     std::shared_ptr<void> node;               ///< null for a bypassed subgraph
     std::shared_ptr<Knobs> knobs;             ///< null if it has neither params nor hit inputs
     bool is_struck = false;                   ///< the node runs and accepts hits from outside
@@ -78,8 +78,8 @@ struct RateConverter
     double before = 0.0, newest = 0.0;   ///< the ends of the line
     bool begun = false;                  ///< `newest` is set
 
-    /// Takes over the state of a conversion of another kind, except for its serial: the main thread may be reading this one to
-    /// build the next plan. [tick thread]
+    /// Takes over the state of a conversion of another kind, but not its serial number: the main thread may be reading the serial
+    /// number of this converter to build the next plan. [tick thread]
     void adopt (const RateConverter& old) noexcept
     {
         out = old.out;

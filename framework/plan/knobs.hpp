@@ -24,9 +24,9 @@ struct Knob
 
     // Tick thread only.
     std::uint32_t heeded = 0;   ///< value of `turns` up to which targets are applied, or replaced by an edit
-    int left = 0;               ///< ticks left of the ramp
+    int left = 0;               ///< ticks left in the ramp
     double to = 0.0;            ///< end of the ramp
-    double value = 0.0;         ///< current value: the stored one, before wires
+    double value = 0.0;         ///< current stored value, before wires replace it or add to it
 };
 
 /// A hit input as seen from outside the graph. Hits from outside are added to the hits from wires, all on the next tick on
@@ -92,7 +92,7 @@ void turn (const ParamRef&, double) noexcept;
 struct HitRef
 {
     std::shared_ptr<Knobs> knobs;
-    std::size_t index = 0;   ///< among the pulses
+    std::size_t index = 0;   ///< index in Knobs::pulses
 };
 
 /// Triggers a hit with a speed in m/s. Ignores a speed that is not finite and positive. [any thread]

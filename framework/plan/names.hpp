@@ -29,7 +29,7 @@ private:
     struct Entry
     {
         std::uint32_t hash = 0;
-        std::uint32_t number_and_1 = 0;   // 0: free
+        std::uint32_t number_and_1 = 0;   // number of the name + 1; 0: the entry is free
     };
 
     std::string_view name (std::size_t number) const noexcept { return std::string_view (text).substr (begins[number], begins[number + 1] - begins[number]); }

@@ -121,7 +121,7 @@ struct Bypass
     struct Copy
     {
         double* to;
-        std::vector<std::size_t> slots;   // indices of sources, which add up
+        std::vector<std::size_t> slots;   // indices of the sources to add up
     };
 
     std::vector<Copy> copies;

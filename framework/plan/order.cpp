@@ -238,7 +238,7 @@ Order order (Flat& flat)
     for (std::size_t r = 0; r < size; ++r)
         rank[at (by_path[r])] = static_cast<int> (r);
 
-    std::priority_queue<int, std::vector<int>, std::greater<>> ready;   // ranks
+    std::priority_queue<int, std::vector<int>, std::greater<>> ready;   // ranks of the blocks that can run next
     for (std::size_t b = 0; b < size; ++b)
         if (waiting[b] == 0) ready.push (rank[b]);
 
@@ -298,7 +298,8 @@ public:
     void addPaths (int source, std::vector<PathDelay>& found)
     {
         findShortest (source);
-        // Sinks have the lowest components, so from high to low, each node comes after all nodes that lead to it.
+        // A component has a higher number than those it leads to, so from high to low, each node comes after all nodes that lead
+        // to it.
         std::ranges::sort (reached, [&] (int a, int b) { return component[at (a)] != component[at (b)] ? component[at (a)] > component[at (b)] : a < b; });
         for (const int n : reached)
             spread (n);
@@ -327,9 +328,9 @@ private:
     const Flat& flat;
     Grouped<Edge> edges;
     Grouped<int> next;
-    std::vector<int> component, members;   // members: nodes per component
+    std::vector<int> component, members;   // by node: its component; by component: its number of nodes
     std::vector<Reach> reach;              // as seen from the current source
-    std::vector<int> reached;              // only these are reset for the next source: with many sources, each mostly reaches few nodes
+    std::vector<int> reached;              // from the current source; only these are reset for the next one, because most sources reach few nodes
 
     Edge edgeOf (const FlatWire& w, const PortUnits& units, const std::vector<int>& node_delays) const
     {

@@ -53,7 +53,7 @@ struct SinkUse
 {
     Effort (*effort) (const void* node) noexcept;
     const void* node;
-    std::size_t instance;   ///< its number
+    std::size_t instance;   ///< number of its instance
 };
 
 /// A role as a plan uses it. It remains after its last node is removed, so that the output of its device can still go to zero.
@@ -85,19 +85,19 @@ struct RateConverterUse
 struct PlanParts
 {
     double rate_hz = 0.0;
-    std::uint64_t number = 0;   ///< number of the next tick, counted through all plans
+    std::uint64_t number = 0;   ///< number of the next tick, counted across all plans
     std::vector<Record> records;
     std::vector<std::uint32_t> owners;   ///< by record: the node it works for, as in flat.nodes; for a wire, the node where it ends
-    std::vector<std::uint64_t> rests;    ///< periods, in ticks, of the sections that do not run on every tick; rising
+    std::vector<std::uint64_t> rests;    ///< periods, in ticks, of the sections that do not run on every tick; in rising order
     std::vector<RoleUse> roles;          ///< sorted by name
     std::vector<Tap> taps;               ///< as in CompileOptions::records, in order
-    std::vector<double> feeds;           ///< as in CompileOptions::feeds
+    std::vector<double> feeds;           ///< current values, in the order of CompileOptions::feeds
     std::vector<PathDelay> delays;       ///< between the sources and the sinks of devices
     std::shared_ptr<void> storage;       ///< outputs, wires, constants: what all pointers point into
 
     // For the next plan, and for turning knobs.
     Flat flat;                                             ///< what the plan was built from
-    std::vector<Instance> instances;                       ///< as flat.nodes
+    std::vector<Instance> instances;                       ///< numbered as in flat.nodes
     std::vector<LineUse> lines;                            ///< by wire, then component
     std::vector<RateConverterUse> rate_converters;         ///< by wire, then component, then step
     std::vector<std::vector<PortRef>> fed;                 ///< by feed: the ports it drives
@@ -140,7 +140,7 @@ public:
     /// [tick thread]
     void startRamping() noexcept { parts.ramps.startAll(); }
 
-    /// Sets the number of the next tick, counted through all plans, and moves all ramps by one tick. [tick thread]
+    /// Sets the number of the next tick, counted across all plans, and moves all ramps by one tick. [tick thread]
     void beginTick (std::uint64_t number) noexcept
     {
         parts.number = number;
@@ -190,11 +190,11 @@ public:
     /// By record: the number of the node it works for; for a wire, the node where it ends.
     const std::vector<std::uint32_t>& owners() const noexcept { return parts.owners; }
 
-    /// The periods, in ticks, of the sections that do not run on every tick; rising.
+    /// The periods, in ticks, of the sections that do not run on every tick; in rising order.
     const std::vector<std::uint64_t>& rests() const noexcept { return parts.rests; }
 
     const plan::Flat& flat() const noexcept { return parts.flat; }                              ///< what it was built from
-    const std::vector<plan::Instance>& instances() const noexcept { return parts.instances; }   ///< as flat().nodes
+    const std::vector<plan::Instance>& instances() const noexcept { return parts.instances; }   ///< numbered as in flat().nodes
 
     /// Params and inputs by the names under which subgraphs expose them.
     const std::map<std::string, std::vector<plan::PortRef>>& exposed() const noexcept { return parts.exposed; }

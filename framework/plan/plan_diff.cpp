@@ -20,8 +20,8 @@ struct Entry
     int port = 0, index = 0, component = 0;
     std::uint64_t from = 0;   ///< serial of the node, or the complement of a feed number; 0 for a placeholder
     int from_port = 0, from_index = 0, from_component = 0;
-    std::uint64_t line = 0;        ///< serial, if there is a delay
-    std::uint64_t converter = 0;   ///< serial of the first converter, if it enters or leaves sections
+    std::uint64_t line = 0;        ///< serial number of the delay line; 0 without a delay
+    std::uint64_t converter = 0;   ///< serial number of the first rate converter; 0 without one
     bool add = false;
     double gain = 1.0;
 

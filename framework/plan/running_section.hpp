@@ -27,7 +27,7 @@ struct ConversionLink
         converter->gathered = 0.0;
     }
 
-    /// Starts a new line where the last one ended. The first line has only one end.
+    /// Starts a new line where the last one ended. The first line begins and ends at the current input.
     void head() const noexcept
     {
         auto& p = *converter;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Readers for the parts of settings. Each function returns the value that the JSON holds, or throws the first Problem it
-/// finds, with `key` (the place of the JSON within the setting) extended to the part at fault. Only readSetting catches it.
+/// Readers for the parts of settings. Each function returns the value that the JSON holds, or throws the first Problem it finds,
+/// with `key` (the location of the JSON within the setting) extended to the part at fault. Only readSetting catches it.
 
 #include "values.hpp"
 

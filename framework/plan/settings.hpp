@@ -17,8 +17,8 @@ struct Files
     std::string folder;         ///< base of relative paths
 };
 
-/// Reads a setting of the given kind, and checks it against the units and ranges of its sheet. On an error, only `text` is set
-/// in the message, and `where` is extended to the pointer of the part at fault.
+/// Reads a setting of the given kind, and checks it against the units and ranges of its sheet. An error has neither a location
+/// nor a remedy; instead, `where` is extended to the pointer of the part at fault.
 Result<SettingValue> readSetting (const Json&, const SettingSheet&, const Files&, std::string& where);
 
 }   // namespace tactus::plan

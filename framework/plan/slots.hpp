@@ -16,7 +16,7 @@ public:
     std::size_t firstInput (int node) const noexcept { return inputs[at (node)]; }
     std::size_t firstParam (int node) const noexcept { return inputs.back() + flat->node (node).values; }
 
-    /// The slot of a component of an input or param. A component named by the reference takes precedence.
+    /// The slot of this component of an input or param; -1 means the first component. Ignores the component in the reference.
     std::size_t operator() (const PortRef&, int component) const noexcept;
 
     std::size_t inputCount() const noexcept { return inputs.back(); }

@@ -18,7 +18,7 @@ inline double sum (double* values, int n) noexcept
     double total = n > 0 ? values[0] : 0.0;
     for (int i = 1; i < n; ++i)
         total += values[i];
-    return total == total ? total : std::numeric_limits<double>::quiet_NaN();   // of inf and -inf
+    return total == total ? total : std::numeric_limits<double>::quiet_NaN();   // inf and -inf always give the same NaN
 }
 
 }   // namespace tactus::plan

@@ -7,7 +7,7 @@ namespace tactus::plan
 
 namespace
 {
-constexpr std::string_view axis_names = "a triple of laws: of u^x, u^y and u^z";
+constexpr std::string_view axis_names = "a triple of laws, for u^x, u^y and u^z";
 
 const Json* member (const Json& json, const char* name)
 {

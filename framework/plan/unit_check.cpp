@@ -63,7 +63,7 @@ public:
     bool join (int a, int b, Dimension times)
     {
         const int ra = root (a), rb = root (b);
-        const auto shift = factorOf (a) * times / factorOf (b);   // ratio of the factors of the sets of rb and ra
+        const auto shift = factorOf (a) * times / factorOf (b);   // factor of rb relative to ra
         if (ra == rb) return shift == Dimension {};
         auto& of_a = known[at (ra)];
         const auto& of_b = known[at (rb)];
@@ -109,7 +109,7 @@ private:
     PortNumbers variable;
     Joined dimensions;
     std::vector<Quantity> quantity;
-    std::vector<bool> generic;   // takes its quantity from its wires
+    std::vector<bool> generic;   // by port: true if it takes its quantity from its wires
 
     /// Two ports that carry the same quantity: joined by a wire, or by a generic node.
     struct Link
@@ -366,7 +366,7 @@ int PortNumbers::operator() (const PortRef& r) const noexcept
     const auto inputs = static_cast<int> (n.type->inputs.size()), params = static_cast<int> (n.type->params.size()),
                outputs = static_cast<int> (n.type->outputs.size());
     int number = firstOf (r.node);
-    if (firstOf (r.node + 1) - number == inputs + params + outputs)   // one per row
+    if (firstOf (r.node + 1) - number == inputs + params + outputs)   // one number per row
     {
         if (r.role == Role::input) return number + r.port;
         return number + r.port + (r.role == Role::param ? inputs : inputs + params);

@@ -27,7 +27,7 @@ private:
 /// The unit of each port of a flat graph: from the datasheet, or inferred for generic nodes.
 struct PortUnits
 {
-    /// Returns `any` and no dimension if nothing determines what a port carries.
+    /// What a port carries: `any` and no dimension if nothing determines it.
     struct Found
     {
         Quantity quantity = Quantity::any;

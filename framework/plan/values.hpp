@@ -29,7 +29,7 @@ std::string shown (const Json&);
 /// "at least 1e-9", "from 0 to 1".
 std::string rangeText (const Interval&);
 
-/// Reads a number. On an error, only `text` is set in the message: "it is not a finite number".
+/// Reads a number. An error has neither a location nor a remedy, only a text such as "it is not a finite number".
 Result<Number> readNumber (const Json&);
 
 /// Stores the assignments of a flat graph in the params of its nodes, and checks kinds, choices, shapes and ranges. unit_check

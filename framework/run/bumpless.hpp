@@ -63,7 +63,7 @@ private:
         return all;
     }
 
-    int length = 1, now = length;   // ticks
+    int length = 1, now = length;   // in ticks
     Effort difference;              // e0 - e1
     Effort last;
 };

@@ -10,7 +10,7 @@
 namespace tactus
 {
 
-/// The sum of the efforts that all sinks of a role ask for. It is the same in any order.
+/// The sum of the efforts of all sinks of a role. It does not depend on their order.
 Effort Engine::total (const Plan::RoleUse& role, Scratch& scratch) noexcept
 {
     if (role.sinks.size() == 1) return role.sinks[0].effort (role.sinks[0].node);
@@ -202,7 +202,8 @@ void Engine::takeOver (Running& next) noexcept
     if (const auto& rests = next.plan->rests(); ! rests.empty()) settled_at = ticks + rests.back();
 }
 
-/// A change in a section that does not run on every tick takes effect when the section runs, and so does its step in effort.
+/// A change in a section that does not run on every tick takes effect when the section runs, and so does the jump in effort that
+/// it causes.
 void Engine::fadeAgain() noexcept
 {
     for (auto* channel : running->channels)

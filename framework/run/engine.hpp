@@ -21,8 +21,8 @@
 namespace tactus
 {
 
-/// Runs a plan against devices: read, tick, sum, guard, write. The same engine runs live and offline. Another plan may
-/// take over between two ticks; nodes that both plans contain continue, and no role's effort steps.
+/// Runs a plan against devices: read, tick, sum, guard, write. The same engine runs live and offline. Another plan may take over
+/// between two ticks; nodes that both plans contain continue, and no role's effort jumps.
 class Engine
 {
 public:
@@ -72,13 +72,13 @@ public:
     /// instances, returns the first one. [main thread]
     Result<plan::ParamRef> param (std::string_view name);
 
-    /// Like find, but for all instances that the name covers. [main thread]
+    /// Like param, but returns all instances that the name covers. [main thread]
     Result<std::vector<plan::ParamRef>> params (std::string_view name);
 
     /// Sets the target of a parameter; the value ramps to it (plan/ramps.hpp). [any thread]
     void set (const plan::ParamRef&, double) noexcept;
 
-    /// The hit inputs of the newest plan by name, in all instances that it covers. [main thread]
+    /// The hit inputs of the newest plan by name, in all instances that the name covers. [main thread]
     Result<std::vector<plan::HitRef>> hits (std::string_view name);
 
     /// Triggers a hit of this speed (m/s) on one tick: the next one on which the node runs. Hits between two ticks are summed.
@@ -126,7 +126,7 @@ public:
     /// The latest stops of all guards. [any thread]
     const GuardLog& guardLog() const noexcept { return stops; }
 
-    /// True once no device has an effort on it, so that it can be released without a step. [tick thread]
+    /// True once no device has an effort on it, so that all devices can be released without a jump. [tick thread]
     bool isAtRest() const noexcept;
 
     Plan& plan() noexcept { return *running->plan; }   ///< the running one   [tick thread]
@@ -170,7 +170,7 @@ private:
         Channel* channel;
     };
 
-    /// Sums the sinks of a role.
+    /// Memory for summing the sinks of a role.
     struct Scratch
     {
         std::vector<Effort> efforts;
@@ -181,7 +181,7 @@ private:
     struct Running
     {
         std::shared_ptr<Plan> plan;
-        std::vector<Channel*> channels;   // as in plan->roles()
+        std::vector<Channel*> channels;   // in the order of plan->roles()
         std::vector<BoundNode> bound;
         Scratch scratch;
     };
@@ -206,7 +206,7 @@ private:
     double rate_hz;
     std::vector<std::unique_ptr<Channel>> channels;   // of every role so far; the last one of each role is in use   [main thread]
     PlanSwap<Running> plans;
-    std::atomic<bool> touched = true;   // a knob has moved, a plan is new, or one of these has changed
+    std::atomic<bool> touched = true;   // a knob was turned, a hit triggered, or one of the next two flags set; the tick thread clears it
     std::atomic<bool> emergency = false, rearming = false;
     GuardLog stops;
 

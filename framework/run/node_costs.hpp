@@ -50,7 +50,7 @@ public:
 private:
     struct Sample
     {
-        std::uint64_t serial;   // of the node
+        std::uint64_t serial;   // serial number of the node
         double took_s;
     };
 
@@ -74,7 +74,7 @@ private:
     // Used by the tick thread.
     Random random;
     double look_s = 0.0, credit_s = 0.0, most_credit_s = 0.0, patience = 1.0;
-    std::size_t next = 0;   // index of a record
+    std::size_t next = 0;   // index of the next record to measure
 
     SpscRing<Sample> samples { capacity };
 

@@ -28,7 +28,7 @@ inline bool isPartOf (std::string_view component, std::string_view port) noexcep
 class ProbeRing
 {
 public:
-    static constexpr std::size_t most = 32;   ///< components at a time
+    static constexpr std::size_t most = 32;   ///< most components at a time
 
     struct Frame
     {
@@ -71,7 +71,7 @@ private:
         frame.plan = plan.serial();
         frame.tick = tick;
         frame.size = n;
-        for (std::size_t i = 0; i < n; ++i)   // until the new plan takes over, these belong to the previous plan, and frames are ignored
+        for (std::size_t i = 0; i < n; ++i)   // until the new plan takes over, the values belong to the previous plan, and the reader ignores the frames
             if (const auto tap = selected[i].load (std::memory_order_relaxed); tap < plan.taps().size()) frame.values[i] = *plan.taps()[tap].value;
     }
 

@@ -32,7 +32,7 @@ std::vector<std::string> becomeRealTime (std::optional<int> core)
     const sched_param wanted { priority };
     if (const int error = pthread_setschedparam (pthread_self(), SCHED_FIFO, &wanted))
         refused.push_back ("the tick thread has no real-time priority (" + reason (error)
-                           + "), so other programs can delay it: allow it with rtprio in /etc/security/limits.conf");
+                           + "), so other programs can delay it: allow real-time priority with rtprio in /etc/security/limits.conf");
 
     if (core)
     {
@@ -51,7 +51,7 @@ std::optional<std::string> lockMemory()
     rlimit limit {};
     const bool unlimited = geteuid() == 0 || (getrlimit (RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY);
     if (mlockall (unlimited ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT) == 0) return std::nullopt;
-    return "memory is not locked (" + reason (errno) + "), so a tick may wait for the disk: allow it with memlock in /etc/security/limits.conf";
+    return "memory is not locked (" + reason (errno) + "), so a tick may wait for the disk: allow locking with memlock in /etc/security/limits.conf";
 }
 
 #else

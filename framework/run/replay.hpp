@@ -40,7 +40,7 @@ public:
     double rate() const noexcept { return log.head().rate_hz; }   ///< Hz
     const std::string& name() const noexcept { return graph_name; }
 
-    /// Runs one tick. Returns false if the run has ended, that is, its forces were at zero.
+    /// Runs one tick. Returns false at the end of the log, after duration_s, or where the recorded run began to halt.
     Result<bool> tick();
 
     /// Warnings that have not been returned yet. Ids: log/other_program, log/no_role, log/not_turned, log/not_struck.
@@ -93,8 +93,8 @@ private:
     std::optional<RunTick> next;   // the next inputs; empty at the end of the log
     std::optional<std::uint64_t> broken_at;
     std::uint64_t now = 0;
-    bool has_begun = false, has_first = false;   // has_begun: the run; has_first: the graph of tick 0
-    std::optional<std::uint64_t> most;           // number of ticks
+    bool has_begun = false, has_first = false;   // has_begun: the run is set up; has_first: the first graph of the log was reached
+    std::optional<std::uint64_t> most;           // number of ticks in duration_s; empty: no limit
     std::set<std::string> not_there;             // parameters and inputs that the played graph does not have
 };
 

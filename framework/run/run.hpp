@@ -135,14 +135,14 @@ public:
     /// Stops the tick thread, if there is one, and waits until the forces are zero and the thread has ended.
     void end();
 
-    /// Like stop, but also ends the log. Returns why the log is incomplete, if it is.
+    /// Like end(), but also ends the log. Returns why the log is incomplete, if it is.
     Result<> finish();
 
     //==========================================================================
     // Editing while it ticks.
 
-    /// An edited graph on its way into the run: a plan compiled on top of the running one. Unless it is committed,
-    /// the run continues unchanged. One at a time.
+    /// An edited graph on its way into the run: a plan compiled on top of the running one. Unless it is committed, the run
+    /// continues unchanged. There may be only one at a time.
     class Edit
     {
     public:
@@ -226,7 +226,7 @@ private:
     std::vector<RunListener*> listeners;
 
     std::vector<std::pair<std::string, RoleDevice>> by_role;
-    std::unique_ptr<QueryThread> queries;   // must precede the engine and the log, whose nodes use it
+    std::unique_ptr<QueryThread> queries;   // must precede the engine and the log, which hold nodes that use it
     std::unique_ptr<RunLog> log;            // must precede the engine, which reports to it
     std::unique_ptr<Engine> running;
     CaptureSlot slot;

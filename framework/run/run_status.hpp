@@ -22,11 +22,11 @@ struct RunStatus
         over
     };
 
-    /// Why it halts, or halted.
+    /// Why the run halts, or halted.
     enum class End : std::uint32_t
     {
         none,
-        length,    ///< it reached its length
+        length,    ///< the run reached its length
         asked,     ///< a stop was requested
         overrun,   ///< the graph takes longer than a tick period
     };
@@ -51,7 +51,7 @@ struct RunStatus
     Phase phase = Phase::running;
     End end = End::none;
     bool clock_replaced = false;             ///< this tick does not come from the chosen clock, so forces are held at zero
-    bool let_go_under_force = false;         ///< the device was released under force, because a slew limit made the way to zero too long
+    bool let_go_under_force = false;         ///< the device was released with force still on it, because a slew limit kept the force from reaching zero in time
     std::uint64_t role_count = 0;            ///< in the running plan; details of the first `most_roles` are below
     std::array<Role, most_roles> roles {};   ///< by name; last, because most entries are rarely used
 

@@ -30,7 +30,7 @@ std::vector<std::string> Runner::start()
 void Runner::run (std::promise<std::vector<std::string>> ready)
 {
     std::fesetenv (FE_DFL_ENV);
-    ready.set_value (clock.isRealTime() ? becomeRealTime (options.core) : std::vector<std::string> {});   // a free run would leave other programs no time
+    ready.set_value (clock.isRealTime() ? becomeRealTime (options.core) : std::vector<std::string> {});   // a free run would starve other programs
     node_costs.begin();
     engine.resume();
     if (goesOn()) clock.drive (*this);

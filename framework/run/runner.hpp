@@ -21,7 +21,7 @@
 namespace tactus
 {
 
-/// Takes part in each tick of a run, for example feeds before it, or probes and recordings after it.
+/// Takes part in each tick of a run, for example to set feeds before the tick, or to probe and record after it.
 class TickHooks
 {
 public:
@@ -51,7 +51,8 @@ public:
         TickHooks* hooks = nullptr;
     };
 
-    /// A slew limit can make the way to zero long. A device that still has force on it after this time is released anyway.
+    /// With a slew limit, the force may take long to fall to zero. A device that still has force on it after this time is
+    /// released anyway.
     static constexpr double longest_halt_s = 30.0;
 
     /// The engine, the clock and the hooks must outlive the runner. [main thread]

@@ -33,8 +33,8 @@ private:
 class TickAccount
 {
 public:
-    /// If every tick takes longer than its period for this long, the graph is overrun. A busy machine also makes some ticks
-    /// long, but not all of them.
+    /// If every tick takes longer than its period for this long, the graph is too slow, which is called an overrun. A busy
+    /// machine also makes some ticks long, but not all of them.
     static constexpr double longest_overrun_s = 0.5;
 
     explicit TickAccount (double period_s) : period (period_s) {}
@@ -45,7 +45,8 @@ public:
     const Durations& computing() const noexcept { return took; }                                ///< [any thread]
     std::uint64_t ticks() const noexcept { return count.load (std::memory_order_relaxed); }     ///< [any thread]
     std::uint64_t misses() const noexcept { return missed.load (std::memory_order_relaxed); }   ///< ticks that began at least one period late [any thread]
-    bool isOverrun() const noexcept { return overrun_s > longest_overrun_s; }                   ///< every tick was too long for longest_overrun_s [tick thread]
+    /// True if every tick has taken longer than its period, for more than longest_overrun_s. [tick thread]
+    bool isOverrun() const noexcept { return overrun_s > longest_overrun_s; }
 
 private:
     double period;

@@ -20,7 +20,7 @@ class Ticked
 public:
     virtual ~Ticked() = default;
 
-    /// Runs a tick that is due now and starts `late` seconds late. Returns false after the last one. [tick thread]
+    /// Runs a tick that is due now and starts `late_s` seconds late. Returns false after the last one. [tick thread]
     virtual bool tick (double late_s) noexcept = 0;
 };
 
@@ -49,10 +49,10 @@ public:
     virtual double now() const noexcept { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
 };
 
-/// Ticks at deadlines that are one period apart, however long the previous tick took. It sleeps until shortly before the
-/// deadline and then spins, because waking up takes about 20 to 50 us. It does not spin longer, since the kernel stops a
-/// SCHED_FIFO thread that never sleeps for 50 ms each second. Missed ticks are not caught up in a burst; the deadlines start
-/// again from the current time.
+/// Ticks at deadlines that are one period apart, however long the previous tick took. It sleeps until shortly before the deadline
+/// and then spins, because waking up takes about 20 to 50 us. It does not spin longer, since the kernel stops a SCHED_FIFO thread
+/// for 50 ms each second if it never sleeps. Missed ticks are not caught up in a burst; the deadlines start again from the
+/// current time.
 class AbsoluteTimer final : public TickClock
 {
 public:

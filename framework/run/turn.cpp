@@ -121,7 +121,7 @@ Result<> turnControl (Engine& engine, const graph::Graph& graph, const std::stri
 Result<> strike (Engine& engine, const std::string& name, double speed)
 {
     if (! (speed > 0.0 && speed <= fastest_hit))
-        return Message::error ("hit/value", {}, "a hit on " + quote (name) + " is out of range",
+        return Message::error ("hit/value", {}, "the speed of a hit on " + quote (name) + " is out of range",
                                "give a speed in m/s: more than 0, at most " + plan::shown (Json (fastest_hit)));
     auto found = engine.hits (name);
     if (! found) return std::move (found).error();

@@ -19,7 +19,7 @@ namespace tactus
 /// Accepts any text.
 Json readValue (const std::string& text);
 
-/// NODE.PARAM=VALUE. Ids: param/no_value.
+/// Reads NODE.PARAM=VALUE. Ids: param/no_value.
 Result<plan::Override> readOverride (const std::string& text);
 
 /// Sets a parameter of a running graph to a value as in --set: either all of its components or none. Ids: port/unknown_node,

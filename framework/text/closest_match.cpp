@@ -31,7 +31,7 @@ int editDistance (std::string_view a, std::string_view b)
 
 std::string_view closestMatch (std::string_view word, std::span<const std::string_view> known)
 {
-    constexpr std::size_t longest = 30;   // no known word is longer; a key of a megabyte is not compared
+    constexpr std::size_t longest = 30;   // no known word is longer than this, so a key of a megabyte need not be compared
     if (word.size() > longest) return {};
     std::string_view best;
     int nearest = 3;

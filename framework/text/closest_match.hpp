@@ -16,7 +16,7 @@ int editDistance (std::string_view, std::string_view);
 /// none.
 std::string_view closestMatch (std::string_view word, std::span<const std::string_view> known);
 
-/// "did you mean 'damping'?", or the whole list if nothing is close.
+/// "did you mean 'damping'?", or the whole list if no known word is close.
 std::string suggestion (std::string_view word, std::span<const std::string> known);
 
 /// " (did you mean 'mu'?)", or "".

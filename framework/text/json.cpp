@@ -71,7 +71,7 @@ Json fromOther (const Other& v)
     }
 }
 
-/// The index that a part of a pointer means; the size of the array for "-".
+/// The array index that one part of a pointer names; the size of the array for "-".
 std::optional<std::size_t> indexOf (const std::string& part, std::size_t size) noexcept
 {
     if (part == "-") return size;
@@ -80,7 +80,7 @@ std::optional<std::size_t> indexOf (const std::string& part, std::size_t size) n
     return error == std::errc() && end == part.data() + part.size() ? std::optional (i) : std::nullopt;
 }
 
-/// The part of a value that one part of a pointer names; null if there is none.
+/// The member or element that one part of a pointer names; null if there is none.
 const Json* stepInto (const Json& v, const std::string& part) noexcept
 {
     if (v.is_object())
@@ -108,7 +108,7 @@ T toInteger (double v) noexcept
     constexpr T low = std::numeric_limits<T>::min(), high = std::numeric_limits<T>::max();
     if (std::isnan (v)) return 0;
     if (v <= static_cast<double> (low)) return low;
-    return v >= static_cast<double> (high) ? high : static_cast<T> (v);   // high is rounded up to a power of two
+    return v >= static_cast<double> (high) ? high : static_cast<T> (v);   // as a double, high is rounded up to a power of two
 }
 
 const Json::Member* memberOf (const Json::Object& all, std::string_view key) noexcept
@@ -121,14 +121,14 @@ const Json::Member* memberOf (const Json::Object& all, std::string_view key) noe
 JsonPointer::JsonPointer (std::string_view text)
 {
     if (text.empty()) return;
-    if (text.front() != '/') throw JsonError ("a JSON pointer begins with /: " + std::string (text));
+    if (text.front() != '/') throw JsonError ("a JSON pointer must begin with /: " + std::string (text));
     for (std::size_t i = 0; i < text.size(); ++i)
         if (text[i] == '/')
             keys.emplace_back();
         else if (text[i] != '~')
             keys.back() += text[i];
         else if (++i == text.size() || (text[i] != '0' && text[i] != '1'))
-            throw JsonError ("in a JSON pointer, ~ is followed by 0 or 1: " + std::string (text));
+            throw JsonError ("in a JSON pointer, ~ must be followed by 0 or 1: " + std::string (text));
         else
             keys.back() += text[i] == '0' ? '~' : '/';
 }
@@ -214,7 +214,7 @@ const char* Json::type_name() const noexcept
     return is_array() ? "array" : "object";
 }
 
-void Json::isNot (const char* wanted) const { throw JsonError (std::string ("a JSON value is ") + type_name() + ", not " + wanted); }
+void Json::isNot (const char* wanted) const { throw JsonError (std::string ("a JSON value is of type ") + type_name() + ", not " + wanted); }
 
 std::size_t Json::size() const noexcept
 {
@@ -240,14 +240,15 @@ bool Json::asBool() const
 std::int64_t Json::asSigned() const
 {
     if (const auto* v = std::get_if<std::int64_t> (&content)) return *v;
-    if (const auto* v = std::get_if<std::uint64_t> (&content)) return static_cast<std::int64_t> (*v);
+    if (const auto* v = std::get_if<std::uint64_t> (&content))
+        return static_cast<std::int64_t> (std::min (*v, static_cast<std::uint64_t> (std::numeric_limits<std::int64_t>::max())));
     return toInteger<std::int64_t> (asDouble());
 }
 
 std::uint64_t Json::asUnsigned() const
 {
     if (const auto* v = std::get_if<std::uint64_t> (&content)) return *v;
-    if (const auto* v = std::get_if<std::int64_t> (&content)) return static_cast<std::uint64_t> (*v);
+    if (const auto* v = std::get_if<std::int64_t> (&content)) return *v > 0 ? static_cast<std::uint64_t> (*v) : 0;
     return toInteger<std::uint64_t> (asDouble());
 }
 

@@ -19,13 +19,13 @@
 namespace tactus
 {
 
-/// A value has another type than the one asked for, or lacks a member.
+/// Thrown if a value has another type than the one requested or lacks a member, or if text is not JSON.
 struct JsonError : std::runtime_error
 {
     using std::runtime_error::runtime_error;
 };
 
-/// The place of a value inside another one, as in "/roles/stylus/guard" (RFC 6901).
+/// The path to a value inside another one, as in "/roles/stylus/guard" (RFC 6901).
 class JsonPointer
 {
 public:
@@ -39,7 +39,7 @@ private:
     std::vector<std::string> keys;
 };
 
-inline constexpr int deepest_nesting = 64;   ///< of objects and arrays in a text
+inline constexpr int deepest_nesting = 64;   ///< deepest allowed nesting of objects and arrays
 
 class Json;
 
@@ -72,15 +72,15 @@ concept Map = Range<R> && requires (std::ranges::range_reference_t<R> member)
 
 /// A JSON value. Objects keep the order of the file, so a file that is read and written again gives a small diff.
 ///
-/// Numbers are integers or doubles, as written: 3 is an integer, 3.0 is not, and both compare equal. A braced list in which every
-/// element is a pair that begins with a string is an object; any other braced list is an array:
+/// Numbers are integers or doubles, as written: 3 is an integer, 3.0 is not, and the two compare equal. A braced list in which
+/// every element is a pair that begins with a string is an object; any other braced list is an array:
 ///
 ///     Json { { "gain", 0.5 }, { "modes", { 1, 2, 3 } } }
 ///
 /// A function that needs another type throws JsonError, unless it says otherwise.
 ///
-/// A class of our own, because every file that uses values of a graph includes it: compilers read it in a tenth of the time that
-/// the templates of nlohmann's take, which still reads and writes the text (json.cpp, json_text.cpp).
+/// This is a class of our own, because every file that uses values of a graph includes it: compilers read it in a tenth of the
+/// time that nlohmann's templates take. Nlohmann's library still reads and writes the text (json.cpp, json_text.cpp).
 class Json
 {
 public:
@@ -130,11 +130,12 @@ public:
     static Json array();
     static Json array (std::initializer_list<Json>);
 
-    /// Reads a text. Throws JsonError for one that is not JSON or nested too deeply. For files use readJson, which says where the error is.
+    /// Parses JSON text. Throws JsonError if it is not JSON or is nested too deeply. For files use readJson, which reports where
+    /// the error is.
     static Json parse (std::string_view text);
     static std::optional<Json> tryParse (std::string_view text);
 
-    /// Writes one line, or with an indent several. Bytes that are not UTF-8 become U+FFFD.
+    /// Writes one line, or several if an indent is given. Bytes that are not UTF-8 become U+FFFD.
     std::string dump (int indent = -1) const;
 
     //==============================================================================
@@ -152,12 +153,12 @@ public:
     /// "null", "boolean", "number", "string", "array" or "object".
     const char* type_name() const noexcept;
 
-    /// Numbers of elements or members; 0 for null, 1 for any other value.
+    /// Number of elements or members; 0 for null, 1 for any other value.
     std::size_t size() const noexcept;
     bool empty() const noexcept { return size() == 0; }
 
-    /// The value as a bool, a number, a string, or a std::vector of these. Numbers convert to each other; an
-    /// integer gets the nearest value that it can hold.
+    /// The value as a bool, a number, a string, or a std::vector of these. Numbers convert to each other; an integer gets the
+    /// nearest 64-bit number that it can hold, without a fraction.
     template <typename T>
     T get() const;
 
@@ -179,7 +180,7 @@ public:
     const Json& at (const JsonPointer&) const;
     Json& at (const JsonPointer&);
 
-    /// Appends a missing member; null becomes an object. The const ones throw where the member is missing.
+    /// Appends a missing member; null becomes an object. The const versions throw if the member is missing.
     Json& operator[] (std::string_view key);
     Json& operator[] (const char* key) { return (*this)[std::string_view (key)]; }
     const Json& operator[] (std::string_view key) const { return at (key); }
@@ -215,17 +216,17 @@ public:
         return back();
     }
 
-    /// Its leaf values, keyed by JSON pointer: { "/roles/stylus": "sim" }.
+    /// An object of all leaf values, keyed by JSON pointer: { "/roles/stylus": "sim" }.
     Json flatten() const;
 
-    /// Sets the members of another object in this one.
+    /// Copies all members of another object into this one, over members with the same key.
     void update (const Json& other);
     std::size_t erase (std::string_view key);
     void erase (std::size_t index);
     void clear() noexcept;
 
     //==============================================================================
-    /// Over the elements of an array, the values of an object's members, or a scalar itself.
+    /// Iterates over the elements of an array, the values of an object's members, or a scalar itself.
     template <bool is_const>
     class Iterator
     {
@@ -278,7 +279,7 @@ public:
     const_iterator begin() const noexcept { return { *this, 0 }; }
     const_iterator end() const noexcept { return { *this, size() }; }
 
-    /// The member, or end(), also if this is not an object.
+    /// The member; end() if there is none, or if this is not an object.
     iterator find (std::string_view key) noexcept;
     const_iterator find (std::string_view key) const noexcept;
     iterator erase (const_iterator);

@@ -194,7 +194,7 @@ private:
 
     void complain (std::string id, std::string where, TextPosition p, std::string text, std::string remedy)
     {
-        constexpr std::size_t most = 1000;   // reading continues after a duplicate key, and a hostile file has millions
+        constexpr std::size_t most = 1000;   // reading continues after a duplicate key, and a hostile file may have millions of them
         if (result.messages.size() >= most) return;
         auto m = Message::error (std::move (id), where.substr (0, 1000), std::move (text), std::move (remedy));
         m.line = p.line;
@@ -298,7 +298,7 @@ private:
     /// Turns the parser's error into a message that a person can understand.
     void explain (std::size_t byte, std::string_view complaint)
     {
-        bool value = false, key = false;   // what is allowed here
+        bool value = false, key = false;   // true if a value or a key is allowed here
         std::string expected;
         cursor.skipSpace();
         const auto comma = [&] {
@@ -341,7 +341,7 @@ private:
         syntax (expected + ", found " + (c == '"' ? "a string" : found()), remedy (c, value, key));
     }
 
-    /// The remedy, where the character at the cursor suggests one.
+    /// The remedy that the character at the cursor suggests.
     std::string remedy (char c, bool value, bool key) const
     {
         const bool among_others = ! frames.empty() && ! frames.back().empty();
@@ -370,7 +370,7 @@ private:
         if (has ("control character"))
             return syntax ("a string contains a control character", "write it escaped, as \\t or \\u0001");
         syntax ("a string contains a bad escape",
-                R"(\ may be followed by one of " \ / b f n r t, or by u and the four digits of a character (two such halves for a rare one))");
+                R"(\ may be followed by one of " \ / b f n r t, or by u and four hexadecimal digits (a rare character takes two such escapes))");
     }
 
     void explainNumber (std::string_view complaint)

@@ -29,7 +29,7 @@ JsonText readJson (std::string_view text);
 /// A key in the form used in JSON pointers.
 std::string pointerPart (std::string_view key);
 
-/// The position of a pointer, or of its nearest parent that exists in the file.
+/// The position of the value at a pointer, or of its nearest parent that exists in the file.
 TextPosition positionOf (const TextPositions&, std::string_view pointer);
 
 /// Adds a member at the end of an object. Unlike Json, it does not search for the key first, so building an object takes

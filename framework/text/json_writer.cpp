@@ -156,7 +156,7 @@ std::string jsonNumber (double value)
 {
     if (! std::isfinite (value)) return "null";   // JSON has no nan or inf; the graph reader refuses them
 
-    // Plain digits from 0.0001 up to the end of the range where doubles hold every integer; an exponent outside of it.
+    // Plain digits from 0.0001 up to 1e15, below which doubles hold every integer; an exponent outside that range.
     constexpr double least = 1e-4, most = 1e15;
     const double size = std::abs (value);
     const bool plain = value == 0.0 || (size >= least && size < most);

@@ -26,7 +26,7 @@ struct Message
     std::string remedy;   ///< what to do about it
 
     // Position in the text, if it was read from text.
-    std::string file = {};      ///< name as it was opened, or as in the type of a subgraph; empty for the graph itself
+    std::string file = {};      ///< name of the file as it was opened, or as written in the type of a subgraph; empty for the graph itself
     int line = 0, column = 0;   ///< counted from 1, 0 if unknown; see LoadedGraph::positionOf
 
     /// `where` may be empty if no file is at fault.

@@ -70,7 +70,7 @@ bool ObjectReader::measure (const Json& json, const std::string& where, const Un
         const auto read = parseMeasure (text);
         if (! read) return wrong ("unit", read.error().text);
         if (read->dimension != unit.dimension)
-            return wrong ("unit", quote (text) + " is in " + symbolOf (read->dimension) + ", but this is in " + std::string (unit.symbol));
+            return wrong ("unit", quote (text) + " is in " + symbolOf (read->dimension) + ", but this value must be in " + std::string (unit.symbol));
         value = read->value;
     }
     else

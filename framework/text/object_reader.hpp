@@ -14,12 +14,12 @@
 namespace tactus
 {
 
-/// The range of a number. It also gives the text of the message.
+/// The allowed range of a number. The message about a number out of range states it.
 struct Bounds
 {
     double min = -std::numeric_limits<double>::infinity();
     double max = std::numeric_limits<double>::infinity();
-    bool without_min = false;   ///< the smallest value itself is not allowed, as for a mass
+    bool without_min = false;   ///< min itself is not allowed, as for a mass
 
     static constexpr Bounds positive() { return { .min = 0.0, .without_min = true }; }
     static constexpr Bounds notNegative() { return { .min = 0.0 }; }
@@ -29,8 +29,9 @@ struct Bounds
 /// a wrong value gives the default and a message, and reading continues, so that all problems are found. After all known keys
 /// have been read, finish() reports the rest.
 ///
-/// Numbers are SI, or strings with a unit, which is checked and converted. The ids of the messages are a prefix and kind, unit,
-/// out_of_range, missing or unknown_key; `where` is a JSON pointer. For files whose keys must keep their order, see OrderedReader.
+/// Numbers are SI, or strings with a unit, which is checked and converted. Each message id is the prefix followed by kind, unit,
+/// out_of_range, missing or unknown_key; `where` is a JSON pointer. For files whose keys must keep their order, see
+/// OrderedReader.
 class ObjectReader
 {
 public:
@@ -45,7 +46,7 @@ public:
     const Json& object (std::string_view key);   ///< any value; an empty object if missing
     bool flag (std::string_view key, bool otherwise = false);
 
-    /// A list of x, y and z. The vector is any type that is constructed from three numbers.
+    /// A list of x, y and z. The vector is any type that can be constructed from three numbers.
     template <typename Vector>
     Vector vector (std::string_view key, const Unit& unit, const Vector& otherwise)
     {
@@ -56,7 +57,7 @@ public:
     /// A list; null if missing or not a list. `what` names the entries in the message.
     const Json* list (std::string_view key, std::string_view what);
     std::vector<std::string> texts (std::string_view key);
-    std::vector<double> numbers (std::string_view key);   ///< finite ones
+    std::vector<double> numbers (std::string_view key);   ///< leaves out, and reports, entries that are not finite numbers
 
     void require (std::string_view key, std::string_view remedy);   ///< reports the key if it is missing
     void ignore (std::string_view key);                             ///< marks the key as known
@@ -64,7 +65,7 @@ public:
 
     void error (std::string_view key, std::string id, std::string text, std::string remedy);
 
-    std::string pointer (std::string_view key) const;   ///< to a member
+    std::string pointer (std::string_view key) const;   ///< JSON pointer to a member
     const Json& json() const noexcept { return given; }
     const std::string& where() const noexcept { return here; }
     Messages& messages() noexcept { return all_messages; }

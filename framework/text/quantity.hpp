@@ -14,7 +14,8 @@ struct Dimension
     constexpr bool operator== (const Dimension&) const = default;
 };
 
-/// An exponent, limited to ±100. That is beyond anything physical, and never wraps around to an exponent that fits.
+/// An exponent, limited to ±100. The limit is beyond anything physical, and keeps a huge exponent from wrapping around to a
+/// plausible one.
 constexpr signed char exponent (int e) noexcept
 {
     if (e > 100) return 100;
@@ -26,7 +27,7 @@ constexpr Dimension operator* (Dimension a, Dimension b) noexcept { return { exp
 constexpr Dimension operator/ (Dimension a, Dimension b) noexcept { return { exponent (a.m - b.m), exponent (a.kg - b.kg), exponent (a.s - b.s) }; }
 
 /// What a number means. Two quantities may share a dimension (torque and energy): a wire between them is a warning. A wire
-/// between different dimensions is an error. `any` has only a dimension, and never warns.
+/// between different dimensions is an error. `any` has only a dimension, and never causes a warning.
 enum class Quantity
 {
     any,

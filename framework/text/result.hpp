@@ -42,7 +42,7 @@ public:
     explicit operator bool() const noexcept { return content.index() == 0; }
     bool has_value() const noexcept { return content.index() == 0; }
 
-    /// The value. There must be one.
+    /// The value. Call it only if there is one.
     T& operator*() & noexcept { return *std::get_if<0> (&content); }
     const T& operator*() const& noexcept { return *std::get_if<0> (&content); }
     T&& operator*() && noexcept { return std::move (*std::get_if<0> (&content)); }
@@ -54,7 +54,7 @@ public:
     const T& value() const& { return std::get<0> (content); }
     T&& value() && { return std::get<0> (std::move (content)); }
 
-    /// Why there is no value. There must be none.
+    /// Why there is no value. Call it only if there is none.
     const Message& error() const& noexcept { return *std::get_if<1> (&content); }
     Message&& error() && noexcept { return std::move (*std::get_if<1> (&content)); }
 

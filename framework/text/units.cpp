@@ -19,7 +19,7 @@ struct Known
     std::string_view symbol;
     Dimension dimension;
     int decimals = 0;       ///< decimal exponent relative to SI
-    double factor = 1.0;    ///< the part that is not a power of ten
+    double factor = 1.0;    ///< factor to SI, apart from the power of ten
     bool prefixed = true;   ///< may carry a prefix
     bool angle = false;
 };
@@ -58,7 +58,7 @@ constexpr Prefix prefixes[] = {
     { "G", 9 },
 };
 
-constexpr int highest_power = 12;   // of one factor and of the whole: far beyond physics, well within a signed char
+constexpr int highest_power = 12;   // of a single factor and of the whole unit: far beyond physics, well within a signed char
 
 /// Looks a unit up by its symbol and applies its prefix.
 std::optional<Known> lookUp (std::string_view symbol)
@@ -88,7 +88,7 @@ std::string unknownUnit (std::string_view symbol)
 constexpr bool isDigit (char c) noexcept { return c >= '0' && c <= '9'; }
 constexpr bool isSpace (char c) noexcept { return c == ' ' || c == '\t'; }
 
-/// Every character that cannot be part of a unit ends it, so that messages quote an unknown unit whole.
+/// Every character that cannot be part of a unit ends it, so that a message quotes the whole of an unknown unit.
 constexpr bool endsUnit (char c) noexcept { return isSpace (c) || isDigit (c) || c == '*' || c == '/' || c == '^' || c == '-' || c == '+'; }
 
 /// The unread rest of the text.

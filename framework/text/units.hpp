@@ -23,10 +23,11 @@ struct Measure
 /// integer power ("J/m2", "m^2", "s-1"). Factors are read from left to right; a slash divides by the one factor after it.
 /// Units: m g s N J W Pa Hz rad, with the prefixes p n u (or µ) m c d k M G; deg and %, without prefixes. A prefix only shifts
 /// the decimal point, so "0.4 mm" is the same double as 0.0004. There is no "min" and no "dB": decibels are bare numbers.
-/// On an error (unit/syntax), only `text` is set in the message.
+/// An error (unit/syntax) has neither a location nor a remedy.
 Result<Measure> parseMeasure (std::string_view text);
 
-/// The usual way to write a dimension in SI: "N/m", "m/s", or "kg*m2/s3" if it has no name. parseMeasure can read it.
+/// The usual way to write a dimension in SI: "N/m", "m/s", or "kg*m2/s3" if the unit has no symbol of its own. parseMeasure can
+/// read it.
 std::string symbolOf (Dimension);
 
 }   // namespace tactus

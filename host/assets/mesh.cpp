@@ -56,7 +56,7 @@ void MeshBuilder::face (std::span<const long long> corners, std::size_t line)
 
 namespace
 {
-/// For each point, the first point within the given distance, or the point itself if there is none.
+/// For each point, the index of the first point within the given distance, or its own index if there is none.
 std::vector<int> firstNear (const std::vector<Vec3>& points, double reach)
 {
     std::vector<int> firsts;
@@ -141,7 +141,7 @@ Result<Mesh> readMesh (std::string_view bytes, std::string_view name)
 {
     const auto kind = std::ranges::find (kinds, endingOf (name), &Kind::ending);
     if (kind == std::end (kinds))
-        return fail ("mesh/unknown_kind", std::string (name), "its extension is not one of a mesh file", "save it as .obj, .off, .ply or .stl");
+        return fail ("mesh/unknown_kind", std::string (name), "its extension does not belong to a mesh file", "save it as .obj, .off, .ply or .stl");
 
     MeshBuilder builder;
     try

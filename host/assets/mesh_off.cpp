@@ -30,7 +30,8 @@ void readOff (std::string_view bytes, MeshBuilder& mesh)
         auto rest = line;
         counts = takeWord (rest).empty() ? nextLine (lines) : line;
     }
-    if (auto rest = counts; takeWord (rest) == "BINARY") throw MeshProblem { "mesh/syntax", "a binary OFF is not supported, only text", lines.number() };
+    if (auto rest = counts; takeWord (rest) == "BINARY")
+        throw MeshProblem { "mesh/syntax", "binary OFF files are not supported, only text ones", lines.number() };
     const auto points = wholeNumber (takeWord (counts), lines.number());
     const auto faces = wholeNumber (takeWord (counts), lines.number());
 

@@ -64,7 +64,7 @@ private:
     Lines lines;
     std::string_view name;
     Grid grid;
-    std::size_t first_row = 0;   // its line number
+    std::size_t first_row = 0;   // line number of the first row
 
     Message fail (std::string id, std::string what, std::string remedy) const
     {
@@ -109,7 +109,7 @@ private:
         }
         if (columns != grid.columns)
             return fail ("table/ragged_row",
-                         "the row has " + std::to_string (columns) + " numbers, but the first one (line " + std::to_string (first_row) + ") "
+                         "the row has " + std::to_string (columns) + " numbers, but the first row (line " + std::to_string (first_row) + ") has "
                              + std::to_string (grid.columns),
                          "give every row the same number of columns");
         ++grid.rows;
@@ -129,7 +129,7 @@ private:
         {
             if (! (std::abs (grid (i, 0) - (start + i * step)) < step))
                 return failAt (first_row, "table/uneven",
-                               "it has positions and heights, but the positions are uneven: the " + std::to_string (i + 1) + "th is " + numberText (grid (i, 0))
+                               "it has positions and heights, but the positions are uneven: no. " + std::to_string (i + 1) + " is " + numberText (grid (i, 0))
                                    + ", but " + numberText (start + i * step) + " would be even",
                                "interpolate the heights at even positions, and save these");
             heights.push_back (grid (i, 1));

@@ -24,7 +24,7 @@ void AudioClock::block (int frames, double card_rate_hz) noexcept
         {
             over.store (true, std::memory_order_release);
             std::fesetenv (&before);
-            return;   // keeps `ticking`: there are no further ticks
+            return;   // leaves `ticking` set: there are no further ticks
         }
     std::fesetenv (&before);
     release();
@@ -61,7 +61,7 @@ void AudioClock::drive (Ticked& what) noexcept
             due = std::max (due + period, Clock::now());   // missed ticks are not made up
             std::this_thread::sleep_until (due);
         }
-        if (! goes_on) return;   // keeps `ticking`: there are no further ticks
+        if (! goes_on) return;   // leaves `ticking` set: there are no further ticks
         seen = blocks.load (std::memory_order_acquire);
         last = Clock::now();
         owed = 0.0;

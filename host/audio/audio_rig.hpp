@@ -27,7 +27,7 @@ struct AudioStatus
     bool is_open = false;
     OpenedFormat card {};         ///< the latest format
     StreamReport out {}, in {};   ///< out: the worst of all output streams
-    double ratio = 1.0;           ///< card clock to tick clock, as estimated
+    double ratio = 1.0;           ///< estimated rate of the card's clock relative to the tick clock
     std::uint64_t blocks = 0, xruns = 0, late_blocks = 0, departures = 0;
     std::uint64_t clipped = 0;       ///< samples beyond full scale
     std::uint64_t not_numbers = 0;   ///< route samples that were not numbers
@@ -151,7 +151,7 @@ private:
     Result<> capture_result;     // result of a capture that has ended, until attend() returns it
     std::atomic<CardCapture*> captures = nullptr;
     CardSystem& cards;
-    CardKeeper keeper;   // last: its card calls back into this
+    CardKeeper keeper;   // declared last: its card calls back into this
 };
 
 /// Text for a status line; "" if no card is open.

@@ -25,7 +25,7 @@ public:
 
     /// Writes the waiting samples; call it many times a second. Returns the first error once, then writes nothing more.
     [[nodiscard]] Result<> drain();    // [main thread]
-    [[nodiscard]] Result<> commit();   // [main thread, when no block comes]
+    [[nodiscard]] Result<> commit();   // [main thread, when no more blocks arrive]
 
     std::size_t lost() const noexcept { return ring.lost(); }   ///< frames dropped for lack of room [any thread]
 

@@ -57,7 +57,7 @@ private:
     Clock::time_point last {}, tried {};
     Clock::duration pause = retry_after;
     std::atomic<std::uint64_t> count = 0;
-    std::unique_ptr<OpenCard> card;   // last: it calls back into this
+    std::unique_ptr<OpenCard> card;   // declared last: it calls back into this
 };
 
 }   // namespace tactus::host::audio

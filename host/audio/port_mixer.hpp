@@ -18,8 +18,8 @@ namespace tactus::host::audio
 /// Turns the ports of a plan into samples for the channels of a card. Ports are found by name, so routes survive edits; a
 /// missing port is silent until it is back.
 ///
-/// Routes do not pass through a guard, so they have their own gate. It shuts within 5 ms while the run halts, after an
-/// emergency stop, and when a port outputs a value that is not a number. It reopens within 0.2 s.
+/// Routes do not pass through a guard, so they have their own gate. It shuts within 5 ms when the run halts, after an
+/// emergency stop, or when a port outputs a value that is not a number. It reopens within 0.2 s.
 class PortMixer
 {
 public:
@@ -58,7 +58,7 @@ private:
     std::atomic<std::uint64_t> broken = 0;
 
     // [tick thread]
-    const Plan* plan = nullptr;   // on this tick
+    const Plan* plan = nullptr;   // the plan of this tick
     std::uint64_t serial = 0;
     bool knows = false;
     double gate = 0.0, gate_before = 0.0;

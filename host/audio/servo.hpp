@@ -15,7 +15,7 @@ namespace tactus::host::audio
 ///     correction = x + 2 w e'             critically damped
 ///
 /// w falls from 0.15 rad/s to 0.04 rad/s over the first 45 s: it finds the other clock quickly, then reacts slowly. The
-/// level e jumps by a tick as ticks and blocks pass each other, and by the lateness of either, but the pitch should not
+/// level e jumps by a tick as ticks and blocks pass each other, and further if one of them is late, but the pitch should not
 /// follow: a jump of 2 ms changes it by 600 ppm at first, and later by 160 ppm. (A loop over time stamps jumps less:
 /// F. Adriaensen, "Using a DLL to filter time", 2005. But it would need the tick thread to read a clock.)
 class Servo

@@ -39,7 +39,7 @@ void OutStream::prepare (const CardFormat& format) noexcept
     fifo.take (fifo.size());   // drops frames from the time without a card; there is no other consumer before its first block
 }
 
-/// Starts with the frame that leaves the target number of frames waiting.
+/// Starts playback: skips frames until only the target number is waiting.
 void OutStream::begin (double waiting) noexcept
 {
     fifo.take (static_cast<std::size_t> (waiting - aim));
@@ -174,8 +174,8 @@ void InStream::take (std::span<const float> frames) noexcept
             used += step.used;
             if (step.used == 0 && step.made == 0) break;
         }
-    // Samples that the resampler still holds back are counted: they come with the next blocks. While the ring is full,
-    // nothing is taken, so there is nothing to count.
+    // Samples that the resampler still holds back are counted: they come with the next blocks. While no tick
+    // takes samples, the ring may be full, so nothing is counted.
     ahead = heard.load (std::memory_order_relaxed) ? ahead + count * ratio - static_cast<double> (fifo.pushed() - before) : 0.0;
     now.difference = servo.difference();
     now.error_s = runs ? servo.error() : 0.0;

@@ -85,7 +85,7 @@ private:
     double aim = 0.0;      // target number of waiting frames when a block is requested
 
     // [audio thread]
-    double at = 0.0;   // position of the next frame, in the ring's count
+    double at = 0.0;   // position of the next frame to play, in frames pushed into the ring since the start
     bool flows = false, is_dry = false;
     int faded = 0;             // frames into the fade in or out
     std::vector<float> last;   // one sample per lane

@@ -53,7 +53,7 @@ std::string timeText (double seconds)
 
 void printTable (const Results& results, const Counts& counts)
 {
-    std::printf ("\n%-30s %10s %10s   %8s  %s\n", "", "first", "second", "ratio", "95 % of the median");
+    std::printf ("\n%-30s %10s %10s   %8s  %s\n", "", "first", "second", "ratio", "95 % interval of the median");
     for (const auto& pair : results.pairs)
     {
         const auto ratio = pair->ratio();
@@ -117,8 +117,9 @@ int run (const Options& options)
     options.json ? printJson (results, counts) : printTable (results, counts);
     if (! results.agree())
         return fail ("bench/disagree", "the variants do not all give the same outputs, so their times mean nothing",
-                     "please report it with the machine and the compiler");
-    if (! std::cout.flush()) return fail ("output/unwritable", "the standard output could not be written", "check the disk, or the program it is piped into");
+                     "please report it, and include the machine and the compiler");
+    if (! std::cout.flush()) return fail ("output/unwritable", "writing to the standard output failed",
+                                          "check the disk, or the program that the output is piped into");
     return fine;
 }
 
@@ -149,7 +150,7 @@ int main (int argc, char** argv)
     }
     catch (const std::exception& e)
     {
-        std::fprintf (stderr, "tactus-bench: error: %s\n    this should not happen; please report it with the command\n", e.what());
+        std::fprintf (stderr, "tactus-bench: error: %s\n    this should not happen; please report it, and include the command\n", e.what());
         return 1;
     }
 }

@@ -100,7 +100,7 @@ private:
     LoadedSession device_session;   // empty if none is used
     FileAssets assets;
     std::optional<Feed> feed;
-    audio::AudioRig rig;   // before the run, because it drives some of its devices
+    audio::AudioRig rig;   // declared before the run, because it drives some of the run's devices
     Hardware real;
     PortProbes port_probes;
     std::string clock_role;
@@ -109,7 +109,7 @@ private:
     std::vector<DeviceOption> device_options;
     std::set<std::string> described_by_graph;   // roles whose device comes from neither an option nor the session
     bool with_placeholders = false;
-    std::unique_ptr<Run> running;   // last: it uses the other members
+    std::unique_ptr<Run> running;   // declared last: it uses the other members
 };
 
 }   // namespace tactus::host

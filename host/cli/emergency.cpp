@@ -11,7 +11,7 @@ namespace tactus::host
 
 namespace
 {
-std::atomic<Emergency*> under_signals { nullptr };   // the only one that the signal handlers know
+std::atomic<Emergency*> under_signals { nullptr };   // the emergency stop that the signal handlers press
 std::atomic<bool> asked_by_signal { false };         // SIGUSR2
 
 double now() noexcept { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }

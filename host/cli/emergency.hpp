@@ -18,7 +18,7 @@ namespace tactus::host
 class Emergency
 {
 public:
-    static constexpr double pause_s = 1.0;   ///< between a stop and a rearm
+    static constexpr double pause_s = 1.0;   ///< shortest time between a stop and a rearm
 
     /// The engine must outlive this.
     explicit Emergency (Engine&);
@@ -44,7 +44,7 @@ private:
     Keys keys;
     std::atomic<double> pressed_at;   // s, of the steady clock
     std::atomic<bool> came_too_early { false };
-    std::jthread reading;   // last: it uses the other members
+    std::jthread reading;   // declared last: it uses the other members
 };
 
 }   // namespace tactus::host

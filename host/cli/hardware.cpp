@@ -79,7 +79,7 @@ std::string accountOf (std::span<const RealDevice> devices, std::span<const Devi
         if (device == nullptr)
         {
             const auto trouble = real.awaited->trouble();
-            text += real.role + " (" + real.profile().id + "): never came" + (trouble.empty() ? std::string() : "; " + trouble) + "\n";
+            text += real.role + " (" + real.profile().id + "): was never available" + (trouble.empty() ? std::string() : "; " + trouble) + "\n";
             continue;
         }
         const auto read = device->counts();
@@ -93,7 +93,7 @@ std::string accountOf (std::span<const RealDevice> devices, std::span<const Devi
             text += " to " + milliseconds (port.latency_max) + " ms, mean " + milliseconds (port.latency_mean) + " ms\n";
         }
         if (port.silences > 0)
-            text += "    the ticks paused " + std::to_string (port.silences) + " times for longer than its watchdog, so its force was released\n";
+            text += "    the ticks paused " + std::to_string (port.silences) + " times for longer than its watchdog allows, so its force was released\n";
         if (port.departures > 0)
         {
             text += "    it was unplugged " + std::to_string (port.departures) + " times";

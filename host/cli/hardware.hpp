@@ -36,7 +36,7 @@ private:
     std::optional<hid::LoadedProfiles> loaded;
 };
 
-/// Text for the status line: the state of the devices, and the clock if it is not the chosen one.
+/// Text for the status line: the state of the devices, and which clock ticks the run if it is not the chosen one.
 std::string statusOf (std::span<const DeviceHealth>, const RunClock*);
 
 /// Text for the end of a run: a few lines for each device about its traffic.

@@ -13,7 +13,7 @@
 namespace tactus::host
 {
 
-/// Records a run while it ticks, leaving out the ticks of the halt. The tick thread never waits for the files, and a full
+/// Records a run while it ticks, but not the ticks while it halts. The tick thread never waits for the files, and a full
 /// disk ends the recording but not the run.
 class LiveRecording final : public RunListener
 {
@@ -36,7 +36,7 @@ private:
 
     Recorder recorder;
     std::optional<Message> failure;
-    SpscRing<double> ring;   // a tick and its values
+    SpscRing<double> ring;   // number of a tick, and the values of that tick
 };
 
 }   // namespace tactus::host

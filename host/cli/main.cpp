@@ -47,13 +47,13 @@ int main (int argc, char** argv)
     }
     catch (const std::exception& e)
     {
-        std::fprintf (stderr, "tactus: error: %s\n    this should not happen; please report it with the command and its files\n", e.what());
+        std::fprintf (stderr, "tactus: error: %s\n    this should not happen; please report it, and include the command and its files\n", e.what());
         return fault_of_input;
     }
     if (! std::cout.flush())
     {
-        std::fprintf (stderr, "tactus: error: the standard output could not be written\n"
-                              "    check the disk, or the program it is piped into [output/unwritable]\n");
+        std::fprintf (stderr, "tactus: error: writing to the standard output failed\n"
+                              "    check the disk, or the program that the output is piped into [output/unwritable]\n");
         return fault_of_input;
     }
     return fine;

@@ -66,7 +66,8 @@ std::unique_ptr<RunClock> clockOf (const CommandRun& command)
     const auto costs = runner.costs();
     const auto worst = costs.empty() ? "no node was measured" : describe (costs.front());
     fail ("run/overrun",
-          "stopped, because the graph takes longer than a tick period: " + std::string (took) + " ms of " + numberText (1e3 / rate_hz) + " ms; " + worst,
+          "stopped, because the graph takes longer than a tick period: " + std::string (took) + " ms instead of at most "
+              + numberText (1e3 / rate_hz) + " ms; " + worst,
           "simplify the graph, or use a lower --rate");
 }
 
@@ -154,7 +155,7 @@ private:
         if (terminal) std::fprintf (stderr, "\r\033[K");
         const bool taken_over = command.reload();
         if (taken_over && control) control->graphChanged();
-        std::fprintf (stderr, taken_over ? "%s: taken over\n" : "%s: not taken over; the previous graph keeps running\n", options.graph.c_str());
+        std::fprintf (stderr, taken_over ? "%s: reloaded\n" : "%s: not reloaded; the previous graph keeps running\n", options.graph.c_str());
         file_watch.watch (command.files());
     }
 
@@ -171,7 +172,8 @@ private:
         command.reportRun();
         const auto end = runner.status();
         if (end.let_go_under_force)
-            std::fprintf (stderr, "warning: the slew limit kept force on a device for %g s, so it was released under force\n", Runner::longest_halt_s);
+            std::fprintf (stderr, "warning: after %g s the slew limit still held force on a device, so it was released before its force reached zero\n",
+                          Runner::longest_halt_s);
         const auto not_recorded = recording ? recording->commit() : std::nullopt;
         if (options.costs) printCosts (runner);
         if (! logged) fail (logged.error());
@@ -207,7 +209,7 @@ void addPlay (const Command& app)
     const auto options = std::make_shared<Options>();
     const auto command = app.add ("play", "Run a graph in real time until its gesture or trace ends, --duration is over, or you press Ctrl-C");
     options->addTo (command);
-    command.addFlag ("--watch", options->watch, "Take over the graph file whenever it is edited; unchanged parts keep running");
+    command.addFlag ("--watch", options->watch, "Reload the graph file whenever it is edited; unchanged parts keep running");
     command.addFlag ("--costs", options->costs, "At the end, list the most expensive nodes");
     command.addOption ("--log", options->log, "Log all inputs, for `tactus render --replay`: see docs/replay.md");
     command.addOption ("--core", options->core, "Pin the tick thread to this CPU core").check (within (0, 1023));

@@ -25,7 +25,7 @@ void printRow (std::span<const double> values)
     std::cout << line << '\n';
 }
 
-/// Calls f with each file. If it fails, the file is closed and its incomplete content is removed.
+/// Calls `work` with each file. If it fails, the file is closed and its incomplete content is removed.
 template <typename File, typename Do>
 void giveUpWhere (std::vector<File>& files, std::vector<Message>& failed, Do&& work)
 {
@@ -107,7 +107,7 @@ std::vector<Message> Recorder::commit()
     giveUpWhere (waves, failed, commitOne);
     if (print && ! std::cout.flush())
         failed.push_back (Message::error ("output/unwritable", "the standard output", "it could not be written",
-                                          "check the disk, or the program it is piped into"));
+                                          "check the disk, or the program that the output is piped into"));
     return failed;
 }
 

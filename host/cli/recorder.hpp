@@ -27,7 +27,7 @@ public:
     /// The number of values per tick.
     std::size_t width() const noexcept { return taps * per_tick; }
 
-    /// Samples the taps after a tick; they belong to the first plan or to a later one. [tick thread]
+    /// Samples the taps of the current plan after a tick; that plan may be newer than the one at construction. [tick thread]
     void note (const std::vector<Tap>&, std::span<double> values) const noexcept;
 
     /// Writes the values of a tick. If earlier ticks are missing, a WAV repeats the last values, so that it keeps

@@ -85,7 +85,7 @@ void probeTriggered (OscClient& client, const std::string& port, const TriggerOp
     {
         if (since (asked) > 2.0 && window.rows.empty())
         {
-            ask (patience_s);   // the program answers this request
+            ask (patience_s);   // renews the trigger; the answer shows that the program still runs
             asked = Clock::now();
         }
         if (since (heard) > 10.0) OscClient::failSilent (port, done.has_value());

@@ -23,9 +23,9 @@ struct HidSample
     double pressure = 0.0;                     ///< N
     std::uint32_t buttons = 0;                 ///< bit i: buttonNames()[i] is down
     std::array<double, most_axes> axes {};     ///< in the order of axisNames()
-    double time = 0.0;                         ///< time since the device's first report, on its own clock, in s; if hasTime
+    double time = 0.0;                         ///< time since the device's first report, on its own clock, in s; 0 unless hasTime()
     std::uint32_t lost = 0;                    ///< reports lost just before this one
-    bool valid = false;                        ///< true if the device reports them as valid and the kinematics have a solution
+    bool valid = false;                        ///< true if the device reports the values as valid and the kinematics have a solution
     Refusal refusal = Refusal::none;           ///< why the last report changed nothing
     PoseProblem problem = PoseProblem::none;   ///< why the pose cannot be used, if it cannot
 };
@@ -54,11 +54,11 @@ public:
     /// The reading for the framework. The caller adds its age, since it knows when the report arrived.
     Reading reading() const noexcept;
 
-    /// The efforts that neither the force nor the torque drives. A graph can ask only for these by name: if a motor could be
-    /// reached both ways, the guard would limit each way, but not their sum.
+    /// The efforts that neither the force nor the torque drives. A graph can drive only these by name: if a motor could be
+    /// driven both by the force and by name, the guard would limit the two separately, but not their sum.
     const std::vector<std::string>& ownEffortNames() const noexcept { return own_names; }
 
-    /// Takes over values in the order of ownEffortNames(). A value of 0 leaves the one of the neutral report.
+    /// Copies values, in the order of ownEffortNames(), into the effort. A value of 0 keeps the value of the neutral report.
     void take (const Channels& axes, HidEffort&) const noexcept;
 
     /// The n-th output report of the profile, ready for hid_write (or hid_send_feature_report): without an id it begins
@@ -109,7 +109,7 @@ private:
     Kinematics::Pose pose;
     HidSample last;
     std::array<int, 3> position {}, rotation {}, force {}, torque {};   // indices of axes and efforts; -1: none
-    std::vector<std::size_t> own;                                       // indices of efforts
+    std::vector<std::size_t> own;                                       // indices of the efforts in ownEffortNames()
     std::vector<std::string> own_names;
     int pressure = -1, valid = -1;
 };

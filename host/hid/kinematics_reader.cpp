@@ -19,7 +19,7 @@ Vec3 directionOf (std::string_view text)
     return row;
 }
 
-/// Reads three rows of three numbers, or three entries that `row` accepts. Empty for anything else.
+/// Reads three rows, each of which is three numbers or a string for directionOf. Empty for anything else.
 std::optional<Mat3> matrixOf (const Json& json)
 {
     if (! json.is_array() || json.size() != 3) return {};

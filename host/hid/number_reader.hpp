@@ -15,7 +15,7 @@ Bits readBits (ProfileFields&);
 double readScale (ProfileFields&, std::string& unit);
 double readOffset (ProfileFields&, const std::string& unit);
 
-/// Reads whether a report is verified and, if it is not, why it is believed to be right.
+/// Reads whether a report is verified and, if it is not, why it is not.
 void readVerified (ProfileFields&, bool& verified, std::string& why_not);
 
 inline constexpr int most_bytes = static_cast<int> (longest_report);

@@ -36,7 +36,7 @@ constexpr const char* from_descriptor = "read from the device's report descripto
 // A placeholder in profiles until the device has assigned a block.
 constexpr int any_block = 1;
 
-/// A number in a report: its field, and its index in it.
+/// A number in a report: its field, and its index in that field.
 struct Place
 {
     const DescribedField* field = nullptr;
@@ -98,7 +98,7 @@ public:
         return *this;
     }
 
-    /// Chooses one of several usages: its index in an array, or its own bit.
+    /// Chooses one of several usages: writes its index into an array, or sets its own bit.
     Writer& choose (Usage what)
     {
         if (const auto place = find (descriptor, kind, report, what))

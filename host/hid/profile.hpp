@@ -67,7 +67,7 @@ struct Answer
     };
 
     std::optional<std::uint8_t> id;        ///< report id
-    Bits number;                           ///< 0: none
+    Bits number;                           ///< the requested number; 0: there is none yet
     std::optional<Mark> success;           ///< required value, if any
     std::vector<Mark> refusals;            ///< values after which asking again is pointless
     double patience = 0.5, pause = 0.01;   ///< how long to keep asking, and the pause between requests, in s
@@ -283,8 +283,8 @@ struct Profile
     std::vector<OutputReport> outputs;
 
     std::array<std::string, 3> position, rotation;   ///< input axes of the kinematics, or the pose itself; empty: none
-    std::string pressure, valid;                     ///< axes; `valid` is nonzero while the reading is valid
-    std::array<std::string, 3> force, torque;        ///< efforts; with kinematics, `force` are the motors
+    std::string pressure, valid;                     ///< names of axes; the one named by `valid` is nonzero while the reading is valid
+    std::array<std::string, 3> force, torque;        ///< names of efforts; with kinematics, `force` names the motors
     std::vector<SignalEffort> signals;               ///< signal outputs after those of the streams
     Mat3 axes = Mat3::Identity();                    ///< Tactus (x right, y away, z up) = axes · device
 

@@ -38,7 +38,7 @@ public:
     {
         std::uint64_t taken = 0;
         std::uint64_t lost = 0;                           ///< lost reports, by sequence numbers
-        std::uint64_t restarts = 0;                       ///< sequence numbers that went backwards, or forwards by half their range
+        std::uint64_t restarts = 0;                       ///< sequence numbers that went backwards, or forwards by more than half their range
         std::array<std::uint64_t, refusals> refused {};   ///< refused reports, indexed by Refusal
     };
 
@@ -70,7 +70,7 @@ private:
     {
         bool started = false;
         std::uint32_t raw = 0;
-        double total = 0.0;   // in raw units, beyond the range of the field
+        double total = 0.0;   // the unwrapped value, in raw units
     };
 
     struct Field

@@ -16,7 +16,7 @@ constexpr std::size_t most_fields = 4096;
 constexpr std::size_t most_collections = 1024;
 constexpr std::size_t most_usages = 256;           // usage ranges of one field
 constexpr std::size_t deepest = 32;                // levels of nested collections, and of pushed states
-constexpr std::size_t largest_field = 256;         // in bits; vendors declare blobs
+constexpr std::size_t largest_field = 256;         // in bits; vendors declare opaque data as one large field
 constexpr std::size_t largest_report = 8 * 8192;   // in bits
 
 struct Globals
@@ -144,18 +144,19 @@ private:
             break;
         case 0x7:
             if (item.value > largest_field)
-                return fail ("descriptor/too_large", "a field of " + std::to_string (item.value) + " bits",
+                return fail ("descriptor/too_large", "a field has " + std::to_string (item.value) + " bits",
                              "at most " + std::to_string (largest_field) + " are allowed");
             globals.size = item.value;
             break;
         case 0x8:
-            if (item.value == 0 || item.value > 255) return fail ("descriptor/report_id", "a report id of " + std::to_string (item.value), "ids are 1 to 255");
+            if (item.value == 0 || item.value > 255) return fail ("descriptor/report_id", "a report has the id " + std::to_string (item.value),
+                                                                  "ids are 1 to 255");
             globals.report = static_cast<std::uint8_t> (item.value);
             result.descriptor.has_ids = true;
             break;
         case 0x9:
             if (item.value > largest_report)
-                return fail ("descriptor/too_large", std::to_string (item.value) + " adjacent fields",
+                return fail ("descriptor/too_large", "an item declares " + std::to_string (item.value) + " adjacent fields",
                              "at most " + std::to_string (largest_report) + " are allowed");
             globals.count = item.value;
             break;

@@ -33,8 +33,8 @@ DeviceLayout layoutOf (const HidModel& model)
 
 namespace
 {
-// Half a period of the lowest frequency that such motors are asked for; if it were shorter, the amplitude would
-// noticeably follow the signal.
+// Half a period of the lowest frequency that is requested from such motors; with a shorter hold, the amplitude would
+// noticeably follow the waveform.
 constexpr double least_hold = 12.5e-3;   // s
 
 /// The period of the report that contains this effort, in s.

@@ -32,8 +32,8 @@ struct ReadingCounts
 /// Describes the counts, as in "5000 taken, 12 lost, 3 refused (2 too short, 1 wrong mark), 5 skipped".
 std::string describe (const ReadingCounts&, const PortCounts&);
 
-/// What nodes can address by name: all axes, efforts and buttons, and the signal outputs. Of these, the channels of the
-/// streams come first, then the signals that the profile turns into efforts.
+/// What nodes can address by name: all axes, efforts and buttons, and the signal outputs. Of the signal outputs, the channels of
+/// the streams come first, then the signals that the profile turns into efforts.
 DeviceLayout layoutOf (const HidModel&);
 
 /// A HID device in a run. Reports are decoded and encoded on the tick thread, so an answer carries the pose and the sequence
@@ -92,7 +92,7 @@ private:
 
     std::unique_ptr<HidPort> link;
     HidModel values;
-    const bool only_changes;   // true if it sends only when something moves, so its reading does not age while it is silent
+    const bool only_changes;   // true if the device sends only when something moves, so its reading does not age while it is silent
     double dt = 1e-3;
 
     // [tick thread]

@@ -21,7 +21,7 @@ using Clock = HidPort::Clock;
 
 constexpr std::size_t reports_waiting = 1024;   // one second of a fast device, since a run starts a while after its devices are opened
 constexpr auto longest_read = 20ms;             // short enough that a request to stop is noticed
-constexpr const char* check_device = "check that it is this device, and plug it in again";
+constexpr const char* check_device = "check that the connected device is the one that the profile describes, and plug it in again";
 
 double secondsOf (Clock::duration d) { return std::chrono::duration<double> (d).count(); }
 
@@ -222,7 +222,7 @@ PortCounts HidPort::counts() const noexcept
 
 void HidPort::readOn()
 {
-    if (options.real_time) becomeRealTime (std::nullopt);   // if it is not granted, the run reports it
+    if (options.real_time) becomeRealTime (std::nullopt);   // if real-time priority is refused, the run reports that
     std::vector<std::uint8_t> buffer (longest_report + 1);
     while (! isStopping())
     {
@@ -438,8 +438,8 @@ void HidPort::leave (Transport& t)
         if (const auto done = perform (t, step); ! done) note (done.error().text);
 }
 
-/// The neutral reports and exit steps, for the failsafe. Before the device has returned its number, only the ones that do
-/// not need it. [with `writing` held]
+/// The neutral reports and exit steps, for the failsafe. Before the device has returned its number, only those that do
+/// not need the number. [with `writing` held]
 std::vector<OutgoingReport> HidPort::neutralReports()
 {
     std::vector<OutgoingReport> last;

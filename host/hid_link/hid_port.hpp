@@ -210,7 +210,7 @@ private:
     std::atomic<std::uint64_t> answers_sent = 0;
     std::atomic<double> latency_sum = 0.0, latency_min = 0.0, latency_max = 0.0;
 
-    std::jthread reader, writer;   // last: they use the other members
+    std::jthread reader, writer;   // declared last: they use the other members
 };
 
 }   // namespace tactus::host::hid

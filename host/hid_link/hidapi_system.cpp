@@ -52,7 +52,7 @@ std::string narrow (const wchar_t* wide)
 std::string errorOf (hid_device* device)
 {
     const auto text = narrow (hid_error (device));
-    return text.empty() ? "the system gives no reason" : text;
+    return text.empty() ? "the system gave no reason" : text;
 }
 
 Bus busOf (hid_bus_type type)

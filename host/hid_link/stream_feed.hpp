@@ -54,7 +54,7 @@ private:
     double at (const Channels& signals, std::size_t c) const noexcept { return signals[static_cast<int> (first + c)]; }
 
     std::size_t frames, channels, first;
-    double rate_hz, step = 1.0, next = 1.0;   // in ticks: from frame to frame, and from the last tick to the next frame
+    double rate_hz, step = 1.0, next = 1.0;   // step, next: in ticks, from frame to frame, and from the last tick to the next frame
     std::size_t filled = 0;
     std::vector<double> before;
     std::vector<float> block;

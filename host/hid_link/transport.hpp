@@ -40,7 +40,7 @@ public:
     virtual Result<> write (std::span<const std::uint8_t> report) = 0;
     virtual Result<> sendFeature (std::span<const std::uint8_t> report) = 0;
 
-    /// Requests the feature report whose id is the first byte, and stores it in place.
+    /// Requests the feature report whose id is the first byte of `report`, and stores it in `report`.
     virtual Result<> getFeature (std::span<std::uint8_t> report) = 0;
 
     /// Arranges for these reports to be written, in this order, if the process dies without closing the device. Replaces

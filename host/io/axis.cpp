@@ -30,7 +30,7 @@ constexpr std::array prefixes {
     Prefix { "n", 1e-9 },
 };
 
-/// A unit that takes an SI prefix, and the number of these units in the SI unit.
+/// A unit that takes an SI prefix, and how many of them make one SI unit.
 struct Base
 {
     std::string unit;

@@ -24,8 +24,8 @@ struct Extent
     void include (const Extent& other) noexcept;
 };
 
-/// The extent with a margin on both sides. Its size is never zero: a constant gets a tenth of its value, zero gets -1…1. Values
-/// that differ only in the tenth digit count as constant, so that noise is not magnified.
+/// The extent with a margin on both sides. Its size is never zero: a constant gets a margin of a tenth of its value, and zero
+/// becomes -1…1. Values that differ only in the tenth digit count as constant, so that noise is not magnified.
 Extent widened (const Extent& extent, double fraction) noexcept;
 
 /// The extent, enlarged to the next ticks if they are near its ends: 0 to 1.999 s ends at 2 s.

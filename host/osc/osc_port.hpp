@@ -36,7 +36,7 @@ struct OscReturn
 /// in a queue of limited length; messages that do not fit, and packets that are not OSC, are dropped and counted. Bundles are unpacked;
 /// their time tags are ignored.
 ///
-/// Answers go only to this machine and to the named one, so a sender with a forged address cannot make us send to a third
+/// Answers go only to this machine and to OscListen::answered, so a sender with a forged address cannot make us send to a third
 /// machine. [main thread]
 class OscPort
 {
@@ -57,7 +57,7 @@ public:
     const OscListen& listensTo() const noexcept { return where; }
 
     /// Calls `see` with every message as soon as it arrives, before it waits in the queue, and even if it does not fit there.
-    /// Empty: nothing. It must not wait. [main thread; `see` on the thread of the port]
+    /// An empty function ends this. `see` must not wait. [main thread; `see` on the thread of the port]
     void onArrival (std::function<void (const juce::OSCMessage&)> see);
 
     /// The oldest waiting message, or the first one that arrives within `patience`.
@@ -92,7 +92,7 @@ private:
     std::deque<Received> waiting;
     std::function<void (const juce::OSCMessage&)> first_look;
     std::size_t lost = 0;
-    std::jthread listening;   // last: it uses the other members
+    std::jthread listening;   // declared last: it uses the other members
 };
 
 }   // namespace tactus::host

@@ -67,8 +67,8 @@ std::optional<Trigger::Edge> edgeOf (const OSCArgument& a)
     return std::nullopt;
 }
 
-// Forces may rise only if someone at the device can see that nobody will be hurt.
-constexpr const char* from_elsewhere = "other machines may send this too, but cannot see whether someone could be hurt";
+// Forces may rise only if someone at the device can see that no one will be hurt.
+constexpr const char* from_elsewhere = "other machines can send this too, and people there cannot see whether someone could be hurt";
 
 Message badArguments (const std::string& remedy) { return Message::error ("osc/arguments", {}, "the arguments do not fit the address", remedy); }
 }   // namespace
@@ -134,7 +134,7 @@ void RemoteControl::carryOut (const OSCMessage& m, const std::string& host, Cloc
         const bool right = ! subject.empty() && speed && m.size() <= 3;
         answer (last (2), address, subject,
                 right ? controlled.strike (subject, *speed)
-                      : badArguments ("a hit input, a speed in m/s (float or int), and optionally the port for the answer"));
+                      : badArguments ("send a hit input, a speed in m/s (float or int), and optionally the port for the answer"));
     }
     else if (address.starts_with (transport_addresses))
         answer (last (1), address, "", transport (address.substr (transport_addresses.size()), m));
@@ -159,7 +159,7 @@ Result<> RemoteControl::turn (const std::string& address, const std::string& nam
 {
     const auto value = m.size() >= 2 ? valueOf (m[1]) : std::nullopt;
     if (name.empty() || ! value || m.size() > 3)
-        return badArguments ("a name, a value (float, int, or a string with a unit), and optionally the port for the answer");
+        return badArguments ("send a name, a value (float, int, or a string with a unit), and optionally the port for the answer");
     if (address == "/tactus/param") return controlled.setParam (name, *value);
     return controlled.turnControl (name, value->is_number() ? value->get<double>() : std::nan (""));
 }
@@ -191,7 +191,7 @@ void RemoteControl::report (const std::string& address, const std::string& subje
         if (wanted && *wanted >= 1.0)
             sendCosts (to, static_cast<std::size_t> (std::min (*wanted, most_costs)));
         else
-            answer (to, address, "", badArguments ("the port for the answer, and optionally the number of nodes"));
+            answer (to, address, "", badArguments ("send the port for the answer, and optionally the number of nodes"));
     }
     else if (address == "/tactus/guard" && m.size() == 1)
         sendRoles (to);
@@ -236,7 +236,8 @@ Result<> RemoteControl::transport (const std::string& what, const OSCMessage& m)
     if (what == "play" && value) return controlled.transport ({ .plays = *value != 0.0 });
     if (what == "seek" && value && *value >= 0.0) return controlled.transport ({ .seek = value });
     if (what == "speed" && value && *value > 0.0) return controlled.transport ({ .speed = value });
-    return badArguments ("/tactus/transport/play 0 or 1, /tactus/transport/seek s, or /tactus/transport/speed factor; and optionally the port for the answer");
+    return badArguments ("send /tactus/transport/play 0 or 1, /tactus/transport/seek s, or /tactus/transport/speed factor; "
+                         "and optionally the port for the answer");
 }
 
 Result<> RemoteControl::subscribe (const OSCMessage& m, const std::string& host, Clock::time_point now)
@@ -244,7 +245,7 @@ Result<> RemoteControl::subscribe (const OSCMessage& m, const std::string& host,
     const auto number = [&] (int i, double otherwise) { return m.size() > i ? numberOf (m[i]) : std::optional (otherwise); };
     const auto rate = number (2, usual_rate), length = number (3, usual_length);
     if (m.size() < 2 || m.size() > 4 || ! m[0].isString() || ! isPort (m[1]) || ! rate || ! length || ! (*rate > 0.0) || ! (*length > 0.0))
-        return badArguments ("a port of the graph, the port for the answers, and optionally the rate (Hz) and the duration (s)");
+        return badArguments ("send a port of the graph, the port for the answers, and optionally the rate (Hz) and the duration (s)");
 
     Probe probe {
         .name = textOf (m[0].getString()), .to = { host, m[1].getInt32() }, .rate = std::min (*rate, highest_rate), .end = now + durationOf (*length)
@@ -285,7 +286,7 @@ Result<> RemoteControl::subscribeCapture (const OSCMessage& m, const std::string
     if (m.size() < 4 || m.size() > 8 || ! m[0].isString() || ! isPort (m[1]) || ! m[2].isString() || ! std::isfinite (level) || ! edge || before < 0
         || after < 0 || ! (length > 0.0))
         return badArguments (
-            "a port of the graph, the port for the answers, the port of the graph that triggers, its level, and optionally "
+            "send a port of the graph, the port for the answers, the port of the graph that triggers, its level, and optionally "
             "rising, falling or either, ticks before, ticks after, and the longest wait (s)");
 
     Capture wanted { .name = textOf (m[0].getString()),

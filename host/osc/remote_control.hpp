@@ -76,8 +76,8 @@ public:
     virtual void emergencyStop() = 0;
     virtual Result<> rearm() = 0;
 
-    /// The emergency stop, as soon as its message arrives and before the messages that wait. emergencyStop() follows on the main
-    /// thread. [thread of the port]
+    /// Called as soon as the message for an emergency stop arrives, ahead of the waiting messages. emergencyStop() follows on the
+    /// main thread. [thread of the port]
     virtual void emergencyNow() noexcept {}
 };
 
@@ -117,7 +117,7 @@ private:
         OscReturn to;
         double rate;   // Hz
         Clock::time_point end;
-        double due = 0.0;   // tick
+        double due = 0.0;   // tick from which the next value may be sent
         std::vector<std::size_t> components {};
     };
 
@@ -129,7 +129,7 @@ private:
         Trigger trigger;
         Clock::time_point end;
         std::vector<std::string> components {};
-        std::size_t sent = 0;   // ticks
+        std::size_t sent = 0;   // ticks sent so far
     };
 
     void carryOut (const juce::OSCMessage&, const std::string& host, Clock::time_point);

@@ -58,7 +58,7 @@ void write (int file, const FinalReports& reports) noexcept
         if (reports.is_feature[i] != 0)
             (void)::ioctl (file, HIDIOCSFEATURE (reports.sizes[i]), at);
         else if (::write (file, at, reports.sizes[i]) < 0)
-            continue;   // nothing is left to report it to
+            continue;   // there is nothing left to report the error to
 }
 
 void writeAll() noexcept

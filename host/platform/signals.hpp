@@ -14,8 +14,8 @@ bool stopRequested() noexcept;
 /// Requests a stop, as a signal does. [any thread]
 void requestStop() noexcept;
 
-/// Sets the action for the emergency stop, and the one for SIGUSR2, which used to rearm. On systems that have these signals,
-/// SIGUSR1 and SIGUSR2 call them, on any thread and at any point of its work. Null: no action. [main thread]
+/// Sets the actions of two signals, on systems that have them: SIGUSR1 calls `stop`, the emergency stop; SIGUSR2, which used to
+/// rearm, calls `asked_to_rearm`. Either is called on any thread, at any point of its work. Null: no action. [main thread]
 void watchForEmergency (void (*stop)() noexcept, void (*asked_to_rearm)() noexcept) noexcept;
 
 }   // namespace tactus::host

@@ -55,7 +55,7 @@ char Keys::next (std::chrono::milliseconds patience) noexcept
     const bool any = before && poll (&waiting, 1, static_cast<int> (patience.count())) == 1;
     char key = 0;
     if (any && ours() && read (STDIN_FILENO, &key, 1) == 1) return key;
-    if (any) poll (nullptr, 0, static_cast<int> (patience.count()));   // a closed terminal, or somebody else's: do not spin
+    if (any) poll (nullptr, 0, static_cast<int> (patience.count()));   // the terminal is closed or belongs to another program: sleep, do not spin
     return '\0';
 }
 #endif

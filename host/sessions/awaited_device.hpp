@@ -57,9 +57,9 @@ private:
     bool stopping = false;
     std::string last_trouble;
 
-    std::unique_ptr<Device> opened;   // set by the searching thread; never closed
+    std::unique_ptr<Device> opened;   // set by the searching thread; not closed before this is destroyed
     std::atomic<hid::HidDevice*> there = nullptr;
-    std::jthread looking;   // last: it uses the other members
+    std::jthread looking;   // declared last: it uses the other members
 };
 
 }   // namespace tactus::host

@@ -32,7 +32,7 @@ struct BoundDevice
     Device* driver = nullptr;         ///< the same, without the workspace wrapper
     GuardLimits limits;
     std::string about;
-    Messages messages;   ///< `where` and lines refer to the session
+    Messages messages;   ///< `where` and line numbers refer to the session file
 };
 
 /// What happens if the device of a role does not open.
@@ -43,7 +43,7 @@ enum class Absence
 };
 
 /// Gives a role another device and keeps its guard and workspace, unless the new description has its own, or one of the two
-/// devices is a sound card, which has a different kind of each.
+/// devices is a sound card, whose guard and workspace are of a different kind.
 Json rebound (const Json* before, Json description);
 
 /// Opens a device, independently of sessions.

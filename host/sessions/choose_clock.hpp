@@ -34,7 +34,7 @@ struct ClockChoice
 {
     std::string role {};          ///< the role whose device ticks; "": none
     double rate_hz = 0.0;         ///< rate of that device
-    Messages messages {};         ///< an error if the option cannot be met, a warning for the session
+    Messages messages {};         ///< an error if the clock of the option cannot be used, a warning if the session's cannot
     bool by_sound_card = false;   ///< if no device ticks: true for the sound card, false for a timer
 };
 

@@ -10,7 +10,8 @@ namespace tactus::host
 
 namespace
 {
-/// A device that sends only when something moves has no clock to compare.
+/// True if the device reports at a fixed rate, which can be compared with other clocks. A device that sends only when something
+/// moves has no such rate.
 bool hasClock (const hid::Profile& p) { return p.rate > 0.0 && std::ranges::count (p.quirks, "only_changes") == 0; }
 
 /// The time of the latest report, and the number of reports. The two are stored one after the other, so about one look in a
@@ -99,7 +100,7 @@ void HealthWatch::look (std::span<const RealDevice> devices)
         if (const auto rate = meter.rate.rate()) h.rate_hz = rate->hz;
     }
 
-    // The speed of each clock relative to its nominal rate.
+    // The speed of a device's clock relative to its nominal rate.
     const auto speed = [&] (const std::string& role) -> std::optional<RateMeter::Rate> {
         const auto real = std::ranges::find (devices, role, &RealDevice::role);
         if (real == devices.end() || ! hasClock (real->profile())) return std::nullopt;

@@ -51,7 +51,7 @@ std::string describe (const DeviceHealth&);
 class HealthWatch
 {
 public:
-    /// The shortest span for an estimate of the drift, in s.
+    /// The default for the shortest span from which the drift is estimated, in s.
     static constexpr double usual_span = 2.0;
 
     /// `clock_role`: the role whose device ticks; empty: none.

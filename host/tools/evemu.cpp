@@ -233,7 +233,7 @@ void holdUnseen (std::vector<Report>& reports)
 
 double leastJerk (double u) { return u * u * u * (10.0 + u * (6.0 * u - 15.0)); }
 
-/// Makes evenly spaced rows. At this stage z is either down or up, with nothing in between.
+/// Makes evenly spaced rows. At this stage z jumps between pen down and pen up.
 TraceData evenRows (const Recording& recording, const EvemuOptions& options)
 {
     const auto& reports = recording.reports;
@@ -314,7 +314,7 @@ TraceResult readEvemu (std::string_view text, const EvemuOptions& options)
     if (recording.reports.back().t * options.rate_hz > most_rows)
         return { .trace = {},
                  .messages = { Message::error ("evemu/too_long", "end",
-                                               "the recording lasts " + std::to_string (std::llround (recording.reports.back().t)) + " s",
+                                               "the recording is too long: it lasts " + std::to_string (std::llround (recording.reports.back().t)) + " s",
                                                "cut out the part you need, or use a lower rate") } };
 
     holdUnseen (recording.reports);

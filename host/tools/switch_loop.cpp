@@ -90,7 +90,7 @@ std::size_t worstBetween (const SwitchLoop& loop, std::size_t from, std::size_t 
     return worst;
 }
 
-/// The law of the plane. It ends in a point beyond the loop, from which its last slope continues.
+/// The law of the plane. An additional point beyond the loop sets the slope with which the law continues.
 Curve meanOf (const SwitchLoop& loop)
 {
     Curve mean;

@@ -19,9 +19,9 @@ struct SwitchLoop
 };
 
 /// Reads a recording with columns `x_UNIT` and `force_UNIT` ("x_um", "force_gf", with gf for gram-force), rows in measured
-/// order: down to the deepest point, and up again. Travel counts from the first row. Other columns are ignored. Both ways
-/// are sampled at the same positions; readings at the same position are averaged, and negative forces (an offset of the
-/// gauge) are set to 0.
+/// order: down to the deepest point, and up again. Travel counts from the first row. Other columns are ignored. The way
+/// down and the way up are sampled at the same positions; readings at the same position are averaged, and negative forces (an
+/// offset of the gauge) are set to 0.
 ///
 /// `backlash`: the backlash of the meter (m); on the way up, the key is this much deeper than measured.
 ///
@@ -33,15 +33,15 @@ struct SwitchLoop
 double loss (const SwitchLoop&);
 
 /// The nearest loop that does not release energy anywhere: where the way up was measured above the way down, which happens
-/// on steep slopes if the meter has backlash, both are set to their mean.
+/// on steep slopes if the meter has backlash, both forces are set to their mean.
 SwitchLoop withoutGain (SwitchLoop);
 
-/// Reduces the number of points: straight lines between them stay within `tolerance` (N) of both ways (Douglas & Peucker
-/// 1973, measured along the force). Travel is rounded to 0.1 um, force to 0.2 mN.
+/// Reduces the number of points: straight lines between them stay within `tolerance` (N) of the measured force, both on the way
+/// down and on the way up (Douglas & Peucker 1973, measured along the force). Travel is rounded to 0.1 um, force to 0.2 mN.
 SwitchLoop simplified (const SwitchLoop&, double tolerance);
 
-/// A graph of the key: the mean of both ways is the law of a plane, and half their difference is the bound of a bristle of
-/// constant stiffness (N/m), which friction.elasto_plastic drags along the travel.
+/// A graph of the key: the mean of the forces on the way down and on the way up is the law of a plane, and half their difference
+/// is the bound of a bristle of constant stiffness (N/m), which friction.elasto_plastic drags along the travel.
 ///
 ///     press = mean + bound,  release = mean - bound
 ///

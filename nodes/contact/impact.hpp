@@ -15,9 +15,9 @@ namespace tactus::nodes
 ///
 ///     hit = rate of depth over the last samples up to the contact
 ///
-/// The number of samples depends on their noise, taken to be `release`: as many as lie within `release` of the straight
-/// line from the first to the last, at least three if there are three, at most seventeen. So a slow approach in steps of an
-/// encoder's quantum is averaged, a braking one is not, and a steady one is exact either way.
+/// The window holds as many samples as lie within `release`, which stands for their noise, of the straight line from the first
+/// to the last: at least three if there are three, at most seventeen. So a slow approach in steps of an encoder's quantum is
+/// averaged, a braking one is not, and a steady one is exact either way.
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 6 (where "initial value of d^z" means its rate);
 /// the window is from Janabi-Sharifi, Hayward & Chen 2000.
@@ -87,7 +87,7 @@ struct Impact
         if (touching && in.depth <= -params.release)
         {
             touching = false;
-            known = 0;   // samples from inside are not part of an approach
+            known = 0;   // samples taken inside the object are not part of an approach
         }
         remember (in.depth);
         if (touching || in.depth <= 0.0) return { .contact = touching ? 1.0 : 0.0 };
@@ -121,11 +121,11 @@ private:
         int n = 1;
         while (n + 1 < known && (n == 1 || straight (n + 1)))
             ++n;
-        if (n == 2 && ago (0) <= ago (2)) n = 1;   // it has only just turned back
+        if (n == 2 && ago (0) <= ago (2)) n = 1;   // the tool has only just turned back towards the object
         return (ago (0) - ago (n)) / (n * dt);
     }
 
-    /// True if all samples in between are within the noise of the line from n ticks ago to now.
+    /// True if each of the last n samples lies within `release` of the straight line from the sample n ticks ago to the newest one.
     bool straight (int n) const noexcept
     {
         const double slope = (ago (0) - ago (n)) / n;

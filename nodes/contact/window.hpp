@@ -14,9 +14,9 @@ namespace tactus::nodes
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 5, superposition on a nominal force.
 ///
-/// Beware: its product with a force that depends on lateral position has no potential. A loop that goes in at one
-/// place and out at another can gain at most the work of the bare texture over the distance between. A thin window keeps this
-/// small compared with the friction of any real contact.
+/// Beware: the gain times a force that depends on lateral position has no potential. A tool that goes in at one place and comes
+/// out at another can gain at most the work of the bare texture between the two places. A thin window keeps this small compared
+/// with the friction of any real contact.
 struct ContactWindow
 {
     struct Inputs

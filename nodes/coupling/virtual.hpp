@@ -14,7 +14,7 @@ namespace tactus::nodes
 ///     x = offset - n . p                                 depth of the tool; x_v is the depth of the proxy, e = x - x_v
 ///     kc e + bc (e - e^-) / T = sigma x_v                in the wall; = 0 outside. Solved with
 ///     g = kc + bc / T,  x_f = x - (bc / T) e^- / g       where the proxy would be without a wall:
-///     x_f <= 0: x_v = x_f, f = 0                         it is outside
+///     x_f <= 0: x_v = x_f, f = 0                         the proxy is outside
 ///     x_f > 0:  x_v = x_f g / (g + sigma), f = sigma x_v n
 ///
 /// The rule is implicit: e belongs to this sample, so a wall of 1e8 N/m is as calm as one of 1e3. f is the force on the tool.
@@ -25,11 +25,12 @@ namespace tactus::nodes
 /// Departures: here Adams and Hannaford's proxy has no mass, and the wall has no damping.
 ///
 /// Good to know
-///  - Held between samples, kc needs what any spring needs: the damping of the device must be at least stiffness T / 2. The
-///    wall settles up to kc = 0.8 times 2 B / T and buzzes at 1.3 times, whatever sigma (see the test).
+///  - The force is held between samples, so the coupling needs what any spring needs: the damping B of the device must be at
+///    least kc T / 2. The wall settles up to kc = 0.8 times 2 B / T and buzzes at 1.3 times 2 B / T, whatever sigma is (see the
+///    test).
 ///  - Do not raise damping to calm a buzz: Colgate's condition is B > kc T / 2 + |bc|.
-///  - On the first sample the proxy is at the tool, in the wall or not: no force. A tool that is inside from the start feels
-///    the wall on the next sample, in one step, and gains energy. Otherwise the node is passive.
+///  - On the first sample the proxy is at the tool, in the wall or not, so there is no force. A tool that is inside from the start
+///    feels the wall on the next sample, in one step, and gains energy. Otherwise the node is passive.
 ///  - It does not pull. After the tool leaves, the proxy catches up with time constant bc / kc.
 ///  - `proxy` is where the tool seems to be: draw this, not the tool. `depth` is the depth of the tool, as in deform.plane.
 ///  - A wall that is moved by a wire or a knob does work, as a moving wall does.
@@ -91,7 +92,7 @@ struct VirtualCoupling
 
     void adopt (const VirtualCoupling& old) noexcept { last = old.last; }
 
-    /// Not passive: a tool that is inside from the start gains the energy to come out.
+    /// Not passive: a tool that is inside from the start gains the energy that pushes it out.
     Claims claims() const
     {
         const double kc = params.stiffness, sigma = params.wall_stiffness;

@@ -21,8 +21,9 @@ namespace tactus::nodes
 ///     elastic    f = g1 (e), e = delta - c; 0 for e <= 0          reversible, the crack stays as it is      branches 3, 5, 6
 ///     cutting    e > e_c = g1^-1 (J_c w): c = delta - e_c         at the force J_c w                        branch 4
 ///
-/// g0 is `law`, g1 `cracked_law` (none: the same), w `width`, J_c `toughness`. Rupture costs less than the stored energy: the
-/// force falls below J_c w, must be loaded up to it again, and stays there. This dip is the feel of a knife through a skin.
+/// g0 is `law`, g1 `cracked_law` (none: the same), w `width`, J_c `toughness`. The new crack costs less than
+/// the stored energy, so rupture drops the force below J_c w; it must be loaded up to J_c w again, and then stays there. This dip
+/// is the feel of a knife through a skin.
 /// The cutting force does not depend on stiffness. With g0 = g1 = k e the crack jumps by 2 (d_r - e_c).
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 3 and Fig. 6, 7, which only prints the equation
@@ -32,10 +33,10 @@ namespace tactus::nodes
 ///  - If even a crack through the whole indentation, c1 = d_r, leaves energy over, that energy is lost.
 ///  - A crack longer than `thickness` leaves the sample in two pieces: from then on there is no force, and the stored energy
 ///    is lost.
-///  - Cutting by branch 4 ends exactly on the branch point e = e_c. It begins beyond the relative guard 1e-9.
+///  - Cutting by branch 4 ends exactly on the branch point e = e_c. It begins only where e exceeds e_c by 1e-9 of it.
 ///
 /// Good to know
-///  - Time-free. A blade that leaves and returns finds its crack, and no force down to its tip.
+///  - Time-free. A blade that leaves and returns finds its crack again, and feels no force down to the tip of the crack.
 ///  - One tick may lead from the surface through rupture and far into the sample. It ends where a slow blade would, and
 ///    dissipated_energy is the same. The state is then 2, whatever else happened.
 ///  - dissipated_energy is J_c w c plus the losses at rupture and at the end. The work of a slow hand is the growth of stored
@@ -43,7 +44,7 @@ namespace tactus::nodes
 ///  - Params are read when the blade touches. If wires then give values that `problem` would refuse: a rupture_force below J_c w
 ///    counts as J_c w, and a sample that would have to gain energy to crack does not crack.
 ///  - Friction on the flanks of the blade is not included: patch a friction node with a normal force proportional to w c.
-///  - While it is held between samples, a spring of slope K leaks K dp^2 / 2 per sample: the device must damp K T / 2
+///  - The force is held between samples, so where its slope is K, it leaks K dp^2 / 2 per sample: the device must damp K T / 2
 ///    (section 1).
 struct Blade
 {
@@ -89,7 +90,7 @@ struct Blade
         param (&Params::toughness, "toughness", unit::toughness, "J_c, energy of new surface", { .hard = { 0, inf }, .usual = { 0, 5000 }, .latch = true }),
         param (&Params::rupture_force, "rupture_force", unit::newton, "force that bursts the sample open; at least width times toughness",
                { .hard = { 0, inf }, .usual = { 0, 50 }, .latch = true }),
-        param (&Params::thickness, "thickness", unit::metre, "length of a crack that leaves two pieces; 0: never",
+        param (&Params::thickness, "thickness", unit::metre, "length of the crack at which the sample falls in two; 0: never",
                { .hard = { 0, inf }, .usual = { 0, 0.2 }, .latch = true }),
         setting (&Settings::law, "law", unit::metre, unit::newton, "force against depth while there is no crack"),
         setting (&Settings::cracked_law, "cracked_law", unit::metre, unit::newton, "force against depth beyond the crack; if not given, the same as law"),
@@ -111,7 +112,7 @@ struct Blade
         if (sample.touching) sample.material = read (old.sample.material.params);
     }
 
-    /// The laws are only felt up to rupture and up to cutting.
+    /// `law` is only felt up to rupture, and `cracked_law` only up to the start of cutting.
     Claims claims() const
     {
         const Material m = read (params);
@@ -121,18 +122,18 @@ struct Blade
     Outputs tick (const Inputs&) noexcept;
 
 private:
-    static constexpr double eps_cut = 1e-9;   // keeps steady cutting off the branch point
+    static constexpr double eps_cut = 1e-9;   // relative; keeps steady cutting away from the branch point
 
     /// Derived from the params that were read when the blade touched.
     struct Material
     {
         Params params;
-        double cost = 0.0;        // J_c w per metre of crack, N
-        double last = inf;        // crack that leaves two pieces, m
+        double cost = 0.0;        // energy per metre of crack, J_c w, in N
+        double last = inf;        // length of the crack at which the sample falls in two, in m
         double e_cut = inf;       // the crack grows when the blade is this far beyond it, m
         double d_rupture = inf;   // depth at which a virgin sample bursts, m
-        double burst = 0.0;       // crack after that, m
-        double loss = 0.0;        // energy lost in it, J
+        double burst = 0.0;       // length of the crack right after the burst, in m
+        double loss = 0.0;        // energy lost in the burst, in J
     };
 
     struct Sample

@@ -29,16 +29,16 @@ namespace tactus::nodes
 /// that balance for straight blades; neither source prints them in this form.
 ///
 /// Departures
-///  - Cutting ends exactly on its criterion. It begins beyond the relative guard 1e-9.
+///  - Cutting ends exactly on its criterion. It begins only where k delta t exceeds J_c h by 1e-9 of it.
 ///
 /// Good to know
-///  - Time-free: a step of the angle, however large, cuts as the blades close over it. Blades that open and close again feel
-///    nothing down to the front.
+///  - Time-free: a step of the angle, however large, cuts as much as slow blades that close by the same angle. Blades that open
+///    and close again feel nothing until they are back at the front.
 ///  - Below t = 4 J_c / k the blades are too parallel to cut: the front stops at k h / (16 J_c), and the rest is squeeze.
 ///  - The work of a slow hand is the growth of stored_energy plus dissipated_energy; dissipated_energy is J_c h times the
 ///    distance the front has moved.
 ///  - At theta <= 0 or >= pi there is no force and no stored energy: closing through 0 releases the squeeze in one step.
-///  - Params are read when the blades touch; pivot_distance is read until the first cut.
+///  - Params are read when the blades touch the plate; pivot_distance is ignored after the first cut.
 ///  - The plate has no end. The blades have no friction and unlimited length.
 struct Scissors
 {
@@ -97,13 +97,13 @@ struct Scissors
     Outputs tick (const Inputs&) noexcept;
 
 private:
-    static constexpr double eps_cut = 1e-9;   // keeps steady cutting off its criterion
+    static constexpr double eps_cut = 1e-9;   // relative; keeps steady cutting away from its criterion
 
     struct Plate
     {
-        Params params {};                 // as read when the blades touched
+        Params params {};                 // as read when the blades last touched the plate
         bool touching = false;            // on the last sample
-        bool cut = false;                 // ever
+        bool cut = false;                 // true once the plate has been cut
         double t = -1.0;                  // tan (theta / 2) of the last sample; negative: none
         double front = 0.0, lost = 0.0;   // m, J
 
@@ -151,7 +151,7 @@ inline Scissors::Outputs Scissors::tick (const Inputs& in) noexcept
 }
 
 /// The front that meets the criterion at t, h / (2 t) - J_c h / (k t^2), is furthest out at t = 4 J_c / k. Blades that close over
-/// that angle within the step leave it there.
+/// that angle within the step leave the front there.
 inline bool Scissors::grow (Plate& p, double from) noexcept
 {
     const double h = p.params.thickness, k = p.params.stiffness, price = p.params.toughness * h;

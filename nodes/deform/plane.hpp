@@ -18,11 +18,11 @@ namespace tactus::nodes
 /// even while apart: on the first sample inside it is the speed of the approach.
 ///
 /// Damping acts from the first touch and so steps the force. Dissipation (Hunt and Crossley's lambda, section 6) grows with K
-/// and does not. With dissipation alone, and any power law, a tool of any mass returns the fraction
+/// and does not step it. With dissipation alone, and any power law, a tool of any mass comes back with the fraction
 /// e = (1 + W (-(1 + x) exp (-(1 + x)))) / x of its impact speed v, with x = dissipation v and W Lambert's function.
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 4 (one patch) and eq. (10); Hunt & Crossley 1975.
-/// Eq. (10) is printed with a minus, which would create energy with a rate that is positive into the object.
+/// Eq. (10) is printed with a minus, which would create energy here, where the rate is positive into the object.
 ///
 /// Good to know
 ///  - The force never pulls: when the tool leaves fast, a damped wall lets go before the tool is out.

@@ -21,7 +21,7 @@ namespace tactus::nodes
 ///
 ///     u^nu = sum_i n_i (c) u_i^nu             frame at the contact point c, by its barycentric weights n_i   (5)
 ///     d^nu = (p - c) . u^nu                   deflection along u^x, u^y and u^z, which points into the body
-///     f^nu = sum_i n_i (c) f_i^nu (d^nu)      force along each; x and y odd, z only while d^z > 0            (6)
+///     f^nu = sum_i n_i (c) f_i^nu (d^nu)      force along each; odd along x and y, along z only if d^z > 0   (6)
 ///     f    = - sum_nu f^nu u^nu               force on the tool
 ///     |(d^x, d^y)| <= mu_c d^z                else c is dragged along until it is                            (7)
 ///     f^nu = sum_t w_t f_t^nu (d^nu)          between the shapes of tools t                                  (8) (9)
@@ -52,12 +52,13 @@ namespace tactus::nodes
 ///    a thread searches and answers that many ticks later; meanwhile the node walks over neighbouring triangles. In contact it
 ///    only walks: a search never moves c. Nothing can be touched before the first answer.
 ///  - `depth` is 0 while apart. contact.impact needs it signed: wire `hit` instead.
-///  - `normal` and `contact` are meant for friction and texture nodes behind this one. While apart, contact is p, and normal is the
-///    normal of the nearest patch.
+///  - `normal` and `contact` are meant for friction and texture nodes that follow this one. While apart, contact is p, and normal
+///    is the normal of the nearest patch.
 ///  - A slip is one step of eq. (7). Where mu_c or the frames change over the mesh it ends near the bound, not on it. The rest
 ///    follows on the next ticks, even for a tool at rest; this takes about ten ticks.
-///  - Past the rim of an open mesh, by more than the depth, there is nothing: a contact dragged there opens. A tool that came
-///    in behind the rim, or was inside when the first search ended, feels nothing until it has been outside.
+///  - Beyond the rim of an open mesh, by more than the depth, there is no body: a contact that is dragged there opens. A tool
+///    that entered beyond the rim, or was inside when the first search ended, feels nothing until it has been outside the body
+///    once.
 ///  - Energy in the sideways stretch at the moment the tool lets go is dissipated.
 struct ElasticSurface
 {
@@ -141,7 +142,7 @@ struct ElasticSurface
     {
         const auto& surface = *settings.surface;
         if (const auto triangles = surface.mesh->triangles.size(); settings.search_ticks == 0 && triangles > 2000)
-            return std::to_string (triangles) + " triangles are searched within each tick; set search_ticks to give the search some ticks";
+            return std::to_string (triangles) + " triangles are searched within each tick; set search_ticks to let the search take several ticks";
         if (auto facing = wrongSide (surface); ! facing.empty()) return facing;
         return isFrictionless() ? leaning (surface) : slipGain (surface, settings.scale);
     }
@@ -225,8 +226,8 @@ private:
         bool known = false;   // whether depth is valid
     };
 
-    /// Moves the contact to p: it holds, slips, opens or closes. Returns what is felt at the new spot, if that was computed on
-    /// the way.
+    /// Updates the contact for a tool at p: the contact begins, sticks, slips or ends. Returns what is felt at the resulting spot,
+    /// if that was computed on the way.
     std::optional<Felt> follow (const Inputs& in, std::optional<int> found) noexcept
     {
         touch.slipped = false;
@@ -256,8 +257,8 @@ private:
         return touch.frictionless ? felt : stick (p);
     }
 
-    /// The search's answer is only a starting point for a walk. The contact may have walked to a nearer point in the meantime, so
-    /// the nearer of the two is returned.
+    /// The search's answer is only a starting point for a walk. Walking on from the previous nearest point may lead to a nearer one,
+    /// so the nearer of the two results is returned.
     Spot nearestFrom (std::optional<int> found, const Vec3& p) const noexcept
     {
         if (! search) return body->walk().nearestOfAll (p, near.triangle);
@@ -279,7 +280,7 @@ private:
     std::optional<Felt> stick (const Vec3& p) noexcept
     {
         constexpr double guard = 1e-9;      // relative: a steady slip ends exactly on the bound, and rounding would make it chatter
-        constexpr double past_rim = 1e-3;   // relative: the rim holds the contact back; a rotation of the frame misses the bound by less
+        constexpr double past_rim = 1e-3;   // relative: the stretch exceeds the bound by more if the rim holds the contact back, else by less
         bool off = false;
         Felt felt = body->feel (touch.spot, p, touch.tool);
         const double bound = std::max (0.0, body->ratio (touch.spot, felt.d.z()) * felt.d.z());
@@ -311,7 +312,8 @@ private:
         if (isFinite (dissipated + energy)) dissipated += energy;
     }
 
-    /// While apart: the triangle nearest to where the tool was when the last question was asked. One question at a time.
+    /// The answer that is due on this tick, if any: the triangle nearest to where the tool was when the search began. Only one
+    /// search runs at a time, and only while apart.
     std::optional<int> searched (const Vec3& p) noexcept
     {
         if (! search) return {};
@@ -343,7 +345,7 @@ private:
         return { .dissipated_energy = dissipated, .state = -1.0 };
     }
 
-    /// Without any mu the contact follows freely, whichever choice is set.
+    /// If mu is 0 everywhere, the contact follows freely, whatever `friction` says.
     bool isFrictionless() const noexcept
     {
         const auto isNone = [] (const Ratio& mu) { return ! mu.law && mu.number == 0.0; };
@@ -368,9 +370,9 @@ private:
     double dt = 1.0 / Setup {}.rate_hz;   // s
     std::shared_ptr<const PlacedSurface> body;
     std::shared_ptr<Search> search;   // null: searches within the tick
-    int until_asked = 0;              // ticks
+    int until_asked = 0;              // ticks until the next search may begin
     Touch touch;
-    bool behind = false;   // the tool came in where there is no surface; it feels nothing until it has been outside
+    bool behind = false;   // the tool entered where the mesh is open; it feels nothing until it has been outside the body once
     Spot near;             // the nearest point of the mesh while apart, if known
     Sample last;
     double dissipated = 0.0;   // J

@@ -15,7 +15,8 @@ namespace tactus::nodes
 /// device.axis. Several efforts on one axis add up, and the role's guard limits the sum, as for device.force. On a device
 /// without such an axis it has no effect, with a warning when the run is set up.
 ///
-/// A motor that renders the force at the tool has no effort of its own, because the guard would limit each, but not their sum.
+/// A motor that renders the force at the tool cannot be pushed as an axis too: the guard would limit the two separately, but not
+/// their sum.
 struct DeviceEffort
 {
     struct Inputs

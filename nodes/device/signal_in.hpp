@@ -12,7 +12,7 @@ namespace tactus::nodes
 /// The signal of one sensor channel of the device: an accelerometer at the tip, a contact microphone, a force cell.
 ///
 /// Its unit depends on the channel's calibration. It gives 0 on a device without such a channel, with a warning when the run
-/// is set up, while the device gives no valid reading, and on a value that is not finite: a signal is not held.
+/// is set up; while the device gives no valid reading; and on a value that is not finite. A signal is not held.
 ///
 /// Good to know
 ///  - One sample per tick: unless the device filters the signal, everything above half the graph's rate aliases.

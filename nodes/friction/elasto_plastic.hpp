@@ -184,7 +184,7 @@ struct ElastoPlastic
     Outputs tick (const Inputs&) noexcept;
 
 private:
-    static constexpr double eps_slip = 1e-9;   // keeps steady sliding off the branch points of eq. (3) and (4)
+    static constexpr double eps_slip = 1e-9;   // relative; keeps steady sliding away from the branch points of eq. (3) and (4)
 
     /// The state from one sample to the next while the tool touches.
     struct Contact
@@ -334,7 +334,7 @@ inline ElastoPlastic::Step ElastoPlastic::stick (const Vec3& d, const Vec3& dp) 
     return { .d = pulled };
 }
 
-/// Eq. (4), clamped. The loss is the loss of a stretch to d~ and of yielding there.
+/// Eq. (4), clamped. For the loss, the bristle first stretches to d~ and then yields there.
 inline ElastoPlastic::Step ElastoPlastic::euler (const Vec3& d, const Vec3& dp, Adhesion adhesion) const noexcept
 {
     const Vec3 pulled = d + dp;
@@ -345,8 +345,8 @@ inline ElastoPlastic::Step ElastoPlastic::euler (const Vec3& d, const Vec3& dp, 
     return { .d = pulled - g * pulled, .loss = 0.5 * g * (2.0 - g) * r * r, .slips = g > 0.0 };
 }
 
-/// Eq. (2), solved with zeta held over the step. With x = zeta |dp|, phi and psi are the means over the step of e^(-zeta s) and
-/// of the share of dp in the stretch; their product with dp is the work done on the way.
+/// Eq. (2), solved with zeta held over the step, x = zeta |dp|. The mean stretch over the step is phi d + psi dp; its product
+/// with dp is the work done on the way.
 inline ElastoPlastic::Step ElastoPlastic::exponential (const Vec3& d, const Vec3& dp, Adhesion adhesion) const noexcept
 {
     const double x = zeta ((d + dp).norm(), adhesion) * dp.norm();
@@ -359,16 +359,17 @@ inline ElastoPlastic::Step ElastoPlastic::exponential (const Vec3& d, const Vec3
     return { .d = after, .loss = std::max (0.0, work - 0.5 * (after - d).dot (after + d)), .slips = true };
 }
 
-/// Drags the contact point along until the stretch, pulled to d of length r, is back at d_max. It holds up to `hold`, or up to
-/// its stretch when a shrinking bound released it. From there the spring falls back to d_max, and the rest of the way is slip
-/// against the mean of static and sliding friction.
+/// Drags the contact point along until the stretch, pulled to d of length r, is back at d_max. The contact holds up to a stretch
+/// of `hold`, or of `from` if that is longer because the bound has shrunk. From there the spring falls back to d_max, and the
+/// rest of the way is slip against the mean of static and sliding friction.
 inline ElastoPlastic::Step ElastoPlastic::drag (double from, const Vec3& d, double r, double hold) const noexcept
 {
     const double d_max = params.d_max, peak = std::clamp (from, hold, r);
     return { .d = d * (d_max / r), .loss = 0.5 * ((peak - d_max) * (peak + d_max) + (hold + d_max) * (r - peak)), .slips = true };
 }
 
-/// Brings a stretch that a shrinking bound left outside back to where it slides. Eq. (3) and (4) do so on their own.
+/// If a shrinking bound has left the stretch outside, brings it back to the stretch at which the contact slides. Eq. (3) and (4)
+/// do so on their own.
 inline bool ElastoPlastic::letGo (Vec3& d, Adhesion adhesion) const noexcept
 {
     const double r = d.norm(), yield = zeta (r, adhesion) * r;

@@ -34,7 +34,7 @@ namespace tactus::nodes
 ///    channel.
 ///  - Equal priorities, the default, do not duck each other. A higher number has priority.
 ///  - A channel that is open, not ducked, and below the ceiling passes bit for bit.
-///  - The ceiling has no memory and no knee: it cannot overshoot or pump, and a force that depends only on position stays so.
+///  - The ceiling has no memory and no knee: it cannot overshoot or pump, and a force that depends only on position still does.
 ///    Everything above the ceiling is lost, so if reduction is not 0, turn the gains down.
 ///  - Ducking depends on time. A spring that is ducked while pressed and not on release generates energy.
 ///  - The first tick starts without ramps, and so does the tick after a fault. One non-finite input silences all channels.
@@ -126,9 +126,9 @@ struct LayerMix
 private:
     struct Channel
     {
-        double open = 1.0;    // m
-        double level = 0.0;   // of m x
-        double duck = 1.0;    // d
+        double open = 1.0;    // m_i of the mute and solo ramps
+        double level = 0.0;   // level of m_i x_i
+        double duck = 1.0;    // d_i
     };
 
     bool isOpen (int i) const noexcept { return ! (params.mute[i] > 0.5) && (! any_solo || params.solo[i] > 0.5); }
@@ -144,7 +144,7 @@ private:
     /// A falling peak. It ends at 0 rather than in subnormal numbers.
     static double fall (double level, double factor) noexcept { return level > 1e-300 ? level * factor : 0.0; }
 
-    static constexpr double audible = 0.01;   // of the loudest
+    static constexpr double audible = 0.01;   // share of `loudest` above which a channel sounds
 
     std::array<Channel, list_capacity> channels;
     double loudest = 0.0;

@@ -25,11 +25,11 @@ namespace tactus::nodes
 ///
 /// Departures from the paper
 ///  - Rest. If all samples of the full window lie within `noise` of each other, their line is noise too, and a tool at rest
-///    would creep by up to q / (n T). The velocity is then 0, unless they lie on a line to within 1e-6: a true ramp is exact, however
-///    slow. So the resolution is noise / (max_window T), as in the paper.
+///    would creep by up to q / (n T). The velocity is then 0, unless they lie on a line to within 1e-6 of its rise: a true
+///    ramp is exact, however slow. So the resolution is noise / (max_window T), as in the paper.
 ///  - `noise` 0 means the quantum of the device. No wire carries it, so the node takes the smallest step it has seen, per axis.
-///    For quantised positions this is the quantum, once the tool has moved slowly. For exact positions it is the slowest moment
-///    so far, and the window soon shrinks to a tick or two. Steps below 1e-10 m are rounding.
+///    For quantised positions this is the quantum, once the tool has moved slowly. For exact positions it is the step of the slowest
+///    moment so far, and the window soon shrinks to a tick or two. Steps below 1e-10 m are rounding.
 ///
 /// Good to know
 ///  - If the noise is not in steps, or the steps are rotated out of their axes, set `noise`: the largest distance between two
@@ -166,7 +166,8 @@ private:
         const double noise = (is_set ? params.noise : learnt) * (1.0 + 1e-6);   // computed quanta differ in the last bits
         const double now = ago (axis, 0);
 
-        // The slopes of the lines from now into the past that pass every sample so far, and the range of these samples.
+        // The range of slopes with which a line from now into the past passes within the noise of every sample so far, and the range
+        // of these samples.
         double least = -inf, most = inf, lowest = now, highest = now;
         int fitting = 0;
         for (int n = 1; n <= longest && least <= most; ++n)

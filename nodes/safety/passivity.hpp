@@ -88,7 +88,7 @@ struct PassivityObserver
         param (&Params::alpha_max, "alpha_max", unit::damping, "most damping it adds; 0: mass / (2 T); at most 1.8 mass / T",
                { .hard = { 0, inf }, .usual = { 0, 200 } }),
         param (&Params::mass, "mass", unit::kilogram, "mass of the device, as the hand feels it", { .hard = { 0, inf }, .usual = { 0, 1 } }),
-        choice (&Params::pairing, "pairing", pairing_names, "the force that moves by dp: the held one, or the new one"),
+        choice (&Params::pairing, "pairing", pairing_names, "the force that is paired with dp: the held one, or the new one"),
         output (&Outputs::force, "force", unit::newton, "f_out, force on the tool with the damper"),
         output (&Outputs::energy, "energy", unit::joule, "energy E taken from the hand since the reset, before correction"),
         output (&Outputs::alpha, "alpha", unit::damping, "damping it currently adds"),
@@ -135,7 +135,7 @@ private:
 
     double cap() const noexcept
     {
-        const double momentum = params.mass / dt;   // 2 of these, plus the device's own damping, are too much
+        const double momentum = params.mass / dt;   // the bound is twice this, plus the device's own damping
         return params.alpha_max > 0.0 ? std::min (params.alpha_max, 1.8 * momentum) : 0.5 * momentum;
     }
 
@@ -149,7 +149,7 @@ private:
     {
         Vec3 p = Vec3::Zero(), force = Vec3::Zero();   // of the last sample; the force as it was applied
         double energy = 0.0;                           // J
-        double braked = 0.0;                           // by the damper on the last sample, J
+        double braked = 0.0;                           // energy that the damper took on the last sample, J
         Pairing pairing = Pairing::zoh;
         bool known = false;   // false until the first finite sample
     };

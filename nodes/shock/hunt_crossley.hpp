@@ -38,12 +38,14 @@ namespace tactus::nodes
 ///
 /// Good to know
 ///  - The force is 0 on the tick of a hit, and at the end: no click. Within a sample the motion takes `substeps` steps of the
-///    semi-implicit Euler rule; over a contact of 66 samples, 4 of them are off by 0.13 % of the peak, 16 by 0.03 %.
-///  - The steps are explicit: where h D / m approaches 1, the mass is thrown back too soon. Use more substeps then.
+///    semi-implicit Euler rule; over a contact of 66 samples, 4 substeps are off by 0.13 % of the peak, 16 by 0.03 %.
+///  - The steps are explicit: where h D / m approaches 1 (h: the length of a substep), the mass is thrown back too soon. Use more
+///    substeps then.
 ///  - While all voices sound, a new hit is dropped; no voice is cut short.
 ///  - A contact of fewer than four samples is not accurate: `warning` reports it for a hit of 1 m/s. Harder hits are shorter;
 ///    with a stiffness k d^n, by v^(-(n - 1) / (n + 1)).
-///  - A hit whose speed is not positive or not finite is ignored. A quantised position toggles its contact: use contact.impact.
+///  - A hit whose speed is not positive or not finite is ignored. A quantised position makes the contact
+///    flicker: use contact.impact.
 ///  - It gives the hand an impulse that the hand never put in: this node is not passive.
 struct HuntCrossley
 {
@@ -95,7 +97,7 @@ struct HuntCrossley
     std::string problem() const
     {
         const Law& K = settings.stiffness;
-        if (! K.rises() || ! isFinite (K.inverse (1e-9))) return "stiffness must push back, and must not fall with depth";
+        if (! K.rises() || ! isFinite (K.inverse (1e-9))) return "stiffness must give a force above 0 at some depth, and must not fall with depth";
         if (! settings.damping.rises()) return "damping must not be negative, nor fall with depth";
         return {};
     }
@@ -108,8 +110,8 @@ struct HuntCrossley
         voices.assign (at (settings.voices), {});
     }
 
-    /// Sounding hits continue, up to the number of voices. They keep their places, because the order of a sum shows in its last
-    /// bit.
+    /// Hits that are still sounding continue, up to the number of voices. Each keeps its index, because the order in which voices are
+    /// added shows in the last bit of the sum.
     void adopt (const HuntCrossley& old) noexcept
     {
         const auto kept = std::min (voices.size(), old.voices.size());
@@ -137,7 +139,7 @@ private:
         bool sounds = false;
     };
 
-    static constexpr double faded = 1e-9;   // N and m/s; a mass brought to rest by damping would never leave
+    static constexpr double faded = 1e-9;   // in N and m/s; a voice below both stops: a mass brought to rest by damping would never leave the object
 
     /// Eq. (10).
     double force (double d, double v) const noexcept
@@ -153,7 +155,7 @@ private:
         if (free != voices.end()) *free = hit;
     }
 
-    /// n steps. A voice that has left the object, or has overflowed, stops sounding.
+    /// Takes n steps and returns the force. A voice that has left the object, or has overflowed, stops sounding.
     double advance (Voice& voice, int n, double step) const noexcept
     {
         auto& [d, v, m, sounds] = voice;
@@ -178,7 +180,7 @@ private:
 
 inline std::string HuntCrossley::warning (const Setup& setup) const
 {
-    constexpr int enough = 4, fine = 256;   // samples, steps in each
+    constexpr int enough = 4, fine = 256;   // in samples; and steps per sample
     Voice voice { .v = 1.0, .m = params.mass, .sounds = true };
     int steps = 0;
     while (voice.sounds && steps < enough * fine)

@@ -9,7 +9,7 @@
 namespace tactus::nodes
 {
 
-/// Limits a signal to a range. If the bounds are crossed, the upper one takes precedence.
+/// Limits a signal to a range. If the lower bound is above the upper one, the upper one takes precedence.
 ///
 /// The limit is hard: a vibration that runs into it gains harmonics.
 struct SignalClamp

@@ -106,9 +106,9 @@ private:
     }
 
     double rate = 1.0;         // Hz
-    double frequency = 0.0;    // Hz, since `start`
-    double start = 0.0;        // cycle at which this frequency began
-    std::uint64_t ticks = 0;   // since then
+    double frequency = 0.0;    // Hz; the frequency in use
+    double start = 0.0;        // phase at which this frequency began, in cycles
+    std::uint64_t ticks = 0;   // ticks at this frequency
 };
 
 }   // namespace tactus::nodes

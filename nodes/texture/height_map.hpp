@@ -26,8 +26,9 @@ namespace tactus::nodes
 ///
 ///     f_max = 1 / (alpha T),  alpha = 4      at 1 kHz 250 Hz, where touch is most sensitive (Table 1: alpha >= 2, better 10)
 ///
-/// A component (kx, ky) sounds at |kx vx + ky vy| <= k_max (|vx| + |vy|), and each level ends at a k_max in x and in y. From half
-/// of that speed up, the finest level gives way to the next. Above the last level only the mean height is left.
+/// A component (kx, ky) sounds at |kx vx + ky vy| <= k_max (|vx| + |vy|), and each level ends at a k_max in x and in y, so it is
+/// usable up to the speed at which this bound reaches f_max. From half of that speed up, the finest level gives way to the next.
+/// Above the speed of the last level only the mean height is left.
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 5, Table 1. A force that follows the gradient creates
 /// no energy: Campion & Hayward 2008. Levels: Williams 1983; B-splines: Unser 1999.
@@ -168,7 +169,8 @@ private:
         return ((wide ? std::abs (moved.x()) : 0.0) + (deep ? std::abs (moved.y()) : 0.0)) / dt;
     }
 
-    /// Blends the finest level that the speed allows with the next one. At the speed that rules out the previous level, it is alone.
+    /// Blends the finest level that the speed allows with the next one. At the speed where the previous, finer
+    /// level drops out, only the finest allowed level contributes.
     SplineSurface::Point blended (const Vec3& p) const noexcept
     {
         const double speed = last.speed;
@@ -200,7 +202,7 @@ private:
     {
         Vec3 p = Vec3::Zero();
         double speed = 0.0;   // m/s, |vx| + |vy|, falling late and slowly
-        int held = 0;         // ticks until it begins to fall
+        int held = 0;         // ticks until `speed` begins to fall
         bool known = false;   // false until the first finite sample
     };
     Sample last;
@@ -212,7 +214,7 @@ private:
 inline std::string HeightMap::problem() const
 {
     const Map& m = settings.map;
-    if (m.image.grid && m.csv.grid) return "the map has an image and a csv; give one of them";
+    if (m.image.grid && m.csv.grid) return "the map has an image and a csv; give only one";
     if (! (m.pitch > 0.0) || ! isFinite (m.pitch)) return "the map's pitch must be above 0 m";
     if (! isFinite (m.height)) return "the map's height is not finite";
     if (! grid()) return {};
@@ -253,7 +255,7 @@ inline void HeightMap::build()
     MirroredGrid points = heights();
     const double mean = meanOf (points);
 
-    // A sinc with a zero at every point of the map keeps all of their values. It leaves little beyond 0.6 / pitch.
+    // A sinc that is zero at all other points of the map keeps the value of each point. It leaves little beyond 0.6 / pitch.
     const auto fine = resampled (points, points.x.with (2 * points.x.intervals), points.y.with (2 * points.y.intervals), 0.5 / pitch, 16.0);
     levels.push_back ({ 0.6 / pitch, SplineSurface { fine } });
 

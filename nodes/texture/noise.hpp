@@ -24,8 +24,8 @@ namespace tactus::nodes
 ///
 /// Each model describes what was recorded at one speed and one normal force. Between models, their reflection coefficients and
 /// the logarithms of their variances are interpolated. A filter is stable if all its reflection coefficients are below 1 in
-/// size, so every interpolated one is stable, at any order and however fast the hand moves. (Between the a_k there are unstable
-/// filters.) A model of lower order is padded with reflection coefficients of 0.
+/// size, so every interpolated one is stable, at any order and however fast the hand moves. (Interpolating the a_k could give an
+/// unstable filter.) A model of lower order is padded with reflection coefficients of 0.
 ///
 /// The filter is a normalised lattice: stage m rotates its forward and backward signals by an angle,
 ///
@@ -38,7 +38,7 @@ namespace tactus::nodes
 /// Departures from the papers
 ///  - They interpolate line spectral frequencies between three models. This node interpolates reflection coefficients,
 ///    bilinearly between four models, on the grid of all speeds and forces. A grid point without a model uses the nearest one.
-///  - Silence below a speed threshold is a fade here, so that a stroke does not begin and end in a step.
+///  - In the papers, the noise stops below a speed threshold. Here it fades, so that a stroke does not begin and end in a step.
 ///
 /// Good to know
 ///  - Signs: y_n = 1.6 y_(n-1) - 0.8 y_(n-2) + e_n has the coefficients [1.6, -0.8]. Tools that print the denominator
@@ -133,10 +133,10 @@ struct TextureNoise
 private:
     static constexpr std::size_t most_models = 1024, highest_order = 256;
 
-    /// A model as it is interpolated.
+    /// A model in the form that is interpolated.
     struct Shape
     {
-        std::vector<double> reflections;   // as many as the highest order
+        std::vector<double> reflections;   // padded with 0 to the highest order of all models
         double log_variance = 0.0;
     };
 
@@ -163,7 +163,7 @@ private:
         const Shape &a = corner (s.below, f.below), &b = corner (s.above, f.below), &c = corner (s.below, f.above), &d = corner (s.above, f.above);
         const double wa = (1.0 - s.part) * (1.0 - f.part), wb = s.part * (1.0 - f.part), wc = (1.0 - s.part) * f.part, wd = s.part * f.part;
 
-        double left = 1.0;   // of the variance, behind all stages
+        double left = 1.0;   // product of 1 - k^2 over all stages
         for (std::size_t i = 0; i < lattice.order(); ++i)
             left *= lattice.set (i, wa * a.reflections[i] + wb * b.reflections[i] + wc * c.reflections[i] + wd * d.reflections[i]);
         const double log_variance = wa * a.log_variance + wb * b.log_variance + wc * c.log_variance + wd * d.log_variance;
@@ -175,12 +175,12 @@ private:
 
     struct State
     {
-        double speed = std::numeric_limits<double>::quiet_NaN(), force = 0.0;   // none yet
+        double speed = std::numeric_limits<double>::quiet_NaN(), force = 0.0;   // nan: not set yet
         double amplitude = 0.0;                                                 // N
     };
 
     std::vector<double> speeds, forces;   // speeds and forces of the models, sorted
-    std::vector<std::size_t> grid;        // the model for each speed and force, force by force
+    std::vector<std::size_t> grid;        // by speed, then force: index of the model
     std::vector<Shape> shapes;
     double full_speed = 0.0, full_force = 0.0;   // no fade from here up
 
@@ -284,8 +284,8 @@ inline void TextureNoise::prepare (const Setup& setup)
     resampler.fill ([this] { return lattice (random.normal()); });
 }
 
-/// The noise continues through the stages that both filters have: a stage that expects variance 1 gets variance 1. A new seed
-/// takes effect only at the next start.
+/// The noise continues: stages that both filters have keep their signals, which have variance 1 whatever the coefficients are. A
+/// new seed takes effect only at the next start.
 inline void TextureNoise::adopt (const TextureNoise& old) noexcept
 {
     random = old.random;

@@ -94,7 +94,7 @@ struct Modal
         }
     }
 
-    /// A mode keeps ringing if the new list has a mode of the same frequency, in the same place or elsewhere.
+    /// A mode keeps ringing if the new list has a mode of the same frequency, at the same index or another one.
     void adopt (const Modal& old) noexcept
     {
         for (std::size_t i = 0; i < old.voices.size(); ++i)
@@ -131,7 +131,7 @@ private:
         Phasor z, factor;
     };
 
-    static constexpr double flush = 1e-18;   // N; a tail that cannot be felt would end in slow denormal numbers
+    static constexpr double flush = 1e-18;   // N; a weaker ring cannot be felt, and is set to 0 before it ends in slow denormal numbers
 
     /// The product, without the special cases of std::complex for infinities.
     static Phasor times (Phasor a, Phasor b) noexcept

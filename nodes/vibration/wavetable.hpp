@@ -118,8 +118,8 @@ struct Wavetable
         voices.assign (at (settings.voices), {});
     }
 
-    /// Sounding hits keep the table they began with, up to the number of voices. They keep their places, because the
-    /// order of a sum shows in its last bit.
+    /// Hits that are still sounding keep the table they began with, up to the number of voices. Each keeps its index, because the
+    /// order in which voices are added shows in the last bit of the sum.
     void adopt (const Wavetable& old) noexcept
     {
         previous = old.table;
@@ -213,7 +213,7 @@ inline std::string Wavetable::problem() const
         return {};
     }
 
-    if (t.modes != Table {}.modes && ! t.modes.empty()) return "the table has modes and a wav; give one of them";
+    if (t.modes != Table {}.modes && ! t.modes.empty()) return "the table has modes and a wav; give only one";
     const auto& channels = t.wav->channels;
     if (t.channel < 1 || at (t.channel) > channels.size())
         return "wav has no channel " + std::to_string (t.channel) + "; its channels are 1 to " + std::to_string (channels.size());

@@ -38,10 +38,10 @@ constexpr int ticks = 4000;   // one second
 
 double swing (double t, double hertz, double phase = 0.0) { return std::sin (2.0 * std::numbers::pi * (hertz * t + phase)); }
 
-/// Strokes back and forth, and presses down to 2 mm deep, three times a second.
+/// The position of a hand that strokes back and forth, and presses 2 mm deep three times a second.
 Vec3 position (double t) { return { 0.03 * swing (t, 1.0), 0.02 * swing (t, 1.3), 1e-3 - 3e-3 * std::abs (swing (t, 1.5)) }; }
 
-/// The value that a hand or another node would give to this input, by its quantity.
+/// A value that a hand or another node might give to this input; it depends on the quantity of the input.
 double plausible (const PortSheet& port, int component, double t)
 {
     const auto& unit = port.unit.unit;

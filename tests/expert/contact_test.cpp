@@ -22,7 +22,7 @@ namespace
 {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// A sample that ruptures, with one blade in it. Records the largest force since it was last read.
+/// A random sample that ruptures, and blades to cut it.
 struct Potato
 {
     explicit Potato (Dice& dice)
@@ -56,14 +56,14 @@ struct Potato
     Law law;
 };
 
-/// The forces along a path.
+/// What the hand feels along a path.
 struct Felt
 {
-    double most = 0.0;   // in N
+    double most = 0.0;   // largest force, in N
     bool bursts = false;
 };
 
-/// In n equal steps.
+/// Presses the blade in n equal steps.
 Felt press (Rig& rig, double from, double to, int n)
 {
     Felt felt;
@@ -128,12 +128,12 @@ TEST_CASE ("expert 6: sliding across an edge from a soft to a stiff triangle cau
                 rig.input ("position", from + 0.012 * s * way);
                 rig.tick();
                 const Vec3 force = rig.vector ("force");
-                if (s > -0.6) most = std::max (most, (force - before).norm());   // by now it has been dragged far enough
+                if (s > -0.6) most = std::max (most, (force - before).norm());   // by now the contact is dragged along
                 before = force;
             }
             return most;
         };
-        // A steep place shorter than a step shows up only with finer steps; a jump remains however fine they are.
+        // A steep slope shorter than a step shows up only with finer steps; a jump remains, however fine the steps are.
         double coarse = steepest (250);
         RC_ASSERT (coarse > 0.0);
         bool finer = false;

@@ -75,7 +75,7 @@ TEST_CASE ("expert 1: a tool that is leaned on for a minute does not drift", "[e
     for (const double lean : { 0.02, 0.1, 0.2, 0.3, 0.35 })
         for (const std::string adhesion : { "stick", "dupont" })
         {
-            if (adhesion == "dupont" && lean + 0.03 > 0.7 * 0.4) continue;   // it begins to yield here
+            if (adhesion == "dupont" && lean + 0.03 > 0.7 * 0.4) continue;   // here dupont begins to yield
             INFO (adhesion << " at " << lean << " N");
             CHECK (std::abs (drift (adhesion, lean)) < 1e-9);
         }

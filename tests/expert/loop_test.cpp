@@ -133,7 +133,7 @@ TEST_CASE ("expert 16: millimetres are not mistaken for metres, nor radians for 
 
 TEST_CASE ("expert 17: a motion of a tenth of a nanometre, ten centimetres from the origin, reaches the motor", "[expert]")
 {
-    // At this distance, a float has steps of 7 nm.
+    // Ten centimetres from the origin, a float has steps of 7 nm.
     const double stiffness = 1e6, step = 1e-10;
     rc::prop ("along each axis, anywhere on a desk", [&] (unsigned seed) {
         Dice dice { seed };

@@ -99,7 +99,7 @@ TEST_CASE ("expert 11: a texture fades in at the touch and does not start with a
         }
     });
 
-    // Without the window, the texture is there immediately, even away from the surface.
+    // Without the window, the hand feels the texture from the first tick on, even away from the surface.
     graph.graph.root.nodes[3].bypass = true;
     CHECK_FALSE (test::felt (
                      graph, [] (int) { return Vec3 { 0, 0, 1e-3 }; },
@@ -142,7 +142,7 @@ TEST_CASE ("expert 12: nothing is louder on the rebound than on the way in", "[e
         rig.input ("hit", 0.0).tick();
         for (; rig.out ("resistance") > 0.0; rig.tick())
             impulse += rig.out ("resistance") / rate;
-        // The closed form of e obeys x - ln (1 + x) = -x e - ln (1 - x e).
+        // In theory, the restitution e is the root of x - ln (1 + x) = -x e - ln (1 - x e).
         const double e = impulse / (m * v) - 1.0;
         RC_ASSERT (e > 0.0);
         RC_ASSERT (e < 1.0);

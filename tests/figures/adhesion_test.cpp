@@ -13,7 +13,7 @@ namespace
 constexpr double d_max = 1e-4, break_away = 0.7;   // as in the graph
 const std::vector<std::string> functions { "stick", "dupont", "ramp", "dahl" };
 
-/// The functions as defined in physics, times d_max, over r = |d| / d_max.
+/// The adhesion functions as the literature defines them, times d_max, with r = |d| / d_max.
 double zeta (const std::string& function, double r)
 {
     if (function == "dahl") return 1.0;
@@ -54,15 +54,15 @@ TEST_CASE ("figure: under a tremor below break-away, stick stays in place and Da
     for (const auto& f : functions)
         ports += (ports.empty() ? "" : ",") + f + "_hand.position.x";
     const auto run = test::renderFigure ("adhesion_tremor", "adhesion_tremor", { "--duration", "4", "--record", ports });
-    const auto walked = [&] (const std::string& function)   // from the trough of the first cycle to that of the last
+    const auto walked = [&] (const std::string& function)   // from the trough of the first cycle to the trough of the last one
     {
         const auto x = run[function + "_hand.position.x"];
         const auto cycle = static_cast<std::size_t> (double (x.size()) / cycles);
         return x[x.size() - 1] - x[cycle - 1];
     };
 
-    // From trough to crest, the pull is 0.1 to 0.5 of what the contact can hold: d_max ln ((1 - 0.1^2) / (1 - 0.5^2))
-    // per cycle.
+    // From trough to crest, the pull rises from 0.1 to 0.5 of what the contact can hold. In each cycle, Dahl therefore walks
+    // d_max ln ((1 - 0.1^2) / (1 - 0.5^2)).
     CHECK (walked ("dahl") == Approx ((cycles - 1.0) * d_max * std::log (0.99 / 0.75)).epsilon (0.02));
     CHECK (walked ("ramp") < 0.7 * walked ("dahl"));
     CHECK (walked ("ramp") > d_max);

@@ -33,7 +33,7 @@ private:
 /// Renders docs/figures/GRAPH.json into build/figures/NAME.csv. `options` are those of `tactus render`.
 Record renderFigure (const std::string& graph, const std::string& name, const std::vector<std::string>& options);
 
-/// Like renderFigure, for runs whose figure shows a single number; keeps no file.
+/// Like renderFigure, but keeps no file. For runs that contribute only a single number to a figure.
 Record renderOnce (const std::string& graph, const std::vector<std::string>& options);
 
 /// Writes build/figures/NAME.csv, row by row.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Section 1, Fig. 1: the path of a held force branches off the spring it samples."""
+"""Section 1, Fig. 1: the force of a spring, held between samples, deviates from the spring itself."""
 
 import numpy as np
 from style import BLUE, GREY, INK, PALE, VERMILION, axis, data, figure, name, note

@@ -12,9 +12,9 @@ TEST_CASE ("figure: a spring held between samples gives back K dp^2 / 2 too much
     const auto run = test::renderFigure ("held_spring", "held_spring", { "--duration", "0.02005", "--record", "press.out,spring.resistance" });
     const auto depth = run["press.out"], f = run["spring.resistance"];
     REQUIRE (depth.size() == 20 * hold + 1);
-    CHECK (depth.front() == Approx (depth.back()).margin (1e-15));   // closed
+    CHECK (depth.front() == Approx (depth.back()).margin (1e-15));   // the path is closed
 
-    double given = 0.0, leak = 0.0;   // given by the held force, and predicted by theory
+    double given = 0.0, leak = 0.0;   // energy in J: given by the held force, and predicted by theory
     for (std::size_t k = 0; k + 1 < depth.size(); ++k)
     {
         CHECK (f[k] == f[k - k % hold]);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Section 4, Fig. 9: responses between the points where they are given."""
+"""Section 4, Fig. 9: responses given at some points, and interpolated between them."""
 
 import numpy as np
 from style import GREY, INK, VERMILION, axis, data, figure, name

@@ -23,7 +23,7 @@ TEST_CASE ("figure: at ten times the speed, the contact slips at the same places
     const auto slow = test::renderFigure ("stick_slip", "stick_slip_slow", { "--duration", "0.5", "--record", ports });
     const auto fast = test::renderFigure ("stick_slip", "stick_slip_fast", { "--duration", "0.05", "--record", ports, "--set", "rub.frequency=5 Hz" });
 
-    constexpr double d_max = 1e-4, static_ratio = 2.5, step = 1e-3 / 1000;   // m; of the fast run
+    constexpr double d_max = 1e-4, static_ratio = 2.5, step = 1e-3 / 1000;   // step: in m per tick of the fast run
     const auto a = slips (slow), b = slips (fast);
     REQUIRE (a.size() >= 4);
     REQUIRE (a.size() == b.size());

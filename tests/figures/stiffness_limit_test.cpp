@@ -35,7 +35,7 @@ std::vector<std::string> against (const test::Scratch& scratch, const Tool& tool
              "--record", "hand.position.z,motor.force.z" };
 }
 
-/// Growth rate of the oscillation about the point of rest, in 1/s, from its second quarter of a second to its last.
+/// Growth rate of the oscillation about the point of rest, in 1/s, from the second quarter of the run to the last one.
 double growth (const test::Record& run, double stiffness)
 {
     const auto z = run["hand.position.z"];
@@ -65,7 +65,7 @@ TEST_CASE ("figure: a wall is stable up to 2 B / T, and each tick of delay lower
             CHECK (dies < 0.0);
             CHECK (grows > 0.0);
 
-            const double measured = below + (above - below) * dies / (dies - grows);   // where it neither grows nor decays
+            const double measured = below + (above - below) * dies / (dies - grows);   // where the oscillation neither grows nor decays
             CHECK (measured == Approx (tool.limit()).epsilon (0.03));
             limits.push_back ({ double (delay), damping, measured, tool.limit() });
         }

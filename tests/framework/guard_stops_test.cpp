@@ -75,7 +75,7 @@ TEST_CASE ("guard: a tool that is too fast causes a stop, but one quantum of noi
         const int stopped = ticksUntilStop (guard, 2000,
                                             [&] (int k) { guard (pushing (1.0), at (sign * quantum * std::floor (speed * k * dt / quantum + 0.5))); });
         RC_ASSERT ((stopped > 0) == too_fast);
-        // a fraction 1 - e^(-t/tau) of the speed is measured
+        // after a time t, the guard measures a fraction 1 - e^(-t/tau) of the speed
         if (too_fast) RC_ASSERT (stopped * dt <= SpeedWatch::tau * std::log (speed / (speed - limit + 2e-2)) + 20 * dt);
     });
 
@@ -133,7 +133,7 @@ TEST_CASE ("guard: an impulse above the limit within the window causes a stop, n
         {
             const double now = guard (pushing (0.1 * pushes[k / 50] * (k % 3 == 0 ? -1.0 : 1.0)), at (0.0)).force.x();
             if (guard.stop() != Guard::Stop::none) break;
-            RC_ASSERT (within (window) <= limit + 6.0 * dt + 1e-12);   // detected one tick later
+            RC_ASSERT (within (window) <= limit + 6.0 * dt + 1e-12);   // the guard detects an excess one tick later
             forces.push_back (now);
         }
         if (guard.stop() == Guard::Stop::none) return;
@@ -149,7 +149,8 @@ TEST_CASE ("guard: a passive load never trips the energy watchdog", "[framework]
         const auto hand = anyHand();
         const double stiffness = *rc::gen::element (10.0, 200.0, 1000.0), damping = *rc::gen::element (0.0, 0.5, 2.0);
 
-        // The most energy it stores, plus the leak of the sampled loop in the longest stretch: half K dx^2 per tick.
+        // The most energy that the spring stores, plus what the held forces of spring and damper leak during the whole run; the
+        // spring leaks half K dx^2 per tick.
         double most = 0.0, leak = 0.0;
         for (int k = 0; k < 3000; ++k)
         {
@@ -192,7 +193,7 @@ TEST_CASE ("guard: an active load trips the energy watchdog exactly when it has 
 
 TEST_CASE ("guard: the energy that a runaway loop can deliver is bounded", "[framework][guard]")
 {
-    // A mass on a spring that pushes away, like an unstable wall: it gains energy until it is stopped.
+    // A mass on a spring that pushes away, like an unstable wall: the mass gains energy until the guard stops the force.
     constexpr double limit = 0.02, window = 1.0, mass = 0.1;
     auto guard = guardWith ({ .max_force = 20.0, .max_energy = limit, .energy_window = window });
     double x = 1e-3, v = 0.0, given = 0.0, most_power = 0.0;
@@ -264,7 +265,7 @@ TEST_CASE ("guard: with a dead-man's switch, there is force only while the switc
     Reading held, loose;
     held.buttons = 7;
     held.pressure = 0.5;
-    loose.buttons = by_button ? 3 : 7;   // one of the two buttons
+    loose.buttons = by_button ? 3 : 7;   // only one of the two required buttons
     loose.pressure = by_button ? 1.0 : 0.2;
     auto guard = guardWith (limits);
     double before = 0.0, largest = 0.0;

@@ -9,7 +9,7 @@
 namespace tactus::fuzz
 {
 
-/// Reads the text as a table. Either all rows are as wide as the header, or reading reports an error with a place. If the
+/// Reads the text as a table. Either all rows are as wide as the header, or reading reports an error with its location. If the
 /// table is a trace, its times rise from 0. Aborts otherwise.
 inline void tryCsv (std::string_view text)
 {

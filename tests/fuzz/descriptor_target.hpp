@@ -9,7 +9,7 @@
 namespace tactus::fuzz
 {
 
-/// Parses the bytes as a report descriptor. Either its fields do not overlap, or parsing reports errors, each with a place.
+/// Parses the bytes as a report descriptor. Either its fields do not overlap, or parsing reports errors, each with its location.
 /// If the bytes describe a force feedback device, its profile accepts any report. Aborts otherwise.
 inline void tryDescriptor (std::string_view data)
 {

@@ -9,7 +9,7 @@
 namespace tactus::fuzz
 {
 
-/// Reads the text as a graph. Either reading reports problems, each with a place; or the graph survives writing and reading
+/// Reads the text as a graph. Either reading reports problems, each with its location, or the graph survives writing and reading
 /// unchanged, and then runs or is refused. Aborts otherwise.
 inline void tryGraph (std::string_view text)
 {

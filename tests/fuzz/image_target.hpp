@@ -8,7 +8,7 @@
 namespace tactus::fuzz
 {
 
-/// Reads the bytes as an image. Either its values are from black to white, or reading reports an error. Aborts otherwise.
+/// Reads the bytes as an image. Either its values are from 0 (black) to 1 (white), or reading reports an error. Aborts otherwise.
 inline void tryImage (std::string_view bytes)
 {
     const auto grid = host::readImage (bytes, "fuzz.png");

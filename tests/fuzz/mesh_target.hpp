@@ -11,7 +11,7 @@ namespace tactus::fuzz
 {
 
 /// Reads the bytes as each kind of mesh file. Either every triangle has three different finite points, or reading reports an
-/// error with a place. Aborts otherwise.
+/// error with its location. Aborts otherwise.
 inline void tryMesh (std::string_view bytes)
 {
     for (const auto* name : { "fuzz.obj", "fuzz.off", "fuzz.ply", "fuzz.stl" })

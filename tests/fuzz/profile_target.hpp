@@ -8,7 +8,7 @@
 namespace tactus::fuzz
 {
 
-/// Reads the text as a device profile. Either the profile accepts any report, or reading reports problems, each with a place.
+/// Reads the text as a device profile. Either the profile accepts any report, or reading reports problems, each with its location.
 /// Aborts otherwise.
 inline void tryProfile (std::string_view text)
 {

@@ -10,8 +10,8 @@
 namespace tactus::fuzz
 {
 
-/// Decodes the bytes as a report. Either the values are finite, or the report is refused and changes nothing. Any efforts
-/// give a report of the right length. Aborts otherwise.
+/// Decodes the bytes as a report. Either the values are finite, or the report is refused and changes nothing. Also encodes the
+/// bytes as efforts, which must give reports of the right length. Aborts otherwise.
 inline void tryReport (std::shared_ptr<const host::hid::Profile> profile, std::string_view data)
 {
     using namespace host::hid;

@@ -14,7 +14,7 @@
 namespace tactus::fuzz
 {
 
-/// Reads the text as a run log. Either its ticks rise from 0, or reading reports an error with a place; the same applies to
+/// Reads the text as a run log. Either its ticks rise from 0, or reading reports an error with its location; the same applies to
 /// the graphs in the log. Aborts otherwise.
 inline void tryRunLog (std::string_view text)
 {

@@ -10,8 +10,8 @@
 namespace tactus::fuzz
 {
 
-/// Reads the text as a session. Either the session survives writing and reading unchanged, or it is refused with a place for
-/// each problem and gives an empty session. Aborts otherwise.
+/// Reads the text as a session. Either the session survives writing and reading unchanged, or it is refused, gives an empty
+/// session, and each problem is reported with its location. Aborts otherwise.
 inline void trySession (std::string_view text)
 {
     const auto read = host::readSession (text);

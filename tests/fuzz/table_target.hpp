@@ -10,7 +10,7 @@
 namespace tactus::fuzz
 {
 
-/// Reads the text as a table. Either it is a full grid of finite numbers, or reading reports an error with a place. Aborts
+/// Reads the text as a table. Either it is a full grid of finite numbers, or reading reports an error with its location. Aborts
 /// otherwise.
 inline void tryTable (std::string_view text)
 {

@@ -8,7 +8,7 @@
 namespace tactus::fuzz
 {
 
-/// Checks that an error has an id, a place, a description and a remedy. Aborts otherwise.
+/// Checks that an error has an id, a location, a description and a remedy. Aborts otherwise.
 inline void checkWhole (const Message& e)
 {
     if (e.id.empty() || e.where.empty() || e.text.empty() || e.remedy.empty()) std::abort();

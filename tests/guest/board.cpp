@@ -49,7 +49,7 @@ std::uint32_t crcOf (std::span<const std::uint8_t> bytes)
     return ~crc;
 }
 
-/// Pressed into the wood and rubbed back and forth, in nm.
+/// The position in report n, in nm: the tool is pressed into the wood and rubbed back and forth.
 std::array<std::int32_t, 3> placeAt (std::uint32_t n)
 {
     const double t = 1e-3 * n;
@@ -84,7 +84,7 @@ struct Log
         lines += line;
     }
 
-    /// Returns true if there was a force.
+    /// Returns true if the report contains a force.
     bool got (std::span<const std::uint8_t> report)
     {
         // Without a report id, some kernels pass on the 0 that replaces it.
@@ -157,8 +157,8 @@ std::uint32_t sendReport (VirtualDevice& device, Log& log, const std::vector<std
 }
 }   // namespace
 
-/// --seconds S, --rate HZ, --log FILE, --serial TEXT, --wait 1 (silent until it receives a report), --mark FILE (created once
-/// there has been a force), --gadget FILE (the device end of an existing USB gadget, instead of uhid), --describe 1 (only prints its
+/// --seconds S, --rate HZ, --log FILE, --serial TEXT, --wait 1 (silent until it receives a report), --mark FILE (created
+/// after 200 forces), --gadget FILE (the device end of an existing USB gadget, instead of uhid), --describe 1 (only prints its
 /// report descriptor to stdout); every N reports: --drop, --malformed, --short, --oversized, --swap; once, after N reports:
 /// --stall (100 ms), --unplug (away for --away S).
 int board (const std::vector<std::string>& args)

@@ -57,7 +57,7 @@ def counted(name):
 
 
 def starved(name):
-    """True if ticks were so late, on a busy computer, that the kernel lost reports: it keeps 64 per program."""
+    """True if ticks were so late, on a busy computer, that the kernel lost reports. The kernel keeps 64 per program."""
     late = re.search(r"late p50 .* max ([0-9.e+]+) us", text(name + ".play.err"))
     if late and float(late[1]) < 60e3:
         return False

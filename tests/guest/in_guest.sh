@@ -23,7 +23,7 @@ unplug () { kill -TERM $sim; wait $sim; }
 keep () { local f; for f in board.csv play.csv play.err; do [ -e $work/$f ] && mv $work/$f "/run/results/$1.$f"; done; }
 
 play () { $tactus play graphs/dry_wood.json --device stylus=hid:tactus_board --osc off "$@" 2>$work/play.err; }
-# end_under_force SIGNAL: sends SIGNAL to the playing program once the device has been under force. Then waits until no process
+# end_under_force SIGNAL: sends SIGNAL to the playing program once the device has received forces. Then waits until no process
 # has the device open, including the guardian that sends the neutral reports.
 end_under_force ()
 {

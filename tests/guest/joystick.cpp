@@ -35,7 +35,8 @@ struct Log
     }
 };
 
-/// Held one millimetre deep and rubbed back and forth; 12 cm from end to end, z downwards.
+/// The report at time t: the joystick is held one millimetre deep and rubbed back and forth. Each axis is 12 cm long, and z points
+/// downwards.
 std::array<std::uint8_t, 25> reportAt (double t)
 {
     constexpr double counts = 65535.0 / 0.12;
@@ -54,7 +55,7 @@ std::array<std::uint8_t, 25> reportAt (double t)
 
 /// A joystick with OpenFFBoard's report descriptor, read from a file. It answers like a real one, and logs everything it receives.
 /// --file NAME --log FILE --mark FILE --seconds S --blocks N (effect blocks it assigns; 0: its memory is full) --unplug S
-/// --away S (comes back with another block)
+/// (this long after it was opened) --away S (for this long; comes back with another block)
 int joystick (const std::vector<std::string>& args)
 {
     std::signal (SIGTERM, [] (int) { ended = 1; });

@@ -190,8 +190,8 @@ inline void writeLog (const std::vector<std::string>& args, const std::string& l
     }
 }
 
-/// Creates the file --mark after this many calls, so that a script that waits until a device is under force does not
-/// have to guess how long that takes.
+/// Creates the file --mark after `enough` forces. A script that waits for the file does not have to guess how long it takes
+/// until a device receives forces.
 class Mark
 {
 public:

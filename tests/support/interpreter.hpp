@@ -44,7 +44,7 @@ private:
         int around = -1;
         int every = 1, times = 1;
         bool linear = false;
-        double up = 1.0, down = 1.0;   // its ticks per tick of the graph
+        double up = 1.0, down = 1.0;   // it ticks up / down times per tick of the graph
         std::uint64_t number = 0;      // number of its own ticks
         bool done = false;             // has run in this tick of the enclosing section
     };
@@ -66,7 +66,7 @@ private:
         double gain = 1.0;
         bool hits = false, steps = false;                           // if neither is set: a signal
         std::vector<int> leaves, enters;                            // sections it crosses
-        std::map<int, std::deque<double>> line;                     // by component
+        std::map<int, std::deque<double>> line;                     // delayed values, by component
         std::map<int, std::map<int, Crossing>> leaving, entering;   // by component, by section
     };
 

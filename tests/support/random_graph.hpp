@@ -11,9 +11,9 @@ namespace tactus::test
 {
 
 /// A random graph that compiles, with up to `size` nodes of any type. Some are inside subgraphs (nested, shared, in
-/// several instances with their own values and roles, at their own rates). Wires connect whole ports and components, to
-/// one instance or to all, with delays and with gains that have units, and into parameters with and without (+). Some nodes are
-/// bypassed.
+/// several instances with their own values and roles, at their own rates). Wires connect whole ports and components, lead to
+/// one instance or to all, and have delays and gains with units; some lead into parameters, with and without (+). Some nodes
+/// are bypassed.
 graph::Graph randomGraph (unsigned seed, int size);
 
 /// A random node of any type, including the graph's subgraphs, as randomGraph generates them.

@@ -17,7 +17,7 @@
 ///     rig.tick();
 ///     CHECK (rig.out ("out") == 0.5);
 ///
-/// A device node is bound to `*device`. If a node has peek(), the outputs of a tick are the ones from before the tick. A test
+/// A device node is bound to `*device`. If a node has peek(), its outputs do not depend on the inputs of the same tick. A test
 /// fails immediately if it uses a name that the node does not have.
 class Rig
 {
@@ -51,11 +51,11 @@ public:
     tactus::Effort effort() const noexcept;
 
     //==========================================================================
-    // Access by number, for tests that know nothing about the node.
+    // Access by index, for tests that know nothing about the node.
 
     const tactus::NodeType& type() const noexcept { return sheet; }
     std::vector<double> in;                   ///< the values that the inputs read; default values after prepare
-    std::vector<Component> inputs, outputs;   ///< describe each number; valid after prepare
+    std::vector<Component> inputs, outputs;   ///< what each entry of `in` and of outs() belongs to; valid after prepare
     double out (std::size_t output) const noexcept;
     std::vector<double> outs() const;
     double& paramAt (const tactus::PortSheet&, int index) noexcept;   ///< not for choices; call moved() after changing it

@@ -27,7 +27,7 @@ public:
 
 private:
     GesturePath path;
-    double surface;   // z at which the gesture touches, in m
+    double surface;   // z at which the gesture touches the surface, in m
     double dt = 1e-3;
     std::int64_t tick = 0;
 };

@@ -90,7 +90,8 @@ Vec3 circle (double t)
 
 Vec3 sweep (double t)
 {
-    // Strokes of 30 mm with peaks of 10, 25, 60, 120, 240 and 400 mm/s: a stroke lasts 15/8 of length over peak.
+    // Strokes of 30 mm with peaks of 10, 25, 60, 120, 240 and 400 mm/s: a stroke lasts 15/8 of its length divided by its peak
+    // speed.
     static constexpr double pause = 0.1, start = 0.5;
     static constexpr auto lasts = [] (double peak) { return 15.0 / 8.0 * 30 * mm / peak; };
     static constexpr double t1 = start + lasts (0.010), t2 = t1 + pause + lasts (0.025), t3 = t2 + pause + lasts (0.060),
@@ -138,8 +139,8 @@ constexpr Gesture list[] {
     { "press", "Slowly 4 mm into the surface, held there, and slowly out.", 3.2, press },
     { "touch", "A hand comes, rests 1 mm deep for a moment and leaves.", 2.0, touch },
     { "tap", "Five taps, each quicker than the one before.", 1.8, tap },
-    { "circle", "Three rounds of 30 mm across, pressed 2 mm into the surface.", 4.8, circle },
-    { "sweep", "Strokes of 30 mm that rise from 10 mm/s to 0.4 m/s.", 11.2, sweep },
+    { "circle", "Three circles, 30 mm across, pressed 2 mm into the surface.", 4.8, circle },
+    { "sweep", "Strokes of 30 mm, with peak speeds that rise from 10 mm/s to 0.4 m/s.", 11.2, sweep },
     { "hold", "Resting 1 mm deep with the tremor of a hand, 8 to 12 Hz.", 6.2, hold },
     { "cut", "Steadily 25 mm down, and out again.", 4.2, cut },
 };

@@ -33,7 +33,7 @@ std::vector<std::string> gestureNames()
 
 bool isFile (std::string_view path) { return path.find_first_of ("./\\") != path.npos; }
 
-/// Adds messages about a file, at the place where the description refers to it.
+/// Adds messages about a file. Their location is the reference to the file in the description.
 void adopt (const Messages& from, const std::string& where, const std::string& file, Messages& messages)
 {
     for (auto message : from)

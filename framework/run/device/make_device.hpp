@@ -49,7 +49,7 @@ MadeDevice makeDevice (const Json& description, const std::filesystem::path& fol
 /// The device for `--device ROLE=sim` if the graph does not describe the role: a hand that makes strokes.
 Json defaultDevice();
 
-/// Turns `--device ROLE=FILE.json|sim|trace:FILE.csv|gesture:NAME|hid:PROFILE|audio[:CARD]` into a description.
+/// The option `--device ROLE=FILE.json|sim|trace:FILE.csv|gesture:NAME|hid:PROFILE|audio[:CARD]`, turned into a description.
 struct DeviceOption
 {
     std::string role;

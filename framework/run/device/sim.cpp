@@ -17,8 +17,8 @@ Vec3 rounded (const Vec3& value, double quantum) noexcept
 /// (1 - e^-h)/h, accurate to the last digits even if h is tiny or 0.
 double firstOrder (double h) noexcept { return h == 0.0 ? 1.0 : -std::expm1 (-h) / h; }
 
-/// (h - (1 - e^-h))/h^2. The difference loses as many digits as h has zeros, so a small h uses the series 1/2! - h/3! + h^2/4!
-/// - ...; at h = 1/4, both are accurate to the second-to-last digit.
+/// (h - (1 - e^-h))/h^2. The difference loses as many digits as h has leading zeros, so a small h uses the series 1/2! - h/3! +
+/// h^2/4! - ...; at h = 1/4, both are accurate to the second-to-last digit.
 double secondOrder (double h) noexcept
 {
     if (h > 0.25) return (h + std::expm1 (-h)) / (h * h);

@@ -39,7 +39,7 @@ struct Simulation
     double quantum = 0.0;         ///< resolution of the position, in m; 0: exact
     double force_quantum = 0.0;   ///< resolution of the force, in N; 0: exact
     int delay = 0;                ///< delay of the force in ticks
-    double first_mode = 0.0;      ///< of the structure, in Hz; 0: none. Not simulated; used to check what the structure transmits
+    double first_mode = 0.0;      ///< first resonance of the structure, in Hz; 0: none. Not simulated; used to check what the structure transmits
     Vec3 position = Vec3::Zero();
     Vec3 velocity = Vec3::Zero();
     Vec3 rotation = Vec3::Zero();     ///< constant; torque is accepted but has no effect
@@ -74,7 +74,7 @@ class SimulatedDevice final : public Device
 public:
     explicit SimulatedDevice (Simulation);
 
-    void prepare (double dt_s) override;   // resets to the start   [main thread]
+    void prepare (double dt_s) override;   // resets the motion to its start   [main thread]
     Reading read() noexcept override;
     void write (const Effort& guarded) noexcept override;
     DeviceLayout layout() const override;

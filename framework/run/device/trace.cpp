@@ -24,7 +24,7 @@ constexpr int most_buttons = 32;
 // tick.
 constexpr double slack = 1e-3;
 
-/// The number in a column name: 3 for "button3". Does not accept 03, or numbers outside this range.
+/// The number in a column name: 3 for "button3". Does not accept 03, or numbers outside the given range.
 std::optional<int> numberOf (std::string_view column, std::string_view prefix, int min, int max)
 {
     if (! column.starts_with (prefix)) return {};

@@ -31,7 +31,7 @@ struct TraceData
     std::vector<std::string> axes {};   ///< names of the recorded axes
     int signals = 0;                    ///< number of channels
     int buttons = 0;
-    std::vector<double> more {};   ///< for each row the axes, then the signals
+    std::vector<double> more {};   ///< values of the axes and signals: row after row, the axes first in each
 
     /// The median time between rows; 0 for a single row.
     double step() const;

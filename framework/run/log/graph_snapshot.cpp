@@ -129,7 +129,7 @@ Messages checkAssets (const Json& snapshot, const fs::path& folder)
             messages.push_back ({ .id = "log/asset_changed",
                                   .where = "/assets/" + pointerPart (path),
                                   .text = quote (file.string()) + " has changed since the run used it",
-                                  .remedy = "restore the old file, or name a graph to play it with the new one" });
+                                  .remedy = "restore the old file, or name a graph, which is then played with the new file" });
     }
     return messages;
 }

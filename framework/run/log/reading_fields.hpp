@@ -18,7 +18,7 @@ using ReadingNumbers = std::array<double, reading_size>;
 
 struct ReadingField
 {
-    std::string_view key;   ///< as in a log
+    std::string_view key;   ///< key in a log
     std::size_t first, size;
 };
 
@@ -41,7 +41,7 @@ struct LoggedReading
     Channels axes {}, signals {};
 };
 
-/// The parts whose number depends on the device.
+/// The parts of a reading whose size depends on the device.
 struct ChannelField
 {
     std::string_view key;
@@ -62,7 +62,7 @@ inline ReadingNumbers toNumbers (const Reading& r) noexcept
 
 inline LoggedReading toLogged (const Reading& r) noexcept { return { toNumbers (r), r.axes, r.signals }; }
 
-/// Numbers that a reading cannot hold, such as 0.5 for `valid`, are rounded to the nearest valid value.
+/// Numbers that a reading cannot hold are replaced: 0.5 for `valid` becomes true, and `buttons` out of range become 0.
 inline Reading toReading (const LoggedReading& logged) noexcept
 {
     const auto& n = logged.numbers;

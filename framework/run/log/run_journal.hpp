@@ -17,10 +17,11 @@ namespace tactus
 class RunJournal final : public Journal
 {
 public:
-    /// The first word of an entry; its lowest byte is the kind, the other bytes are a number.
+    /// The first word of an entry: its lowest byte is the kind, the other bytes are a number. Below, a semicolon separates this
+    /// number from the words that follow.
     enum class Kind : std::uint8_t
     {
-        took,        ///< 0, serial of the plan
+        took,        ///< 0; serial of the plan
         turned,      ///< number of the instance; number of the knob, target
         outdone,     ///< number of the instance; number of the knob
         struck,      ///< number of the instance; number of the input for hits, speed

@@ -18,7 +18,7 @@ namespace tactus
 
 namespace
 {
-/// One second, plus room for turning every parameter at the same time; at most 64 MB.
+/// One second of data, plus room for turning many parameters at the same time; at most 64 MB.
 std::size_t roomFor (const RunHead& head)
 {
     constexpr double spare = 65536.0, most = 8388608.0;
@@ -105,7 +105,7 @@ Result<std::unique_ptr<RunLog>> RunLog::create (const std::filesystem::path& pat
 Result<> RunLog::written()
 {
     if (out.good()) return {};
-    const auto reason = errno != 0 ? std::generic_category().message (errno) : "the system gives no reason";
+    const auto reason = errno != 0 ? std::generic_category().message (errno) : "the system gave no reason";
     return Message::error ("output/unwritable", path.string(), "cannot be written: " + reason, "choose another file, or create its folder and free some space");
 }
 
@@ -181,12 +181,12 @@ void RunLog::take()
     }
 }
 
-/// Earlier plans are no longer needed.
+/// Drops earlier plans, and logs what changes with the new one.
 void RunLog::takeOver (std::uint64_t serial)
 {
     while (expected.front().plan->serial() != serial)
         expected.pop_front();
-    if (expected.front().graph == graph) return;   // recompiled for a probe
+    if (expected.front().graph == graph) return;   // the same graph, recompiled for a probe
     graph = expected.front().graph;
     if (line.find (R"("graph":)") != std::string::npos) endLine();   // before the first tick, another graph may replace the first one
     add ("graph", graph);

@@ -26,7 +26,7 @@ namespace tactus
 class RunLog
 {
 public:
-    /// Replaces any file with this name. The buffer holds one second of the roles and feeds in the head. Ids:
+    /// Replaces any file with this name. The buffer holds one second of data for the roles and feeds listed in the RunHead. Ids:
     /// output/unwritable.
     static Result<std::unique_ptr<RunLog>> create (const std::filesystem::path&, const RunHead&);
 
@@ -73,7 +73,7 @@ private:
     RunJournal taken;
 
     std::deque<Expected> expected;               // the running plan, and plans that may follow
-    std::string graph;                           // the last one written
+    std::string graph;                           // the last graph written
     std::map<std::string, GuardLimits> joined;   // guards of roles that joined since the start, or are about to join
     std::map<std::string, DeviceLayout> joined_devices;
     std::map<std::string, LoggedReading> readings;

@@ -143,7 +143,7 @@ public:
     OrderedReader fields;
 };
 
-/// A place, given by its line in the log and its column in the line.
+/// The first problem in a line, located by the line in the log and the column in the line.
 Message toError (const Line& line, const std::string& place)
 {
     const auto& m = *line.problem();
@@ -168,7 +168,7 @@ Result<RunLogReader> RunLogReader::open (const std::string& path)
         return Message::error ("file/unreadable", path, "cannot be read: it is a folder", "name the file that `tactus play --log` wrote");
     if (! *file)
         return Message::error ("file/unreadable", path,
-                               "cannot be read: " + (errno != 0 ? std::generic_category().message (errno) : "the system gives no reason"), "check the path");
+                               "cannot be read: " + (errno != 0 ? std::generic_category().message (errno) : "the system gave no reason"), "check the path");
     return open (std::move (file), path);
 }
 
@@ -181,7 +181,7 @@ Result<RunLogReader> RunLogReader::open (std::unique_ptr<std::istream> from, std
     return reader;
 }
 
-/// Reads a complete line; empty if there is none, or if it breaks off. Endless lines are truncated.
+/// Reads a complete line; empty if there is none, if it breaks off, or if it is longer than any line of a log can be.
 std::optional<std::string> RunLogReader::line()
 {
     constexpr std::size_t longest = 4 * largest_file;   // a graph with its included files
@@ -248,7 +248,7 @@ Result<std::optional<RunTick>> RunLogReader::next()
     return std::optional (std::move (*tick));
 }
 
-// Long because it is one table, with what is read from each key of a line.
+// Long because it is one table of what is read from each key of a line.
 Result<RunTick> RunLogReader::readTick (const std::string& text)
 {
     Line line { text };
@@ -303,7 +303,7 @@ Result<RunTick> RunLogReader::readTick (const std::string& text)
     return tick;
 }
 
-/// Sets the number of a tick, which must be larger than the previous one.
+/// Sets the number of a tick, which must be larger than the previous one, except that tick 0 may come again with another graph.
 Result<> RunLogReader::place (RunTick& tick, std::optional<std::uint64_t> k)
 {
     if (! k) return at ("log/missing", "the line has no tick", as_written);

@@ -19,7 +19,7 @@ enum class Alignment
     rows       ///< distribute horizontally, with equal gaps
 };
 
-/// Aligns boxes and returns them in the same order and size. The outermost box on that side stays in place.
+/// Aligns or distributes boxes, without changing their order or sizes. Aligning leaves the outermost box on that side in place.
 std::vector<juce::Rectangle<float>> aligned (std::vector<juce::Rectangle<float>>, Alignment);
 
 }   // namespace tactus::host

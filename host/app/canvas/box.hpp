@@ -24,7 +24,7 @@ struct Box
 {
     static constexpr float header_height = 28.0f, row_height = 20.0f, grid = 8.0f, padding = 10.0f;
     static constexpr float title_size = 13.0f, label_size = 12.0f;
-    static constexpr int most_params = 3;           ///< params shown without a wire
+    static constexpr int most_params = 3;           ///< unwired params that are shown
     static constexpr float widest_title = 220.0f;   ///< longer names are cut off
 
     float width = 0.0f, height = 0.0f;
@@ -36,8 +36,8 @@ struct Box
 /// Measures text in a font size.
 using TextWidth = std::function<float (const std::string&, float size, bool bold)>;
 
-/// Lays out a node: inputs and params on the left, outputs on the right. Shows the params for which `wired` is true and a few
-/// more, starting with those the node sets, with their `valueNow`. The face must outlive the box.
+/// Lays out a node: inputs and params on the left, outputs on the right. Shows all params for which `wired` is true, then a few
+/// others, first those that the node sets. Each param is shown with its `valueNow`. The face must outlive the box.
 Box boxOf (const graph::Node&, const Face&, const std::function<bool (const FacePort&)>& wired,
            const std::function<Json (const FacePort&)>& valueNow, const TextWidth&);
 

@@ -57,7 +57,7 @@ public:
     const Breadcrumbs& breadcrumbs() const noexcept { return entered; }
     std::string patch() const { return entered.empty() ? std::string {} : entered.back().second; }
     void leaveTo (std::size_t depth);
-    void enter (const SceneNode&);   ///< no effect unless it is a subgraph of this file
+    void enter (const SceneNode&);   ///< no effect unless the node is a subgraph of this file
 
     /// Goes to a patch, then selects a node or wire in it and scrolls to it. No effect if the patch cannot be reached from the root.
     void show (const std::string& patch, graph::Id);
@@ -69,7 +69,7 @@ public:
     void frameSelection();
     void zoomBy (float factor);
     void toggleMap();
-    juce::Point<float> pointerOrCentre() const;   ///< of the canvas
+    juce::Point<float> pointerOrCentre() const;   ///< the position of the pointer if it is over the canvas, else the centre of the view
 
     // Commands. Each is one undo step.
     void removeSelection();
@@ -105,7 +105,7 @@ public:
     bool perform (graph::Command, graph::Step = graph::Step::own);
     graph::Graph placedGraph() const;   ///< the graph with the positions of all nodes of the patch stored
 
-    void showLive (Live);   ///< many times a second
+    void showLive (Live);   ///< call many times a second
 
     std::function<void()> onSelection, onBreadcrumbs;
     std::function<void (const juce::String&)> onHint;   ///< describes what is under the pointer, or ""
@@ -117,7 +117,7 @@ public:
         if (onNodeRequested) onNodeRequested (std::move (request));
     }
 
-    /// Asks the user to choose one of several entries; `chosen` receives its type.
+    /// Asks the user to choose one of several entries; `chosen` receives the type of that entry.
     std::function<void (const juce::String& purpose, std::vector<PaletteEntry>, std::function<void (const std::string&)> chosen)> onChoose;
 
     std::function<void (std::vector<std::string> ports)> onProbe;   ///< full paths
@@ -157,7 +157,7 @@ private:
     Hover hoverAt (juce::Point<float>) const;
     std::unique_ptr<Drag> dragFor (const juce::MouseEvent&);
     const graph::Patch& patchShown() const;
-    std::optional<graph::Command> storePositions() const;      ///< of arranged nodes; empty if all are stored
+    std::optional<graph::Command> storePositions() const;      ///< of automatically arranged nodes; empty if all positions are stored
     juce::Point<float> freePlace (juce::Point<float>) const;   ///< this point, or the next free one below
 
     /// Opens a text editor over part of the canvas.
@@ -173,7 +173,7 @@ private:
     std::unique_ptr<Drag> drag;
     std::unique_ptr<juce::TextEditor> editor;
     std::function<void (const juce::String&)> on_edited;
-    bool framed = false;   // after the first layout with enough room
+    bool framed = false;   // true once the view has been fitted to the patch, at the first layout with enough room
     bool with_map = true;
 };
 

@@ -75,7 +75,7 @@ void cut (Canvas& c)
     c.removeSelection();
 }
 
-constexpr CanvasCommand all[] {
+constexpr CanvasCommand commands[] {
     { "Add node", "spacebar|tab", always, addNode },
     { "Add note, or region around selection", "n", always, call<&Canvas::addNote> },
     { "Next region colour", "k", hasNote, call<&Canvas::recolourNotes> },
@@ -128,6 +128,6 @@ constexpr CanvasCommand all[] {
 };
 }   // namespace
 
-std::span<const CanvasCommand> canvasCommands() noexcept { return all; }
+std::span<const CanvasCommand> canvasCommands() noexcept { return commands; }
 
 }   // namespace tactus::host

@@ -317,7 +317,7 @@ private:
     PortId start;
     graph::Id wire_id;
     juce::Point<float> begin, end_at;
-    juce::String problem;   // why it cannot end at the current port
+    juce::String problem;   // why the wire cannot end at the current port
 };
 }   // namespace
 

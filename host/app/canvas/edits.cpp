@@ -296,7 +296,7 @@ void Canvas::closeEditor (bool keep)
     if (! ended) return;
     ended->onFocusLost = nullptr;
     removeChildComponent (ended.get());
-    juce::MessageManager::callAsync ([ended] {});   // deletes it after the current event, which may be its own
+    juce::MessageManager::callAsync ([ended] {});   // deletes the editor after the current event, which may come from the editor itself
     const auto done = std::exchange (on_edited, nullptr);
     if (keep) done (ended->getText());
 }

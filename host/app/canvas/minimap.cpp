@@ -8,15 +8,15 @@ namespace tactus::host
 
 namespace
 {
-constexpr float width = 168.0f, height = 112.0f, margin = 12.0f, padding = 6.0f;
+constexpr float map_width = 168.0f, map_height = 112.0f, margin = 12.0f, padding = 6.0f;
 }
 
 Minimap::Minimap (const Scene& s, const View& view, juce::Rectangle<int> window) : scene (s)
 {
     const auto pixels = window.toFloat();
     seen = { view.toCanvas (pixels.getTopLeft()), view.toCanvas (pixels.getBottomRight()) };
-    if (scene.nodes().empty() || seen.contains (scene.bounds()) || pixels.getWidth() < 3 * width || pixels.getHeight() < 2 * height) return;
-    area = { pixels.getRight() - width - margin, pixels.getBottom() - height - margin, width, height };
+    if (scene.nodes().empty() || seen.contains (scene.bounds()) || pixels.getWidth() < 3 * map_width || pixels.getHeight() < 2 * map_height) return;
+    area = { pixels.getRight() - map_width - margin, pixels.getBottom() - map_height - margin, map_width, map_height };
     world = scene.bounds().getUnion (seen);
     const auto room = area.reduced (padding);
     scale = std::min (room.getWidth() / world.getWidth(), room.getHeight() / world.getHeight());

@@ -196,7 +196,7 @@ void paintDelay (juce::Graphics& g, const SceneWire& w, const Look& look)
     g.drawText (text, box, juce::Justification::centred, false);
 }
 
-/// An exposed port: its outer name, on the side where wires connect.
+/// Paints an exposed port: its outer name, on the side where wires connect.
 void paintExposed (juce::Graphics& g, const Scene::Exposed& e, const Look& look)
 {
     constexpr float height = 18.0f, stem = 14.0f;

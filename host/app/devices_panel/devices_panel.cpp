@@ -336,7 +336,7 @@ void DevicesPanel::setRoute (std::size_t i, const juce::String& text)
     setSound ([&] (Json& sound) { sound["routes"] = all; });
 }
 
-/// The sound card of all runs, and the ports that they play on it.
+/// Makes the section for the sound card, which all runs share: the routes from ports to its channels, and its settings.
 std::unique_ptr<Column> DevicesPanel::soundCard()
 {
     auto card = std::make_unique<Column>();
@@ -404,7 +404,7 @@ Remark DevicesPanel::statusRemark (const std::string& role) const
         r.is_problem = ! health->connected;
     }
     else if (fit != nullptr && fit->connected && ! run.isRunning())
-        r = *fit->connected ? Remark { "Connected.", false } : Remark { "Not connected. A run waits for the device, without force.", true };
+        r = *fit->connected ? Remark { "Connected.", false } : Remark { "Not connected. A run waits for the device and applies no force until then.", true };
     const auto status = run.status();
     if (! status || ! run.isRunning()) return r;
     for (const auto& now : status->shown())

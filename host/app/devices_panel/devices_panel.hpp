@@ -38,7 +38,7 @@ public:
     std::size_t cards() const noexcept { return columns.size(); }   ///< one for the clock, one for each role, and one for the sound card
     Column& card (std::size_t i) { return *columns[i]; }
 
-    void bind (const std::string& role, const std::string& label);                                  ///< to one of the choices
+    void bind (const std::string& role, const std::string& label);                                  ///< to the choice with this label
     void setPart (const std::string& role, const std::string& pointer, const juce::String& text);   ///< part of the binding; empty text removes it
 
     void setCard (const std::string& pointer, const juce::String& text);   ///< a setting of the sound card; empty text removes it
@@ -49,7 +49,7 @@ public:
     void visibilityChanged() override;
 
 private:
-    /// What determines the rows.
+    /// Everything that determines which rows there are.
     struct Shape
     {
         std::vector<std::string> roles;
@@ -81,7 +81,7 @@ private:
     DeviceSetup& setup;
     std::vector<RoleFit> fits;
     Shape shape;
-    std::vector<std::unique_ptr<Column>> columns, retired;   // retired: a row may rebuild the card that it is in
+    std::vector<std::unique_ptr<Column>> columns, retired;   // retired: kept alive, because a row may rebuild the card that contains it
     juce::Viewport scroll;
     juce::Component sheet;
     int refreshes = 0;

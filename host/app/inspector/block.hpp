@@ -15,9 +15,9 @@ class Block : public juce::Component
 {
 public:
     virtual int heightFor (int width) = 0;
-    virtual void refresh (const graph::Node*) {}   ///< the current node, if there is one
+    virtual void refresh (const graph::Node*) {}   ///< shows the current values; the node may be null
 
-    std::function<void()> onHeight;   ///< its height changed
+    std::function<void()> onHeight;   ///< called when its height has changed
 };
 
 /// Wrapped text.

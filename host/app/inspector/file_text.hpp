@@ -18,10 +18,10 @@ struct FileText
     std::shared_ptr<const Grid> picture {};   ///< for an image
 };
 
-/// Describes a file of kind signal, image, table, or surface (a mesh). The path is as written in the graph in that folder.
+/// Describes a file of kind signal, image, table, or surface (a mesh). The path is as written in a graph that is stored in `folder`.
 FileText describeFile (const std::string& path, SettingSheet::Kind kind, const std::string& folder, Assets&);
 
-/// Resolves a path written in a graph in that folder.
+/// Resolves a path that is written in a graph stored in `folder`.
 std::string resolved (const std::string& path, const std::string& folder);
 
 /// The path to write in a graph: relative to its folder, if it has one.

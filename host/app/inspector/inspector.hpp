@@ -56,7 +56,7 @@ private:
     bool help = false;
     std::string made_for;                                   // key of the current column; the column is kept while it matches, so that a drag can continue
     std::unique_ptr<Column> column, retired;                // retired: kept alive because one of its fields may have triggered the rebuild
-    std::pair<std::string, std::set<graph::Id>> shown_of;   // the scroll position is kept while it is the same
+    std::pair<std::string, std::set<graph::Id>> shown_of;   // patch and selection; the scroll position is kept while they stay the same
     juce::Viewport scroll;
 };
 

@@ -33,7 +33,7 @@ namespace
 struct Axes
 {
     AxisScale along, up;
-    Extent xs, ys;   // as labelled
+    Extent xs, ys;   // in the units of the labels
     juce::Rectangle<float> inner;
 
     float toX (double v) const { return inner.getX() + inner.getWidth() * static_cast<float> ((v - xs.low) / xs.size()); }

@@ -19,7 +19,7 @@ using Refusal = std::function<void (const juce::String&)>;
 /// assigns it to a control or releases it.
 std::unique_ptr<Block> paramRow (Document&, const std::string& patch, const std::string& node, const FacePort&, const Refusal&);
 
-/// Assigns a param to a control, "" for a new one; releases it and keeps its current value.
+/// controlBy() assigns a param to a control; "" creates a new one. release() ends that and keeps the current value of the param.
 void controlBy (Document&, const std::string& node, const FacePort&, const std::string& control);
 void release (Document&, const std::string& node, const FacePort&);
 

@@ -13,7 +13,7 @@ namespace
 constexpr double fine = 0.1;
 
 /// Rounds to the precision of a drag.
-double rounded (double gain) { return gain < 0.1 ? std::round (gain * 1e4) * 1e-4 : std::round (gain * 1e3) * 1e-3; }
+double roundedGain (double gain) { return gain < 0.1 ? std::round (gain * 1e4) * 1e-4 : std::round (gain * 1e3) * 1e-3; }
 }   // namespace
 
 Fader::Fader() { setMouseCursor (juce::MouseCursor::UpDownResizeCursor); }
@@ -27,7 +27,7 @@ void Fader::show (double g)
 
 void Fader::moveTo (double position)
 {
-    const double to = rounded (Taper::gain (position));
+    const double to = roundedGain (Taper::gain (position));
     if (to == gain) return;
     gain = to;
     repaint();

@@ -34,7 +34,7 @@ private:
     juce::Rectangle<float> slot() const { return getLocalBounds().toFloat().reduced (0.0f, 8.0f); }
     void moveTo (double position);
 
-    double gain = 1.0, grabbed = 0.0;   // grabbed: a position
+    double gain = 1.0, grabbed = 0.0;   // grabbed: the fader position at the start of a drag
     bool dragged = false;
 };
 

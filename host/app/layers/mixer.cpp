@@ -60,7 +60,7 @@ std::string joined (std::vector<std::string> names)
 
 bool isRemoved (const graph::Endpoint& e) { return e.index == removed; }
 
-/// Moves the params and names of the layers to their new places.
+/// Moves the params and names of the layers to their new positions.
 void permuteValues (graph::Node& node, const Catalogue& catalogue, const std::vector<int>& to, int layers)
 {
     const auto moved = [&] (const Json& before, const Json& initial) {
@@ -105,7 +105,7 @@ void sweep (graph::Graph& g)
         });
 }
 
-/// An edit of the whole mixer: `to` is the new place of each layer, or -1 to remove it.
+/// An edit of the whole mixer: `to` is the new position of each layer, or -1 to remove it.
 Result<graph::Command> permuted (const graph::Graph& g, const MixerPlace& at, const Catalogue& catalogue, const std::vector<int>& to, int layers,
                                  const std::string& name)
 {

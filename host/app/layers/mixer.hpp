@@ -33,7 +33,7 @@ int layersOf (const graph::Node&, const Catalogue&);
 /// The names in the setting `names`; "" for a layer without a name.
 std::vector<std::string> layerNames (const graph::Node&, int layers);
 
-/// The value of a list param for one layer as written, such as ("gain", 2), or the default.
+/// The value of a list param, such as "gain", for one layer: as written in the file, or the default.
 Json layerValue (const graph::Node&, const Catalogue&, const std::string& param, int layer);
 
 /// The first wire into a layer; null if there is none.
@@ -45,7 +45,8 @@ graph::Command setLayerValue (const graph::Node&, const MixerPlace&, const Catal
 /// Replaces commas in the name, because they separate names in the file.
 graph::Command renameLayer (const graph::Node&, const MixerPlace&, int layers, int layer, std::string name);
 
-/// Adds a layer: empty, or with a new node wired into it. The inputs of that node are wired as far as the patch has sources for them.
+/// The result of addLayer(). The layer is empty, or a new node is wired into it. The inputs of that node are wired as far as the patch has
+/// sources for them.
 struct AddedLayer
 {
     graph::Command command;
@@ -61,11 +62,11 @@ std::vector<const NodeType*> layerTypes (const Catalogue&);
 /// Removes a layer and its wires; the later ones move up. Ids: mixer/gone, mixer/last_layer, mixer/exposed.
 Result<graph::Command> removeLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, int layer);
 
-/// Moves a layer to another place, with its name, values, wires and controls.
+/// Moves a layer to another position, with its name, values, wires and controls.
 graph::Command moveLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, int layer, int to);
 
-/// Adds a mixer to a graph: between scalar forces and the place where they are summed, or else next to vector forces, with an empty
-/// layer that pushes along z.
+/// The result of addMixer(). The mixer is inserted between scalar forces and the input where they are summed, or else added next to vector
+/// forces, with an empty layer that pushes along z.
 struct AddedMixer
 {
     graph::Command command;

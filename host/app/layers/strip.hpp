@@ -22,7 +22,7 @@ struct MixerContext
     MixerPlace place;
     std::function<void (const juce::String&)> hint;
     std::function<void (const std::string& patch, graph::Id)> select;
-    std::function<void (int layer, int x, bool let_go)> drag;   ///< a strip is dragged by its name, to an x in its parent
+    std::function<void (int layer, int x, bool let_go)> drag;   ///< a strip is being dragged by its name; x is a position in its parent
 
     const graph::Node* node() const { return findMixer (document.graph(), place); }
     void perform (graph::Command c, bool goes_on = false) const { document.perform (std::move (c), goes_on ? graph::Step::joined : graph::Step::own); }

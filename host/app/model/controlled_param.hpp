@@ -15,7 +15,7 @@ struct ControlledParam
     std::string control, name;      ///< id and display name of the control
     double low = 0.0, high = 0.0;   ///< in SI units
     double value = 0.0;             ///< what the control sets it to now, in SI units
-    Json low_text;                  ///< as written, for its unit
+    Json low_text;                  ///< one end of the range as written in the file, to show values in its unit
 };
 
 /// Looks a parameter up by its path, such as "drag.mu" or "desk.gain[0]". Empty if no control drives it.

@@ -11,8 +11,6 @@ namespace tactus::host
 
 namespace
 {
-constexpr int deepest = 32;   // levels; compile() refuses a subgraph that contains itself, but the canvas still draws it
-
 /// The number of entries of a node's array ports.
 int entriesOf (const NodeType& type, const graph::Node& node)
 {
@@ -73,7 +71,7 @@ private:
     {
         Face face;
         face.kind = Face::Kind::subgraph;
-        if (depth >= deepest) return face;
+        if (depth >= deepest_subgraph) return face;
         expose (owner, inside, inside.expose.inputs, Role::input, depth, face.inputs);
         expose (owner, inside, inside.expose.params, Role::param, depth, face.params);
         expose (owner, inside, inside.expose.outputs, Role::output, depth, face.outputs);

@@ -24,7 +24,7 @@ Result<graph::Command> paste (const graph::Graph&, const std::string& patch, con
 /// The upper left corner of the nodes in copied text. Empty if no node has a position.
 std::optional<juce::Point<double>> cornerOf (const std::string& text);
 
-/// Returns `wanted` if it is free, else "drag_2", "drag_3" and so on.
+/// Returns `wanted` if it is free, else the same name with the next free number, such as "drag_2".
 std::string freeName (const graph::Patch&, const std::set<std::string>& also_taken, const std::string& wanted);
 
 }   // namespace tactus::host

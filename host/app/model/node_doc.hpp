@@ -26,7 +26,7 @@ struct DocPart
 /// The doc comment of a node's header, embedded at build time. Empty for an unknown type.
 std::vector<DocPart> docOf (std::string_view type);
 
-/// The node's law: the formulas above the source.
+/// The node's law: the formulas of its doc comment that come before "Source:".
 std::vector<std::string> lawOf (std::string_view type);
 
 /// Splits a doc comment into parts.

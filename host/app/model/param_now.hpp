@@ -14,7 +14,7 @@ struct ParamNow
 {
     Json value;
     bool is_set = false;                      ///< true if the value is not the default
-    std::optional<ControlledParam> control;   ///< set if a control drives it; then that control has to move instead
+    std::optional<ControlledParam> control;   ///< set if a control drives the param; an edit then has to move that control
 };
 
 ParamNow paramNow (const graph::Graph&, const std::string& patch, const graph::Node&, const FacePort&);

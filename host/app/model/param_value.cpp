@@ -14,8 +14,6 @@ namespace tactus::host
 
 namespace
 {
-constexpr int deepest = 32;   // levels of subgraphs
-
 Json entryIn (const Json& all, const std::optional<std::size_t>& entry)
 {
     if (! entry) return all;
@@ -26,7 +24,7 @@ Json entryIn (const Json& all, const std::optional<std::size_t>& entry)
 Json inside (const graph::Graph& g, const graph::Node& node, const std::string& param, int depth)
 {
     const auto [owner, patch] = graph::insideOf (g, node);
-    if (patch == nullptr || depth > deepest) return {};
+    if (patch == nullptr || depth > deepest_subgraph) return {};
     const auto shown = std::ranges::find (patch->expose.params, param, &std::pair<std::string, graph::Endpoint>::first);
     if (shown == patch->expose.params.end()) return {};
     const auto& e = shown->second;

@@ -12,7 +12,7 @@ namespace
 bool follows (const UnitRule& rule) { return rule.kind == UnitRule::Kind::same && rule.unit.dimension == Dimension {}; }
 
 /// Drops the index: "in[2]" becomes "in".
-std::string_view baseOf (std::string_view id) { return id.substr (0, id.find ('[')); }
+std::string_view withoutIndex (std::string_view id) { return id.substr (0, id.find ('[')); }
 
 std::size_t at (int i) { return static_cast<std::size_t> (i); }
 
@@ -63,8 +63,8 @@ void Quantities::joinPortsOf (const NodePorts& node_ports)
 {
     eachPort (node_ports.face, [&] (const FacePort& port) {
         eachPort (node_ports.face, [&] (const FacePort& other) {
-            const bool follows_it = follows (port.unit) && port.unit.a == baseOf (other.id);
-            const bool both_open = port.unit.kind == UnitRule::Kind::open && other.unit.kind == UnitRule::Kind::open && baseOf (port.id) == baseOf (other.id);
+            const bool follows_it = follows (port.unit) && port.unit.a == withoutIndex (other.id);
+            const bool both_open = port.unit.kind == UnitRule::Kind::open && other.unit.kind == UnitRule::Kind::open && withoutIndex (port.id) == withoutIndex (other.id);
             if (follows_it || both_open) join (numberOf (node_ports, &port), numberOf (node_ports, &other));
         });
     });

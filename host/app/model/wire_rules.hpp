@@ -18,10 +18,10 @@ struct WireEnd
 /// Checks whether a wire from an output may end at a port. The error is short, such as "m into N".
 Result<> checkWire (const WireEnd& from, const WireEnd& to);
 
-/// The same, but a single component may be wired if one end is a vector and the other is not.
+/// Like checkWire(), but also allows a vector at one end and a scalar at the other, because one component can be wired.
 Result<> checkWireByComponent (const WireEnd& from, const WireEnd& to);
 
-/// True if several wires into one such input add up. Any other input takes one wire.
+/// True if several wires into one input of this quantity add up. An input of any other quantity takes one wire.
 bool addsUp (Quantity) noexcept;
 
 /// The SI unit of a quantity; "" if it has none.

@@ -18,7 +18,7 @@ public:
 
     Palette();
 
-    /// Opens it with an empty query. `search` returns the entries for a query.
+    /// Opens the palette with an empty query. `search` returns the entries for a query.
     void open (std::function<std::vector<PaletteEntry> (const std::string&)> search, const juce::String& purpose,
                std::function<void (const std::string& type)> chosen);
     void close();

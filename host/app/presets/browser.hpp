@@ -25,7 +25,7 @@ public:
     std::function<void (const std::filesystem::path&)> onPreview;
     std::function<void()> onPreviewEnd;
 
-    void showOpen (const std::filesystem::path&);   ///< marks the open one
+    void showOpen (const std::filesystem::path&);   ///< marks the preset that is open
     void reload();                                  ///< reads the folders again
     void refresh();                                 ///< call this many times a second
 

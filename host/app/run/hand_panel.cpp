@@ -10,7 +10,7 @@ namespace tactus::host
 namespace
 {
 constexpr int as_described = 1, by_pointer = 2, by_recording = 3, first_gesture = 10;
-constexpr int row_height = 32, margin = 8;
+constexpr int bar_height = 32, margin = 8;
 }   // namespace
 
 /// A triangle while paused, two bars while playing.
@@ -191,20 +191,20 @@ void HandPanel::paint (juce::Graphics& g)
     g.fillAll (look.theme().panel);
     g.setFont (look.font (13.0f, true));
     g.setColour (look.theme().text);
-    g.drawText ("Hand", getLocalBounds().removeFromTop (row_height).withTrimmedLeft (16), juce::Justification::centredLeft, false);
+    g.drawText ("Hand", getLocalBounds().removeFromTop (bar_height).withTrimmedLeft (16), juce::Justification::centredLeft, false);
     if (transport != nullptr) return;
     g.setFont (look.font (12.0f));
     g.setColour (look.theme().dim);
-    g.drawText (note, getLocalBounds().removeFromBottom (row_height).reduced (margin, 0), juce::Justification::centredLeft, true);
+    g.drawText (note, getLocalBounds().removeFromBottom (bar_height).reduced (margin, 0), juce::Justification::centredLeft, true);
 }
 
 void HandPanel::resized()
 {
     auto area = getLocalBounds();
-    auto head = area.removeFromTop (row_height).reduced (margin, 4);
+    auto head = area.removeFromTop (bar_height).reduced (margin, 4);
     listen->setBounds (head.removeFromRight (28));
     source.setBounds (head.removeFromRight (std::min (200, head.getWidth() - 80)));
-    auto low = area.removeFromBottom (row_height).reduced (margin, 4);
+    auto low = area.removeFromBottom (bar_height).reduced (margin, 4);
     play->setBounds (low.removeFromLeft (24));
     low.removeFromLeft (4);
     speed.setBounds (low.removeFromRight (72));

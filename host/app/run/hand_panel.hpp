@@ -38,7 +38,7 @@ private:
     juce::ComboBox source;
     std::unique_ptr<juce::Button> play, listen;
     juce::Slider position, speed;
-    std::shared_ptr<TransportPath> transport;   // of the last refresh(); its run may have ended since
+    std::shared_ptr<TransportPath> transport;   // as of the last refresh(); its run may have ended since then
     juce::String note;
 };
 

@@ -24,7 +24,7 @@ public:
 
     double depth() const noexcept { return press_depth; }   ///< depth of a press, in m
 
-    /// Holds the tool pressed where it is, which frees the pointer for a knob, or releases it.
+    /// Holds the tool pressed where it is, so that the pointer is free to turn a knob; or releases the tool.
     void hold();
     bool isHeld() const noexcept { return held; }
 

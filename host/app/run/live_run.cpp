@@ -67,7 +67,7 @@ void LiveRun::setupChanged()
 
 bool LiveRun::isBound (const std::string& role) const { return setup != nullptr && setup->session().session.binding (role) != nullptr; }
 
-/// The first role that is not a sound card. Its tool is drawn, heard and moved by the mouse.
+/// The first role that is not a sound card. Its tool is the one that is drawn and heard, and that the mouse can move.
 std::string LiveRun::handRoleOf (const Plan& plan) const
 {
     for (const auto& role : plan.roles())
@@ -218,7 +218,7 @@ void LiveRun::start (Hand who)
     beginAnew (false);
 }
 
-/// Restarts the run, for changes that it cannot take over while running. A latched stop stays in force unless the user starts the run.
+/// Restarts the run, for changes that cannot be applied while it runs. A latched stop stays latched unless the user starts the run.
 void LiveRun::beginAnew (bool stays_stopped)
 {
     held = stays_stopped && (held || isStoppedForGood());
@@ -398,7 +398,7 @@ bool LiveRun::isStoppedForGood() const
 
 std::optional<RunStatus> LiveRun::status() const { return isLive() ? std::optional (run->live().status()) : std::nullopt; }
 
-/// If a sound card ticks the run, all ticks of a block use the same reading.
+/// If a sound card ticks the run, all ticks of a block use the same reading, which adds the length of a block.
 std::optional<std::int64_t> LiveRun::delay() const
 {
     if (! delay_ticks || ! rig || rig->clock() == nullptr) return delay_ticks;

@@ -72,8 +72,8 @@ public:
     /// the user starts again; an edit does not end it.
     void emergencyStop() noexcept;
 
-    /// Lets the forces rise again. Does nothing within a second of emergencyStop(), so that a double click or a second key cannot
-    /// undo it.
+    /// Lets the forces rise again. Does nothing within a second of emergencyStop(), so that a double click or a second key press
+    /// cannot undo the stop.
     void rearm() noexcept;
     bool canRearm() const noexcept;
     bool isStoppedForGood() const;   ///< until rearm(), or until the user starts another run
@@ -105,7 +105,7 @@ public:
     /// The run's tick rate, in Hz.
     double rate() const noexcept { return run && run->hasEngine() ? run->rate() : document.graph().rate_hz; }
 
-    /// The largest of the shortest delays from a source to a sink, in ticks; empty if no source is connected to a sink.
+    /// The longest delay from a source to a sink, each by its shortest path, in ticks; empty if no source is connected to a sink.
     std::optional<std::int64_t> delay() const;
 
     /// How stiff a wall may be on the first device before it buzzes, K < 2b/((2d+1)T), in N/m; empty if the device's damping is
@@ -115,7 +115,7 @@ public:
     /// The largest force that the guards let through, in N; empty if they do not limit it.
     std::optional<double> mostForce() const;
 
-    /// Moves the tool to where the mouse is, in m.
+    /// Sets the position that the mouse points at, in m. No effect unless the mouse moves the tool.
     void point (const Vec3&);
 
     /// The tool of the first role, as its device measures it, and the force on it.
@@ -132,12 +132,12 @@ public:
     /// The costs of the nodes measured so far, the most expensive first.
     std::vector<NodeCost> costs();
 
-    /// Sets a parameter or control of the running graph until the next edit. Returns why it cannot. Ids: run/stopped, and those
-    /// of framework/run/turn.hpp.
+    /// Sets a parameter or control of the running graph until the next edit, or returns an error with the reason why not. Ids:
+    /// run/stopped, and those of framework/run/turn.hpp.
     Result<> turn (const std::string& param, const Json& value);
     Result<> turnControl (const std::string& id, double value);
 
-    /// Triggers a hit at an input, with a speed in m/s. Returns why it cannot, with the same ids.
+    /// Triggers a hit at an input, with a speed in m/s. Errors have the same ids.
     Result<> strike (const std::string& input, double speed);
 
     /// Captures a port around an edge of another one, replacing any earlier capture. Returns the names of the captured
@@ -183,7 +183,7 @@ private:
     Sound* sound;
     Hand moved_by;
     std::chrono::steady_clock::time_point stopped_at = std::chrono::steady_clock::time_point::min();
-    bool held = false;                                       // an emergency stop or another latched stop holds the forces until rearm
+    bool held = false;                                       // an emergency stop or another latched stop holds the forces at zero until rearm()
     bool begins = false;                                     // starts once the previous run is over
     bool wanted = false;                                     // started and not stopped: the run begins as soon as the graph compiles
     std::vector<std::pair<std::string, Json>> run_devices;   // the graph's devices at the start of the run
@@ -191,7 +191,7 @@ private:
     DeviceSession run_session;    // the session at the start of the run
     double graph_rate_hz = 0.0;   // at the start of the run
     std::string clock_role, hand_role;
-    double hand_damping = 0.0;   // of the device of the hand's role, in the graph's workspace, in N s/m
+    double hand_damping = 0.0;   // of the device of the hand role, as seen in the graph's workspace, in N s/m
     HealthWatch watch;
     std::vector<RoleNeeds> needed;
     int attended = 0;

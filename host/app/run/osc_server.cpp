@@ -25,7 +25,7 @@ void OscServer::attend (RemoteControl::Clock::time_point now)
 Result<> OscServer::setParam (const std::string& name, const Json& value)
 {
     if (auto turned = live_run.turn (name, value); ! turned) return turned;
-    const bool can_be_stored = graph::paramEdit (document.graph(), name, value).has_value();   // false for a part of a value that is stored as a whole
+    const bool can_be_stored = graph::paramEdit (document.graph(), name, value).has_value();   // false for a part of a value that the file stores as a whole
     if (can_be_stored) new_params[name] = value;
     return {};
 }
@@ -108,7 +108,7 @@ void OscServer::endCapture()
     captures = false;
 }
 
-/// Notices that an edit or a new run has removed a probed port.
+/// Tells the remote control if an edit or a new run has removed a probed port or ended a capture.
 void OscServer::checkProbes()
 {
     const bool lost = std::ranges::any_of (components, [&] (const std::string& c) { return probed.of (c).empty(); });

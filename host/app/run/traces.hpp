@@ -58,11 +58,11 @@ private:
     std::uint64_t first_tick = 0, end_tick = 0;
 };
 
-/// Records the ports that its clients ask for. A port that several clients ask for is recorded once. [main thread]
+/// Records the ports that its clients request. A port that several clients request is recorded once. [main thread]
 class Traces final : public RunListener
 {
 public:
-    /// Asks for ports, for as long as it lives.
+    /// Requests ports for as long as it lives.
     class Client
     {
     public:
@@ -71,7 +71,7 @@ public:
         Client (const Client&) = delete;
         Client& operator= (const Client&) = delete;
 
-        /// Asks for these ports, such as "drag.force", and no others. A port that does not exist is left out until it does.
+        /// Requests these ports, such as "drag.force", and no others. A port that does not exist is left out until it exists.
         void want (std::vector<std::string>);
         const std::vector<std::string>& wanted() const noexcept { return ports; }
 
@@ -84,14 +84,14 @@ public:
         std::vector<std::string> ports;
     };
 
-    /// All ports that are asked for, each once.
+    /// All requested ports, each once.
     std::vector<std::string> ports() const override;
 
     std::vector<std::shared_ptr<const Trace>> of (const std::string& port) const;
 
-    std::function<void()> onWanted;   ///< the ports asked for have changed
+    std::function<void()> onWanted;   ///< the requested ports have changed
 
-    /// The components that are asked for and exist, but exceed the number that can be recorded.
+    /// The requested components that exist, but exceed the number that can be recorded.
     const std::vector<std::string>& leftOut() const noexcept { return too_many; }
 
     /// Drops the traces of earlier runs.

@@ -88,7 +88,8 @@ void EnergyMeter::add (const std::array<double, 3>& p, const std::array<double, 
         double step = 0.0;
         for (std::size_t i = 0; i < 3; ++i)
         {
-            // The force at the end of the previous step is known only now. It makes the difference between the trapezoid and the held force.
+            // The force at the end of the previous step is known only now. It gives the work of a continuous force (the trapezoid rule) minus
+            // the work of the held force.
             if (! was_gap) now.held -= 0.5 * (f[i] - last_force[i]) * last_step[i];
             last_step[i] = p[i] - last[i];
             step -= (was_gap ? 0.5 * (f[i] + last_force[i]) : f[i]) * last_step[i];
@@ -126,7 +127,7 @@ std::string describe (const EnergyBalance& b)
     text += ", " + joule (b.stored) + " stored, " + joule (b.dissipated) + " dissipated";
     if (matters (b.held, 0.01)) text += "; holding the force between ticks created " + joule (b.held);
     if (matters (b.elsewhere(), 0.02)) text += ", " + joule (b.elsewhere()) + " elsewhere";
-    if (matters (-b.elsewhere(), 0.02)) text += ": " + joule (-b.elsewhere()) + " too much, because each tick moves too far";
+    if (matters (-b.elsewhere(), 0.02)) text += ": " + joule (-b.elsewhere()) + " too much, because the tool moves too far in each tick";
     return text;
 }
 

@@ -20,7 +20,8 @@ struct EnergyBalance
     double moved = 0.0;          ///< the sum of all work in either direction, in J
     std::uint64_t gaps = 0;      ///< missed ticks, across which the work is estimated
 
-    /// Energy that no node accounts for. Negative if nodes report too much, as some do when they slip within one coarse step.
+    /// The energy put in that no node reports as stored or dissipated. Negative if nodes report more than was put in, as some do
+    /// when they slip within one coarse tick.
     double elsewhere() const noexcept { return work + held - (stored - stored_first) - dissipated; }
 
     /// True if the hand never got out more than was stored at the start.
@@ -28,8 +29,8 @@ struct EnergyBalance
     double tolerance() const noexcept { return std::max (1e-9, 1e-3 * moved); }
 };
 
-/// Sums the work of the hand tick by tick, W = -sum f . dx, where f is the force of the device on the tool during the step dx, along with the
-/// energy that nodes report as stored and dissipated. It continues from call to call, so the traces may be short.
+/// Sums the work of the hand tick by tick, W = -sum f . dx, where f is the force of the device on the tool during the step dx. Also follows
+/// the energy that nodes report as stored and dissipated. It continues from call to call, so the traces may be short.
 class EnergyMeter
 {
 public:

@@ -98,7 +98,7 @@ private:
     static constexpr double air = 0.08, much_less = 0.6;
 
     int updates_to_wait, calm = 0;
-    bool is_guess = true;   // nothing has moved yet
+    bool is_guess = true;   // true until the signal has moved
     Extent range, since_calm;
 };
 

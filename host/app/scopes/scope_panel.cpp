@@ -136,7 +136,7 @@ juce::String ScopePanel::warning() const
 {
     const auto& too_many = traces.leftOut();
     if (too_many.empty()) return {};
-    auto text = juce::String (ProbeRing::most) + " components at most; not shown: " + juce::String (too_many.front());
+    auto text = "At most " + juce::String (ProbeRing::most) + " components are recorded; not shown: " + juce::String (too_many.front());
     if (too_many.size() > 1) text += " and " + juce::String (too_many.size() - 1) + " more";
     return text + ". Close a scope or remove a port";
 }

@@ -32,7 +32,7 @@ public:
     /// Why some ports are not shown; "" if all are.
     juce::String warning() const;
 
-    std::function<void (const juce::String&)> onHint;   ///< such as the name of a saved file
+    std::function<void (const juce::String&)> onHint;   ///< for the status line, such as the name of a saved file
 
     const ScopeModel& scopes() const noexcept { return model; }
     const std::vector<std::unique_ptr<ScopeView>>& shown() const noexcept { return views; }

@@ -56,7 +56,7 @@ private:
         juce::Colour dot {};
         std::function<void()> onClick {};
         juce::String about {};
-        bool is_removable = false;   // onClick is for the cross
+        bool is_removable = false;   // true: onClick is called by the cross of the chip
     };
     void add (Chip);
 

@@ -10,8 +10,8 @@ namespace tactus::host
 
 /// An amplitude spectrum: a sine of amplitude A shows up as A at its frequency.
 ///
-/// The mean is removed, and the samples are weighted by a Hann window and zero-padded to four times their number. The highest line of a
-/// peak is then at most 1.5 % below the amplitude of the sine. The window spreads a sine over four times the inverse of its length.
+/// The mean is removed, and the samples are weighted by a Hann window and zero-padded to at least four times their number. The highest line
+/// of a peak is then at most 1.5 % below the amplitude of the sine. The window spreads a sine over four times the inverse of its length.
 struct Spectrum
 {
     double step_hz = 1.0;

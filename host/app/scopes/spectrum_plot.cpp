@@ -83,7 +83,7 @@ std::vector<ScopePlot::Action> SpectrumPlot::actions()
         refreshes = 0;
         if (context.onChange) context.onChange();
     };
-    return { lengthAction ({ 0.1, 0.2, 0.5, 1.0, 2.0, 4.0 }, "Length of the signal that is analysed; longer resolves closer frequencies"),
+    return { lengthAction ({ 0.1, 0.2, 0.5, 1.0, 2.0, 4.0 }, "Length of the signal that is analysed; a longer one resolves closer frequencies"),
              { spec.in_decibels ? "dB" : "linear", "Amplitudes in decibels relative to one unit, or linear", toggle } };
 }
 

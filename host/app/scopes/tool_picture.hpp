@@ -12,8 +12,8 @@ namespace tactus::host
 
 using Signals = std::function<TraceList (const std::string& port)>;
 
-/// A friction node at one moment, as in Fig. 4 of the chapter: the tool is attached to an anchor (w there, c in the code) by a bristle that
-/// is stretched by the deflection. Once the bristle is as long as d_max, the tool drags the anchor along.
+/// A friction node at one moment, as in Fig. 4 of the chapter: the tool is attached to an anchor (w in the figure, c in the node's code) by
+/// a bristle that is stretched by the deflection. Once the bristle is as long as d_max, the tool drags the anchor along.
 struct ToolPicture
 {
     Vec3 tool = Vec3::Zero(), deflection = Vec3::Zero(), force = Vec3::Zero(), normal = Vec3::UnitZ();
@@ -29,7 +29,7 @@ struct ToolPicture
 /// The picture at the newest tick at which all ports are known. Empty if there is none.
 std::optional<ToolPicture> toolPicture (const std::string& node, const Signals&);
 
-/// The view from above a plane with this normal. To the right is the x axis projected into the plane, or y if x is along the normal.
+/// A plane with this normal, seen from above. The x axis, projected onto the plane, points right; if x is along the normal, y does.
 struct PlaneView
 {
     Vec3 right = Vec3::UnitX(), up = Vec3::UnitY();

@@ -197,7 +197,8 @@ RecoveryQuestion questionAbout (const CrashedSession& s, double now_s)
     q.text = s.document().changed ? name + " has unsaved changes, last autosaved " + ago + "." : name + " was open, " + ago + ".";
     q.safe_first = s.endedInTrial();
     if (q.safe_first)
-        q.text += " Tactus quit soon after the graph was started or changed, so running it may crash it again. Look at the graph first; START runs it.";
+        q.text += " Tactus quit soon after the graph was started or changed, so running the graph may crash Tactus again. "
+                  "Look at the graph first; START runs it.";
     return q;
 }
 

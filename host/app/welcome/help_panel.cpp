@@ -20,7 +20,7 @@ namespace
 constexpr int bar_height = 56;
 constexpr auto subgraph_help = "A subgraph: nodes and wires in a box. Double-click to enter it; the bar above the canvas leads back out.";
 constexpr auto placeholder_help = "This node type is not installed. The node is a placeholder that keeps its params and wires, and outputs 0. It works "
-                                  "again where the type is installed.";
+                                  "again once the type is installed.";
 
 juce::String text (std::string_view s) { return juce::String (std::string (s)); }
 
@@ -33,7 +33,7 @@ juce::String unitText (const UnitRule& u)
     case UnitRule::Kind::open:
         return "unit of the wired port";
     case UnitRule::Kind::each:
-        return "unit of the port wired to each";
+        return "each entry has the unit of the port wired to it";
     case UnitRule::Kind::same:
         return "unit of " + text (u.a);
     case UnitRule::Kind::product:
@@ -128,7 +128,7 @@ constexpr std::array mouse_list {
     Keys { "drag on a number", "changes it, with Shift in fine steps; double-click to type a value with its unit" },
     Keys { "drag from a port", "draws a wire: matching ports light up; drop it on the canvas to add a matching node" },
     Keys { "double-click on the canvas", "adds a node there" },
-    Keys { "middle or right button, wheel", "pans; zooms to the pointer; a right click opens the menu" },
+    Keys { "middle or right button, wheel", "the buttons pan, the wheel zooms at the pointer; a right click opens the menu" },
     Keys { "press on the surface below", "moves the tool with the mouse as your hand; the arrow is the force on it" },
 };
 

@@ -194,7 +194,7 @@ void Files::restoreNext (bool runs)
     crashed.clear();
     juce::String text = "Recovered. Press Ctrl+S to save.";
     if (! runs || safe) text << " The graph is not running: check it, then press START.";
-    if (more > 0) text += " The next start offers " + juce::String (static_cast<int> (more)) + " more.";
+    if (more > 0) text += " At the next start, Tactus offers " + juce::String (static_cast<int> (more)) + " more.";
     callbacks.notify (text);
 }
 

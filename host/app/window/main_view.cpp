@@ -12,7 +12,7 @@ namespace tactus::host
 namespace
 {
 constexpr int hand_width = 420, refreshes_per_second = 30;
-constexpr int least_canvas = 240;   // pixels, each way
+constexpr int least_canvas = 240;   // width and height, in pixels
 }   // namespace
 
 MainView::MainView (const Catalogue& c)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the panels of the window ask for, panel by panel.
+// What the window does on the callbacks of its panels, panel by panel.
 #include "main_view.hpp"
 
 #include <algorithm>

@@ -42,7 +42,7 @@ private:
 
     Document& document;
     std::vector<juce::String> trail;
-    int room = 0;   // pixels, for the trail
+    int room = 0;   // width available for the trail, in pixels
     std::array<std::unique_ptr<Slot>, snapshot_count> slots;
     std::unique_ptr<IconButton> undo, redo, help, menu;
 };

@@ -58,7 +58,7 @@ struct Run
     std::vector<std::uint64_t> late;
 };
 
-/// Records which answers were late. For a single query, these are the ticks.
+/// Records which answers were late, by the number of the call. With a single query, that is the tick.
 struct Lateness final : Journal
 {
     Lateness() { questions.reserve (20'000); }
@@ -158,7 +158,7 @@ TEST_CASE ("a late answer is dropped, and its slot stays occupied until the answ
     }
     thread.remove (rounds);
 
-    // The questions of ticks 0, 1, 2 occupy all slots until 8; their answers are no longer wanted.
+    // The questions of ticks 0, 1 and 2 occupy all slots until tick 8; by then, their answers are no longer wanted.
     CHECK (lateness.questions == std::vector<std::uint64_t> { 3, 4, 5, 6, 7 });
     CHECK (thread.lateTicks() == 5);
     for (std::size_t k = 0; k < 11; ++k)

@@ -22,7 +22,7 @@ TEST_CASE ("lattice: the same filter as the recursion it was derived from", "[fr
 
     Lattice lattice;
     lattice.start (3, [] { return 0.0; });
-    double gain = 1.0;   // the y of the recursion is sqrt (prod (1 - k^2)) times the y of the lattice
+    double gain = 1.0;   // the y of the lattice is sqrt (prod (1 - k^2)) times the y of the recursion
     for (std::size_t i = 0; i < 3; ++i)
         gain *= std::sqrt (lattice.set (i, reflections[i]));
 
@@ -61,7 +61,7 @@ TEST_CASE ("stream resampler: a sine in the pass band passes, but one above half
     for (const double ratio : { 0.25, 0.7, 3.0 })
     {
         INFO (ratio);
-        const auto amplitude = [ratio] (double frequency)   // per sample of the lower rate
+        const auto amplitude = [ratio] (double frequency)   // in cycles per sample of the lower rate
         {
             const double turn = 2.0 * std::numbers::pi * frequency * std::min (1.0, 1.0 / ratio);
             int n = 0;

@@ -33,7 +33,7 @@ struct Pad final : Device
     Effort last;
 };
 
-/// The trigger is a spring; both push channel 2.
+/// The trigger is a spring. The grip button and the signal input are added up on output channel 2.
 Sketch padSketch()
 {
     Sketch s;

@@ -87,7 +87,7 @@ TEST_CASE ("a device joins on the tick that picks up the plan with its role, and
     for (std::size_t k = 1; k < thumb.efforts.size(); ++k)
         largest = std::max (largest, std::abs (thumb.efforts[k] - thumb.efforts[k - 1]));
     CHECK (largest <= 20.0 * std::numbers::pi / (2.0 * Bumpless::fade_s * rate_hz) * (1.0 + 1e-9));
-    CHECK (thumb.efforts.back() == Approx (15.0));   // of 20; the guard cuts off the rest
+    CHECK (thumb.efforts.back() == Approx (15.0));   // the wall pushes with 20 N; the guard cuts off the rest
     CHECK (hand.digest == other.digest);
 }
 

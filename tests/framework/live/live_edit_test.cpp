@@ -23,8 +23,8 @@ namespace
 constexpr double rate_hz = 4000.0;
 constexpr std::size_t ten_seconds = 40000;
 
-/// A hand on a wall that rubs and rings in six places, three in each of two branches, two of them equal. All of them have
-/// memory, and all contribute to the force. In addition there is a random graph.
+/// A hand on two walls (the branches). On each wall, three leaves rub and ring; two of the three are instances of one node. All six
+/// leaves have memory and contribute to the force. In addition there is a random graph.
 graph::Graph touchable (unsigned seed, int size)
 {
     test::Sketch s;
@@ -126,7 +126,7 @@ private:
     bool was_stopped = false;
 };
 
-/// Runs for ten seconds. Calls `edit` before each tick.
+/// Runs for `ticks` ticks. Calls `edit` before each one.
 template <typename Edit>
 Felt play (const graph::Graph& g, const std::vector<std::string>& records, unsigned seed, std::size_t ticks, BumplessRule* rule, Edit edit)
 {

@@ -198,7 +198,7 @@ TEST_CASE ("a turned parameter of a node that has never ticked keeps its value a
 
     bench.edit (graph::AddNode { "", Sketch::makeNode ("late", "signal.gain", { { "gain", 2.0 } }) });
     bench.set ("late.gain", 7.0);
-    bench.edit (graph::SetParam { "", "late", "gain", 4.0 });   // from a later edit
+    bench.edit (graph::SetParam { "", "late", "gain", 4.0 });   // an edit after the turn takes precedence
     bench.tick();
     const auto late = *bench.live.engine().param ("late.gain");
     CHECK (late.knobs->all[late.index].value == 4.0);

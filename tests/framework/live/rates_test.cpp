@@ -38,7 +38,7 @@ struct Bench
         REQUIRE_FALSE (hasErrors (messages));
     }
 
-    /// Edits something else.
+    /// Makes an edit outside the section.
     void touch()
     {
         edit (graph::AddNode { "", Sketch::makeNode ("idle" + std::to_string (idle++), "signal.abs") });
@@ -67,7 +67,7 @@ Sketch with (Json rate, const std::vector<graph::Node>& inside, const std::vecto
     return sketch;
 }
 
-/// Passes its input on, and counts its own ticks.
+/// A section that passes its input on and counts its own ticks.
 Sketch passing (const Json& rate)
 {
     auto sketch =
@@ -78,7 +78,7 @@ Sketch passing (const Json& rate)
     return sketch.node ("after", "signal.gain").wire ("sec.out -> after.in").node ("counted", "signal.gain").wire ("sec.count -> counted.in");
 }
 
-/// Hits into and out of the section.
+/// Hits that pass through the section to a bar.
 Sketch knocking (const Json& rate)
 {
     return with (rate, { Sketch::makeNode ("amp", "signal.gain") }, {}, { { "in", "amp.in" } }, { { "out", "amp.out" } })
@@ -243,7 +243,7 @@ TEST_CASE ("a change in a section that runs only on some ticks takes effect when
     double step = 0.0, last = applied();
     for (int n = 21; n < 100; ++n)
     {
-        if (n < 31) bench.touch();   // an edit of something else does not cancel it
+        if (n < 31) bench.touch();   // an edit outside the section does not cancel it
         bench.tick();
         if (n <= 32) CHECK (applied() == 0.0);
         step = std::max (step, std::abs (applied() - last));

@@ -29,7 +29,7 @@ std::size_t memory()
     return resident * static_cast<std::size_t> (sysconf (_SC_PAGESIZE));
 }
 
-/// A small model in which every bit affects the force, and a separate node.
+/// A small model in which every bit affects the force, and separate nodes (e_*) that are edited.
 test::Sketch wood()
 {
     test::Sketch s;

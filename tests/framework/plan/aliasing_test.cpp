@@ -16,7 +16,7 @@ TEST_CASE ("aliasing is reported where the rate decreases", "[plan][rates]")
         return sketch.compile().messages;
     };
     const auto mode = [] (double f) { return Json { { "modes", Json::array ({ { { "frequency", f }, { "decay", 20.0 }, { "amplitude", 0.5 } } }) } }; };
-    CHECK (has (into ("vibration.modal", Json::object(), mode (800.0), 4, "source.value"), "rate/aliasing"));   // 1 kHz
+    CHECK (has (into ("vibration.modal", Json::object(), mode (800.0), 4, "source.value"), "rate/aliasing"));   // the section runs at 1 kHz
     CHECK_FALSE (has (into ("vibration.modal", Json::object(), mode (300.0), 4, "source.value"), "rate/aliasing"));
     CHECK_FALSE (has (into ("vibration.modal", Json::object(), mode (800.0), 4, "source.value", "filter.one_pole", { { "cutoff", 200.0 } }), "rate/aliasing"));
     CHECK (has (into ("vibration.modal", Json::object(), mode (800.0), 4, "source.value", "filter.biquad", { { "cutoff", 200.0 }, { "kind", "high" } }),

@@ -32,7 +32,7 @@ TEST_CASE ("a damping law may be a dissipation, but other laws may not", "[plan]
 
     const auto messages = problems (shock ({ { "power", { 5e5, 1.5 } } }, { { "dissipation", 0.8 } }));
     REQUIRE (has (messages, "setting/value"));
-    CHECK (messages[0].text.find ("dissipation\"") == std::string::npos);   // it does not suggest a form that it refuses
+    CHECK (messages[0].text.find ("dissipation\"") == std::string::npos);   // the message does not suggest a form that would be refused
 }
 
 TEST_CASE ("a warning of a node does not keep the graph from running", "[plan]")

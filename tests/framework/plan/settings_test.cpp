@@ -128,7 +128,7 @@ Messages messagesFor (const char* id, const Json& value, Assets* assets, const s
     return compile (sketch.graph, Catalogue { { describe<Wanting>() } }, { .assets = assets }).messages;
 }
 
-/// The settings of a node in a graph that has this setting.
+/// The settings of a node whose setting `id` has this value in the graph.
 Wanting::Settings reads (const char* id, const Json& value)
 {
     Disk disk;
@@ -274,8 +274,8 @@ TEST_CASE ("files are found relative to the folder of the graph, and read as the
         CHECK (disk.asked == std::vector<std::string> { "some/where/data/a.x", "/data/a.x" });
 
         CHECK (refusal (id, "gone.x") == ": gone.x: there is no such file");
-        CHECK (refusal (id, 3) == ": it must be the path of a file, relative to the graph's");
-        CHECK (refusal (id, "") == ": it must be the path of a file, relative to the graph's");
+        CHECK (refusal (id, 3) == ": it must be the path of a file, relative to the folder of the graph");
+        CHECK (refusal (id, "") == ": it must be the path of a file, relative to the folder of the graph");
         CHECK (contains (refusal (id, "a.x", false), "cannot read 'a.x'"));
     }
 }

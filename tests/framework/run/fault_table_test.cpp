@@ -90,7 +90,7 @@ struct Fault
     bool rearm = false;
 };
 
-/// In ms; empty if it never happened.
+/// A time in ms; empty if the event never happened.
 using Ms = std::optional<double>;
 
 struct Measured
@@ -198,14 +198,14 @@ std::vector<Fault> faults()
           [] (Bench& b) { b.tool.speed = 0.2; },
           still, true },
         { "2 N for longer than allowed (limit 0.4 N*s in 1 s)", with ([] (auto& l) { l.max_impulse = 0.4; l.impulse_window = 1.0; }),
-          [] (Bench& b) { b.live.engine().rearm(); },   // the window starts here
+          [] (Bench& b) { b.live.engine().rearm(); },   // restarts the window
           nothing, true },
     };
 }
 
 std::filesystem::path document() { return std::filesystem::path { TACTUS_SOURCE_DIR } / "docs/safety.md"; }
 
-/// From a certain tick on, the graph takes four times as long as a tick period.
+/// From tick `slow_from` on, the graph takes four times as long as a tick period.
 struct Slow final : TickClock, TickHooks
 {
     void drive (Ticked& t) noexcept override

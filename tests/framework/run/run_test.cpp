@@ -45,7 +45,7 @@ struct Hands
     std::map<std::string, Hand*> hands;
 };
 
-/// The force is 100 N/m times the position.
+/// The force is `stiffness` (in N/m) times the position.
 Sketch spring (double stiffness = 100.0)
 {
     Sketch s;

@@ -133,7 +133,7 @@ TEST_CASE ("a run that is stopped in any way brings the force to zero smoothly a
     CHECK (left.hand.last.force.isZero (0.0));
 
     Runner again { left.engine, left.clock, rate_hz, { .length = 4000 } };
-    CHECK (play (again).peak > 0.5);   // a halted engine delivers force again
+    CHECK (play (again).peak > 0.5);   // in a new run, a halted engine delivers force again
 }
 
 TEST_CASE ("a run of length zero does not tick", "[runtime]")
@@ -145,7 +145,7 @@ TEST_CASE ("a run of length zero does not tick", "[runtime]")
     CHECK (end.phase == Phase::over);
 }
 
-TEST_CASE ("a device that a slew limit keeps under force is released after a while, and the status reports it", "[runtime]")
+TEST_CASE ("a run ends even if a slew limit keeps force on a device: the device is released after a while, and the status reports it", "[runtime]")
 {
     struct Still final : Device
     {

@@ -35,7 +35,7 @@ test::Sketch sketched()
     return s.wire ("one.out -> count.in[0]").wire ("count.out -> [1] -> count.in[1]").wire ("one.out -> turned.in");
 }
 
-/// Records and probes a run: the first tap counts ticks, and the second one is turned.
+/// Records and probes a run: the first tap counts ticks, and the second one follows the turned parameter.
 class Taps final : public TickHooks
 {
 public:

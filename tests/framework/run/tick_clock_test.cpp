@@ -34,7 +34,7 @@ TEST_CASE ("an absolute timer never begins a tick early, and does not catch up o
         early = early || now < least - 1e-6;
         least = now - late + period;
         if (k == 20) std::this_thread::sleep_for (std::chrono::milliseconds (20));
-        if (late > period) least = now - 1e-3;   // restarts from here, give or take the time between two clock reads
+        if (late > period) least = now - 1e-3;   // the timer restarts from here, give or take the time between two clock reads
         return ++k < 50;
     } };
     timer.drive (each);

@@ -102,13 +102,15 @@ TEST_CASE ("Json: numbers of different types are equal if their values are", "[j
     CHECK (Json { { "a", 1 }, { "b", 2 } } != Json { { "b", 2 }, { "a", 1 } });
 }
 
-TEST_CASE ("Json: a double becomes the nearest integer that fits, without its fraction", "[json]")
+TEST_CASE ("Json: an integer gets the nearest number that it can hold, without a fraction", "[json]")
 {
     CHECK (Json (-2.9).get<int>() == -2);
     CHECK (Json (1e300).get<std::int64_t>() == std::numeric_limits<std::int64_t>::max());
     CHECK (Json (-1e300).get<std::int64_t>() == std::numeric_limits<std::int64_t>::min());
     CHECK (Json (1e300).get<std::uint64_t>() == std::numeric_limits<std::uint64_t>::max());
     CHECK (Json (-5.0).get<std::uint64_t>() == 0);
+    CHECK (Json (-5).get<std::uint64_t>() == 0);
+    CHECK (Json (std::numeric_limits<std::uint64_t>::max()).get<std::int64_t>() == std::numeric_limits<std::int64_t>::max());
     CHECK (Json (std::numeric_limits<double>::quiet_NaN()).get<std::int64_t>() == 0);
     CHECK (Json (std::numeric_limits<double>::infinity()).get<std::int64_t>() == std::numeric_limits<std::int64_t>::max());
 }
@@ -146,18 +148,18 @@ TEST_CASE ("Json: get() makes bools, numbers, strings, and lists and maps of the
 
 TEST_CASE ("Json: what does not fit throws an error that names both types, or the missing member", "[json]")
 {
-    CHECK (errorOf ([] { (void)Json ("text").get<double>(); }) == "a JSON value is string, not a number");
-    CHECK (errorOf ([] { (void)Json (1).get<bool>(); }) == "a JSON value is number, not a boolean");
-    CHECK (errorOf ([] { (void)Json (1).get<std::string>(); }) == "a JSON value is number, not a string");
-    CHECK (errorOf ([] { (void)Json (1).asArray(); }) == "a JSON value is number, not an array");
-    CHECK (errorOf ([] { (void)Json (nullptr).asObject(); }) == "a JSON value is null, not an object");
-    CHECK (errorOf ([] { (void)Json ({ 1, 2 }).get<std::array<double, 3>>(); }) == "a JSON value is array, not an array of another size");
+    CHECK (errorOf ([] { (void)Json ("text").get<double>(); }) == "a JSON value is of type string, not a number");
+    CHECK (errorOf ([] { (void)Json (1).get<bool>(); }) == "a JSON value is of type number, not a boolean");
+    CHECK (errorOf ([] { (void)Json (1).get<std::string>(); }) == "a JSON value is of type number, not a string");
+    CHECK (errorOf ([] { (void)Json (1).asArray(); }) == "a JSON value is of type number, not an array");
+    CHECK (errorOf ([] { (void)Json (nullptr).asObject(); }) == "a JSON value is of type null, not an object");
+    CHECK (errorOf ([] { (void)Json ({ 1, 2 }).get<std::array<double, 3>>(); }) == "a JSON value is of type array, not an array of another size");
     CHECK (errorOf ([] { (void)Json { { "a", 1 } }.at ("b"); }) == "there is no member 'b'");
     CHECK (errorOf ([] { (void)Json ({ 1 }).at (1); }) == "there is no element 1");
     CHECK (errorOf ([] { Json ({ 1 }).erase (std::size_t { 1 }); }) == "there is no element 1");
-    CHECK (errorOf ([] { Json ("x").push_back (1); }) == "a JSON value is string, not an array");
-    CHECK (errorOf ([] { Json (1)["a"] = 2; }) == "a JSON value is number, not an object");
-    CHECK (errorOf ([] { (void)Json (1).value ("a", 2); }) == "a JSON value is number, not an object");
+    CHECK (errorOf ([] { Json ("x").push_back (1); }) == "a JSON value is of type string, not an array");
+    CHECK (errorOf ([] { Json (1)["a"] = 2; }) == "a JSON value is of type number, not an object");
+    CHECK (errorOf ([] { (void)Json (1).value ("a", 2); }) == "a JSON value is of type number, not an object");
 }
 
 TEST_CASE ("Json: pointers read, write and escape as RFC 6901 says", "[json]")

@@ -4,11 +4,12 @@
 At contact onset c is the point of the mesh nearest to p. With d = p - c and
 d^nu = d . u^nu, f^nu = sum n_i f_i^nu(d^nu), the force on the tool is
 -sum f^nu u^nu; c follows where |d_t| would pass mu_c d^z, once a tick, so that
-the ticks after a slip may still carry it on. Without friction c is always the
+c may still move on the ticks after a slip. Without friction c is always the
 nearest point, and -sum grad n_i Phi_i is added.
 
 The chapter does not treat the rim of a surface. Here a contact on the rim of an
-open mesh ends once p is further beyond it, along the triangle, than above or below.
+open mesh ends once p is further beyond the rim, along the triangle, than above or
+below it.
 """
 
 import math

@@ -27,7 +27,7 @@ struct Counted final : Ticked
     int most = 1 << 30;
 };
 
-/// A device whose tool is pushed in.
+/// A device that records the force it gets, and the largest step of that force.
 struct Pushed final : Device
 {
     void prepare (double) override {}

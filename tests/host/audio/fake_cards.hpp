@@ -16,7 +16,7 @@ public:
     int outputs = 4, inputs = 2, block = 64;
     double rate_hz = 48'000.0;
     int opened = 0;
-    std::vector<std::vector<float>> played { 4 }, spoken { 2 };   ///< by channel; `spoken` is repeated
+    std::vector<std::vector<float>> played { 4 }, spoken { 2 };   ///< samples by channel; the input, `spoken`, is repeated
 
     std::vector<std::string> types() override { return { "JACK", "ALSA" }; }
     std::vector<host::audio::ListedCard> list() override { return {}; }

@@ -50,7 +50,7 @@ struct TwoClocks
     }
 
     std::int64_t ticks = 0, blocks = 0;
-    double end = 0.0, tick_late = -1.0, block_late = -1.0;   // in s; the latenesses are for the next tick and block, below 0 if not generated yet
+    double end = 0.0, tick_late = -1.0, block_late = -1.0;   // in s; how late the next tick and block are, negative if not decided yet
     std::mt19937 random { 1 };
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sound cards on the command line, on a machine without a card of this name. ./test.sh --sound uses one.
+// Sound cards on the command line, with a card that does not exist. ./test.sh --sound uses one that exists.
 
 #include "program.hpp"
 
@@ -29,11 +29,11 @@ std::string errorOf (std::vector<std::string> more)
 
 TEST_CASE ("an audio option that cannot work is refused with a remedy", "[cli][audio]")
 {
-    const auto absent = errorOf ({ "--route", "drag.force.x=1@4 N", "--audio", "nobody has this card" });
+    const auto absent = errorOf ({ "--route", "drag.force.x=1@4 N", "--audio", "no such card" });
     CHECK (holds (absent, "audio/no_card"));
-    CHECK (holds (absent, "'nobody has this card'"));
-    CHECK (holds (errorOf ({ "--clock", "audio", "--audio", "nobody has this card" }), "audio/no_card"));
-    CHECK (holds (errorOf ({ "--device", "stylus=audio:nobody has this card" }), "audio/no_card"));
+    CHECK (holds (absent, "'no such card'"));
+    CHECK (holds (errorOf ({ "--clock", "audio", "--audio", "no such card" }), "audio/no_card"));
+    CHECK (holds (errorOf ({ "--device", "stylus=audio:no such card" }), "audio/no_card"));
     CHECK (holds (errorOf ({ "--route", "drag.force.x" }), "audio/route"));
     CHECK (holds (errorOf ({ "--route", "drag.force.x=1@4 mm" }), "audio/route"));
     CHECK (holds (errorOf ({ "--route", "drag.force.x=1@\"4 N\"" }), "audio/route"));

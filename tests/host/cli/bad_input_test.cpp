@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Problems are reported with their id, their place and a remedy. The exit status shows whether the input or the usage
+// Problems are reported with their id, their location and a remedy. The exit status shows whether the input or the usage
 // is wrong. No output file is left half written.
 
 #include "program.hpp"
@@ -119,7 +119,7 @@ TEST_CASE ("a render that cannot run reports the reason and leaves no file", "[c
 
     using Case = std::pair<std::string, std::vector<std::string>>;
     const auto [id, options] = GENERATE (values<Case> ({
-        //  is the temporary folder
+        // a leading @ stands for the temporary folder
         { "run/no_length", {} },
         { "output/unwritable", { "--duration", "0.1", "--out", "/nowhere/at/all.csv" } },
         { "output/unwritable", { "--duration", "0.1", "--out", "/nowhere/at/all.wav" } },

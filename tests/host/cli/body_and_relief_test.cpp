@@ -51,7 +51,7 @@ void writeTrace (const std::string& path, const std::vector<Vec3>& positions)
     REQUIRE (trace->commit());
 }
 
-/// A tip that comes down on a body, strokes it along `way` at a depth of 2 mm, and leaves.
+/// The path of a tip that comes down on a body, strokes it along `way` at a depth of 2 mm, and leaves.
 std::vector<Vec3> strokeOver (const MeshWalk& body, const Vec3& from, const Vec3& way)
 {
     const auto normals = normalsOf (body.mesh());
@@ -139,7 +139,7 @@ TEST_CASE ("a published liver mesh is pressed and stroked live, with the search 
         return { command, graph, "--device", "tip=trace:" + scratch.path ("stroke.csv"), "--record", records, "--out", scratch.path (out) };
     };
 
-    for (const int search_ticks : { 20, 100, 400 })   // a machine that is too busy to answer in time gets more ticks
+    for (const int search_ticks : { 20, 100, 400 })   // if a busy machine answers a search too late, the next attempt allows more ticks
     {
         const auto live = test::runTactus (arguments ("play", search_ticks, "live.csv"));
         INFO (live.err);
@@ -222,7 +222,7 @@ TEST_CASE ("a line of a profilometer scan is felt as measured, and the force nev
         const auto measured = [&] (double index) { return 1e-6 * line (0, static_cast<int> (index)); };
         const double there = std::lerp (measured (whole), measured (whole + 1.0), at - whole);
         error2 += std::pow (value[k] - there, 2);
-        roughness2 += std::pow (there - 0.5 * (measured (whole - 60.0) + measured (whole + 60.0)), 2);   // against 20 um of the line
+        roughness2 += std::pow (there - 0.5 * (measured (whole - 60.0) + measured (whole + 60.0)), 2);   // relative to the mean 9.4 um before and after
     }
     CHECK (error2 < 0.01 * roughness2);
     double most = 0.0, off = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Faults around a run do not affect the force: docs/safety.md.
+// A full disk or a flood of OSC packets during a run does not affect the force, as docs/safety.md claims.
 
 #include "running.hpp"
 

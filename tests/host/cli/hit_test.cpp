@@ -46,7 +46,7 @@ TEST_CASE ("a hit lasts one tick, is logged, and is repeated byte for byte", "[c
     refused ("ring.hit=1e30", "[hit/value]");
 
     scratch.write ("g.json", test::textOf (graph) + "\n");
-    REQUIRE (play.says (": taken over"));
+    REQUIRE (play.says (": reloaded"));
     CHECK (hit ("ring.hit=0.25").status == 0);
     CHECK (play.stop().status == 0);
 

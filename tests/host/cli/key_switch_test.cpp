@@ -107,13 +107,13 @@ std::vector<long> randomStrokes (double deepest, double step)
     return *rc::gen::container<std::vector<long>> (static_cast<std::size_t> (count), rc::gen::inRange (-10L, std::lround (deepest / step)));
 }
 
-/// The error that a sum over steps may have: it misses the kink where the bristle of this stiffness begins to slip, once per stroke.
+/// The largest error of a sum over steps: once per stroke, it misses the kink where a bristle of this stiffness begins to slip.
 double missed (std::size_t strokes, double stiffness, double step) { return static_cast<double> (strokes + 1) * stiffness * step * step / 8.0 + 1e-12; }
 
-/// A bound is never exactly 0, but as narrow as d_max allows.
+/// The smallest friction bound that d_max allows, in N. A bound of exactly 0 is not possible.
 double narrowest (double stiffness) { return 1e-9 * stiffness; }
 
-/// An invented key with kinks anywhere, falling force, and any loss that leaves the force on the way up above 0.
+/// A random key. It may have kinks anywhere, a falling force, and any loss that does not make the force on the way up negative.
 SwitchLoop randomLoop()
 {
     SwitchLoop loop { { 0.0 }, { 0.0 }, { 0.0 } };
@@ -156,7 +156,7 @@ Measured readMeasured (const std::filesystem::path& path)
     return m;
 }
 
-/// The work of a finger that follows the measured positions.
+/// The work done by a finger that follows the measured positions.
 double workAlong (const std::vector<double>& x, const std::vector<double>& force)
 {
     double w = 0.0;
@@ -205,7 +205,7 @@ TEST_CASE ("three key switches, measured both ways, are felt as measured whereve
         }
 
         // Where the force was higher on the way up than on the way down, the meter's position was wrong: no passive key
-        // can follow both.
+        // can follow both curves there.
         const auto down_x = measured.part (measured.x, false), down = measured.part (measured.force, false);
         auto up_x = measured.part (measured.x, true), up = measured.part (measured.force, true);
         std::ranges::reverse (up_x);
@@ -294,7 +294,7 @@ TEST_CASE ("any two curves, if down is above up, make a key that follows both, r
             pressed.to (std::lround (loop.travel[i] / step));
             RC_ASSERT (std::abs (pressed.force() - loop.press[i]) < 0.2 * mN + 1e-9 * stiffness);
         }
-        pressed.to (std::lround (loop.travel.back() / step) + 20);   // 2 bounds reverse the bristle
+        pressed.to (std::lround (loop.travel.back() / step) + 20);   // so deep that the bristle has reversed, after 2 d_max, when the finger is back
         for (std::size_t i = loop.travel.size() - 1; i > 0; --i)
         {
             pressed.to (std::lround (loop.travel[i] / step));

@@ -89,12 +89,12 @@ TEST_CASE ("a run with edits, parameter changes and probes is repeated byte for 
     const auto wires = R"("trill.out -> join.x", "join.out -> motor.force", "join.out -> lift.force",
         "there.position -> far.position", "far.force -> motor.force",)";
     scratch.write ("g.json", board (nodes, wires));
-    CHECK (play.says (": taken over"));
+    CHECK (play.says (": reloaded"));
     CHECK (runTactus ({ "set", "drag.mu=0.3", "trill.frequency=60", "board.normal=[0.05,0,1]", "drag.adhesion=dahl", "--osc", port }).status == 0);
     scratch.write ("grain.json", grain (900.0));
-    CHECK (play.says (": taken over", 2));
+    CHECK (play.says (": reloaded", 2));
     scratch.write ("g.json", board ("", "", 0.5));
-    CHECK (play.says (": taken over", 3));
+    CHECK (play.says (": reloaded", 3));
     CHECK (runTactus ({ "set", "drag.mu=0.1", "--osc", port }).status == 0);
     const auto ran = play.stop();
     INFO (ran.err);
@@ -209,7 +209,7 @@ TEST_CASE ("a damaged log is replayed as far as possible, even with another grap
     other_program.replace (other_program.find ("tactus 0"), 8, "tactus 9");
     CHECK (replay (other_program).err.find ("[log/other_program]") != std::string::npos);
 
-    // The output of another graph with the same inputs.
+    // The logged inputs also drive another graph, which gives its own output.
     const auto wall = scratch.write ("wall.json", R"({ "format": "tactus-graph", "version": 1,
       "nodes": { "hand": { "type": "device.position", "role": "stylus" }, "wall": { "type": "deform.plane" },
         "motor": { "type": "device.force", "role": "stylus" }, "other": { "type": "device.force", "role": "thumb" } },

@@ -125,7 +125,7 @@ TEST_CASE ("a probe continues when the graph is edited, and ends when its port i
     Running stays { { "probe", "last.out", "--osc", port } }, goes { { "probe", "one.out", "--osc", port } };
     REQUIRE (test::eventually ([&] { return stays.out().size() > 50 && goes.out().size() > 50; }));
     scratch.write ("g.json", text (""));
-    REQUIRE (play.says (": taken over"));
+    REQUIRE (play.says (": reloaded"));
     const auto gone = goes.finish();
     CHECK (gone.status == 1);
     CHECK (gone.err.find ("[port/unknown") != std::string::npos);

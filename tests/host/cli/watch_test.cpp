@@ -35,9 +35,9 @@ TEST_CASE ("an edited graph is swapped in live: no tick is lost, and a counter c
     Running play { { "play", file, "--watch", "--record", "count.out", "--out", scratch.path ("p.csv") } };
     REQUIRE (play.says ("Ctrl-C stops"));
     scratch.write ("g.json", counter (R"("idle": { "type": "signal.abs" },)"));
-    REQUIRE (play.says (": taken over"));
+    REQUIRE (play.says (": reloaded"));
     std::filesystem::rename (scratch.write ("new.json", counter()), file);   // many editors save in this way
-    REQUIRE (play.says (": taken over", 2));
+    REQUIRE (play.says (": reloaded", 2));
     const auto ran = play.stop();
     INFO (ran.err);
     CHECK (ran.status == 0);
@@ -58,9 +58,9 @@ TEST_CASE ("a value changed in the file is approached gradually", "[cli][watch]"
     Running play { { "play", file, "--watch", "--record", "one.out", "--out", scratch.path ("p.csv") } };
     REQUIRE (play.says ("Ctrl-C stops"));
     scratch.write ("g.json", counter ("", "5"));
-    REQUIRE (play.says (": taken over"));
+    REQUIRE (play.says (": reloaded"));
     scratch.write ("g.json", counter (R"("idle": { "type": "signal.abs" },)", "5"));   // by then the value has arrived
-    REQUIRE (play.says (": taken over", 2));
+    REQUIRE (play.says (": reloaded", 2));
     CHECK (play.stop().status == 0);
     const auto table = readTable (std::filesystem::path (scratch.path ("p.csv")));
     REQUIRE (table);
@@ -83,7 +83,7 @@ TEST_CASE ("a file with errors is reported with its place, and the previous grap
     auto refused = [&, n = 0] (const std::string& text, const std::string& id, const std::string& line) mutable {
         scratch.write ("g.json", text);
         INFO (id);
-        CHECK (play.says ("not taken over", ++n));
+        CHECK (play.says ("not reloaded", ++n));
         INFO (play.err());
         CHECK (play.says (file + ":" + line));
         CHECK (play.says ("[" + id + "]"));
@@ -96,7 +96,7 @@ TEST_CASE ("a file with errors is reported with its place, and the previous grap
     refused (misspelt.replace (misspelt.find ("count.in[0]"), 11, "count.on[0]"), "port/unknown", "4:");
 
     scratch.write ("g.json", counter (R"("idle": { "type": "signal.abs" },)"));
-    CHECK (play.says (": taken over"));
+    CHECK (play.says (": reloaded"));
     const auto ran = play.stop();
     CHECK (ran.status == 0);
     const auto table = readTable (std::filesystem::path (scratch.path ("p.csv")));
@@ -115,11 +115,11 @@ TEST_CASE ("a role that is new in the edited file gets its device, and is felt",
     auto edited = counter (thumb, "1", R"("thumb": { "driver": "sim", "position": [0, 0, "-5 mm"], "mass": 1000 },)");
     edited.replace (edited.find (R"("wires": [)"), 10, R"("wires": [ "thumb.position -> wall.position", "wall.force -> thimble.force",)");
     scratch.write ("g.json", edited);
-    REQUIRE (play.says (": taken over"));
+    REQUIRE (play.says (": reloaded"));
     CHECK (play.err().find ("device/undescribed") == std::string::npos);
 
     scratch.write ("g.json", counter (R"("toe": { "type": "device.force", "role": "toe" },)"));
-    REQUIRE (play.says (": taken over", 2));
+    REQUIRE (play.says (": reloaded", 2));
     CHECK (play.says ("[device/undescribed]"));
     const auto ran = play.stop();
     INFO (ran.err);
@@ -140,7 +140,7 @@ TEST_CASE ("edits that cannot be applied live are reported: another device, anot
     other.replace (other.find ("500"), 3, "600");
     other.replace (other.find ("\"sim\""), 5, R"("sim", "mass": 0.2)");
     scratch.write ("g.json", other);
-    CHECK (play.says (": taken over"));
+    CHECK (play.says (": reloaded"));
     CHECK (play.says ("[watch/rate]"));
     CHECK (play.says ("[watch/device]"));
     CHECK (play.stop().status == 0);
@@ -162,9 +162,9 @@ TEST_CASE ("a file included by the graph is watched too", "[cli][watch]")
     REQUIRE (play.says ("Ctrl-C stops"));
     inner ("3");
     INFO (play.err());
-    CHECK (play.says (": taken over"));
+    CHECK (play.says (": reloaded"));
     inner ("3.0");
-    CHECK (play.says (": taken over", 2));
+    CHECK (play.says (": reloaded", 2));
     CHECK (play.stop().status == 0);
     const auto table = readTable (std::filesystem::path (scratch.path ("p.csv")));
     REQUIRE (table);

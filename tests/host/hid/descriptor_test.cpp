@@ -295,7 +295,7 @@ TEST_CASE ("OpenFFBoard's descriptor gives its reports, and the same force as st
     CHECK (hexOf (model.exit()[1].bytes) == "0c 04");   // "stop all" the third
     CHECK (hexOf (model.exit()[2].bytes) == "0b 01");   // and the block is freed
     CHECK (model.axisNames().size() == 8);
-    CHECK (model.buttonNames().size() == 32);   // of 64
+    CHECK (model.buttonNames().size() == 32);   // the device has 64
     const auto& set = model.init()[5].bytes;
     CHECK (set.size() == 18);
     CHECK (set[1] == 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a graph asks for, through the guard, to the bytes on the wire, and back to the force at the tool.
+// The effort that a graph requests goes through the guard to the bytes on the wire. The test converts them back to the force at the tool.
 
 #include "hid.hpp"
 
@@ -21,7 +21,7 @@ Effort anyEffort (const HidModel& model)
 {
     const auto any = [] (double size) { return *rc::gen::map (rc::gen::inRange (-1000, 1001), [=] (int i) { return size * i / 1000.0; }); };
     Effort e { { any (50.0), any (50.0), any (50.0) }, { any (5.0), any (5.0), any (5.0) } };
-    for (std::size_t i = 0; i < model.effortNames().size(); ++i)   // more than it has of its own
+    for (std::size_t i = 0; i < model.effortNames().size(); ++i)   // more entries than the device has own efforts
         if (*rc::gen::arbitrary<bool>()) e.axes.set (static_cast<int> (i), any (*rc::gen::element (1.0, 1e3, 1e12)));
     return e;
 }
@@ -53,7 +53,7 @@ Vec3 carried (const Profile& profile, const std::vector<Bytes>& reports, const s
     return v;
 }
 
-/// The force at the tool per unit of each motor: the inverse of what a force asks of the motors.
+/// The force at the tool per unit of each motor: the inverse of the map from a force to motor values.
 Mat3 forces (const Kinematics& kinematics, const Kinematics::Pose& pose)
 {
     Mat3 motors;

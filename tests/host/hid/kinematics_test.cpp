@@ -76,8 +76,8 @@ std::optional<Vec3> inverse (const LinearMap& map, const Vec3& p)
     return lu.solve (p - map.origin);
 }
 
-/// The angle between a link of length a and the line from its start to a point at this distance, at which a link of length
-/// b ends.
+/// In a triangle with the sides a, b and `distance`: the angle between a and `distance`. The sides a and b are links, and
+/// `distance` is from the start of a to the end of b. Empty if there is no such triangle.
 std::optional<double> cornerOf (double a, double b, double distance)
 {
     const double cosine = (a * a + distance * distance - b * b) / (2.0 * a * distance);
@@ -136,7 +136,7 @@ TEST_CASE ("the work of the joints equals the work of the tool")
 
 TEST_CASE ("the work of the motors equals the work of the tool, for gears and encoders of either direction")
 {
-    // A motor of constant K gives K I, and one turn (2 pi) is counts_per_turn of its encoder.
+    // At a current I, a motor of torque constant K gives K I. One turn (2 pi) is counts_per_turn of its encoder.
     for (const auto& m : mechanisms())
     {
         if (! std::holds_alternative<SerialArm> (m.model) && ! std::holds_alternative<FiveBar> (m.model)) continue;

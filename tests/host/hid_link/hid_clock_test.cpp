@@ -164,7 +164,7 @@ TEST_CASE ("a live run over dry wood sends the same forces as the offline run, b
         return 0;
     };
     const auto micro = [] (double newton) { return static_cast<std::int32_t> (std::floor (newton / 1e-6 + 0.5)); };
-    std::map<int, std::set<std::array<std::int32_t, 3>>> offline;   // several forces per number where the timer ticked
+    std::map<int, std::set<std::array<std::int32_t, 3>>> offline;   // by report number; several forces where the timer ticked
     for (std::size_t i = 0; i < readings.size(); ++i)
     {
         const Vec3 f = recorded.asked[i].force;

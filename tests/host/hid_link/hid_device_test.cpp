@@ -105,7 +105,7 @@ TEST_CASE ("bad reports change no value, invalidate the reading and are counted 
 
     const auto counts = device->counts();
     CHECK (counts.taken == 2);
-    CHECK (counts.lost == 1);   // number 2, which had a wrong mark
+    CHECK (counts.lost == 1);   // report 2, which was refused because of its wrong mark
     CHECK (counts.refused[static_cast<std::size_t> (Refusal::wrong_mark)] == 1);
     CHECK (counts.refused[static_cast<std::size_t> (Refusal::too_short)] == 1);
     CHECK (counts.refused[static_cast<std::size_t> (Refusal::too_long)] == 2);
@@ -339,7 +339,7 @@ TEST_CASE ("reports are sent no faster than the maximum rate, and repeated while
 TEST_CASE ("an effort is sent as soon as it is written, whichever clock drives the run", "[hid]")
 {
     FakeBoard board;
-    const auto device = openBoard (board, { .max_rate = 0.01, .watchdog = 3600.0 });   // on its own, the writing thread looks every 50 s
+    const auto device = openBoard (board, { .max_rate = 0.01, .watchdog = 3600.0 });   // unless it is woken, the writing thread looks every 50 s
     tell (board, *device, boardReport (1));
     for (std::size_t sent = 1; sent <= 3; ++sent)
     {

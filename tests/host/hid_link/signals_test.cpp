@@ -64,7 +64,7 @@ TEST_CASE ("a stream gets its frames at its own rate, interpolated linearly betw
                 }
             });
         for (std::size_t i = 0; i < got.size(); ++i)
-            RC_ASSERT (std::abs (got[i] - static_cast<double> (i + 1) / rate) < 1e-5);   // the ramp of 1 per s, at the time of the frame
+            RC_ASSERT (std::abs (got[i] - static_cast<double> (i + 1) / rate) < 1e-5);   // the signal rises by 1 per s
         RC_ASSERT (std::abs (static_cast<double> (got.size()) - ticks * dt * rate) <= static_cast<double> (frames) + 1.0);
     });
 }

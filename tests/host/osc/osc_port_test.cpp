@@ -52,7 +52,7 @@ std::string padded (std::string s)
     return s;
 }
 
-/// Nested bundles, as many as fit into a datagram.
+/// Nested bundles, as many as fit into `size` bytes.
 std::string nested (std::size_t size)
 {
     const auto head = padded ("#bundle") + std::string (8, '\0');

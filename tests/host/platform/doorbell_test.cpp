@@ -44,7 +44,7 @@ TEST_CASE ("a million rings take no lock, allocate nothing, and none is lost", "
         allocations = watch.allocations();
     });
 
-    // The last ring ends a wait that sees the last number. If a ring were lost, that wait would never end.
+    // After the wait that the last ring ends, the last number is seen. If that ring were lost, the wait would never end.
     int seen = 0;
     bool silent = false;
     for (; seen < rings && ! silent; seen = announced.load (std::memory_order_relaxed))

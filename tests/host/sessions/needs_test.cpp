@@ -16,7 +16,7 @@ using namespace tactus::host;
 
 namespace
 {
-/// Uses every part of its device.
+/// A graph that uses every part of its device.
 test::Sketch greedy()
 {
     test::Sketch s;
@@ -99,7 +99,7 @@ TEST_CASE ("missing parts refer to the device in the session, or else in the gra
     const hid::LoadedProfiles profiles { .profiles = { test::BoardProfile {}.make() }, .messages = {} };
     test::FakeBoard board;
     auto s = greedy();
-    s.graph.root.wires.erase (s.graph.root.wires.begin());   // a length is not a force
+    s.graph.root.wires.erase (s.graph.root.wires.begin());   // removes the two wires with units that do not fit, so that the graph compiles
     s.graph.root.wires.erase (s.graph.root.wires.begin());
     const auto plan = s.compile().plan;
     REQUIRE (plan);

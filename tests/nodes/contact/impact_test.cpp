@@ -30,7 +30,7 @@ struct Strike
     double speed = 0.0;
 };
 
-/// The outputs of the node for depths d (0), d (1), …
+/// The number of hits for depths depth (0), depth (1), …, and the speed of the last hit.
 template <typename Depth>
 Strike strike (Impact node, int ticks, Depth depth)
 {
@@ -77,7 +77,7 @@ TEST_CASE ("impact: a quantised ramp gives one hit, with the speed within the bo
 
 TEST_CASE ("impact: quantised positions that flicker at the surface count as one contact", "[nodes][contact]")
 {
-    // A hand hovers at the surface, with a tremor of a third of a quantum on either side.
+    // A hand hovers at half a quantum, with a tremor of 0.4 quanta on either side, so the rounded depth flickers.
     const double q = 1e-5;
     const auto [hits, speed] = strike (impact ({ .release = 2e-5 }), 5000,
                                        [&] (int k) { return quantised (k < 100 ? 1e-5 * (k - 100) : 0.5 * q + 0.4 * q * std::sin (0.7 * k), q); });

@@ -212,7 +212,7 @@ TEST_CASE ("blade: rupture balances the energies of any two laws", "[nodes][cut]
         RC_ASSERT (c == s.d_rupture || excess <= 1e-12 * stored);
         RC_ASSERT (std::abs (bench.taken() - stored) <= 1e-12 * stored);
 
-        // The largest root: beyond it, the energy does not suffice for a crack.
+        // c is the largest root: for a longer crack, the energy does not suffice.
         for (double beyond = c + 1e-4 * s.d_rupture; beyond < s.d_rupture; beyond += 0.01 * s.d_rupture)
             RC_ASSERT (stored - g1.energy (s.d_rupture - beyond) - cost * beyond < 0.0);
     });
@@ -413,7 +413,7 @@ TEST_CASE ("blade: params are read on touch", "[nodes][cut]")
     bench.tick (0.01);
     CHECK (bench.out.resistance == Approx (4.0));
 
-    bench.tick (0.0);   // apart, and back in the cut
+    bench.tick (0.0);   // leaves the sample, and touches the tip of the crack again
     bench.tick (0.02);
     CHECK (bench.out.resistance == Approx (12.0));
 }

@@ -17,7 +17,7 @@ using tactus::test::Golden;
 namespace
 {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double wide = 1.4;   // rad; open, for the plates below
+constexpr double wide = 1.4;   // in rad; open wide enough for the plates below
 
 /// Scissors and the hand that closes them. The hand's work is computed with the trapezoid rule, which is exact on dense paths.
 struct Bench

@@ -134,14 +134,14 @@ TEST_CASE ("plane: a tool that is inside from the start triggers no hit", "[node
     auto node = ready<Plane> ({ .damping = 5.0, .dissipation = 2.0 });
     const auto out = node.tick ({ .position = { 0, 0, -0.003 } });
     CHECK (out.hit == 0.0);
-    CHECK (out.resistance == Approx (3.0));   // and there is no rate yet
+    CHECK (out.resistance == Approx (3.0));   // and no damping, because a first sample has no speed
 }
 
 TEST_CASE ("plane: a damped wall pushes harder going in, and never pulls coming out", "[nodes][deform]")
 {
     auto node = ready<Plane> ({ .stiffness = 1000.0, .damping = 3.0 });
     node.tick ({ .position = { 0, 0, 0.001 } });
-    CHECK (node.tick ({ .position = { 0, 0, -0.001 } }).resistance == Approx (1.0 + 3.0 * 2.0));   // with the rate of the approach
+    CHECK (node.tick ({ .position = { 0, 0, -0.001 } }).resistance == Approx (1.0 + 3.0 * 2.0));   // the rate is the speed of the approach, 2 m/s
     CHECK (node.tick ({ .position = { 0, 0, -0.0009 } }).resistance == Approx (0.9 - 0.3));
     CHECK (node.tick ({ .position = { 0, 0, -0.0001 } }).resistance == 0.0);
 }
@@ -216,7 +216,7 @@ TEST_CASE ("plane: a fault gives 0, and the next sample counts as the first", "[
     }
 
     CHECK (ready<Plane> ({ .normal = Vec3::Zero() }).tick ({ .position = { 0, 0, -0.001 } }).state == -1.0);
-    CHECK (ready<Plane> ({ .offset = -1.7e308 }).tick ({ .position = { 0, 0, 1.7e308 } }).depth == 0.0);   // further apart than a double can hold
+    CHECK (ready<Plane> ({ .offset = -1.7e308 }).tick ({ .position = { 0, 0, 1.7e308 } }).depth == 0.0);   // the distance is too large for a double
 }
 
 TEST_CASE ("plane: no input breaks it", "[nodes][deform]")

@@ -87,7 +87,7 @@ std::shared_ptr<const Surface> body (Mesh mesh, std::vector<std::vector<Surface:
     return std::make_shared<const Surface> (Surface { std::make_shared<const Mesh> (std::move (mesh)), {}, std::move (tools), std::move (mu) });
 }
 
-/// Every node has its own laws, of every kind, with different x and y.
+/// Every node of the mesh has its own laws: springs of different stiffness along x and y, and all kinds of laws along z.
 std::shared_ptr<const Surface> uneven (Mesh mesh, unsigned seed, double mu = 0.5)
 {
     std::mt19937 dice (seed);
@@ -160,12 +160,12 @@ TEST_CASE ("surface: one triangle with one curve, computed manually", "[nodes][d
     CHECK (out.normal.isApprox (Vec3::UnitZ(), 1e-12));
     CHECK (out.stored_energy == Approx (0.002));
 
-    out = node.tick ({ .position = Vec3 (0.0205, 0.01, -0.002) });   // 0.5 mm: within 0.5 * 2 mm
+    out = node.tick ({ .position = Vec3 (0.0205, 0.01, -0.002) });   // 0.5 mm sideways is within the bound of 0.5 * 2 mm
     CHECK (out.state == 1.0);
     CHECK (out.hit == 0.0);
     CHECK (out.force.isApprox (Vec3 (-0.2, 0.0, 2.0), 1e-12));
 
-    out = node.tick ({ .position = Vec3 (0.022, 0.01, -0.002) });   // beyond: c is dragged, 1 mm behind
+    out = node.tick ({ .position = Vec3 (0.022, 0.01, -0.002) });   // beyond the bound: c is dragged, 1 mm behind the tool
     CHECK (out.state == 2.0);
     CHECK (out.force.isApprox (Vec3 (-0.4, 0.0, 2.0), 1e-12));
     CHECK (out.contact.isApprox (Vec3 (0.021, 0.01, 0.0), 1e-12));
@@ -183,7 +183,7 @@ TEST_CASE ("surface: tools are mixed, and the mix is latched", "[nodes][deform]"
     const auto press = [&] (double tool, double depth) { return node.tick ({ .position = Vec3 (0.02, 0.01, -depth), .tool = tool }).resistance; };
 
     CHECK (press (0.25, 1e-3) == Approx (1.5));
-    CHECK (press (2.0, 1e-3) == Approx (1.5));   // not in contact
+    CHECK (press (2.0, 1e-3) == Approx (1.5));   // during contact, the mix does not change
     press (2.0, -1e-3);
     CHECK (press (2.0, 1e-3) == Approx (0.1));
     press (9.0, -1e-3);
@@ -199,7 +199,7 @@ TEST_CASE ("surface: a closed path that sticks gives and takes nothing, whatever
         std::uniform_real_distribution<double> one (-1.0, 1.0);
         const double bump = 0.003 * one (dice);
         const auto mesh = grid (4, 0.04, [&] (double x, double y) { return bump * std::sin (150.0 * x) * std::cos (110.0 * y); });
-        Hand hand { made (uneven (mesh, seed, 1e3)) };   // nothing slips
+        Hand hand { made (uneven (mesh, seed, 1e3)) };   // mu is so large that nothing slips
         const Vec3 touch (0.02 + 0.01 * one (dice), 0.02 + 0.01 * one (dice), bump + 0.01);
         hand.p = touch;
         hand.line (touch - Vec3 (0.0, 0.0, 0.02), 20);
@@ -301,7 +301,7 @@ TEST_CASE ("surface: without -dU/dc, pressing where it is soft and releasing whe
     };
     CHECK (std::abs (loop (Frictions::frictionless, 0.5).first) < 1e-6);
     CHECK (std::abs (loop (Frictions::bound, 0.0).first) < 1e-6);   // mu 0 is frictionless
-    CHECK (loop (Frictions::bound, 0.01).first < -1e-4);            // this is what the warning reports
+    CHECK (loop (Frictions::bound, 0.01).first < -1e-4);            // the warning reports this loop
     CHECK (loop (Frictions::bound, 0.01).second.warning ({}).find ("generates energy") != std::string::npos);
     CHECK_FALSE (loop (Frictions::bound, 0.01).second.claims().passive);
     CHECK (loop (Frictions::bound, 0.6).first > 1e-4);
@@ -455,7 +455,7 @@ TEST_CASE ("surface: searched by a thread on 100 000 triangles, live runs are bi
     const auto rendered = run (nullptr, {});
     CHECK (std::ranges::any_of (rendered, [] (double f) { return f != 0.0; }));
 
-    for (std::chrono::microseconds pause { 500 };; pause *= 2)   // the busier the machine, the more time it gets
+    for (std::chrono::microseconds pause { 500 };; pause *= 2)   // the busier the machine, the more time the search gets
     {
         QueryThread answers;
         const auto live = run (&answers, pause);
@@ -525,7 +525,7 @@ TEST_CASE ("surface: past the rim of an open mesh there is nothing to touch", "[
         }
         CHECK (out.state == 0.0);
         CHECK (most <= 400.0 * 0.002 + 1e-9);                                         // k_t d^z
-        CHECK (node.tick ({ .position = Vec3 (0.02, 0.02, -0.002) }).state == 0.0);   // it came in from behind
+        CHECK (node.tick ({ .position = Vec3 (0.02, 0.02, -0.002) }).state == 0.0);   // it entered from behind
         CHECK (node.tick ({ .position = Vec3 (0.02, 0.02, 0.002) }).state == 0.0);
         out = node.tick ({ .position = Vec3 (0.02, 0.02, -0.002) });
         CHECK (out.state > 0.0);

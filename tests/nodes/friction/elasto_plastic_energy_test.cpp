@@ -8,7 +8,7 @@
 #include <initializer_list>
 #include <random>
 
-// The work of the hand over a step is counted in three ways:
+// The work of the hand over a step is counted in four ways:
 //
 //   model      the growth of stored_energy plus dissipated_energy, over the straight path between the samples
 //   trapezoid  -(f before + f after) / 2 . dp; equal to the model's while sticking, and on dense paths
@@ -270,7 +270,7 @@ TEST_CASE ("friction: stick, press harder, unshear: passive by default, but not 
 
     const auto printed = strokes (Load::scale, Adhesion::stick);
     CHECK (printed.trapezoid == Approx (-1.6e-4).epsilon (1e-6));
-    CHECK (printed.out.dissipated_energy == Approx (-1.6e-4).epsilon (1e-6));   // and the node reports it
+    CHECK (printed.out.dissipated_energy == Approx (-1.6e-4).epsilon (1e-6));   // and the node reports the energy it generates
 
     for (const auto adhesion : all_adhesions)
     {

@@ -57,7 +57,7 @@ struct Drag
 
     ElastoPlastic node;
     Outputs out;
-    double p, work = 0.0;   // m; J by trapezoids, from the hand
+    double p, work = 0.0;   // in m; work of the hand in J, by trapezoids
 };
 
 bool sameBits (const Outputs& a, const Outputs& b)
@@ -211,7 +211,7 @@ TEST_CASE ("friction: tremor of the hand wears down dahl's force, but not the fo
 
 TEST_CASE ("friction: a tool that leans and trembles for a minute stays where it is with function 1, not with dahl", "[nodes][friction]")
 {
-    // A tool of 50 g that the hand pushes sideways at half of break-away, with a tremor of a tenth of it at 8 Hz.
+    // A tool of 50 g. The hand pushes it sideways with half of the break-away force, and a tremor of a tenth of that force at 8 Hz.
     const auto drift = [] (Adhesion adhesion) {
         const double dt = 1.0 / 4000.0, mass = 0.05, damping = 2.0, push = 0.2;
         ElastoPlastic node;

@@ -40,7 +40,7 @@ TEST_CASE ("hold: it matches the golden column", "[nodes][hold][golden]")
 TEST_CASE ("hold: on a steady slope it gives the force in the middle of the sample", "[nodes][hold]")
 {
     auto node = hold();
-    CHECK (push (node, 1.0) == 1.0);   // nothing to predict from
+    CHECK (push (node, 1.0) == 1.0);   // there is no previous force to predict from
     for (int k = 1; k < 10; ++k)
         CHECK (push (node, 1.0 + 0.2 * k) == Approx (1.0 + 0.2 * (k + 0.5)));
 }
@@ -81,7 +81,7 @@ TEST_CASE ("hold: it does not predict across a touch", "[nodes][hold]")
     CHECK (push (node, 0.0, 0.0) == 0.0);
     CHECK (push (node, 1.0, 1.0) == 1.0);
     CHECK (push (node, 1.2, 1.0) == Approx (1.3));
-    CHECK (push (node, 0.4, 0.0) == 0.4);   // and neither is a release
+    CHECK (push (node, 0.4, 0.0) == 0.4);   // nor across a release
     CHECK (push (node, 0.0, 0.0) == Approx (-0.2));
 }
 
@@ -91,7 +91,7 @@ TEST_CASE ("hold: a contact that is unwired or nan changes nothing", "[nodes][ho
     for (const double f : { 0.0, 1.0, 1.5, 0.0, 0.0, -2.0 })
         CHECK (push (plain, f) == push (wired, f, f == 1.5 ? not_a_number : 1.0));
 
-    CHECK (push (wired, 3.0, 0.0) == 3.0);   // it remembers the contact across the nan
+    CHECK (push (wired, 3.0, 0.0) == 3.0);   // after the nan, a release still counts as a change
 }
 
 TEST_CASE ("hold: a force of 0 is not a change of contact", "[nodes][hold]")

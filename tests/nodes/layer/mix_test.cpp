@@ -130,7 +130,7 @@ TEST_CASE ("layer: a layer ducks those of lower priority while it sounds, by duc
                              p.duck_db = 20.0; }) };
     CHECK (desk.mix ({ 0.0, 1.0, 2.0 }, 200).out == 3.0);   // equal priorities do not duck each other
     CHECK (desk.mix ({ 10.0, 1.0, 2.0 }, 200).out == Approx (10.3));
-    CHECK (desk.mix ({ 10.0, 1.0, 2.0 }).level[1] == 1.0);   // the level is before ducking
+    CHECK (desk.mix ({ 10.0, 1.0, 2.0 }).level[1] == 1.0);   // the level is measured before ducking
     CHECK (desk.mix ({ 0.0, 1.0, 2.0 }, 3000).out == 3.0);   // bit for bit
 }
 
@@ -168,7 +168,7 @@ TEST_CASE ("layer: ducking starts fast, ends slowly, and does not click", "[node
     int ticks = 0;
     while (desk.mix ({ 0.0, 1.0 }).out < 0.5)
         ++ticks;
-    CHECK (ticks > 69);   // half of the way back takes 69 ms after the higher layer has gone silent
+    CHECK (ticks > 69);   // after the higher layer falls silent, the lower one takes 69 ms to return halfway
     CHECK (ticks < 400);
 }
 

@@ -129,7 +129,7 @@ TEST_CASE ("velocity: a hand that stops is at rest on the next sample", "[nodes]
     for (int k = 0; k < 50; ++k)
         along (node, quantised (0.2 * T * k));
     CHECK (along (node, quantised (0.2 * T * 49)) == 0.0);
-    CHECK (along (node, quantised (0.2 * T * 48)) < -0.1);   // and has turned back
+    CHECK (along (node, quantised (0.2 * T * 48)) < -0.1);   // and here it turns back
 }
 
 TEST_CASE ("velocity: exact positions lag by no more than a tick", "[nodes][motion]")

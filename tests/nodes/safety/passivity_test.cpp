@@ -108,7 +108,7 @@ TEST_CASE ("passivity: a buzzing wall is calmed, whatever its stiffness, and not
                     CHECK (braked.force < 100.0);
                     CHECK (braked.lowest > -2e-3);
                     CHECK (braked.buzz < 3e-4);
-                    if (K <= 2.0 * B / wall.T)   // it settles on its own
+                    if (K <= 2.0 * B / wall.T)   // the wall settles without the observer
                         CHECK (braked.buzz <= std::max (bare.buzz, 1e-4));
                     else
                     {
@@ -151,11 +151,11 @@ TEST_CASE ("passivity: no alpha_max raises the damper above what the mass can be
     step (node, 0.0, 10.0);
     CHECK (step (node, 1e-6, 0.0).alpha == Approx (1.8 * 0.1 / 1e-3));
 
-    auto silent = ready<PassivityObserver> ({ .mass = 0.1 });   // 0 means mass / (2 T)
+    auto silent = ready<PassivityObserver> ({ .mass = 0.1 });   // alpha_max is 0, which means mass / (2 T)
     step (silent, 0.0, 10.0);
     CHECK (step (silent, 1e-4, 0.0).alpha == Approx (50.0));
 
-    for (const double K : { 600.0, 3000.0, 8000.0, 30'000.0 })   // a cap of 2 mass / T takes up to a minute to diverge
+    for (const double K : { 600.0, 3000.0, 8000.0, 30'000.0 })   // with a cap of 2 mass / T it would take up to a minute to diverge
         for (const double B : { 0.2, 0.5 })
         {
             auto greedy = ready<PassivityObserver> ({ .alpha_max = 1e9, .mass = 0.1 });
@@ -173,7 +173,7 @@ TEST_CASE ("passivity: a force that takes energy passes bit for bit", "[nodes][s
         for (int k = 0; k < 50; ++k)
         {
             const double next = 1e-5 * *rc::gen::inRange (-100, 100);
-            // opposes both this step and the previous one, in proportion to the smaller of the two,
+            // the force opposes both this step and the previous one, in proportion to the smaller of the two,
             // so it takes energy whether it is held or not
             const double f = (next - p) * before > 0.0 ? -100.0 * std::min (std::abs (next - p), std::abs (before)) * (next > p ? 1.0 : -1.0) : 0.0;
             const auto out = step (node, next, f);
@@ -211,7 +211,7 @@ TEST_CASE ("passivity: the damper only ever brakes", "[nodes][safety]")
 {
     auto node = ready<PassivityObserver> ({ .alpha_max = 12.0 });
     step (node, 0.0, 5.0);
-    const auto out = step (node, 1e-3, 5.0);   // it pushed along: 5 mJ below 0
+    const auto out = step (node, 1e-3, 5.0);   // the held force pushed along, so the energy is 5 mJ below 0
     CHECK (out.energy == Approx (-5e-3));
     CHECK (out.alpha == Approx (5e-3 * 1e-3 / 1e-6));
     CHECK (out.force.x() == Approx (5.0 - 5.0).margin (1e-12));   // alpha dp / T
@@ -228,7 +228,7 @@ TEST_CASE ("passivity: out of contact, the energy is reset", "[nodes][safety]")
     CHECK (out.energy == 0.0);
     CHECK (out.alpha == 0.0);
     CHECK (out.force.x() == 0.3);
-    CHECK (step (node, 3e-3, 0.0).energy == Approx (-0.3e-3));   // and the energy given in the meantime counts
+    CHECK (step (node, 3e-3, 0.0).energy == Approx (-0.3e-3));   // back in contact, the work of the force held until then counts
     CHECK (step (node, 3e-3, 0.0, -1.0).energy == Approx (-0.3e-3).epsilon (1e-6));
 }
 

@@ -243,7 +243,7 @@ TEST_CASE ("shock: an instance replaced while it sounds keeps sounding", "[nodes
 TEST_CASE ("shock: a law that is not a spring or not a damper, and a contact that is too short, are reported", "[nodes][shock]")
 {
     const auto problem = [] (const Law& stiffness, const Law& damping) { return shock ({ .stiffness = stiffness, .damping = damping }).problem(); };
-    const std::string no_spring = "stiffness must push back, and must not fall with depth";
+    const std::string no_spring = "stiffness must give a force above 0 at some depth, and must not fall with depth";
     CHECK (shock().problem() == "");
     CHECK (problem (power (0.0, 1.0), dissipation (1.0)) == no_spring);
     CHECK (problem (dissipation (1.0), dissipation (1.0)) == no_spring);

@@ -19,7 +19,7 @@ TEST_CASE ("clamp: an infinite signal is a fault, not the upper bound", "[nodes]
     CHECK (SignalClamp {}.tick ({ .in = tactus::inf }).out == 0.0);
 }
 
-TEST_CASE ("clamp: if the bounds are crossed, the upper one takes precedence", "[nodes][signal]")
+TEST_CASE ("clamp: if the lower bound is above the upper one, the upper one takes precedence", "[nodes][signal]")
 {
     SignalClamp node { .params = { .min = 1.0, .max = -1.0 } };
     CHECK (node.tick ({ .in = 0.0 }).out == -1.0);

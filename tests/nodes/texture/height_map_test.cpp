@@ -56,14 +56,14 @@ HeightMap over (std::shared_ptr<const Grid> csv, double rate_hz = 4000.0)
     return node;
 }
 
-/// Like the first sample after a fault: no speed, full detail.
+/// The output at a point, in full detail. It is the first sample after a fault, so there is no speed.
 HeightMap::Outputs at (HeightMap& node, double x, double y)
 {
     node.tick ({ .position = { not_a_number, 0.0, 0.0 } });
     return node.tick ({ .position = { x, y, 0.0 } });
 }
 
-/// Both components over a straight scan, some time after its start.
+/// The forces on a straight scan at a constant speed, from its third tick on.
 std::vector<Vec3> scan (HeightMap node, const Vec3& from, const Vec3& step, int ticks)
 {
     std::vector<Vec3> forces;
@@ -152,7 +152,7 @@ TEST_CASE ("height map: the force never steps, and changes no faster than claime
         RC_ASSERT (change.norm() <= claimed * distance);
     });
 
-    // and the claim is not too loose: a wave has the slope of its wave
+    // and the claim is not too loose: for a sine wave it is at most 1.25 times the steepest slope of the force
     const double k = 10.0 / (60 * pitch), amplitude = 2e-5;
     auto wave = over (grid (61, 61, [&] (int row, int) { return amplitude * std::cos (2.0 * M_PI * k * row * pitch); }));
     const double slope = amplitude * std::pow (2.0 * M_PI * k, 2);
@@ -182,7 +182,7 @@ TEST_CASE ("height map: scanned at any speed it has no energy above f_max", "[no
 TEST_CASE ("height map: up to half of f_max nothing is lost; beyond it, detail goes first", "[nodes][texture]")
 {
     const auto map = rough (5);
-    auto node = over (map);   // 4 kHz: f_max is 1 kHz, the finest level ends at 6000 1/m
+    auto node = over (map);   // at 4 kHz, f_max is 1 kHz; the finest level ends at 6000 1/m
     const auto energyAt = [&] (double speed) {
         HeightMap moving = node;
         double sum = 0.0;
@@ -210,7 +210,7 @@ TEST_CASE ("height map: up to half of f_max nothing is lost; beyond it, detail g
     }
     CHECK (energyAt (100.0) < 1e-6 * energyAt (0.08));
 
-    // in the end only the mean is left, the mean of a surface mirrored at its edges
+    // at the highest speeds only the mean is left; the map is mirrored at its edges, so points on an edge count half
     double sum = 0.0, all = 0.0;
     for (int row = 0; row < map->rows; ++row)
         for (int column = 0; column < map->columns; ++column)
@@ -266,7 +266,7 @@ TEST_CASE ("height map: at a constant speed a closed loop does no work", "[nodes
         }
         REQUIRE (handled > 0.0);
         CHECK (std::abs (work) < 1e-5 * handled);
-        if (most > 0.0) CHECK (handled < most);   // each speed leaves less than the previous one
+        if (most > 0.0) CHECK (handled < most);   // the higher the speed, the less force is left
         most = handled;
     }
 }
@@ -365,7 +365,8 @@ TEST_CASE ("height map: a picture lies as it is seen from above, a table as its 
 
 TEST_CASE ("height map: a quantised position makes the detail coarse, but nothing flutters", "[nodes][texture]")
 {
-    // 10 um at 4 kHz count as at least 0.04 m/s; a pitch of 10 um is then too fine, even between two quanta
+    // A step of one quantum (10 um) in a tick counts as at least 0.04 m/s. At this speed the finest detail of a map with a pitch
+    // of 10 um is left out, and it must not return while the position rests between two steps.
     HeightMap node;
     node.settings.map = { .csv = { rough (10) }, .pitch = 1e-5 };
     node.prepare ({ .rate_hz = 4000.0 });

@@ -124,7 +124,7 @@ std::vector<double> spectrum (const std::vector<double>& values, std::size_t len
     return power;
 }
 
-/// sigma^2 / |A|^2 at a fraction of the models' rate.
+/// The power density sigma^2 / |A|^2 of a model, at a fraction of the models' rate.
 double density (const Model& m, double fraction)
 {
     std::complex<double> A = 1.0;
@@ -153,7 +153,7 @@ TEST_CASE ("texture noise: it is the process that its coefficients describe", "[
 
         Random noise { 7 };
         for (std::size_t k = 0; k < a.size(); ++k)
-            noise.normal();   // used up by its initial state
+            noise.normal();   // the initial state of the node used these up
         for (std::size_t n = 0; n < y.size(); ++n)
         {
             double fresh = y[n];
@@ -173,7 +173,7 @@ TEST_CASE ("texture noise: it has the variance of the process, starting at the f
         const auto c = covariance (a, 400);
         auto node = sounding ({ model (0.1, 1.0, a, 0.01) }, rate_hz, static_cast<int> (seed % 1000));
         const std::size_t ticks = 4000;
-        double squares = 0.0;   // the variance of a mean square of a process with Gaussian samples
+        double squares = 0.0;   // the mean square of a Gaussian process has the variance 2 squares / ticks
         for (std::size_t lag = 0; lag < c.size(); ++lag)
             squares += (lag == 0 ? 1.0 : 2.0) * c[lag] * c[lag];
         const double deviation = std::sqrt (2.0 * squares / static_cast<double> (ticks));
@@ -202,7 +202,7 @@ TEST_CASE ("texture noise: it has the spectrum of the process", "[nodes][texture
 
 TEST_CASE ("texture noise: between models the logarithm of the variance is interpolated; outside, the nearest model holds", "[nodes][texture]")
 {
-    // Without coefficients a sample is its noise, so its size is known exactly.
+    // A model without coefficients passes its noise on, so the size of each sample is known exactly.
     const auto corners = [] (double v, double f) { return std::exp (3.0 * v + 0.5 * f); };
     std::vector<Model> models;
     for (const double v : { 0.05, 0.2, 0.4 })
@@ -252,7 +252,7 @@ TEST_CASE ("texture noise: every model in between is stable, however fast speed 
         RC_PRE (node.problem().empty());   // because of rounding, a model with a sharp resonance may count as unstable
         node.prepare ({ .rate_hz = rate_hz });
 
-        double bound = 0.01;   // of the variance: each stage at its sharpest
+        double bound = 0.01;   // of the variance: every stage has its largest reflection coefficient
         for (const double k : largest)
             bound /= 1.0 - k * k;
         std::uniform_real_distribution<double> speed { -0.1, 0.4 }, force { 0.5, 3.0 };
@@ -278,7 +278,7 @@ TEST_CASE ("texture noise: it is silent at rest and out of contact, and grows fr
             CHECK (node.tick ({ 0.1, 1.0 }).value != 0.0);
             CHECK (node.tick ({ speed, force }).value == 0.0);
         }
-        // a tenth of the speed gives a tenth of the noise; a low force does the same
+        // below the lowest speed of the models, the noise is proportional to the speed; the same applies to the force
         auto slow = node, light = node, both = node;
         for (int k = 0; k < 50; ++k)
         {
@@ -344,7 +344,7 @@ TEST_CASE ("texture noise: with new models the noise continues", "[nodes][textur
         auto old = sounding ({ rumble }, tick_rate);
         heard (old, 103);
 
-        // a model of higher order that does the same
+        // a model of higher order that describes the same process
         auto padded = rumble;
         padded.coefficients.resize (6);
         auto young = sounding ({ padded }, tick_rate, 99);

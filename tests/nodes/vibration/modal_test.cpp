@@ -137,7 +137,7 @@ TEST_CASE ("modal: modes above half the rate, and modes that do not decay, are s
     auto high = modal ({ { 450.0, 10.0, 1.0 } }, 1000.0, { .pitch = 1.2 });
     high.tick ({ .hit = 1.0 });
     CHECK (high.tick ({}).value == 0.0);
-    high.params.pitch = 1.0;   // back in the band, it does not ring from a hit long ago
+    high.params.pitch = 1.0;   // back in the band, the mode does not ring from an earlier hit
     high.update();
     CHECK (high.tick ({}).value == 0.0);
     high.tick ({ .hit = 1.0 });
@@ -173,7 +173,7 @@ TEST_CASE ("modal: the other modes keep ringing when a mode is added", "[nodes][
         undisturbed.tick ({});
     }
 
-    // At the front, so that every index changes; and one frequency twice.
+    // The new mode comes first, so that every index changes; and one mode occurs twice.
     auto next = modal ({ { 60, 50, 1.0 }, wood[0], wood[1], wood[2], wood[2] });
     next.adopt (old);
     for (int k = 0; k < 100; ++k)

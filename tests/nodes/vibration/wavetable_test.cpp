@@ -135,7 +135,7 @@ TEST_CASE ("wavetable: a hit begins and ends at 0, and hits add up", "[nodes][vi
 TEST_CASE ("wavetable: a table too short for its modes still ends at 0", "[nodes][vibration]")
 {
     const Mode slow { 20.0, 1.0, 1.0 };
-    const auto values = struck (playing (ofModes ({ slow }, 1000.0, 13), 8000.0), 200);   // 12 ms, near its crest
+    const auto values = struck (playing (ofModes ({ slow }, 1000.0, 13), 8000.0), 200);   // ends after 12 ms, near a crest
     const double before = ring ({ slow }, 0.011);
     for (std::size_t k = 88; k <= 96; ++k)
         CHECK (values[k] == Approx (before * static_cast<double> (96 - k) / 8.0).margin (1e-12));

@@ -80,7 +80,7 @@ TEST_CASE ("sampled wall: up to 0.9 times 2 b / ((2 d + 1) T) the tool comes to 
         const double limit = 2.0 * 2.0 / ((2 * delay + 1) * 1e-3);
         INFO (delay << " ticks, " << limit << " N/m");
         CHECK (restlessness (0.5 * limit, delay) < 1e-17);
-        CHECK (restlessness (0.9 * limit, delay) < 1e-9);   // still falling, by a factor of a thousand in seven seconds
+        CHECK (restlessness (0.9 * limit, delay) < 1e-9);   // the motion still decays, by a factor of a thousand in seven seconds
         CHECK (restlessness (1.05 * limit, delay) > 1e-4);
         CHECK (restlessness (1.3 * limit, delay) > 3.9e-4);
         CHECK (restlessness (1.3 * limit, delay) < 1e-2);

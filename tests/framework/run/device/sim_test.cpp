@@ -80,7 +80,7 @@ TEST_CASE ("sim: against a wall, the tool follows the exact solution of the samp
                               .hand_force = { golden.param ("hand_force"), 0, 0 } },
                             dt);
 
-    // A position half a quantum from the next one may round either way because of its last bit, so the set allows a micrometre.
+    // At half a quantum, the last bit of a position decides how it is rounded, so the golden set allows a micrometre.
     const double x_tolerance = is_quantised ? 1e-6 : golden.tolerance ("x_"), v_tolerance = golden.tolerance ("v_");
     double before = device.read().position.x(), x_error = 0.0, v_error = 0.0;
 
@@ -230,7 +230,7 @@ TEST_CASE ("sim: with a delay of d ticks, the force from d ticks ago acts on the
 
 TEST_CASE ("sim: each tick of delay reduces the stiffness that a wall can have", "[host][devices]")
 {
-    // Released 1 mm deep in a two-sided spring at 1 kHz: the limits in design.md, 2b/((2d+1) T) for d = 0, 1, 2.
+    // A tool is released 1 mm deep in a two-sided spring, at 1 kHz. The limits are within 3 % of 2b/((2d+1) T) for d = 0, 1, 2.
     const auto [delay, limit] = GENERATE (table<int, double> ({ { 0, 4110.0 }, { 1, 1357.0 }, { 2, 817.0 } }));
     const auto swing = [d = delay] (double stiffness) {
         auto device = prepared ({ .mass = 0.1, .damping = 2.0, .delay = d, .position = { 1e-3, 0, 0 } });

@@ -160,7 +160,7 @@ std::vector<std::uint64_t> run (const std::filesystem::path& file, unsigned seed
             (void)edits.perform (dice (3) ? test::randomRegrouping (random, edits.graph()) : test::randomEdit (random, edits.graph(), "e_", "stylus"));
             if (dice (4)) edits.undo();
             auto plan = compile (edits.graph(), catalogue(), { .rate_hz = rate_hz, .before = &engine.newest(), .withdrawn = waiting.get() }).plan;
-            if (dice (3)) turn();   // after the edit
+            if (dice (3)) turn();   // after the edit is compiled, before its plan is submitted
             if (plan) log->expect (plan, snapshotOf (edits.graph(), {}, file.parent_path()));
             engine.submit (plan ? plan : waiting);
         }
@@ -312,7 +312,7 @@ TEST_CASE ("a log that cannot keep up ends where data was lost, and reports it",
     log->expect (plan, snapshotOf (sketch.graph, {}, folder.path()));
     engine.report (log->journal());
     std::uint64_t ticks = 0;
-    for (; ! log->brokenAt() && ticks < 100'000; ++ticks)   // without draining it
+    for (; ! log->brokenAt() && ticks < 100'000; ++ticks)   // the log is not drained meanwhile
         engine.tick();
     REQUIRE (log->brokenAt() == ticks - 1);
     REQUIRE (log->drain());

@@ -20,7 +20,7 @@ const std::string first = R"({"tick":0,"graph":{},"feed":[1.0]})"
 
 Result<RunLogReader> opened (const std::string& text) { return RunLogReader::open (std::make_unique<std::istringstream> (text), "run.jsonl"); }
 
-/// The id and place of the first error in a log.
+/// The id and location of the first error in a log.
 std::string problem (const std::string& text)
 {
     auto log = opened (text);

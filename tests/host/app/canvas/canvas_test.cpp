@@ -66,7 +66,7 @@ TEST_CASE ("connecting a vector to a scalar asks for the component", "[app][canv
     CHECK (rig.hasWire ("board.force.z -> drag.normal_force"));
     CHECK (rig.hasWire ("board.resistance -> drag.normal_force"));   // forces add up
 
-    // The other direction wires into one component and leaves the port's other components alone.
+    // A scalar dropped on a vector input is wired to one component, and the vector that was wired there stays.
     rig.hand().drag (rig.port ("board", Role::output, "resistance"), rig.port ("motor", Role::input, "force"));
     CHECK (rig.hasWire ("board.resistance -> motor.force.z"));
     CHECK (rig.hasWire ("drag.force -> motor.force"));
@@ -189,7 +189,7 @@ TEST_CASE ("a param can be dragged, typed with a unit and reset on its node", "[
     rig.hand().click (at, Hand::left (juce::ModifierKeys::altModifier));
     CHECK (ratio().is_null());
 
-    // A param driven by a control moves the control, within its range.
+    // Dragging a param that a control drives moves the control, within its range.
     const auto roughness = [&] { return rig.graph().controls[0].value; };
     rig.hand().drag (rig.value ("drag", "mu"), rig.value ("drag", "mu") - juce::Point<float> (0.0f, 400.0f));
     CHECK (roughness() == 1.0);
@@ -247,7 +247,7 @@ TEST_CASE ("a subgraph can be created, entered, left and ungrouped", "[app][canv
     CHECK (rig.graph().graphs.empty());
     CHECK (rig.graph().root.find ("grain") != nullptr);
 
-    // Undoing the subgraph while inside leaves it.
+    // Undoing the creation of the subgraph from inside it leads back out.
     rig.hand().key ("ctrl + z");
     rig.hand().doubleClick (rig.title ("group"));
     CHECK (rig.canvas->patch() == "group");
@@ -282,7 +282,7 @@ TEST_CASE ("moving a region moves the nodes in it", "[app][canvas]")
     CHECK (rig.canvas->scene().notes()[0].colour != colour);
     rig.hand().key ("ctrl + z");
 
-    // It is stored in the file.
+    // The region is stored in the file.
     CHECK (rig.graph().extra["ui"]["notes"][0]["text"] == "the grain");
     rig.hand().key ("delete");
     CHECK (rig.canvas->scene().notes().empty());

@@ -32,7 +32,7 @@ TEST_CASE ("a tone appears in the band of its frequency, with its mean square", 
         const auto bands = bandsOf (tone (amplitude, hz, 4000.0, 4096), 4000.0);
         const double all = std::accumulate (bands.power.begin(), bands.power.end(), 0.0);
         RC_ASSERT (std::abs (all - 0.5 * amplitude * amplitude) < 0.02 * all);
-        double near = 0.0;   // up to four lines of the window away
+        double near = 0.0;   // the power of the bands within 4 Hz, about four spectral lines
         for (int b = 0; b < Bands::count; ++b)
             if (Bands::edge (b + 1) > hz - 4.0 && Bands::edge (b) < hz + 4.0) near += bands.power[static_cast<std::size_t> (b)];
         RC_ASSERT (near > 0.98 * all);

@@ -84,7 +84,7 @@ TEST_CASE ("dragging a fader sets the gain in one step, Shift makes it fine, and
 {
     Rig rig ("bronze_bell.json");
     Fader fader;
-    fader.setBounds (0, 0, 36, 116);   // a travel of 100
+    fader.setBounds (0, 0, 36, 116);   // gives a travel of 100 pixels
     std::vector<std::pair<std::optional<double>, bool>> changes;
     fader.onChange = [&] (std::optional<double> v, bool goes_on) { changes.emplace_back (v, goes_on); };
     fader.show (1.0);

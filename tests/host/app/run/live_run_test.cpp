@@ -144,7 +144,7 @@ TEST_CASE ("the emergency stop removes the forces while the graph keeps running,
     CHECK (until (p, [&] { return force() > 0.1; }));
     CHECK_FALSE (p.isStoppedForGood());
     p.emergencyStop();
-    p.start ({});   // the user does
+    p.start ({});   // a start by the user also ends the stop
     CHECK (until (p, [&] { return p.isRunning() && force() > 0.1; }));
 }
 
@@ -201,7 +201,7 @@ TEST_CASE ("a missing sound card is reported, and the run continues without it",
     p.use (setup);
     setup.onChange = [&] { p.setupChanged(); };
     const auto play = [&] (const char* sound) { REQUIRE (setup.edit ([&] (DeviceSession& s) { s.setAudio (Json::parse (sound)); })); };
-    play (R"({ "output": "nobody has this card", "routes": [ { "port": "drag.force.x", "channel": 1, "full_scale": "4 N" } ] })");
+    play (R"({ "output": "no such card", "routes": [ { "port": "drag.force.x", "channel": 1, "full_scale": "4 N" } ] })");
     CHECK_FALSE (p.audioStatus());
     p.start ({});
     CHECK (std::ranges::count (p.messages(), "audio/no_card", &Message::id) == 1);
@@ -210,7 +210,7 @@ TEST_CASE ("a missing sound card is reported, and the run continues without it",
     CHECK_FALSE (p.audioStatus()->is_open);
     CHECK (until (p, [&] { return p.status()->ticks > 100; }));
 
-    play (R"({ "output": "nobody has this card", "routes": [ { "port": "drag.forse.x", "channel": 1 } ] })");   // restarts the run
+    play (R"({ "output": "no such card", "routes": [ { "port": "drag.forse.x", "channel": 1 } ] })");   // restarts the run
     CHECK (until (p, [&] { return std::ranges::count (p.messages(), "audio/port", &Message::id) == 1; }));
     CHECK_FALSE (hasErrors (p.messages()));
     CHECK (until (p, [&] { return p.isRunning() && p.status()->ticks > 100; }));
@@ -222,7 +222,7 @@ TEST_CASE ("the role of a sound card never becomes the hand, even if it comes fi
     std::ifstream preset (TACTUS_SOURCE_DIR "/graphs/dry_wood.json");
     auto json = Json::parse (std::string { std::istreambuf_iterator<char> (preset), {} });
     json["nodes"]["shake"] = { { "type", "device.signal_out" }, { "role", "a_shaker" } };   // before "stylus"
-    json["devices"]["a_shaker"] = { { "driver", "audio" }, { "card", "nobody has this card" } };
+    json["devices"]["a_shaker"] = { { "driver", "audio" }, { "card", "no such card" } };
     json["wires"].push_back ("grain.value -> shake.in");
     const auto file = folder.path() / "graph.json";
     std::ofstream (file) << json;
@@ -244,7 +244,7 @@ TEST_CASE ("if a run's clock is a sound card that is missing, its forces stay at
     setup.open (home.path());
     REQUIRE (setup.edit ([] (DeviceSession& s) {
         s.setClock ("audio");
-        s.setAudio ({ { "output", "nobody has this card" } });
+        s.setAudio ({ { "output", "no such card" } });
     }));
     LiveRun p { rig.document, catalogue() };
     p.use (setup);

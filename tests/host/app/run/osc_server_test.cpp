@@ -10,8 +10,8 @@
 
 using namespace tactus;
 using namespace tactus::host;
-using juce::OSCMessage;
 using host::test::CanvasRig;
+using juce::OSCMessage;
 using namespace std::chrono_literals;
 
 namespace

@@ -168,7 +168,7 @@ TEST_CASE ("scopes: a new run restarts the energy balance", "[app][scopes]")
     {
         Recorded r;
         for (int k = 0; k <= 100; ++k)
-            r.add (Vec3 (1e-3 * k, 0, 0), Vec3 (-1.0, 0, 0), 0.0, 7.0);   // dissipated earlier
+            r.add (Vec3 (1e-3 * k, 0, 0), Vec3 (-1.0, 0, 0), 0.0, 7.0);   // 7 J were dissipated before
         meter.follow (r.sources());
         CHECK (meter.balance().work == Approx (0.1));
         CHECK (meter.balance().dissipated == 0.0);

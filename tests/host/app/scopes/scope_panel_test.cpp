@@ -308,7 +308,7 @@ TEST_CASE ("scopes: the warning names the components that exceed the recording l
     for (const char* port : { "drag.deflection", "board.force", "grain.force", "grain_felt.out", "hand.rotation", "grain.value", "board.depth" })
         b.panel->probe (port);
     b.run (10);
-    CHECK (b.panel->warning().startsWith ("32 components at most; not shown: "));
+    CHECK (b.panel->warning().startsWith ("At most 32 components are recorded; not shown: "));
     CHECK (b.live_run.traces().leftOut().size() == 1);
     b.panel->probe ("hand.rotation");
     b.run (10);

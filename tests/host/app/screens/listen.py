@@ -23,7 +23,7 @@ RATE = 48000
 SLOW, FAST = 100.0, 300.0  # pixels per second
 STROKES, REACH = 4, 150.0  # strokes back and forth, and their length in pixels
 LOWEST, HIGHEST = 20.0, 1000.0  # Hz
-TOLERANCE = 0.2  # relative, on the ratio of the two pitches to the ratio of the speeds
+TOLERANCE = 0.2  # allowed relative error of the ratio of the pitches, which should equal the ratio of the speeds
 
 
 def stroke(walk, speed):
