@@ -11,4 +11,8 @@ namespace tactus
 /// not printable UTF-8, so that a broken file cannot break the message about it.
 std::string quote (std::string_view);
 
+/// The text with everything escaped that could disturb a terminal: control characters, characters that change the direction of
+/// writing or are invisible, and bytes that are not UTF-8. Line ends stay.
+std::string printable (std::string_view);
+
 }   // namespace tactus

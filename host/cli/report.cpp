@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report.hpp"
 
-#include <cstdio>
+#include <framework/text/quote.hpp>
+
+#include <algorithm>
 #include <iostream>
 
 namespace tactus::host
@@ -18,6 +20,13 @@ std::string placeOf (const Message& m, const LoadedGraph& loaded, const std::str
     const auto at = m.line > 0 ? TextPosition { m.line, m.column } : loaded.positionOf (m.where);
     return file + ":" + std::to_string (at.line) + ":" + std::to_string (at.column);
 }
+
+/// A part of a message that names a place, which takes one line.
+std::string inOneLine (std::string text)
+{
+    std::ranges::replace (text, '\n', ' ');
+    return printable (text);
+}
 }   // namespace
 
 int report (const Messages& messages, const LoadedGraph& loaded, const std::string& file)
@@ -27,16 +36,18 @@ int report (const Messages& messages, const LoadedGraph& loaded, const std::stri
     {
         const bool error = m.severity == Message::Severity::error;
         errors += error;
-        std::cerr << placeOf (m, loaded, file) << ": " << (error ? "error: " : "warning: ") << m.text << "\n    " << m.remedy << " [" << m.id << "]\n";
+        std::cerr << inOneLine (placeOf (m, loaded, file)) << ": " << (error ? "error: " : "warning: ") << printable (m.text);
+        std::cerr << "\n    " << printable (m.remedy) << " [" << m.id << "]\n";
     }
     return errors;
 }
 
-void warn (const std::string& file, const Message& m) { std::cerr << file << ": warning: " << m.text << " [" << m.id << "]\n"; }
+void warn (const std::string& file, const Message& m) { std::cerr << inOneLine (file) << ": warning: " << printable (m.text) << " [" << m.id << "]\n"; }
 
 void fail (const Message& e)
 {
-    std::cerr << e.where << (e.where.empty() ? "" : ": ") << "error: " << e.text << "\n    " << e.remedy << " [" << e.id << "]\n";
+    std::cerr << inOneLine (e.where) << (e.where.empty() ? "" : ": ") << "error: " << printable (e.text);
+    std::cerr << "\n    " << printable (e.remedy) << " [" << e.id << "]\n";
     throw Stop {};
 }
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include <framework/text/quote.hpp>
+
+#include <catch2/catch.hpp>
+#include <rapidcheck/catch.h>
+
+using namespace tactus;
+
+TEST_CASE ("quote: whatever could disturb a terminal is escaped", "[text]")
+{
+    CHECK (quote ("dry wood, 0.3 µm, 木") == "'dry wood, 0.3 µm, 木'");
+    CHECK (quote ("a\x1b[31mb\n") == "'a\\x1B[31mb\\x0A'");
+    CHECK (quote ("c1 \xc2\x9b") == "'c1 \\xC2\\x9B'");   // U+009B begins a control sequence, like ESC [
+    CHECK (quote ("\xe2\x80\xae"
+                  "gpj")
+           == "'\\xE2\\x80\\xAEgpj'");   // U+202E writes from right to left
+    CHECK (quote ("in\xe2\x80\x8b"
+                  "visible")
+           == "'in\\xE2\\x80\\x8Bvisible'");   // U+200B has no width
+    CHECK (quote ("\xff\xc3") == "'\\xFF\\xC3'");
+    CHECK (quote (std::string (100, 'a')) == "'" + std::string (60, 'a') + "…'");
+    CHECK (printable ("two\nlines\r") == "two\nlines\\x0D");
+}
+
+TEST_CASE ("quote: any bytes become text without control characters", "[text]")
+{
+    rc::prop ("any bytes", [] (const std::string& bytes) {
+        for (const auto& out : { quote (bytes), printable (bytes) })
+            for (const char c : out)
+                RC_ASSERT (static_cast<unsigned char> (c) >= 0x20u || c == '\n');
+        RC_ASSERT (quote (bytes).find ('\n') == std::string::npos);
+        RC_ASSERT (printable (printable (bytes)) == printable (bytes));
+    });
+}
