@@ -28,14 +28,27 @@ void watchForStop() noexcept
 {
     std::signal (SIGINT, note);
     std::signal (SIGTERM, note);
-#ifdef SIGXFSZ
-    std::signal (SIGXFSZ, SIG_IGN);   // reaching the file size limit is reported as an error of that file
+#ifdef __unix__
+    // All that would end or suspend the process and leave a force on a device. Faults (SIGSEGV and the like) are Failsafe's.
+    for (const int number : { SIGHUP, SIGQUIT, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU, SIGPIPE, SIGTSTP, SIGSYS })
+        std::signal (number, note);
+    // A program in the background may write to its terminal, and its reads fail instead of suspending it. Reaching the file size
+    // limit is reported as an error of that file.
+    for (const int number : { SIGTTIN, SIGTTOU, SIGXFSZ })
+        std::signal (number, SIG_IGN);
 #endif
-#ifdef SIGTSTP
-    std::signal (SIGTSTP, note);   // suspending with Ctrl-Z would leave the force on a device
+#ifdef SIGPOLL
+    std::signal (SIGPOLL, note);
 #endif
-#ifdef SIGHUP
-    std::signal (SIGHUP, note);
+#ifdef SIGPWR
+    std::signal (SIGPWR, note);
+#endif
+#ifdef SIGSTKFLT
+    std::signal (SIGSTKFLT, note);
+#endif
+#ifdef SIGRTMIN
+    for (int number = SIGRTMIN; number <= SIGRTMAX; ++number)
+        std::signal (number, note);
 #endif
 }
 

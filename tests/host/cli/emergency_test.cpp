@@ -70,3 +70,28 @@ TEST_CASE ("SIGUSR1 triggers the emergency stop of a play: no force, the ticks c
     CHECK (lengths[1] > 100);
     CHECK (lengths[2] > 100);
 }
+
+TEST_CASE ("every signal that would end or suspend a play ends it as Ctrl-C does: with the force at zero, and complete files", "[cli]")
+{
+    const Scratch scratch;
+    const auto graph = scratch.write ("g.json", R"({ "format": "tactus-graph", "version": 1, "rate_hz": 1000,
+      "nodes": { "push": { "type": "signal.constant", "params": { "value": 2.0 } }, "motor": { "type": "device.force", "role": "tip" } },
+      "wires": [ "push.out -> motor.force.x" ] })");
+    for (const int number : { SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU, SIGPIPE, SIGTSTP, SIGSYS, SIGRTMIN, SIGRTMAX })
+    {
+        CAPTURE (number);
+        const auto recorded = scratch.path (std::to_string (number) + ".csv");
+        Running play { { "play", graph, "--device", "tip=sim", "--record", "motor.applied.x", "--out", recorded } };
+        REQUIRE (play.says ("Ctrl-C stops"));
+        std::this_thread::sleep_for (std::chrono::milliseconds (50));
+        play.signal (SIGTTIN);   // reading and writing in the background neither suspends nor ends it
+        play.signal (SIGTTOU);
+        play.signal (number);
+        const auto ran = play.finish();
+        CHECK (ran.status == 0);
+        CHECK (ran.err.find ("slew limit") == std::string::npos);   // the device was not released before its force was zero
+        const auto table = readTable (std::filesystem::path (recorded));
+        REQUIRE (table);
+        CHECK (table->rows() > 0);
+    }
+}
