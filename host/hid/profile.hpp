@@ -276,7 +276,8 @@ struct GoldenSample
 struct Profile
 {
     std::string id, name, about;
-    std::string file;   ///< the file that it was read from
+    std::string replaces;   ///< the id of the shipped profile that a user's profile replaces; empty for none
+    std::string file;       ///< the file that it was read from
     std::vector<MatchRule> match;
     std::vector<Step> init, exit;
     std::vector<InputReport> inputs;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "profile_library.hpp"
+#include <framework/text/quote.hpp>
 #include <host/platform/device_file.hpp>
 
 #include <algorithm>
@@ -38,19 +39,38 @@ fs::path ownProfileFolder()
     return {};
 }
 
+LoadedProfiles joined (LoadedProfiles own, LoadedProfiles shipped)
+{
+    auto all = std::move (shipped);
+    for (auto& profile : own.profiles)
+    {
+        const auto same = std::ranges::find (all.profiles, profile->id, &Profile::id);
+        const auto note = [&] (Message m) {
+            m.file = profile->file;
+            all.messages.push_back (std::move (m));
+        };
+        if (same == all.profiles.end())
+            all.profiles.push_back (std::move (profile));
+        else if (profile->replaces != profile->id)
+            note (Message::error ("profile/shadows", "/id", "the profile has the id of a shipped one, " + quote (profile->id) + ", so it is not used",
+                                  "give it another id; or, to use it instead of the shipped one and its limits, add \"replaces\": \"" + profile->id + '"'));
+        else
+        {
+            note (Message::warning ("profile/replaces", "/replaces", "the profile replaces the shipped " + quote (profile->id) + " and its limits",
+                                    "remove it to use the shipped one"));
+            *same = std::move (profile);
+        }
+    }
+    std::ranges::move (own.messages, std::back_inserter (all.messages));
+    return all;
+}
+
 LoadedProfiles loadProfileLibrary()
 {
-    LoadedProfiles all;
-    if (const auto own = ownProfileFolder(); ! own.empty() && isFolder (own)) all = loadProfiles (own);
-    if (const auto folder = profileFolder(); ! folder.empty())
-    {
-        auto ours = loadProfiles (folder);
-        const auto own = all.profiles;
-        std::ranges::copy_if (ours.profiles, std::back_inserter (all.profiles),
-                              [&] (const auto& p) { return std::ranges::none_of (own, [&] (const auto& o) { return o->id == p->id; }); });
-        std::ranges::move (ours.messages, std::back_inserter (all.messages));
-    }
-    return all;
+    LoadedProfiles own, shipped;
+    if (const auto folder = ownProfileFolder(); ! folder.empty() && isFolder (folder)) own = loadProfiles (folder);
+    if (const auto folder = profileFolder(); ! folder.empty()) shipped = loadProfiles (folder);
+    return joined (std::move (own), std::move (shipped));
 }
 
 }   // namespace tactus::host::hid

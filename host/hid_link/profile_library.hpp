@@ -15,7 +15,11 @@ std::filesystem::path profileFolder();
 /// The folder of the user's own profiles: TACTUS_PROFILES in the environment, else ~/.config/tactus/profiles. It may not exist.
 std::filesystem::path ownProfileFolder();
 
-/// All profiles in both folders. A user's profile replaces a profile of Tactus with the same id. [main thread]
+/// The user's own profiles and those that come with Tactus. An own one with the id of a shipped one is used only if its `replaces`
+/// says so, and then with a warning, because it also replaces the limits. Ids: profile/shadows, profile/replaces.
+LoadedProfiles joined (LoadedProfiles own, LoadedProfiles shipped);
+
+/// All profiles in both folders, joined. [main thread]
 LoadedProfiles loadProfileLibrary();
 
 }   // namespace tactus::host::hid
