@@ -42,7 +42,7 @@ function (tactus_join variable)
             math (EXPR size "${size} + ${bytes}")
         endif ()
         if (files AND (size GREATER 100000 OR file STREQUAL last))
-            set (batch ${CMAKE_CURRENT_BINARY_DIR}/joined_${number}.cpp)
+            set (batch ${CMAKE_CURRENT_BINARY_DIR}/joined_${variable}_${number}.cpp)
             add_custom_command (OUTPUT ${batch} DEPENDS ${files} ${CMAKE_CURRENT_FUNCTION_LIST_FILE} VERBATIM
                 COMMAND ${CMAKE_COMMAND} -D batch=${batch} "-D files=${files}" -P ${CMAKE_CURRENT_FUNCTION_LIST_FILE})
             list (APPEND out ${batch})

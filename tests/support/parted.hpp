@@ -49,9 +49,9 @@ struct Parted : Sketch
 };
 
 /// A plan with feeds and records, ticked row by row.
-struct Run
+struct PlanRun
 {
-    Run (const Sketch& sketch, std::vector<std::string> feeds, std::vector<std::string> records, double rate_hz = 0.0)
+    PlanRun (const Sketch& sketch, std::vector<std::string> feeds, std::vector<std::string> records, double rate_hz = 0.0)
     {
         auto compiled = sketch.compile ({ .rate_hz = rate_hz, .feeds = std::move (feeds), .records = std::move (records) });
         INFO (text (compiled.messages));

@@ -64,7 +64,8 @@ void Quantities::joinPortsOf (const NodePorts& node_ports)
     eachPort (node_ports.face, [&] (const FacePort& port) {
         eachPort (node_ports.face, [&] (const FacePort& other) {
             const bool follows_it = follows (port.unit) && port.unit.a == withoutIndex (other.id);
-            const bool both_open = port.unit.kind == UnitRule::Kind::open && other.unit.kind == UnitRule::Kind::open && withoutIndex (port.id) == withoutIndex (other.id);
+            const bool both_open = port.unit.kind == UnitRule::Kind::open && other.unit.kind == UnitRule::Kind::open
+                                   && withoutIndex (port.id) == withoutIndex (other.id);
             if (follows_it || both_open) join (numberOf (node_ports, &port), numberOf (node_ports, &other));
         });
     });

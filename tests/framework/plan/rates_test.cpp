@@ -53,7 +53,7 @@ TEST_CASE ("`every k` runs on the inputs of every k-th tick, and holds its outpu
     rc::prop ("for any signal", [] {
         const int k = *rc::gen::inRange (2, 9);
         const auto in = randomSignal (40);
-        Run run { doubling (every (k)), { "sec.in" }, { "after.out", "sec/amp.in" } };
+        PlanRun run { doubling (every (k)), { "sec.in" }, { "after.out", "sec/amp.in" } };
         for (std::size_t n = 0; n < in.size(); ++n)
         {
             const auto held = in[n - n % static_cast<std::size_t> (k)];
@@ -71,7 +71,7 @@ TEST_CASE ("`every k` prepares nodes for its own rate: a filter inside is that f
         Parted slow { every (k) };
         slow.add (slow.part(), "amp", "filter.butterworth2", { { "cutoff", 30.0 } });
         const auto plain = Sketch {}.node ("amp", "filter.butterworth2", { { "cutoff", 30.0 } });
-        Run run { slow, { "sec.in" }, { "sec.out" }, 1000.0 * k }, reference { plain, { "amp.in" }, { "amp.out" }, 1000.0 };
+        PlanRun run { slow, { "sec.in" }, { "sec.out" }, 1000.0 * k }, reference { plain, { "amp.in" }, { "amp.out" }, 1000.0 };
         for (std::size_t n = 0; n < in.size(); ++n)
         {
             const auto value = *run.tick ({ in[n] }).value;
@@ -86,7 +86,7 @@ TEST_CASE ("`linear` is exact on ramps, delayed by k ticks", "[plan][rates][prop
     rc::prop ("for any slope", [] {
         const int k = *rc::gen::inRange (2, 9);
         const double slope = 1e-3 * *rc::gen::inRange (-1000, 1000);
-        Run run { doubling (every (k, "linear")), { "sec.in" }, { "after.out" } };
+        PlanRun run { doubling (every (k, "linear")), { "sec.in" }, { "after.out" } };
         for (int n = 0; n < 40; ++n)
             RC_ASSERT (std::abs (*run.tick ({ slope * n }).value - 2.0 * slope * std::max (n - k, 0)) < 1e-12);
     });
@@ -97,7 +97,7 @@ TEST_CASE ("`linear` ends each line on the value itself", "[plan][rates][propert
     rc::prop ("for any signal", [] {
         const int k = *rc::gen::inRange (2, 9);
         const auto in = randomSignal (40);
-        Run run { doubling (every (k, "linear")), { "sec.in" }, { "after.out" } };
+        PlanRun run { doubling (every (k, "linear")), { "sec.in" }, { "after.out" } };
         for (std::size_t n = 0; n < in.size(); ++n)
         {
             const auto late = static_cast<std::size_t> (k);
@@ -115,7 +115,7 @@ TEST_CASE ("states are held, even with linear hold", "[plan][rates]")
         .node ("force", "vector.length")
         .wire ("sec.state -> state.in")
         .wire ("sec.force -> force.in");
-    Run run { sketch, { "sec.position.x" }, { "state.out", "force.amount" } };
+    PlanRun run { sketch, { "sec.position.x" }, { "state.out", "force.amount" } };
     int between = 0;
     double last = 0.0;
     for (int n = 0; n < 1000; ++n)
@@ -134,7 +134,7 @@ TEST_CASE ("each hit enters and leaves a section once, and none is lost", "[plan
     rc::prop ("every k", [] {
         const int k = *rc::gen::inRange (2, 9);
         const auto hits = randomHits (5 * k);
-        Run run { knocking (every (k, *rc::gen::arbitrary<bool>() ? "linear" : "latch")), { "before.in" }, { "bar.hit" } };
+        PlanRun run { knocking (every (k, *rc::gen::arbitrary<bool>() ? "linear" : "latch")), { "before.in" }, { "bar.hit" } };
         double waiting = 0.0;
         for (std::size_t n = 0; n < hits.size(); ++n)
         {
@@ -145,7 +145,7 @@ TEST_CASE ("each hit enters and leaves a section once, and none is lost", "[plan
     });
     rc::prop ("times m", [] {
         const int m = *rc::gen::inRange (2, 9);
-        Run run { knocking (times (m)), { "before.in" }, { "bar.hit", "sec/amp.out" } };
+        PlanRun run { knocking (times (m)), { "before.in" }, { "bar.hit", "sec/amp.out" } };
         for (const double hit : randomHits (40))
         {
             RC_ASSERT (*run.tick ({ hit }).value == hit);
@@ -166,7 +166,7 @@ TEST_CASE ("each hit enters and leaves a section once, and none is lost", "[plan
         sketch.part().nodes.push_back (inner);
         sketch.expose ("part", { { "in", "sec.in" } }, { { "out", "sec.out" } });
         sketch.node ("before", "signal.gain").node ("bar", "vibration.modal").wire ("before.out -> sec.in").wire ("sec.out -> bar.hit");
-        Run run { sketch, { "before.in" }, { "bar.hit" } };
+        PlanRun run { sketch, { "before.in" }, { "bar.hit" } };
         double in = 0.0, out = 0.0;
         for (const double hit : randomHits (20))
         {
@@ -188,7 +188,7 @@ TEST_CASE ("a bar inside `times m` equals a bar at m times the rate, hit on the 
         Parted sketch { times (m), { { "hit", "bar.hit" } }, { { "value", "bar.value" } } };
         sketch.add (sketch.part(), "bar", "vibration.modal", Json::object(), { { "modes", modes } });
         const auto plain = Sketch {}.node ("bar", "vibration.modal", Json::object(), { { "modes", modes } });
-        Run run { sketch, { "sec.hit" }, { "sec.value" }, 4000.0 }, reference { plain, { "bar.hit" }, { "bar.value" }, 4000.0 * m };
+        PlanRun run { sketch, { "sec.hit" }, { "sec.value" }, 4000.0 }, reference { plain, { "bar.hit" }, { "bar.value" }, 4000.0 * m };
         auto hits = randomHits (60);
         hits[1] = 1.0;
         double loudest = 0.0;
@@ -212,7 +212,7 @@ TEST_CASE ("signals enter `times m` as straight lines that end on the value of t
     rc::prop ("for any signal", [] {
         const int m = *rc::gen::inRange (2, 7);
         const auto in = randomSignal (30);
-        Run run { doubling (times (m)), { "sec.in" }, { "sec.out", "after.out" } };
+        PlanRun run { doubling (times (m)), { "sec.in" }, { "sec.out", "after.out" } };
         for (std::size_t n = 0; n < in.size(); ++n)
         {
             const auto& tap = run.tick ({ in[n] });
@@ -242,7 +242,7 @@ TEST_CASE ("factors of nested sections multiply, for both kinds", "[plan][rates]
     sketch.expose ("inner", Json::object(), { { "n", "count.out" } });
     sketch.part().nodes.push_back (use);
     sketch.expose ("part", Json::object(), { { "n", "inner.n" } });
-    Run run { sketch, {}, { "sec.n" } };
+    PlanRun run { sketch, {}, { "sec.n" } };
     double counted = 0.0;
     for (int n = 0; n < ticks; ++n)
         counted = *run.tick().value;
@@ -253,7 +253,7 @@ TEST_CASE ("a factor of 1 makes no section", "[plan][rates]")
 {
     for (const auto& rate : { every (1), every (1, "linear"), times (1) })
     {
-        Run run { doubling (rate), { "sec.in" }, { "after.out", "sec.out" } };
+        PlanRun run { doubling (rate), { "sec.in" }, { "after.out", "sec.out" } };
         CHECK (*run.tick ({ 1.0 }).value == 2.0);
         CHECK (*run.tick ({ 2.0 }).value == 4.0);
         CHECK (run.plan->taps()[1].per_tick == 1);
@@ -265,7 +265,7 @@ TEST_CASE ("a factor of 1 makes no section", "[plan][rates]")
 TEST_CASE ("delays in a section count its own ticks, and are reported in ticks of the graph", "[plan][rates]")
 {
     const auto delays = [] (Json rate, const std::string& inside, const std::string& outside) {
-        Run run { fromHandToMotor (std::move (rate), inside, outside), {}, {} };
+        PlanRun run { fromHandToMotor (std::move (rate), inside, outside), {}, {} };
         REQUIRE (run.plan->delays().size() == 1);
         return std::pair { run.plan->delays()[0].shortest, run.plan->delays()[0].longest };
     };
@@ -293,7 +293,7 @@ TEST_CASE ("a loop through a section is refused, with its chain and the reason",
     SECTION ("a delay in ticks of the graph opens the loop")
     {
         sketch.wire ("between.out -> [1] -> sec.b");
-        Run run { sketch, { "sec.a" }, { "sec.y" } };
+        PlanRun run { sketch, { "sec.a" }, { "sec.y" } };
         run.tick ({ 1.0 });
         run.tick ({ 2.0 });
         CHECK (*run.tick ({ 3.0 }).value == 1.0);
@@ -398,7 +398,7 @@ TEST_CASE ("a node's own warning refers to the rate at which the node runs", "[p
 
 TEST_CASE ("a tap in a `times` section has all samples of the tick, or at a different rate, those at the ends of equal parts of the tick", "[plan][rates]")
 {
-    Run run { doubling (times (4)), { "sec.in" }, { "sec.out", "after.out" } };
+    PlanRun run { doubling (times (4)), { "sec.in" }, { "sec.out", "after.out" } };
     run.tick ({ 0.0 });
     const auto& tap = run.tick ({ 2.0 });
     const auto& plain = run.plan->taps()[1];
