@@ -25,4 +25,10 @@ const Patch* Graph::find (std::string_view subgraph) const noexcept
     return at == graphs.end() ? nullptr : &at->second;
 }
 
+const Json* Graph::device (std::string_view role) const noexcept
+{
+    const auto at = std::ranges::find (devices, role, &std::pair<std::string, Json>::first);
+    return at == devices.end() ? nullptr : &at->second;
+}
+
 }   // namespace tactus::graph

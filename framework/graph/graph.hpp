@@ -116,6 +116,9 @@ struct Graph
     std::map<std::string, std::shared_ptr<const Graph>> files;   ///< loaded "file:" subgraphs by path as written; not saved
 
     const Patch* find (std::string_view subgraph) const noexcept;
+
+    /// The description of a role's device; null if there is none.
+    const Json* device (std::string_view role) const noexcept;
 };
 
 }   // namespace tactus::graph

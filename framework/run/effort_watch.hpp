@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <framework/kit/rotation.hpp>
 #include <framework/node/device.hpp>
 
 #include <algorithm>
@@ -8,13 +9,62 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace tactus
 {
 
-/// The speed of a tool, from the positions measured by its device: a low-pass filtered difference,
+/// The motion of a tool and its axes between two readings of a device.
+class MotionWatch
+{
+public:
+    Vec3 moved = Vec3::Zero();   ///< in m, since the last reading; 0 for the first
+    double elapsed = 0.0;        ///< time between the two readings, in s
+
+    /// Takes a new reading, which must be finite. turned() and axis() refer to it until before() is called. [tick thread]
+    void begin (const Reading& reading, double now_s) noexcept
+    {
+        const double at = now_s - reading.age;
+        moved = known ? Vec3 (reading.position - position) : Vec3 (Vec3::Zero());
+        elapsed = known ? std::max (0.0, at - before_at) : 0.0;
+        position = reading.position;
+        before_at = at;
+        was_known = std::exchange (known, true);
+    }
+
+    /// The rotation since the last reading as a rotation vector, in rad. Call once for each reading. [tick thread]
+    Vec3 turned (const Reading& reading) noexcept
+    {
+        const Eigen::Quaterniond now { rotationMatrix (reading.rotation) };
+        const auto step = now * rotation.conjugate();
+        rotation = now;
+        if (! was_known) return Vec3::Zero();
+        const double sine = step.vec().norm();
+        if (! (sine > 0.0)) return Vec3::Zero();
+        return step.vec() * (2.0 * std::atan2 (std::copysign (sine, step.w()), std::abs (step.w())) / sine);
+    }
+
+    /// How far axis i has moved since the last reading. Call once for each axis and reading. [tick thread]
+    double axisMoved (const Reading& reading, int i) noexcept
+    {
+        const double before = std::exchange (axes[static_cast<std::size_t> (i)], reading.axes[i]);
+        return was_known ? reading.axes[i] - before : 0.0;
+    }
+
+    /// The device had no reading, so the distance to its next position does not count as motion.
+    void forget() noexcept { known = false; }
+
+private:
+    Vec3 position = Vec3::Zero();
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+    std::array<double, Channels::most> axes {};
+    double before_at = 0.0;
+    bool known = false, was_known = false;
+};
+
+/// A low-pass filtered speed, from the distances x - x' between readings that are s apart in time:
 ///
-///     v += (x - x' - v s)/(tau + s)        s: time between the two readings
+///     v += (x - x' - v s)/(tau + s)
 ///
 /// so an error of one quantum q adds at most q/tau (10 um: 2 mm/s), and a speed V is measured as V (1 - e^(-t/tau)). If a
 /// device is slower than the tick and does not report the age of its readings, the speed fluctuates by a fraction s/tau.
@@ -23,35 +73,24 @@ class SpeedWatch
 public:
     static constexpr double tau = 0.005;   ///< s
 
-    /// The distance moved since the last reading; 0 for the first. Readings are finite. [tick thread]
-    Vec3 operator() (const Reading& reading, double now_s) noexcept
+    /// The new velocity after a move, for vectors and for the axes of a device. [tick thread]
+    template <typename T>
+    static T filtered (const T& velocity, const T& moved, double elapsed_s) noexcept
     {
-        const double at = now_s - reading.age;
-        const Vec3 moved = known ? Vec3 (reading.position - before) : Vec3 (Vec3::Zero());
-        const double elapsed = known ? std::max (0.0, at - before_at) : 0.0;
-        velocity += (moved - elapsed * velocity) / (tau + elapsed);
-        before = reading.position;
-        before_at = at;
-        known = true;
-        return moved;
+        return velocity + (moved - elapsed_s * velocity) / (tau + elapsed_s);
     }
 
-    /// The device had no reading, so the distance to its next position does not count as motion.
-    void forget() noexcept { known = false; }
+    void operator() (const Vec3& moved, double elapsed_s) noexcept { velocity = filtered (velocity, moved, elapsed_s); }
 
-    /// The speed in m/s; inf if it is out of range.
+    /// The speed in m/s or rad/s; inf if it is out of range.
     double speed() const noexcept
     {
         const double v = velocity.norm();
-        return v == v ? v : inf;
+        return v == v ? v : std::numeric_limits<double>::infinity();
     }
 
 private:
-    static constexpr double inf = std::numeric_limits<double>::infinity();
-
-    Vec3 velocity = Vec3::Zero(), before = Vec3::Zero();
-    double before_at = 0.0;
-    bool known = false;
+    Vec3 velocity = Vec3::Zero();
 };
 
 /// The integral of |force| over the last `window`, stored in sixteenths of the window. It covers at least the window, and at
@@ -96,7 +135,8 @@ private:
 
 /// Energy that a device has given to the hand beyond its allowance:
 ///
-///     D = max (0, D + f.dx - P T)        P = most/window; f: the effort on the device while it moved by dx
+///     D = max (0, D + f.dx - P T)        P = most/window; f: the effort on the device while it moved by dx,
+///                                           torques and axes included
 ///
 /// D > most if and only if, over some stretch of time of any length L, the device gave more than most (1 + L/window). So a
 /// spring that stores no more than `most` never exceeds it, however it is pressed and released, and neither does any passive
@@ -116,10 +156,10 @@ public:
         if (! std::isfinite (allowed_per_tick)) allowed_per_tick = 0.0;
     }
 
-    /// D in J. [tick thread]
-    double operator() (const Vec3& force, const Vec3& moved) noexcept
+    /// D in J, after the device has done this work. [tick thread]
+    double operator() (double work_j) noexcept
     {
-        const double sum = delivered + force.dot (moved) - allowed_per_tick;
+        const double sum = delivered + work_j - allowed_per_tick;
         if (sum != sum) return std::numeric_limits<double>::infinity();
         return delivered = std::max (0.0, sum);
     }

@@ -91,11 +91,12 @@ std::unique_ptr<Engine::Running> Engine::makeRunning (std::shared_ptr<Plan> p)
 /// Gives a role its device. The nodes are bound to it later, by introduce().
 void Engine::equip (Channel& channel, Device& device, const GuardLimits& limits, const Plan& plan, double dt_s)
 {
+    auto& layout = std::ranges::find (plan.roles(), channel.role, &Plan::RoleUse::name)->state->layout;
+    layout = device.layout();
     channel.device = &device;
-    channel.guard.prepare (limits, dt_s);
+    channel.guard.prepare (limits, dt_s, layout);
     channel.is_news = true;
     device.prepare (dt_s);
-    std::ranges::find (plan.roles(), channel.role, &Plan::RoleUse::name)->state->layout = device.layout();
 }
 
 /// Binds nodes to the layouts of new devices.

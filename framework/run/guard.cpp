@@ -84,6 +84,28 @@ double windowOf (double limit, double window) noexcept
 /// The inverse of windowOf.
 double asSet (double window) noexcept { return window == GuardLimits::none ? 0.0 : window; }
 
+/// A number that is `none` only if no impulse is limited.
+double smallestImpulse (const GuardLimits& l) noexcept { return std::min ({ l.max_impulse, l.max_angular_impulse, l.max_axis_impulse }); }
+
+/// For each effort, the number of the axis that it pushes, or -1.
+std::array<std::int8_t, Channels::most> axesOf (const DeviceLayout& layout) noexcept
+{
+    std::array<std::int8_t, Channels::most> all;
+    all.fill (-1);
+    const auto size = static_cast<int> (std::min (layout.efforts.size(), all.size()));
+    bool none_named = true;
+    for (int i = 0; i < size; ++i)
+        if (const int axis = indexOf (layout.axes, layout.efforts[static_cast<std::size_t> (i)]); axis >= 0 && axis < Channels::most)
+        {
+            all[static_cast<std::size_t> (i)] = static_cast<std::int8_t> (axis);
+            none_named = false;
+        }
+    if (none_named && layout.efforts.size() == layout.axes.size())
+        for (int i = 0; i < size; ++i)
+            all[static_cast<std::size_t> (i)] = static_cast<std::int8_t> (i);
+    return all;
+}
+
 int firstNotFinite (const Channels& all) noexcept
 {
     return static_cast<int> (std::find_if_not (all.begin(), all.end(), [] (double v) { return isFinite (v); })
@@ -122,9 +144,14 @@ GuardLimits tightest (const GuardLimits& a, const GuardLimits& b) noexcept
         .max_axis_effort = less (a.max_axis_effort, b.max_axis_effort),
         .max_axis_slew = less (a.max_axis_slew, b.max_axis_slew),
         .max_signal = less (a.max_signal, b.max_signal),
+        .max_signal_slew = less (a.max_signal_slew, b.max_signal_slew),
         .max_speed = less (a.max_speed, b.max_speed),
+        .max_angular_speed = less (a.max_angular_speed, b.max_angular_speed),
+        .max_axis_speed = less (a.max_axis_speed, b.max_axis_speed),
         .max_impulse = less (a.max_impulse, b.max_impulse),
-        .impulse_window = longer (a.max_impulse, a.impulse_window, b.max_impulse, b.impulse_window),
+        .max_angular_impulse = less (a.max_angular_impulse, b.max_angular_impulse),
+        .max_axis_impulse = less (a.max_axis_impulse, b.max_axis_impulse),
+        .impulse_window = longer (smallestImpulse (a), a.impulse_window, smallestImpulse (b), b.impulse_window),
         .max_energy = less (a.max_energy, b.max_energy),
         .energy_window = longer (a.max_energy, a.energy_window, b.max_energy, b.energy_window),
         .dead_man_pressure = std::max (orForever (a.dead_man_pressure), orForever (b.dead_man_pressure)),
@@ -132,12 +159,16 @@ GuardLimits tightest (const GuardLimits& a, const GuardLimits& b) noexcept
     };
 }
 
-void Guard::prepare (const GuardLimits& wanted, double dt_s) noexcept
+void Guard::prepare (const GuardLimits& wanted, double dt_s, const DeviceLayout& layout) noexcept
 {
     *this = Guard();
     if (isFinite (dt_s) && dt_s > 0.0) dt = dt_s;
     limits = tightest (wanted, wanted);
-    is_watching = limits.max_speed != GuardLimits::none || limits.max_impulse != GuardLimits::none || limits.max_energy != GuardLimits::none;
+    const auto limitsAny = [] (auto... all) { return ((all != GuardLimits::none) || ...); };
+    watches_turns = limitsAny (limits.max_angular_speed, limits.max_energy);
+    watches_axes = limitsAny (limits.max_axis_speed, limits.max_energy) && ! layout.axes.empty();
+    is_watching = watches_turns || watches_axes || limitsAny (limits.max_speed, smallestImpulse (limits));
+    axis_of_effort = axesOf (layout);
     enabled = 0.0;
     rearm();
 }
@@ -151,8 +182,11 @@ void Guard::emergencyStop() noexcept
 void Guard::rearm() noexcept
 {
     latched = Stop::none;
-    speed = {};
-    impulse.prepare (windowOf (limits.max_impulse, limits.impulse_window), dt);
+    motion = {};
+    speed = angular_speed = {};
+    axis_velocity = {};
+    for (auto* all : { &impulse, &angular_impulse, &axis_impulse })
+        all->prepare (windowOf (smallestImpulse (limits), limits.impulse_window), dt);
     energy.prepare (limits.max_energy, windowOf (limits.max_energy, limits.energy_window), dt);
 }
 
@@ -162,11 +196,13 @@ bool Guard::isAtRest() const noexcept
     return last.force.isZero (0.0) && last.torque.isZero (0.0) && none (last.axes) && none (last.signals);
 }
 
-void Guard::latch (Stop why, double value) noexcept
+void Guard::latch (Stop why, double value, Event::Part part, int channel) noexcept
 {
     if (latched != Stop::none) return;
     latched = why;
     seen = value;
+    seen_part = part;
+    seen_channel = channel;
     is_news = true;
 }
 
@@ -174,18 +210,55 @@ void Guard::latch (Stop why, double value) noexcept
 void Guard::watch (const Reading& reading) noexcept
 {
     const double now = static_cast<double> (ticks++) * dt;
-    if (! reading.valid || ! isFinite (reading.position, reading.age)) return speed.forget();
+    if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! isFinite (reading.age)) return motion.forget();
 
-    const Vec3 moved = speed (reading, now);
+    motion.begin (reading, now);
+    speed (motion.moved, motion.elapsed);
     if (const double v = speed.speed(); ! (v <= limits.max_speed)) latch (Stop::speed, v);
+
+    double work = last.force.dot (motion.moved);
+    if (watches_turns)
+    {
+        const Vec3 turned = motion.turned (reading);
+        angular_speed (turned, motion.elapsed);
+        if (const double w = angular_speed.speed(); ! (w <= limits.max_angular_speed)) latch (Stop::speed, w, Event::Part::torque);
+        work += last.torque.dot (turned);
+    }
+    if (watches_axes) work += watchAxes (reading, motion.elapsed);
     if (limits.max_energy != GuardLimits::none)
-        if (const double given = energy (last.force, moved); ! (given <= limits.max_energy)) latch (Stop::energy, given);
+        if (const double given = energy (work); ! (given <= limits.max_energy)) latch (Stop::energy, given);
+}
+
+/// The work that the last efforts have done on the axes, in J.
+[[gnu::noinline]] double Guard::watchAxes (const Reading& reading, double elapsed_s) noexcept
+{
+    std::array<double, Channels::most> moved {};
+    for (int i = 0; i < reading.axes.size(); ++i)
+    {
+        const auto n = static_cast<std::size_t> (i);
+        moved[n] = motion.axisMoved (reading, i);
+        axis_velocity[n] = SpeedWatch::filtered (axis_velocity[n], moved[n], elapsed_s);
+        if (const double v = std::abs (axis_velocity[n]); ! (v <= limits.max_axis_speed)) latch (Stop::speed, v, Event::Part::axis, i);
+    }
+    double work = 0.0;
+    for (int i = 0; i < last.axes.size(); ++i)
+        if (const int axis = axis_of_effort[static_cast<std::size_t> (i)]; axis >= 0) work += last.axes[i] * moved[static_cast<std::size_t> (axis)];
+    return work;
 }
 
 void Guard::countImpulse() noexcept
 {
-    if (limits.max_impulse == GuardLimits::none) return;
-    if (const double pushed = impulse (last.force.stableNorm() * dt); ! (pushed <= limits.max_impulse)) latch (Stop::impulse, pushed);
+    const auto add = [this] (ImpulseWatch& watch, double limit, double effort, Event::Part part) {
+        if (limit == GuardLimits::none) return;
+        if (const double pushed = watch (effort * dt); ! (pushed <= limit)) latch (Stop::impulse, pushed, part);
+    };
+    add (impulse, limits.max_impulse, last.force.stableNorm(), Event::Part::none);
+    add (angular_impulse, limits.max_angular_impulse, last.torque.stableNorm(), Event::Part::torque);
+    if (limits.max_axis_impulse == GuardLimits::none) return;
+    double sum = 0.0;
+    for (const double effort : last.axes)
+        sum += std::abs (effort);
+    add (axis_impulse, limits.max_axis_impulse, sum, Event::Part::axis);
 }
 
 Guard::Stop Guard::causeOf (const Effort& wanted, const Reading& reading) const noexcept
@@ -217,6 +290,11 @@ Guard::Event Guard::describeNow (Stop why, const Effort& wanted, const Reading& 
         of (part, all[i], 0.0, 0.0, i);
     };
 
+    const auto limitOf = [&] (double of_tool, double of_rotation, double of_axis) {
+        if (seen_part == Part::axis) return of_axis;
+        return seen_part == Part::torque ? of_rotation : of_tool;
+    };
+
     switch (why)
     {
     case Stop::not_finite:
@@ -238,11 +316,14 @@ Guard::Event Guard::describeNow (Stop why, const Effort& wanted, const Reading& 
         break;
     case Stop::speed:
         e.value = seen;
-        e.limit = limits.max_speed;
+        e.part = seen_part;
+        e.channel = seen_channel;
+        e.limit = limitOf (limits.max_speed, limits.max_angular_speed, limits.max_axis_speed);
         break;
     case Stop::impulse:
         e.value = seen;
-        e.limit = limits.max_impulse;
+        e.part = seen_part;
+        e.limit = limitOf (limits.max_impulse, limits.max_angular_impulse, limits.max_axis_impulse);
         e.window = limits.impulse_window;
         break;
     case Stop::energy:
@@ -289,7 +370,7 @@ Effort Guard::operator() (const Effort& wanted, const Reading& reading) noexcept
     if (hasChannels (last) || hasChannels (smooth))
     {
         last.axes = approached (last.axes, smooth.axes, limits.max_axis_effort, perTick (limits.max_axis_slew, dt));
-        last.signals = approached (last.signals, smooth.signals, limits.max_signal, GuardLimits::none);
+        last.signals = approached (last.signals, smooth.signals, limits.max_signal, perTick (limits.max_signal_slew, dt));
     }
     if (is_watching) countImpulse();
     return last;
@@ -335,9 +416,15 @@ std::string describe (const Guard::Event& event)
         return "the dead-man's switch is not held";
 
     case Guard::Stop::speed:
-        return "the tool moves at " + inWords (event.value) + " m/s; the limit is " + inWords (event.limit) + " m/s";
+    {
+        if (event.part == Part::torque) return "the tool turns at " + inWords (event.value) + " rad/s; the limit is " + inWords (event.limit) + " rad/s";
+        if (event.part == Part::none) return "the tool moves at " + inWords (event.value) + " m/s; the limit is " + inWords (event.limit) + " m/s";
+        return "axis " + std::to_string (event.channel + 1) + " moves at " + inWords (event.value) + " per s; the limit is " + inWords (event.limit) + " per s";
+    }
     case Guard::Stop::impulse:
-        return "the force has pushed for " + inWords (event.value) + " N*s" + withinWindow (event, " N*s");
+        if (event.part == Part::torque) return "the torque has pushed for " + inWords (event.value) + " N*m*s" + withinWindow (event, " N*m*s");
+        if (event.part == Part::none) return "the force has pushed for " + inWords (event.value) + " N*s" + withinWindow (event, " N*s");
+        return "the axes have been pushed for " + inWords (event.value) + " N*s or N*m*s" + withinWindow (event, "");
     case Guard::Stop::energy:
         return "the device has given the hand " + inWords (event.value) + " J" + withinWindow (event, " J");
 

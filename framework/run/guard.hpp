@@ -29,12 +29,17 @@ struct GuardLimits
     double max_axis_effort = none;   ///< for each axis separately, in N or N m
     double max_axis_slew = none;     ///< for each axis separately, in N/s or N m/s
     double max_signal = none;        ///< for each signal output separately, in N, m/s2 or 1, as calibrated
+    double max_signal_slew = none;   ///< for each signal output separately, per s
 
-    double max_speed = none;       ///< speed of the tool as measured by SpeedWatch, in m/s
-    double max_impulse = none;     ///< impulse in any direction within the window, as counted by ImpulseWatch, in N s
-    double impulse_window = 0.0;   ///< in s; 0: the whole session
-    double max_energy = none;      ///< energy that the device may give to the hand, as counted by EnergyWatch, in J
-    double energy_window = 0.0;    ///< in s; 0: the whole session
+    double max_speed = none;             ///< speed of the tool as measured by SpeedWatch, in m/s
+    double max_angular_speed = none;     ///< the same for its rotation, in rad/s
+    double max_axis_speed = none;        ///< the same for each axis separately, in its unit per s
+    double max_impulse = none;           ///< impulse in any direction within the window, as counted by ImpulseWatch, in N s
+    double max_angular_impulse = none;   ///< the same for the torque, in N m s
+    double max_axis_impulse = none;      ///< the same for the efforts on all axes together, in N s or N m s
+    double impulse_window = 0.0;         ///< of all three, in s; 0: the whole session
+    double max_energy = none;            ///< energy that force, torque and axes may give to the hand, as counted by EnergyWatch, in J
+    double energy_window = 0.0;          ///< in s; 0: the whole session
 
     double dead_man_pressure = 0.0;       ///< how hard the hand must press before the guard allows any effort, in N; 0: not required
     std::uint64_t dead_man_buttons = 0;   ///< buttons that must all be held, as in Reading::buttons; 0: none
@@ -65,8 +70,8 @@ GuardLimits tightest (const GuardLimits&, const GuardLimits&) noexcept;
 ///     stale       no reading, or one that is old or not a number              with its cause, then the ramp
 ///     released    the dead-man's switch is not held                           with its cause, then the ramp
 ///     halted      requested: the end of a session, the stop button            with resume(), then the ramp
-///     speed       the tool moves faster than max_speed                        with rearm(), then the ramp
-///     impulse     more force for longer than max_impulse allows               with rearm(), then the ramp
+///     speed       the tool or an axis moves or turns too fast                 with rearm(), then the ramp
+///     impulse     more effort for longer than the impulse limits allow        with rearm(), then the ramp
 ///     energy      the device gives the hand more than max_energy              with rearm(), then the ramp
 ///     emergency   the emergency stop was pressed                              with rearm(), then the ramp
 ///
@@ -77,6 +82,8 @@ GuardLimits tightest (const GuardLimits&, const GuardLimits&) noexcept;
 ///  - The guard is a total function: whatever the effort, reading or limits, the result is finite.
 ///  - The torque has its own slew limit, since N/s does not apply to it. Stops and the ramp apply to everything.
 ///  - With ramp 0, full effort returns on the first good tick, as fast as the slew limit allows.
+///  - An axis effort counts towards the energy if the guard knows which axis it pushes: the axis of the same name, or, on a device
+///    with as many efforts as axes and no common names, the axis at the same place in the list.
 ///  - Speed, impulse and energy are measured from the last effort on the device and its motion, so an excess is
 ///    detected one tick late: the limit is exceeded during that tick and the fade.
 class Guard
@@ -105,7 +112,7 @@ public:
     /// The values that made the guard withhold an effort. Plain bytes, so that hosts can pass them on.
     struct Event
     {
-        /// Which value was not a number.
+        /// Which value was not a number, or which speed or impulse exceeded its limit: torque means the rotation of the tool.
         enum class Part : std::uint32_t
         {
             none,
@@ -126,7 +133,8 @@ public:
         std::uint32_t valid = 1;           ///< the reading was valid
     };
 
-    void prepare (const GuardLimits&, double dt_s) noexcept;             // [main thread]
+    /// The layout says which axes the efforts push. [main thread]
+    void prepare (const GuardLimits&, double dt_s, const DeviceLayout& = {}) noexcept;
     Effort operator() (const Effort& wanted, const Reading&) noexcept;   // [tick thread]
 
     /// Brings the effort to zero and keeps it there until resume(). [tick thread]
@@ -152,8 +160,9 @@ public:
 
 private:
     void watch (const Reading&) noexcept;
+    double watchAxes (const Reading&, double elapsed_s) noexcept;
     void countImpulse() noexcept;
-    void latch (Stop, double value) noexcept;
+    void latch (Stop, double value, Event::Part = Event::Part::none, int channel = 0) noexcept;
     Stop causeOf (const Effort& wanted, const Reading&) const noexcept;
     Event describeNow (Stop, const Effort& wanted, const Reading&) const noexcept;
     Effort crossfade (const Effort& wanted) noexcept;
@@ -166,16 +175,23 @@ private:
     Effort last;
     Stop reason = Stop::none;
     Stop latched = Stop::none;
-    double seen = 0.0;      // the value that latched it
+    double seen = 0.0;   // the value that latched it
+    Event::Part seen_part = Event::Part::none;
+    int seen_channel = 0;
     bool is_news = false;   // it has not been reported yet
     Event event;
     std::uint64_t count = 0;
     bool asked_to_halt = false;
 
-    bool is_watching = false;   // at least one limit needs the watches
+    bool is_watching = false;     // at least one limit needs the watches
+    bool watches_turns = false;   // at least one limit needs the rotation
+    bool watches_axes = false;    // at least one limit needs the axes
     std::uint64_t ticks = 0;
-    SpeedWatch speed;
-    ImpulseWatch impulse;
+    MotionWatch motion;
+    SpeedWatch speed, angular_speed;
+    std::array<double, Channels::most> axis_velocity {};
+    std::array<std::int8_t, Channels::most> axis_of_effort {};   // -1: unknown
+    ImpulseWatch impulse, angular_impulse, axis_impulse;
     EnergyWatch energy;
 };
 

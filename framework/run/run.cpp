@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "run.hpp"
 
+#include "device/guard_limits.hpp"
 #include "log/graph_snapshot.hpp"
 
 #include <framework/text/number_text.hpp>
+#include <framework/text/units.hpp>
 
 #include <algorithm>
 
@@ -76,13 +78,38 @@ bool Run::hasDevice (const std::string& role) const
     return std::ranges::any_of (by_role, [&] (const auto& d) { return d.first == role; });
 }
 
+/// Opens the device of a role. The guard that the graph describes holds for every device of the role, whoever chose the device.
+Run::RoleDevice Run::openOne (const std::string& role, const graph::Graph& graph, const Plan& plan, Messages& messages)
+{
+    auto opened = open (role, graph, plan, messages);
+    if (! opened.device) return opened;
+
+    Messages found;
+    const auto where = "/devices/" + role + "/guard";
+    const auto* description = graph.device (role);
+    if (description != nullptr && description->is_object() && description->contains ("guard"))
+    {
+        auto guard = description->at ("guard");
+        if (guard.is_object() && guard.contains ("max_signal") && guard["max_signal"].is_string())   // in the unit of its calibration
+            if (const auto limit = parseMeasure (guard["max_signal"].asString())) guard["max_signal"] = limit->value;
+        opened.limits = tightest (opened.limits, readGuardLimits (guard, where, found, opened.device->layout()));
+    }
+    checkStops (opened.limits, where, found);
+    for (auto& m : found)
+    {
+        const auto isKnown = [&m] (const Message& other) { return other.id == m.id && other.where == m.where; };
+        if (std::ranges::none_of (messages, isKnown)) messages.push_back (std::move (m));
+    }
+    return opened;
+}
+
 void Run::openDevices (const graph::Graph& graph, Messages& messages)
 {
     const auto& plan = running->newest();
     for (const auto& role : plan.roles())
     {
         if (! open || hasDevice (role.name)) continue;
-        auto opened = open (role.name, graph, plan, messages);
+        auto opened = openOne (role.name, graph, plan, messages);
         if (! opened.device) continue;
         running->attach (role.name, *opened.device, opened.limits);
         by_role.emplace_back (role.name, std::move (opened));
@@ -206,7 +233,7 @@ void Run::Edit::openDevices()
     for (const auto& role : compiled.plan->roles())
     {
         if (! run->open || run->hasDevice (role.name)) continue;
-        if (auto made = run->open (role.name, graph, *compiled.plan, compiled.messages); made.device) opened.emplace_back (role.name, std::move (made));
+        if (auto made = run->openOne (role.name, graph, *compiled.plan, compiled.messages); made.device) opened.emplace_back (role.name, std::move (made));
     }
 }
 

@@ -70,7 +70,8 @@ public:
         Device* driver = nullptr;   ///< the same device without its adapters; null means `device`
     };
 
-    /// Opens the device of a role and adds any problems to the messages. `plan` is the one that needs the device.
+    /// Opens the device of a role and adds any problems to the messages. `plan` is the one that needs the device. The run tightens
+    /// the limits by the guard that the graph describes for the role.
     using OpenDevice = std::function<RoleDevice (const std::string& role, const graph::Graph&, const Plan&, Messages&)>;
 
     enum class Queries
@@ -217,6 +218,7 @@ private:
     Compiled compile (const graph::Graph&, const Plan* before, const Plan* withdrawn, std::vector<std::string> kept);
     bool isOptional (const std::string& port) const;
     bool hasDevice (const std::string& role) const;
+    RoleDevice openOne (const std::string& role, const graph::Graph&, const Plan&, Messages&);
     void logNext (const std::shared_ptr<Plan>&, const graph::Graph&, const std::vector<std::pair<std::string, RoleDevice>>& joining);
 
     const Catalogue& catalogue;

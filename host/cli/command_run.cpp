@@ -24,12 +24,6 @@ void warnOnly (Messages& messages)
     for (auto& m : messages)
         m.severity = Message::Severity::warning;
 }
-
-const Json* descriptionOf (const graph::Graph& graph, const std::string& role)
-{
-    const auto at = std::ranges::find (graph.devices, role, &std::pair<std::string, Json>::first);
-    return at != graph.devices.end() ? &at->second : nullptr;
-}
 }   // namespace
 
 CommandRun::CommandRun (const RunOptions& o, Pace pace) : options (o), loaded (loadGraph (o.graph)), rig ({}), real (pace == Pace::live, rig)
@@ -201,7 +195,7 @@ Run::RoleDevice CommandRun::open (const std::string& role, const graph::Graph& g
     if (! by_option)
         if (auto binding = bindingOf (device_session, role)) return openBySession (role, std::move (*binding), plan, messages);
 
-    const auto* described = descriptionOf (graph, role);
+    const auto* described = graph.device (role);
     if (! by_option && described == nullptr)
         messages.push_back (Message::warning ("device/undescribed", "/devices",
                                               "no device is given for the role '" + role + "'; a simulated tool at rest takes its place",
@@ -302,7 +296,7 @@ Messages CommandRun::notTakenOver (const graph::Graph& graph) const
     Messages messages;
     for (const auto& role : described_by_graph)
     {
-        const auto *present = descriptionOf (graph, role), *before = descriptionOf (loaded.graph, role);
+        const auto *present = graph.device (role), *before = loaded.graph.device (role);
         if (present != nullptr && (before == nullptr || *present != *before))
             messages.push_back (Message::warning ("watch/device", "/devices/" + role,
                                                   "the run keeps the device that '" + role + "' was opened with, and its guard",

@@ -74,6 +74,7 @@ public:
         signals();
         joints();
         neutrals();
+        limits();
         echoes();
         steps();
         for (const auto& sample : p.samples)
@@ -156,6 +157,30 @@ private:
                               "the neutral report of " + quote (report.name) + " asks for " + numberText (rest) + " " + field.unit + " in "
                                   + quote (field.name),
                               "write the number that means no force there");
+            }
+    }
+
+    /// Each effort has a limit. An effort that is neither force nor torque may have it in its field instead.
+    void limits()
+    {
+        const auto names = [] (const auto& all) { return std::ranges::any_of (all, [] (const auto& name) { return ! name.empty(); }); };
+        const auto need = [&] (const char* key, const std::string& what) {
+            in.error ("limits", "profile/no_limit", "the profile drives " + what + " and does not say how strongly",
+                      "add " + std::string (key) + " to the limits: what the device may do to a hand");
+        };
+        const auto& guard = p.limits.guard;
+        if (names (p.force) && guard.max_force == GuardLimits::none) need ("max_force", "a force");
+        if (names (p.torque) && guard.max_torque == GuardLimits::none) need ("max_torque", "a torque");
+        if (guard.max_axis_effort != GuardLimits::none) return;
+        for (const auto& report : p.outputs)
+            for (const auto& field : report.fields)
+            {
+                const bool is_bounded = std::isfinite (field.max) || field.encoding.law != Encoding::Law::linear;
+                if (field.source != OutputField::Source::effort || is_bounded) continue;
+                const auto drives = [&] (const auto& all) { return std::ranges::count (all, field.name) > 0; };
+                const auto isSignal = [&] (const auto& s) { return s.amplitude == field.name || s.frequency == field.name; };
+                if (! drives (p.force) && ! drives (p.torque) && std::ranges::none_of (p.signals, isSignal))
+                    return need ("max_axis_effort", "the effort " + quote (field.name));
             }
     }
 

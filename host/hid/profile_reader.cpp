@@ -6,6 +6,7 @@
 #include "report_reader.hpp"
 
 #include <framework/file/text_file.hpp>
+#include <framework/run/device/guard_limits.hpp>
 #include <framework/text/json_text.hpp>
 #include <framework/text/quote.hpp>
 
@@ -18,8 +19,6 @@ namespace tactus::host::hid
 {
 namespace
 {
-constexpr Unit force_rate { Quantity::any, { 1, 1, -3 }, "N/s" };
-constexpr Unit torque_rate { Quantity::any, { 2, 1, -3 }, "N*m/s" };
 
 std::vector<MatchRule> readMatch (ProfileFields& profile)
 {
@@ -71,10 +70,8 @@ Limits readLimits (ProfileFields& profile)
     constexpr auto some = Bounds::positive();
     Limits l;
     profile.within ("limits", [&] (ProfileFields& in) {
-        l.guard.max_force = in.number ("max_force", unit::newton, any, l.guard.max_force);
-        l.guard.max_torque = in.number ("max_torque", unit::torque, any, l.guard.max_torque);
-        l.guard.max_slew = in.number ("max_slew", force_rate, some, l.guard.max_slew);
-        l.guard.max_torque_slew = in.number ("max_torque_slew", torque_rate, some, l.guard.max_torque_slew);
+        readEffortLimits (in, l.guard);
+        checkStops (l.guard, in.where(), in.messages());
         l.guard.ramp = in.number ("ramp", unit::second, any, l.guard.ramp);
         l.guard.watchdog = in.number ("stale_input", unit::second, some, l.guard.watchdog);
         l.max_stiffness = in.number ("max_stiffness", unit::stiffness, any, l.max_stiffness);
@@ -150,6 +147,7 @@ Profile read (ProfileFields& in)
     p.match = readMatch (in);
     p.init = readSteps (in, "init");
     p.exit = readSteps (in, "exit");
+    if (in.has ("replaces")) p.replaces = in.name ("replaces");
     p.inputs = readInputs (in);
     p.outputs = readOutputs (in, readTables (in));
 

@@ -2,7 +2,7 @@
 #include "guard_limits.hpp"
 
 #include <framework/node/device_parts.hpp>
-#include <framework/text/object_reader.hpp>
+#include <framework/text/number_text.hpp>
 #include <framework/text/units.hpp>
 
 #include <utility>
@@ -13,22 +13,27 @@ namespace
 {
 constexpr Unit force_rate { Quantity::any, { 1, 1, -3 }, "N/s" };
 constexpr Unit torque_rate { Quantity::any, { 2, 1, -3 }, "N*m/s" };
+constexpr Unit per_second { Quantity::any, { 0, 0, -1 }, "1/s" };
+constexpr Unit angular_speed { Quantity::any, { 0, 0, -1 }, "rad/s" };
 constexpr Unit impulse { Quantity::any, { 1, 1, -1 }, "N*s" };
+constexpr Unit angular_impulse { Quantity::any, { 2, 1, -1 }, "N*m*s" };
 constexpr int most_buttons = 32;
 
 constexpr auto any = Bounds::notNegative();
 constexpr auto some = Bounds::positive();
 
-/// Without a window, the limit would have no meaning.
-double window (ObjectReader& in, std::string_view limit, std::string_view key)
+/// Without a window, the limits would have no meaning.
+double window (ObjectReader& in, std::initializer_list<std::string_view> limits, std::string_view key)
 {
-    if (in.has (limit)) in.require (key, "give the time window of " + std::string (limit) + ", such as \"1 s\"");
+    for (const auto limit : limits)
+        if (in.has (limit)) in.require (key, "give the time window of " + std::string (limit) + ", such as \"1 s\"");
     return in.number (key, unit::second, some, 0.0);
 }
 
 /// An axis slides or rotates; the unit in the text decides which.
-double either (const Json& json, ObjectReader& in, std::string_view key, const Unit& sliding, const Unit& turning, Bounds bounds, double otherwise)
+double either (ObjectReader& in, std::string_view key, const Unit& sliding, const Unit& turning, Bounds bounds, double otherwise)
 {
+    const auto& json = in.json();
     const auto written = json.is_object() ? json.find (key) : json.end();
     const auto read = written != json.end() && written->is_string() ? parseMeasure (written->get<std::string>()) : Measure {};
     return in.number (key, read && read->dimension == turning.dimension ? turning : sliding, bounds, otherwise);
@@ -59,24 +64,58 @@ GuardLimits readGuardLimits (const Json& json, std::string where, Messages& mess
 {
     ObjectReader in (json, std::move (where), messages);
     GuardLimits limits;
+    readEffortLimits (in, limits);
+    limits.ramp = in.number ("ramp", unit::second, any, limits.ramp);
+    limits.watchdog = in.number ("watchdog", unit::second, some, limits.watchdog);
+    limits.dead_man_pressure = in.number ("dead_man_pressure", unit::newton, any, limits.dead_man_pressure);
+    limits.dead_man_buttons = button (json, in, device);
+    in.finish();
+    checkStops (limits, in.where(), messages);
+    return limits;
+}
+
+void readEffortLimits (ObjectReader& in, GuardLimits& limits)
+{
     limits.max_force = in.number ("max_force", unit::newton, any, limits.max_force);
     limits.max_torque = in.number ("max_torque", unit::torque, any, limits.max_torque);
     limits.max_slew = in.number ("max_slew", force_rate, some, limits.max_slew);
     limits.max_torque_slew = in.number ("max_torque_slew", torque_rate, some, limits.max_torque_slew);
-    limits.ramp = in.number ("ramp", unit::second, any, limits.ramp);
-    limits.watchdog = in.number ("watchdog", unit::second, some, limits.watchdog);
-    limits.max_axis_effort = either (json, in, "max_axis_effort", unit::newton, unit::torque, any, limits.max_axis_effort);
-    limits.max_axis_slew = either (json, in, "max_axis_slew", force_rate, torque_rate, some, limits.max_axis_slew);
+    limits.max_axis_effort = either (in, "max_axis_effort", unit::newton, unit::torque, any, limits.max_axis_effort);
+    limits.max_axis_slew = either (in, "max_axis_slew", force_rate, torque_rate, some, limits.max_axis_slew);
     limits.max_signal = in.number ("max_signal", unit::gain, any, limits.max_signal);
+    limits.max_signal_slew = in.number ("max_signal_slew", per_second, some, limits.max_signal_slew);
     limits.max_speed = in.number ("max_speed", unit::speed, some, limits.max_speed);
+    limits.max_angular_speed = in.number ("max_angular_speed", angular_speed, some, limits.max_angular_speed);
+    limits.max_axis_speed = either (in, "max_axis_speed", unit::speed, angular_speed, some, limits.max_axis_speed);
     limits.max_impulse = in.number ("max_impulse", impulse, some, limits.max_impulse);
-    limits.impulse_window = window (in, "max_impulse", "impulse_window");
+    limits.max_angular_impulse = in.number ("max_angular_impulse", angular_impulse, some, limits.max_angular_impulse);
+    limits.max_axis_impulse = either (in, "max_axis_impulse", impulse, angular_impulse, some, limits.max_axis_impulse);
+    limits.impulse_window = window (in, { "max_impulse", "max_angular_impulse", "max_axis_impulse" }, "impulse_window");
     limits.max_energy = in.number ("max_energy", unit::joule, some, limits.max_energy);
-    limits.energy_window = window (in, "max_energy", "energy_window");
-    limits.dead_man_pressure = in.number ("dead_man_pressure", unit::newton, any, limits.dead_man_pressure);
-    limits.dead_man_buttons = button (json, in, device);
-    in.finish();
-    return limits;
+    limits.energy_window = window (in, { "max_energy" }, "energy_window");
+}
+
+void checkStops (const GuardLimits& limits, const std::string& where, Messages& messages)
+{
+    struct Pair
+    {
+        const char *most_key, *slew_key;
+        double most, slew;
+    };
+    const Pair pairs[] { { "max_force", "max_slew", limits.max_force, limits.max_slew },
+                         { "max_torque", "max_torque_slew", limits.max_torque, limits.max_torque_slew },
+                         { "max_axis_effort", "max_axis_slew", limits.max_axis_effort, limits.max_axis_slew },
+                         { "max_signal", "max_signal_slew", limits.max_signal, limits.max_signal_slew } };
+    for (const auto& p : pairs)
+    {
+        if (p.most == GuardLimits::none || p.slew == GuardLimits::none || p.most <= longest_stop_s * p.slew) continue;
+        const auto least = numberText (p.most / longest_stop_s);
+        messages.push_back (Message::error ("device/slow_stop", where + "/" + p.slew_key,
+                                            std::string (p.slew_key) + " " + numberText (p.slew) + " would take " + numberText (p.most / p.slew)
+                                                + " s to bring " + p.most_key + " " + numberText (p.most) + " to zero; a stop may take "
+                                                + numberText (longest_stop_s) + " s",
+                                            "raise " + std::string (p.slew_key) + " to at least " + least + ", or lower " + p.most_key));
+    }
 }
 
 }   // namespace tactus

@@ -27,12 +27,6 @@ constexpr int looks_apart = 3;   // calls of attend() between two checks of the 
 constexpr double usual_stiffness = 400.0, usual_damping = 4.0;   // N/m, N s/m
 
 Message stopped() { return Message::error ("run/stopped", {}, "nothing is running in the window", "press START there"); }
-
-const Json* descriptionOf (const graph::Graph& g, const std::string& role)
-{
-    const auto at = std::ranges::find (g.devices, role, &std::pair<std::string, Json>::first);
-    return at == g.devices.end() ? nullptr : &at->second;
-}
 }   // namespace
 
 LiveRun::LiveRun (Document& d, const Catalogue& c, Sound* s) : document (d), catalogue (c), sound (s)
@@ -72,7 +66,7 @@ std::string LiveRun::handRoleOf (const Plan& plan) const
 {
     for (const auto& role : plan.roles())
     {
-        const auto* description = isBound (role.name) ? setup->session().session.binding (role.name) : descriptionOf (document.graph(), role.name);
+        const auto* description = isBound (role.name) ? setup->session().session.binding (role.name) : document.graph().device (role.name);
         if (description == nullptr || ! audio::isAudio (*description)) return role.name;
     }
     return {};
@@ -117,7 +111,7 @@ Run::RoleDevice LiveRun::openBySession (const std::string& role, const Plan& pla
 
 Run::RoleDevice LiveRun::openDescribed (const std::string& role, const Plan& plan, Messages& messages)
 {
-    const auto* described = descriptionOf (document.graph(), role);
+    const auto* described = document.graph().device (role);
     auto made = make (described != nullptr ? *described : Json { { "driver", "sim" } }, document.graph().folder, role, plan);
     for (auto& m : made.messages)
         m.where = "/devices/" + role + m.where;
@@ -145,7 +139,7 @@ ClockChoice LiveRun::decideClock (const Plan& plan) const
     {
         const bool is_moved = isMovedOtherwise (role.name);
         const auto bound = setup != nullptr ? bindingOf (setup->session(), role.name) : std::nullopt;
-        const auto* own = descriptionOf (document.graph(), role.name);
+        const auto* own = document.graph().device (role.name);
         if (! is_moved && (bound || own != nullptr))
             described.emplace_back (role.name, bound ? bound->description : *own);
         else

@@ -140,6 +140,7 @@ TEST_CASE ("every error in a profile is reported with its position")
         { "/outputs/0/neutral", "04 00*9", "profile/format" },
         { "/outputs/0/neutral", "03 00 00 01 00*6", "profile/neutral" },
         { "/signals", Json::parse (R"([{ "amplitude": "fx" }])"), "profile/signal_on_force" },
+        { "/limits", Json::object(), "profile/no_limit" },
         { "/outputs/0/body", "04 01 00*8", "profile/format" },
         { "/outputs/0/name", null, "profile/missing" },
         { "/outputs/0/kind", "input", "profile/kind" },
