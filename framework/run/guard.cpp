@@ -87,22 +87,19 @@ double asSet (double window) noexcept { return window == GuardLimits::none ? 0.0
 /// A number that is `none` only if no impulse is limited.
 double smallestImpulse (const GuardLimits& l) noexcept { return std::min ({ l.max_impulse, l.max_angular_impulse, l.max_axis_impulse }); }
 
-/// For each effort, the number of the axis that it pushes, or -1.
-std::array<std::int8_t, Channels::most> axesOf (const DeviceLayout& layout) noexcept
+/// For each effort, the number of the axis that it pushes, or -1: the axis of the same name, or axisN for effortN.
+std::array<std::int8_t, Channels::most> axesOf (const DeviceLayout& layout)
 {
+    constexpr std::string_view effort = "effort";
     std::array<std::int8_t, Channels::most> all;
     all.fill (-1);
-    const auto size = static_cast<int> (std::min (layout.efforts.size(), all.size()));
-    bool none_named = true;
-    for (int i = 0; i < size; ++i)
-        if (const int axis = indexOf (layout.axes, layout.efforts[static_cast<std::size_t> (i)]); axis >= 0 && axis < Channels::most)
-        {
-            all[static_cast<std::size_t> (i)] = static_cast<std::int8_t> (axis);
-            none_named = false;
-        }
-    if (none_named && layout.efforts.size() == layout.axes.size())
-        for (int i = 0; i < size; ++i)
-            all[static_cast<std::size_t> (i)] = static_cast<std::int8_t> (i);
+    for (std::size_t i = 0; i < std::min (layout.efforts.size(), all.size()); ++i)
+    {
+        const auto& name = layout.efforts[i];
+        int axis = indexOf (layout.axes, name);
+        if (axis < 0 && name.starts_with (effort)) axis = indexOf (layout.axes, "axis" + name.substr (effort.size()));
+        if (axis < Channels::most) all[i] = static_cast<std::int8_t> (axis);
+    }
     return all;
 }
 
@@ -166,9 +163,10 @@ void Guard::prepare (const GuardLimits& wanted, double dt_s, const DeviceLayout&
     limits = tightest (wanted, wanted);
     const auto limitsAny = [] (auto... all) { return ((all != GuardLimits::none) || ...); };
     watches_turns = limitsAny (limits.max_angular_speed, limits.max_energy);
-    watches_axes = limitsAny (limits.max_axis_speed, limits.max_energy) && ! layout.axes.empty();
-    is_watching = watches_turns || watches_axes || limitsAny (limits.max_speed, smallestImpulse (limits));
     axis_of_effort = axesOf (layout);
+    const bool knows_axes = std::ranges::any_of (axis_of_effort, [] (int axis) { return axis >= 0; });
+    watches_axes = knows_axes && limitsAny (limits.max_axis_speed, limits.max_energy);
+    is_watching = watches_turns || watches_axes || limitsAny (limits.max_speed, smallestImpulse (limits));
     enabled = 0.0;
     rearm();
 }
@@ -210,7 +208,12 @@ void Guard::latch (Stop why, double value, Event::Part part, int channel) noexce
 void Guard::watch (const Reading& reading) noexcept
 {
     const double now = static_cast<double> (ticks++) * dt;
-    if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! isFinite (reading.age)) return motion.forget();
+    if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! isFinite (reading.age) || hasBrokenAxes (reading))
+    {
+        // While effort is left, the distance to the next reading counts, so a device cannot hide its motion behind bad readings.
+        if (isAtRest()) motion.forget();
+        return;
+    }
 
     motion.begin (reading, now);
     speed (motion.moved, motion.elapsed);
@@ -229,20 +232,22 @@ void Guard::watch (const Reading& reading) noexcept
         if (const double given = energy (work); ! (given <= limits.max_energy)) latch (Stop::energy, given);
 }
 
-/// The work that the last efforts have done on the axes, in J.
+bool Guard::hasBrokenAxes (const Reading& reading) const noexcept { return watches_axes && ! isFinite (reading.axes); }
+
+/// The work in J that the last efforts have done on the axes that they push.
 [[gnu::noinline]] double Guard::watchAxes (const Reading& reading, double elapsed_s) noexcept
 {
-    std::array<double, Channels::most> moved {};
-    for (int i = 0; i < reading.axes.size(); ++i)
-    {
-        const auto n = static_cast<std::size_t> (i);
-        moved[n] = motion.axisMoved (reading, i);
-        axis_velocity[n] = SpeedWatch::filtered (axis_velocity[n], moved[n], elapsed_s);
-        if (const double v = std::abs (axis_velocity[n]); ! (v <= limits.max_axis_speed)) latch (Stop::speed, v, Event::Part::axis, i);
-    }
     double work = 0.0;
-    for (int i = 0; i < last.axes.size(); ++i)
-        if (const int axis = axis_of_effort[static_cast<std::size_t> (i)]; axis >= 0) work += last.axes[i] * moved[static_cast<std::size_t> (axis)];
+    for (std::size_t i = 0; i < axis_of_effort.size(); ++i)
+    {
+        const int axis = axis_of_effort[i];
+        if (axis < 0) continue;
+        const double moved = motion.axisMoved (reading, axis);
+        auto& velocity = axis_velocity[i];
+        velocity = SpeedWatch::filtered (velocity, moved, elapsed_s);
+        if (! (std::abs (velocity) <= limits.max_axis_speed)) latch (Stop::speed, std::abs (velocity), Event::Part::axis, axis);
+        work += last.axes[static_cast<int> (i)] * moved;
+    }
     return work;
 }
 
@@ -266,7 +271,8 @@ Guard::Stop Guard::causeOf (const Effort& wanted, const Reading& reading) const 
     if (latched == Stop::emergency) return latched;
     if (! isFinite (wanted.force, wanted.torque)) return Stop::not_finite;
     if (hasChannels (wanted) && ! channelsAreFinite (wanted)) return Stop::not_finite;
-    if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! (reading.age <= limits.watchdog)) return Stop::stale;
+    if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! (reading.age <= limits.watchdog) || hasBrokenAxes (reading))
+        return Stop::stale;
     if (latched != Stop::none) return latched;
     if (asked_to_halt) return Stop::halted;
 
@@ -307,6 +313,7 @@ Guard::Event Guard::describeNow (Stop why, const Effort& wanted, const Reading& 
         break;
     case Stop::stale:
         if (! isFinite (reading.position, reading.rotation)) ofVector (Part::reading, isFinite (reading.position) ? reading.rotation : reading.position);
+        if (hasBrokenAxes (reading)) ofChannel (Part::reading, reading.axes);
         e.value = reading.age;
         e.limit = limits.watchdog;
         break;

@@ -82,8 +82,8 @@ GuardLimits tightest (const GuardLimits&, const GuardLimits&) noexcept;
 ///  - The guard is a total function: whatever the effort, reading or limits, the result is finite.
 ///  - The torque has its own slew limit, since N/s does not apply to it. Stops and the ramp apply to everything.
 ///  - With ramp 0, full effort returns on the first good tick, as fast as the slew limit allows.
-///  - An axis effort counts towards the energy if the guard knows which axis it pushes: the axis of the same name, or, on a device
-///    with as many efforts as axes and no common names, the axis at the same place in the list.
+///  - Energy and speed include the axes that efforts push: for each effort the axis of the same name, or axisN for effortN. An
+///    effort without such an axis is limited in size, slew and impulse only.
 ///  - Speed, impulse and energy are measured from the last effort on the device and its motion, so an excess is
 ///    detected one tick late: the limit is exceeded during that tick and the fade.
 class Guard
@@ -161,6 +161,7 @@ public:
 private:
     void watch (const Reading&) noexcept;
     double watchAxes (const Reading&, double elapsed_s) noexcept;
+    bool hasBrokenAxes (const Reading&) const noexcept;
     void countImpulse() noexcept;
     void latch (Stop, double value, Event::Part = Event::Part::none, int channel = 0) noexcept;
     Stop causeOf (const Effort& wanted, const Reading&) const noexcept;

@@ -90,11 +90,13 @@ Run::RoleDevice Run::openOne (const std::string& role, const graph::Graph& graph
     if (description != nullptr && description->is_object() && description->contains ("guard"))
     {
         auto guard = description->at ("guard");
-        if (guard.is_object() && guard.contains ("max_signal") && guard["max_signal"].is_string())   // in the unit of its calibration
-            if (const auto limit = parseMeasure (guard["max_signal"].asString())) guard["max_signal"] = limit->value;
+        for (const auto* key : { "max_signal", "max_signal_slew" })   // in the unit of its calibration
+            if (guard.is_object() && guard.contains (key) && guard[key].is_string())
+                if (const auto limit = parseMeasure (guard[key].asString())) guard[key] = limit->value;
         opened.limits = tightest (opened.limits, readGuardLimits (guard, where, found, opened.device->layout()));
     }
     checkStops (opened.limits, where, found);
+    if (hasErrors (found)) opened = {};   // no device rather than one without its limits
     for (auto& m : found)
     {
         const auto isKnown = [&m] (const Message& other) { return other.id == m.id && other.where == m.where; };

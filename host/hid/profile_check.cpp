@@ -175,7 +175,7 @@ private:
         for (const auto& report : p.outputs)
             for (const auto& field : report.fields)
             {
-                const bool is_bounded = std::isfinite (field.max) || field.encoding.law != Encoding::Law::linear;
+                const bool is_bounded = (std::isfinite (field.min) && std::isfinite (field.max)) || field.encoding.law == Encoding::Law::table;
                 if (field.source != OutputField::Source::effort || is_bounded) continue;
                 const auto drives = [&] (const auto& all) { return std::ranges::count (all, field.name) > 0; };
                 const auto isSignal = [&] (const auto& s) { return s.amplitude == field.name || s.frequency == field.name; };

@@ -28,9 +28,9 @@ void watchForStop() noexcept
 {
     std::signal (SIGINT, note);
     std::signal (SIGTERM, note);
-#ifdef __unix__
+#if defined(__unix__) || defined(__APPLE__)
     // All that would end or suspend the process and leave a force on a device. Faults (SIGSEGV and the like) are Failsafe's.
-    for (const int number : { SIGHUP, SIGQUIT, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU, SIGPIPE, SIGTSTP, SIGSYS })
+    for (const int number : { SIGHUP, SIGQUIT, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU, SIGPIPE, SIGTSTP, SIGSYS, SIGTRAP })
         std::signal (number, note);
     // A program in the background may write to its terminal, and its reads fail instead of suspending it. Reaching the file size
     // limit is reported as an error of that file.

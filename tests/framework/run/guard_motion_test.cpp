@@ -49,8 +49,8 @@ int stopsAt (Guard& guard, int most, Tick tick)
 }
 
 const DeviceLayout named { .axes = { "other", "trigger" }, .efforts = { "trigger" } };
-const DeviceLayout numbered { .axes = { "axis1", "axis2" }, .efforts = { "effort1", "effort2" } };
-const DeviceLayout unknown { .axes = { "axis1", "axis2", "axis3" }, .efforts = { "effort1" } };
+const DeviceLayout numbered { .axes = { "x", "axis1", "axis2" }, .efforts = { "effort1", "effort2" } };
+const DeviceLayout unknown { .axes = { "axis2", "pressure" }, .efforts = { "effort1" } };
 
 std::string idsOf (const Messages& messages)
 {
@@ -98,8 +98,9 @@ TEST_CASE ("guard: an effort that drives an axis counts as energy, if the guard 
     CHECK (stopped (named, 1, 0.5) == Approx (0.01 / (1.0 - 0.01) / dt).margin (2.0));
     CHECK (stopped (named, 1, -0.5) == 0);
     CHECK (stopped (named, 0, 0.5) == 0);
-    CHECK (stopped (numbered, 0, 0.5) > 0);
-    CHECK (stopped (numbered, 1, 0.5) == 0);
+    CHECK (stopped (numbered, 1, 0.5) > 0);
+    CHECK (stopped (numbered, 0, 0.5) == 0);
+    CHECK (stopped (numbered, 2, 0.5) == 0);
     CHECK (stopped (unknown, 0, 0.5) == 0);
 }
 
@@ -118,6 +119,30 @@ TEST_CASE ("guard: torque and axis effort together give little more than the lim
     }
     CHECK (guard.stop() == Guard::Stop::energy);
     CHECK (given < most + 120.0 * (Guard::fade_s + 3 * dt));   // the ticks until it is noticed, and the fade
+}
+
+TEST_CASE ("guard: bad readings in between do not hide motion, and an axis that is not a number makes the reading stale", "[framework][guard]")
+{
+    auto guard = guardWith ({ .max_speed = 0.5, .max_energy = 0.01, .energy_window = 1.0 });
+    CHECK (stopsAt (guard, 1000, [&] (int k) {
+               const bool is_good = k % 2 == 0;
+               guard ({ .force = { 1, 0, 0 } }, { .position = { 1.0 * k * dt, 0, 0 }, .valid = is_good });
+               if (! is_good) CHECK (guard.stop() != Guard::Stop::none);
+           })
+           > 0);
+    for (int k = 0; k < 1000 && ! Guard::latches (guard.stop()); ++k)
+        guard ({ .force = { 1, 0, 0 } }, { .position = { 0.1 + 1.0 * k * dt, 0, 0 }, .valid = k % 2 == 0 });
+    CHECK (Guard::latches (guard.stop()));
+
+    auto broken = guardWith ({ .max_energy = 0.01, .energy_window = 1.0 }, named);
+    Reading reading;
+    reading.axes.set (1, std::numeric_limits<double>::quiet_NaN());
+    broken ({ .axes = { 1.0 } }, reading);
+    CHECK (broken.stop() == Guard::Stop::stale);
+    CHECK (describe (broken.latest()).starts_with ("the reading is not a number"));
+    reading.axes.set (1, 0.0);
+    broken ({ .axes = { 1.0 } }, reading);
+    CHECK (broken.stop() == Guard::Stop::none);
 }
 
 TEST_CASE ("guard: a tool that turns too fast, or an axis that moves too fast, causes a stop with its numbers", "[framework][guard]")

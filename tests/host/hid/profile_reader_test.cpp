@@ -36,7 +36,7 @@ const Json& good()
                       { "name": "hum", "at": 4, "type": "u8", "table": "curve" },
                       { "name": "pitch", "at": 5, "type": "u8", "log2": { "steps": 12, "reference": 20 } } ] } ],
       "position": ["x", null, null], "rotation": ["rx", null, null], "force": ["fx", null, null],
-      "limits": { "max_force": "2 N" },
+      "limits": { "max_force": "2 N", "max_axis_effort": 3 },
       "samples": [{ "input": ["01 00 05 00*9"], "gives": { "position.x": "5 um" } }] })");
     return json;
 }
