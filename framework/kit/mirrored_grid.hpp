@@ -8,7 +8,7 @@
 namespace tactus
 {
 
-/// Equidistant points from 0, mirrored at both ends: beyond the last point the first ones follow in reverse.
+/// Equidistant points from 0, mirrored at both ends: beyond an end, the points repeat in reverse order.
 struct MirroredAxis
 {
     int intervals = 0;      ///< intervals between points; 0: a single point

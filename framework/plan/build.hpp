@@ -18,7 +18,7 @@ namespace tactus::plan
 /// are ignored, and it reads as 0.
 struct Outside
 {
-    /// A port or a part of it, with its name in the request.
+    /// A port or a part of it, with the name under which it was requested.
     struct Read
     {
         std::string name;

@@ -492,7 +492,8 @@ private:
             }
         if (! to.choices.empty())
         {
-            flat.error ("wire/onto_choice", w.origin, "'" + flat.nameOf (w.to) + "' is a choice among names and takes no wire", "set it under params");
+            flat.error ("wire/onto_choice", w.origin, "'" + flat.nameOf (w.to) + "' is a choice from a list of names, so it cannot be wired",
+                        "set it under params");
             return false;
         }
         if (w.add && w.to.role != Role::param)

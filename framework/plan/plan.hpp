@@ -87,7 +87,7 @@ struct PlanParts
     double rate_hz = 0.0;
     std::uint64_t number = 0;   ///< number of the next tick, counted across all plans
     std::vector<Record> records;
-    std::vector<std::uint32_t> owners;   ///< by record: the node it works for, as in flat.nodes; for a wire, the node where it ends
+    std::vector<std::uint32_t> owners;   ///< by record: the node it belongs to, as in flat.nodes; for a wire, the node where it ends
     std::vector<std::uint64_t> rests;    ///< periods, in ticks, of the sections that do not run on every tick; in rising order
     std::vector<RoleUse> roles;          ///< sorted by name
     std::vector<Tap> taps;               ///< as in CompileOptions::records, in order
@@ -187,7 +187,7 @@ public:
     const std::vector<Tap>& taps() const noexcept { return parts.taps; }                   ///< as in CompileOptions::records, in order
     const std::vector<plan::PathDelay>& delays() const noexcept { return parts.delays; }   ///< between the sources and the sinks of devices
 
-    /// By record: the number of the node it works for; for a wire, the node where it ends.
+    /// By record: the number of the node it belongs to; for a wire, the node where it ends.
     const std::vector<std::uint32_t>& owners() const noexcept { return parts.owners; }
 
     /// The periods, in ticks, of the sections that do not run on every tick; in rising order.

@@ -238,7 +238,7 @@ private:
     bool log_broke = false;
     double graph_rate_hz = 0.0;       // the rate in the first graph; 0 if the options set the rate
     std::uint64_t now = 0;            // tick number, offline only
-    std::unique_ptr<Runner> runner;   // last: it ticks the engine
+    std::unique_ptr<Runner> runner;   // declared last, so that it is destroyed first: it ticks the engine
 };
 
 }   // namespace tactus

@@ -27,7 +27,7 @@ Result<double> read (const Json& value, const PortSheet& sheet, const std::strin
                                "use one of: " + plan::listed (names));
     }
     const auto number = plan::readNumber (value);
-    if (! number) return Message::error ("param/value", {}, quote (name) + ": " + number.error().text, "give a plain number in SI, or text with a unit");
+    if (! number) return Message::error ("param/value", {}, quote (name) + ": " + number.error().text, "give a plain number in SI units, or text with a unit");
     const auto& n = *number;
     if (n.dimension && sheet.unit.kind == UnitRule::Kind::fixed && (*n.dimension != sheet.unit.unit.dimension || plan::miscounts (n, sheet.unit)))
         return Message::error ("param/unit", {},

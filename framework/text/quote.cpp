@@ -41,7 +41,7 @@ unsigned codePoint (std::string_view character)
     return code;
 }
 
-/// False for control characters (C0, C1), and for characters that are invisible or change the direction of writing.
+/// False for control characters (C0, C1), and for characters that are invisible or change the text direction.
 bool isHarmless (unsigned code)
 {
     const auto within = [code] (unsigned first, unsigned last) { return code >= first && code <= last; };

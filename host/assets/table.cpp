@@ -129,8 +129,9 @@ private:
         {
             if (! (std::abs (grid (i, 0) - (start + i * step)) < step))
                 return failAt (first_row, "table/uneven",
-                               "it has positions and heights, but the positions are uneven: no. " + std::to_string (i + 1) + " is " + numberText (grid (i, 0))
-                                   + ", but " + numberText (start + i * step) + " would be even",
+                               "it has positions and heights, but the positions are not evenly spaced: no. " + std::to_string (i + 1) + " is "
+                                   + numberText (grid (i, 0))
+                                   + "; with even spacing it would be " + numberText (start + i * step),
                                "interpolate the heights at even positions, and save these");
             heights.push_back (grid (i, 1));
         }

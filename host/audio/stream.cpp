@@ -36,7 +36,8 @@ void OutStream::prepare (const CardFormat& format) noexcept
     aim = card.clocks == Clocks::one ? a_block + ahead + 1.0 : a_block + ahead + 1.0 + setup.reserve_s * setup.tick_side_hz;
     flows = false;
     std::ranges::fill (last, 0.0f);
-    fifo.take (fifo.size());   // drops frames from the time without a card; there is no other consumer before its first block
+    // Drops frames queued while there was no card; nothing else consumes frames before the card's first block.
+    fifo.take (fifo.size());
 }
 
 /// Starts playback: skips frames until only the target number is waiting.

@@ -9,7 +9,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr double room_s = 1.0;   // capacity for frames that wait to be written, in s
+constexpr double room_s = 1.0;   // capacity for frames waiting to be written, in s
 }   // namespace
 
 LiveRecording::LiveRecording (Run& run, const std::vector<std::string>& files)

@@ -125,7 +125,7 @@ void printDatasheet (const NodeType& t)
             rows.push_back ({ std::string (s.id), std::string (name (s.kind)) + unit, initialText (s.initial), about });
         }
         print (rows);
-        std::cout << "  How each kind is written: docs/graph_file.md, Settings\n";
+        std::cout << "  For how to write each kind, see docs/graph_file.md, Settings\n";
     }
     section ("outputs", t.outputs, false);
 }

@@ -215,7 +215,7 @@ void addPlay (const Command& app)
     command.addOption ("--core", options->core, "Pin the tick thread to this CPU core").check (within (0, 1023));
     command.addOption ("--clock", options->clock,
                        "What ticks the run: a role (its HID device, at the rate of its reports), audio (the sound card) or timer; "
-                       "default: the session's choice, else the first device that can, unless there is a --rate or --feed");
+                       "default: the session's choice, else the first device that can tick the run, unless there is a --rate or --feed");
     command.addOption ("--session", options->session,
                        "The session that binds roles to devices: a file (docs/sessions.md), or off; default: the user's session, as shown by `tactus session`");
     command.addFlag ("--strict", options->strict,

@@ -16,7 +16,7 @@ struct RunOptions
     std::string graph, feed;
     std::vector<std::string> records, outputs, sets, devices;
     std::string log;       ///< the run log to write; "": none
-    std::string clock;     ///< the role whose device ticks the run, "timer" or "audio"; "": the session's choice, or the first device that can
+    std::string clock;     ///< the role whose device ticks the run, "timer" or "audio"; "": the session's choice, or the first device that can tick the run
     std::string session;   ///< for a live run, the session that binds its roles to devices: a file, or "off"; "": the user's
     bool strict = false;   ///< true: a missing device of the session ends the run
     std::vector<std::string> routes;

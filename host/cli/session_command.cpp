@@ -105,7 +105,7 @@ void printSession (const LoadedSession& s, std::span<const hid::ConnectedDevice>
     std::error_code unseen;
     std::cout << s.file.string() << (fs::exists (s.file, unseen) ? "\n" : " (does not exist yet)\n");
     const auto clock = s.session.clock();
-    std::cout << "clock: " << (clock.empty() ? "the first device that can" : clock) << '\n';
+    std::cout << "clock: " << (clock.empty() ? "the first device that can tick the run" : clock) << '\n';
     const auto roles = s.session.roles();
     if (roles.empty()) std::cout << "no role is bound: each graph uses the devices that it describes; --bind ROLE=hid:auto binds one\n";
     std::vector<std::vector<std::string>> rows;
@@ -258,7 +258,8 @@ void addSession (const Command& app)
                                          "may be given more than once");
     bind.oneValueEach();
     command.addOption ("--unbind", options->unbind, "A role to unbind: each graph uses its own device again; may be given more than once").oneValueEach();
-    const auto clock = command.addOption ("--clock", options->clock, "The clock of runs: a role, timer, audio, or first (the first device that can)");
+    const auto clock = command.addOption ("--clock", options->clock,
+                                          "The clock of runs: a role, timer, audio, or first (the first device that can tick the run)");
     clock.check (clockCheck());
     command.addOption ("--file", options->file, "A session file other than the user's");
     command.addFlag ("--json", options->json, "As JSON");

@@ -47,7 +47,7 @@ Drive readDrive (ProfileFields& in)
 {
     constexpr double none = std::numeric_limits<double>::infinity();
     Drive d;
-    in.require ("counts_per_turn", "write \"counts_per_turn\" of the motor's encoder, negative if it counts against the motor");
+    in.require ("counts_per_turn", "give the \"counts_per_turn\" of the motor's encoder; negative if it counts in the opposite direction to the motor");
     d.counts_per_turn = in.number ("counts_per_turn", unit::count, {}, 1.0);
     const double capstan = in.number ("capstan", unit::metre, Bounds::positive(), 1.0);
     const double body = in.number ("body", unit::metre, Bounds::positive(), 1.0);

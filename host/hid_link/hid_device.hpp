@@ -41,7 +41,7 @@ DeviceLayout layoutOf (const HidModel&);
 /// thread, so every device gets its effort right away, whichever clock drives the run; this is the only call into the system.
 ///
 /// A reading is the newest report; its age is the time since the report arrived, counted in ticks. It is not valid before the first report,
-/// while the device is away, and after a refused report until a good one arrives. (Reports whose ids the profile does not
+/// while the device is disconnected, and after a refused report until a good one arrives. (Reports whose ids the profile does not
 /// know are counted and ignored: many devices send some.)
 ///
 /// An axis effort of 0 leaves the value of the neutral report: a frequency of 0, for example, would be meaningless.
@@ -49,7 +49,7 @@ DeviceLayout layoutOf (const HidModel&);
 /// A signal for a stream is collected into blocks of samples at the stream's rate, each sent when it is full. A signal for
 /// a motor that takes an amplitude is converted to an amplitude.
 ///
-/// After the device was away, or the ticks paused for so long that the port sent the neutral reports, only neutral reports
+/// After the device was disconnected, or the ticks paused for so long that the port sent the neutral reports, only neutral reports
 /// are sent until the guard has been at zero once. Then efforts rise along the guard's ramp.
 class HidDevice final : public Device
 {

@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 using Clock = HidPort::Clock;
 
 constexpr std::size_t reports_waiting = 1024;   // one second of a fast device, since a run starts a while after its devices are opened
-constexpr auto longest_read = 20ms;             // short enough that a request to stop is noticed
+constexpr auto longest_read = 20ms;             // short, so that a stop request is noticed promptly
 constexpr const char* check_device = "check that the connected device is the one that the profile describes, and plug it in again";
 
 double secondsOf (Clock::duration d) { return std::chrono::duration<double> (d).count(); }
@@ -340,7 +340,7 @@ void HidPort::writeOn()
         if (! t)
         {
             for (const auto& o : outputs)
-                o->seen = o->offered.load().number;   // the device is away, so these offers do not count as dropped
+                o->seen = o->offered.load().number;   // the device is disconnected, so these offers do not count as dropped
             continue;
         }
         const auto now = Clock::now();

@@ -146,7 +146,7 @@ FoundDevice findDevice (const Json& description, HidSystem& system, const Loaded
     }
     if (matches.empty())
     {
-        std::string what = named ? "no " + named->name + " is connected" : "no connected device fits a profile";
+        std::string what = named ? "no " + named->name + " is connected" : "no connected device matches any profile";
         if (wanted.meansPid()) what = "no device with force feedback is connected";
         const auto there = connected.empty() ? "no HID device is connected" : "connected: " + namesOf (connected);
         return refuse ("hid/not_connected", what + (wanted.serial.empty() ? "" : " with serial number " + wanted.serial),

@@ -26,7 +26,7 @@ struct OutgoingReport
 /// A failed transfer, with the system's own message.
 inline Message transferError (std::string why) { return Message::error ("hid/transfer", {}, std::move (why)); }
 
-/// An open device. One thread may read while another one does the rest. The destructor closes it. Id: hid/transfer.
+/// An open device. One thread may read while another makes all other calls. The destructor closes it. Id: hid/transfer.
 class Transport
 {
 public:

@@ -286,7 +286,7 @@ Result<> RemoteControl::subscribeCapture (const OSCMessage& m, const std::string
     if (m.size() < 4 || m.size() > 8 || ! m[0].isString() || ! isPort (m[1]) || ! m[2].isString() || ! std::isfinite (level) || ! edge || before < 0
         || after < 0 || ! (length > 0.0))
         return badArguments (
-            "send a port of the graph, the port for the answers, the port of the graph that triggers, its level, and optionally "
+            "send the graph port to capture, the UDP port for the answers, the graph port that triggers, the trigger level, and optionally "
             "rising, falling or either, ticks before, ticks after, and the longest wait (s)");
 
     Capture wanted { .name = textOf (m[0].getString()),
@@ -339,7 +339,7 @@ void RemoteControl::sendCapture()
     controlled.endCapture();
 }
 
-/// Replaces all probes by these, if all their ports can be probed together.
+/// Replaces all probes with these, if all their ports can be probed together.
 Result<> RemoteControl::look (const std::vector<Probe>& wanted)
 {
     std::vector<std::string> ports;

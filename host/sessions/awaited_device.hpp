@@ -50,7 +50,7 @@ private:
     const std::chrono::milliseconds pause;
     double dt = 1e-3;
 
-    double age = 0.0;   // time without a reading before it is open, in s   [tick thread]
+    double age = 0.0;   // time spent waiting for the device to open, without a reading, in s   [tick thread]
 
     mutable std::mutex mutex;   // protects `last_trouble` and `stopping`
     std::condition_variable stopped;

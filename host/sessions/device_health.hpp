@@ -47,7 +47,7 @@ std::string describe (const DeviceHealth&);
 /// Monitors the devices of a run, from a thread that looks now and then. Reports are timed on arrival (HidPort), so the
 /// tick thread is not involved. The reference is the device that ticks the run, or else the computer's clock, which also
 /// drives the timer. Lost reports, known from sequence numbers, are counted too, so they do not look like a slow clock. When
-/// a device that was away is back, its measurement starts again. [one thread]
+/// a device that was disconnected is back, its measurement starts again. [one thread]
 class HealthWatch
 {
 public:

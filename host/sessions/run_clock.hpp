@@ -10,8 +10,8 @@
 namespace tactus::host
 {
 
-/// The clock of a run that is ticked by a device, present or awaited. Until the device is available, a timer ticks at its
-/// rate; then its reports tick the run (HidClock).
+/// The clock of a run that is ticked by a device that is connected or still awaited. Until the device is available, a timer
+/// ticks at its rate; then its reports tick the run (HidClock).
 class RunClock final : public TickClock
 {
 public:
@@ -21,7 +21,7 @@ public:
 
     void drive (Ticked&) noexcept override;
 
-    bool isReplaced() const noexcept override;     ///< true if the device is missing, away or silent
+    bool isReplaced() const noexcept override;     ///< true if the device is missing, disconnected or silent
     bool isByTimer() const noexcept;               ///< [any thread]
     std::uint64_t ticksByTimer() const noexcept;   ///< [any thread]
 

@@ -12,7 +12,7 @@ namespace tactus::host
 struct EvemuOptions
 {
     double pitch = 0.0;           ///< length of a unit of ABS_X and ABS_Y, in m; 0: from the recording, else 5 um (Wacom)
-    double full_pressure = 0.0;   ///< units at full pressure; 0: from the recording, else 2047, or the largest value that occurs
+    double full_pressure = 0.0;   ///< units at full pressure; 0: from the recording, else 2047 or the largest value that occurs, whichever is larger
     double full_force = 3.0;      ///< force at full pressure, in N
     double full_depth = 2e-3;     ///< depth below the surface at full pressure, in m
     double lift = 5e-3;           ///< height above the surface while the pen is up, in m

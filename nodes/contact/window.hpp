@@ -44,7 +44,7 @@ struct ContactWindow
     static constexpr std::tuple ports {
         input (&Inputs::depth, "depth", unit::metre, "depth of the tool in the object"),
         param (&Params::window, "window", unit::metre, "depth at which the gain is 1", { .hard = { 1e-9, inf }, .usual = { 1e-5, 5e-3 } }),
-        output (&Outputs::gain, "gain", unit::gain, "from 0 while apart to 1 deep inside"),
+        output (&Outputs::gain, "gain", unit::gain, "0 outside the object, rising to 1 at a depth of window"),
     };
 
     Params params;

@@ -14,8 +14,8 @@ namespace tactus::nodes
 ///     N     = max (0, K (depth) (1 + dissipation rate) + damping rate)   while depth > 0; N = 0 otherwise
 ///     f     = N n                                             force on the tool
 ///
-/// K is `law`, or stiffness times depth if no law is given. `rate` is the difference of the measured depth over one sample,
-/// even while apart: on the first sample inside it is the speed of the approach.
+/// K is `law`, or stiffness times depth if no law is given. `rate` is the change of the measured depth per sample,
+/// divided by the sample period, even while apart: on the first sample inside it is the speed of the approach.
 ///
 /// Damping acts from the first touch and so steps the force. Dissipation (Hunt and Crossley's lambda, section 6) grows with K
 /// and does not step it. With dissipation alone, and any power law, a tool of any mass comes back with the fraction

@@ -279,7 +279,8 @@ private:
 
     std::optional<Felt> stick (const Vec3& p) noexcept
     {
-        constexpr double guard = 1e-9;      // relative: a steady slip ends exactly on the bound, and rounding would make it chatter
+        // Relative; a steady slip ends exactly on the bound, so without this tolerance rounding would make the contact chatter.
+        constexpr double guard = 1e-9;
         constexpr double past_rim = 1e-3;   // relative: the stretch exceeds the bound by more if the rim holds the contact back, else by less
         bool off = false;
         Felt felt = body->feel (touch.spot, p, touch.tool);
@@ -372,8 +373,10 @@ private:
     std::shared_ptr<Search> search;   // null: searches within the tick
     int until_asked = 0;              // ticks until the next search may begin
     Touch touch;
-    bool behind = false;   // the tool entered where the mesh is open; it feels nothing until it has been outside the body once
-    Spot near;             // the nearest point of the mesh while apart, if known
+    // The tool went in past the rim of an open mesh, or was already inside when first found; it feels nothing
+    // until it has been outside.
+    bool behind = false;
+    Spot near;   // the nearest point of the mesh while apart, if known
     Sample last;
     double dissipated = 0.0;   // J
 };

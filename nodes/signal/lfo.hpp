@@ -14,10 +14,10 @@ namespace tactus::nodes
 ///
 ///     out = offset + amplitude * shape (f t + phase / 2 pi)
 ///
-///     sine      from 0, upwards first
-///     triangle  from 0, upwards first
+///     sine      starts at 0, rising
+///     triangle  starts at 0, rising
 ///     square    +1 for the first half of the cycle, -1 for the second
-///     saw       from 0 up to 1, jumps to -1 in the middle of the cycle, up to 0
+///     saw       from 0 up to 1, jumps to -1 in mid-cycle, rises back to 0
 ///
 /// The first sample is at `phase`. The phase is computed from the number of ticks, so errors do not accumulate: after a day at
 /// a fixed frequency the phase is still correct to the rounding of the number of cycles. A new frequency continues from the

@@ -24,7 +24,7 @@ struct VectorNormalize
 
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "vector"),
-        output (&Outputs::out, "out", unit::gain, "its direction, of length 1, or 0"),
+        output (&Outputs::out, "out", unit::gain, "unit vector in the direction of the input; 0 if the input is 0"),
     };
 
     Params params;

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-/// Hands for these tests: what an expert does to a graph, and the resulting forces.
+/// Helpers for these tests: random numbers, simulated hands that move the tool, and the forces on them.
 namespace tactus::test
 {
 

@@ -54,7 +54,7 @@ Json toJson (const std::map<std::string, GuardLimits>& guards)
     return json;
 }
 
-/// Only devices that have more than a tool.
+/// Includes only devices that have more than a tool: axes, efforts, buttons or signals.
 Json toJson (const std::map<std::string, DeviceLayout>& devices)
 {
     auto json = Json::object();

@@ -146,7 +146,8 @@ graph::Command addNode (const graph::Graph& g, const std::string& patch, const s
     node.extra["ui"] = Json { { "at", toJson (at) } };
     made = node.id;
     if (! type.starts_with ("device.")) return graph::AddNode { patch, std::move (node) };
-    // A device node needs a device role. The first one creates a simulated stylus in a stroking hand.
+    // A device node needs a device role. If the graph has none, also adds one: a simulated stylus, moved by a
+    // simulated hand that strokes.
     graph::Batch all { "add node", {} };
     if (g.devices.empty()) all.commands.push_back (graph::SetDevice { "stylus", defaultDevice() });
     node.role = g.devices.empty() ? "stylus" : g.devices.front().first;

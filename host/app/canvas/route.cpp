@@ -80,7 +80,7 @@ std::vector<juce::Point<float>> routeAround (juce::Point<float> from, juce::Poin
         while (i < met.size() && met[i].getX() < box.getRight() + 2 * clearance)
             box = box.getUnion (met[i++]);
         const float middle = from.y + (to.y - from.y) * (box.getCentreX() - from.x) / std::max (1.0f, to.x - from.x);
-        // Take the nearer side, clear of other boxes there.
+        // Pass on the nearer side, far enough out to clear the other boxes there.
         float above = box.getY() - clearance, below = box.getBottom() + clearance;
         for (int look = 0; look < 4; ++look)
             for (const auto& o : obstacles)

@@ -30,7 +30,7 @@ struct View
 
     void centreOn (juce::Point<float> place, juce::Rectangle<float> window) noexcept { origin = window.getCentre() - place * zoom; }
 
-    /// Fits an area into the window, centred, at most at 100 %.
+    /// Fits an area into the window, centred, at no more than 100 %.
     void frame (juce::Rectangle<float> area, juce::Rectangle<float> window) noexcept
     {
         if (area.isEmpty() || window.isEmpty()) return;

@@ -106,7 +106,7 @@ void describeDevice (const Inspected& at, const graph::Node& node, Column& colum
     if (now.is_null())
     {
         const auto describe = [&document, role] { document.perform (graph::SetDevice { role, defaultDevice() }); };
-        column.add (buttonRow ("Add description", describe, "A simulated tool in a stroking hand"));
+        column.add (buttonRow ("Add description", describe, "A simulated tool, moved by a hand that strokes"));
         return;
     }
     std::vector<std::string> paths;

@@ -105,7 +105,8 @@ public:
     /// The run's tick rate, in Hz.
     double rate() const noexcept { return run && run->hasEngine() ? run->rate() : document.graph().rate_hz; }
 
-    /// The longest delay from a source to a sink, each by its shortest path, in ticks; empty if no source is connected to a sink.
+    /// The delay of the slowest source-sink pair, in ticks; each pair counts by its shortest path. Empty if no source is
+    /// connected to a sink.
     std::optional<std::int64_t> delay() const;
 
     /// How stiff a wall may be on the first device before it buzzes, K < 2b/((2d+1)T), in N/m; empty if the device's damping is

@@ -77,7 +77,7 @@ public:
 SafetyStrip::SafetyStrip (Playback& p) : playback (p), button (std::make_unique<StopButton>()), rearm (std::make_unique<StopButton>())
 {
     rearm->setButtonText ("REARM");
-    rearm->setTooltip ("Lets the forces rise again, slowly. Press it only once it is safe.");
+    rearm->setTooltip ("Lets the forces rise again, slowly. Press it only when it is safe.");
     rearm->onClick = [this] { playback.current().rearm(); };
     addChildComponent (*rearm);
     button->onClick = [this] { shown.running ? playback.stop() : playback.restart(); };
@@ -143,7 +143,7 @@ void SafetyStrip::showGuards (const LiveRun& run, const RunStatus& status, Shown
         }
     if (now.running && status.clock_replaced)
     {
-        now.guard = juce::String (run.clockRole()) + " does not tick: forces are held at zero";
+        now.guard = juce::String (run.clockRole()) + " is not ticking: forces are held at zero";
         now.alarmed = true;
     }
 }

@@ -24,7 +24,7 @@ struct EnergyBalance
     /// when they slip within one coarse tick.
     double elsewhere() const noexcept { return work + held - (stored - stored_first) - dissipated; }
 
-    /// True if the hand never got out more than was stored at the start.
+    /// True if the hand never got more energy out than was stored at the start.
     bool isPassive() const noexcept { return worst + stored_first >= -tolerance(); }
     double tolerance() const noexcept { return std::max (1e-9, 1e-3 * moved); }
 };

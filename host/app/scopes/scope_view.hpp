@@ -56,7 +56,7 @@ private:
         juce::Colour dot {};
         std::function<void()> onClick {};
         juce::String about {};
-        bool is_removable = false;   // true: onClick is called by the cross of the chip
+        bool is_removable = false;   // true: the chip has a close button, and only that calls onClick
     };
     void add (Chip);
 

@@ -9,8 +9,8 @@
 namespace tactus::host
 {
 
-/// The smallest graph in which a node of a type can be felt or watched. Its inputs are wired to a hand and a wall as far as they fit, and
-/// its first force output is wired to a motor.
+/// The smallest graph in which a node of a type can be felt or watched. Its inputs are wired to a hand and a wall where these supply
+/// the right quantity, and its first force output is wired to a motor.
 graph::Graph exampleOf (const NodeType&, const Catalogue&);
 
 }   // namespace tactus::host

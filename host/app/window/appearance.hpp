@@ -9,7 +9,7 @@ namespace tactus::host
 /// Shows a whole window in a theme, including JUCE's own file dialogs. [main thread]
 void applyTheme (juce::Component& window, const Theme&);
 
-/// Scales the user interface. 0: automatic, by the display. [main thread]
+/// Scales the user interface. 0: chosen from the height of the primary display. [main thread]
 void applyScale (double);
 
 }   // namespace tactus::host

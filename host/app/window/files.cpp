@@ -169,7 +169,7 @@ void Files::askAboutNext()
         crashed.erase (crashed.begin());
         askAboutNext();
     };
-    const auto later = [this] { crashed.clear(); };   // the next start asks again
+    const auto later = [this] { crashed.clear(); };   // asks again on the next start
     std::vector<Question::Choice> choices;
     if (q.can_recover)
     {

@@ -69,7 +69,7 @@ graph::Graph touchable (unsigned seed, int size)
     return s.graph;
 }
 
-/// The efforts of both hands, and the bits of everything recorded.
+/// The efforts of both hands, and the bit patterns of everything recorded.
 struct Felt
 {
     std::vector<Effort> left, right;

@@ -14,7 +14,8 @@ using namespace tactus::test;
 
 namespace
 {
-/// Hits before, inside and after a section. Only the bar at the end reveals that they are hits.
+/// Hits through a section: gains before and inside it, and a bar after it. A gain passes on any kind of value, so only the
+/// bar's hit input shows that the wires carry hits.
 Parted knocking (Json rate)
 {
     Parted sketch { std::move (rate) };

@@ -230,5 +230,5 @@ TEST_CASE ("a section with its own rate is one entry in the costs", "[runtime]")
     const auto all = costs.of (*plan);
     REQUIRE (all.size() == 2);
     CHECK (describe (all[0]) == "'part' (subgraph) takes 100 % of a tick");
-    CHECK (all[0].mean_s == Approx (3e-6).epsilon (0.02));   // 6 us on every second tick; the measured ticks are random
+    CHECK (all[0].mean_s == Approx (3e-6).epsilon (0.02));   // 6 us on every second tick; the ticks to measure are picked at random
 }

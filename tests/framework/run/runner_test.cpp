@@ -244,7 +244,7 @@ TEST_CASE ("a device can own the clock; when it falls silent, its guard removes 
                 if (k >= 100)
                 {
                     silent = true;
-                    std::this_thread::sleep_for (std::chrono::milliseconds (1));   // waits in vain for the next report
+                    std::this_thread::sleep_for (std::chrono::milliseconds (1));   // waits for a report that never comes
                 }
         }
 

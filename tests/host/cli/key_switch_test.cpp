@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Keys: measured force curves of real switches turned into graphs, and the invented key among the presets. Plots go to
+// Keys: measured force curves of real switches turned into graphs, and the made-up key in the presets. Plots go to
 // build/figures/.
 
 #include "program.hpp"

@@ -84,7 +84,7 @@ public:
     }
 
 private:
-    /// Sine, cosine, and powers of the time from -1 to 1.
+    /// A decaying sine and cosine, and powers of the time rescaled to run from -1 to 1.
     Eigen::MatrixXd basis (double frequency, double decay) const
     {
         Eigen::MatrixXd terms (y.size(), 2 + slow_terms);

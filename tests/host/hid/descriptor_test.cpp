@@ -103,7 +103,7 @@ TEST_CASE ("a descriptor gives the place of each number in a report")
 TEST_CASE ("pushed states, long usages, alternatives and unsigned maxima follow the standard")
 {
     const auto d = good (test::bytes (
-        "05 01 15 00 25 7f 75 08 95 01 a4 05 09 75 01 b4 09 30 81 02 "   // push, change, pop: still x of 8 bits
+        "05 01 15 00 25 7f 75 08 95 01 a4 05 09 75 01 b4 09 30 81 02 "   // push the state, change it, pop it: x is still 8 bits wide
         "0b 05 00 0c 00 81 02 "                                          // a usage with its own page
         "a9 01 09 31 09 32 a9 00 81 02 "                                 // the first of a set of alternatives
         "26 ff ff 75 10 09 33 81 02 fe 02 00 11 22 09 34 91 02"));       // 65535, a long item, an output

@@ -15,7 +15,7 @@ using test::profiles;
 
 namespace
 {
-/// The component of a vector, if the name is one.
+/// The component that the name refers to ("position.x"); empty if it refers to none.
 std::optional<double> componentOf (const std::string& name, std::string_view of, const Vec3& v)
 {
     if (name.size() != of.size() + 2 || ! name.starts_with (of) || name[of.size()] != '.') return {};

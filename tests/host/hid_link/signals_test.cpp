@@ -133,7 +133,7 @@ TEST_CASE ("rumble motors get the amplitude of their signal, and HD rumble motor
         CHECK (pad.until ([&] {
             for (int i = 0; i < 20; ++i, ++k)
                 tick (*device, { 0.5 * std::sin (2.0 * std::numbers::pi * 100.0 * 1e-3 * k) });
-            if (k % 200 == 0) tick (*device, {});   // if the machine paused, a tick at rest lets it start again
+            if (k % 200 == 0) tick (*device, {});   // if the machine stalled, the port sent neutral reports; a tick without signals lets the output start again
             const auto reports = sent (pad, id);
             return ! reports.empty() && matches (reports.back());
         }));

@@ -235,7 +235,7 @@ TEST_CASE ("a port that other machines can reach answers only this machine and t
     };
     const auto alone = open ("");
     CHECK (receive (*alone, "127.0.0.1") == "127.0.0.1");
-    CHECK (receive (*alone, "127.0.0.2") == "127.0.0.1");   // this is the same machine too
+    CHECK (receive (*alone, "127.0.0.2") == "127.0.0.1");   // 127.0.0.2 is also this machine
 
     juce::Array<juce::IPAddress> all;
     juce::IPAddress::findAllAddresses (all);

@@ -278,7 +278,7 @@ TEST_CASE ("scissors: params are read when they touch the plate", "[nodes][cut]"
     bench.tick (0.3);
     CHECK (bench.out.state == 4.0);
     CHECK (bench.out.torque == Approx (500.0 * 2e-3 * bench.out.crack_front / std::sin (0.3)));
-    CHECK (bench.out.crack_front < 0.1);   // 0.1 is where a plate begins, not where its cut ends
+    CHECK (bench.out.crack_front < 0.1);   // the new pivot_distance, 0.1, applies only to an uncut plate
 
     Bench untouched;
     untouched.node.params.pivot_distance = 5e-3;

@@ -60,7 +60,7 @@ double sigma (const Params& params, double normal_force)
     return params.stiffness > 0.0 ? params.stiffness : params.mu * normal_force / params.d_max;
 }
 
-/// One loop between -amplitude and amplitude, n steps per stroke, after the first strokes have died out.
+/// One loop between -amplitude and amplitude, n steps per stroke, after ten strokes, when the initial transient is gone.
 double loopArea (Params params, double amplitude, int n, double Bench::*work)
 {
     Bench bench (params);

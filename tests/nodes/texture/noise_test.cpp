@@ -298,7 +298,7 @@ TEST_CASE ("texture noise: it is silent at rest and out of contact, and grows fr
 
 TEST_CASE ("texture noise: at another rate it has the same spectrum, without images or aliases", "[nodes][texture]")
 {
-    for (const double tick_rate : { 4000.0, 2700.0, 1200.0 })   // faster than the models: no images
+    for (const double tick_rate : { 4000.0, 2700.0, 1200.0 })   // faster than the rate of the models (1 kHz): no images may appear
     {
         auto node = sounding ({ hiss }, tick_rate);
         const auto power = spectrum (heard (node, 256 * 500), 256);

@@ -183,7 +183,7 @@ TEST_CASE ("during a run, the strips show the level after gain, and the spectrum
     CHECK (sounded > 0.0);
     CHECK (rig.picture().isValid());
 
-    rig.panel->setVisible (false);   // hidden, it needs no traces
+    rig.panel->setVisible (false);   // a hidden panel needs no traces
     CHECK (rig.live_run->traces().ports().empty());
 }
 

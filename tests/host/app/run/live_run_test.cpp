@@ -144,7 +144,7 @@ TEST_CASE ("the emergency stop removes the forces while the graph keeps running,
     CHECK (until (p, [&] { return force() > 0.1; }));
     CHECK_FALSE (p.isStoppedForGood());
     p.emergencyStop();
-    p.start ({});   // a start by the user also ends the stop
+    p.start ({});   // starting the run by hand also clears the stop
     CHECK (until (p, [&] { return p.isRunning() && force() > 0.1; }));
 }
 
