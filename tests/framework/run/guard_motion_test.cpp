@@ -60,14 +60,17 @@ std::string idsOf (const Messages& messages)
     return all;
 }
 
+/// A device that reports the force it gets to its owner.
 class Tool final : public Device
 {
 public:
+    explicit Tool (double& f) : force (f) {}
     void prepare (double) override {}
     Reading read() noexcept override { return {}; }
     void write (const Effort& e) noexcept override { force = e.force.x(); }
 
-    double force = 0.0;
+private:
+    double& force;
 };
 }   // namespace
 
@@ -216,18 +219,16 @@ TEST_CASE ("a run: the guard that the graph describes holds for any device of th
     s.node ("push", "signal.constant", { { "value", 50.0 } }).node ("motor", "device.force").wire ("push.out -> motor.force.x");
     const auto appliedWith = [&] (const GuardLimits& own, const char* guard) {
         s.graph.devices = { { "stylus", Json { { "driver", "hid" }, { "guard", Json::parse (guard) } } } };
-        Tool* tool = nullptr;
+        double force = 0.0;
         const auto opener = [&] (const std::string&, const graph::Graph&, const Plan&, Messages&) -> Run::RoleDevice {
-            auto made = std::make_unique<Tool>();
-            tool = made.get();
-            return { std::move (made), own };
+            return { std::make_unique<Tool> (force), own };
         };
         Run run { catalogue(), { .rate_hz = 1000.0 }, opener };
         auto messages = run.load (s.graph);
         run.openDevices (s.graph, messages);
         for (int k = 0; k < 100; ++k)
             run.tick();
-        return std::pair { tool->force, idsOf (messages) };
+        return std::pair { force, idsOf (messages) };
     };
     CHECK (appliedWith ({}, R"({"max_force": "2 N"})").first == Approx (2.0));
     CHECK (appliedWith ({ .max_force = 1.0 }, R"({"max_force": "2 N"})").first == Approx (1.0));
