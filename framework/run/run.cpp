@@ -78,7 +78,8 @@ bool Run::hasDevice (const std::string& role) const
     return std::ranges::any_of (by_role, [&] (const auto& d) { return d.first == role; });
 }
 
-/// Opens the device of a role. The guard that the graph describes holds for every device of the role, whoever chose the device.
+/// Opens the device of a role. The guard that the graph describes for the role holds for the device, even if an option or a session
+/// chose another one.
 Run::RoleDevice Run::openOne (const std::string& role, const graph::Graph& graph, const Plan& plan, Messages& messages)
 {
     auto opened = open (role, graph, plan, messages);

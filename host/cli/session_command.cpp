@@ -145,7 +145,7 @@ Json jsonOf (const RoleFit& fit)
         lacking.push_back (l);
     for (const auto& m : fit.messages)
         lacking.push_back (m.where + ": " + m.text);
-    Json json { { "role", fit.role }, { "needs", describe (fit.needs) }, { "bound_to", nameOf (fit.description) }, { "by", "nobody" } };
+    Json json { { "role", fit.role }, { "needs", describe (fit.needs) }, { "bound_to", nameOf (fit.description) }, { "by", "none" } };
     if (fit.from == RoleFit::From::session) json["by"] = "session";
     if (fit.from == RoleFit::From::graph) json["by"] = "graph";
     json["fits"] = fit.fits();

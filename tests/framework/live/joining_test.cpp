@@ -148,9 +148,9 @@ TEST_CASE ("joining a role that does not exist, or that already has a device, is
     Engine engine { addThumb (sketch).compile ({ .rate_hz = rate_hz }).plan };
     Thumb thumb;
     engine.attach ("thumb", thumb);
-    const Engine::Joining again { "thumb", thumb }, nobody { "toe", thumb };
+    const Engine::Joining again { "thumb", thumb }, unknown { "toe", thumb };
     CHECK_THROWS_AS (engine.submit (after (sketch, engine), std::span (&again, 1)), std::invalid_argument);
-    CHECK_THROWS_AS (engine.submit (after (sketch, engine), std::span (&nobody, 1)), std::out_of_range);
+    CHECK_THROWS_AS (engine.submit (after (sketch, engine), std::span (&unknown, 1)), std::out_of_range);
     engine.tick();
     CHECK (thumb.reads == 1);
 }

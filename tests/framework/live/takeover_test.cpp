@@ -240,7 +240,7 @@ TEST_CASE ("an edit that does not compile is reported, and the previous plan kee
     CHECK (bench.value() == 4.0);
     CHECK (bench.live.engine().clear() == 1);
 
-    messages = bench.live.perform (graph::RemoveNode { "", "nobody" });
+    messages = bench.live.perform (graph::RemoveNode { "", "missing" });
     REQUIRE (messages.size() == 1);
     CHECK (messages[0].id == "edit/unknown_node");
     CHECK (bench.live.graph().root.wires.size() == 3);

@@ -179,7 +179,7 @@ std::vector<Fault> faults()
         { "the device falls silent (watchdog 20 ms)", profile, [] (Bench& b) { b.tool.is_silent = true; },
           [] (Bench& b) { b.tool.is_silent = false; } },
         { "an edit that does not compile", profile,
-          [] (Bench& b) { CHECK (hasErrors (b.live.perform (graph::AddWire { .patch = {}, .wire = *graph::parseWire ("nobody.out -> push.in") }))); },
+          [] (Bench& b) { CHECK (hasErrors (b.live.perform (graph::AddWire { .patch = {}, .wire = *graph::parseWire ("missing.out -> push.in") }))); },
           nothing },
         { "an edit that removes the motor", profile,
           [] (Bench& b) { CHECK_FALSE (hasErrors (b.live.perform (graph::SetNodeKey { .patch = {}, .node = "motor", .key = "bypass", .value = true }))); },

@@ -127,7 +127,7 @@ TEST_CASE ("the table of sound cards in docs/safety.md matches the measurement",
 TEST_CASE ("a card that went away is closed and reopened when it is back; until then the reason is available", "[audio]")
 {
     using namespace std::chrono_literals;
-    struct Nobody final : CardUser
+    struct NoUser final : CardUser
     {
         void begin (const OpenedFormat&) override {}
         void block (const float* const*, int, float* const*, int, int) noexcept override {}

@@ -32,11 +32,11 @@ TEST_CASE ("the list of devices is never empty, and is JSON on request", "[cli][
 TEST_CASE ("a run with an absent device reports it, and lists the devices that are present", "[cli][hid]")
 {
     Scratch scratch;
-    const auto device = scratch.write ("device.json", R"({"driver": "hid", "profile": "tactus_board", "serial": "nobody has this"})");
+    const auto device = scratch.write ("device.json", R"({"driver": "hid", "profile": "tactus_board", "serial": "no such device"})");
     const auto absent = runTactus ({ "play", wood, "--osc", "off", "--duration", "1", "--device", "stylus=" + device });
     CHECK (absent.status == 1);
     CHECK (holds (absent.err, "hid/not_connected"));
-    CHECK (holds (absent.err, "with serial number nobody has this"));
+    CHECK (holds (absent.err, "with serial number no such device"));
 
     const auto misspelt = runTactus ({ "play", wood, "--osc", "off", "--duration", "1", "--device", "stylus=hid:tactus_bord" });
     CHECK (misspelt.status == 1);

@@ -48,7 +48,7 @@ private:
     void run (int port, const std::stop_token& stop)
     {
         using Clock = std::chrono::steady_clock;
-        const auto nobody = std::move (*host::OscPort::open (0));
+        const auto silent = std::move (*host::OscPort::open (0));
         juce::DatagramSocket socket;
         socket.bindToPort (0, "127.0.0.1");
         std::mt19937 random (1);
@@ -58,7 +58,7 @@ private:
             const auto due = static_cast<int> (20'000.0 * std::chrono::duration<double> (Clock::now() - begin).count());
             for (; count < due; ++count)
                 if (count % 2 == 0)
-                    nobody->send (port, juce::OSCMessage ("/tactus/param", juce::String ("drag.mu"), juce::String ("0.4"), nobody->number()));
+                    silent->send (port, juce::OSCMessage ("/tactus/param", juce::String ("drag.mu"), juce::String ("0.4"), silent->number()));
                 else
                 {
                     char bytes[64];

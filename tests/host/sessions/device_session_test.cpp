@@ -135,7 +135,7 @@ TEST_CASE ("a session is read, changed and written, and unknown entries are kept
     CHECK ((*s.audio())["type"] == "JACK");
 
     s.unbind ("stylus");
-    s.unbind ("nobody");
+    s.unbind ("unbound");
     s.setClock ("");
     s.bind ("thumb", { { "driver", "sim" } });
     const auto again = readSession (writeSession (s));

@@ -185,7 +185,7 @@ TEST_CASE ("the clock option takes precedence over the session, which takes prec
     CHECK (choose ("", "stylus", 500.0).role == "stylus");
 
     CHECK (idOf (choose ("pen", "stylus")) == "run/no_clock");
-    CHECK (idOf (choose ("nobody", "")) == "run/no_clock");
+    CHECK (idOf (choose ("missing", "")) == "run/no_clock");
     CHECK (idOf (choose ("thumb", "", 4000.0)) == "run/two_rates");
     CHECK (hasErrors (choose ("thumb", "", 4000.0).messages));
 
