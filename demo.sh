@@ -52,12 +52,12 @@ for graph in graphs/*.json; do
     esac
 done
 
-say "The same wood, under the same hand moving in circles"
+say "The same wood, with the hand moving in circles"
 render dry_wood_circle graphs/dry_wood.json --device stylus=gesture:circle --record hand.position.x,hand.position.y,drag.force
 
 strokes=../shared/data/strokes_evemu
 if [ -d "$strokes" ]; then
-    say "The same wood, under strokes recorded on a tablet"
+    say "The same wood, with strokes recorded on a tablet"
     for recording in "$strokes"/*.events; do
         name=$(basename "${recording%.events}" | tr -c "A-Za-z0-9\n" _)
         evemu_to_trace "$recording" --out "out/trace_$name.csv"

@@ -408,7 +408,7 @@ TEST_CASE ("no node allocates or locks within a tick", "[nodes][contract]")
 {
     if (! NoAllocation::watches)
     {
-        WARN ("not watched under this sanitizer");
+        WARN ("allocations are not watched under this sanitizer");
         return;
     }
 
@@ -512,7 +512,7 @@ TEST_CASE ("a node that claims to be passive generates no energy on a closed pat
                     p = next;
                 }
                 if (given > 0.01 * handled + 1e-15)
-                    fail ("it gave ", given, " J of ", handled, " J handled");
+                    fail ("the node gave ", given, " J; the work moved in total was ", handled, " J");
             });
         }
     }

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# Compiles tests in batches, which takes half the time of one by one: a batch reads the headers once and instantiates their
-# templates once. Each file is included inside a namespace of its own, so its helpers may have the names of another file's.
-# That needs all headers to be included before; this file therefore also runs as a script that writes a batch.
+# Compiles tests in batches, which takes half the time of compiling them one by one: a batch reads the headers once and
+# instantiates their templates once. Each file is included inside a namespace of its own, so two files may use the same names for
+# their helpers. All headers must therefore be included first, so this file also runs as a script that writes a batch.
 
 if (CMAKE_SCRIPT_MODE_FILE)   # cmake -D batch=FILE.cpp -D files=A.cpp;B.cpp… -P join.cmake
     set (headers)
@@ -23,7 +23,8 @@ if (CMAKE_SCRIPT_MODE_FILE)   # cmake -D batch=FILE.cpp -D files=A.cpp;B.cpp… 
     return ()
 endif ()
 
-# tactus_join (VARIABLE): replaces the files of tests in this list by batches of them. Files with namespaces of their own stay.
+# tactus_join (VARIABLE): replaces the files of tests in this list by batches of them. Files that define namespaces of their own are left
+# as they are.
 function (tactus_join variable)
     set (out)
     set (files)

@@ -25,8 +25,8 @@ constexpr std::string_view spaces = " \t";
 
 struct Field
 {
-    std::string_view text;    // without surrounding spaces and quotes
-    std::size_t column = 1;   // column of its first byte
+    std::string_view text;    // text of the field, without surrounding spaces and quotes
+    std::size_t column = 1;   // column of the first byte of the field
 };
 
 std::string_view trim (std::string_view text)
@@ -120,7 +120,7 @@ private:
             return fail ("csv/nul_byte", nul + 1, "there is a NUL byte",
                          "check that the file is text, and save it as UTF-8");
         if (trim (line).empty())
-            return fail ("csv/blank_line", 1, "the line is blank", "remove it; blank lines are allowed only at the end");
+            return fail ("csv/blank_line", 1, "the line is blank", "remove the line; blank lines are allowed only at the end");
 
         return splitLine (line);
     }
@@ -138,13 +138,13 @@ private:
                 const auto close = closingQuote (line, at);
                 if (close == std::string_view::npos)
                     return fail ("csv/broken_quote", at + 1, "the double quote is not closed on this line",
-                                 "close it, or remove it");
+                                 "add the closing quote, or remove this one");
 
                 fields.push_back ({ .text = trim (line.substr (at + 1, close - at - 1)), .column = at + 1 });
                 at = std::min (line.find_first_not_of (spaces, close + 1), line.size());
                 if (at < line.size() && line[at] != ',')
                     return fail ("csv/broken_quote", at + 1, "there is text after a closing double quote",
-                                 "put a comma there, or write \"\" for a quote inside quotes");
+                                 "put a comma after the closing quote, or write \"\" for a quote inside quotes");
             }
             else
             {
@@ -184,7 +184,7 @@ private:
             if (field.text.empty())
                 return fail ("csv/empty_column_name", field.column,
                              "column " + std::to_string (table.columns.size() + 1) + " has no name",
-                             "name it, or remove the extra comma");
+                             "name the column, or remove the extra comma");
 
             table.columns.push_back (withoutDoubledQuotes (field.text));
             if (! seen.insert (table.columns.back()).second)
@@ -216,7 +216,7 @@ private:
             const auto number = parseNumber (text);
             if (number.problem == std::errc::result_out_of_range)
                 return fail ("csv/out_of_range", column, inColumn (name_of_column, text, "is out of the range of a double"),
-                             "if you mean inf or 0, write that");
+                             "write inf or 0 if that is what you mean");
             if (number.problem != std::errc {})
             {
                 const bool has_separator = text.find_first_of (";\t") != std::string_view::npos;
@@ -232,7 +232,7 @@ private:
     std::string_view rest;
     std::string name;
     std::size_t line_number = 0;
-    std::vector<Field> fields;   // of the current line, reused to save allocations
+    std::vector<Field> fields;   // fields of the current line; reused to save allocations
     Table table;
 };
 
@@ -305,7 +305,7 @@ Result<TableWriter> TableWriter::create (const std::filesystem::path& path, std:
         return readable.error();
     if (! std::ranges::equal (readable->columns, columns))
         return Message::error ("csv/column_name", path.string(), "a column name contains a line break, or begins or ends with a space",
-                               "write it on one line, without surrounding spaces");
+                               "write the name on one line, without surrounding spaces");
 
     auto opened = AtomicFile::create (path);
     if (! opened)

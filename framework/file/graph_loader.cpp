@@ -28,7 +28,7 @@ Message unreadable (const fs::path& path, const std::string& reason)
                            "check the path; a path in a file is relative to the folder of that file");
 }
 
-/// The text of a file. Stops soon after the largest allowed size, so that it also returns for an endless file.
+/// The text of a file. Stops soon after the largest allowed size, so that reading an endless file ends, too.
 Result<std::string> readText (const fs::path& path)
 {
     std::error_code failure;

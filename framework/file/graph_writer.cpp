@@ -35,7 +35,7 @@ void appendUnlessEmpty (Json& object, std::string key, const Json& value)
     if (! value.empty()) append (object, std::move (key), value);
 }
 
-/// Adds the keys that the reader has kept, with `ui` at the end, because it matters least in a diff.
+/// Adds the keys that the reader has kept, with `ui` at the end, because `ui` matters least in a diff.
 void appendExtra (Json& object, const Json& extra)
 {
     const Json* ui = nullptr;

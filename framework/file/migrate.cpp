@@ -18,7 +18,7 @@ Result<> migrate (Json& file, int version, const FileFormat& format)
     const auto newest = std::to_string (format.version);
     if (version > format.version)
         return problem ("file/newer_version", "the file is version " + std::to_string (version) + ", but this Tactus reads only versions up to " + newest,
-                        "open it with a newer Tactus");
+                        "open the file with a newer Tactus");
 
     for (; version < format.version; ++version)
     {
@@ -34,7 +34,7 @@ Result<> migrate (Json& file, int version, const FileFormat& format)
         catch (const JsonError& reason)
         {
             return problem ("file/migration", "the file could not be migrated from version " + std::to_string (version) + " to the next: " + reason.what(),
-                            "make sure that its parts conform to version " + std::to_string (version));
+                            "make sure that all parts of the file conform to version " + std::to_string (version));
         }
     }
     return {};

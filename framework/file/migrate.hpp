@@ -15,7 +15,7 @@ namespace tactus
 
 struct Migration
 {
-    int from;                    ///< the version it reads; it writes the next
+    int from;                    ///< the version that the step reads; it writes the next version
     void (*step) (Json& file);   ///< gets the whole file; may throw JsonError if the file does not conform to its version
 };
 
@@ -31,7 +31,7 @@ inline constexpr FileFormat graph_format { 1, {} };
 /// Runs the steps from a version to the newest. Errors: file/newer_version, file/unknown_version, file/migration.
 Result<> migrate (Json& file, int version, const FileFormat&);
 
-/// Like readGraph (text), for any format. Used to test the mechanism while there is nothing to migrate.
+/// Like readGraph (text), for any format. Used to test migration as long as there is no real step.
 LoadedGraph readGraph (std::string_view text, const FileFormat&);
 
 }   // namespace tactus

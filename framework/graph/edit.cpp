@@ -131,7 +131,7 @@ public:
             // The new name already occurs in a reference, to a node that does not exist.
             takeBack (back.commands);
             return Message::error ("edit/name_taken", {}, "a control or an override already refers to " + quote (c.to),
-                                   "remove that target first, or choose another name");
+                                   "remove that target or override first, or choose another name");
         }
         if (back.commands.size() == 1) return std::move (back.commands.front());
         return back;
@@ -161,7 +161,7 @@ public:
         auto* node = find (*patch, c.node);
         if (node == nullptr) return noNode (c.patch, c.node);
         if (c.key == "params" || c.key == "settings")
-            return Message::error ("edit/bad_value", {}, quote (c.key) + " are set one at a time", "use SetParam or SetSetting");
+            return Message::error ("edit/bad_value", {}, "the entries of " + quote (c.key) + " are set one at a time", "use SetParam or SetSetting");
         if (c.key == "type" && ! c.value) return Message::error ("edit/bad_value", {}, "a node must have a type");
         if (checked() && c.value)
             if (auto wrong = checkNodeKey (c.key, *c.value); ! wrong.empty()) return wrong.front();
@@ -405,7 +405,7 @@ public:
         if (c.about) back.about = std::exchange (graph.about, *c.about);
         if (c.tags) back.tags = std::exchange (graph.tags, *c.tags);
         if (c.rate_hz) back.rate_hz = std::exchange (graph.rate_hz, *c.rate_hz);
-        if (c.ui)   // its place does not matter, because it is written last
+        if (c.ui)   // the place of `ui` does not matter, because the writer puts it last
             back.ui = exchangeMember (c.patch.empty() ? graph.extra : patch->extra, "ui", c.ui->is_null() ? std::nullopt : c.ui, std::nullopt)
                           .value.value_or (Json());
         return back;
@@ -460,7 +460,7 @@ private:
         return C { c.patch, c.node, c.*key, std::move (old.value), old.place };
     }
 
-    /// Lists the nodes that use a subgraph, except those inside it.
+    /// Lists the nodes that use a subgraph, except nodes inside the subgraph itself.
     std::string usersOf (const std::string& subgraph) const
     {
         std::string users;
@@ -569,7 +569,7 @@ private:
     }
     static Message idTaken (const std::string& what, const std::string& name)
     {
-        return Message::error ("edit/id_taken", {}, "the " + what + ' ' + quote (name) + " has the id of another one in the graph",
+        return Message::error ("edit/id_taken", {}, "the " + what + ' ' + quote (name) + " has the same id as another node or wire of the graph",
                                "give the copy a new id with newId()");
     }
 

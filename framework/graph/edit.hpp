@@ -29,7 +29,7 @@
 namespace tactus::graph
 {
 
-/// An index in a list or object. None, or an index beyond the end, means the end.
+/// An index in a list or object. nullopt, or an index beyond the end, means the end.
 using Place = std::optional<std::size_t>;
 
 struct AddNode
@@ -139,7 +139,7 @@ struct RenameSubgraph
     std::string name, to;
 };
 
-/// Moves nodes of a patch, with the wires between them, into a new subgraph, and replaces them by one node of it. Wires from
+/// Moves nodes of a patch, with the wires between them, into a new subgraph, and replaces them by one node that uses it. Wires from
 /// outside reach them through exposed ports; all other references are adapted. Nodes and wires keep their ids.
 struct CollapseNodes
 {
@@ -180,7 +180,7 @@ struct SetDevice
     Place place {};
 };
 
-/// Sets the values that are present. A subgraph has only `ui`; null removes it.
+/// Sets the values that are present. In a subgraph, only `ui` can be set. A `ui` of null removes the key.
 struct SetHeader
 {
     std::string patch {};

@@ -14,7 +14,7 @@ enum class Side
 {
     start,   ///< start of a wire, or exposed output
     end,     ///< end of a wire, or exposed input
-    param    ///< param of a control, override or exposed param
+    param    ///< parameter that a control, an override or an exposed parameter refers to
 };
 
 /// A name in the path of an endpoint: the patch in which it is looked up, and its position.

@@ -45,7 +45,7 @@ struct Endpoint
 struct Wire
 {
     Id id = newId();
-    std::vector<Ancestor> origin {};   ///< for a copy made by expanding: the subgraph nodes that enclose the original, then the original; state follows it
+    std::vector<Ancestor> origin {};   ///< for a copy made by expanding: the subgraph nodes around the original, then the original; the copy keeps its state
     Endpoint from, to;
     int delay = 0;                 ///< in ticks; 0: no delay
     bool add = false;              ///< `(+)`: adds to the stored value of a parameter instead of replacing it
@@ -60,7 +60,7 @@ struct Node
     std::vector<Ancestor> origin {};   ///< as in Wire
     std::string name;
     std::string type;               ///< id in the catalogue, "graph:NAME" or "file:path.json"
-    std::string role;               ///< of a device node; else empty
+    std::string role;               ///< role of a device node; empty for other nodes
     Json params = Json::object();   ///< values as written, so that "0.4 mm" stays "0.4 mm"
     Json settings = Json::object();
     Json roles;                        ///< of a subgraph node: maps inner roles to outer ones

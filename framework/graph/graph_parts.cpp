@@ -29,7 +29,7 @@ Messages checked (Json part, Read&& read)
     return std::move (reader.messages);
 }
 
-/// The writer relies on these being objects.
+/// Checks that these parts are objects, because the writer relies on that.
 Messages allObjects (std::initializer_list<const Json*> parts)
 {
     PartReader reader;
@@ -58,7 +58,8 @@ Messages check (const graph::Wire& wire)
         Patch same;
         reader.readWire (part, "", same);
         if (reader.messages.empty() && ! sameEnds (same.wires.at (0), wire))
-            reader.error ("wire/syntax", "", quote (toText (wire)) + " reads back as a different wire", "use ids for nodes and ports");
+            reader.error ("wire/syntax", "", quote (toText (wire)) + " reads back as a different wire",
+                          "name nodes and ports with ids: lower-case letters, digits and _");
     });
 }
 
@@ -79,7 +80,8 @@ Messages check (const graph::Expose& expose)
         Expose same;
         reader.readExpose (part, "", same);
         if (reader.messages.empty() && (same.inputs != expose.inputs || same.outputs != expose.outputs || same.params != expose.params))
-            reader.error ("graph/bad_path", "", "an exposed port reads back as a different one", "use ids for nodes and ports");
+            reader.error ("graph/bad_path", "", "an exposed port reads back as a different one",
+                          "name nodes and ports with ids: lower-case letters, digits and _");
     });
 }
 

@@ -28,7 +28,7 @@ public:
     bool undo();   ///< false if there is nothing to undo
     bool redo();
 
-    /// The names of the steps, oldest first. The undone ones come after position().
+    /// The names of the steps, oldest first. Steps from position() on have been undone.
     std::vector<std::string> names() const;
     std::size_t position() const noexcept { return done; }
 
@@ -36,7 +36,7 @@ private:
     struct Done
     {
         std::string name;
-        std::vector<Command> commands, inverses;   ///< one of each per edit of the step, in order
+        std::vector<Command> commands, inverses;   ///< by edit of the step: its command and its inverse
     };
 
     Graph edited;

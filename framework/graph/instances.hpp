@@ -24,18 +24,19 @@ struct PathStep
     static constexpr int unspecified = -2, all = -1;
 
     std::string_view name;
-    int instance = unspecified;   ///< its number, or `all` for "[*]", or `unspecified`
+    int instance = unspecified;   ///< number of the instance, or `all` for "[*]", or `unspecified`
     std::string_view rest;        ///< the rest of the path, without the '/'
 };
 
 PathStep firstStep (std::string_view path) noexcept;
 
 /// How many names in the path of a node or port have a single instance: 1 for "a[3]/b[*]/c.in[2]". If two values are given for
-/// one parameter, the one with more of these takes precedence.
+/// one parameter, the value whose path names more single instances takes precedence.
 int namedInstances (std::string_view) noexcept;
 
-/// Matches the beginning of a string, in which every instance is named, against a path or port. Returns the length of the match;
-/// empty if it does not match. "finger.force", "finger[*].force" and "finger[3].force" match all of "finger[3].force.x" except ".x".
+/// Matches the path or port `name` against the beginning of `text`, in which every instance is named. Returns the length of the
+/// match; empty if `name` does not match. "finger.force", "finger[*].force" and "finger[3].force" match all of
+/// "finger[3].force.x" except ".x".
 std::optional<std::size_t> covers (std::string_view name, std::string_view text) noexcept;
 
 /// The ancestry of a node, a wire, or an instance of a node: for a copy, its origin; for anything else, the thing itself.

@@ -9,11 +9,11 @@
 namespace tactus::graph
 {
 
-/// The `overrides` of a node in order of precedence, lowest first: those that name more single instances take precedence,
+/// The `overrides` of a node in order of precedence, lowest first: overrides that name more single instances take precedence,
 /// whatever order they were written in. The pointers point into `overrides`.
 std::vector<const Json::Member*> byPrecedence (const Json& overrides);
 
-/// Adds an override that takes precedence over all existing ones: removes those it covers, even if they name a single instance.
+/// Adds an override that takes precedence over all existing ones: removes those that it covers, even if they name a single instance.
 /// The key has the form that parseOverride reads.
 void giveOverride (Json& overrides, const std::string& key, const Json& value);
 

@@ -38,7 +38,7 @@ Result<Command> paramEdit (const Graph& graph, std::string_view name, std::optio
     const auto param = std::ranges::find (exposed, e.port, &std::pair<std::string, Endpoint>::first);
     if (param == exposed.end())
         return Message::error ("param/unknown", {}, quote (step.name) + " exposes no parameter " + quote (e.port),
-                               "name an inner one, such as " + e.node + "/drag.mu");
+                               "name an inner parameter, such as " + e.node + "/drag.mu");
     auto end = param->second;
     if (e.index >= 0) end.index = e.index;
     if (e.component >= 0) end.component = e.component;

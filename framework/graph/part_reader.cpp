@@ -127,7 +127,7 @@ void PartReader::readCount (const std::string& key, Json& value, const std::stri
     constexpr double most = 1e6;
     const double n = value.get<double>();
     if (! (n >= 1.0 && n <= most && n == std::floor (n)))
-        error ("file/bad_value", where, quote (key) + " is " + value.dump() + "; it should be a whole number from 1 to 1000000", "write 1, or leave it out");
+        error ("file/bad_value", where, quote (key) + " is " + value.dump() + "; it should be a whole number from 1 to 1000000", "write 1, or remove the key");
     append (extra, key, std::move (value));
 }
 

@@ -10,7 +10,7 @@ namespace tactus::graph
 
 namespace
 {
-/// Passes the ids of old things on to the new ones with the same key, in order, and sets the matched ones to null.
+/// Gives new nodes or wires the ids of the old ones with the same key, in order. Sets the matched pointers in both lists to null.
 template <typename Thing, typename Key>
 void handOn (std::vector<Thing*>& now, std::vector<const Thing*>& before, Key key)
 {

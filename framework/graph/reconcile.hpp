@@ -10,7 +10,7 @@ namespace tactus::graph
 /// (Ids are not written to files.) In each patch, subgraph and included file of the same name:
 ///
 ///   - a node keeps its id if its name and its type are the same;
-///   - wires with the same text keep theirs, in order; then those that differ only in the length of their delay.
+///   - wires with the same text keep their ids, in order; then wires that differ only in the length of their delay.
 ///
 /// Everything else keeps the id it was read with.
 void reconcile (Graph& now, const Graph& before);

@@ -12,7 +12,7 @@
 namespace tactus::graph
 {
 
-/// Both return the commands that undo the changes, in the order in which to carry them out.
+/// Both functions return the commands that undo their changes, in the order in which to carry them out.
 std::vector<Command> renameReferences (Graph&, std::string_view patch, std::string_view node, std::string_view to);
 std::vector<Command> dropReferences (Graph&, std::string_view patch, std::string_view node);
 

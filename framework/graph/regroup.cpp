@@ -66,8 +66,8 @@ public:
 private:
     bool isInside (const Endpoint& e) const { return members.contains (firstNameOf (e.node)); }
 
-    /// The port of the new node that exposes an inner port. It exposes the whole port; the outer endpoint selects the entry or
-    /// component.
+    /// The port of the new node that exposes an inner port. The new node always exposes the whole port; the outer endpoint selects
+    /// the entry or component.
     Endpoint exposed (const Endpoint& e, std::vector<std::pair<std::string, Endpoint>>& list)
     {
         const Endpoint whole { e.node, e.port };
@@ -338,7 +338,7 @@ private:
     const ExpandNode& command;
     const Node& node;
     Patch inner;
-    std::map<std::string, std::string> names;   // new names by inner name
+    std::map<std::string, std::string> names;   // by name in the subgraph: the new name of the node
 };
 }   // namespace
 

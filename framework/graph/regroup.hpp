@@ -6,8 +6,8 @@
 namespace tactus::graph
 {
 
-/// Both carry out their command. Its patch and nodes must exist, and its new names must be free. On an error (edit/cannot_expand)
-/// they leave the graph partly changed.
+/// Each function carries out its command. The patch and the nodes that the command names must exist, and its new names must be
+/// free. After an error (edit/cannot_expand) the graph is partly changed.
 Result<> collapse (Graph&, const CollapseNodes&);
 Result<> expand (Graph&, const ExpandNode&);
 

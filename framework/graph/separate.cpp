@@ -170,7 +170,7 @@ private:
             for (const auto& one : all)
             {
                 auto path = toText (one);
-                std::erase_if (targets, [&] (const Control::Target& t) { return t.path == path; });   // a later one takes precedence
+                std::erase_if (targets, [&] (const Control::Target& t) { return t.path == path; });   // a later target takes precedence
                 targets.push_back ({ std::move (path), target.low, target.high });
             }
         }
@@ -197,7 +197,7 @@ private:
         patch.nodes.insert (place, std::make_move_iterator (instances.begin()), std::make_move_iterator (instances.end()));
     }
 
-    /// The overrides for one instance, including those for all.
+    /// The overrides for one instance, including the overrides for all instances.
     Json overridesOf (int instance) const
     {
         auto own = Json::object();
@@ -224,7 +224,7 @@ private:
 
 Message cannotExpand (const std::string& node, const std::string& why)
 {
-    return Message::error ("edit/cannot_expand", {}, quote (node) + " " + why, "change that first");
+    return Message::error ("edit/cannot_expand", {}, quote (node) + " cannot be expanded: it " + why, "change that, then expand the node again");
 }
 
 Result<> separate (Graph& graph, const ExpandNode& command) { return Separate (graph, command).run(); }

@@ -10,7 +10,7 @@ namespace tactus::graph
 /// (edit/cannot_expand) it leaves the graph partly changed.
 Result<> separate (Graph&, const ExpandNode&);
 
-/// The error for a node that cannot be expanded: "'hand' is bypassed".
+/// The error for a node that cannot be expanded: "'hand' cannot be expanded: it is bypassed".
 Message cannotExpand (const std::string& node, const std::string& why);
 
 }   // namespace tactus::graph

@@ -62,7 +62,7 @@ struct Reader
 
 constexpr auto id_rule = "ids consist of lower-case letters, digits and _, and begin with a letter";
 
-/// Reads "[3]" or "[*]" after its opening bracket and appends it in its normal form. Returns false if it is neither.
+/// Reads "[3]" or "[*]" after its opening bracket and appends it in its normal form. Returns false if there is neither.
 bool readInstance (Reader& in, std::string& path)
 {
     if (in.take ("*]"))
@@ -144,7 +144,7 @@ Result<Wire> parseWire (std::string_view written)
 
     Wire wire;
     auto cut = written.find (arrow);
-    if (cut == std::string_view::npos) return wrong (std::string ("there is no -> in it") + form);
+    if (cut == std::string_view::npos) return wrong (std::string ("the -> is missing") + form);
 
     auto from = parseEndpoint (written.substr (0, cut));
     if (! from) return Message::error ("wire/syntax", {}, "the start of the wire: " + from.error().text);

@@ -53,8 +53,8 @@ struct Mesh
     const Vec3& corner (int triangle, int i) const noexcept { return points[at (triangles[at (triangle)][at (i)])]; }
 };
 
-/// Where a graph's files come from. Paths are as written in the graph, relative to its folder. Each function returns the
-/// content, or a sentence that says why there is none. [main thread]
+/// Loads the files that a graph names. Paths are as written in the graph, relative to its folder. Each function returns the
+/// content of a file, or a message that says why there is none. [main thread]
 class Assets
 {
 public:
@@ -62,9 +62,9 @@ public:
     using Loaded = Result<std::shared_ptr<const T>>;
 
     virtual ~Assets() = default;
-    virtual Loaded<Signal> signal (const std::string& path) = 0;   ///< a WAV
+    virtual Loaded<Signal> signal (const std::string& path) = 0;   ///< WAV
     virtual Loaded<Grid> image (const std::string& path) = 0;      ///< PNG or JPEG: grey values from 0 (black) to 1 (white)
-    virtual Loaded<Grid> table (const std::string& path) = 0;      ///< a CSV
+    virtual Loaded<Grid> table (const std::string& path) = 0;      ///< CSV
     virtual Loaded<Mesh> mesh (const std::string& path) = 0;       ///< OBJ, OFF, PLY or STL
 };
 

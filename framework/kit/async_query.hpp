@@ -122,13 +122,13 @@ private:
         std::atomic<State> state = State::empty;
         Question question {};
         Answer answer {};
-        bool dropped = false;   // late: its answer is no longer wanted   [tick thread]
+        bool dropped = false;   // the answer was late and is no longer wanted   [tick thread]
     };
 
     std::function<Answer (const Question&)> how;
     std::vector<Slot> slots;
     QueryService* answers;
-    std::size_t now = 0;   // the slot of this tick
+    std::size_t now = 0;   // index of the slot of this tick
 };
 
 }   // namespace tactus

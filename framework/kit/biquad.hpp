@@ -34,7 +34,7 @@ struct Biquad
 class BiquadState
 {
 public:
-    static constexpr double silence = 1e-100;   ///< far below anything felt, far above the slow denormal numbers
+    static constexpr double silence = 1e-100;   ///< a smaller state becomes 0; far below anything felt, far above the slow denormal numbers
 
     double operator() (const Biquad& c, double x) noexcept
     {

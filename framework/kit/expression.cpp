@@ -72,7 +72,7 @@ private:
         explicit Nested (ExpressionParser& p) : parser (p)
         {
             if (++p.depth > 2 * Expression::max_depth)   // a bracket counts twice
-                p.fail (p.at, "nested too deeply");
+                p.fail (p.at, "the formula is nested too deeply");
         }
         ~Nested() { --parser.depth; }
     };
@@ -248,7 +248,7 @@ private:
         if (! error.empty()) return;
         program.push_back (step);
         stacked += 1 - Expression::operandsOf (step.op);
-        if (stacked > Expression::max_depth) fail (at, "nested too deeply");
+        if (stacked > Expression::max_depth) fail (at, "the formula is nested too deeply");
     }
 
     bool take (std::string_view token)

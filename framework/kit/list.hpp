@@ -37,7 +37,7 @@ private:
     int count = 0;
 };
 
-/// An array among Params or Outputs: gain[0], gain[1], … as long as the node's setting `inputs`.
+/// An array among Params or Outputs: gain[0], gain[1], … The node's setting `inputs` is the number of entries in use.
 /// It holds list_capacity entries in place, so that a tick can return one without allocating.
 class List
 {

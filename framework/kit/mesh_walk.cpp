@@ -13,7 +13,7 @@ namespace
 {
 std::vector<std::array<bool, 3>> rimOf (const Mesh& mesh)
 {
-    std::map<std::pair<int, int>, int> sides;   // number of triangles at each edge
+    std::map<std::pair<int, int>, int> sides;   // by edge: the number of triangles that it belongs to
     const auto edge = [] (const std::array<int, 3>& corners,
                           std::size_t opposite) { return std::minmax (corners[(opposite + 1) % 3], corners[(opposite + 2) % 3]); };
     for (const auto& corners : mesh.triangles)
@@ -122,7 +122,7 @@ Spot MeshWalk::nearest (int from, const Vec3& p) const noexcept
         Reach reach { p, least };
         for (std::size_t c = 0; c < 3; ++c)
         {
-            if (here.on.weights[c] <= 0.0) continue;   // anything nearer lies beyond the other two corners
+            if (here.on.weights[c] <= 0.0) continue;   // the spot is on the opposite edge; the triangles at its ends suffice
             const auto corner = at (body.triangles[at (here.triangle)][c]);
             for (int i = first[corner]; i < first[corner + 1]; ++i)
             {

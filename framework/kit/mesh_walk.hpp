@@ -42,8 +42,8 @@ public:
 
     Spot spotOn (int triangle, const Vec3& p) const noexcept { return { triangle, nearestOn (body, triangle, p) }; }
 
-    /// Walks from a triangle towards p while each step comes nearer, and returns where it ends. If it ends on an edge, it stays
-    /// on its current triangle. [any thread]
+    /// Walks from a triangle towards p while each step comes nearer, and returns the spot where the walk ends. If that is on an
+    /// edge, the spot belongs to the triangle that the walk came from. [any thread]
     Spot nearest (int from, const Vec3& p) const noexcept;
 
     /// True if the spot lies on the rim of an open mesh and p is beyond it: p is farther out past the rim than it is above or

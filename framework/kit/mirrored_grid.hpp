@@ -12,7 +12,7 @@ namespace tactus
 struct MirroredAxis
 {
     int intervals = 0;      ///< intervals between points; 0: a single point
-    double spacing = 1.0;   ///< m
+    double spacing = 1.0;   ///< in m
 
     int points() const noexcept { return intervals + 1; }
 
@@ -25,7 +25,7 @@ struct MirroredAxis
         return i <= intervals ? i : 2 * intervals - i;
     }
 
-    /// The same length in a different number of intervals. A single point stays a single point.
+    /// An axis of the same length with a different number of intervals. A single point stays a single point.
     MirroredAxis with (int n) const noexcept { return intervals == 0 ? *this : MirroredAxis { n, spacing * intervals / n }; }
 };
 

@@ -17,7 +17,7 @@ struct OnTriangle
 OnTriangle nearestOn (const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) noexcept;
 OnTriangle nearestOn (const Mesh&, int triangle, const Vec3& p) noexcept;
 
-/// Answers which triangle of a mesh is nearest to a point. If several are, it may return any of them. [any thread]
+/// Finds the triangle of a mesh that is nearest to a point, any of them if there are several. [any thread]
 class NearestTriangle
 {
 public:
@@ -25,7 +25,7 @@ public:
     virtual int operator() (const Vec3& p) const noexcept = 0;
 };
 
-/// Looks at every triangle of the mesh. If several are nearest, returns the first.
+/// Returns the triangle nearest to p, the first one if there are several. Looks at every triangle of the mesh.
 int nearestOfAll (const Mesh&, const Vec3& p) noexcept;
 
 }   // namespace tactus

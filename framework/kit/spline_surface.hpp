@@ -27,7 +27,7 @@ public:
     double largestCurvature() const noexcept;
 
 private:
-    MirroredGrid weights { {}, {}, { 0.0 } };   // of the B-splines
+    MirroredGrid weights { {}, {}, { 0.0 } };   // by grid point: the weight of its B-spline
 };
 
 }   // namespace tactus

@@ -17,7 +17,7 @@ namespace tactus
 /// without JUCE.)
 ///
 /// The ring holds frames of `width` values each. The producer claims frames, fills them and commits them as one batch: the
-/// batch arrives whole, or not at all if there was no room; it is then counted as lost.
+/// batch arrives whole, or not at all if there is no room for it. A batch that does not arrive is counted as lost.
 ///
 ///     if (const auto frame = ring.claim(); ! frame.empty()) fill (frame);
 ///     ring.commit();
@@ -25,7 +25,7 @@ template <typename T>
 class SpscRing
 {
 public:
-    /// Room for `frames` frames. Each value starts as a copy of `prototype`: a T that owns memory has it allocated here.
+    /// Room for `frames` frames. Each value starts as a copy of `prototype`, so a T that owns memory allocates it here and not later.
     explicit SpscRing (std::size_t frames, std::size_t width = 1, const T& prototype = {})
         : capacity (frames), per_frame (width), values (frames * width, prototype) {}
 
@@ -130,7 +130,7 @@ private:
 
     alignas (cache_line) std::atomic<std::uint64_t> committed = 0;
     std::uint64_t written = 0;   // number of frames committed or in the current batch   [producer thread]
-    bool full = false;           // the batch did not fit                    [producer thread]
+    bool full = false;           // the current batch does not fit                [producer thread]
     std::atomic<std::size_t> lost_batches = 0;
 
     alignas (cache_line) std::atomic<std::uint64_t> taken = 0;

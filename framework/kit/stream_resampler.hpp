@@ -14,8 +14,8 @@ namespace tactus
 
 /// Reads a signal of one rate at another rate: one sample of the new rate per call, through a windowed sinc.
 ///
-/// Flat up to 0.4 of the lower of the two rates; -60 dB from half of it upwards. It delays by 18 samples of the slower rate. At
-/// equal rates samples pass through bit for bit, without a delay.
+/// Flat up to 0.4 of the lower of the two rates; -60 dB from half of it upwards. The resampler delays by 18 samples of the slower
+/// rate. At equal rates samples pass through bit for bit, without a delay.
 class StreamResampler
 {
 public:
@@ -88,8 +88,8 @@ public:
 
 private:
     double ratio = 1.0;           // old samples per new one
-    double reach = 0.0;           // of the kernel on either side, in old samples
-    std::vector<double> kernel;   // from its middle outwards
+    double reach = 0.0;           // half the width of the kernel, in old samples
+    std::vector<double> kernel;   // one half of the symmetric kernel, from its middle outwards
     std::vector<double> recent;   // ring of old samples
     std::size_t newest = 0;
     double phase = 0.0;   // time from the newest old sample to the new sample, in old samples

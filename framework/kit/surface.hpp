@@ -19,7 +19,7 @@ struct Ratio
 };
 
 /// A body that can be touched: a mesh with a frame and curves of force against deflection at each of its nodes. Section 4 of
-/// the chapter interpolates between them. In files it is the value of a setting of kind `surface`; see docs/graph_file.md.
+/// the chapter interpolates between the nodes. In files it is the value of a setting of kind `surface`; see docs/graph_file.md.
 struct Surface
 {
     using Curves = std::array<Law, 3>;   ///< force against deflection along u^x, u^y and u^z

@@ -55,7 +55,7 @@ std::string wrongSide (const Surface& s)
 {
     const auto sentence = [] (std::size_t node) {
         const auto problem = "the surface faces inwards at node " + std::to_string (node) + " and attracts there";
-        return problem + ": reverse its triangles, or u^z of its frame";
+        return problem + ": reverse the triangles of the mesh, or u^z of the frame at this node";
     };
     if (s.frames.empty()) return isInsideOut (*s.mesh) ? sentence (0) : "";
     const auto normals = normalsOf (*s.mesh);
@@ -98,7 +98,7 @@ SlipGain shallowestGain (const Surface& s, double scale)
     SlipGain least;
     for (const auto& tool : s.curves)
     {
-        if (tool.size() == 1) continue;   // its curves are the same everywhere
+        if (tool.size() == 1) continue;   // the curves of this tool are the same everywhere
         for (int t = 0; t < s.mesh->size(); ++t)
         {
             auto corners = cornersOf (*s.mesh, t);

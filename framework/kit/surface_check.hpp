@@ -13,7 +13,7 @@ namespace tactus
 std::string problemOf (const Surface&);
 
 // Warnings about a usable surface. Each is a sentence, or empty.
-std::string wrongSide (const Surface&);                ///< it faces inwards, and therefore attracts
+std::string wrongSide (const Surface&);                ///< the surface faces inwards, and therefore attracts
 std::string leaning (const Surface&);                  ///< frames are tilted against their triangles, so without friction there is no potential
 std::string slipGain (const Surface&, double scale);   ///< a slip generates energy at a depth a hand can reach
 
@@ -22,7 +22,7 @@ std::string slipGain (const Surface&, double scale);   ///< a slip generates ene
 struct SlipGain
 {
     int triangle = -1;
-    double depth = std::numeric_limits<double>::infinity();   ///< m
+    double depth = std::numeric_limits<double>::infinity();   ///< in m
 };
 SlipGain shallowestGain (const Surface&, double scale);
 

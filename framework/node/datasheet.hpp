@@ -70,7 +70,7 @@ struct UnitRule
 {
     enum class Kind
     {
-        fixed,    ///< `unit`
+        fixed,    ///< always `unit`
         open,     ///< the unit of the wire; the same for all entries of an array port
         each,     ///< the unit of the wire; each entry of an array port has its own
         same,     ///< the unit of port `a`, times `unit`

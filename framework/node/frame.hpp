@@ -8,7 +8,7 @@
 namespace tactus
 {
 
-/// Params that place a frame in the world. As in generic.hpp, a node may use them in place of its own.
+/// Params that place a frame in the world. A node may use this struct in place of its own Params, as with those of generic.hpp.
 struct Frame
 {
     Vec3 origin = Vec3::Zero();

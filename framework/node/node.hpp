@@ -55,7 +55,7 @@ class QueryService;
 struct Services
 {
     std::unique_ptr<NearestTriangle> (*nearest_triangle) (std::shared_ptr<const Mesh>) = nullptr;   ///< builds an index of a large mesh
-    QueryService* answers = nullptr;                                                                ///< the thread for async queries
+    QueryService* answers = nullptr;                                                                ///< answers the async queries; null: answered when due
 };
 
 /// What the engine gives every node before it runs.

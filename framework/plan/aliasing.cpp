@@ -30,12 +30,12 @@ public:
             look (n.type->settings[s], n.settings[s]);
     }
 
-    /// The highest frequency in Hz, 0 for none. Sampled data contains up to half its rate, unless the node declares
-    /// frequencies.
+    /// The highest frequency in Hz, 0 for none. A row `rate` counts as half its value, and only if the node declares no other
+    /// frequency.
     double highest() const noexcept { return named > 0.0 ? named : sampled; }
 
 private:
-    double named = 0.0, sampled = 0.0;   // Hz
+    double named = 0.0, sampled = 0.0;   // highest declared frequency, and half of the highest sampling rate, in Hz
 
     void note (const UnitRule& unit, std::string_view id, double value)
     {
@@ -73,7 +73,7 @@ struct Content
     };
 
     Kind kind = Kind::none;
-    std::string what {};   ///< "'bar' (vibration.modal) contains up to 3000 Hz"
+    std::string what {};   ///< for messages, such as "'bar' (vibration.modal) contains up to 3000 Hz"
 };
 
 /// Estimates the frequency content of signals.
@@ -105,7 +105,7 @@ public:
         return worst;
     }
 
-    /// Content of the signal that a node generates. None for a generic node, which only passes on its inputs.
+    /// Content of the signal that a node generates; nullopt for a node that only passes on its inputs.
     std::optional<Content> of (int node, double rate_hz) const
     {
         const auto& n = flat.node (node);
@@ -123,7 +123,7 @@ public:
         const auto made = makeNode (flat, node);
         const double k = n.type->claims ? n.type->claims (made.get()).spatial_frequency : 0.0;
         if (k * fast > 0.5 * rate_hz)
-            return Content { Content::Kind::some, name + " contains up to " + numberText (k) + " 1/m, too much for strokes faster than "
+            return Content { Content::Kind::some, name + " contains spatial frequencies up to " + numberText (k) + " 1/m, too much for strokes faster than "
                                                       + numberText (std::round (500.0 * rate_hz / k) / 1000.0) + " m/s" };
         if (k > 0.0) return Content {};
 
@@ -166,7 +166,7 @@ void warnOfAliasing (Flat& flat, const PortUnits& units, const Setup& setup)
     if (flat.sections.size() == 1 || hasErrors (flat.messages)) return;   // nodes with errors must not be created
     const ContentEstimate estimate { flat, setup };
     const auto rateOf = [&] (int section) { return setup.rate_hz * flat.speed (section); };
-    const char* remedy = "insert a low-pass with a cutoff below half the slower rate, or run it at the faster rate";
+    const char* remedy = "insert a low-pass with a cutoff below half the slower rate, or run this part of the graph at the faster rate";
     const auto warn = [&] (Origin origin, const std::string& text) { flat.warn ("rate/aliasing", origin, text, remedy); };
 
     for (int n = 0; n < flat.nodeCount(); ++n)
@@ -175,7 +175,8 @@ void warnOfAliasing (Flat& flat, const PortUnits& units, const Setup& setup)
         if (! node.runs() || ! flat.rests (node.section)) continue;
         const auto content = estimate.of (n, rateOf (node.section));
         if (! content || content->kind != Content::Kind::some) continue;
-        if (const auto outside = estimate.of (n, setup.rate_hz); outside && outside->kind == Content::Kind::some) continue;   // the section is not to blame
+        // A signal that would be aliased at the rate of the graph, too, is not the fault of the section.
+        if (const auto outside = estimate.of (n, setup.rate_hz); outside && outside->kind == Content::Kind::some) continue;
         warn (node.origin, content->what + ", but runs at " + numberText (rateOf (node.section)) + " Hz in '" + flat.section (node.section).path + "'"
                                + folded (rateOf (node.section)));
     }
@@ -191,7 +192,7 @@ void warnOfAliasing (Flat& flat, const PortUnits& units, const Setup& setup)
         const auto content = estimate.upstream (w.from->node, slowest);
         const bool out_of_times = outside < before;
         if (content.kind == Content::Kind::none || (content.kind == Content::Kind::unknown && ! out_of_times)) continue;
-        const auto what = content.kind == Content::Kind::some ? content.what : "what it contains at higher frequencies is unknown";
+        const auto what = content.kind == Content::Kind::some ? content.what : "whether the signal contains higher frequencies is unknown";
         warn (w.origin, "\"" + graph::toText (*w.written) + "\" goes from " + numberText (before) + " Hz to " + numberText (slowest) + " Hz, and " + what
                             + folded (slowest));
     }

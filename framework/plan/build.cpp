@@ -42,18 +42,18 @@ struct Storage
     explicit Storage (std::size_t outputs_size) : outputs (outputs_size) {}
 
     Arena outputs;
-    std::vector<double> defaults;   // of unconnected input components; one per source
+    std::vector<double> defaults;   // by input component: the value if no wire or feed drives it
     std::vector<const double*> sources;
     std::deque<Sum> sums;
     std::deque<Strike> strikes;
     std::deque<DelayLine> delays;
     std::deque<DrivenNode> driven;
     std::deque<Bypass> bypasses;
-    std::vector<RunningSection> sections;   // as in the flat graph; the first one, for the graph itself, is empty
+    std::vector<RunningSection> sections;   // by number in Flat::sections; entry 0, the graph itself, stays unused
     std::deque<std::vector<double>> samples;
 };
 
-/// Records in running order, each with the node it works for.
+/// Records in running order, and for each record the number of the node that it belongs to.
 struct Owned
 {
     std::vector<Record> records;
@@ -144,7 +144,7 @@ private:
     PlanParts& parts = plan->parts;
     std::shared_ptr<Storage> storage;
     std::vector<std::size_t> output_at;       // by node: offset in the arena
-    std::optional<Grouped<Driver>> drivers;   // by slot; within a slot in the order of the wires, then of the feeds
+    std::optional<Grouped<Driver>> drivers;   // by slot; within a slot, first the wires, then the feeds
     std::vector<Steps> steps;                 // by section
     std::set<std::string> tap_names;
 
@@ -265,7 +265,8 @@ private:
         diff.noteSuccessor (at (i), parts.takeover);
     }
 
-    /// The predecessor whose outputs are held until this node first runs, if its section does not run on every tick; else null.
+    /// For a node in a section that does not run on every tick: the predecessor, whose outputs are kept until the node first runs.
+    /// Null for other nodes, and if the outputs of the predecessor do not fit.
     const Instance* heldFrom (int i) const
     {
         const auto& n = flat.node (i);
@@ -280,8 +281,8 @@ private:
         if (const auto* old = heldFrom (i)) parts.takeover.held.push_back ({ outputsOf (i), old->outputs, flat.node (i).type->outputs_size });
     }
 
-    /// Holds the previous values of the sums and strikes at the inputs of a node; the first ones have these indices. Until the
-    /// node runs, only a tap can see the values.
+    /// Keeps the previous values of the sums and strikes at the inputs of a node until the node runs; meanwhile, only a tap can
+    /// see them. The node's sums begin at `first_sum`, its strikes at `first_strike`.
     void keepSums (int i, std::size_t first_sum, std::size_t first_strike)
     {
         const bool any = first_sum < storage->sums.size() || first_strike < storage->strikes.size();
@@ -327,7 +328,7 @@ private:
     void connectDrivers()
     {
         RateConversions conversions { flat, diff, parts, storage->sections };
-        std::vector<std::pair<std::size_t, Driver>> all;   // each with its slot
+        std::vector<std::pair<std::size_t, Driver>> all;   // each driver with the slot that it drives
         all.reserve (flat.wires.size() + outside.feeds.size());
         for (int i = 0; i < static_cast<int> (flat.wires.size()); ++i)
         {
@@ -371,8 +372,8 @@ private:
         return &d.line->out;
     }
 
-    /// One value for all drivers of a kind: the wire itself if there is only one and it has no gain, otherwise a sum. Null if
-    /// there are no drivers.
+    /// Where to read the value of all drivers of a kind: directly from the driver if there is only one and it has no gain,
+    /// otherwise from a sum. Null if there are no drivers.
     const double* joined (std::span<const Driver> all, Driver::Kind kind, int node)
     {
         const auto is_meant = [kind] (const Driver& d) { return d.kind == kind; };
@@ -481,7 +482,7 @@ private:
                 first += at (n.slots (in));
             }
             const bool is_factor =
-                out.width == 1 && out.unit.kind == UnitRule::Kind::fixed && out.unit.unit.quantity == Quantity::gain;   // a vector would be a direction
+                out.width == 1 && out.unit.kind == UnitRule::Kind::fixed && out.unit.unit.quantity == Quantity::gain;   // a vector is a direction, not a factor
             if (is_factor) *to = 1.0;
         }
         stepsOf (i).body.add ({ &Bypass::step, &bypass, sourcesOf (i), nullptr }, i);
@@ -523,7 +524,7 @@ private:
         }
     }
 
-    /// Skips a tap that exists already.
+    /// Does nothing if there is a tap with this name already.
     void addTap (const std::string& name, Quantity quantity, std::string symbol, const double* value, int section)
     {
         if (! tap_names.insert (name).second) return;

@@ -25,7 +25,7 @@ struct Outside
         std::optional<PortRef> port;
     };
 
-    std::vector<std::vector<PortRef>> feeds;   ///< by feed: one component, possibly in several instances
+    std::vector<std::vector<PortRef>> feeds;   ///< by feed: the ports it drives, each one component; several ports if there are several instances
     std::vector<Read> records;
     std::map<std::string, std::vector<PortRef>> exposed;   ///< params and inputs by the names under which subgraphs expose them
 };

@@ -13,10 +13,10 @@ enum class Carries
 {
     signal,   ///< can be interpolated
     steps,    ///< a state or a count: cannot be interpolated
-    hits      ///< each lasts one tick and arrives on one tick
+    hits      ///< each hit lasts one tick, and must arrive on exactly one tick of the other rate
 };
 
-/// The quantities at both ends decide: a hit stays a hit if a generic node receives it.
+/// The quantities at both ends of a wire decide: a hit remains a hit even if a generic node receives it.
 inline Carries carriedBy (const Flat& flat, const PortUnits& units, const PortRef& port)
 {
     const auto quantity = units (port).quantity;

@@ -19,7 +19,7 @@ namespace
 {
 using namespace plan;
 
-/// A placeholder can run; its outputs are 0. Any other error keeps the graph from running.
+/// True if there are no errors except unknown types. A node of an unknown type becomes a placeholder, whose outputs are 0.
 bool canRun (const Messages& messages)
 {
     return std::ranges::none_of (messages, [] (const Message& m) { return m.severity == Message::Severity::error && m.id != "node/unknown_type"; });
@@ -34,7 +34,7 @@ void checkDelays (Flat& flat)
         total += static_cast<double> (w.delay) * flat.widthOf (w.to);
     if (total > most)
         flat.error ("graph/too_large", flat.at ({}, "wires"),
-                    "the delays of all wires together take " + std::to_string (static_cast<long long> (total)) + " samples", "shorten them");
+                    "the delays of all wires together take " + std::to_string (static_cast<long long> (total)) + " samples", "shorten the delays");
 }
 
 bool addsUp (Quantity q) { return q == Quantity::force || q == Quantity::torque || q == Quantity::hit; }
@@ -65,13 +65,14 @@ void checkFanIn (Flat& flat, const PortUnits& units)
                 if (addsUp (quantity)) continue;
                 flat.error ("wire/which_instance", w.origin,
                             "\"" + toText (*w.written) + "\" starts from several instances, but a " + inWords (quantity) + " cannot be summed",
-                            other->from ? "name one, as in " + flat.nameOf (*other->from) : "name one");
+                            other->from ? "name one instance, as in " + flat.nameOf (*other->from) : "name one instance");
             }
             else
                 flat.error ("wire/two_into_one", w.origin,
                             "\"" + toText (*other->written) + "\" and \"" + toText (*w.written) + "\" both end at '" + flat.nameOf (w.to) + "', but a "
                                 + inWords (units (w.to).quantity) + " cannot be summed",
-                            w.to.role == Role::param ? "add the second with (+), or remove one" : "join them in a signal.add or vector.add, or remove one");
+                            w.to.role == Role::param ? "add the second wire with (+), or remove one of the two"
+                                                     : "join the two wires in a signal.add or vector.add node, or remove one of them");
             wrong = w.identity;
             break;
         }
@@ -87,7 +88,7 @@ void askNodes (Flat& flat, const Setup& setup)
         if (! n.type->problem && ! n.type->warning) continue;
         auto own = setup;
         own.rate_hz *= flat.speed (n.section);
-        const std::string id (n.type->info.id), remedy = "`tactus nodes " + id + "` lists what it takes";
+        const std::string id (n.type->info.id), remedy = "`tactus nodes " + id + "` lists its params and settings, with their ranges";
         const auto node = makeNode (flat, i);
         const auto problem = n.type->problem ? n.type->problem (node.get()) : std::string {};
         if (! problem.empty())
@@ -124,7 +125,7 @@ void addExposed (const Scope& scope, std::map<std::string, Ports>& all)
         }
 }
 
-/// If two columns drive one port, the one that names its instance takes precedence over the one for all instances.
+/// If two feed columns drive one port, the column that names more single instances takes precedence.
 void dropGeneral (std::vector<Ports>& feeds, const std::vector<std::string>& names)
 {
     if (std::ranges::all_of (feeds, [] (const Ports& p) { return p.size() <= 1; }))
@@ -149,7 +150,8 @@ void readFeeds (Flat& flat, const Scope& top, const std::vector<std::string>& na
         {
             const auto& sheet = flat.sheet (port);
             if (! sheet.choices.empty())
-                flat.error ("feed/choice", origin, "'" + name + "' is a choice among names and cannot be fed", "set it with --set, or in the file");
+                flat.error ("feed/choice", origin, "'" + name + "' takes one of a list of names, so numbers cannot be fed into it",
+                            "set the parameter with --set, or in the graph file");
             else if (flat.widthOf (port) != 1)
                 flat.error ("feed/width", origin, "'" + name + "' is a vector", "feed its components: " + name + ".x, " + name + ".y, " + name + ".z");
             else if (sheet.list && port.index < 0)
@@ -162,7 +164,7 @@ void readFeeds (Flat& flat, const Scope& top, const std::vector<std::string>& na
     dropGeneral (feeds, names);
 }
 
-/// Each instance gets its own columns, under its own name.
+/// Finds the ports to record. Each instance gets its own columns, with the number of the instance in their names.
 void readRecord (Flat& flat, const Scope& top, const std::string& name, std::vector<Outside::Read>& records)
 {
     const auto origin = flat.asIs ({}, "record " + name);
@@ -184,7 +186,7 @@ void readRecord (Flat& flat, const Scope& top, const std::string& name, std::vec
         {
             if (! flat.sheet (port).choices.empty())
             {
-                flat.error ("record/choice", origin, "'" + name + "' is a choice among names and has no number to record",
+                flat.error ("record/choice", origin, "'" + name + "' takes one of a list of names, so there is no number to record",
                             "record a port that carries a number");
                 return;
             }

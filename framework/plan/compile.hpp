@@ -30,12 +30,12 @@ struct CompileOptions
     Services services {};                       ///< services that nodes may use
     const Plan* before = nullptr;               ///< the plan that the new one will take over from, with Plan::takeOver
     const Plan* withdrawn = nullptr;            ///< a plan compiled to follow `before` that never ran: nodes that it added keep their turned values
-    std::vector<std::string> kept {};           ///< parameters that an edit must not change, because they were turned after it
+    std::vector<std::string> kept {};           ///< parameters that an edit must not change, because they were turned after the edit
 };
 
 struct Compiled
 {
-    std::shared_ptr<Plan> plan;   ///< null if there are errors, except for placeholders
+    std::shared_ptr<Plan> plan;   ///< null if there are errors other than unknown node types
     Messages messages;
 };
 

@@ -126,7 +126,8 @@ private:
         if (flat.isFull()) return false;
         if (side == Side::param && std::ranges::count (n.type->settings, e.port, &SettingSheet::id) > 0)
         {
-            flat.error ("param/unknown", origin, "'" + n.path + "." + e.port + "' is a setting of " + std::string (n.type->info.id), "move it to settings");
+            flat.error ("param/unknown", origin, "'" + n.path + "." + e.port + "' is a setting of " + std::string (n.type->info.id),
+                        "write it under the `settings` of the node");
             return false;
         }
 
@@ -166,7 +167,8 @@ private:
             {
                 flat.error ("port/wrong_side", origin,
                             "'" + path + "." + port + "' is " + withArticle (role) + ", not " + (wanted.starts_with ('p') ? "a " : "an ") + wanted,
-                            side == Side::param && role == Role::input ? "wire something into it, such as a signal.constant" : "it has: " + listed (names));
+                            side == Side::param && role == Role::input ? "wire something into the input, such as a signal.constant"
+                                                                       : "'" + path + "' has: " + listed (names));
                 return false;
             }
         flat.error (side == Side::param ? "param/unknown" : "port/unknown", origin,

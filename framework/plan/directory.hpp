@@ -42,16 +42,16 @@ struct Scope
 
     const graph::Graph* owner = nullptr;
     const graph::Patch* patch = nullptr;
-    std::string prefix;   // prefix of the paths inside
+    std::string prefix;   // of the paths of its nodes, such as "finger[3]/"
     int number = 0;       // index in Flat::scopes
-    int stand_in = -1;    // the node that provides its ports while the subgraph is bypassed
+    int stand_in = -1;    // number of the node that replaces the subgraph while it is bypassed; else -1
     int section = 0;      // index in Flat::sections
-    Origin origin {};     // of the patch
+    Origin origin {};     // where the patch was written
     Names names;
     std::vector<Member> members;   // by number of the name in `names`
     std::vector<Exposed> exposed;
 
-    /// The member of a name, or null.
+    /// What a name refers to; null if the patch has no such name.
     const Member* find (std::string_view name) const noexcept
     {
         const auto known = names.find (name);

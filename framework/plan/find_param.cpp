@@ -71,7 +71,7 @@ Result<ParamRef> oneNumber (const Plan& plan, PortRef port, const graph::Endpoin
     {
         std::string remedy = vector ? "name a component: .x, .y or .z" : "it is a plain number: leave out the component and the entry";
         if (sheet.list) remedy = "name one of its " + std::to_string (size) + " entries, as in " + e.node + "." + e.port + "[0]";
-        return Message::error ("param/shape", {}, quote (name) + " is not one number", std::move (remedy));
+        return Message::error ("param/shape", {}, quote (name) + " does not name a single number", std::move (remedy));
     }
     return ParamRef { plan.instances()[at (port.node)].knobs, Knobs::indexOf (*node.type, at (port.port), at (component)), &sheet };
 }

@@ -42,11 +42,11 @@ using Origin = const Place*;
 
 Origin fileOf (Origin) noexcept;
 
-/// Identity in a graph with its subgraphs expanded.
+/// Identifies a node or wire in a graph with its subgraphs expanded.
 struct Identity
 {
     int scope = 0;      ///< the patch it is in: number in Flat::scopes
-    graph::Id id = 0;   ///< its own id
+    graph::Id id = 0;   ///< id of the node or wire
     int instance = 0;   ///< for a subgraph node with a count: which instance
 
     bool operator== (const Identity&) const = default;
@@ -82,7 +82,7 @@ struct FlatNode
     Origin origin {};
     bool bypass = false;
     bool muted = false;   ///< inside a bypassed subgraph: does not run
-    int section = 0;      ///< number in Flat::sections; it runs at the rate of that section
+    int section = 0;      ///< number in Flat::sections; the node runs at the rate of that section
     std::vector<SettingValue> settings {};
     std::size_t values = 0;   ///< index in Flat::values of the first value of its params
     int list_size = 0;
@@ -134,7 +134,7 @@ struct Section
 
 struct Flat
 {
-    std::vector<FlatNode> nodes;   ///< in file order, with the nodes of a subgraph in its place
+    std::vector<FlatNode> nodes;   ///< in file order; where a subgraph node was, there are the nodes of its subgraph
     std::vector<FlatWire> wires;
     std::vector<double> values;                                            ///< values of all params, node by node and row by row
     std::vector<Assignment> assignments;                                   ///< in order of precedence, lowest first
@@ -170,8 +170,8 @@ struct Flat
     /// Ticks of a section per tick of the graph.
     double speed (int section) const;
 
-    /// How many ticks of the graph one tick of a section lasts. For a `times` section, from which nothing returns to the hand,
-    /// the same as for the enclosing section.
+    /// How many ticks of the graph one tick of a section lasts. A `times` section counts as long as the section that encloses it,
+    /// because no path leads from it back to the hand.
     int ticksOf (int section) const;
 
     /// True if the section, or one that encloses it, does not run on every tick.
@@ -196,7 +196,7 @@ struct Flat
 private:
     void add (Message);
 
-    std::unordered_set<std::string> reported;   ///< messages about instances, without the instance numbers
+    std::unordered_set<std::string> reported;   ///< the messages about instances that were added, with the instance numbers removed
 };
 
 }   // namespace tactus::plan

@@ -27,7 +27,7 @@ void makeRoom (std::vector<T>& all, std::size_t more)
     if (all.size() + more > all.capacity()) all.reserve (std::max (all.size() + more, 2 * all.capacity()));
 }
 
-/// The members of an object, none for anything else. Does not copy them.
+/// The members of an object; no members for any other value. Does not copy them.
 const Json::Object& membersOf (const Json& json)
 {
     static const Json::Object none;
@@ -60,7 +60,7 @@ public:
         if (too_large)
             flat.error ("graph/too_large", *too_large,
                         "with its subgraphs expanded, the graph has more than " + std::to_string (max_nodes) + " nodes, or " + std::to_string (max_wires)
-                            + " wires or values for them",
+                            + " wires or values of parameters",
                         "use a subgraph fewer times, or with fewer instances");
     }
 
@@ -73,9 +73,9 @@ private:
     Flattened& result;
     Flat& flat;
     std::vector<const graph::Patch*> open;      // the patches being expanded, outermost first
-    Origin all_nodes = flat.at ({}, "nodes");   // of the graph itself
+    Origin all_nodes = flat.at ({}, "nodes");   // the list `nodes` of the graph itself
     std::optional<Origin> too_large;            // the place where the graph became too large
-    Ports starts, ends;                         // of the wire or value being read
+    Ports starts, ends;                         // ports of the wire or value being read
 
     // These take views, because the Place that they make keeps pointing to the name.
     Origin at (Origin around, std::string_view name) { return flat.at (around, name); }
@@ -111,7 +111,7 @@ private:
         open.pop_back();
     }
 
-    /// Call this before making anything that multiplies.
+    /// Call this before adding nodes, wires or assignments, because nested subgraphs and instances multiply them.
     bool isTooLarge (Origin here, std::size_t more_nodes = 0, std::size_t more_wires = 0)
     {
         const bool is_over =
@@ -154,8 +154,8 @@ private:
             assignOwn (scope, node, here, member.node, key, value);
     }
 
-    /// A key in the params of a node is nearly always a row of its datasheet. Anything else, an entry or a mistake, is read like any
-    /// other address.
+    /// A key in the params of a node is nearly always a row of its datasheet. Any other key, such as "gain[2]" or a mistake, is read
+    /// as an address.
     void assignOwn (const Scope& scope, const graph::Node& node, Origin here, int number, const std::string& key, const Json& value)
     {
         const auto& rows = flat.node (number).type->params;
@@ -208,7 +208,8 @@ private:
                 made.settings[tactus::at (sheet - made.type->settings.begin())] = *std::move (read);
             else
                 flat.error ("setting/value", flat.asIs (at (here, "settings", key), within),
-                            "setting '" + key + "' of '" + made.path + "': " + read.error().text, "`tactus nodes " + node.type + "` lists what it takes");
+                            "setting '" + key + "' of '" + made.path + "': " + read.error().text,
+                            "`tactus nodes " + node.type + "` lists the settings and their ranges");
         }
 
         for (std::size_t i = 0; i < made.type->settings.size(); ++i)
@@ -218,7 +219,7 @@ private:
         addValues (made);
     }
 
-    /// Adds the values of its params, initialised with the defaults of the datasheet.
+    /// Adds the values of a node's params, initialised with the defaults of the datasheet.
     void addValues (FlatNode& made)
     {
         made.values = flat.values.size();
@@ -235,7 +236,7 @@ private:
         if (open.size() >= max_depth)
         {
             flat.error ("graph/too_deep", at (here, "type"), "'" + scope.prefix + node.name + "' is nested " + std::to_string (max_depth) + " subgraphs deep",
-                        "nest them less deeply");
+                        "nest the subgraphs less deeply");
             return;
         }
         if (std::ranges::count (open, first.patch) > 0)
@@ -492,8 +493,8 @@ private:
             }
         if (! to.choices.empty())
         {
-            flat.error ("wire/onto_choice", w.origin, "'" + flat.nameOf (w.to) + "' is a choice from a list of names, so it cannot be wired",
-                        "set it under params");
+            flat.error ("wire/onto_choice", w.origin, "'" + flat.nameOf (w.to) + "' takes one of a list of names, so nothing can be wired to it",
+                        "set the parameter under `params`");
             return false;
         }
         if (w.add && w.to.role != Role::param)

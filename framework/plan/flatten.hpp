@@ -20,7 +20,7 @@ struct Override
 struct Flattened
 {
     Flat flat;
-    std::unique_ptr<Scope> top;           ///< for finding ports by name; valid as long as the graph
+    std::unique_ptr<Scope> top;           ///< for finding ports by name; valid as long as the graph exists
     std::set<const graph::Patch*> used;   ///< the patches that were expanded
 };
 

@@ -18,8 +18,8 @@ public:
     template <typename ForEach>
     Grouped (std::size_t groups, const ForEach& forEach) : first (groups + 1, 0)
     {
-        // While items are being added, a group's entry is the index for its next item. At the end it is where the next group
-        // begins.
+        // While items are being added, first[g + 1] is the index for the next item of group g. At the end it is the index where
+        // group g + 1 begins.
         const auto entry = [this] (auto group) -> std::size_t& { return first[static_cast<std::size_t> (group) + 1]; };
         forEach ([&] (auto group, const T&) { ++entry (group); });
         std::size_t end = 0;

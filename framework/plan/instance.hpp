@@ -18,11 +18,11 @@ struct Instance
 {
     std::uint64_t serial = 0;                 ///< serial number of the node; a replacement gets a new one
     std::shared_ptr<void> node;               ///< null for a bypassed subgraph
-    std::shared_ptr<Knobs> knobs;             ///< null if it has neither params nor hit inputs
+    std::shared_ptr<Knobs> knobs;             ///< null if the node has neither params nor hit inputs
     bool is_struck = false;                   ///< the node runs and accepts hits from outside
     std::vector<bool> driven;                 ///< by knob: a wire or feed sets the value; empty if none is driven
-    int delay = 1;                            ///< ticks from input to output, if it peeks
-    void* outputs = nullptr;                  ///< in the plan's storage, as its type lays them out
+    int delay = 1;                            ///< ticks from input to output, if the node peeks
+    void* outputs = nullptr;                  ///< in the plan's storage, as the node's type lays them out
     const double* const* sources = nullptr;   ///< by input component, in the plan's storage
     bool dirty = true;                        ///< the node or something upstream differs from the previous plan
 
@@ -75,7 +75,7 @@ struct RateConverter
     std::uint64_t serial = 0;
     double out = 0.0;                    ///< the value that arrives
     double gathered = 0.0;               ///< sum that has not been delivered yet
-    double before = 0.0, newest = 0.0;   ///< the ends of the line
+    double before = 0.0, newest = 0.0;   ///< the ends of the straight line (Conversion::Kind::line)
     bool begun = false;                  ///< `newest` is set
 
     /// Takes over the state of a conversion of another kind, but not its serial number: the main thread may be reading the serial

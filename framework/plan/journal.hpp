@@ -27,7 +27,7 @@ public:
     virtual void outdone (std::size_t instance, std::size_t knob) noexcept = 0;
 
     /// A hit is added to an input. The numbers are the instance in the plan and the input among the hit inputs. It arrives on
-    /// the next tick on which the node runs, which may be this one.
+    /// the next tick on which the node runs, which may be this tick.
     virtual void struck (std::size_t instance, std::size_t input, double speed) noexcept = 0;
 
     /// The answer to an async query was not ready when it was due; see QueryService::isLate.
@@ -41,7 +41,7 @@ public:
     virtual void emergency() noexcept = 0;
     virtual void rearmed() noexcept = 0;
 
-    /// A tick is over. The plan holds what it read: the readings of the roles, and the feeds.
+    /// A tick is over. The plan holds the inputs of the tick: the readings of the roles, and the feeds.
     virtual void ticked (const Plan&) noexcept = 0;
 };
 

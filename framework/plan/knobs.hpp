@@ -23,7 +23,7 @@ struct Knob
     std::atomic<std::uint32_t> turns = 0;   ///< number of times a target was set
 
     // Tick thread only.
-    std::uint32_t heeded = 0;   ///< value of `turns` up to which targets are applied, or replaced by an edit
+    std::uint32_t heeded = 0;   ///< value of `turns` for the last target that was applied, or was replaced by an edit
     int left = 0;               ///< ticks left in the ramp
     double to = 0.0;            ///< end of the ramp
     double value = 0.0;         ///< current stored value, before wires replace it or add to it
@@ -36,7 +36,7 @@ struct Pulse
     std::atomic<double> asked = 0.0;   ///< the sum of all hits that the tick thread has not picked up, in m/s
 
     // Tick thread only.
-    double pending = 0.0;   ///< picked up but not yet passed to the node, in m/s
+    double pending = 0.0;   ///< the sum of all hits that were picked up but not yet passed to the node, in m/s
 };
 
 bool takesHits (const PortSheet&) noexcept;
@@ -67,7 +67,7 @@ struct Knobs
     const NodeType& type;
     std::vector<Knob> all;
     std::vector<Pulse> pulses;           ///< by input that takes hits, in the order of the datasheet
-    std::atomic<bool> touched = false;   ///< a knob or pulse has changed
+    std::atomic<bool> touched = false;   ///< a knob or pulse has changed since the tick thread last looked
 
     // Tick thread only.
     bool started = false;   ///< the node has ticked: new targets start a ramp
@@ -85,7 +85,7 @@ struct ParamRef
 };
 
 /// Sets the target of a parameter; for a choice, the number of the alternative. Ignores a value that is not finite, and clamps
-/// to the range of the model. [any thread]
+/// the others to the hard limits of the datasheet. [any thread]
 void turn (const ParamRef&, double) noexcept;
 
 /// A handle for triggering hits at an input.

@@ -14,7 +14,7 @@ namespace
 {
 constexpr int none = -1;
 
-/// For each node: a start from which it can be reached along `next`, the first one by path; or none.
+/// For each node: the start node from which it can be reached along `next`, or none. If there are several, the first by path.
 template <typename Begins>
 std::vector<int> reachedFrom (const Flat& flat, const Grouped<int>& next, Begins begins)
 {
@@ -76,21 +76,22 @@ void warnOfDelays (Flat& flat, const PortUnits& units, const std::vector<int>& n
         if (source[at (from)] == none || sink[at (to)] == none || component[at (from)] == component[at (to)]) continue;
 
         const auto path = " the path from '" + flat.node (source[at (from)]).path + "' to '" + flat.node (sink[at (to)]).path + "' by ";
-        const std::string cost = "each tick costs stiffness that the hand can feel; ";
+        const std::string cost = "each tick of delay costs stiffness that the hand can feel; ";
         const auto& node = flat.node (from);
         const auto written = std::int64_t { w.delay } * flat.ticksOf (w.section);
         if (written > 0)
-            flat.warn ("rate/late", w.origin, "\"" + graph::toText (*w.written) + "\" delays" + path + ticks (written), cost + "leave the delay out");
+            flat.warn ("rate/late", w.origin, "\"" + graph::toText (*w.written) + "\" delays" + path + ticks (written),
+                       cost + "remove the delay from the wire");
         if (const auto lines = delayOf (flat, units, w) - written; lines > 0)
             flat.warn ("rate/late", w.origin, "\"" + graph::toText (*w.written) + "\" leaves a section with linear hold, which delays" + path + ticks (lines),
-                       cost + "\"hold\": \"latch\" answers within the tick");
+                       cost + "write \"hold\": \"latch\", which answers within the tick");
         if (node_delays[at (from)] > 0 && ! reported[at (from)])
         {
             reported[at (from)] = true;
             flat.warn ("rate/late", node.origin,
                        "'" + node.path + "' (" + std::string (node.type->info.id) + ") delays" + path
                            + ticks (std::int64_t { node_delays[at (from)] } * flat.ticksOf (node.section)),
-                       cost + "bypass it with a wire");
+                       cost + "bypass the node, or wire around it");
         }
     }
 }

@@ -127,7 +127,7 @@ private:
     const Flat* flats[2];
 };
 
-/// For each scope: the previous scope with the same enclosing subgraph nodes, or -2, which does not exist.
+/// For each scope: the previous scope with the same enclosing subgraph nodes, or -2 if there is none.
 std::vector<int> scopesBefore (const Flat& now, const Flat& before)
 {
     constexpr int no_scope = -2;
@@ -169,7 +169,7 @@ std::vector<int> match (Unmatched here, Unmatched there, const Flat& now, const 
     byChain (unchanged);
     if (here.empty() || there.empty()) return found;
 
-    // By the last link: all links of the chains that end in it, on each side.
+    // By the last link of a chain: all links of the chains that end in that link, in this graph and in the previous one.
     std::unordered_map<graph::Ancestor, std::unordered_set<graph::Ancestor, Hash>, Hash> around, around_before;
     const auto note = [] (const Unmatched& rest, auto chainOf, auto& all) {
         for (const auto& x : rest)

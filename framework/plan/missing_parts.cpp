@@ -26,8 +26,8 @@ Messages missingParts (const Plan& plan)
         messages.push_back (
             Message::warning ("device/missing_part", "/nodes/" + outermost,
                               quote (node.path) + " (" + std::string (node.type->info.id) + "): the device of the role " + quote (node.role) + " has " + what,
-                              std::string (acts ? "it has no effect until you " : "it reads 0 until you ")
-                                  + "set the node to a part that the device has, or give the role another device"));
+                              std::string (acts ? "the node has no effect until you " : "the node reads 0 until you ")
+                                  + "set it to a part that the device has, or give the role another device"));
     }
     return messages;
 }

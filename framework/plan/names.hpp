@@ -11,7 +11,7 @@ namespace tactus::plan
 {
 
 /// Numbers names from 0 in the order they are added, and looks them up. Stores them side by side, so a lookup usually hits the
-/// cache; the names of a large patch are scattered in memory.
+/// cache; the names in the nodes of a large Patch are scattered in memory.
 class Names
 {
 public:
@@ -38,7 +38,7 @@ private:
 
     std::string text;                                    // all names, one after another
     std::vector<std::size_t> begins { 0 };               // where each name begins, then the end
-    std::vector<Entry> table = std::vector<Entry> (8);   // size is a power of two, at most half full
+    std::vector<Entry> table = std::vector<Entry> (8);   // its size is a power of two; at most half of the entries are in use
 };
 
 }   // namespace tactus::plan

@@ -25,7 +25,7 @@ struct Sum
     };
 
     std::vector<Term> terms;
-    std::vector<double> scratch;   // as long as terms
+    std::vector<double> scratch;   // for the values to add; same size as `terms`
     double out = 0.0;
 
     static void step (void* self, const double* const*, void*) noexcept
@@ -90,7 +90,7 @@ struct DrivenNode
     const NodeType* type;
     void* node;
     std::vector<Drive> drives;
-    std::vector<const double*> faulted;   // all NaN; as many as the node has sources
+    std::vector<const double*> faulted;   // sources that all point to NaN; as many as the node has
 
     static void step (void* self, const double* const* sources, void* outputs) noexcept
     {

@@ -210,7 +210,7 @@ void reportLoops (Flat& flat, const Blocks& blocks, const Grouped<int>& next)
                 whole += "; '" + blocks.path (from) + "' runs as a whole, so it has no output before all of its inputs have arrived";
         }
 
-        // A delay costs least on the wire that leads back, from a block far from the sources to one near them.
+        // A delay costs least on the wire that leads back: from a block far from the sources to a block near them.
         const auto* back = *std::ranges::max_element (loop, {},
                                                       [&] (const FlatWire* w) { return distance[at (blocks.from (*w))] - distance[at (blocks.to (*w))]; });
         const auto origin = back->origin;
@@ -365,7 +365,7 @@ private:
         }
     }
 
-    /// Passes on to the following nodes the longest delay of a node, and whether it is on a loop.
+    /// Passes two things on from a node to the nodes that follow: its longest delay, and whether there is a loop on the way to it.
     void spread (int n)
     {
         auto& here = reach[at (n)];

@@ -38,7 +38,7 @@ struct Tap
     Quantity quantity = Quantity::any;
     std::string unit;   ///< SI symbol, "" if unknown
     const double* value = nullptr;
-    int per_tick = 1;                  ///< samples in a tick: more than one in a section that runs `times` a tick
+    int per_tick = 1;                  ///< number of samples per tick; more than one inside a `times` section
     const double* samples = nullptr;   ///< all samples of the tick, if there are several; the last one is the value
 
     /// The sample at the end of the i-th of n equal parts of the tick.
@@ -53,10 +53,10 @@ struct SinkUse
 {
     Effort (*effort) (const void* node) noexcept;
     const void* node;
-    std::size_t instance;   ///< number of its instance
+    std::size_t instance;   ///< number of the node's Instance
 };
 
-/// A role as a plan uses it. It remains after its last node is removed, so that the output of its device can still go to zero.
+/// A role as a plan uses it. The role remains after its last node is removed, so that the output of its device can still go to zero.
 struct RoleUse
 {
     std::string name;
@@ -136,7 +136,7 @@ public:
     /// Starts moving to the targets that were set since the last call, and passes hits on to their inputs. [tick thread]
     void applyTurns (Journal* journal) noexcept { parts.ramps.look (journal); }
 
-    /// Until now, targets applied immediately; from now on, each new one starts a ramp. Call it right before the first tick.
+    /// Until now, targets applied immediately; from now on, each new target starts a ramp. Call it right before the first tick.
     /// [tick thread]
     void startRamping() noexcept { parts.ramps.startAll(); }
 

@@ -18,7 +18,7 @@ struct Entry
 {
     Role role {};
     int port = 0, index = 0, component = 0;
-    std::uint64_t from = 0;   ///< serial of the node, or the complement of a feed number; 0 for a placeholder
+    std::uint64_t from = 0;   ///< serial number of the node where the wire starts, or complement of the feed's number; 0 for a placeholder
     int from_port = 0, from_index = 0, from_component = 0;
     std::uint64_t line = 0;        ///< serial number of the delay line; 0 without a delay
     std::uint64_t converter = 0;   ///< serial number of the first rate converter; 0 without one
@@ -157,7 +157,7 @@ PlanDiff::Predecessor PlanDiff::knobsBefore (std::size_t i) const noexcept
     return withdrawn->flat.nodes[node].type == flat.nodes[i].type ? Predecessor { withdrawn, node } : Predecessor {};
 }
 
-/// Number of turns before the edit that set the value. That may be the edit of the withdrawn plan.
+/// How often a knob had been turned before the edit that set this value. The withdrawn plan may contain the same edit already.
 std::uint32_t PlanDiff::turnsBefore (const Knobs& knobs, std::size_t knob, double value) const noexcept
 {
     if (withdrawn)
@@ -287,7 +287,7 @@ void PlanDiff::spread (const std::vector<bool>& dirty, PlanParts& plan)
             open.push_back (static_cast<int> (i));
     if (open.empty()) return;
 
-    std::vector<std::pair<int, int>> pairs;   // from, to
+    std::vector<std::pair<int, int>> pairs;   // of nodes: start and end of each wire
     pairs.reserve (plan.flat.wires.size());
     for (const auto& w : plan.flat.wires)
         if (w.from) pairs.emplace_back (w.from->node, w.to.node);

@@ -40,7 +40,7 @@ public:
     void compare (PlanParts&) const;
 
 private:
-    /// A node of another plan; none if the plan is null.
+    /// A node of another plan; if `plan` is null, there is no such node.
     struct Predecessor
     {
         const PlanParts* plan = nullptr;

@@ -30,8 +30,8 @@ private:
     static void strike (std::size_t instance, const Instance&, Journal*) noexcept;
 
     std::span<const Instance> instances;
-    std::vector<std::size_t> moving;   // numbers of instances; its capacity holds all of them
-    int ticks = 1;                     // length of a ramp
+    std::vector<std::size_t> moving;   // numbers of the instances with a ramp; has room for all instances
+    int ticks = 1;                     // length of a ramp, in ticks
 };
 
 }   // namespace tactus::plan

@@ -6,8 +6,8 @@ namespace tactus::plan
 
 namespace
 {
-/// The conversion that a wire needs when it enters or leaves a section. None if the value can be read directly: a state inside
-/// a `times` section changes once per tick, and a value that is held inside or after a section needs no converter.
+/// The conversion that a wire needs when it enters or leaves a section; nullopt if the value can be read directly. That is so
+/// for steps that enter a `times` section, and for values that leave a section and are held until it runs again.
 std::optional<Conversion::Kind> kindOf (const Section& section, bool enters, Carries carries)
 {
     const bool rests = section.kind == Section::Kind::every;

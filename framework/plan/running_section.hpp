@@ -27,7 +27,7 @@ struct ConversionLink
         converter->gathered = 0.0;
     }
 
-    /// Starts a new line where the last one ended. The first line begins and ends at the current input.
+    /// Starts a new straight line where the last one ended. The first line begins and ends at the current input.
     void head() const noexcept
     {
         auto& p = *converter;
@@ -36,7 +36,7 @@ struct ConversionLink
         p.begun = true;
     }
 
-    /// A point on the line, at a fraction from 0 to 1. Before the first line exists, the current input.
+    /// Outputs the point on the line at a fraction from 0 to 1. Before the first line exists, outputs the current input.
     void follow (double part) const noexcept { converter->out = converter->begun ? std::lerp (converter->before, converter->newest, part) : *from; }
 };
 
@@ -51,7 +51,7 @@ struct RunningSection
     };
 
     const std::uint64_t* around = nullptr;   // tick number of the enclosing section
-    std::uint64_t number = 0;                // own tick number
+    std::uint64_t number = 0;                // tick number of this section
     std::uint64_t factor = 1;
     std::vector<ConversionLink> latches, gathers, lines, pulses;
     std::vector<Record> records;

@@ -23,7 +23,7 @@ int readFactor (const Json& value, const char* key, const std::string& path, Ori
     if (n >= 1.0 && n <= most && n == std::floor (n)) return static_cast<int> (n);
     flat.error ("rate/value", flat.at (here, key),
                 "`" + std::string (key) + "` of '" + path + "' is " + value.dump() + ", but it must be a whole number from 1 to 1000000",
-                "write 2 or more, or leave it out");
+                "write 2 or more, or remove the key");
     return 1;
 }
 
@@ -65,7 +65,7 @@ public:
 
     bool leadsToTheHand (int node) const { return leads[at (node)]; }
 
-    /// Describes the shortest such path from a section. There must be one.
+    /// Describes the shortest path from a section to a sink that acts on a hand. There must be such a path.
     std::string pathFrom (int section) const
     {
         std::vector<const FlatWire*> by (flat.nodes.size(), nullptr);   // by node: the wire that reached it; null inside the section
@@ -84,7 +84,7 @@ public:
                 reach (w->to.node, w);
 
         const int sink = open.front();
-        if (by[at (sink)] == nullptr) return "'" + flat.node (sink).path + "' is inside it";
+        if (by[at (sink)] == nullptr) return "'" + flat.node (sink).path + "' is inside this subgraph";
         std::string text;
         for (int n = sink; by[at (n)] != nullptr; n = by[at (n)]->from->node)
             text = flat.nameOf (*by[at (n)]->from) + " -> " + flat.nameOf (by[at (n)]->to) + (text.empty() ? "" : ", then " + text);
@@ -105,10 +105,10 @@ int openSection (const graph::Node& node, int around, const std::string& path, O
     const bool every = node.extra.contains ("every"), times = node.extra.contains ("times");
     if (node.extra.contains ("hold") && ! every)
         flat.warn ("rate/hold_alone", flat.at (here, "hold"), "'" + path + "' has a `hold`, but no `every`, so there is nothing to hold",
-                   "remove it, or add \"every\"");
+                   "remove `hold`, or add \"every\"");
     if (const auto hold = node.extra.value ("hold", Json ("latch")); hold != "latch" && hold != "linear")
         flat.error ("rate/value", flat.at (here, "hold"), "`hold` of '" + path + "' is " + hold.dump() + ", but it must be \"latch\" or \"linear\"",
-                    "write \"latch\", or leave it out");
+                    "write \"latch\", or remove the key");
     if (every && times)
         flat.error ("rate/both", flat.at (here, "times"), "'" + path + "' has both `every` and `times`, but it cannot run both less often and more often",
                     "remove one of them");
@@ -147,7 +147,7 @@ void checkSections (Flat& flat, double rate_hz)
         const double rate = rate_hz * flat.speed (s);
         if (rate < lowest || rate > highest)
             flat.error ("rate/value", section.origin, "'" + section.path + "' would run at " + numberText (rate) + " Hz",
-                        "sections run at 1 Hz to 1 MHz; the graph runs at " + numberText (rate_hz) + " Hz");
+                        "change `every` or `times`: sections run at 1 Hz to 1 MHz, and the graph runs at " + numberText (rate_hz) + " Hz");
 
         fast[at (s)] = fast[at (section.around)];
         if (fast[at (s)] == none && section.kind == Section::Kind::times) fast[at (s)] = s;

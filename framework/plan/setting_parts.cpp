@@ -82,7 +82,7 @@ Law lawFrom (const Json& json, const UnitRule& x, const UnitRule& y, const std::
         auto table = curveFrom (value, x, y, inner);
         if (table.x.front() < 0.0) throw Problem { "its first point has a negative deflection", inner + "/0/0" };
         if (table.x.front() == 0.0 && table.y.front() != 0.0) throw Problem { "a law must start at (0, 0)", inner + "/1/0" };
-        if (table.x.back() == 0.0) throw Problem { "it needs a point beyond 0", inner };
+        if (table.x.back() == 0.0) throw Problem { "it needs a point with a deflection above 0", inner };
         return { .kind = Law::Kind::table, .table = std::move (table) };
     }
     if (kind == "dissipation" && damps)

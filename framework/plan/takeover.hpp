@@ -20,7 +20,7 @@ struct Takeover
     struct Successor
     {
         std::size_t instance;
-        void (*adopt) (void* node, const void* old) noexcept;   ///< null: starts from its initial state
+        void (*adopt) (void* node, const void* old) noexcept;   ///< null: the new node starts from its initial state
         const void* old;
     };
 
@@ -53,7 +53,7 @@ struct Takeover
         const RateConverter* old;
     };
 
-    /// A value to hold until its section next runs.
+    /// A value to copy from the previous plan and to hold until the section of its node next runs.
     struct HeldValue
     {
         void* to;

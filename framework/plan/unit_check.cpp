@@ -185,7 +185,7 @@ private:
             flat.error ("wire/unit", w.origin,
                         "'" + flat.nameOf (*w.from) + "' carries " + symbolOf (arrives) + (w.gain_dimension ? " after the wire's gain" : "") + ", but '"
                             + flat.nameOf (w.to) + "' takes " + symbolOf (want.value_or (Dimension {})),
-                        "wire something that fits, or give the wire a gain in " + symbolOf (needed));
+                        "wire a port with the right unit, or give the wire a gain in " + symbolOf (needed));
             return;
         }
         if (gain == Dimension {}) links.push_back ({ from, to, &w });
@@ -214,13 +214,13 @@ private:
             flat.error ("param/unit", a.origin,
                         "'" + flat.nameOf (a.to) + "' is in " + symbolOf (*dimensions.dimension (v)) + ", but " + shown (json) + " is in "
                             + symbolOf (*number->dimension),
-                        "give it in " + symbolOf (*dimensions.dimension (v)) + ", or as a plain SI number");
+                        "write the value in " + symbolOf (*dimensions.dimension (v)) + ", or as a plain SI number");
             return false;
         }
         if (miscounts (*number, sheet.unit))
         {
             flat.error ("param/unit", a.origin, "'" + flat.nameOf (a.to) + "': " + miscount (json, sheet.unit),
-                        "divide by that, and give it in " + std::string (sheet.unit.unit.symbol));
+                        "divide the value by 2 pi rad or 360 deg, and write the result in " + std::string (sheet.unit.unit.symbol));
             return false;
         }
         return true;

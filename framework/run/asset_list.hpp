@@ -9,7 +9,7 @@
 namespace tactus
 {
 
-/// Passes assets through and lists the requested files. [main thread]
+/// Forwards requests to other Assets, and lists the requested files. [main thread]
 class AssetList final : public Assets
 {
 public:

@@ -63,7 +63,7 @@ private:
         return all;
     }
 
-    int length = 1, now = length;   // in ticks
+    int length = 1, now = length;   // duration of the fade, and time since it began, in ticks; equal if there is no fade
     Effort difference;              // e0 - e1
     Effort last;
 };

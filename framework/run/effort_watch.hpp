@@ -18,7 +18,7 @@ namespace tactus
 class MotionWatch
 {
 public:
-    Vec3 moved = Vec3::Zero();   ///< in m, since the last reading; 0 for the first
+    Vec3 moved = Vec3::Zero();   ///< motion of the tool since the last reading, in m; 0 for the first reading
     double elapsed = 0.0;        ///< time between the two readings, in s
 
     /// Takes a new reading, which must be finite. turned() and axis() refer to it until before() is called. [tick thread]
@@ -51,7 +51,7 @@ public:
         return was_known ? reading.axes[i] - before : 0.0;
     }
 
-    /// The device had no reading, so the distance to its next position does not count as motion.
+    /// Forgets the last reading, so that the distance to the next one does not count as motion.
     void forget() noexcept { known = false; }
 
 private:
@@ -66,7 +66,7 @@ private:
 ///
 ///     v += (x - x' - v s)/(tau + s)
 ///
-/// so an error of one quantum q adds at most q/tau (10 um: 2 mm/s), and a speed V is measured as V (1 - e^(-t/tau)). If a
+/// so an error of one quantum q adds at most q/tau (10 um: 2 mm/s), and a constant speed V is measured as V (1 - e^(-t/tau)). If a
 /// device is slower than the tick and does not report the age of its readings, the speed fluctuates by a fraction s/tau.
 class SpeedWatch
 {
@@ -82,7 +82,7 @@ public:
 
     void operator() (const Vec3& moved, double elapsed_s) noexcept { velocity = filtered (velocity, moved, elapsed_s); }
 
-    /// The speed in m/s or rad/s; inf if it is out of range.
+    /// The speed in m/s or rad/s; inf if it is not a number.
     double speed() const noexcept
     {
         const double v = velocity.norm();
@@ -140,7 +140,7 @@ private:
 ///
 /// D > most if and only if, over some stretch of time of any length L, the device gave more than most (1 + L/window). So a
 /// spring that stores no more than `most` never exceeds it, however it is pressed and released, and neither does any passive
-/// load; a loop that continuously gives more than the power P does. Energy that the hand has put in and that was dissipated,
+/// load; a loop that continuously gives more than the power P exceeds it. Energy that the hand has put in and that was dissipated,
 /// for example by friction, does not count as credit.
 ///
 /// After the passivity observer of Hannaford & Ryu 2002, which never forgets: there, ten minutes of braking would allow a loop

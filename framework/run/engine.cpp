@@ -10,7 +10,7 @@
 namespace tactus
 {
 
-/// The sum of the efforts of all sinks of a role. It does not depend on their order.
+/// The sum of the efforts of all sinks of a role. The result does not depend on the order of the sinks.
 Effort Engine::total (const Plan::RoleUse& role, Scratch& scratch) noexcept
 {
     if (role.sinks.size() == 1) return role.sinks[0].effort (role.sinks[0].node);
@@ -128,8 +128,8 @@ std::shared_ptr<Plan> Engine::withdraw()
     return back ? back->plan : nullptr;
 }
 
-/// The tick thread may be using the role's channel that has no device, so the role gets a new channel. Plans submitted from now
-/// on use the new one.
+/// The role's old channel has no device, and the tick thread may still be using it. So the role gets a new channel, which plans
+/// submitted from now on use.
 void Engine::join (const Joining& joining, const Plan& plan)
 {
     if (std::ranges::find (plan.roles(), joining.role, &Plan::RoleUse::name) == plan.roles().end())
@@ -203,8 +203,8 @@ void Engine::takeOver (Running& next) noexcept
     if (const auto& rests = next.plan->rests(); ! rests.empty()) settled_at = ticks + rests.back();
 }
 
-/// A change in a section that does not run on every tick takes effect when the section runs, and so does the jump in effort that
-/// it causes.
+/// A change in a section that does not run on every tick takes effect only when the section runs. The effort may jump then, so the
+/// fade starts again on that tick.
 void Engine::fadeAgain() noexcept
 {
     for (auto* channel : running->channels)
@@ -286,7 +286,7 @@ void Engine::afterPlan() noexcept
         role.state->applied = channel.guard (wanted, role.state->reading);
         if (channel.guard.stop() != Guard::Stop::none) channel.bumpless.stop (role.state->applied);
         if (channel.device) channel.device->write (role.state->applied);
-        if (channel.guard.events() != events) stops.note ({ ticks, channel.role, channel.guard.latest() });   // after the force has been written
+        if (channel.guard.events() != events) stops.note ({ ticks, channel.role, channel.guard.latest() });   // last, so as not to delay the effort
     }
     if (journal) journal->ticked (*plan);
     ++ticks;

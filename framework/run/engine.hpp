@@ -45,8 +45,8 @@ public:
     };
 
     //==========================================================================
-    // Swapping plans. The new plan is compiled with newest() as CompileOptions::before, so that it builds on the one it
-    // replaces:
+    // Swapping plans. The new plan is compiled with newest() as CompileOptions::before, so that it builds on the plan
+    // that it replaces:
     //
     //     auto waiting = engine.withdraw();
     //     auto compiled = compile (graph, catalogue(), { .before = &engine.newest(), .withdrawn = waiting.get() });
@@ -68,17 +68,17 @@ public:
     std::size_t clear();
 
     //==========================================================================
-    /// A parameter of the newest plan by its name: one component of a vector, one entry of a list. If the name covers several
-    /// instances, returns the first one. [main thread]
+    /// Finds a parameter of the newest plan by name (see plan::findParams). If the name covers several instances, returns the
+    /// parameter of the first one. [main thread]
     Result<plan::ParamRef> param (std::string_view name);
 
-    /// Like param, but returns all instances that the name covers. [main thread]
+    /// Like param, but returns the parameter of every instance that the name covers. [main thread]
     Result<std::vector<plan::ParamRef>> params (std::string_view name);
 
     /// Sets the target of a parameter; the value ramps to it (plan/ramps.hpp). [any thread]
     void set (const plan::ParamRef&, double) noexcept;
 
-    /// The hit inputs of the newest plan by name, in all instances that the name covers. [main thread]
+    /// Finds hit inputs of the newest plan by name, in all instances that the name covers. [main thread]
     Result<std::vector<plan::HitRef>> hits (std::string_view name);
 
     /// Triggers a hit of this speed (m/s) on one tick: the next one on which the node runs. Hits between two ticks are summed.
@@ -90,7 +90,7 @@ public:
     void tick() noexcept;
 
     /// Bit-identical to tick(), but `step` ticks the plan, either by Plan::tick or by running all its records in order, so that
-    /// it can do something between them. [tick thread]
+    /// `step` can do something between the records. [tick thread]
     template <typename Step>
     void tick (Step&& step) noexcept
     {
@@ -109,7 +109,7 @@ public:
     /// Ends a halt: the efforts rise again, as the guards' ramps allow. [tick thread]
     void resume() noexcept;
 
-    /// While true, no reading is valid and all guards hold the efforts at zero. Used for ticks that do not come from the chosen
+    /// While `so` is true, no reading is valid and all guards hold the efforts at zero. Used for ticks that do not come from the chosen
     /// clock. A log records these readings as invalid. [tick thread]
     void invalidateReadings (bool so) noexcept { readings_invalid = so; }
 
@@ -129,14 +129,14 @@ public:
     /// True once no device has an effort on it, so that all devices can be released without a jump. [tick thread]
     bool isAtRest() const noexcept;
 
-    Plan& plan() noexcept { return *running->plan; }   ///< the running one   [tick thread]
+    Plan& plan() noexcept { return *running->plan; }   ///< the running plan   [tick thread]
 
     /// A role of the running plan. References in it stay valid as long as the engine lives, and the name never
     /// changes.
     struct RoleView
     {
         std::string_view name;
-        const Effort& applied;   ///< on the last tick
+        const Effort& applied;   ///< the effort that the guard allowed on the last tick
         const Guard& guard;
     };
 
@@ -158,7 +158,7 @@ private:
         Guard guard {};
         Bumpless bumpless {};
         std::uint64_t touched_at = 0;   // the tick on which a plan last changed anything upstream of this role
-        bool is_news = false;           // the nodes do not know its device yet
+        bool is_news = false;           // the nodes are not bound to its device yet
     };
 
     /// A node that belongs to a role.
@@ -204,7 +204,7 @@ private:
     void turnKnobs() noexcept;
 
     double rate_hz;
-    std::vector<std::unique_ptr<Channel>> channels;   // of every role so far; the last one of each role is in use   [main thread]
+    std::vector<std::unique_ptr<Channel>> channels;   // of all roles so far; if a role has several, the last one is in use   [main thread]
     PlanSwap<Running> plans;
     std::atomic<bool> touched = true;   // a knob was turned, a hit triggered, or one of the next two flags set; the tick thread clears it
     std::atomic<bool> emergency = false, rearming = false;
@@ -213,8 +213,8 @@ private:
     // Used by the tick thread.
     Running* running;
     Journal* journal = nullptr;
-    bool fresh = true;         // the plan has not ticked yet
-    bool is_stopped = false;   // the guards know about the emergency
+    bool fresh = true;         // the running plan has not ticked yet
+    bool is_stopped = false;   // the guards have been told of the emergency stop
     bool readings_invalid = false;
     std::uint64_t ticks = 0;
     std::uint64_t settled_at = 0;   // by this tick, every section has run at least once since the takeover

@@ -43,7 +43,9 @@ Result<Feed> Feed::make (Table t, const std::string& name, double rate_hz, doubl
         if (! std::isfinite (now)) return Message::error ("feed/bad_time", place, "the time of this row is not a number", "give every row its time in seconds");
         if (r == 0) continue;
         steps.push_back (now - f.table.at (r - 1, *f.time));
-        if (! (steps.back() > 0.0)) return Message::error ("feed/time_order", place, "t does not increase here", "sort the rows by time; use each time once");
+        if (! (steps.back() > 0.0))
+            return Message::error ("feed/time_order", place, "t is not larger than in the row before",
+                                   "sort the rows by time, and keep only one row for each time");
     }
     if (rate_hz > 0.0)
     {
@@ -51,8 +53,8 @@ Result<Feed> Feed::make (Table t, const std::string& name, double rate_hz, doubl
         const double last = f.table.at (rows - 1, *f.time) - f.table.at (0, *f.time);
         constexpr double most = 1e10;
         if (! (last * rate_hz < most))
-            return Message::error ("run/too_long", name, "its times span more than 10^10 ticks at this rate",
-                                   "t is in seconds; give a lower --rate, or fewer rows");
+            return Message::error ("run/too_long", name, "the times in this file span more than 10^10 ticks at the rate of the run",
+                                   "check that t is in seconds; if it is, give a lower --rate or fewer rows");
         f.count = static_cast<std::size_t> (std::floor (last * rate_hz + 1e-6)) + 1;
     }
     else if (! steps.empty())

@@ -12,13 +12,13 @@
 namespace tactus
 {
 
-/// A CSV whose columns drive ports of a graph. Without a requested rate, each row is a tick. With one, the rows of a table with
-/// times are sampled at the ticks and held in between.
+/// A CSV whose columns drive ports of a graph. Each row is a tick, unless a rate is requested and the CSV has times: then each
+/// tick uses the latest row at or before its time.
 class Feed final : public RunListener
 {
 public:
-    /// If `rate_hz` is 0, the rate is 1/median dt of the column `t`, or the graph's rate if there is no such column. Errors:
-    /// feed/bad_time, feed/time_order, feed/empty.
+    /// If `rate_hz` is 0, the rate is 1/median dt of the column `t`, or the graph's rate if there is no such column. Ids:
+    /// feed/bad_time, feed/time_order, feed/empty, run/too_long.
     static Result<Feed> make (Table, const std::string& name, double rate_hz, double graph_rate_hz);
 
     double rate() const noexcept { return rate_hz; }

@@ -210,7 +210,7 @@ void Guard::watch (const Reading& reading) noexcept
     const double now = static_cast<double> (ticks++) * dt;
     if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! isFinite (reading.age) || hasBrokenAxes (reading))
     {
-        // While effort is left, the distance to the next reading counts, so a device cannot hide its motion behind bad readings.
+        // While an effort is on the device, the distance to the next reading counts, so a device cannot hide its motion behind bad readings.
         if (isAtRest()) motion.forget();
         return;
     }
@@ -354,7 +354,7 @@ Effort Guard::operator() (const Effort& wanted, const Reading& reading) noexcept
     if (cause != reason && cause != Stop::none)
     {
         const bool begins = reason == Stop::none;
-        const bool ends_a_run = cause == Stop::halted && event.why != Stop::none;   // then the earlier stop is reported
+        const bool ends_a_run = cause == Stop::halted && event.why != Stop::none;   // then latest() keeps the stop before it
         if ((begins && ! ends_a_run) || (latches (cause) && is_news))
         {
             event = describeNow (cause, wanted, reading);
@@ -393,7 +393,7 @@ Effort Guard::crossfade (const Effort& wanted) noexcept
     enabled = limits.ramp > 0.0 ? std::min (1.0, enabled + dt / limits.ramp) : 1.0;
     if (enabled == 1.0) return wanted;
 
-    // The sum never exceeds 1, so the effort can safely return before the fade is over.
+    // enabled + rest never exceeds 1, so the effort can safely return before the fade is over.
     const double rest = std::min (withheld, 1.0 - enabled);
     return { enabled * wanted.force + rest * at_stop.force, enabled * wanted.torque + rest * at_stop.torque,
              mixed (enabled, wanted.axes, rest, at_stop.axes), mixed (enabled, wanted.signals, rest, at_stop.signals) };
@@ -414,7 +414,7 @@ std::string describe (const Guard::Event& event)
     case Guard::Stop::stale:
         if (! event.valid) return "the device has no valid reading";
         if (event.part == Part::reading) return "the reading is not a number: " + inWords (event.wanted);
-        if (! (event.value >= 0.0)) return "the reading has no age";
+        if (! (event.value >= 0.0)) return "the age of the reading is not a number";
         return "the last reading is " + inMilliseconds (event.value) + " old; the watchdog allows " + inMilliseconds (event.limit);
 
     case Guard::Stop::released:
@@ -426,12 +426,13 @@ std::string describe (const Guard::Event& event)
     {
         if (event.part == Part::torque) return "the tool turns at " + inWords (event.value) + " rad/s; the limit is " + inWords (event.limit) + " rad/s";
         if (event.part == Part::none) return "the tool moves at " + inWords (event.value) + " m/s; the limit is " + inWords (event.limit) + " m/s";
-        return "axis " + std::to_string (event.channel + 1) + " moves at " + inWords (event.value) + " per s; the limit is " + inWords (event.limit) + " per s";
+        return "axis " + std::to_string (event.channel + 1) + " moves at " + inWords (event.value) + " units/s; the limit is " + inWords (event.limit)
+               + " units/s";
     }
     case Guard::Stop::impulse:
-        if (event.part == Part::torque) return "the torque has pushed for " + inWords (event.value) + " N*m*s" + withinWindow (event, " N*m*s");
-        if (event.part == Part::none) return "the force has pushed for " + inWords (event.value) + " N*s" + withinWindow (event, " N*s");
-        return "the axes have been pushed for " + inWords (event.value) + " N*s or N*m*s" + withinWindow (event, "");
+        if (event.part == Part::torque) return "the impulse of the torque is " + inWords (event.value) + " N*m*s" + withinWindow (event, " N*m*s");
+        if (event.part == Part::none) return "the impulse of the force is " + inWords (event.value) + " N*s" + withinWindow (event, " N*s");
+        return "the impulse on the axes is " + inWords (event.value) + " N*s or N*m*s" + withinWindow (event, "");
     case Guard::Stop::energy:
         return "the device has given the hand " + inWords (event.value) + " J" + withinWindow (event, " J");
 

@@ -32,14 +32,14 @@ struct GuardLimits
     double max_signal_slew = none;   ///< for each signal output separately, per s
 
     double max_speed = none;             ///< speed of the tool as measured by SpeedWatch, in m/s
-    double max_angular_speed = none;     ///< the same for its rotation, in rad/s
-    double max_axis_speed = none;        ///< the same for each axis separately, in its unit per s
+    double max_angular_speed = none;     ///< the same for the rotation of the tool, in rad/s
+    double max_axis_speed = none;        ///< the same for each axis separately, in the unit of the axis per s
     double max_impulse = none;           ///< impulse in any direction within the window, as counted by ImpulseWatch, in N s
     double max_angular_impulse = none;   ///< the same for the torque, in N m s
     double max_axis_impulse = none;      ///< the same for the efforts on all axes together, in N s or N m s
-    double impulse_window = 0.0;         ///< of all three, in s; 0: the whole session
+    double impulse_window = 0.0;         ///< window of all three impulse limits, in s; 0: the whole session
     double max_energy = none;            ///< energy that force, torque and axes may give to the hand, as counted by EnergyWatch, in J
-    double energy_window = 0.0;          ///< in s; 0: the whole session
+    double energy_window = 0.0;          ///< window of max_energy, in s; 0: the whole session
 
     double dead_man_pressure = 0.0;       ///< how hard the hand must press before the guard allows any effort, in N; 0: not required
     std::uint64_t dead_man_buttons = 0;   ///< buttons that must all be held, as in Reading::buttons; 0: none
@@ -109,7 +109,7 @@ public:
     /// True for stops that last until rearm().
     static constexpr bool latches (Stop stop) noexcept { return stop >= Stop::speed; }
 
-    /// The values that made the guard withhold an effort. Plain bytes, so that hosts can pass them on.
+    /// The values that made the guard withhold an effort. Trivially copyable, so that hosts can pass them to other threads.
     struct Event
     {
         /// Which value was not a number, or which speed or impulse exceeded its limit: torque means the rotation of the tool.
@@ -126,11 +126,11 @@ public:
         Stop why = Stop::none;
         Part part = Part::none;
         double value = 0.0;                ///< the measured age, pressure, speed, impulse or energy
-        double limit = 0.0;                ///< its limit
+        double limit = 0.0;                ///< the limit of this value
         double window = 0.0;               ///< window of the limit, in s; 0: the whole session
         std::array<double, 3> wanted {};   ///< force or torque that was not a number; for an axis or signal, only the first component is used
         std::int32_t channel = 0;          ///< number of the axis or signal, from 0
-        std::uint32_t valid = 1;           ///< the reading was valid
+        std::uint32_t valid = 1;           ///< 1 if the reading was valid
     };
 
     /// The layout says which axes the efforts push. [main thread]
@@ -149,7 +149,8 @@ public:
     /// Why the last effort was withheld. [any thread that owns the guard]
     Stop stop() const noexcept { return reason; }
 
-    /// The first tick of the latest stop, even after it has ended. `why` is none if there was none since prepare.
+    /// The values on the first tick of the latest stop, even after the stop has ended. `why` is none if there was no stop since
+    /// prepare().
     const Event& latest() const noexcept { return event; }
 
     /// How many times latest() has changed.
@@ -176,10 +177,10 @@ private:
     Effort last;
     Stop reason = Stop::none;
     Stop latched = Stop::none;
-    double seen = 0.0;   // the value that latched it
+    double seen = 0.0;   // the value that caused the latched stop
     Event::Part seen_part = Event::Part::none;
     int seen_channel = 0;
-    bool is_news = false;   // it has not been reported yet
+    bool is_news = false;   // the latched stop has not been reported yet
     Event event;
     std::uint64_t count = 0;
     bool asked_to_halt = false;
@@ -191,7 +192,7 @@ private:
     MotionWatch motion;
     SpeedWatch speed, angular_speed;
     std::array<double, Channels::most> axis_velocity {};
-    std::array<std::int8_t, Channels::most> axis_of_effort {};   // -1: unknown
+    std::array<std::int8_t, Channels::most> axis_of_effort {};   // by effort, the number of the axis that it pushes; -1: unknown
     ImpulseWatch impulse, angular_impulse, axis_impulse;
     EnergyWatch energy;
 };

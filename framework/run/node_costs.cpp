@@ -26,7 +26,7 @@ NodeCosts::NodeCosts (const TickClock& c) : clock (c) {}
 void NodeCosts::begin() noexcept
 {
     constexpr int rounds = 16, looks = 64;
-    constexpr double first_looks = 1000;   // so that the first tick is measured: the graph may be so slow that there is no second one
+    constexpr double first_looks = 1000;   // so that the first tick is measured: the graph may be so slow that there is no second tick
     look_s = 1.0;
     for (int r = 0; r < rounds; ++r)   // the smallest value counts: anything more is due to other programs
     {
@@ -75,7 +75,7 @@ void NodeCosts::look (Plan& plan, std::size_t first, std::size_t end) noexcept
 
 void NodeCosts::earn (double took_s) noexcept
 {
-    credit_s = std::min (credit_s + part * took_s, most_credit_s);   // the limit keeps slow ticks from being followed by many measured ones in a row
+    credit_s = std::min (credit_s + part * took_s, most_credit_s);   // the limit keeps slow ticks from being followed by many measured ticks in a row
 }
 
 void NodeCosts::Mean::add (double x) noexcept
@@ -104,7 +104,7 @@ std::vector<NodeCost> NodeCosts::of (const Plan& plan)
         const auto mean = means.find (plan.instances()[i].serial);
         if (mean == means.end()) continue;
         still_there.insert (*mean);
-        if (records[i] == 0) continue;   // muted
+        if (records[i] == 0) continue;   // the node is muted
         // Each sample times one of the node's records, and all its records are timed equally often.
         const auto* section = sectionAround (plan.flat(), plan.flat().nodes[i]);
         costs.push_back ({ section ? section->path : plan.flat().nodes[i].path, section ? "subgraph" : std::string (plan.flat().nodes[i].type->info.id),

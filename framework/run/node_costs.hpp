@@ -20,7 +20,7 @@ namespace tactus
 struct NodeCost
 {
     std::string node, type;   ///< "left/drag", "friction.elasto_plastic"
-    double mean_s = 0.0;      ///< per tick
+    double mean_s = 0.0;      ///< mean duration per tick
     double share = 0.0;       ///< share of the cost of all nodes, 0…1
 };
 
@@ -39,7 +39,7 @@ public:
     void begin() noexcept;
 
     void tick (Plan&) noexcept;           // [tick thread]
-    void earn (double took_s) noexcept;   ///< duration of the whole tick   [tick thread]
+    void earn (double took_s) noexcept;   ///< allows time for measuring, in proportion to the duration of the tick   [tick thread]
 
     /// Collects the measurements, to make room for more; call it several times a second. [main thread]
     void collect();

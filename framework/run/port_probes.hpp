@@ -16,7 +16,7 @@ class PortProbes final : public RunListener
 {
 public:
     /// From now on, probes these ports of the graph instead of the previous ones. Returns the names of their components, each
-    /// once. If it fails, the previous ports stay. Ids: those of compile() for a port, probe/several, probe/too_many.
+    /// listed once. If this fails, the previous ports are still probed. Ids: those of compile() for a port, probe/several, probe/too_many.
     Result<std::vector<std::string>> probe (Run&, const graph::Graph&, const std::vector<std::string>& ports);
 
     /// Stops probing; returns the probed ports, so that they can be probed again.
@@ -40,7 +40,7 @@ public:
 private:
     ProbeRing ring;
     std::vector<std::string> probed;
-    std::uint64_t serial = 0;   // serial of the newest plan
+    std::uint64_t serial = 0;   // serial number of the newest plan
 };
 
 }   // namespace tactus

@@ -16,7 +16,8 @@
 namespace tactus
 {
 
-/// True for example for "drag.force.x" and "drag.force", "mix.in[0]" and "mix.in", "finger[2].force" and "finger.force".
+/// True if a component belongs to a port, such as "drag.force.x" to "drag.force", "mix.in[0]" to "mix.in", or "finger[2].force" to
+/// "finger.force".
 inline bool isPartOf (std::string_view component, std::string_view port) noexcept
 {
     const auto end = graph::covers (port, component);
@@ -32,7 +33,7 @@ public:
 
     struct Frame
     {
-        std::uint64_t plan = 0;   ///< serial of the plan that the taps belong to
+        std::uint64_t plan = 0;   ///< serial number of the plan that the taps belong to
         std::uint64_t tick = 0;
         std::size_t size = 0;
         std::array<double, most> values {};
@@ -64,7 +65,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t capacity = 4096;   ///< one second at 4 kHz, in case the window is busy for that long
+    static constexpr std::size_t capacity = 4096;   ///< in frames: one second at 4 kHz, in case the reader is busy for that long
 
     void fill (Frame& frame, const Plan& plan, std::uint64_t tick, std::size_t n) const noexcept
     {

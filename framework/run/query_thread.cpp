@@ -43,7 +43,8 @@ bool QueryThread::isLate (bool ready) noexcept
     return true;
 }
 
-/// A mutex is not fair: a busy thread would lock it again immediately, over and over.
+/// Locks the mutex, and makes the query thread wait meanwhile. A mutex is not fair: while it is busy, the query thread would lock
+/// it again immediately, over and over.
 std::unique_lock<std::mutex> QueryThread::turn()
 {
     ++waiting;

@@ -28,7 +28,8 @@ public:
     /// Reports late answers to a journal, which must exist until the last tick. [main thread, before ticking]
     void report (Journal& to) noexcept { journal = &to; }
 
-    std::uint64_t lateTicks() const noexcept { return late_ticks.load (std::memory_order_relaxed); }   ///< total over all askers   [any thread]
+    /// The number of late answers, for all askers together. [any thread]
+    std::uint64_t lateTicks() const noexcept { return late_ticks.load (std::memory_order_relaxed); }
 
 private:
     void run();
@@ -45,7 +46,7 @@ private:
     Journal* journal = nullptr;
     std::uint64_t asked = 0;   // how many times isLate was called
 
-    std::thread thread;   // last: it uses the other members
+    std::thread thread;   // declared last: it uses the other members
 };
 
 }   // namespace tactus

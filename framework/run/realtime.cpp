@@ -40,14 +40,14 @@ std::vector<std::string> becomeRealTime (std::optional<int> core)
         CPU_ZERO (&set);
         if (*core >= 0 && *core < CPU_SETSIZE) CPU_SET (static_cast<std::size_t> (*core), &set);
         if (const int error = pthread_setaffinity_np (pthread_self(), sizeof set, &set))
-            refused.push_back ("the tick thread could not be pinned to core " + std::to_string (*core) + " (" + reason (error) + ")");
+            refused.push_back ("the tick thread could not be pinned to core " + std::to_string (*core) + " (" + reason (error) + "): choose another core");
     }
     return refused;
 }
 
 std::optional<std::string> lockMemory()
 {
-    // With a limit on locked memory, later allocations would fail rather than remain unlocked.
+    // Under a limit on locked memory, MCL_FUTURE would make later allocations fail instead of leaving them unlocked.
     rlimit limit {};
     const bool unlimited = geteuid() == 0 || (getrlimit (RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY);
     if (mlockall (unlimited ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT) == 0) return std::nullopt;

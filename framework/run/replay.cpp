@@ -89,7 +89,8 @@ Run::RoleDevice Replay::openHand (const std::string& role)
     const bool known = has_begun ? takeFrom (next->guards, next->devices) : takeFrom (head.guards, head.devices);
     if (! known && has_begun) return {};
     if (! known)
-        warnings.push_back (Message::warning ("log/no_role", log.name(), "the run had no role '" + role + "'; a hand at rest takes its place"));
+        warnings.push_back (Message::warning ("log/no_role", log.name(),
+                                              "the logged run had no role '" + role + "', so in the replay this role reads a hand at rest"));
     hands[role] = hand.get();
     return { std::move (hand), limits };
 }
@@ -160,7 +161,7 @@ Result<> Replay::turn (const std::string& param, double target)
     else if (options.graph == nullptr)
         return found.error();
     else if (not_there.insert (param).second)
-        warnings.push_back (Message::warning ("log/not_turned", {}, "the run turned " + param + ", which this graph does not have"));
+        warnings.push_back (Message::warning ("log/not_turned", {}, "the logged run turned " + param + ", which this graph does not have"));
     return {};
 }
 
@@ -172,22 +173,23 @@ Result<> Replay::strike (const std::string& input, double speed)
     else if (options.graph == nullptr)
         return found.error();
     else if (not_there.insert (input).second)
-        warnings.push_back (Message::warning ("log/not_struck", {}, "the run triggered hits on " + input + ", which this graph does not have"));
+        warnings.push_back (Message::warning ("log/not_struck", {}, "the logged run triggered hits on " + input + ", which this graph does not have"));
     return {};
 }
 
-/// Adds the current line of the log to the message.
+/// The message as an error in the current line of the log.
 Message Replay::here (const Message& m) const { return Message::error (m.id, log.placeOf (next ? next->line : 1), m.text, m.remedy); }
 
 std::optional<Message> Replay::end() const
 {
     if (broken_at)
         return Message::warning ("log/broken", log.name(),
-                                 "writing the log could not keep up with the run, so it ends at tick " + std::to_string (*broken_at)
-                                     + "; up to there it is complete");
+                                 "writing the log could not keep up with the run, so the log ends at tick " + std::to_string (*broken_at)
+                                     + "; before that tick it is complete");
     if (! next && log.isCutOff())
         return Message::warning ("log/cut_off", log.name(),
-                                 "the log breaks off after tick " + std::to_string (now - 1) + ", because the program died; up to there it is complete");
+                                 "the log breaks off after tick " + std::to_string (now - 1)
+                                     + ", because the program that wrote it was killed or crashed; up to that tick it is complete");
     return std::nullopt;
 }
 

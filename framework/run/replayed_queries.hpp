@@ -19,7 +19,7 @@ public:
     void remove (AsyncQueryBase&) override {}
     bool isLate (bool) noexcept override { return std::ranges::binary_search (late, asked++); }
 
-    /// The late queries of the next tick, from the journal, lowest first.
+    /// Sets the late queries of the next tick: their numbers in the journal, lowest first.
     void repeat (std::span<const std::uint64_t> questions) { late.assign (questions.begin(), questions.end()); }
 
 private:

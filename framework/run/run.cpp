@@ -62,7 +62,7 @@ Messages Run::load (const graph::Graph& graph)
 void Run::begin (std::shared_ptr<Plan> plan)
 {
     if (options.rate_hz == 0.0) graph_rate_hz = plan->rateHz();
-    options.rate_hz = plan->rateHz();   // devices and guards depend on it
+    options.rate_hz = plan->rateHz();   // later plans keep the rate, because devices and guards depend on it
     running = std::make_unique<Engine> (std::move (plan));
 }
 
@@ -78,8 +78,8 @@ bool Run::hasDevice (const std::string& role) const
     return std::ranges::any_of (by_role, [&] (const auto& d) { return d.first == role; });
 }
 
-/// Opens the device of a role. The guard that the graph describes for the role holds for the device, even if an option or a session
-/// chose another one.
+/// Opens the device of a role. The guard that the graph describes for the role applies even if an option or a session chose another
+/// device.
 Run::RoleDevice Run::openOne (const std::string& role, const graph::Graph& graph, const Plan& plan, Messages& messages)
 {
     auto opened = open (role, graph, plan, messages);
@@ -91,13 +91,13 @@ Run::RoleDevice Run::openOne (const std::string& role, const graph::Graph& graph
     if (description != nullptr && description->is_object() && description->contains ("guard"))
     {
         auto guard = description->at ("guard");
-        for (const auto* key : { "max_signal", "max_signal_slew" })   // in the unit of its calibration
+        for (const auto* key : { "max_signal", "max_signal_slew" })   // may be text in the unit of the calibration: keep only the value
             if (guard.is_object() && guard.contains (key) && guard[key].is_string())
                 if (const auto limit = parseMeasure (guard[key].asString())) guard[key] = limit->value;
         opened.limits = tightest (opened.limits, readGuardLimits (guard, where, found, opened.device->layout()));
     }
     checkStops (opened.limits, where, found);
-    if (hasErrors (found)) opened = {};   // no device rather than one without its limits
+    if (hasErrors (found)) opened = {};   // better no device than a device without its limits
     for (auto& m : found)
     {
         const auto isKnown = [&m] (const Message& other) { return other.id == m.id && other.where == m.where; };
@@ -189,8 +189,8 @@ std::optional<Message> Run::attend()
     if (! log || log_failure) return std::nullopt;
     if (auto drained = log->drain(); ! drained) return log_failure = drained.error();
     if (std::exchange (log_broke, log->brokenAt().has_value()) || ! log_broke) return std::nullopt;
-    return Message::warning ("log/broken", {}, "writing the log could not keep up, so it ends at tick " + std::to_string (*log->brokenAt()),
-                             "write it to a faster disk, or log at a lower --rate");
+    return Message::warning ("log/broken", {}, "writing the log could not keep up with the run, so the log ends at tick " + std::to_string (*log->brokenAt()),
+                             "write the log to a faster disk, or run at a lower --rate");
 }
 
 void Run::end()
@@ -214,8 +214,9 @@ Run::Edit::Edit (Run& r, const graph::Graph& g, std::vector<std::string> kept)
     : run (&r), graph (g), withdrawn (r.running->withdraw()), compiled (r.compile (g, &r.running->newest(), withdrawn.get(), std::move (kept)))
 {
     if (r.graph_rate_hz != 0.0 && g.rate_hz != r.graph_rate_hz)
-        compiled.messages.push_back (Message::warning ("watch/rate", "/rate_hz", "the run continues at " + numberText (r.rate()) + " Hz",
-                                                       "start it again to run at " + numberText (g.rate_hz) + " Hz"));
+        compiled.messages.push_back (Message::warning ("watch/rate", "/rate_hz",
+                                                       "the graph now asks for another rate, but the run continues at " + numberText (r.rate()) + " Hz",
+                                                       "restart the run to use " + numberText (g.rate_hz) + " Hz"));
 }
 
 Run::Edit::Edit (Edit&& other) noexcept

@@ -143,7 +143,7 @@ public:
     // Editing while it ticks.
 
     /// An edited graph on its way into the run: a plan compiled on top of the running one. Unless it is committed, the run
-    /// continues unchanged. There may be only one at a time.
+    /// continues unchanged. Only one edit may exist at a time.
     class Edit
     {
     public:
@@ -184,11 +184,11 @@ public:
     //==========================================================================
     // Observing.
 
-    /// Captures a port around the first edge of another one, replacing any earlier capture. Returns the names of the
+    /// Captures a port around the first edge of another port, replacing any earlier capture. Returns the names of the
     /// captured components. Ids: those of compile() for a port, probe/trigger, probe/too_many.
     Result<std::vector<std::string>> capture (const graph::Graph&, const std::string& port, const std::string& watched, const Trigger&);
 
-    const TriggeredCapture* captured() const noexcept { return slot.complete(); }   ///< null until it has triggered
+    const TriggeredCapture* captured() const noexcept { return slot.complete(); }   ///< null until the capture is complete
     bool isCapturing() const noexcept { return ! captured_ports.empty(); }
     void endCapture();
 

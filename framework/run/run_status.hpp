@@ -52,8 +52,8 @@ struct RunStatus
     End end = End::none;
     bool clock_replaced = false;             ///< this tick does not come from the chosen clock, so forces are held at zero
     bool let_go_under_force = false;         ///< the device was released with force still on it, because a slew limit kept the force from reaching zero in time
-    std::uint64_t role_count = 0;            ///< in the running plan; details of the first `most_roles` are below
-    std::array<Role, most_roles> roles {};   ///< by name; last, because most entries are rarely used
+    std::uint64_t role_count = 0;            ///< number of roles in the running plan; details of the first `most_roles` are below
+    std::array<Role, most_roles> roles {};   ///< sorted by name; the last member, so that unused entries need not be published
 
     std::span<const Role> shown() const noexcept
     {

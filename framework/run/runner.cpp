@@ -30,7 +30,8 @@ std::vector<std::string> Runner::start()
 void Runner::run (std::promise<std::vector<std::string>> ready)
 {
     std::fesetenv (FE_DFL_ENV);
-    ready.set_value (clock.isRealTime() ? becomeRealTime (options.core) : std::vector<std::string> {});   // a free run would starve other programs
+    // At real-time priority, a clock that never sleeps would starve other programs.
+    ready.set_value (clock.isRealTime() ? becomeRealTime (options.core) : std::vector<std::string> {});
     node_costs.begin();
     engine.resume();
     if (goesOn()) clock.drive (*this);

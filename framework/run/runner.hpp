@@ -45,9 +45,9 @@ class Runner final : private Ticked
 public:
     struct Options
     {
-        std::optional<std::uint64_t> length {};     ///< in ticks; empty: until it is stopped
+        std::optional<std::uint64_t> length {};     ///< in ticks; empty: the run lasts until it is stopped
         std::optional<int> core {};                 ///< the CPU core to pin the tick thread to
-        bool (*stop_wanted)() noexcept = nullptr;   ///< read on each tick, so that a signal takes effect no matter how busy other threads are
+        bool (*stop_wanted)() noexcept = nullptr;   ///< called on each tick, so that a signal takes effect no matter how busy other threads are
         TickHooks* hooks = nullptr;
     };
 
@@ -66,7 +66,7 @@ public:
 
     void stop() noexcept { asked = true; }                                              ///< [any thread]
     bool isOver() const noexcept { return status().phase == RunStatus::Phase::over; }   ///< [any thread]
-    void wait()                                                                         ///< waits until it is over   [main thread, after start]
+    void wait()                                                                         ///< waits until the run is over   [main thread, after start]
     {
         if (thread.joinable()) thread.join();
     }
@@ -100,7 +100,7 @@ private:
     RunStatus now;
     std::uint64_t halted_at = 0;   // tick number
 
-    std::jthread thread;   // last: it uses the other members
+    std::jthread thread;   // declared last: it uses the other members
 };
 
 }   // namespace tactus

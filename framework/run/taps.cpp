@@ -42,7 +42,7 @@ Result<Armed> arm (const Plan& plan, const std::string& port, const std::string&
         const auto asked = std::to_string (trigger.ticks()) + " ticks of " + std::to_string (taps.size()) + " components";
         const auto room = std::to_string (TriggeredCapture::most) + " numbers and " + std::to_string (ProbeRing::most) + " components";
         return Message::error ("probe/too_many", {}, "a capture of " + asked + " is too large; it can hold at most " + room,
-                               "request fewer ticks before and after, or one component");
+                               "request fewer ticks before and after the edge, or only one component");
     }
     auto names = namesOf (plan, taps);
     return Armed { std::make_unique<TriggeredCapture> (trigger, plan.serial(), std::move (taps), triggers.front()), std::move (names) };

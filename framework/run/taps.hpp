@@ -18,14 +18,14 @@ std::vector<std::size_t> tapsOf (const Plan&, const std::vector<std::string>& po
 
 std::vector<std::string> namesOf (const Plan&, const std::vector<std::size_t>& taps);
 
-/// A capture of a port around an edge of another one, and the names of its components.
+/// A capture of a port around an edge of another port, and the names of the captured components.
 struct Armed
 {
     std::unique_ptr<TriggeredCapture> capture;
     std::vector<std::string> components;
 };
 
-/// Fails if a port is not among the taps of the plan. Ids: probe/trigger, probe/too_many.
+/// Fails if the watched port does not have exactly one tap in the plan, or if the capture would be too large. Ids: probe/trigger, probe/too_many.
 Result<Armed> arm (const Plan&, const std::string& port, const std::string& watched, const Trigger&);
 
 }   // namespace tactus

@@ -33,19 +33,19 @@ public:
     virtual ~TickClock() = default;
 
     /// Ticks, the first time immediately, until tick() returns false, then returns. The clock may tick on this thread
-    /// or on a callback thread, one at a time; that thread is the tick thread, and it uses the default floating-point mode. A
+    /// or on a callback thread, but not on both at the same time; that thread is the tick thread, and it uses the default floating-point mode. A
     /// clock that waits for an external event must not wait for ever: when a device falls silent, the clock keeps ticking with
     /// a reading that ages, so that the guard removes the force and a stop request takes effect. [a thread of the run]
     virtual void drive (Ticked&) noexcept = 0;
 
-    /// False if ticks are never late; then no graph can take too long.
+    /// False if the ticks have no deadlines: then they are never late, and no graph can take too long.
     virtual bool isRealTime() const noexcept { return true; }
 
-    /// True if this tick comes from a substitute, for instance while the clock's device is silent. Then no force is applied.
+    /// True if this tick comes from a substitute clock, for instance while the clock's device is silent. Then no force is applied.
     /// [any thread]
     virtual bool isReplaced() const noexcept { return false; }
 
-    /// The time in s, from any origin. [tick thread]
+    /// The time in s since an arbitrary origin. [tick thread]
     virtual double now() const noexcept { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
 };
 

@@ -19,8 +19,8 @@ struct Trigger
 {
     enum class Edge
     {
-        rising,    ///< from below the level to it or above
-        falling,   ///< from above the level to it or below
+        rising,    ///< from below the level to the level or above
+        falling,   ///< from above the level to the level or below
         either
     };
 
@@ -38,7 +38,7 @@ class TriggeredCapture
 public:
     static constexpr std::size_t most = 65536;   ///< maximum number of values: components times ticks
 
-    /// Captures plans from this serial on; these taps must have the same numbers in all of them. The capture must fit into
+    /// Captures from the plan with this serial number and from later plans; the taps must have the same numbers in all of them. The capture must fit into
     /// `most` values. [main thread]
     TriggeredCapture (const Trigger& t, std::uint64_t serial, std::vector<std::size_t> components, std::size_t watched_tap)
         : trigger (t), first_serial (serial), taps (std::move (components)), watched (watched_tap), frames (trigger.ticks() * taps.size())
@@ -66,7 +66,7 @@ public:
 
     bool isComplete() const noexcept { return complete.load (std::memory_order_acquire); }   // [any thread]
 
-    // Valid once it is complete. [main thread]
+    // Valid once the capture is complete. [main thread]
     const Trigger& window() const noexcept { return trigger; }
     std::uint64_t triggeredAt() const noexcept { return at; }   ///< tick number
 
@@ -87,9 +87,9 @@ private:
     std::uint64_t first_serial;
     std::vector<std::size_t> taps;
     std::size_t watched;
-    std::vector<double> frames;   // a ring buffer until it is complete
+    std::vector<double> frames;   // a ring buffer, until the capture is complete
 
-    // Used by the tick thread until it is complete.
+    // Used by the tick thread until the capture is complete.
     std::size_t next = 0, left = 0;   // index in the ring; remaining ticks, including the edge
     std::uint64_t seen = 0, at = 0;
     double last = 0.0;

@@ -27,7 +27,8 @@ Result<double> read (const Json& value, const PortSheet& sheet, const std::strin
                                "use one of: " + plan::listed (names));
     }
     const auto number = plan::readNumber (value);
-    if (! number) return Message::error ("param/value", {}, quote (name) + ": " + number.error().text, "give a plain number in SI units, or text with a unit");
+    if (! number) return Message::error ("param/value", {}, quote (name) + ": " + number.error().text,
+                                         "give a plain number in SI units, or text with a unit such as \"2 N/mm\"");
     const auto& n = *number;
     if (n.dimension && sheet.unit.kind == UnitRule::Kind::fixed && (*n.dimension != sheet.unit.unit.dimension || plan::miscounts (n, sheet.unit)))
         return Message::error ("param/unit", {},
@@ -39,7 +40,7 @@ Result<double> read (const Json& value, const PortSheet& sheet, const std::strin
     return n.value;
 }
 
-/// The point at `amount` (0…1) between low and high. Either both are lists of the same length, or neither is a list.
+/// Adds turns that move a parameter to the point at `amount` (0…1) between low and high. Either both are lists of the same length, or neither is a list.
 Result<> add (Engine& engine, const std::string& name, const Json& low, const Json& high, double amount, Turns& turns)
 {
     if (low.is_array())
@@ -106,10 +107,10 @@ Result<> turnControl (Engine& engine, const graph::Graph& graph, const std::stri
         for (const auto& c : graph.controls)
             names.push_back (c.id);
         return Message::error ("control/unknown", {}, "there is no control " + quote (id) + didYouMean (id, names),
-                               "controls here: " + plan::listed (names) + "; a parameter is NODE.PARAM");
+                               "the controls of this graph: " + plan::listed (names) + "; to set a parameter, write NODE.PARAM");
     }
     if (! (value >= 0.0 && value <= 1.0))
-        return Message::error ("control/value", {}, "the control " + quote (id) + " is out of its range", "give a number from 0 to 1");
+        return Message::error ("control/value", {}, "the value for the control " + quote (id) + " is out of range", "give a number from 0 to 1");
 
     Turns turns;
     for (const auto& target : control->to)

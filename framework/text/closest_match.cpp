@@ -54,7 +54,7 @@ std::string suggestion (std::string_view word, std::span<const std::string> know
     std::string all;
     for (const auto& name : known)
         all += (all.empty() ? "" : ", ") + name;
-    return "the known ones are: " + all;
+    return "the known names are: " + all;
 }
 
 std::string didYouMean (std::string_view word, const std::vector<std::string>& known)

@@ -357,7 +357,7 @@ std::size_t Json::erase (std::string_view key)
 
 void Json::erase (std::size_t index)
 {
-    at (index);   // throws if there is none
+    at (index);   // throws if there is no such element
     auto& all = asArray();
     all.erase (all.begin() + static_cast<std::ptrdiff_t> (index));
 }

@@ -348,7 +348,7 @@ private:
         if (cursor.atEnd()) return "the file ends too early; was it cut off?";
         if (c == '/' || c == '#') return "JSON has no comments; put notes under a key of your own (unknown keys are kept)";
         if (c == '\'') return "put strings and keys in double quotes";
-        if (c == '}' || c == ']') return (value || key) && among_others ? "remove the comma before it" : "check which bracket is open here";
+        if (c == '}' || c == ']') return (value || key) && among_others ? "remove the comma before the bracket" : "check which bracket is open here";
         if (value && isWord (c)) return "values are numbers, strings in double quotes, true, false, null, lists and objects; there is no NaN and no Infinity";
         if (key && isWord (c)) return "put the key in double quotes";
         if (frames.empty()) return done ? "remove what follows" : "a graph file is a JSON object";
@@ -376,7 +376,7 @@ private:
     void explainNumber (std::string_view complaint)
     {
         if (complaint.find ("overflow") != std::string_view::npos)
-            return syntax ("the number " + found() + " is too large", "the largest is about 1.8e308");
+            return syntax ("the number " + found() + " is too large", "the largest possible number is about 1.8e308");
         syntax (found() + " is not a number", "write, for example, 1, -1.5 or 2e-3, with digits on both sides of the point");
     }
 

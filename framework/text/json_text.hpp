@@ -14,7 +14,7 @@
 namespace tactus
 {
 
-inline constexpr std::size_t largest_file = 64u << 20u;   ///< bytes
+inline constexpr std::size_t largest_file = 64u << 20u;   ///< in bytes
 
 struct JsonText
 {

@@ -135,7 +135,7 @@ std::string ObjectReader::text (std::string_view key)
     if (json == nullptr) return {};
     if (json->is_string() && ! json->asString().empty()) return json->get<std::string>();
 
-    error (key, messageId ("kind"), "expected a string, found " + (json->is_string() ? "an empty one" : kindOf (*json)), "write a string in quotes");
+    error (key, messageId ("kind"), "expected a nonempty string, found " + (json->is_string() ? "an empty one" : kindOf (*json)), "write a string in quotes");
     return {};
 }
 

@@ -60,7 +60,7 @@ public:
     std::vector<double> numbers (std::string_view key);   ///< leaves out, and reports, entries that are not finite numbers
 
     void require (std::string_view key, std::string_view remedy);   ///< reports the key if it is missing
-    void ignore (std::string_view key);                             ///< marks the key as known
+    void ignore (std::string_view key);                             ///< marks a key as known without reading it
     void finish();                                                  ///< reports all keys that are not known
 
     void error (std::string_view key, std::string id, std::string text, std::string remedy);

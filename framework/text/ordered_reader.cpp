@@ -119,7 +119,7 @@ void OrderedReader::read (Json& object, const std::string& where, const std::vec
         std::ranges::transform (fields, known.begin(), &KnownKey::key);
         if (const auto meant = closestMatch (key, known); ! meant.empty())
             warning ("file/unknown_key", member, "the key " + quote (key) + " is unknown and has no effect; did you mean '" + std::string (meant) + "'?",
-                     "write '" + std::string (meant) + "', or leave it as it is");
+                     "write '" + std::string (meant) + "', or leave the key as it is");
         append (extra, key, std::move (value));
     }
 }

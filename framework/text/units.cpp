@@ -174,7 +174,7 @@ struct Product
                 const auto power = in.power();
                 if (! power) return "the power of " + quote (symbol) + " must be an integer from -12 to 12";
                 multiply (*unit, divide ? -*power : *power);
-                if (tooHigh()) return "the powers of its units are higher than in any physical quantity";
+                if (tooHigh()) return "the powers of the units are higher than in any physical quantity";
             }
             else if (! (in.take ('1') && ! isDigit (in.peek())))   // the 1 of "1/m" is a factor too
                 return in.text.empty() ? "a unit is missing at the end" : "a unit is missing before " + quote (in.text);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws leather.png: the grain of a hide, 128 x 128 points of 8 bits, white high.
+"""Draws leather.png: the grain of a hide, 128 x 128 points of 8 bits; white is high.
 
 Pebbles around the points of a perturbed grid, with creases where two of them meet, and heights that
 vary a little from pebble to pebble. Nothing was measured; the sizes are chosen to look like leather.

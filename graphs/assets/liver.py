@@ -11,7 +11,7 @@ import math
 
 
 def icosphere(divisions):
-    """Points on the unit sphere and triangles, counter-clockwise from outside."""
+    """Points on the unit sphere and triangles, counter-clockwise seen from outside."""
     t = (1 + math.sqrt(5)) / 2
     points = [(-1, t, 0), (1, t, 0), (-1, -t, 0), (1, -t, 0), (0, -1, t), (0, 1, t),
               (0, -1, -t), (0, 1, -t), (t, 0, -1), (t, 0, 1), (-t, 0, -1), (-t, 0, 1)]

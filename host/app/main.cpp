@@ -75,7 +75,7 @@ private:
     /// Returns false if no window should open: after --help or --version, or if the arguments are wrong.
     bool readArguments (MainView::Start& how)
     {
-        const Command options { "Patches haptic effects and shows the forces on the hand.", "tactus-host" };
+        const Command options { "Edits and runs graphs of haptic effects, and shows the forces on the hand.", "tactus-host" };
         std::vector<std::string> files;
         options.addOption ("files", files, "Graphs to open");
         options.addFlag ("--safe", how.safe, "Safe mode: nothing runs until START is pressed");
@@ -87,7 +87,7 @@ private:
                                                   "or ADDRESS:PORT to also accept other machines");
         osc_given.check (oscCheck());
         options.addOption ("--osc-answer", osc_answer, "Address of the one other machine that gets answers, such as 192.168.1.7").check (addressCheck());
-        options.addOption ("--places", places_file, "JSON file to keep updated with the screen positions of everything, for scripts");
+        options.addOption ("--places", places_file, "JSON file to keep updated with the screen positions of all nodes, ports, wires and buttons, for scripts");
         options.version (TACTUS_VERSION);
         std::vector<std::string> arguments;
         for (const auto& a : getCommandLineParameterArray())

@@ -46,7 +46,8 @@ void MeshBuilder::face (std::span<const long long> corners, std::size_t line)
 {
     for (const auto corner : corners)
         if (corner < 0 || corner >= points())
-            throw MeshProblem { "mesh/no_such_point", "a face refers to a point that is not among the " + std::to_string (points()) + " before it", line };
+            throw MeshProblem { "mesh/no_such_point", "a face refers to a point that is not among the " + std::to_string (points()) + " points before it",
+                                line };
 
     const auto at = [&] (std::size_t i) { return joined[static_cast<std::size_t> (corners[i])]; };
     for (std::size_t i = 2; i < corners.size(); ++i)
@@ -141,7 +142,7 @@ Result<Mesh> readMesh (std::string_view bytes, std::string_view name)
 {
     const auto kind = std::ranges::find (kinds, endingOf (name), &Kind::ending);
     if (kind == std::end (kinds))
-        return fail ("mesh/unknown_kind", std::string (name), "its extension does not belong to a mesh file", "save it as .obj, .off, .ply or .stl");
+        return fail ("mesh/unknown_kind", std::string (name), "its extension is not that of a supported mesh file", "save it as .obj, .off, .ply or .stl");
 
     MeshBuilder builder;
     try

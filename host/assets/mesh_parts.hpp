@@ -27,7 +27,7 @@ public:
     void point (const Vec3&, std::size_t line = 0);
     void face (std::span<const long long> corners, std::size_t line = 0);
 
-    long long points() const noexcept { return static_cast<long long> (joined.size()); }   ///< added so far
+    long long points() const noexcept { return static_cast<long long> (joined.size()); }   ///< number of points added so far
 
     /// The finished mesh. Points closer than a millionth of its size are merged, since programs write the same corner with
     /// different last digits; triangles without area are dropped.
@@ -36,7 +36,7 @@ public:
 private:
     Mesh made;
     std::vector<int> joined;                      // maps the index in the file to the index in the mesh
-    std::map<std::array<double, 3>, int> known;   // identical points are merged
+    std::map<std::array<double, 3>, int> known;   // the index in the mesh, by coordinates; merges identical points
 };
 
 /// Removes three coordinates from the front of a line.

@@ -9,8 +9,8 @@ namespace tactus::host
 
 namespace
 {
-constexpr std::size_t title = 80, header = title + 4;   // ends with the number of triangles
-constexpr std::size_t facet = 4 * 3 * 4 + 2;            // normal, three corners, attributes
+constexpr std::size_t title = 80, header = title + 4;   // in bytes; the header ends with the number of triangles
+constexpr std::size_t facet = 4 * 3 * 4 + 2;            // in bytes: normal, three corners, attributes
 
 std::size_t binarySize (std::string_view bytes)
 {

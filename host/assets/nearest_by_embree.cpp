@@ -99,7 +99,7 @@ private:
     Vec3 centre = Vec3::Zero();
     double scale = 1.0;
 
-    /// Finds the centre and size of the mesh, so that floats are precise wherever the mesh is and however small.
+    /// Finds the centre and size of the mesh, so that floats are precise wherever the mesh is and however small it is.
     void fit()
     {
         Vec3 low = mesh->points.front(), high = low;

@@ -121,7 +121,7 @@ private:
     {
         if (grid.columns != 2 || grid.rows < 3) return {};
         for (int i = 1; i < grid.rows; ++i)
-            if (! (grid (i, 0) > grid (i - 1, 0))) return {};   // two columns of heights
+            if (! (grid (i, 0) > grid (i - 1, 0))) return {};   // not positions, so both columns are heights
 
         const double start = grid (0, 0), step = (grid (grid.rows - 1, 0) - start) / (grid.rows - 1);
         std::vector<double> heights;

@@ -16,8 +16,8 @@ void AudioClock::block (int frames, double card_rate_hz) noexcept
     std::feholdexcept (&before);
     std::fesetenv (FE_DFL_ENV);   // the sound system may have changed it
     by_timer.store (false, std::memory_order_relaxed);
-    // Rounding errors can leave almost a whole tick: a block of 64 frames at 48 kHz holds 1.333… ticks of 1 kHz, so three
-    // blocks hold four.
+    // Rounding errors can make a whole tick look like slightly less: a block of 64 frames at 48 kHz holds 1.333… ticks of
+    // 1 kHz, so three blocks hold four.
     constexpr double rounding = 1e-6;
     for (owed += frames * rate_hz / card_rate_hz; owed >= 1.0 - rounding; owed -= 1.0)
         if (! ticked->tick (0.0))

@@ -37,14 +37,14 @@ private:
     void release() noexcept { ticking.store (false, std::memory_order_release); }
 
     const double rate_hz;
-    std::atomic<bool> ticking = true;   // taken by the thread that ticks; initially no thread may tick
+    std::atomic<bool> ticking = true;   // true while a thread ticks; initially true, so that no thread may tick yet
     std::atomic<std::uint64_t> blocks = 0, timed = 0;
     std::atomic<double> block_s = 0.0;
     std::atomic<bool> by_timer = false, over = false;
 
     // [the thread that ticks]
     Ticked* ticked = nullptr;
-    double owed = 0.0;   // ticks
+    double owed = 0.0;   // ticks that are due but have not run yet
 };
 
 }   // namespace tactus::host::audio

@@ -15,11 +15,11 @@ namespace tactus::host::audio
 {
 
 /// The signal inputs and outputs of a role on the run's sound card, between the guard and the streams. While the card is
-/// away, readings are not valid, so the guard holds the signals at zero; afterwards it ramps up.
+/// away, readings are not valid, so the guard holds the signals at zero; when the card is back, they ramp up.
 class AudioDevice final : public Device
 {
 public:
-    /// The flag is true while the card plays; it must outlive this. `goes` is called on destruction.
+    /// The flag is true while the card plays; it must outlive the device. `goes` is called on destruction.
     AudioDevice (AudioRole r, const std::atomic<bool>& plays, std::function<void (const AudioDevice&)> goes)
         : role (std::move (r)), card_plays (plays), on_end (std::move (goes))
     {

@@ -49,7 +49,7 @@ Result<> AudioRig::nameCard (const std::string& name)
     if (card.type == named.type && card.output == named.output) return {};
     const auto first = card.type + (card.type.empty() || card.output.empty() ? "" : ":") + card.output;
     return Message::error ("audio/two_cards", "/card", "both " + quote (name) + " and " + quote (first) + " are requested, but a run has one sound card",
-                           "name the same card everywhere, or only once");
+                           "name the same card everywhere, or name a card only once");
 }
 
 std::vector<std::string> AudioRig::ports() const
@@ -122,7 +122,7 @@ Result<> AudioRig::openCard (const std::vector<Route>& played)
         for (const auto& use : device->uses().inputs)
             ins = std::max (ins, use.channel);
     }
-    if (outs == 0 && ins == 0) outs = 1;   // a clock needs a channel
+    if (outs == 0 && ins == 0) outs = 1;   // a card that ticks the run must be open, even if no channel is used
     auto opened = keeper.open (wanted.card, outs, ins);
     if (! opened || fits) return opened;
     keeper.close();
@@ -172,7 +172,9 @@ void AudioRig::begin (const OpenedFormat& opened)
     if (! capture || opened.rate_hz == capture_rate) return;
     captures = nullptr;
     capture_result =
-        Message::error ("audio/capture_rate", format.name, "the card came back at " + numberText (opened.rate_hz) + " Hz", "what was recorded before is kept");
+        Message::error ("audio/capture_rate", format.name,
+                        "the card came back at a different rate, " + numberText (opened.rate_hz) + " Hz, so the recording of its output ended",
+                        "the part that was recorded before is kept; to record more, restart the run");
 }
 
 Result<> AudioRig::captureTo (const std::filesystem::path& path)

@@ -30,7 +30,7 @@ struct AudioStatus
     double ratio = 1.0;           ///< estimated rate of the card's clock relative to the tick clock
     std::uint64_t blocks = 0, xruns = 0, late_blocks = 0, departures = 0;
     std::uint64_t clipped = 0;       ///< samples beyond full scale
-    std::uint64_t not_numbers = 0;   ///< route samples that were not numbers
+    std::uint64_t not_numbers = 0;   ///< samples of routes that were not numbers
     bool by_timer = false;           ///< the card should tick the run, but a timer does so
     std::uint64_t ticks_by_timer = 0;
     std::string trouble {};   ///< why the card cannot be reopened
@@ -42,7 +42,7 @@ struct AudioStatus
 class AudioRig final : public RunListener, private CardUser
 {
 public:
-    /// The card system must outlive this. [main thread]
+    /// The card system must outlive the rig. [main thread]
     explicit AudioRig (AudioSettings, CardSystem& = soundCards());
     ~AudioRig() override { static_cast<void> (end()); }
 
@@ -55,7 +55,7 @@ public:
     AudioClock* clock() const noexcept { return own_clock.get(); }   ///< null if another clock ticks the run [main thread]
 
     /// Opens the device of a role, before begin(). After begin() it returns null with a message (audio/late), until the next
-    /// run. The device must outlive the ticks, and this must outlive the device. [main thread]
+    /// run. The device must outlive the ticks, and the rig must outlive the device. [main thread]
     std::unique_ptr<AudioDevice> open (AudioRole, Messages&);
 
     /// Selects a card by name (see parseCard). If one has already been selected, it must be the same one (audio/two_cards). Call
@@ -108,7 +108,7 @@ private:
         }
 
         int per_tick;
-        std::vector<int> channels;   // by lane, counted from 0
+        std::vector<int> channels;   // by lane: the card's channel, counted from 0
         OutStream stream;
         std::vector<float> frame, block;
     };
@@ -131,11 +131,11 @@ private:
 
     std::unique_ptr<PortMixer> mixer;
     std::vector<std::unique_ptr<Lanes>> lanes;
-    std::vector<int> heard_channels;   // by lane, counted from 0
+    std::vector<int> heard_channels;   // by lane of `heard`: the card's channel, counted from 0
     std::unique_ptr<InStream> heard;
     std::vector<float> heard_block;
     OpenedFormat format;
-    bool fits = false;   // the card's rate can be resampled from the tick rate
+    bool fits = false;   // true if the tick rate can be resampled to the card's rate
 
     // [tick thread]
     std::array<double, most_channels> channels {};
@@ -147,11 +147,11 @@ private:
     std::atomic<std::uint64_t> clipped = 0, late_blocks = 0;
     std::chrono::steady_clock::time_point last_block {};   // [audio thread]
     std::unique_ptr<CardCapture> capture;
-    double capture_rate = 0.0;   // Hz
+    double capture_rate = 0.0;   // rate at which `capture` records, in Hz
     Result<> capture_result;     // result of a capture that has ended, until attend() returns it
     std::atomic<CardCapture*> captures = nullptr;
     CardSystem& cards;
-    CardKeeper keeper;   // declared last: its card calls back into this
+    CardKeeper keeper;   // declared last: its card calls the functions of this object
 };
 
 /// Text for a status line; "" if no card is open.

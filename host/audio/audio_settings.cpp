@@ -49,7 +49,7 @@ FullScale readFullScale (ObjectReader& in)
 
 ChannelUse readChannel (ObjectReader& in, bool is_played)
 {
-    in.require ("channel", "write the channel of the card, from 1");
+    in.require ("channel", "write \"channel\": a channel of the card, counted from 1");
     ChannelUse use;
     use.channel = in.whole ("channel", 1, most_channels, use.channel);
     use.full_scale = readFullScale (in);
@@ -158,7 +158,7 @@ Result<Route> parseRoute (std::string_view text)
     };
 
     const auto equals = text.rfind ('=');
-    if (equals == text.npos || equals == 0) return wrong ("there is no PORT=");
+    if (equals == text.npos || equals == 0) return wrong ("PORT= is missing");
     Route route;
     route.port = text.substr (0, equals);
     route.where = "--route " + std::string (text);

@@ -25,10 +25,10 @@ struct FullScale
 /// sample.
 struct ChannelUse
 {
-    int channel = 1;   ///< of the card, from 1
+    int channel = 1;   ///< channel of the card, counted from 1
     FullScale full_scale {};
     double gain = 1.0;           ///< negative: inverted polarity
-    double high_pass_hz = 0.0;   ///< 0: none. Output only
+    double high_pass_hz = 0.0;   ///< cutoff of a high-pass filter; 0: no filter. For outputs only
 };
 
 /// A port that is played on a channel: its value after each tick, or all samples of the tick if it has several (`times`).
@@ -37,7 +37,7 @@ struct ChannelUse
 struct Route : ChannelUse
 {
     std::string port;        ///< "mix.out", "mix.level[0]", "drag.force.x"
-    std::string where;       ///< for messages
+    std::string where;       ///< where the route was given, for messages
     bool if_there = false;   ///< true for a route of a session, which serves all graphs: silent if the port is missing or has a different unit
 };
 
@@ -45,9 +45,9 @@ struct Route : ChannelUse
 struct CardWanted
 {
     std::string type;            ///< "JACK", "ALSA", …
-    std::string output, input;   ///< names, or parts of names
+    std::string output, input;   ///< names of cards, or parts of the names
     double rate_hz = 0.0;
-    int block = 0;   ///< frames
+    int block = 0;   ///< frames per block
 
     bool operator== (const CardWanted&) const = default;
 };
@@ -57,7 +57,7 @@ struct AudioSettings
     static constexpr double usual_reserve_s = 0.01;
 
     CardWanted card;
-    double reserve_s = usual_reserve_s;   ///< how late a tick or a block may be without a gap; adds to the latency
+    double reserve_s = usual_reserve_s;   ///< how late a tick or a block may be without causing a gap; adds to the latency
     std::vector<Route> routes;
 };
 
@@ -83,7 +83,7 @@ bool isAudio (const Json& description);
 
 /// Reads {"driver": "audio", "outputs": [{"channel": 3, "full_scale": "4 N"}], "inputs": [{"channel": 1, "full_scale": "20 m/s2"}], "guard": {…}}
 ///
-/// "card" selects a card like --audio does (for a run without a session). Ids: those of ObjectReader, and audio/full_scale.
+/// "card" selects a card as --audio does (for a run without a session). Ids: those of ObjectReader, and audio/full_scale.
 AudioRole readAudioRole (const Json& description, Messages&);
 
 /// Parses PORT=CHANNEL[@FULLSCALE], as in mix.out=3@"4 N". Id: audio/route.

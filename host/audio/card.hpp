@@ -19,8 +19,8 @@ struct ListedCard
     std::string type, name;
     std::vector<std::string> outputs {}, inputs {};   ///< names of the channels
     std::vector<double> rates {};                     ///< Hz
-    std::vector<int> blocks {};                       ///< frames
-    std::string trouble {};                           ///< why its details are unknown, if they are
+    std::vector<int> blocks {};                       ///< frames per block
+    std::string trouble {};                           ///< why the details of the card are unknown; empty if they are known
 };
 
 /// The format of an open card.
@@ -28,7 +28,7 @@ struct OpenedFormat
 {
     std::string type, name;
     double rate_hz = 0.0;
-    int block = 0;   ///< frames
+    int block = 0;   ///< frames per block
     int outputs = 0, inputs = 0;
     double latency_s = 0.0;   ///< output latency of the card itself
 };
@@ -48,7 +48,8 @@ public:
 };
 
 /// An open card. It calls its user until it is destroyed or goes away. The only sign that it went away is that blocks stop
-/// arriving: systems report this in the middle of their own clean-up, sometimes from threads that still use the card.
+/// arriving. The system's own report is ignored: it comes in the middle of the system's clean-up, sometimes from threads that
+/// still use the card.
 class OpenCard
 {
 public:

@@ -15,7 +15,7 @@ namespace tactus::host::audio
 class CardCapture
 {
 public:
-    static constexpr double room_s = 2.0;   ///< capacity for samples that wait to be written, in s
+    static constexpr double room_s = 2.0;   ///< capacity for samples waiting to be written, in s
 
     /// Ids: those of WavWriter::create. [main thread]
     static Result<std::unique_ptr<CardCapture>> create (const std::filesystem::path&, double rate_hz, int channels);

@@ -20,10 +20,10 @@ public:
     static constexpr double silence_s = 0.1;
     static constexpr double silence_blocks = 4.0;
     static constexpr std::chrono::milliseconds gone_after { 500 };    // the card is closed after this time without a block
-    static constexpr std::chrono::milliseconds retry_after { 500 };   // longer if opening is slow, so that attempts take at most 1/rarity of the time
+    static constexpr std::chrono::milliseconds retry_after { 500 };   // pause between attempts; longer if they are slow: they take at most 1/rarity of the time
     static constexpr int rarity = 20;
 
-    /// Both must outlive this. [main thread]
+    /// The system and the user must outlive the keeper. [main thread]
     CardKeeper (CardSystem& s, CardUser& u) : system (s), user (u) {}
     ~CardKeeper() override { close(); }
 
@@ -57,7 +57,7 @@ private:
     Clock::time_point last {}, tried {};
     Clock::duration pause = retry_after;
     std::atomic<std::uint64_t> count = 0;
-    std::unique_ptr<OpenCard> card;   // declared last: it calls back into this
+    std::unique_ptr<OpenCard> card;   // declared last: it calls the functions of this object
 };
 
 }   // namespace tactus::host::audio

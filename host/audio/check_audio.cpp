@@ -11,7 +11,7 @@ namespace
 {
 constexpr double default_ramp = 0.2;   // s
 
-/// The limit on signals may be given in the unit that all outputs are calibrated in.
+/// The limit on signals may be given in the unit that all outputs are calibrated in. Then this replaces it with the plain number.
 Json withoutUnit (Json guard, const AudioRole& role)
 {
     if (! guard.is_object()) return guard;

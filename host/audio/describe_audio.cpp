@@ -23,7 +23,8 @@ std::string times (std::uint64_t n) { return std::to_string (n) + (n == 1 ? " ti
 std::string statusOf (const AudioStatus& s)
 {
     if (s.card.type.empty()) return {};
-    if (! s.is_open) return "   " + s.card.type + ":" + s.card.name + " is gone" + (s.by_timer ? "; the timer ticks the run, with all forces at zero" : "");
+    if (! s.is_open)
+        return "   " + s.card.type + ":" + s.card.name + " is disconnected" + (s.by_timer ? "; the timer ticks the run, with all forces at zero" : "");
     auto line = text ("   sound %+.0f ppm, %+.2f ms, xruns %zu", 1e6 * (s.ratio - 1.0), 1e3 * s.out.error_s, static_cast<std::size_t> (s.xruns));
     if (s.clipped > 0) line += ", clipped " + std::to_string (s.clipped);
     if (s.out.underruns > 0) line += ", ran dry " + times (s.out.underruns);
@@ -37,7 +38,7 @@ std::string accountOf (const AudioStatus& s)
     auto account = s.card.type + ":" + s.card.name + ": " + numberText (s.card.rate_hz) + " Hz, blocks of " + std::to_string (s.card.block) + ", "
                    + std::to_string (s.card.outputs) + " outputs, " + std::to_string (s.card.inputs) + " inputs; " + std::to_string (s.blocks)
                    + " blocks, xruns " + std::to_string (s.xruns) + ", late blocks " + std::to_string (s.late_blocks) + "\n";
-    account += text ("    ratio of its clock to the tick clock: %.6f (%+.1f ppm), error %+.3f ms; latency %.2f ms, plus %.2f ms in the card\n", s.ratio,
+    account += text ("    ratio of the card's clock to the tick clock: %.6f (%+.1f ppm), error %+.3f ms; latency %.2f ms, plus %.2f ms in the card\n", s.ratio,
                      1e6 * (s.ratio - 1.0), ms * s.out.error_s, ms * s.out.latency_s, ms * s.card.latency_s);
     account +=
         "    clipped " + std::to_string (s.clipped) + " samples, ran dry " + times (s.out.underruns) + ", skipped samples " + times (s.out.overruns) + "\n";
@@ -46,7 +47,8 @@ std::string accountOf (const AudioStatus& s)
                          static_cast<std::size_t> (s.in.underruns));
     if (s.not_numbers > 0) account += "    " + std::to_string (s.not_numbers) + " samples of routes were not numbers and were played as 0\n";
     if (s.departures > 0)
-        account += "    it went away " + times (s.departures) + (s.is_open || s.trouble.empty() ? "" : ", and is still disconnected: " + s.trouble) + "\n";
+        account +=
+            "    the card went away " + times (s.departures) + (s.is_open || s.trouble.empty() ? "" : ", and is still disconnected: " + s.trouble) + "\n";
     if (s.ticks_by_timer > 0)
         account += "    " + std::to_string (s.ticks_by_timer) + " ticks came from the timer because the card delivered no blocks; all forces were zero\n";
     return account;

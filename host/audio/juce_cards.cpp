@@ -186,7 +186,7 @@ Chosen choose (std::vector<std::unique_ptr<Type>>& types, const CardWanted& want
         const auto output = outputs > 0 ? nameLike (wanted.output, type->getDeviceNames (false)) : juce::String();
         const auto ins = type->getDeviceNames (true);
         auto input_name = wanted.input;
-        if (input_name.empty()) input_name = output.isNotEmpty() && ins.contains (output) ? textOf (output) : wanted.output;   // the same card
+        if (input_name.empty()) input_name = output.isNotEmpty() && ins.contains (output) ? textOf (output) : wanted.output;   // prefers the card of the output
         const auto input = inputs > 0 ? nameLike (input_name, ins) : juce::String();
         if ((outputs == 0 || output.isNotEmpty()) && (inputs == 0 || input.isNotEmpty())) return { std::move (type), output, input };
     }
@@ -225,13 +225,14 @@ Result<std::unique_ptr<OpenCard>> JuceCards::open (const CardWanted& wanted, int
     const auto rates = device->getAvailableSampleRates();
     const auto same = [] (double a, double b) { return std::abs (a - b) < 0.5; };
     if (wanted.rate_hz > 0.0 && std::ranges::none_of (rates, [&] (double r) { return same (r, wanted.rate_hz); }))
-        return cannot ("rate", name + " does not run at " + numberText (wanted.rate_hz) + " Hz", "its rates: " + listOf (rates));
+        return cannot ("rate", name + " does not run at " + numberText (wanted.rate_hz) + " Hz", "choose one of its rates: " + listOf (rates));
     double rate = wanted.rate_hz;
     if (rate == 0.0) rate = rates.isEmpty() || rates.contains (48000.0) ? 48000.0 : rates[0];
     int block = wanted.block > 0 ? wanted.block : device->getDefaultBufferSize();
     const auto blocks = device->getAvailableBufferSizes();
     if (wanted.block > 0 && ! blocks.contains (block))
-        return cannot ("block", name + " does not run with blocks of " + std::to_string (block) + " frames", "its blocks: " + listOf (blocks));
+        return cannot ("block", name + " does not run with blocks of " + std::to_string (block) + " frames",
+                       "choose one of its block sizes: " + listOf (blocks));
 
     if (const auto trouble = device->open (first (inputs), first (outputs), rate, block); trouble.isNotEmpty())
         return cannot ("cannot_open", name + " cannot be opened: " + textOf (trouble),
@@ -240,7 +241,7 @@ Result<std::unique_ptr<OpenCard>> JuceCards::open (const CardWanted& wanted, int
     block = device->getCurrentBufferSizeSamples();
     if (wanted.rate_hz > 0.0 && ! same (rate, wanted.rate_hz))
         return cannot ("rate", name + " was set to " + numberText (wanted.rate_hz) + " Hz but runs at " + numberText (rate) + " Hz",
-                       "leave out the rate, or configure the card or its server");
+                       "leave out the rate, or set it in the card or its server");
     if (rate <= 0.0 || block <= 0) return cannot ("cannot_open", name + " reports no rate or no block size", "check that its server is running");
 
     user.begin ({ type_name, chosen.name(), rate, block, outputs, inputs, device->getOutputLatencyInSamples() / rate });

@@ -24,8 +24,8 @@ class PortMixer
 {
 public:
     static constexpr double shut_s = 0.005, open_s = 0.2;
-    static constexpr double most_sample = 8.0;      ///< in full scales; larger values would only ring in the filters that follow
-    static constexpr std::size_t most_parts = 16;   ///< components of a port that are summed
+    static constexpr double most_sample = 8.0;      ///< in multiples of full scale; larger values would only make the filters that follow ring
+    static constexpr std::size_t most_parts = 16;   ///< how many components of a port are summed at most
 
     /// `samples_per_tick` has one entry per route. [main thread]
     PortMixer (std::vector<Route>, const std::vector<int>& samples_per_tick, double tick_rate_hz);
@@ -54,7 +54,7 @@ private:
     void find (const Plan&) noexcept;
 
     std::vector<Sent> all;
-    const double shuts, opens;   // per tick
+    const double shuts, opens;   // change of the gate's gain per tick, while it shuts and while it opens
     std::atomic<std::uint64_t> broken = 0;
 
     // [tick thread]

@@ -38,13 +38,13 @@ public:
         return std::clamp (known + 2.0 * w * smooth, -most, most);
     }
 
-    double difference() const noexcept { return known; }   ///< relative
-    double error() const noexcept { return smooth; }       ///< s
+    double difference() const noexcept { return known; }   ///< learned difference between the clocks, relative
+    double error() const noexcept { return smooth; }       ///< smoothed deviation from the target level, in s
 
 private:
     static constexpr double quickest = 0.15, slowest = 0.04;   // rad/s
-    static constexpr double settled_s = 12.0;                  // how long it stays at the quickest, in s
-    static constexpr double smoothing = 0.25;                  // as a fraction of 1/w
+    static constexpr double settled_s = 12.0;                  // how long w stays at `quickest`, in s
+    static constexpr double smoothing = 0.25;                  // r: the time constant of e', as a fraction of 1/w
 
     double elapsed = 0.0, smooth = 0.0, known = 0.0;
 };

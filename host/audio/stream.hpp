@@ -26,7 +26,7 @@ enum class Clocks
 struct StreamReport
 {
     double difference = 0.0;       ///< relative difference of the card clock to the tick clock, as learned
-    double error_s = 0.0;          ///< deviation of the queue from its target
+    double error_s = 0.0;          ///< deviation of the queue's length from its target, in s
     double latency_s = 0.0;        ///< from tick to card, or back, without the card's own latency
     std::uint64_t underruns = 0;   ///< number of times the queue ran empty and the sound faded out; counted when the sound resumes,
                                    ///< because the queue always runs empty at the end of a stream
@@ -34,22 +34,23 @@ struct StreamReport
     std::uint64_t flows = 0;       ///< 1 while there is sound
 };
 
-/// Parameters of both directions.
+/// Parameters of a stream in either direction.
 struct StreamSetup
 {
     int lanes = 1;
     double tick_side_hz = 0.0;   ///< frames per second on the tick side
-    double reserve_s = 0.01;     ///< how late a tick or a block may be without a gap
+    double reserve_s = 0.01;     ///< how late a tick or a block may be without causing a gap, in s
 };
 
 struct CardFormat
 {
     double rate_hz = 0.0;
-    int block = 0;   ///< largest number of frames
+    int block = 0;   ///< largest number of frames in a block
     Clocks clocks = Clocks::apart;
 };
 
-/// Carries samples from the ticks to a sound card. If none arrive in time it fades out, and fades in again once enough are waiting.
+/// Carries samples from the ticks to a sound card. If none arrive in time, the sound fades out; once enough are waiting, it
+/// fades in again.
 class OutStream
 {
 public:
@@ -81,13 +82,13 @@ private:
     Resampler resampler;
     Servo servo;
     CardFormat card;
-    bool copies = false;   // both sides share clock and rate
+    bool copies = false;   // true: copies samples without resampling, because ticks and card share clock and rate
     double aim = 0.0;      // target number of waiting frames when a block is requested
 
     // [audio thread]
     double at = 0.0;   // position of the next frame to play, in frames pushed into the ring since the start
     bool flows = false, is_dry = false;
-    int faded = 0;             // frames into the fade in or out
+    int faded = 0;             // how many frames of the fade in or out have passed
     std::vector<float> last;   // one sample per lane
     StreamReport now;
     Snapshot<StreamReport> published;
@@ -129,7 +130,7 @@ private:
     bool flows = false, is_dry = false;
     std::vector<float> frame;
     std::vector<float> last;
-    int faded = 0;   // ticks into the fade in or out
+    int faded = 0;   // how many ticks of the fade in or out have passed
     std::atomic<std::uint64_t> dry = 0, skipped = 0;
     std::atomic<bool> heard = false;
 };

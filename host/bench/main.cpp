@@ -128,7 +128,7 @@ int main (int argc, char** argv)
     Options options;
     const host::Command app { "Compare Tactus with hand-written code, JUCE and Faust on this machine", "tactus bench" };
     app.addFlag ("--json", options.json, "Print the ratios as JSON, for use by programs");
-    app.addFlag ("--quick", options.quick, "Run only a few rounds: shows that it works, not how fast");
+    app.addFlag ("--quick", options.quick, "Run only a few rounds: shows that the benchmark works, not how fast anything is");
     app.addFlag ("--instructions", options.instructions, "Also count instructions; needs valgrind and takes a minute");
     app.addHiddenFlag (counted_option, options.counted);
     app.footer ("First checks that all variants give the same outputs. docs/bench.md describes what is compared.\n\n"

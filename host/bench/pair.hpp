@@ -15,7 +15,7 @@ namespace tactus::bench
 /// load on the machine then affects both equally, so their ratio is reliable even if their times are not.
 struct Pair
 {
-    std::string name;   ///< "plan/hand": the first over the second
+    std::string name;   ///< such as "plan/hand": the name of the first, a slash, and the name of the second
     std::function<void (int round)> first, second;
     double first_work = 1.0, second_work = 1.0;   ///< work done in one round; the time is divided by it
     int rounds = 1;

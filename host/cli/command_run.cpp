@@ -18,7 +18,7 @@ namespace tactus::host
 
 namespace
 {
-/// A placeholder for a node of an unknown type does not stop the other nodes from running.
+/// Turns errors into warnings: a placeholder for a node of an unknown type does not stop the other nodes from running.
 void warnOnly (Messages& messages)
 {
     for (auto& m : messages)
@@ -141,7 +141,8 @@ void CommandRun::decideClock()
 void CommandRun::load()
 {
     if (feed) running->add (*feed);
-    auto messages = running->load (loaded.graph);   // first without ports to play: by default a recording has the inputs of all sinks
+    // First without the ports that the sound card plays: only if no ports are named does the plan tap the inputs of all sinks.
+    auto messages = running->load (loaded.graph);
     if (running->hasEngine() && ! options.outputs.empty()) running->keepRecords();
     running->add (rig);
     running->add (port_probes);
@@ -168,7 +169,7 @@ void CommandRun::checkDeviceOptions()
         for (const auto& r : roles)
             all += (all.empty() ? "" : ", ") + r;
         fail (Message::error ("device/unknown_role", "--device " + text, "the graph has no role '" + role + "'" + didYouMean (role, roles),
-                              roles.empty() ? "it has no device nodes at all" : "its roles: " + all));
+                              roles.empty() ? "remove the option: the graph has no device nodes" : "name one of its roles: " + all));
     }
 }
 
@@ -198,8 +199,8 @@ Run::RoleDevice CommandRun::open (const std::string& role, const graph::Graph& g
     const auto* described = graph.device (role);
     if (! by_option && described == nullptr)
         messages.push_back (Message::warning ("device/undescribed", "/devices",
-                                              "no device is given for the role '" + role + "'; a simulated tool at rest takes its place",
-                                              "describe it under `devices`, or give --device " + role + "=gesture:stroke"));
+                                              "no device is given for the role '" + role + "', so it gets a simulated tool at rest",
+                                              "describe a device for it under `devices`, or give --device " + role + "=gesture:stroke"));
 
     Json description { { "driver", "sim" } };
     if (described != nullptr) description = *described;
@@ -299,7 +300,7 @@ Messages CommandRun::notTakenOver (const graph::Graph& graph) const
         const auto *present = graph.device (role), *before = loaded.graph.device (role);
         if (present != nullptr && (before == nullptr || *present != *before))
             messages.push_back (Message::warning ("watch/device", "/devices/" + role,
-                                                  "the run keeps the device that '" + role + "' was opened with, and its guard",
+                                                  "the device of the role '" + role + "' has a new description, but the run keeps the old device and its guard",
                                                   "restart the run to use the new description"));
     }
     return messages;
@@ -353,8 +354,8 @@ void CommandRun::reportRun() const
             std::cerr << role << ": warning: the guard withheld the force: " << describe (event) << '\n';
     const auto late = running->lateTicks();
     if (late == 0) return;
-    std::cerr << "warning: " << late << (late == 1 ? " time" : " times") << " an async query (the search of a large surface) was answered too late\n";
-    std::cerr << "    give it more ticks in the settings of the node, as in search_ticks [run/late_answers]\n";
+    std::cerr << "warning: an async query (the search of a large surface) was answered too late " << late << (late == 1 ? " time\n" : " times\n");
+    std::cerr << "    allow it more ticks in the settings of the node, such as search_ticks [run/late_answers]\n";
 }
 
 }   // namespace tactus::host

@@ -41,13 +41,13 @@ public:
     Engine& engine() noexcept { return running->engine(); }
     double rate() const noexcept { return running->rate(); }   ///< Hz
 
-    /// The role whose device ticks the run at its own rate; empty if none does. Live only.
+    /// The role whose device ticks the run at its own rate; empty if no device does. Live only.
     const std::string& clockRole() const noexcept { return clock_role; }
     audio::AudioRig& audio() noexcept { return rig; }
     const audio::AudioRig& audio() const noexcept { return rig; }
     PortProbes& probes() noexcept { return port_probes; }
 
-    /// The real devices.
+    /// The real devices of the run.
     std::vector<RealDevice> realDevices() const;
 
     /// The length of the run, in ticks; empty if no option, feed or device gives one.
@@ -97,7 +97,7 @@ private:
 
     RunOptions options;
     LoadedGraph loaded;
-    LoadedSession device_session;   // empty if none is used
+    LoadedSession device_session;   // empty if the run uses no session
     FileAssets assets;
     std::optional<Feed> feed;
     audio::AudioRig rig;   // declared before the run, because it drives some of the run's devices

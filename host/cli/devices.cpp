@@ -123,7 +123,7 @@ std::string textOf (const Listed& l)
     text += "\n    ";
     if (l.profiles.empty())
     {
-        text += "no profile fits\n";
+        text += "no profile fits this device\n";
         for (const auto& m : l.unable)
             text += "    " + m.text + "\n";
         return text;
@@ -374,7 +374,7 @@ void addDevices (const Command& app)
                                         "they are initialised as their profiles specify, but not driven");
     command.addOption ("--duration", options->duration_s, "How long to probe, in s").check (within (1e-3, 1e9)).needs (probe);
     command.addFlag ("--json", options->json, "Print JSON; with --probe, the last readings of the devices");
-    command.footer ("Profiles come with Tactus; your own go into the folder TACTUS_PROFILES, or ~/.config/tactus/profiles.\n\n"
+    command.footer ("Tactus comes with profiles. Put your own into the folder that TACTUS_PROFILES names, or into ~/.config/tactus/profiles.\n\n"
                     "Examples:\n"
                     "  tactus devices\n"
                     "  tactus devices --probe\n"

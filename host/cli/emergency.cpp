@@ -12,7 +12,7 @@ namespace tactus::host
 namespace
 {
 std::atomic<Emergency*> under_signals { nullptr };   // the emergency stop that the signal handlers press
-std::atomic<bool> asked_by_signal { false };         // SIGUSR2
+std::atomic<bool> asked_by_signal { false };         // SIGUSR2 has arrived
 
 double now() noexcept { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
 }   // namespace
@@ -39,7 +39,8 @@ void Emergency::press() noexcept
 Result<> Emergency::rearm()
 {
     if (now() < pressed_at + pause_s)
-        return Message::error ("run/rearm_too_early", {}, "the emergency stop was pressed less than a second ago", "rearm once it is safe");
+        return Message::error ("run/rearm_too_early", {}, "the emergency stop was pressed less than a second ago",
+                               "wait a second, make sure that forces may safely return, and rearm again");
     engine.rearm();
     return {};
 }
@@ -56,8 +57,8 @@ void Emergency::readKeys (const std::stop_token& stop)
 std::string Emergency::takeNotes()
 {
     std::string notes;
-    if (came_too_early.exchange (false)) notes += "R does nothing within a second of an emergency stop: press it again once it is safe\n";
-    if (asked_by_signal.exchange (false)) notes += "SIGUSR2 does not rearm: press R in this terminal once it is safe\n";
+    if (came_too_early.exchange (false)) notes += "R has no effect within a second of an emergency stop: when forces may safely return, press R again\n";
+    if (asked_by_signal.exchange (false)) notes += "SIGUSR2 does not rearm: when forces may safely return, press R in this terminal\n";
     return notes;
 }
 

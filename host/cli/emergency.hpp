@@ -14,13 +14,13 @@ namespace tactus::host
 
 /// The emergency stop of a run, while this object exists: the space bar in a terminal, SIGUSR1 from anywhere, and press(). A
 /// thread of its own reads the keys, so a stop takes effect however long the main thread compiles, prints or waits. R rearms,
-/// but not within a second of the stop: two quick keys must not undo it. Only one may exist at a time. [main thread]
+/// but not within a second of the stop, so that two keys pressed in a hurry do not undo the stop. Only one may exist at a time. [main thread]
 class Emergency
 {
 public:
     static constexpr double pause_s = 1.0;   ///< shortest time between a stop and a rearm
 
-    /// The engine must outlive this.
+    /// The engine must outlive this object.
     explicit Emergency (Engine&);
     ~Emergency();
     Emergency (const Emergency&) = delete;
@@ -34,7 +34,7 @@ public:
     /// Lets forces rise again. Refuses within `pause_s` of a stop. [any thread]
     Result<> rearm();
 
-    /// What the user needs to be told since the last call, in lines; "" if nothing. [main thread]
+    /// Messages for the user since the last call, one per line; "" if there are none. [main thread]
     std::string takeNotes();
 
 private:
@@ -42,7 +42,7 @@ private:
 
     Engine& engine;
     Keys keys;
-    std::atomic<double> pressed_at;   // s, of the steady clock
+    std::atomic<double> pressed_at;   // time on the steady clock, in s
     std::atomic<bool> came_too_early { false };
     std::jthread reading;   // declared last: it uses the other members
 };

@@ -65,7 +65,7 @@ std::string statusOf (std::span<const DeviceHealth> devices, const RunClock* clo
     for (const auto& h : devices)
         text += "   " + h.role + " " + describe (h);
     if (clock == nullptr || ! clock->isByTimer()) return text;
-    text += "   ticked by the timer because no reports arrive";
+    text += "   the timer ticks the run because no reports arrive";
     if (clock->isReplaced()) text += "; forces are held at zero";
     return text;
 }
@@ -79,7 +79,7 @@ std::string accountOf (std::span<const RealDevice> devices, std::span<const Devi
         if (device == nullptr)
         {
             const auto trouble = real.awaited->trouble();
-            text += real.role + " (" + real.profile().id + "): was never available" + (trouble.empty() ? std::string() : "; " + trouble) + "\n";
+            text += real.role + " (" + real.profile().id + "): the device was never available" + (trouble.empty() ? std::string() : "; " + trouble) + "\n";
             continue;
         }
         const auto read = device->counts();
@@ -88,15 +88,15 @@ std::string accountOf (std::span<const RealDevice> devices, std::span<const Devi
         if (const auto h = std::ranges::find (health, real.role, &DeviceHealth::role); h != health.end()) text += clockOf (*h);
         if (port.writes > 0)
         {
-            text += "    sent " + std::to_string (port.writes) + ", " + std::to_string (port.write_errors) + " failed, ";
-            text += std::to_string (port.dropped) + " replaced by newer ones; from report to answer: " + milliseconds (port.latency_min);
+            text += "    " + std::to_string (port.writes) + " reports sent, " + std::to_string (port.write_errors) + " failed, ";
+            text += std::to_string (port.dropped) + " replaced by newer ones; time from a received report to the answer: " + milliseconds (port.latency_min);
             text += " to " + milliseconds (port.latency_max) + " ms, mean " + milliseconds (port.latency_mean) + " ms\n";
         }
         if (port.silences > 0)
-            text += "    the ticks paused " + std::to_string (port.silences) + " times for longer than its watchdog allows, so its force was released\n";
+            text += "    the run paused " + std::to_string (port.silences) + " times for longer than the device's watchdog allows, so the force was released\n";
         if (port.departures > 0)
         {
-            text += "    it was unplugged " + std::to_string (port.departures) + " times";
+            text += "    the device was unplugged " + std::to_string (port.departures) + " times";
             text += device->port().isConnected() ? "\n" : ", and is still unplugged\n";
         }
         if (const auto trouble = device->port().trouble(); ! trouble.empty()) text += "    last problem: " + trouble + "\n";

@@ -19,7 +19,7 @@ namespace tactus::host
 class Hardware
 {
 public:
-    /// Sound cards are opened by the rig, which must outlive this.
+    /// Real devices are opened only if `allow` is true. Sound cards are opened by the rig, which must outlive this.
     Hardware (bool allow, audio::AudioRig& a) : allowed (allow), rig (a) {}
 
     /// Like hid::openDevice and audio::openAudio. Refuses real devices in an offline run (device/real).

@@ -59,7 +59,7 @@ void addHit (const Command& app)
     const auto command = app.add ("hit", "Trigger hits in a graph that `tactus play` is running");
     command.addOption ("hits", options->hits, "NODE.PORT, or NODE.PORT=SPEED in m/s; default: 1 m/s").required();
     options->osc.addTo (command);
-    command.footer ("A hit lasts one tick and is added to the value from the wires.\n\n"
+    command.footer ("A hit lasts one tick. Its speed is added to the value that the wires give the port.\n\n"
                     "Examples:\n"
                     "  tactus hit ring.hit\n"
                     "  tactus hit ring.hit=0.4 click.hit=2");

@@ -9,7 +9,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr double room_s = 1.0;   // capacity for frames waiting to be written, in s
+constexpr double room_s = 1.0;   // capacity for ticks waiting to be written, in s
 }   // namespace
 
 LiveRecording::LiveRecording (Run& run, const std::vector<std::string>& files)
@@ -32,7 +32,7 @@ void LiveRecording::giveUp (std::vector<Message> failed)
 {
     for (auto& error : failed)
     {
-        std::fprintf (stderr, "%s: warning: %s; it is no longer recorded, and the run continues [%s]\n",
+        std::fprintf (stderr, "%s: warning: %s; this file is no longer written, but the run continues [%s]\n",
                       error.where.c_str(), error.text.c_str(), error.id.c_str());
         if (! failure) failure = std::move (error);
     }
@@ -46,7 +46,7 @@ void LiveRecording::drain()
 std::optional<Message> LiveRecording::commit()
 {
     drain();
-    if (ring.lost() > 0) std::fprintf (stderr, "warning: %zu ticks were not recorded because writing could not keep up\n", ring.lost());
+    if (ring.lost() > 0) std::fprintf (stderr, "warning: %zu ticks were not recorded because writing the files could not keep up with the run\n", ring.lost());
     giveUp (recorder.commit());
     return failure;
 }

@@ -23,7 +23,8 @@ public:
 
     void after (const Plan&, std::uint64_t tick, bool halts) noexcept override;   // [tick thread]
 
-    /// Writes the frames that have arrived; call this many times a second. Prints to stderr which files it gives up.
+    /// Writes the frames that have arrived; call this many times a second. Prints a warning to stderr for each file that
+    /// cannot be written and is given up.
     /// [main thread]
     void drain();
 
@@ -36,7 +37,7 @@ private:
 
     Recorder recorder;
     std::optional<Message> failure;
-    SpscRing<double> ring;   // number of a tick, and the values of that tick
+    SpscRing<double> ring;   // each frame: the number of a tick, and the values of that tick
 };
 
 }   // namespace tactus::host

@@ -56,7 +56,7 @@ std::string rangeText (const Interval& i)
     return numberText (i.min) + " … " + numberText (i.max);
 }
 
-/// A table whose columns are as wide as their widest cell; the last one is not padded.
+/// Prints a table whose columns are as wide as their widest cell; the last column is not padded.
 void print (const std::vector<std::vector<std::string>>& rows)
 {
     std::vector<std::size_t> width;

@@ -24,7 +24,7 @@ juce::OSCMessage OscClient::answer()
     using namespace std::chrono_literals;
     if (auto message = answers->next (10s)) return std::move (*message);
     fail (Message::error ("osc/no_answer", "127.0.0.1:" + std::to_string (to), "the program listening on this port does not answer",
-                          "is it `tactus play`? Its first line shows the port; give it as --osc PORT"));
+                          "give --osc PORT with the port that the first line of `tactus play` shows"));
 }
 
 void OscClient::check (const juce::OSCMessage& m)

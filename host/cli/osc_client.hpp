@@ -30,16 +30,16 @@ public:
 
     void send (const juce::OSCMessage& m) { answers->send (to, m); }
 
-    /// The next answer; fails the command if none comes within some seconds. Ids: osc/no_answer.
+    /// The next answer; fails the command if no answer arrives within 10 s. Ids: osc/no_answer.
     juce::OSCMessage answer();
 
-    /// The next answer, if it arrives in time.
+    /// The next answer; empty if none arrives within this time.
     std::optional<juce::OSCMessage> next (std::chrono::milliseconds patience) { return answers->next (patience); }
 
     /// Fails the command if the answer is an error.
     static void check (const juce::OSCMessage&);
 
-    /// Fails the command because nothing has arrived for a long time. Ids: osc/no_answer, or osc/gone if the program has answered before.
+    /// Fails the command because nothing has arrived for a long time. Ids: osc/no_answer; osc/gone if the program has answered before.
     [[noreturn]] static void failSilent (const std::string& where, bool has_answered);
 
 private:

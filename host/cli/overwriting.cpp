@@ -23,8 +23,9 @@ void refuseOverwriting (const std::vector<std::string>& outputs, const std::vect
     {
         const auto is_it = [&] (const std::filesystem::path& other) { return isSame (*out, other); };
         if (std::ranges::any_of (inputs, is_it))
-            fail (Message::error ("output/is_input", *out, "this file is read by the run and would be overwritten", "name another file"));
-        if (std::any_of (outputs.begin(), out, is_it)) fail (Message::error ("output/twice", *out, "this file would be written twice", "name two files"));
+            fail (Message::error ("output/is_input", *out, "this file is read by the run and would be overwritten", "give the output another name"));
+        if (std::any_of (outputs.begin(), out, is_it))
+            fail (Message::error ("output/twice", *out, "two outputs would be written to this file", "give each output its own file"));
     }
 }
 

@@ -71,7 +71,7 @@ std::unique_ptr<RunClock> clockOf (const CommandRun& command)
           "simplify the graph, or use a lower --rate");
 }
 
-/// Reports an error of the capture. The run continues without it.
+/// Prints a warning that the capture has failed. The run continues without the capture.
 void warnOfCapture (const std::string& file, const Message& error)
 {
     std::fprintf (stderr, "%s: warning: %s, and the signal to the sound card is no longer written; the run continues [%s]\n",
@@ -125,7 +125,7 @@ private:
             more += ", ticked by " + command.clockRole();
         if (port) more += ", OSC on " + port->listensTo().address + ":" + std::to_string (port->number());
         if (port && port->listensTo().isLoopback()) more += " (token to rearm: " + token + ")";
-        if (options.watch) more += ", following its file";
+        if (options.watch) more += ", reloading the graph file when it is edited";
         const auto* keys = emergency.hasKeys() ? "Ctrl-C ends the run, the space bar is the emergency stop, R rearms" : "Ctrl-C stops";
         std::fprintf (stderr, "%s at %g Hz%s; %s\n", name.c_str(), command.rate(), more.c_str(), keys);
     }
@@ -172,7 +172,7 @@ private:
         command.reportRun();
         const auto end = runner.status();
         if (end.let_go_under_force)
-            std::fprintf (stderr, "warning: after %g s the slew limit still held force on a device, so it was released before its force reached zero\n",
+            std::fprintf (stderr, "warning: after %g s the slew limit still held force on a device, so the device was released before its force reached zero\n",
                           Runner::longest_halt_s);
         const auto not_recorded = recording ? recording->commit() : std::nullopt;
         if (options.costs) printCosts (runner);
@@ -229,7 +229,8 @@ void addPlay (const Command& app)
     const auto osc = command.addOption ("--osc", options->osc, osc_help).check (oscCheck());
     command.addOption ("--osc-answer", options->osc_answer, "Address of the only other machine that gets answers, such as 192.168.1.7").check (addressCheck());
     command.footer ("However the run stops, the guards first bring all forces smoothly to zero. The space bar or SIGUSR1 is the emergency\n"
-                    "stop: no forces, but the graph keeps running. R rearms, a second later or more; this also clears a stop by a limit.\n"
+                    "stop: no forces, but the graph keeps running. R, pressed at least a second later, rearms;\n"
+                    "this also ends a stop that a limit caused.\n"
                     "With --watch, a file with errors is reported and the previous graph keeps running. Roles keep their devices,\n"
                     "a new role gets its own, --set still takes precedence over the file, and the recorded ports stay the same.\n\n"
                     "Examples:\n"

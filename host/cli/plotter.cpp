@@ -29,7 +29,8 @@ Plotter::Plotter (std::string f, const std::vector<Tap>& t, const std::string& o
     if (taps.empty()) fail ("record/nothing", "there is nothing to plot: the graph has no sink", "name ports with --record, as in --record drag.force");
     if (over_name.empty()) return;
     const auto found = std::ranges::find (taps, over_name, &Tap::name);
-    if (found == taps.end()) fail ("plot/not_recorded", "'" + over_name + "' is not recorded", "add it to --record");
+    if (found == taps.end())
+        fail ("plot/not_recorded", "'" + over_name + "', which --over names, is not recorded", "add it to --record, or name a recorded port");
     over = found - taps.begin();
 }
 

@@ -90,10 +90,10 @@ void addProbe (const Command& app)
 {
     const auto options = std::make_shared<Options>();
     const auto command = app.add ("probe", "Watch a port of a graph that `tactus play` is running, as CSV");
-    command.addOption ("port", options->port, "node.port, or one component of it").required();
+    command.addOption ("port", options->port, "The port, as in drag.force, or one of its components, as in drag.force.x").required();
     const auto rate = command.addOption ("--rate", options->rate_hz, "Rows per second").check (within (0.01, 1000.0));
     command.addOption ("--duration", options->duration_s, "How long to watch, in s of the run; default: until Ctrl-C").check (within (1e-3, 1e9));
-    const auto trigger = command.addOption ("--trigger", options->trigger.watched, "Print only one window, every tick of it, around an edge of this port");
+    const auto trigger = command.addOption ("--trigger", options->trigger.watched, "Print only one window around an edge of this port, with every tick");
     trigger.excludes (rate);
     const auto with_trigger = [&] (Option option) { option.needs (trigger); };
     const auto level = command.addOption ("--level", options->trigger.level, "The level that defines the edge, in the unit of that port");
@@ -102,7 +102,7 @@ void addProbe (const Command& app)
     const auto edge = command.addOption ("--edge", options->trigger.edge, "rising (from below to the level or above), falling, or either");
     with_trigger (edge.check (oneOf ({ "rising", "falling", "either" })));
     with_trigger (command.addOption ("--before", options->trigger.before, "Ticks to print before the edge; default: 100").check (within (0, 65535)));
-    with_trigger (command.addOption ("--after", options->trigger.after, "Ticks to print after it; default: 400").check (within (0, 65535)));
+    with_trigger (command.addOption ("--after", options->trigger.after, "Ticks to print after the edge; default: 400").check (within (0, 65535)));
     options->osc.addTo (command);
     command.footer ("Values have single precision, and some may be missing; `tactus play --record` keeps every value at full precision.\n"
                     "With --trigger, t is 0 at the edge.\n\n"

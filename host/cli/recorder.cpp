@@ -25,7 +25,7 @@ void printRow (std::span<const double> values)
     std::cout << line << '\n';
 }
 
-/// Calls `work` with each file. If it fails, the file is closed and its incomplete content is removed.
+/// Calls `work` with each file. If `work` fails, the file is closed and its incomplete content is removed.
 template <typename File, typename Do>
 void giveUpWhere (std::vector<File>& files, std::vector<Message>& failed, Do&& work)
 {
@@ -63,7 +63,7 @@ Recorder::Recorder (const std::vector<std::string>& files, const std::vector<Tap
         else if (isWave (file))
             waves.push_back (orFail (WavWriter::create (file, rate_hz * static_cast<double> (per_tick), taps)));
         else
-            fail (Message::error ("output/kind", file, "the file name does not end in .csv or .wav", "name it .csv or .wav"));
+            fail (Message::error ("output/kind", file, "the file name does not end in .csv or .wav", "choose a name that ends in .csv or .wav"));
     }
     if (! print) return;
     for (std::size_t i = 0; i < columns.size(); ++i)
@@ -106,7 +106,7 @@ std::vector<Message> Recorder::commit()
     giveUpWhere (tables, failed, commitOne);
     giveUpWhere (waves, failed, commitOne);
     if (print && ! std::cout.flush())
-        failed.push_back (Message::error ("output/unwritable", "the standard output", "it could not be written",
+        failed.push_back (Message::error ("output/unwritable", "the standard output", "cannot be written",
                                           "check the disk, or the program that the output is piped into"));
     return failed;
 }

@@ -39,9 +39,9 @@ private:
     Result<> add (WavWriter&, std::uint64_t tick, std::span<const double> values);
 
     double rate_hz;
-    std::size_t taps, per_tick = 1;   // per_tick: samples of each tap
-    std::uint64_t next = 0;           // the next tick
-    std::vector<double> held;         // the last values
+    std::size_t taps, per_tick = 1;   // per_tick: samples of each tap in a tick
+    std::uint64_t next = 0;           // the tick after the last one written
+    std::vector<double> held;         // values of the last tick; a WAV repeats them for missing ticks
     bool print = false;
     std::vector<TableWriter> tables;
     std::vector<WavWriter> waves;

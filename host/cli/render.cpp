@@ -41,7 +41,7 @@ public:
         : options (o), recorder (o.outputs, taps, rate_hz, o.plot.empty()), values (recorder.width())
     {
         if (options.plot.empty()) return;
-        orFail (AtomicFile::create (options.plot));   // fails now rather than after an hour
+        orFail (AtomicFile::create (options.plot));   // fails now rather than after an hour of rendering
         plotter.emplace (options.plot, taps, options.over, rate_hz, options.records.empty());
     }
 

@@ -16,12 +16,12 @@ std::string placeOf (const Message& m, const LoadedGraph& loaded, const std::str
     const bool in_graph = m.where.empty() || m.where.starts_with ('/');
     if (! m.file.empty() && m.file != file)
         return m.line > 0 ? m.file + ":" + std::to_string (m.line) + ":" + std::to_string (m.column) : m.file + m.where;
-    if (! in_graph) return m.where;   // a feed column or an option
+    if (! in_graph) return m.where;   // `where` names a feed column or an option, not a part of the graph
     const auto at = m.line > 0 ? TextPosition { m.line, m.column } : loaded.positionOf (m.where);
     return file + ":" + std::to_string (at.line) + ":" + std::to_string (at.column);
 }
 
-/// A part of a message that names a place, which takes one line.
+/// Makes the location of a message printable, on one line.
 std::string inOneLine (std::string text)
 {
     std::ranges::replace (text, '\n', ' ');

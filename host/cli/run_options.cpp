@@ -24,14 +24,15 @@ std::vector<plan::Override> readSets (const std::vector<std::string>& texts)
 void RunOptions::addTo (const Command& app)
 {
     app.addOption ("graph", graph, "A graph file, such as graphs/dry_wood.json").required();
-    app.addOption ("--feed", feed, "A CSV whose columns drive ports: node.port or node.port.x, and t in s");
+    app.addOption ("--feed", feed, "A CSV file with a column for each port that it drives, named node.port or node.port.x; a column t gives the time in s");
     app.addOption ("--record", records, "Ports to record, separated by commas; default: the inputs of every sink").separatedBy (',').oneValueEach();
     app.addOption ("--out", outputs, "Output file, .csv or .wav; may be given more than once").oneValueEach();
     app.addOption ("--rate", rate_hz, "Ticks per second; default: the feed's rate, else the graph's").check (finiteWithin (1.0, 1e6));
     app.addOption ("--duration", duration_s, "Length of the run in s").check (finiteWithin (1e-9, 1e9));
-    app.addOption ("--set", sets, "NODE.PARAM=VALUE, or CONTROL=0…1; may be given more than once").oneValueEach();
+    app.addOption ("--set", sets, "Set a parameter, NODE.PARAM=VALUE, or a control, CONTROL=0…1; may be given more than once").oneValueEach();
     app.addOption ("--device", devices,
-                   "ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME or ROLE=hid:PROFILE (hid:auto), or ROLE=audio:CARD")
+                   "The device of a role: ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME, ROLE=hid:PROFILE (hid:auto) or "
+                   "ROLE=audio:CARD; may be given more than once")
         .oneValueEach();
 }
 

@@ -17,10 +17,10 @@ struct RunOptions
     std::vector<std::string> records, outputs, sets, devices;
     std::string log;       ///< the run log to write; "": none
     std::string clock;     ///< the role whose device ticks the run, "timer" or "audio"; "": the session's choice, or the first device that can tick the run
-    std::string session;   ///< for a live run, the session that binds its roles to devices: a file, or "off"; "": the user's
+    std::string session;   ///< for a live run, the session that binds its roles to devices: a file, or "off"; "": the user's session
     bool strict = false;   ///< true: a missing device of the session ends the run
     std::vector<std::string> routes;
-    std::string card;      ///< the sound card: TYPE:NAME, TYPE or NAME; "": the session's choice, or any
+    std::string card;      ///< the sound card: TYPE:NAME, TYPE or NAME; "": the session's choice, or else any card
     std::string capture;   ///< the WAV file for the signal to the sound card; "": none
     double rate_hz = 0.0, duration_s = 0.0;
 

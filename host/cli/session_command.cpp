@@ -32,7 +32,7 @@ struct Options
     bool clock_given = false, json = false;
 };
 
-/// Files named by an option are relative to the current folder; later they are relative to the folder of the session.
+/// Makes file names absolute, because in a session they are relative to the folder of the session, not to `folder`.
 void makeAbsolute (Json& description, const fs::path& folder)
 {
     for (const auto* at : { "/path", "/hand/path" })
@@ -44,7 +44,7 @@ void makeAbsolute (Json& description, const fs::path& folder)
         }
 }
 
-/// "auto" is replaced by the profile of the connected device, so that the role can wait for it later.
+/// Replaces "auto" by the profile of the connected device, so that the role can wait for this device later.
 void nameProfile (Json& description, const hid::LoadedProfiles& profiles)
 {
     if (! hid::isHid (description) || description.value ("profile", Json ("auto")) != "auto") return;
@@ -107,7 +107,7 @@ void printSession (const LoadedSession& s, std::span<const hid::ConnectedDevice>
     const auto clock = s.session.clock();
     std::cout << "clock: " << (clock.empty() ? "the first device that can tick the run" : clock) << '\n';
     const auto roles = s.session.roles();
-    if (roles.empty()) std::cout << "no role is bound: each graph uses the devices that it describes; --bind ROLE=hid:auto binds one\n";
+    if (roles.empty()) std::cout << "no role is bound: each graph uses the devices that it describes; --bind ROLE=hid:auto binds a role\n";
     std::vector<std::vector<std::string>> rows;
     for (const auto& role : roles)
     {
@@ -165,7 +165,7 @@ std::vector<RoleFit> fitsOf (const LoadedGraph& graph, const std::string& file, 
 
 bool edits (const Options& options) { return ! options.bind.empty() || ! options.unbind.empty() || options.clock_given; }
 
-/// The session of the options. A new file is empty until it is edited.
+/// Loads the session that the options name. If they edit a file that does not exist yet, starts with an empty session.
 LoadedSession openSession (const Options& options)
 {
     if (options.file.empty()) return loadDefaultSession (homeFolder());
@@ -252,17 +252,19 @@ void addSession (const Command& app)
 {
     const auto options = std::make_shared<Options>();
     const auto command = app.add ("session", "Show or change which devices the roles of graphs are bound to, and show whether they fit a graph");
-    command.addOption ("graph", options->graph, "Check that the session meets the needs of this graph");
+    command.addOption ("graph", options->graph, "A graph file: check whether the devices of the session fit its roles");
     const auto bind = command.addOption ("--bind", options->bind,
-                                         "ROLE=hid:PROFILE (hid:auto), ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv or ROLE=gesture:NAME; "
+                                         "Bind a role to a device: ROLE=hid:PROFILE (hid:auto), ROLE=FILE.json, ROLE=sim, "
+                                         "ROLE=trace:FILE.csv or ROLE=gesture:NAME; "
                                          "may be given more than once");
     bind.oneValueEach();
-    command.addOption ("--unbind", options->unbind, "A role to unbind: each graph uses its own device again; may be given more than once").oneValueEach();
+    command.addOption ("--unbind", options->unbind, "A role to unbind: it gets the device that each graph describes again; may be given more than once")
+        .oneValueEach();
     const auto clock = command.addOption ("--clock", options->clock,
                                           "The clock of runs: a role, timer, audio, or first (the first device that can tick the run)");
     clock.check (clockCheck());
-    command.addOption ("--file", options->file, "A session file other than the user's");
-    command.addFlag ("--json", options->json, "As JSON");
+    command.addOption ("--file", options->file, "Use this session file instead of the user's");
+    command.addFlag ("--json", options->json, "Print JSON");
     command.footer ("`tactus play` and tactus-host use the session; `tactus render` never does. See docs/sessions.md.\n\n"
                     "Examples:\n"
                     "  tactus session\n"

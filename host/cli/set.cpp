@@ -34,7 +34,7 @@ void run (const Options& options)
         }
         catch (const Stop&)
         {
-            all_fine = false;   // the remaining values are still set
+            all_fine = false;   // continues with the remaining values
         }
     }
     if (! all_fine) throw Stop {};
@@ -47,7 +47,7 @@ void addSet (const Command& app)
     const auto command = app.add ("set", "Set parameters and controls of a graph that `tactus play` is running");
     command.addOption ("values", options->sets, "NODE.PARAM=VALUE, or CONTROL=0…1").required();
     options->osc.addTo (command);
-    command.footer ("Takes the same values as --set. A value is reached within 20 ms; the file does not change.\n\n"
+    command.footer ("Takes the same values as --set. A value is reached within 20 ms; the graph file does not change.\n\n"
                     "Examples:\n"
                     "  tactus set drag.mu=0.3\n"
                     "  tactus set drag.d_max=\"20 um\" drag.adhesion=dahl board.normal=[0.1,0,1]\n"

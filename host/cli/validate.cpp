@@ -59,7 +59,7 @@ bool check (const std::string& file)
     for (const auto& role : compiled.plan->roles())
         if (std::ranges::count (loaded.graph.devices, role.name, &std::pair<std::string, Json>::first) == 0)
             std::cerr << file << ": warning: no device is described for the role '" << role.name
-                      << "'\n    describe it under `devices`, or give --device when it runs [device/undescribed]\n";
+                      << "'\n    describe a device for it under `devices`, or give --device when you run the graph [device/undescribed]\n";
     std::cout << file << ": ok\n";
     for (const auto& d : compiled.plan->delays())
         std::cout << describe (d);
@@ -72,8 +72,8 @@ void addValidate (const Command& app)
     const auto files = std::make_shared<std::vector<std::string>>();
     const auto command = app.add ("validate", "Check graph files and report all problems in all of them");
     command.addOption ("graphs", *files, "Graph files").required();
-    command.footer ("For each file without errors, the delay of every path from a device back to it is printed: each tick costs\n"
-                    "stiffness that the hand can feel.\n\n"
+    command.footer ("For each file without errors, the delay of every path from a device through the graph and back is printed:\n"
+                    "each tick of delay lowers the highest stiffness that the hand can feel.\n\n"
                     "Examples:\n"
                     "  tactus validate graphs/dry_wood.json\n"
                     "  tactus validate graphs/*.json && echo fine");

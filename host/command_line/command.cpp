@@ -105,7 +105,7 @@ Command::Command (const std::string& about, const std::string& name) : app (std:
 
 Command Command::add (const std::string& name, const std::string& about) const
 {
-    return Command ({ app, app->add_subcommand (name, about) });   // the program owns it
+    return Command ({ app, app->add_subcommand (name, about) });   // the program owns the command
 }
 
 Option Command::addOption (const std::string& name, std::string& value, const std::string& about) const
@@ -178,7 +178,7 @@ void Command::passOn (std::function<void (const std::vector<std::string>&)> run)
 
 std::optional<int> Command::parse (std::vector<std::string> arguments) const
 {
-    std::ranges::reverse (arguments);   // CLI11 takes them from the back
+    std::ranges::reverse (arguments);   // CLI11 takes arguments from the back
     return statusOf (*app, [&] { app->parse (std::move (arguments)); });
 }
 

@@ -33,7 +33,7 @@ struct Check
 
 Check within (int min, int max);
 Check within (double min, double max);
-Check finiteWithin (double min, double max);   ///< the same, but refuses nan
+Check finiteWithin (double min, double max);   ///< like within, but also refuses nan
 Check positive();
 Check oneOf (const std::vector<std::string>&);
 
@@ -49,7 +49,7 @@ public:
     Option oneValueEach() const;       ///< allows the option several times, with one value each time
     Option type (const std::string&) const;
 
-    bool isGiven() const;   ///< after parsing
+    bool isGiven() const;   ///< valid after parsing
 
 private:
     friend class Command;
@@ -63,7 +63,7 @@ private:
 class Command
 {
 public:
-    Command (const std::string& about, const std::string& name = {});   ///< makes a program
+    Command (const std::string& about, const std::string& name = {});   ///< makes a program, not a command of one
     Command add (const std::string& name, const std::string& about) const;
 
     /// Options are named --like-this, positional arguments without dashes.
@@ -80,7 +80,7 @@ public:
     void footer (const std::string& text) const;
     void version (const std::string& text) const;                                ///< adds --version
     void requireCommand() const;                                                 ///< requires one of the commands that were added
-    void callback (std::function<void()>) const;                                 ///< runs once the command line is parsed
+    void callback (std::function<void()>) const;                                 ///< called after the command line has been parsed
     void passOn (std::function<void (const std::vector<std::string>&)>) const;   ///< passes on all arguments unchanged, including --help
 
     /// Parses, then runs the callbacks. Returns a value if the program should end here: 0 after --help and --version, or a nonzero

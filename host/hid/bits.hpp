@@ -15,7 +15,7 @@ namespace tactus::host::hid
 inline std::uint64_t maskOf (const Bits& b) noexcept { return (std::uint64_t { 1 } << b.size) - 1; }
 
 /// Visits the bytes that a number touches, at most five: first byte first, or last byte first if it is big-endian. Calls
-/// back with the index of each byte and its shift.
+/// back with the index of each byte and the shift of its bits.
 template <typename Byte>
 void eachByte (const Bits& b, Byte&& byte) noexcept
 {

@@ -11,8 +11,8 @@
 namespace tactus::host::hid
 {
 
-/// Parses "02 00 ff", with any spaces between bytes; "00*20" means twenty (decimal) bytes of 00. Empty for anything else,
-/// or if it is longer than a report may be.
+/// Parses "02 00 ff", with any spaces between bytes; "00*20" means twenty (decimal) bytes of 00. Empty for any other text,
+/// or if there are more bytes than a report may have.
 std::optional<Bytes> bytesOf (std::string_view hex);
 
 /// "02 00 ff"

@@ -27,7 +27,7 @@ struct HidSample
     std::uint32_t lost = 0;                    ///< reports lost just before this one
     bool valid = false;                        ///< true if the device reports the values as valid and the kinematics have a solution
     Refusal refusal = Refusal::none;           ///< why the last report changed nothing
-    PoseProblem problem = PoseProblem::none;   ///< why the pose cannot be used, if it cannot
+    PoseProblem problem = PoseProblem::none;   ///< why the pose cannot be used; none if it can
 };
 
 /// The effort requested from a device, in Tactus axes.

@@ -56,7 +56,7 @@ InputReport readInput (ProfileFields& in)
                  if (report.fields.back().bits.end() > 8 * report.length)
                      f.error ("at", "profile/beyond",
                               "the field ends at byte " + std::to_string ((report.fields.back().bits.end() + 7) / 8) + " of a report of "
-                                  + std::to_string (report.length),
+                                  + std::to_string (report.length) + " bytes",
                               "make the report longer, or start the field earlier");
              });
     if (in.has ("timestamp")) report.timestamp = in.name ("timestamp");
@@ -76,7 +76,7 @@ InputReport readInput (ProfileFields& in)
         const auto it = std::ranges::find (report.fields, name, &InputField::name);
         if (it != report.fields.end() && it->isAxis() && ! it->bits.is_float) return &*it;
         if (! name.empty())
-            in.error (key, "profile/unknown_name", "there is no whole number called " + quote (name) + " in this report", suggestion (name, names));
+            in.error (key, "profile/unknown_name", "this report has no whole-number field " + quote (name), suggestion (name, names));
         return nullptr;
     };
     if (! report.sequence.empty()) named ("sequence", report.sequence);

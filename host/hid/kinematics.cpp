@@ -13,8 +13,8 @@ namespace
 {
 using Pose = Kinematics::Pose;
 
-/// Maps the distance from singularity, 0…1, to the part of a force that is rendered: all of it above `firm`, none below
-/// `weak`, so that the force fades instead of breaking off when the hand crosses a singular pose.
+/// The distance from singularity, 0…1, sets how much of a force is rendered: all of it above `firm`, none below `weak`.
+/// So the force fades instead of stopping abruptly when the hand crosses a singular pose.
 constexpr double weak = 0.02, firm = 0.1;
 
 void fade (Pose& pose, double regularity) noexcept

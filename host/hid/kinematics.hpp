@@ -30,7 +30,7 @@ public:
         Vec3 position = Vec3::Zero();       ///< m
         Mat3 jacobian = Mat3::Identity();   ///< dp/dq
         PoseProblem problem = PoseProblem::none;
-        double strength = 1.0;   ///< 1…0: part of a force that can be rendered; 0 at a singular pose
+        double strength = 1.0;   ///< the fraction of a force that can be rendered, 0…1; 0 at a singular pose
     };
 
     explicit Kinematics (KinematicsModel);

@@ -53,13 +53,15 @@ Drive readDrive (ProfileFields& in)
     const double body = in.number ("body", unit::metre, Bounds::positive(), 1.0);
     if (in.has ("capstan") != in.has ("body"))
         in.error ("capstan", "profile/missing", "capstan and body must be given together",
-                  "write the diameters of both, or neither if the joint is directly on the motor");
+                  "write the diameters of both, or neither if the motor turns the joint directly");
     d.ratio = (in.flag ("reversed") ? -1.0 : 1.0) * capstan / body;
     d.offset = in.number ("offset", unit::radian, {}, 0.0);
     d.torque_constant = in.number ("torque_constant", unit::count, {}, 1.0);   // N m/A
     d.max_current = in.number ("max_current", unit::count, Bounds::positive(), none);
-    if (d.counts_per_turn == 0.0) in.error ("counts_per_turn", "profile/out_of_range", "the encoder has 0 counts per turn", "write its counts per turn");
-    if (d.torque_constant == 0.0) in.error ("torque_constant", "profile/out_of_range", "the torque constant is 0", "write N m per A");
+    if (d.counts_per_turn == 0.0)
+        in.error ("counts_per_turn", "profile/out_of_range", "the encoder has 0 counts per turn", "write the encoder's counts per turn of the motor");
+    if (d.torque_constant == 0.0)
+        in.error ("torque_constant", "profile/out_of_range", "the torque constant is 0", "write the motor's torque per current, in N m/A");
     return d;
 }
 
@@ -72,7 +74,9 @@ void readDrives (ProfileFields& in, std::array<Drive, n>& drives)
         if (read < n) drives[read] = drive;
         ++read;
     });
-    if (read != n) in.error ("drives", "profile/kinematics", "there are " + std::to_string (read) + " drives", "write " + std::to_string (n));
+    if (read != n)
+        in.error ("drives", "profile/kinematics", "there are " + std::to_string (read) + " drives; this mechanism has " + std::to_string (n),
+                  "list one drive for each motor");
 }
 
 /// Reads link lengths, all above 0.
@@ -120,7 +124,8 @@ LinearMap readLinear (ProfileFields& in)
     if (matrix)
         map.matrix = *matrix;
     else if (in.has ("matrix"))
-        in.error ("matrix", "profile/kinematics", "the matrix must be three rows of three numbers", "write [[1, 0, 0], [0, 1, 0], [0, 0, 1]]");
+        in.error ("matrix", "profile/kinematics", "the matrix must be three rows of three numbers",
+                  "write three rows, such as [[1, 0, 0], [0, 1, 0], [0, 0, 1]]");
     map.origin = in.vector ("origin", unit::metre, map.origin);
     return map;
 }
@@ -134,7 +139,8 @@ Mat3 readAxes (ProfileFields& in)
     const auto m = matrixOf (json);
     const auto remedy = "write which axis points right, away and up, such as [\"y\", \"-x\", \"z\"]; for a left-handed device negate the scale of one field";
     if (m && (*m * m->transpose() - Mat3::Identity()).norm() < 1e-9 && m->determinant() > 0.0) return *m;
-    in.error ("axes", "profile/axes", m ? "the axes are not right-handed, of length 1 and perpendicular" : "axes must be three axes or rows", remedy);
+    in.error ("axes", "profile/axes", m ? "the axes are not right-handed, of length 1 and perpendicular" : "axes must list three axes or three rows of numbers",
+              remedy);
     return Mat3::Identity();
 }
 

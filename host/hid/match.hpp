@@ -15,13 +15,13 @@ namespace tactus::host::hid
 struct DeviceInfo
 {
     std::uint16_t vid = 0, pid = 0;
-    std::uint16_t usage_page = 0, usage = 0;   ///< 0 if the platform does not provide it
+    std::uint16_t usage_page = 0, usage = 0;   ///< 0 if the platform does not provide them
     int interface_number = -1;                 ///< -1 if unknown
     Bus bus = Bus::unknown;
     std::string product;
 };
 
-/// How well a profile fits: 0 not at all; more specific rules score higher.
+/// How well a profile fits. 0: not at all; a more specific rule scores higher.
 int fit (const Profile&, const DeviceInfo&) noexcept;
 
 /// The profiles that fit, most specific first; profiles with the same score are sorted by id.

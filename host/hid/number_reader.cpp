@@ -44,8 +44,8 @@ std::string readUnit (ProfileFields& in, const std::string& of_scale)
 Bits readBits (ProfileFields& in)
 {
     Bits bits;
-    in.require ("at", "write \"at\": its first byte");
-    in.require ("type", "write \"type\": \"s16le\"");
+    in.require ("at", "write \"at\": the index of the number's first byte");
+    in.require ("type", "write the number's \"type\", such as \"s16le\"");
     const auto byte = in.whole ("at", 0, most_bytes - 1, 0);
     const auto bit = in.whole ("bit", 0, 7, 0);
     const auto type = in.text ("type");
@@ -64,7 +64,7 @@ double readOffset (ProfileFields& in, const std::string& unit)
 {
     const auto offset = in.scale ("offset", 0.0);
     if (! (std::abs (offset.value) <= largest_scale))
-        in.error ("offset", "profile/out_of_range", "the offset is too large", "write the value of count 0, in SI");
+        in.error ("offset", "profile/out_of_range", "the offset is too large", "write the value of count 0, in SI units");
     if (! offset.unit.empty() && offset.unit != unit)
         in.error ("offset", "profile/unit", "the offset is in " + offset.unit + ", but the scale is in " + unit, "write both in the same unit");
     return offset.value;
@@ -74,14 +74,14 @@ double readScale (ProfileFields& in, std::string& unit)
 {
     const auto scale = in.scale ("scale", 1.0);
     if (! (std::abs (scale.value) >= 1.0 / largest_scale && std::abs (scale.value) <= largest_scale))
-        in.error ("scale", "profile/out_of_range", "the scale is out of range", "write the value of one count, in SI");
+        in.error ("scale", "profile/out_of_range", "the scale is out of range", "write the value of one count, in SI units");
     unit = readUnit (in, scale.unit);
     return scale.value;
 }
 
 void readVerified (ProfileFields& in, bool& verified, std::string& why_not)
 {
-    in.require ("verified", "write \"verified\": true if a report of a real device was decoded with it, else false");
+    in.require ("verified", "write \"verified\": true if this layout has decoded a report of a real device, else false");
     verified = in.flag ("verified");
     why_not = in.text ("why_not");
     if (! verified && why_not.empty())

@@ -77,7 +77,7 @@ Stream readStream (ProfileFields& in)
     s.channels = in.texts ("channels");
     if (s.channels.empty() || s.channels.size() > most_channels)
         in.error ("channels", "profile/too_many", "there are " + std::to_string (s.channels.size()) + " channels",
-                  "name 1 to " + std::to_string (most_channels));
+                  "name 1 to " + std::to_string (most_channels) + " channels");
     for (const auto& channel : s.channels)
         if (! graph::isId (channel))
             in.error ("channels", "profile/name", quote (channel) + " is not a name", "write lower case letters, digits and _, a letter first");
@@ -89,7 +89,7 @@ Stream readStream (ProfileFields& in)
     return s;
 }
 
-/// Marks bits of an output report as written by an item, and reports an error if another item writes them too.
+/// Keeps track of which bits of an output report are in use, and reports an error if two items use the same bit.
 class BitMap
 {
 public:
@@ -100,7 +100,7 @@ public:
         if (at + size > taken.size())
         {
             report.error ("fields", "profile/beyond",
-                          by + " ends at byte " + std::to_string ((at + size + 7) / 8) + " of a report of " + std::to_string (taken.size() / 8),
+                          by + " ends at byte " + std::to_string ((at + size + 7) / 8) + " of a report of " + std::to_string (taken.size() / 8) + " bytes",
                           "make the report longer, or start the field earlier");
             return;
         }
@@ -118,7 +118,7 @@ private:
 SequenceNibble readSequence (ProfileFields& s, BitMap& used)
 {
     SequenceNibble n;
-    s.require ("byte", "write \"byte\": the byte that contains it");
+    s.require ("byte", "write \"byte\": the index of the byte that contains the sequence number");
     n.byte = static_cast<std::size_t> (s.whole ("byte", 0, most_bytes - 1, 0));
     n.shift = s.whole ("shift", 0, 7, 0);
     n.modulo = s.whole ("modulo", 2, 256, 16);
@@ -151,7 +151,7 @@ OutputReport readOutput (ProfileFields& in, const Tables& tables)
                   "body has " + std::to_string (report.body.size()) + " bytes, but neutral has " + std::to_string (report.neutral.size()),
                   "give both the same length");
     if (report.id && ! report.neutral.empty() && (report.neutral.front() != *report.id || report.body.empty() || report.body.front() != *report.id))
-        in.error ("neutral", "profile/format", "the report does not begin with its id", "the first byte is the id");
+        in.error ("neutral", "profile/format", "the report does not begin with its id", "make the id the first byte of \"neutral\" and \"body\"");
 
     const auto bytes = std::min (report.body.size(), report.neutral.size());
     BitMap used (in, bytes);
@@ -172,7 +172,7 @@ OutputReport readOutput (ProfileFields& in, const Tables& tables)
                [&] (ProfileFields& c) {
                    report.checksum = Checksum { .prefix = c.has ("prefix") ? c.hex ("prefix") : Bytes {},
                                                 .at = static_cast<std::size_t> (c.whole ("at", 0, most_bytes - 1, 0)) };
-                   c.require ("at", "write \"at\": its first byte");
+                   c.require ("at", "write \"at\": the index of the checksum's first byte");
                    used.take (8 * report.checksum->at, 32, "the checksum");
                });
 
@@ -194,7 +194,7 @@ Tables readTables (ProfileFields& profile)
                 const auto x = table.numbers ("x"), y = table.numbers ("y");
                 const bool rising = std::ranges::adjacent_find (x, std::greater_equal()) == x.end();
                 if (x.empty() || x.size() != y.size() || ! rising)
-                    table.error ("x", "profile/kind", "a table needs as many x as y, and x must rise", "write {\"x\": [0, 1], \"y\": [0, 100]}");
+                    table.error ("x", "profile/kind", "a table needs as many x values as y values, and x must rise", "write {\"x\": [0, 1], \"y\": [0, 100]}");
                 else
                     tables[n] = { x, y };
             });

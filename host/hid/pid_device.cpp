@@ -25,7 +25,7 @@ constexpr Usage block_index = pid (0x22), constant_force = pid (0x26), duration 
                 load_success = pid (0x8c), load_full = pid (0x8d), load_error = pid (0x8e), enable_actuators = pid (0x97), stop_all = pid (0x99),
                 device_reset = pid (0x9a);
 
-// The device has no watchdog, so the effect is short and restarted repeatedly: if the host dies, it ends.
+// The device has no watchdog, so the effect is short and is restarted repeatedly: if the host dies, the effect ends.
 constexpr double lasts = 0.5, started_each = 0.2;   // s
 
 // The time that a device needs to clear its effects; it does not report when it has finished.
@@ -33,7 +33,7 @@ constexpr double reset_takes = 0.05;   // s
 
 constexpr const char* from_descriptor = "read from the device's report descriptor";
 
-// A placeholder in profiles until the device has assigned a block.
+// The block index in profiles: a placeholder until the device has assigned a block.
 constexpr int any_block = 1;
 
 /// A number in a report: its field, and its index in that field.
@@ -42,14 +42,15 @@ struct Place
     const DescribedField* field = nullptr;
     std::size_t n = 0;
 
-    /// The bits, counted from the start of the report with its id.
+    /// The bits of the number, counted from the start of the report including its id.
     Bits bits (bool has_ids) const noexcept
     {
         return { .at = (has_ids ? 8 : 0) + field->bit + n * field->size, .size = field->size, .is_signed = field->logical_min < 0 };
     }
 };
 
-/// The id of the first report with numbers of this kind. A broken descriptor may spread them over several reports.
+/// The id of the first report of this kind with numbers for the usage `report`. A broken descriptor may spread them over
+/// several reports.
 std::optional<std::uint8_t> idOf (const ReportDescriptor& d, Kind kind, Usage report)
 {
     const auto first = std::ranges::find_if (d.fields, [&] (const DescribedField& f) { return f.kind == kind && d.lies (f.collection, report); });
@@ -268,7 +269,7 @@ std::vector<Step> initSteps (const PidDevice& device, const ReportDescriptor& d)
     init.push_back (step ("the report with the block of the constant force", device.blockLoad()));
     init.back().kind = Step::Kind::get_feature;
     init.back().answer = device.answer();
-    init.push_back (step ("the report that switches its motors on", output (device_control).choose (enable_actuators).take()));
+    init.push_back (step ("the report that switches the motors on", output (device_control).choose (enable_actuators).take()));
     if (find (d, Kind::output, device_gain_report, device_gain))
         init.push_back (step ("the report that sets full gain", output (device_gain_report).most (device_gain).take()));
     init.push_back (step ("the report that sets up the effect", effect.take(), blockOf (d, set_effect)));

@@ -20,7 +20,7 @@ struct PidCalibration
 {
     double full_force = 0.0;                                ///< force at the largest magnitude, in N, or in N m for a wheel; 0: unknown
     bool turns = false;                                     ///< true for a wheel: full_force is a torque, and travels are angles
-    bool is_reversed = false;                               ///< true if it pushes left where the standard says right
+    bool is_reversed = false;                               ///< true if the device pushes left where the standard says right
     double usable = 1.0;                                    ///< the fraction of the full force that may be used
     std::map<std::string, double, std::less<>> travel {};   ///< travel of each axis from end to end, in m or rad
 };

@@ -40,7 +40,7 @@ struct MatchRule
     std::optional<std::uint16_t> usage_page, usage;
     std::optional<int> interface_number;
     std::optional<Bus> bus;
-    std::string product;   ///< a part of the product name
+    std::string product;   ///< a part of the device's product name
 };
 
 /// The place of a number within a report.
@@ -49,7 +49,7 @@ struct Bits
     std::size_t at = 0;     ///< offset from the start of the report in bits; the lowest bit of a byte comes first
     std::size_t size = 8;   ///< 1…32
     bool is_signed = false;
-    bool big_endian = false;   ///< for whole bytes only
+    bool big_endian = false;   ///< allowed only for whole bytes
     bool is_float = false;     ///< IEEE 754, 32 bits
 
     std::size_t end() const noexcept { return at + size; }
@@ -67,9 +67,9 @@ struct Answer
     };
 
     std::optional<std::uint8_t> id;        ///< report id
-    Bits number;                           ///< the requested number; 0: there is none yet
-    std::optional<Mark> success;           ///< required value, if any
-    std::vector<Mark> refusals;            ///< values after which asking again is pointless
+    Bits number;                           ///< where the requested number is; the number 0 means that there is none yet
+    std::optional<Mark> success;           ///< a value without which the answer is ignored; empty: not needed
+    std::vector<Mark> refusals;            ///< values that mean a refusal: asking again is pointless
     double patience = 0.5, pause = 0.01;   ///< how long to keep asking, and the pause between requests, in s
 };
 
@@ -87,7 +87,7 @@ struct Step
     Bytes bytes;
     double delay = 0.0;                ///< pause after the step, in s
     std::string about {};              ///< its purpose, as in "the report that creates an effect"; may be empty
-    std::optional<Answer> answer {};   ///< expected answer to a get_feature, if it matters; its number is inserted at `given` of later reports
+    std::optional<Answer> answer {};   ///< expected answer to a get_feature; empty: any answer. Its number is inserted at `given` of later reports
     std::optional<Bits> given {};
 };
 
@@ -114,7 +114,7 @@ struct InputReport
     std::vector<InputField> fields;
     std::string timestamp;   ///< the field with the device's time in s; may be empty
     std::string sequence;    ///< the field that counts reports; may be empty
-    bool verified = false;   ///< checked against a report from a real device
+    bool verified = false;   ///< true if checked against a report from a real device
     std::string why_not;     ///< why it was not verified, if it was not
 };
 
@@ -124,7 +124,7 @@ struct Encoding
     enum class Law
     {
         linear,
-        log2,   ///< steps log2 (value/reference); values up to 0 give the smallest raw value
+        log2,   ///< law = steps log2 (value/reference); values of 0 and below give the smallest raw value
         table   ///< linear interpolation, clamped at the ends
     };
 
@@ -139,7 +139,7 @@ struct OutputField
 {
     enum class Source
     {
-        effort,   ///< the effort of this name
+        effort,   ///< the effort that has the field's name
         enable,   ///< 1 while the device is driven, else the value in the neutral report
         echo      ///< the latest raw value of the input field of this name
     };
@@ -183,11 +183,11 @@ struct OutputReport
 {
     std::string name;
     std::optional<std::uint8_t> id;
-    bool is_feature = false;   ///< sent as a feature report
+    bool is_feature = false;   ///< true if sent as a feature report
     Bytes body;                ///< the whole report with its constants, for while the device is driven
     Bytes neutral;             ///< the whole report that makes the device do nothing
     std::vector<OutputField> fields;
-    std::vector<SequenceNibble> sequences;   ///< each counts the reports
+    std::vector<SequenceNibble> sequences;   ///< each one counts the reports sent
     std::optional<Checksum> checksum;
     std::optional<Bits> given;   ///< place of the number that the device returned (Answer); not allowed together with a checksum
     std::optional<Stream> stream;
@@ -202,7 +202,7 @@ struct Direct
 {
 };
 
-/// A signal output for a motor that takes an amplitude, and perhaps a frequency, instead of samples. Both are names of efforts.
+/// A signal output for a motor that takes an amplitude, and perhaps a frequency, instead of samples. Each member names an effort.
 struct SignalEffort
 {
     std::string amplitude;   ///< the effort that is set to the signal's amplitude
@@ -232,7 +232,7 @@ struct SerialArm
 {
     std::array<Drive, 3> drives;
     Vec3 links = Vec3::Ones();    ///< La, Lb, Lc in m
-    Vec3 origin = Vec3::Zero();   ///< the point that becomes 0, in m
+    Vec3 origin = Vec3::Zero();   ///< the point that is reported as position 0, in m
 };
 
 /// Two driven links whose ends are joined by two passive links, in the plane z = 0. The left pivot is at (-base, 0), the
@@ -242,7 +242,7 @@ struct FiveBar
     std::array<Drive, 2> drives;                          ///< right, left
     double base = 0.0;                                    ///< distance between the pivots, in m
     std::array<double, 4> links { 1.0, 1.0, 1.0, 1.0 };   ///< lengths in m: right driven, right passive, left passive, left driven
-    Vec3 origin = Vec3::Zero();                           ///< the point that becomes 0, in m
+    Vec3 origin = Vec3::Zero();                           ///< the point that is reported as position 0, in m
 };
 
 using KinematicsModel = std::variant<Direct, LinearMap, SerialArm, FiveBar>;
@@ -250,7 +250,7 @@ using KinematicsModel = std::variant<Direct, LinearMap, SerialArm, FiveBar>;
 /// Limits and properties of the device; infinity or 0 if unknown.
 struct Limits
 {
-    GuardLimits guard;                          ///< its watchdog: how old an input may be on the host
+    GuardLimits guard;                          ///< its watchdog is the largest age that an input may have on the host
     double max_stiffness = GuardLimits::none;   ///< N/m
     double max_damping = GuardLimits::none;     ///< N s/m
     double device_damping = 0.0;                ///< damping of the device itself, in N s/m
@@ -269,7 +269,7 @@ struct GoldenSample
     std::vector<std::pair<std::string, double>> values;   ///< values after decoding: axes, position.x …, rotation.x …, pressure, buttons
     std::vector<std::string> pressed;                     ///< all buttons that are pressed
     std::string output;                                   ///< name of an output report; `values` are then the requested efforts, force.x …, torque.x …
-    std::vector<float> samples;                           ///< samples of its stream, interleaved
+    std::vector<float> samples;                           ///< samples of the output report's stream, interleaved
     Bytes expected;                                       ///< the bytes that must be sent
 };
 
@@ -277,7 +277,7 @@ struct Profile
 {
     std::string id, name, about;
     std::string replaces;   ///< the id of the shipped profile that a user's profile replaces; empty for none
-    std::string file;       ///< the file that it was read from
+    std::string file;       ///< the file from which the profile was read
     std::vector<MatchRule> match;
     std::vector<Step> init, exit;
     std::vector<InputReport> inputs;

@@ -86,7 +86,7 @@ private:
     {
         if (names.list.size() > most)
             in.error (key, "profile/too_many", "there are " + std::to_string (names.list.size()) + " " + what, "keep at most " + std::to_string (most));
-        if (! names.conflict.empty()) in.error (key, "profile/unit", quote (names.conflict) + " has two units", "give it one scale in all reports");
+        if (! names.conflict.empty()) in.error (key, "profile/unit", quote (names.conflict) + " has two units", "give it the same unit in all reports");
     }
 
     void known (std::string_view key, const std::string& name, const Names& names, const std::string& unit)
@@ -132,13 +132,15 @@ private:
         for (std::size_t i = 0; i < drives; ++i)
         {
             if (p.position[i].empty())
-                in.error ("position", "profile/kinematics", "a drive has no counter", "name " + std::to_string (drives) + " fields that count");
+                in.error ("position", "profile/kinematics", "a drive has no counter",
+                          "name " + std::to_string (drives) + " input fields, one for the encoder of each drive");
             if (pushes && p.force[i].empty())
-                in.error ("force", "profile/kinematics", "a drive has no motor", "name " + std::to_string (drives) + " efforts, or none");
+                in.error ("force", "profile/kinematics", "a drive has no motor",
+                          "name " + std::to_string (drives) + " efforts, one for the motor of each drive, or leave \"force\" out");
         }
     }
 
-    /// The neutral report asks for no force, and its enable bits are 0.
+    /// Checks that neutral reports request no force and that their enable bits are 0.
     void neutrals()
     {
         for (const auto& report : p.outputs)
@@ -148,7 +150,7 @@ private:
                 const auto raw = bitsAt (field.bits, report.neutral);
                 if (field.source == OutputField::Source::enable && raw != 0)
                     in.error ("outputs", "profile/neutral", "the neutral report of " + quote (report.name) + " enables the motors with " + quote (field.name),
-                              "write 0 there");
+                              "set the bits of this field to 0 in the neutral report");
                 const bool pushes = std::ranges::count (p.force, field.name) > 0 || std::ranges::count (p.torque, field.name) > 0;
                 if (field.source != OutputField::Source::effort || ! pushes || field.encoding.law != Encoding::Law::linear) continue;
                 const double rest = numberOf (field.bits, raw) * field.encoding.scale + field.encoding.offset;
@@ -156,17 +158,17 @@ private:
                     in.error ("outputs", "profile/neutral",
                               "the neutral report of " + quote (report.name) + " asks for " + numberText (rest) + " " + field.unit + " in "
                                   + quote (field.name),
-                              "write the number that means no force there");
+                              "in the neutral report, write the raw value of this field that means no force");
             }
     }
 
-    /// Each effort has a limit. An effort that is neither force nor torque may have it in its field instead.
+    /// Checks that each effort has a limit. For an effort that is neither force nor torque, min and max of its field are enough.
     void limits()
     {
         const auto names = [] (const auto& all) { return std::ranges::any_of (all, [] (const auto& name) { return ! name.empty(); }); };
         const auto need = [&] (const char* key, const std::string& what) {
-            in.error ("limits", "profile/no_limit", "the profile drives " + what + " and does not say how strongly",
-                      "add " + std::string (key) + " to the limits: what the device may do to a hand");
+            in.error ("limits", "profile/no_limit", "the profile drives " + what + " but sets no limit for it",
+                      "add " + std::string (key) + " to the limits: the most that the device may apply to a hand");
         };
         const auto& guard = p.limits.guard;
         if (names (p.force) && guard.max_force == GuardLimits::none) need ("max_force", "a force");

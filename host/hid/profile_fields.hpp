@@ -28,7 +28,7 @@ public:
 
     /// The name of a field, button, effort or report: lower-case letters, digits and _, starting with a letter.
     std::string name (std::string_view key);
-    std::array<std::string, 3> threeNames (std::string_view key);   ///< null means that there is none
+    std::array<std::string, 3> threeNames (std::string_view key);   ///< null in the list stands for a missing name
 
     /// A number with any unit. Returns its SI value, and its unit if it has one.
     struct Scale

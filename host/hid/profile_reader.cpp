@@ -117,7 +117,8 @@ std::vector<GoldenSample> readSamples (ProfileFields& profile)
             for (const double sample : in.numbers ("stream"))
                 s.samples.push_back (static_cast<float> (sample));
             s.expected = in.has ("report") ? in.hex ("report") : Bytes {};
-            if (s.expected.empty()) in.error ("report", "profile/missing", "the sample has no expected report", "write \"report\": the bytes");
+            if (s.expected.empty())
+                in.error ("report", "profile/missing", "the sample has no expected report", "write \"report\": the bytes that must be sent");
         }
         else
         {
@@ -138,7 +139,7 @@ Profile read (ProfileFields& in)
     in.ignore ("ui");
     if (in.text ("format") != "tactus-profile") in.error ("format", "profile/format", "this is not a device profile", "write \"format\": \"tactus-profile\"");
     if (in.whole ("version", 1, 1000, 1) != 1)
-        in.error ("version", "profile/format", "the profile has a newer version", "update Tactus, or write \"version\": 1");
+        in.error ("version", "profile/format", "the version of the profile's format is newer than 1", "update Tactus, or write \"version\": 1");
     p.id = in.name ("id");
     in.require ("name", "write \"name\": the usual name of the device");
     p.name = in.text ("name");
@@ -216,7 +217,7 @@ LoadedProfiles loadProfiles (const std::filesystem::path& folder)
         if (it->path().extension() == ".json" && ! it->path().stem().string().ends_with (".schema")) files.push_back (it->path());
     if (failed)
         complain (folder, Message::error ("profile/unreadable", "", "the folder of device profiles cannot be read: " + failed.message(),
-                                          "create it, or name another one"));
+                                          "create the folder, or name another one"));
     std::ranges::sort (files);
 
     for (const auto& file : files)

@@ -37,7 +37,7 @@ public:
     struct Counts
     {
         std::uint64_t taken = 0;
-        std::uint64_t lost = 0;                           ///< lost reports, by sequence numbers
+        std::uint64_t lost = 0;                           ///< lost reports, as counted from sequence numbers
         std::uint64_t restarts = 0;                       ///< sequence numbers that went backwards, or forwards by more than half their range
         std::array<std::uint64_t, refusals> refused {};   ///< refused reports, indexed by Refusal
     };
@@ -87,7 +87,7 @@ private:
         const InputReport* report = nullptr;
         std::vector<Field> fields;
         int timestamp = -1, sequence = -1;     // indices of fields
-        bool counted = false, timed = false;   // true after the first report
+        bool counted = false, timed = false;   // true after the first report with a sequence number, or with a timestamp
         std::uint32_t count = 0;
         double first_time = 0.0;
     };

@@ -14,8 +14,8 @@ namespace
 constexpr std::size_t longest = 65535;   // in bytes: the largest length that a HID class descriptor can give
 constexpr std::size_t most_fields = 4096;
 constexpr std::size_t most_collections = 1024;
-constexpr std::size_t most_usages = 256;           // usage ranges of one field
-constexpr std::size_t deepest = 32;                // levels of nested collections, and of pushed states
+constexpr std::size_t most_usages = 256;           // the most usage ranges that one field may have
+constexpr std::size_t deepest = 32;                // the most levels of nested collections, and of pushed states
 constexpr std::size_t largest_field = 256;         // in bits; vendors declare opaque data as one large field
 constexpr std::size_t largest_report = 8 * 8192;   // in bits
 
@@ -90,7 +90,7 @@ private:
         {
             const std::size_t size = at < bytes.size() ? bytes[at] + 2u : 0u;
             if (size == 0 || bytes.size() - at < size)
-                fail ("descriptor/truncated", "a long item exceeds the descriptor", "the descriptor was cut off");
+                fail ("descriptor/truncated", "a long item extends beyond the end of the descriptor", "the descriptor was cut off");
             else
                 at += size;
             return {};
@@ -100,7 +100,7 @@ private:
         if (item.size == 3) item.size = 4;
         if (bytes.size() - at < item.size)
         {
-            fail ("descriptor/truncated", "an item exceeds the descriptor", "the descriptor was cut off");
+            fail ("descriptor/truncated", "an item extends beyond the end of the descriptor", "the descriptor was cut off");
             return {};
         }
         for (std::size_t i = 0; i < item.size; ++i)
@@ -137,8 +137,8 @@ private:
             if (globals.physical_min >= 0 && globals.physical_max < 0) globals.physical_max = item.value;
             break;
         case 0x5:
-            globals.unit_exponent = static_cast<int> ((item.value & 15u) ^ 8u) - 8;
-            break;   // a signed 4-bit number
+            globals.unit_exponent = static_cast<int> ((item.value & 15u) ^ 8u) - 8;   // the value is a signed 4-bit number
+            break;
         case 0x6:
             globals.unit = item.value;
             break;

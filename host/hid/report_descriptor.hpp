@@ -42,7 +42,7 @@ struct DescribedField
     std::size_t bit = 0;       ///< offset within the data of the report, without the id
     std::size_t size = 0;      ///< size of each number in bits
     std::size_t count = 0;
-    bool constant = false;   ///< padding
+    bool constant = false;   ///< true for padding
     bool variable = false;   ///< each number has its own usage; else each number is the index of a usage
     bool relative = false;
     std::int64_t logical_min = 0, logical_max = 0;
@@ -60,7 +60,7 @@ struct DescribedField
     /// The usage of the n-th number; the last usage applies to all further numbers. Empty if there is none.
     std::optional<Usage> usage (std::size_t n) const noexcept;
 
-    /// The index of a usage.
+    /// The index of a usage among the usages of this field; empty if the field does not have it.
     std::optional<std::size_t> placeOf (Usage) const noexcept;
 };
 
@@ -83,7 +83,7 @@ struct ReadDescriptor
     Messages messages;             ///< `where` is the byte, as "byte 17"
 };
 
-/// Reads a descriptor. Accepts any bytes: each item needs at most some kilobytes of memory. [main thread]
+/// Reads a descriptor. Accepts any bytes: each item needs at most a few kilobytes of memory. [main thread]
 ///
 /// Ids: descriptor/truncated, descriptor/too_long, descriptor/unbalanced, descriptor/too_deep, descriptor/too_many,
 /// descriptor/too_large, descriptor/report_id.

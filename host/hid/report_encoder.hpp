@@ -20,7 +20,7 @@ class ReportDecoder;
 class ReportEncoder
 {
 public:
-    /// The decoder provides the values that output reports echo; it must outlive this.
+    /// The decoder provides the values that output reports echo; it must outlive the encoder.
     ReportEncoder (std::shared_ptr<const Profile>, const ReportDecoder&);
 
     /// The n-th output report as it is sent to the device, with a leading 0 if it has no id. A field stays neutral if its

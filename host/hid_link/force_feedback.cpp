@@ -48,7 +48,7 @@ std::optional<PidCalibration> readCalibration (const Json& description, Messages
 
     ObjectReader in (*written, "/calibration", messages);
     PidCalibration c;
-    in.require ("full_force", "write its largest force: \"full_force\": \"4 N\", or \"2.5 N*m\" for a wheel");
+    in.require ("full_force", "write the device's largest force: \"full_force\": \"4 N\", or \"2.5 N*m\" for a wheel");
     c.turns = in.has ("full_force") && isTorque (written->at ("full_force"));
     c.full_force = in.number ("full_force", c.turns ? unit::torque : unit::newton, Bounds::positive(), 1.0);
     in.ignore ("reversed");
@@ -56,7 +56,7 @@ std::optional<PidCalibration> readCalibration (const Json& description, Messages
     {
         const auto& reversed = written->at ("reversed");
         c.is_reversed = reversed.is_boolean() && reversed.get<bool>();
-        if (! reversed.is_boolean()) in.error ("reversed", "device/kind", "expected true or false", "write true if it pushes left instead of right");
+        if (! reversed.is_boolean()) in.error ("reversed", "device/kind", "expected true or false", "write true if the device pushes left instead of right");
     }
     if (in.has ("travel"))
     {
@@ -98,7 +98,8 @@ std::shared_ptr<const Profile> profileOf (HidSystem& system, const ConnectedDevi
                                                   + numberText (100.0 * assumed_travel) + " cm of travel and " + numberText (assumed_force)
                                                   + " N of force, of which at most "
                                                   + numberText (100.0 * assumed_usable) + " % is used",
-                                              "measure it, and write \"calibration\": {\"full_force\": \"4 N\", \"travel\": {\"x\": \"12 cm\"}}"));
+                                              "measure its force and travel, and write "
+                                              "\"calibration\": {\"full_force\": \"4 N\", \"travel\": {\"x\": \"12 cm\"}}"));
     }
 
     auto profile = pid->profile (calibration.value_or (assumed()));

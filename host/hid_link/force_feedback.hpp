@@ -27,8 +27,9 @@ bool hasForceFeedback (HidSystem&, const ConnectedDevice&);
 /// Ids: those of ObjectReader.
 std::optional<PidCalibration> readCalibration (const Json& description, Messages&);
 
-/// Makes a profile from the device's own report descriptor. Without a calibration its strength is unknown: it is treated as
-/// a stick of 10 cm and 10 N, of which a tenth may be used, with a warning. Null if there is an error.
+/// Makes a profile from the device's own report descriptor. Without a calibration the device's strength is unknown: there is
+/// a warning, and it is treated as a stick with 10 cm of travel and 10 N of force, of which a tenth may be used. Null if
+/// there is an error.
 /// Ids: pid/missing, pid/uncalibrated, pid/no_axis, descriptor/… [main thread]
 std::shared_ptr<const Profile> profileOf (HidSystem&, const ConnectedDevice&, const std::optional<PidCalibration>&, Messages&);
 

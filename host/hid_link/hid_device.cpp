@@ -19,7 +19,7 @@ std::string describe (const ReadingCounts& read, const PortCounts& port)
     if (! reasons.empty()) text += " (" + reasons + ")";
     if (read.restarts > 0) text += ", " + number (read.restarts) + " out of order";
     if (read.skipped > 0) text += ", " + number (read.skipped) + " skipped for newer ones";
-    if (port.overflown > 0) text += ", " + number (port.overflown) + " without room";
+    if (port.overflown > 0) text += ", " + number (port.overflown) + " dropped for lack of room";
     return text;
 }
 
@@ -77,7 +77,7 @@ void HidDevice::take (const ArrivedReport& report) noexcept
 {
     if (report.connection != connection)
     {
-        values.reset();   // its clocks and counters start again
+        values.reset();   // the device's clocks and counters start again
         if (connection != 0) owed = 0;
         connection = report.connection;
         has_one = false;

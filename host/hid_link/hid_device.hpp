@@ -24,8 +24,8 @@ struct ReadingCounts
     std::uint64_t taken = 0;                          ///< reports that were decoded
     std::uint64_t lost = 0;                           ///< missing sequence numbers, not counting reports that the port had no room for
     std::uint64_t restarts = 0;                       ///< sequence numbers that went backwards
-    std::uint64_t skipped = 0;                        ///< decoded, but superseded before a tick read them
-    std::array<std::uint64_t, refusals> refused {};   ///< by Refusal
+    std::uint64_t skipped = 0;                        ///< reports that a newer one with the same id replaced within the same tick
+    std::array<std::uint64_t, refusals> refused {};   ///< refused reports, indexed by Refusal
     double age = 0.0, oldest = 0.0;                   ///< age of the reading, in s: now, and the maximum since the first reading
 };
 
@@ -101,8 +101,8 @@ private:
     std::bitset<256> came_now;   // ids of the reports decoded on this tick
     std::uint64_t owed = 0;      // reports that did not fit and have not shown up as a gap in the sequence numbers yet
     Nanoseconds latest = 0;      // arrival of the report that this tick answers; 0: none
-    bool has_one = false;        // a report has been decoded since the device was connected
-    bool refused = false;        // the newest report was refused
+    bool has_one = false;        // true once a report has been decoded since the device was connected
+    bool refused = false;        // true if the newest report was refused
     bool has_to_rest = true;     // true until the guard has been at zero once
 
     std::vector<Streamed> streams;

@@ -19,7 +19,7 @@ namespace
 using namespace std::chrono_literals;
 using Clock = HidPort::Clock;
 
-constexpr std::size_t reports_waiting = 1024;   // one second of a fast device, since a run starts a while after its devices are opened
+constexpr std::size_t reports_waiting = 1024;   // one second of reports from a fast device: a run starts a while after its devices are opened
 constexpr auto longest_read = 20ms;             // short, so that a stop request is noticed promptly
 constexpr const char* check_device = "check that the connected device is the one that the profile describes, and plug it in again";
 

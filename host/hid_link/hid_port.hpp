@@ -40,13 +40,13 @@ struct ArrivedReport
 /// The traffic through a port since it was opened.
 struct PortCounts
 {
-    std::uint64_t reports = 0;                                         ///< received, valid or not
+    std::uint64_t reports = 0;                                         ///< reports received, valid or not
     std::uint64_t overflown = 0;                                       ///< dropped because no tick had taken any reports for a long time
-    std::uint64_t writes = 0;                                          ///< sent, including neutral reports
-    std::uint64_t write_errors = 0;                                    ///< rejected by the system
-    std::uint64_t dropped = 0;                                         ///< replaced by a later report before they were sent
+    std::uint64_t writes = 0;                                          ///< reports sent, including neutral ones
+    std::uint64_t write_errors = 0;                                    ///< writes that the system rejected
+    std::uint64_t dropped = 0;                                         ///< reports that a later one replaced before they were sent
     std::uint64_t silences = 0;                                        ///< number of times neutral reports were sent because no effort was offered for too long
-    std::uint64_t departures = 0;                                      ///< number of times the device went away
+    std::uint64_t departures = 0;                                      ///< number of times the device was disconnected
     double latency_min = 0.0, latency_mean = 0.0, latency_max = 0.0;   ///< from the arrival of a report until its answer was sent, in s
 };
 
@@ -137,7 +137,7 @@ private:
 
     // A device specified at 1000 Hz may send 1001 reports a second, each of which gets an answer, and several may arrive together.
     static constexpr double more_than_the_rate = 1.05;
-    static constexpr double burst = 4.0;   // reports
+    static constexpr double burst = 4.0;   // how many reports may be sent in a row
 
     struct Output
     {
@@ -149,7 +149,7 @@ private:
         double credit = burst;              // reports that may be sent right now
         Clock::time_point earned;           // the time up to which credit has been earned
         Clock::time_point sent;             // when the last report was sent
-        std::vector<std::uint8_t> latest;   // its content
+        std::vector<std::uint8_t> latest;   // the content of the last report
     };
 
     using Opened = std::shared_ptr<Transport>;
@@ -188,7 +188,7 @@ private:
     const bool has_ids;
 
     SpscRing<ArrivedReport> ring;
-    Doorbell arrived, something;   // rung by the reading thread for the tick thread; rung by any thread for the writing thread
+    Doorbell arrived, something;   // `arrived`: the reading thread wakes the tick thread; `something`: any thread wakes the writing thread
     std::atomic<Nanoseconds> last_arrival = 0;
     std::atomic<std::uint64_t> current_episode = 1;
     std::atomic<bool> connected = false, stopping = false;

@@ -58,7 +58,7 @@ std::shared_ptr<const Profile> findProfile (const std::string& id, const LoadedP
 {
     if (auto found = profileNamed (all, id)) return found;
 
-    // Its file may exist but contain an error.
+    // The profile's file may exist but contain an error.
     const auto broken = std::ranges::find_if (all.messages, [&] (const Message& m) {
         if (m.severity != Message::Severity::error) return false;
         return std::filesystem::path (m.file).stem() == id;

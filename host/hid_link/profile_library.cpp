@@ -56,8 +56,8 @@ LoadedProfiles joined (LoadedProfiles own, LoadedProfiles shipped)
                                   "give it another id; or, to use it instead of the shipped one and its limits, add \"replaces\": \"" + profile->id + '"'));
         else
         {
-            note (Message::warning ("profile/replaces", "/replaces", "the profile replaces the shipped " + quote (profile->id) + " and its limits",
-                                    "remove it to use the shipped one"));
+            note (Message::warning ("profile/replaces", "/replaces", "the profile replaces the shipped profile " + quote (profile->id) + " and its limits",
+                                    "remove this file to use the shipped profile"));
             *same = std::move (profile);
         }
     }

@@ -14,7 +14,7 @@ namespace tactus::host::hid
 {
 
 /// Turns signals with one value per tick into blocks of frames at the rate of a stream. Interpolates linearly between ticks, so
-/// there is no delay beyond the block's. Frequencies above half the lower of the two rates fold back. Allocates nothing
+/// there is no delay other than that of a block. Frequencies above half the lower of the two rates fold back. Allocates nothing
 /// after construction.
 class StreamFeed
 {
@@ -54,7 +54,7 @@ private:
     double at (const Channels& signals, std::size_t c) const noexcept { return signals[static_cast<int> (first + c)]; }
 
     std::size_t frames, channels, first;
-    double rate_hz, step = 1.0, next = 1.0;   // step, next: in ticks, from frame to frame, and from the last tick to the next frame
+    double rate_hz, step = 1.0, next = 1.0;   // step: ticks from frame to frame; next: ticks from the last tick to the next frame
     std::size_t filled = 0;
     std::vector<double> before;
     std::vector<float> block;

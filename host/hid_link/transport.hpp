@@ -51,7 +51,7 @@ public:
 /// A connected device, whether open or not.
 struct ConnectedDevice : DeviceInfo
 {
-    std::string path;           ///< the system's name for it, such as /dev/hidraw3
+    std::string path;           ///< the system's name for the device, such as /dev/hidraw3
     std::string serial;         ///< empty if the device has none
     std::string manufacturer;   ///< empty if the device has none
 };

@@ -9,7 +9,7 @@ namespace tactus::host::hid
 
 /// Tracks the amplitude and the frequency of a signal, for motors that take only these two.
 ///
-///     amplitude   the largest |signal| within the last `hold` to twice `hold`
+///     amplitude   the largest |signal| over the most recent time, at least `hold` and at most twice `hold` long
 ///     frequency   1/(time between the last two rising zero crossings, interpolated between ticks); 0 if there were none for 0.1 s
 ///
 /// For a mixture of tones, the result may not be the frequency of any of them.

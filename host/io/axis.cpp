@@ -30,7 +30,7 @@ constexpr std::array prefixes {
     Prefix { "n", 1e-9 },
 };
 
-/// A unit that takes an SI prefix, and how many of them make one SI unit.
+/// A unit that takes an SI prefix, and how many such units make one SI unit.
 struct Base
 {
     std::string unit;
@@ -38,7 +38,7 @@ struct Base
     double largest_factor;
 };
 
-/// Empty for units that take no prefix: 1/m, m2 (a mm2 is not a thousandth of a m2), ratios.
+/// Empty for units that take no prefix: 1/m, m2 (a mm2 is not a thousandth of an m2), ratios.
 std::optional<Base> baseOf (std::string_view unit)
 {
     const auto first = unit.substr (0, unit.find_first_of ("*/"));
@@ -178,7 +178,7 @@ Extent widened (const Extent& extent, double fraction) noexcept
 
 Extent roundedOutwards (const Extent& extent, int ticks) noexcept
 {
-    constexpr double near = 0.02;   // fraction of the extent
+    constexpr double near = 0.02;   // as a fraction of the extent
 
     const double step = stepFor (extent, ticks);
     const Extent beyond { std::floor (extent.low / step) * step, std::ceil (extent.high / step) * step };

@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-/// True for values that a plot can show. Gaps are nan, inf, and values that would overflow when a range is widened.
+/// True for values that a plot can show. The others leave gaps: nan, inf, and values that would overflow when a range is widened.
 bool isPlottable (double value) noexcept;
 
 /// The range from the lowest to the highest of some values.

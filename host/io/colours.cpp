@@ -94,7 +94,7 @@ Colour colourFor (std::string_view quantity, std::size_t nth) noexcept
 
 Colour onPaper (Colour colour) noexcept
 {
-    constexpr double faint = 2.0;   // the orange has a contrast of 2.2, the yellow of 1.3
+    constexpr double faint = 2.0;   // contrast on white below which a colour is darkened; the orange has 2.2, the yellow 1.3
     constexpr double legible = 2.6;
     if (contrastOnWhite (colour) >= faint)
         return colour;

@@ -42,7 +42,7 @@ bool shareX (const Panel& a, const Panel& b)
     return a.axes->x.name == b.axes->x.name && a.axes->x.unit == b.axes->x.unit;
 }
 
-/// Gives neighbours with the same quantity along x the same range.
+/// Gives neighbouring panels with the same quantity along x the same range.
 void alignX (std::vector<Panel>& panels)
 {
     for (auto first = panels.begin(); first != panels.end();)

@@ -23,7 +23,7 @@ struct FigureStyle
     float dot() const noexcept { return px (4.4f); }
     float swatch() const noexcept { return px (20); }
     float tickLength() const noexcept { return px (4); }
-    float tickGap() const noexcept { return px (8); }   // from an axis to its numbers
+    float tickGap() const noexcept { return px (8); }   // the gap between an axis and its numbers
     float headerRow() const noexcept { return px (20); }
     float titleRow() const noexcept { return px (22); }
 
@@ -46,10 +46,10 @@ struct Panel
     bool is_function = true;   // true if x never decreases, like time; then the range of x needs no margin
     Extent x_values, y_values;
     AxisScale x_scale, y_scale;
-    Extent x_range, y_range;   // in the units shown
+    Extent x_range, y_range;   // in the units that the axes show
     std::vector<Tick> x_ticks, y_ticks;
-    bool has_x = false;    // true if it has ticks along x, perhaps shared with neighbours
-    bool shows_x = true;   // true if it shows numbers at the ticks
+    bool has_x = false;    // true if the panel has ticks along x, perhaps shared with its neighbours
+    bool shows_x = true;   // true if the panel shows numbers at the ticks along x
     std::vector<juce::String> y_label;
     std::vector<std::vector<LegendEntry>> legend;   // rows
     std::size_t not_in_legend = 0;

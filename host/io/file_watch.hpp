@@ -31,7 +31,7 @@ private:
         std::filesystem::file_time_type written {};
         std::uintmax_t size = 0;
         std::optional<std::string> latest;           ///< content at the last look; empty if it could not be read
-        std::optional<std::string> known, pending;   ///< pending: seen once but not reported yet
+        std::optional<std::string> known, pending;   ///< known: last reported; pending: seen once but not reported yet
     };
 
     static bool readAgain (Watched&);

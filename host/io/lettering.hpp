@@ -19,8 +19,8 @@ enum class Align
     right
 };
 
-/// A typeface at one height, drawn as outlines. Digits are tabular, so that columns of numbers line up: Inter has such
-/// digits, but JUCE 7 cannot select them.
+/// A typeface at one height, drawn as outlines. All digits are laid out with the same width, so that columns of numbers line
+/// up: Inter has such digits of its own, but JUCE 7 cannot select them.
 class Lettering
 {
 public:
@@ -44,7 +44,7 @@ private:
 
     juce::Typeface::Ptr face;
     float size;
-    float figure_width = 0.0f;   // at a height of 1
+    float figure_width = 0.0f;   // width of a digit at a height of 1
 };
 
 }   // namespace tactus::host

@@ -102,7 +102,7 @@ private:
             float x = panel.plot.getX();
             if (panel.title_in_legend_row)
             {
-                x = panel.plot.getRight() + style.px (18);   // plus the gap after the last entry
+                x = panel.plot.getRight() + style.px (18);   // the last entry's width includes a gap, which is added back here
                 for (const auto& entry : row)
                     x -= entry.width;
             }
@@ -134,7 +134,7 @@ private:
     {
         const auto& plot = panel.plot;
 
-        // No grid line next to an axis, which would look twice as thick.
+        // There is no grid line right next to an axis, because the axis would look twice as thick.
         if (panel.has_x)
             for (const auto& tick : panel.x_ticks)
                 if (const float x = mapX (panel) (tick.at); x > plot.getX() + 1.0f)
@@ -291,8 +291,8 @@ Result<> check (const Figure& figure, const std::filesystem::path& path)
         for (const auto& [label, x, y, colour, style] : axes.series)
             if (x.size() != y.size())
                 return fail ("plot/ragged_series", path,
-                             "series '" + label + "' has " + std::to_string (x.size()) + " x and " + std::to_string (y.size()) + " y",
-                             "give one y per x");
+                             "series '" + label + "' has " + std::to_string (x.size()) + " x values and " + std::to_string (y.size()) + " y values",
+                             "give one y value per x value");
     return {};
 }
 }   // namespace

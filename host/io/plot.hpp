@@ -29,7 +29,7 @@ struct Series
         points
     };
 
-    std::string label {};             // in the legend; empty: not listed
+    std::string label {};             // text in the legend; empty: not listed
     std::vector<double> x {}, y {};   // of equal length; nan and inf are gaps
     std::optional<Colour> colour {};
     Style style = Style::line;

@@ -152,13 +152,13 @@ struct WavWriter::Impl
 Result<WavWriter> WavWriter::create (const std::filesystem::path& path, double sample_rate_hz, std::size_t channels)
 {
     if (channels == 0 || channels > most_channels)
-        return fail ("wav/channels", path, "a WAV cannot have " + std::to_string (channels) + " channels",
+        return fail ("wav/channels", path, "a WAV file cannot have " + std::to_string (channels) + " channels",
                      "record 1 to " + std::to_string (most_channels) + " components, or write a CSV");
 
     // The header stores the sample rate and the bytes per second as 32-bit integers.
     const auto highest = std::floor (std::numeric_limits<int>::max() / static_cast<double> (channels * sizeof (float)));
     if (! (sample_rate_hz >= 1.0 && sample_rate_hz <= highest) || std::floor (sample_rate_hz) != sample_rate_hz)
-        return fail ("wav/sample_rate", path, "a WAV cannot have a sample rate of " + inWords (sample_rate_hz) + " Hz",
+        return fail ("wav/sample_rate", path, "a WAV file cannot have a sample rate of " + inWords (sample_rate_hz) + " Hz",
                      "choose a rate in whole Hz, or write a CSV");
 
     auto file = AtomicFile::create (path);

@@ -48,7 +48,7 @@ std::optional<OscListen> readListen (std::string_view text) noexcept
 std::string warningOf (const OscListen& listen)
 {
     if (listen.isLoopback()) return {};
-    return "any machine that reaches " + listen.address + " may set parameters, trigger hits and stop the run, but cannot change guards. "
+    return "any machine that can reach " + listen.address + " may set parameters, trigger hits and stop the run, but cannot change the limits of the guards. "
            + (listen.answered.empty() ? "Only this machine gets answers" : "This machine and " + listen.answered + " get answers");
 }
 

@@ -33,7 +33,8 @@ Result<std::unique_ptr<OscPort>> OscPort::open (const OscListen& where)
         juce::DatagramSocket any;
         if (! where.isLoopback() && ! bind (any, { .address = where.address, .port = 0 }))
             return Message::error ("osc/no_address", place, "this machine has no such address, or does not allow listening on it",
-                                   "give the address of a network interface, 0.0.0.0 for all, or leave it out");
+                                   "give the address of a network interface of this machine, 0.0.0.0 for all of them, "
+                                   "or only a port to listen on this machine alone");
         return Message::error ("osc/port_taken", place, "another program is already listening on this UDP port",
                                "give another port, as in --osc " + std::to_string (where.port == usual ? usual + 1 : usual) + ", or --osc 0 for any free port");
     }
@@ -73,7 +74,7 @@ void OscPort::send (const OscReturn& to, const juce::OSCMessage& message)
     if (to.port != 0 && ! to.host.empty()) sender.sendToIPAddress (to.host, to.port, message);
 }
 
-/// Maps every loopback address to this machine.
+/// The address for answers to this sender; "" if it gets none. All loopback addresses become OscListen::loopback.
 std::string OscPort::answersTo (const std::string& from) const
 {
     if (from.starts_with ("127.")) return OscListen::loopback;

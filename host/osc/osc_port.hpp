@@ -33,7 +33,7 @@ struct OscReturn
 };
 
 /// A port that receives OSC messages from programs on this machine and, only on request, from other machines. Messages wait
-/// in a queue of limited length; messages that do not fit, and packets that are not OSC, are dropped and counted. Bundles are unpacked;
+/// in a queue of limited length; messages that do not fit into it, and packets that are not OSC, are dropped and counted. Bundles are unpacked;
 /// their time tags are ignored.
 ///
 /// Answers go only to this machine and to OscListen::answered, so a sender with a forged address cannot make us send to a third
@@ -41,7 +41,7 @@ struct OscReturn
 class OscPort
 {
 public:
-    static constexpr int usual = 7770;   ///< the port of `tactus play`
+    static constexpr int usual = 7770;   ///< the default port of `tactus play`
 
     struct Received
     {

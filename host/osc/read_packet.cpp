@@ -12,7 +12,7 @@ namespace
 {
 using juce::OSCMessage;
 
-constexpr std::size_t deepest = 8;   // nested bundles
+constexpr std::size_t deepest = 8;   // levels of nested bundles
 constexpr std::size_t most_arguments = 64;
 
 /// The bytes that have not been read yet. Never reads past the end.
@@ -38,7 +38,7 @@ struct Bytes
         return n;
     }
 
-    /// Reads UTF-8 up to a zero, padded with zeros to a multiple of four.
+    /// Reads UTF-8 up to a zero, padded with zeros to a multiple of four bytes.
     std::optional<std::string_view> text()
     {
         const auto length = left.find ('\0');
@@ -98,7 +98,7 @@ Packet readPacket (std::string_view bytes)
 {
     Packet packet;
     std::vector<Bytes> open { { bytes } };   // the rest of each enclosing bundle, innermost last
-    bool element = true;                     // true while the innermost one is an element that has not been read yet
+    bool element = true;                     // true while the innermost entry is an element that has not been read yet
     while (! open.empty())
     {
         auto& inner = open.back();

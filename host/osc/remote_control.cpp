@@ -20,12 +20,12 @@ using juce::OSCMessage;
 
 constexpr std::string_view transport_addresses = "/tactus/transport/";
 constexpr std::size_t most_probes = 16;
-constexpr double highest_rate = 1000.0, usual_rate = 50.0;   // Hz
-constexpr double longest = 60.0, usual_length = 5.0;         // s
-constexpr int usual_before = 100, usual_after = 400;         // ticks
-constexpr int most_at_a_time = 512;                          // messages
-constexpr double most_costs = 100, usual_costs = 10;         // nodes
-constexpr int most_rows_at_a_time = 32;                      // messages with rows of a capture; few enough that none is lost in transit
+constexpr double highest_rate = 1000.0, usual_rate = 50.0;   // of a probe, in Hz
+constexpr double longest = 60.0, usual_length = 5.0;         // of a probe or a wait for a trigger, in s
+constexpr int usual_before = 100, usual_after = 400;         // ticks before and after a trigger
+constexpr int most_at_a_time = 512;                          // messages handled per attend()
+constexpr double most_costs = 100, usual_costs = 10;         // number of nodes
+constexpr int most_rows_at_a_time = 32;                      // messages with rows of a capture per attend(); few enough that none is lost in transit
 constexpr std::size_t most_numbers = 60;                     // values per message, since readPacket accepts 64 arguments
 
 std::string textOf (const juce::String& s) { return s.toStdString(); }
@@ -68,9 +68,9 @@ std::optional<Trigger::Edge> edgeOf (const OSCArgument& a)
 }
 
 // Forces may rise only if someone at the device can see that no one will be hurt.
-constexpr const char* from_elsewhere = "other machines can send this too, and people there cannot see whether someone could be hurt";
+constexpr const char* from_elsewhere = "other machines can send this message too, and people there cannot see whether someone at the device could be hurt";
 
-Message badArguments (const std::string& remedy) { return Message::error ("osc/arguments", {}, "the arguments do not fit the address", remedy); }
+Message badArguments (const std::string& remedy) { return Message::error ("osc/arguments", {}, "this OSC address needs other arguments", remedy); }
 }   // namespace
 
 std::vector<Controlled::Role> rolesOf (const RunStatus& status)
@@ -134,7 +134,7 @@ void RemoteControl::carryOut (const OSCMessage& m, const std::string& host, Cloc
         const bool right = ! subject.empty() && speed && m.size() <= 3;
         answer (last (2), address, subject,
                 right ? controlled.strike (subject, *speed)
-                      : badArguments ("send a hit input, a speed in m/s (float or int), and optionally the port for the answer"));
+                      : badArguments ("send the name of a hit input, a speed in m/s (float or int), and optionally the UDP port for the answer"));
     }
     else if (address.starts_with (transport_addresses))
         answer (last (1), address, "", transport (address.substr (transport_addresses.size()), m));
@@ -150,7 +150,7 @@ void RemoteControl::carryOut (const OSCMessage& m, const std::string& host, Cloc
             controlled.emergencyStop();
         answer (last (0), address, "", {});
     }
-    else if (! host.empty())   // the rest is useful only to a sender that gets answers
+    else if (! host.empty())   // the other messages are useful only to a sender that gets answers
         report (address, subject, m, host, now);
 }
 
@@ -159,7 +159,8 @@ Result<> RemoteControl::turn (const std::string& address, const std::string& nam
 {
     const auto value = m.size() >= 2 ? valueOf (m[1]) : std::nullopt;
     if (name.empty() || ! value || m.size() > 3)
-        return badArguments ("send a name, a value (float, int, or a string with a unit), and optionally the port for the answer");
+        return badArguments ("send the name of a parameter or control, a value (float, int, or a string with a unit), "
+                             "and optionally the UDP port for the answer");
     if (address == "/tactus/param") return controlled.setParam (name, *value);
     return controlled.turnControl (name, value->is_number() ? value->get<double>() : std::nan (""));
 }
@@ -191,7 +192,7 @@ void RemoteControl::report (const std::string& address, const std::string& subje
         if (wanted && *wanted >= 1.0)
             sendCosts (to, static_cast<std::size_t> (std::min (*wanted, most_costs)));
         else
-            answer (to, address, "", badArguments ("send the port for the answer, and optionally the number of nodes"));
+            answer (to, address, "", badArguments ("send the UDP port for the answer, and optionally the number of nodes to list"));
     }
     else if (address == "/tactus/guard" && m.size() == 1)
         sendRoles (to);
@@ -216,16 +217,17 @@ void RemoteControl::sendRoles (const OscReturn& to)
 
 Result<> RemoteControl::start()
 {
-    if (! port.listensTo().isLoopback()) return Message::error ("osc/start", {}, from_elsewhere, "start it where the device is");
+    if (! port.listensTo().isLoopback()) return Message::error ("osc/start", {}, from_elsewhere, "start the run on the machine that has the device");
     return controlled.start();
 }
 
 Result<> RemoteControl::rearm (const std::string& given)
 {
     if (! port.listensTo().isLoopback())
-        return Message::error ("osc/rearm", {}, from_elsewhere, "rearm where the device is: with R in the terminal of play, or with REARM in the window");
+        return Message::error ("osc/rearm", {}, from_elsewhere,
+                               "rearm on the machine that has the device: with R in the terminal of play, or with REARM in the window");
     if (token.empty() || given != token)
-        return Message::error ("osc/rearm", {}, given.empty() ? "a rearm over OSC needs a token" : "this is not the token",
+        return Message::error ("osc/rearm", {}, given.empty() ? "a rearm over OSC needs a token" : "the token is wrong",
                                token.empty() ? "press REARM in the window" : "give the token that play printed, or press R in its terminal");
     return controlled.rearm();
 }
@@ -237,7 +239,7 @@ Result<> RemoteControl::transport (const std::string& what, const OSCMessage& m)
     if (what == "seek" && value && *value >= 0.0) return controlled.transport ({ .seek = value });
     if (what == "speed" && value && *value > 0.0) return controlled.transport ({ .speed = value });
     return badArguments ("send /tactus/transport/play 0 or 1, /tactus/transport/seek s, or /tactus/transport/speed factor; "
-                         "and optionally the port for the answer");
+                         "and optionally the UDP port for the answer");
 }
 
 Result<> RemoteControl::subscribe (const OSCMessage& m, const std::string& host, Clock::time_point now)
@@ -245,7 +247,7 @@ Result<> RemoteControl::subscribe (const OSCMessage& m, const std::string& host,
     const auto number = [&] (int i, double otherwise) { return m.size() > i ? numberOf (m[i]) : std::optional (otherwise); };
     const auto rate = number (2, usual_rate), length = number (3, usual_length);
     if (m.size() < 2 || m.size() > 4 || ! m[0].isString() || ! isPort (m[1]) || ! rate || ! length || ! (*rate > 0.0) || ! (*length > 0.0))
-        return badArguments ("send a port of the graph, the port for the answers, and optionally the rate (Hz) and the duration (s)");
+        return badArguments ("send the name of the graph port to probe, the UDP port for the answers, and optionally the rate (Hz) and the duration (s)");
 
     Probe probe {
         .name = textOf (m[0].getString()), .to = { host, m[1].getInt32() }, .rate = std::min (*rate, highest_rate), .end = now + durationOf (*length)
@@ -259,7 +261,7 @@ Result<> RemoteControl::subscribe (const OSCMessage& m, const std::string& host,
     else
     {
         if (probes.size() >= most_probes)
-            return Message::error ("probe/too_many", {}, "there are already " + std::to_string (most_probes) + " probes", "wait until one of them ends");
+            return Message::error ("probe/too_many", {}, "there are already " + std::to_string (most_probes) + " probes", "wait until one of the probes ends");
         auto more = probes;
         more.push_back (probe);
         if (auto looked = look (more); ! looked) return looked;
@@ -286,8 +288,8 @@ Result<> RemoteControl::subscribeCapture (const OSCMessage& m, const std::string
     if (m.size() < 4 || m.size() > 8 || ! m[0].isString() || ! isPort (m[1]) || ! m[2].isString() || ! std::isfinite (level) || ! edge || before < 0
         || after < 0 || ! (length > 0.0))
         return badArguments (
-            "send the graph port to capture, the UDP port for the answers, the graph port that triggers, the trigger level, and optionally "
-            "rising, falling or either, ticks before, ticks after, and the longest wait (s)");
+            "send the name of the graph port to capture, the UDP port for the answers, the name of the graph port that triggers, the trigger level, and "
+            "optionally rising, falling or either, the ticks before, the ticks after, and the longest wait (s)");
 
     Capture wanted { .name = textOf (m[0].getString()),
                      .watched = textOf (m[2].getString()),
@@ -296,7 +298,7 @@ Result<> RemoteControl::subscribeCapture (const OSCMessage& m, const std::string
                      .end = now + durationOf (length) };
     if (! capture) return arm (std::move (wanted));
     if (capture->to != wanted.to || capture->name != wanted.name)
-        return Message::error ("probe/busy", {}, "another client is waiting for a trigger", "wait until that ends");
+        return Message::error ("probe/busy", {}, "another client is waiting for a trigger", "wait until its capture ends");
     capture->end = wanted.end;
     confirmCapture();
     return {};

@@ -26,7 +26,7 @@ public:
     struct Status
     {
         std::string name;
-        double rate_hz = 0.0, time_s = 0.0, force = 0.0, peak = 0.0;   ///< Hz, s, N
+        double rate_hz = 0.0, time_s = 0.0, force = 0.0, peak = 0.0;   ///< in Hz, s, N, N
         std::uint64_t ticks = 0, misses = 0;
     };
 
@@ -39,12 +39,12 @@ public:
         std::string last_stop;              ///< the reason in words, with the values that caused the stop; "" if there was no stop
     };
 
-    /// Playback of the gesture or recording that the tool follows. Empty entries stay unchanged.
+    /// Playback of the gesture or recording that the tool follows. Settings whose members are empty stay unchanged.
     struct Transport
     {
         std::optional<bool> plays {};
         std::optional<double> seek {};    ///< s
-        std::optional<double> speed {};   ///< relative to the recording
+        std::optional<double> speed {};   ///< 1: as fast as the recording
     };
 
     virtual ~Controlled() = default;
@@ -52,14 +52,15 @@ public:
     virtual Result<> setParam (const std::string& name, const Json& value) = 0;
     virtual Result<> turnControl (const std::string& id, double value) = 0;
 
-    /// Triggers a hit on a hit input, at a speed in m/s.
+    /// Triggers a hit with a speed in m/s on a hit input.
     virtual Result<> strike (const std::string& input, double speed) = 0;
 
-    /// From now on, probes exactly these ports. Returns the names of their components, each of them once. If this fails,
+    /// From now on, probes exactly these ports. Returns the names of their components, each listed once. If this fails,
     /// nothing changes.
     virtual Result<std::vector<std::string>> probe (const std::vector<std::string>& ports) = 0;
 
-    /// Captures one window of a port around an edge of another port. Replaces the previous capture. Returns the same as probe().
+    /// Captures one window of a port around an edge of another port. Replaces the previous capture. Returns the names of
+    /// the captured components.
     virtual Result<std::vector<std::string>> capture (const std::string& port, const std::string& watched, const Trigger&) = 0;
     virtual const TriggeredCapture* captured() = 0;   ///< null until the window is complete
     virtual void endCapture() = 0;
@@ -93,7 +94,7 @@ class RemoteControl
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// A rearm needs the token, which only a person at the device can read. Without one, there is no rearm over OSC.
+    /// A rearm needs the token, which only a person at the device can read. If the token is empty, OSC cannot rearm.
     RemoteControl (OscPort&, Controlled&, std::string token = {});
     ~RemoteControl();
     RemoteControl (const RemoteControl&) = delete;
@@ -102,7 +103,7 @@ public:
     /// Handles the waiting messages and ends expired probes. Call this many times a second.
     void attend (Clock::time_point now = Clock::now());
 
-    /// Passes on values of the probed components, in the order of their names.
+    /// Passes on values of the probed components, in the order in which Controlled::probe returned their names.
     void values (std::uint64_t tick, std::span<const double>);
 
     /// Call this after the graph has changed: probes continue if their ports still exist.

@@ -37,7 +37,7 @@ public:
 
     Failsafe (Failsafe&&) noexcept;
     Failsafe& operator= (Failsafe&&) noexcept;
-    ~Failsafe();   ///< disarms it
+    ~Failsafe();   ///< disarms the failsafe
 
 private:
     explicit Failsafe (int s) noexcept : slot (s) {}

@@ -29,7 +29,8 @@ void watchForStop() noexcept
     std::signal (SIGINT, note);
     std::signal (SIGTERM, note);
 #if defined(__unix__) || defined(__APPLE__)
-    // All that would end or suspend the process and leave a force on a device. Faults (SIGSEGV and the like) are Failsafe's.
+    // All signals that would end or suspend the process and leave a force on a device. Faults (SIGSEGV and the like) are left to
+    // Failsafe.
     for (const int number : { SIGHUP, SIGQUIT, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU, SIGPIPE, SIGTSTP, SIGSYS, SIGTRAP })
         std::signal (number, note);
     // A program in the background may write to its terminal, and its reads fail instead of suspending it. Reaching the file size

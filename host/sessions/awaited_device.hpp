@@ -16,12 +16,12 @@ namespace tactus::host
 {
 
 /// A HID device that is not connected yet, or is in use by another program. Keeps trying to open the device; once it is open,
-/// passes everything through. Until then no reading is valid, so the guard holds the efforts at zero; then they ramp up. The
+/// passes everything on to it. Until then no reading is valid, so the guard holds the efforts at zero; then they ramp up. The
 /// parts of the device are known from the start, from its profile.
 class AwaitedDevice final : public Device
 {
 public:
-    static constexpr std::chrono::milliseconds usual_pause { 500 };   ///< between two attempts
+    static constexpr std::chrono::milliseconds usual_pause { 500 };   ///< between two attempts to open the device
 
     /// `description` is the same as for hid::openDevice. The system must outlive the device.
     AwaitedDevice (Json description, std::shared_ptr<const hid::Profile>, hid::HidSystem&, std::chrono::milliseconds pause = usual_pause);
@@ -37,7 +37,7 @@ public:
 
     const std::shared_ptr<const hid::Profile>& profile() const noexcept { return wanted; }
 
-    /// Why the device has not opened. [any thread]
+    /// Why the latest attempt to open the device failed. [any thread]
     std::string trouble() const;
 
 private:
@@ -57,7 +57,7 @@ private:
     bool stopping = false;
     std::string last_trouble;
 
-    std::unique_ptr<Device> opened;   // set by the searching thread; not closed before this is destroyed
+    std::unique_ptr<Device> opened;   // set by the searching thread; stays open until this object is destroyed
     std::atomic<hid::HidDevice*> there = nullptr;
     std::jthread looking;   // declared last: it uses the other members
 };

@@ -14,7 +14,7 @@ namespace tactus::host
 
 namespace
 {
-/// Errors that go away when the user plugs in the device, closes the other program or installs the udev rule.
+/// True for errors that go away when the user plugs in the device, closes the other program or installs the udev rule.
 bool isOfTheMoment (const Message& m)
 {
     constexpr std::string_view ids[] { "hid/not_connected", "hid/several", "hid/not_permitted", "hid/not_opened", "hid/init" };
@@ -40,7 +40,7 @@ std::unique_ptr<AwaitedDevice> await (const Json& description, hid::HidSystem& s
         if (isError (m))
         {
             m.severity = Message::Severity::warning;
-            m.text += ", so it gets no force until it is available";
+            m.text += ", so the role gets no force until the device is available";
         }
     GuardLimits session;
     if (const auto guard = description.find ("guard"); guard != description.end())

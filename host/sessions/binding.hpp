@@ -29,7 +29,7 @@ std::optional<RoleBinding> bindingOf (const LoadedSession&, std::string_view rol
 struct BoundDevice
 {
     std::unique_ptr<Device> device;   ///< null if there are errors
-    Device* driver = nullptr;         ///< the same, without the workspace wrapper
+    Device* driver = nullptr;         ///< the same device without the workspace wrapper
     GuardLimits limits;
     std::string about;
     Messages messages;   ///< `where` and line numbers refer to the session file

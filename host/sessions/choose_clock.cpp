@@ -48,12 +48,13 @@ ClockChoice byOption (const ClockWish& wish, const std::vector<Described>& devic
     const auto rate = device != devices.end() ? rateOf (*device, true) : std::nullopt;
     if (! rate)
         choice.messages.push_back (
-            Message::error ("run/no_clock", "--clock " + wish.option, "no connected device can tick for the role " + quote (wish.option),
+            Message::error ("run/no_clock", "--clock " + wish.option, "the role " + quote (wish.option) + " has no connected device that can tick the run",
                             "name a role whose device is a HID device with a rate in its profile, or write --clock timer or --clock audio"));
     else if (wish.rate_hz && *wish.rate_hz != *rate)
         choice.messages.push_back (Message::error ("run/two_rates", "--clock " + wish.option,
-                                                   "its device ticks at " + numberText (*rate) + " Hz, but the run needs " + numberText (*wish.rate_hz) + " Hz",
-                                                   "leave out --rate, or write --clock timer"));
+                                                   "the device of this role ticks at " + numberText (*rate) + " Hz, but the run needs "
+                                                       + numberText (*wish.rate_hz) + " Hz",
+                                                   "leave out --rate and --feed, or write --clock timer"));
     else
         return { wish.option, *rate, {} };
     return choice;
@@ -82,7 +83,7 @@ ClockChoice bySession (const ClockWish& wish, const std::vector<Described>& devi
     ClockChoice choice;
     if (! rate)
         choice.messages.push_back (
-            warning ("the session names the role " + quote (wish.session) + " as the clock, but its device has no clock",
+            warning ("the session names the role " + quote (wish.session) + " as the clock, but the device of this role cannot tick a run",
                      "a timer ticks the run; bind the role to a HID device with a rate in its profile, or choose a timer: tactus session --clock timer"));
     else if (wish.rate_hz && *wish.rate_hz != *rate)
         choice.messages.push_back (warning ("the session names the role " + quote (wish.session) + " as the clock, at " + numberText (*rate)

@@ -25,20 +25,20 @@ std::vector<std::string> rolesNamed (const graph::Graph&);
 struct ClockWish
 {
     std::string option;                 ///< from the command line: a role, "timer" or "audio"; "": none
-    std::string session;                ///< the same choice, from the session
+    std::string session;                ///< from the session: the same kinds of names
     std::optional<double> rate_hz {};   ///< fixed rate of the run, whichever clock drives it
 };
 
 /// The clock that ticks a run.
 struct ClockChoice
 {
-    std::string role {};          ///< the role whose device ticks; "": none
-    double rate_hz = 0.0;         ///< rate of that device
+    std::string role {};          ///< the role whose device ticks the run; "": none
+    double rate_hz = 0.0;         ///< rate at which that device ticks
     Messages messages {};         ///< an error if the clock of the option cannot be used, a warning if the session's cannot
-    bool by_sound_card = false;   ///< if no device ticks: true for the sound card, false for a timer
+    bool by_sound_card = false;   ///< if no device ticks the run: true for the sound card, false for a timer
 };
 
-/// The rate in Hz at which a device would tick; empty if it would not. A device that is not available yet counts only with
+/// The rate in Hz at which a device would tick the run; empty if it cannot tick a run. A device that is not available yet counts only with
 /// `may_wait`: it must be chosen by name, and is never chosen automatically.
 using TickRate = std::function<std::optional<double> (const Described&, bool may_wait)>;
 
@@ -46,7 +46,7 @@ using TickRate = std::function<std::optional<double> (const Described&, bool may
 /// has no clock, because it sends only when something moves, for example. [main thread]
 std::optional<double> tickRateOf (const Json& description, hid::HidSystem&, const hid::LoadedProfiles&, bool may_wait);
 
-/// The option takes precedence over the session. If neither names a clock, the first device that can tick is used, unless
+/// The option takes precedence over the session. If neither names a clock, the first device that can tick the run does, unless
 /// there is a fixed rate. [main thread]
 ClockChoice chooseClock (const ClockWish&, const std::vector<Described>&, const TickRate&);
 

@@ -55,9 +55,9 @@ std::string describe (const DeviceHealth& h)
     if (! h.has_come) return "not available yet" + (h.trouble.empty() ? std::string() : ": " + h.trouble);
     if (! h.connected) return "unplugged";
     auto text = h.rate_hz ? printed ("%.1f reports/s, ", *h.rate_hz) : std::string();
-    text += printed ("%.1f ms old", 1e3 * h.age);
+    text += printed ("latest %.1f ms old", 1e3 * h.age);
     if (h.ticks) text += ", ticks the run";
-    if (h.drift_ppm) text += printed (", %+.0f ppm", *h.drift_ppm);
+    if (h.drift_ppm) text += printed (", clock %+.0f ppm", *h.drift_ppm);
     if (h.lost > 0) text += ", " + std::to_string (h.lost) + " lost";
     return text;
 }

@@ -17,9 +17,9 @@ struct RealDevice
 {
     std::string role;
     hid::HidDevice* present = nullptr;
-    const AwaitedDevice* awaited = nullptr;   ///< if it was missing when the run began
+    const AwaitedDevice* awaited = nullptr;   ///< set if the device was missing when the run began
 
-    hid::HidDevice* device() const noexcept { return present != nullptr ? present : awaited->device(); }   ///< null until it is available
+    hid::HidDevice* device() const noexcept { return present != nullptr ? present : awaited->device(); }   ///< null until the device is available
     const hid::Profile& profile() const noexcept { return present != nullptr ? *present->port().profile() : *awaited->profile(); }
 };
 
@@ -30,31 +30,31 @@ std::optional<RealDevice> realDevice (const std::string& role, Device&);
 struct DeviceHealth
 {
     std::string role, profile;   ///< id of the profile
-    bool has_come = false;       ///< true if it has been connected at some time
+    bool has_come = false;       ///< true if the device has been available at some time during the run
     bool connected = false;
-    bool ticks = false;               ///< true if its clock drives the run
+    bool ticks = false;               ///< true if its reports tick the run
     double age = 0.0, oldest = 0.0;   ///< age of its readings, in s: current and maximum
     std::uint64_t reports = 0, lost = 0, departures = 0;
     std::optional<double> rate_hz {};     ///< rate of its reports
-    std::optional<double> drift_ppm {};   ///< drift of its clock relative to the clock that drives the run; empty for that clock itself
+    std::optional<double> drift_ppm {};   ///< drift of its clock relative to the clock of the run; empty for the device that is that clock
     double drift_error_ppm = 0.0;         ///< standard error of the drift
     std::string trouble;                  ///< the latest failure
 };
 
-/// Describes the state for a status line, as in "1000.3 reports/s, 0 ms old, +12 ppm". [any thread]
+/// Describes the state for a status line, as in "1000.3 reports/s, latest 0.5 ms old, clock +12 ppm". [any thread]
 std::string describe (const DeviceHealth&);
 
 /// Monitors the devices of a run, from a thread that looks now and then. Reports are timed on arrival (HidPort), so the
 /// tick thread is not involved. The reference is the device that ticks the run, or else the computer's clock, which also
 /// drives the timer. Lost reports, known from sequence numbers, are counted too, so they do not look like a slow clock. When
-/// a device that was disconnected is back, its measurement starts again. [one thread]
+/// a device that was disconnected is back, the measurement of its rate starts again. [one thread]
 class HealthWatch
 {
 public:
     /// The default for the shortest span from which the drift is estimated, in s.
     static constexpr double usual_span = 2.0;
 
-    /// `clock_role`: the role whose device ticks; empty: none.
+    /// `clock_role`: the role whose device ticks the run; empty: none.
     explicit HealthWatch (std::string clock_role = {}, double shortest_span_s = usual_span) : clock (std::move (clock_role)), shortest_span (shortest_span_s) {}
 
     void look (std::span<const RealDevice>);   ///< call about ten times a second

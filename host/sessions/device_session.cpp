@@ -86,14 +86,15 @@ ReadSession readSession (std::string_view text)
     read.damaged = hasErrors (messages);
     if (! read.damaged && (! json.is_object() || json.value ("format", Json()) != format))
     {
-        refuse ("session/format", "", "this is not a session", R"(a session begins with {"format": "tactus-session", "version": 1)");
+        refuse ("session/format", "", "this is not a session file", R"(a session file begins with {"format": "tactus-session", "version": 1)");
         read.damaged = true;
     }
     else if (! read.damaged)
     {
         const auto* version = at (json, "version");
         if (version == nullptr || ! version->is_number_integer() || version->get<std::int64_t>() < 1)
-            refuse ("session/version", "/version", "the version is missing", "write \"version\": " + std::to_string (DeviceSession::version));
+            refuse ("session/version", "/version", "the version is missing, or is not a whole number of at least 1",
+                    "write \"version\": " + std::to_string (DeviceSession::version));
         else if (version->get<std::int64_t>() > DeviceSession::version)
             refuse ("session/version", "/version",
                     "this session has version " + version->dump() + ", but this Tactus reads only version " + std::to_string (DeviceSession::version),
@@ -102,7 +103,7 @@ ReadSession readSession (std::string_view text)
         if (const auto* clock = at (json, "clock"); clock != nullptr && (! clock->is_string() || ! graph::isId (clock->asString())))
             refuse ("session/kind", "/clock", "the clock must be the name of a role, \"timer\" or \"audio\"", "write such a name, or leave the clock out");
         if (const auto* audio = at (json, "audio"); audio != nullptr && ! audio->is_object())
-            refuse ("session/kind", "/audio", "the audio settings must be an object", R"(write "audio": {}, or leave it out)");
+            refuse ("session/kind", "/audio", "the audio settings must be an object", R"(write "audio": {}, or leave the audio settings out)");
         if (const auto* roles = at (json, "roles"); roles != nullptr && ! roles->is_object())
             refuse ("session/kind", "/roles", "the roles must be an object", R"(write "roles": {"stylus": {"driver": "hid", "profile": "tactus_board"}})");
         else if (roles != nullptr)
@@ -110,7 +111,7 @@ ReadSession readSession (std::string_view text)
             {
                 const auto where = "/roles/" + pointerPart (name);
                 if (! graph::isId (name))
-                    refuse ("session/name", where, quote (name) + " is not the name of a role", "use lower-case letters, digits and _, starting with a letter");
+                    refuse ("session/name", where, quote (name) + " is not a valid role name", "use lower-case letters, digits and _, starting with a letter");
                 if (! description.is_object())
                     refuse ("session/kind", where, "the binding of a role must be an object",
                             R"(write {"driver": "hid", "profile": "tactus_board"}, or leave the role out)");

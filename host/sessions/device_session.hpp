@@ -21,7 +21,7 @@ public:
 
     DeviceSession();
 
-    /// A role, "timer" or "audio"; empty: the first device that can tick. [main thread, like all members]
+    /// A role, "timer" or "audio"; empty: the first device that can tick the run. [main thread, like all members]
     std::string clock() const;
     void setClock (std::string_view);
 
@@ -48,7 +48,7 @@ private:
 
 struct ReadSession
 {
-    DeviceSession session;   ///< the content
+    DeviceSession session;   ///< the content; empty if there are errors
     TextPositions positions;
     Messages messages;      ///< if there are errors, the session must not be used or overwritten; `where` is a JSON pointer
     bool damaged = false;   ///< true for a file that is not a session at all, such as a truncated one; false if the user can fix it

@@ -132,7 +132,8 @@ std::optional<DeviceParts> partsOf (const Json& description, const std::filesyst
     }
     if (audio::isAudio (description))
     {
-        if (! description.contains ("outputs") && ! description.contains ("inputs")) return std::nullopt;   // it gets the channels that the graph uses
+        // Without either, the sound card gets the channels that the graph uses.
+        if (! description.contains ("outputs") && ! description.contains ("inputs")) return std::nullopt;
         DeviceParts parts;
         parts.others.signal_outputs = entriesOf (description, "outputs");
         parts.others.signal_inputs = entriesOf (description, "inputs");
@@ -186,7 +187,7 @@ std::vector<std::string> lackingOf (const DeviceParts& needed, const DeviceParts
     for (const auto& name : needed.others.axes)
         say (lacking ("axis", "axes", name, there.others.axes));
     for (const auto& name : needed.others.efforts)
-        say (lacking ("axis to push called", "axes to push", name, there.others.efforts));
+        say (lacking ("driven axis", "driven axes", name, there.others.efforts));
     for (const auto& name : needed.others.buttons)
         if (! hasButton (there.others, name)) say (lacking ("button", "buttons", name, there.others.buttons));
     if (needed.others.signal_outputs > there.others.signal_outputs)
@@ -206,7 +207,7 @@ Messages missingTools (const RoleNeeds& needs, const DeviceParts& there)
                               .id = "device/missing_tool",
                               .where = "/devices/" + needs.role,
                               .text = "the device of the role " + quote (needs.role) + " has " + what,
-                              .remedy = "an input reads 0, and an output has no effect; bind another device: `tactus session GRAPH` shows how" });
+                              .remedy = "a missing input reads 0, and a missing output has no effect; to bind another device, see `tactus session --help`" });
     return messages;
 }
 

@@ -18,7 +18,7 @@ std::string textAt (const Json& object, const char* key)
     return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-/// The profile of a device, if the device is the requested one; else null.
+/// The profile of a device, if the device matches the description; else null.
 std::shared_ptr<const hid::Profile> profileFor (const Json& description, const hid::ConnectedDevice& device, const hid::LoadedProfiles& all)
 {
     const auto serial = textAt (description, "serial"), wanted = textAt (description, "profile");

@@ -18,7 +18,7 @@ struct RoleFit
     {
         session,
         graph,
-        none   ///< replaced by a simulated tool at rest
+        none   ///< no device is described, so the role gets a simulated tool at rest
     };
 
     std::string role;
@@ -26,9 +26,9 @@ struct RoleFit
     From from = From::none;
     Json description {};   ///< description of the device, without "workspace"
     Workspace workspace {};
-    std::optional<DeviceParts> there {};   ///< from partsOf
-    std::optional<bool> connected {};      ///< only for a HID device
-    std::vector<std::string> lacking {};   ///< from lackingOf
+    std::optional<DeviceParts> there {};   ///< parts of the device, from partsOf
+    std::optional<bool> connected {};      ///< set only for a HID device
+    std::vector<std::string> lacking {};   ///< missing parts, from lackingOf
     Messages messages {};                  ///< problems of the description; `where` is relative to it
 
     bool fits() const { return lacking.empty() && ! hasErrors (messages); }

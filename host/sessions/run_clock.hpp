@@ -11,7 +11,7 @@ namespace tactus::host
 {
 
 /// The clock of a run that is ticked by a device that is connected or still awaited. Until the device is available, a timer
-/// ticks at its rate; then its reports tick the run (HidClock).
+/// ticks the run at the rate of the device; then the reports of the device tick it (HidClock).
 class RunClock final : public TickClock
 {
 public:
@@ -22,7 +22,7 @@ public:
     void drive (Ticked&) noexcept override;
 
     bool isReplaced() const noexcept override;     ///< true if the device is missing, disconnected or silent
-    bool isByTimer() const noexcept;               ///< [any thread]
+    bool isByTimer() const noexcept;               ///< true while a timer ticks the run   [any thread]
     std::uint64_t ticksByTimer() const noexcept;   ///< [any thread]
 
 private:
@@ -32,7 +32,7 @@ private:
     const AwaitedDevice* awaited = nullptr;
     std::optional<hid::HidClock> by_reports;   // constructed once the device is available
     std::atomic<bool> is_there = false;
-    std::atomic<std::uint64_t> waited = 0;   // ticks
+    std::atomic<std::uint64_t> waited = 0;   // ticks before the device was available
 };
 
 }   // namespace tactus::host

@@ -31,7 +31,7 @@ Message unreadable (const fs::path& file)
     return m;
 }
 
-/// The first free name, so that files that were set aside earlier are kept.
+/// The first free name for a damaged file, so that files that were set aside earlier are kept.
 fs::path besides (const fs::path& file)
 {
     std::error_code failed;
@@ -84,16 +84,17 @@ LoadedSession loadDefaultSession (const fs::path& home)
     auto note = read.messages.front();
     note.severity = Message::Severity::warning;
     note.id = "session/set_aside";
-    note.text = "the session is damaged (" + note.text + "), and no role is bound";
-    note.remedy = "the file is kept as " + aside.string() + ": repair it and rename it back, or bind the roles again";
+    note.text = "the session file is damaged (" + note.text + "), so no role is bound";
+    note.remedy = "the file is kept as " + aside.string() + ": repair it and give it its old name again, or bind the roles again";
     return { {}, file, { std::move (note) } };
 }
 
 Result<> saveSession (const LoadedSession& s)
 {
-    const auto done = writeTextFile (fs::absolute (s.file), writeSession (s.session));   // absolute, so that it has a folder
+    const auto done = writeTextFile (fs::absolute (s.file), writeSession (s.session));   // absolute, so that the path has a folder
     if (done) return {};
-    auto m = Message::error ("session/unwritable", "", "the session " + done.error().text, "make the folder writable, or set TACTUS_HOME to one that is");
+    auto m = Message::error ("session/unwritable", "", "the session " + done.error().text,
+                             "make the folder writable, or set TACTUS_HOME to a folder that is writable");
     m.file = s.file.string();
     return m;
 }

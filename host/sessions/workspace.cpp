@@ -11,7 +11,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr double least = 1e-3, most = 1e3;   // values beyond these limits are mistakes
+constexpr double least = 1e-3, most = 1e3;   // a scale beyond these limits must be a mistake
 }
 
 Workspace readWorkspace (const Json& json, std::string where, Messages& messages)

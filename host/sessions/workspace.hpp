@@ -20,8 +20,8 @@ namespace tactus::host
 /// loop that is stable up to K on the device is stable up to K / scale in the graph.
 struct Workspace
 {
-    double scale = 1.0;           ///< above 0
-    Vec3 offset = Vec3::Zero();   ///< in the graph, in m
+    double scale = 1.0;           ///< graph position divided by device position; above 0
+    Vec3 offset = Vec3::Zero();   ///< position of the device's origin in the graph, in m
 
     bool isPlain() const noexcept { return scale == 1.0 && offset.isZero (0.0); }
     Vec3 toGraph (const Vec3& device) const noexcept { return scale * device + offset; }

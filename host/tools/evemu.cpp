@@ -51,7 +51,7 @@ struct Recording
 {
     std::vector<Report> reports;
     double units_per_mm = 0.0;
-    double most_pressure = 0.0;   // from the header
+    double most_pressure = 0.0;   // the maximum according to the header, in units
     Messages messages;
 };
 

@@ -17,7 +17,7 @@ struct EvemuOptions
     double full_depth = 2e-3;     ///< depth below the surface at full pressure, in m
     double lift = 5e-3;           ///< height above the surface while the pen is up, in m
     double rate_hz = 1000.0;      ///< rate of the rows
-    double landing = 0.04;        ///< duration of the way down or up, in s
+    double landing = 0.04;        ///< how long the pen takes to come down or to go up, in s
 };
 
 /// Converts a recording of a pen tablet (`evemu-record`, or any text with lines `E: sec.usec type code value`, type and

@@ -55,7 +55,7 @@ int main (int argc, char** argv)
     EvemuOptions options;
     std::string in, out;
 
-    app.addOption ("RECORDING", in, "Lines E: sec.usec type code value; - for standard input").required();
+    app.addOption ("RECORDING", in, "Output of evemu-record, with lines E: sec.usec type code value; - for standard input").required();
     app.addOption ("--out", out, "Trace file; default: standard output");
     addMeasure (app, "--pitch", options.pitch, unit::metre, "Length of one tablet unit; default: from the recording, else 0.005 mm");
     addMeasure (app, "--force", options.full_force, unit::newton, "Force at full pressure; default: 3 N");

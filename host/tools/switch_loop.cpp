@@ -38,10 +38,10 @@ Result<Column> findColumn (const Table& table, const std::string& file, const st
         const auto measure = parseMeasure ("1 " + symbol);
         if (! measure || measure->dimension != unit.dimension)
             return Message::error ("switch/unknown_unit", file, quote (table.columns[i]) + " does not end in a unit of " + std::string (name (unit.quantity)),
-                                   "call it " + example);
+                                   "name the column " + example);
         return Column { i, measure->value };
     }
-    return Message::error ("switch/missing_column", file, "no column " + prefix + "…", "call it " + example);
+    return Message::error ("switch/missing_column", file, "there is no column " + prefix + "…", "name the column " + example);
 }
 
 /// Sorts readings into a curve; averages readings at the same position.
@@ -133,7 +133,8 @@ Result<SwitchLoop> switchFrom (const Table& table, const std::string& file, doub
         if (! std::isfinite (travel.back()) || ! std::isfinite (table.at (r, force->index)))
             return Message::error ("switch/not_finite", file, "row " + std::to_string (r + 1) + " is not finite", "leave out rows without a measurement");
     }
-    const auto one_way = Message::error ("switch/one_way", file, "the recording lacks the way down or the way up", "record down to the stop and back up");
+    const auto one_way =
+        Message::error ("switch/one_way", file, "the recording does not contain both a press and a release", "record down to the stop and back up");
     if (travel.empty()) return one_way;
 
     const double top = travel.front(), bottom = *std::ranges::max_element (travel);
@@ -166,7 +167,8 @@ Result<SwitchLoop> switchFrom (const Table& table, const std::string& file, doub
         loop.press.push_back (place == 0.0 ? 0.0 : pressed (place));
         loop.release.push_back (place == 0.0 ? 0.0 : released (place));
     }
-    if (loss (loop) < 0.0) return Message::error ("switch/no_loss", file, "the key returns more energy than it takes", "record the way down first");
+    if (loss (loop) < 0.0)
+        return Message::error ("switch/no_loss", file, "the key returns more energy than it takes", "record the press first, then the release");
     return loop;
 }
 

@@ -48,7 +48,7 @@ int main (int argc, char** argv)
     std::cerr << in << ": measured loss " << millijoule (loss (*measured)) << " per stroke, loss of the graph " << millijoule (loss (loop)) << ", with "
               << loop.travel.size() << " points\n";
     if (const double gain = loss (withoutGain (*measured)) - loss (*measured); gain > 0.0)
-        std::cerr << in << ": in places the measured curve returns more than it takes, by " << millijoule (gain) << "; the graph never does\n";
+        std::cerr << in << ": in places the measured curve returns more energy than it takes, by " << millijoule (gain) << "; the graph never does\n";
 
     if (out.empty())
     {

@@ -15,16 +15,18 @@ namespace tactus::nodes
 ///
 ///     hit = rate of depth over the last samples up to the contact
 ///
-/// The window holds as many samples as lie within `release`, which stands for their noise, of the straight line from the first
-/// to the last: at least three if there are three, at most seventeen. So a slow approach in steps of an encoder's quantum is
-/// averaged, a braking one is not, and a steady one is exact either way.
+/// The window grows backwards from the contact for as long as every sample in it lies within `release`, which stands for the
+/// noise, of the straight line from its first sample to its last: at least three samples if three are known, at most seventeen.
+/// So a slow approach in steps of an encoder's quantum is averaged, a braking approach is not, and a steady one is exact in
+/// either case.
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 6 (where "initial value of d^z" means its rate);
 /// the window is from Janabi-Sharifi, Hayward & Chen 2000.
 ///
 /// Good to know
 ///  - `release` should be at least the resolution of the position, or one touch may count as several and the speed is noisy.
-///  - With a position in quanta q, the speed is within 2 q / (n T) of the true speed, where n is the number of ticks in the window.
+///  - With a position quantised in steps of q, the speed is within 2 q / (n T) of the true speed, where n is the number of ticks
+///    in the window.
 ///  - A tool that is inside on the first sample, or after a fault, is in contact but triggers no hit. A contact that begins
 ///    within `refractory` of a hit, or slower than `min_speed`, never triggers one.
 struct Impact
@@ -56,7 +58,7 @@ struct Impact
 
     static constexpr std::tuple ports {
         input (&Inputs::depth, "depth", unit::metre, "depth of the tool in the object; negative while apart"),
-        param (&Params::release, "release", unit::metre, "distance at which a contact ends; at least the noise of depth",
+        param (&Params::release, "release", unit::metre, "distance outside the object at which a contact ends; at least the noise of depth",
                { .hard = { 0, inf }, .usual = { 0, 1e-3 } }),
         param (&Params::min_speed, "min_speed", unit::speed, "slowest touch that triggers a hit", { .hard = { 0, inf }, .usual = { 0, 0.5 } }),
         param (&Params::refractory, "refractory", unit::second, "time after a hit in which no other is triggered", { .hard = { 0, inf }, .usual = { 0, 0.2 } }),

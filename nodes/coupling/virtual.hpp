@@ -12,7 +12,7 @@ namespace tactus::nodes
 /// feels the coupling: however hard the wall, the device sees no more than kc and bc.
 ///
 ///     x = offset - n . p                                 depth of the tool; x_v is the depth of the proxy, e = x - x_v
-///     kc e + bc (e - e^-) / T = sigma x_v                in the wall; = 0 outside. Solved with
+///     kc e + bc (e - e^-) / T = sigma x_v                in the wall; = 0 outside. e^-: e on the last sample. Solved with
 ///     g = kc + bc / T,  x_f = x - (bc / T) e^- / g       where the proxy would be without a wall:
 ///     x_f <= 0: x_v = x_f, f = 0                         the proxy is outside
 ///     x_f > 0:  x_v = x_f g / (g + sigma), f = sigma x_v n
@@ -31,9 +31,9 @@ namespace tactus::nodes
 ///  - Do not raise damping to calm a buzz: Colgate's condition is B > kc T / 2 + |bc|.
 ///  - On the first sample the proxy is at the tool, in the wall or not, so there is no force. A tool that is inside from the start
 ///    feels the wall on the next sample, in one step, and gains energy. Otherwise the node is passive.
-///  - It does not pull. After the tool leaves, the proxy catches up with time constant bc / kc.
+///  - The wall does not pull. After the tool leaves, the proxy catches up with time constant bc / kc.
 ///  - `proxy` is where the tool seems to be: draw this, not the tool. `depth` is the depth of the tool, as in deform.plane.
-///  - A wall that is moved by a wire or a knob does work, as a moving wall does.
+///  - A wall that is moved by a wire or a knob does work, as a real moving wall does.
 struct VirtualCoupling
 {
     struct Inputs
@@ -67,7 +67,7 @@ struct VirtualCoupling
 
     static constexpr std::tuple ports {
         input (&Inputs::position, "position", unit::metre, "tool position p"),
-        param (&Params::stiffness, "stiffness", unit::stiffness, "stiffness kc of the coupling; at most 0.8 times 2 B / T",
+        param (&Params::stiffness, "stiffness", unit::stiffness, "stiffness kc of the coupling; at most 1.6 times the device's damping / tick period",
                { .hard = { 0, inf }, .usual = { 0, 1e4 } }),
         param (&Params::damping, "damping", unit::damping, "damping bc of the coupling", { .hard = { 0, inf }, .usual = { 0, 20 } }),
         param (&Params::normal, "normal", unit::gain, "direction out of the wall; any length but 0"),

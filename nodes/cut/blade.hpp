@@ -13,7 +13,7 @@ namespace tactus::nodes
 /// A blade pushed into a sample, which yields, bursts open, and is cut.
 ///
 /// The blade is delta deep below the undeformed surface; the crack it has opened is c long. The uncut part of the sample stores
-/// energy. A crack grows when this releases the energy of the new surface, J_c per square metre:
+/// energy. A crack grows when its growth releases the energy of the new surface, J_c per square metre:
 ///
 ///     virgin     f = g0 (delta)                                   reversible, up to rupture_force           branch 1
 ///     rupture    at delta = d_r = g0^-1 (rupture_force) the crack jumps from 0 to c1, the largest root of   branch 2
@@ -21,9 +21,9 @@ namespace tactus::nodes
 ///     elastic    f = g1 (e), e = delta - c; 0 for e <= 0          reversible, the crack stays as it is      branches 3, 5, 6
 ///     cutting    e > e_c = g1^-1 (J_c w): c = delta - e_c         at the force J_c w                        branch 4
 ///
-/// g0 is `law`, g1 `cracked_law` (none: the same), w `width`, J_c `toughness`. The new crack costs less than
-/// the stored energy, so rupture drops the force below J_c w; it must be loaded up to J_c w again, and then stays there. This dip
-/// is the feel of a knife through a skin.
+/// g0 is `law`, g1 `cracked_law` (none: the same), w `width`, J_c `toughness`. The new crack costs less than the stored energy,
+/// so rupture drops the force below J_c w; the force must rise to J_c w again, and then stays there. This dip is the feel of a
+/// knife through a skin.
 /// The cutting force does not depend on stiffness. With g0 = g1 = k e the crack jumps by 2 (d_r - e_c).
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 3 and Fig. 6, 7, which only prints the equation
@@ -33,19 +33,21 @@ namespace tactus::nodes
 ///  - If even a crack through the whole indentation, c1 = d_r, leaves energy over, that energy is lost.
 ///  - A crack longer than `thickness` leaves the sample in two pieces: from then on there is no force, and the stored energy
 ///    is lost.
-///  - Cutting by branch 4 ends exactly on the branch point e = e_c. It begins only where e exceeds e_c by 1e-9 of it.
+///  - Cutting by branch 4 always ends exactly on the branch point e = e_c, so it begins only where e exceeds e_c by more than a
+///    relative 1e-9.
 ///
 /// Good to know
-///  - Time-free. A blade that leaves and returns finds its crack again, and feels no force down to the tip of the crack.
+///  - Time-free: only the movement of the blade counts. A blade that leaves and returns finds its crack again, and feels no force
+///    down to the tip of the crack.
 ///  - One tick may lead from the surface through rupture and far into the sample. It ends where a slow blade would, and
 ///    dissipated_energy is the same. The state is then 2, whatever else happened.
-///  - dissipated_energy is J_c w c plus the losses at rupture and at the end. The work of a slow hand is the growth of stored
-///    plus dissipated energy.
-///  - Params are read when the blade touches. If wires then give values that `problem` would refuse: a rupture_force below J_c w
+///  - dissipated_energy is J_c w c plus the losses at rupture and when the sample falls in two. The work of a slow hand is the
+///    growth of stored plus dissipated energy.
+///  - Params are read when the blade touches. If wires then give values that `problem` would refuse, a rupture_force below J_c w
 ///    counts as J_c w, and a sample that would have to gain energy to crack does not crack.
 ///  - Friction on the flanks of the blade is not included: patch a friction node with a normal force proportional to w c.
-///  - The force is held between samples, so where its slope is K, it leaks K dp^2 / 2 per sample: the device must damp K T / 2
-///    (section 1).
+///  - The force is held between samples, so where its slope is K, it leaks K dp^2 / 2 for a movement dp in one sample: the device
+///    needs a damping of at least K T / 2 (section 1).
 struct Blade
 {
     struct Inputs
@@ -87,7 +89,8 @@ struct Blade
         input (&Inputs::depth, "depth", unit::metre, "depth of the blade below the undeformed surface"),
         param (&Params::width, "width", unit::metre, "width of the cut, along the edge of the blade",
                { .hard = { 0, inf }, .usual = { 0, 0.1 }, .latch = true }),
-        param (&Params::toughness, "toughness", unit::toughness, "J_c, energy of new surface", { .hard = { 0, inf }, .usual = { 0, 5000 }, .latch = true }),
+        param (&Params::toughness, "toughness", unit::toughness, "J_c, energy per area of new surface",
+               { .hard = { 0, inf }, .usual = { 0, 5000 }, .latch = true }),
         param (&Params::rupture_force, "rupture_force", unit::newton, "force that bursts the sample open; at least width times toughness",
                { .hard = { 0, inf }, .usual = { 0, 50 }, .latch = true }),
         param (&Params::thickness, "thickness", unit::metre, "length of the crack at which the sample falls in two; 0: never",
@@ -130,7 +133,7 @@ private:
         Params params;
         double cost = 0.0;        // energy per metre of crack, J_c w, in N
         double last = inf;        // length of the crack at which the sample falls in two, in m
-        double e_cut = inf;       // the crack grows when the blade is this far beyond it, m
+        double e_cut = inf;       // the crack grows while the blade is further than this beyond its tip, in m
         double d_rupture = inf;   // depth at which a virgin sample bursts, m
         double burst = 0.0;       // length of the crack right after the burst, in m
         double loss = 0.0;        // energy lost in the burst, in J
@@ -214,7 +217,7 @@ inline double Blade::stateOf (const Sample& s, double depth) noexcept
     return s.virgin ? 1.0 : 3.0;
 }
 
-/// Branches 1, 3, 5 and 6; and 4, whose force is g1 (e_c).
+/// The outputs by branches 1, 3, 5 and 6, and by branch 4, whose force is g1 (e_c).
 inline Blade::Outputs Blade::answer (const Sample& s, double depth, double state) const noexcept
 {
     const Law& law = s.virgin ? settings.law : cracked();
@@ -240,7 +243,7 @@ inline bool Blade::burst (Sample& s, double depth) const noexcept
     return true;
 }
 
-/// Branch 4. The crack ends at the end of the sample; then the pieces spring back.
+/// Branch 4. When the crack reaches the end of the sample, the sample falls in two, and the pieces spring back.
 inline bool Blade::cut (Sample& s, double depth) const noexcept
 {
     const Material& m = s.material;

@@ -29,12 +29,13 @@ namespace tactus::nodes
 /// that balance for straight blades; neither source prints them in this form.
 ///
 /// Departures
-///  - Cutting ends exactly on its criterion. It begins only where k delta t exceeds J_c h by 1e-9 of it.
+///  - Cutting always ends exactly on its criterion, so it begins only where k delta t exceeds J_c h by more than a relative 1e-9.
 ///
 /// Good to know
 ///  - Time-free: a step of the angle, however large, cuts as much as slow blades that close by the same angle. Blades that open
 ///    and close again feel nothing until they are back at the front.
-///  - Below t = 4 J_c / k the blades are too parallel to cut: the front stops at k h / (16 J_c), and the rest is squeeze.
+///  - Below t = 4 J_c / k the blades are too parallel to cut: the front stops at k h / (16 J_c), and further closing only
+///    squeezes.
 ///  - The work of a slow hand is the growth of stored_energy plus dissipated_energy; dissipated_energy is J_c h times the
 ///    distance the front has moved.
 ///  - At theta <= 0 or >= pi there is no force and no stored energy: closing through 0 releases the squeeze in one step.
@@ -74,7 +75,8 @@ struct Scissors
     static constexpr std::tuple ports {
         input (&Inputs::angle, "angle", unit::radian, "opening angle theta of the blades"),
         param (&Params::thickness, "thickness", unit::metre, "thickness h of the plate", { .hard = { 0, inf }, .usual = { 0, 0.01 }, .latch = true }),
-        param (&Params::toughness, "toughness", unit::toughness, "J_c, energy of new surface", { .hard = { 0, inf }, .usual = { 0, 5000 }, .latch = true }),
+        param (&Params::toughness, "toughness", unit::toughness, "J_c, energy per area of new surface",
+               { .hard = { 0, inf }, .usual = { 0, 5000 }, .latch = true }),
         param (&Params::stiffness, "stiffness", unit::stiffness, "stiffness k of the plate at the crack front",
                { .hard = { 0, inf }, .usual = { 1e4, 1e7 }, .latch = true }),
         param (&Params::pivot_distance, "pivot_distance", unit::metre, "distance from the pivot to the first touch of the plate",
@@ -102,9 +104,9 @@ private:
     struct Plate
     {
         Params params {};                 // as read when the blades last touched the plate
-        bool touching = false;            // on the last sample
+        bool touching = false;            // whether the blades touched the plate on the last sample
         bool cut = false;                 // true once the plate has been cut
-        double t = -1.0;                  // tan (theta / 2) of the last sample; negative: none
+        double t = -1.0;                  // tan (theta / 2) on the last sample; negative: none, or theta was not between 0 and pi
         double front = 0.0, lost = 0.0;   // m, J
 
         double squeeze() const noexcept { return 0.5 * params.thickness - front * t; }
@@ -150,8 +152,8 @@ inline Scissors::Outputs Scissors::tick (const Inputs& in) noexcept
     return out;
 }
 
-/// The front that meets the criterion at t, h / (2 t) - J_c h / (k t^2), is furthest out at t = 4 J_c / k. Blades that close over
-/// that angle within the step leave the front there.
+/// The front that meets the criterion at t, h / (2 t) - J_c h / (k t^2), is furthest out at t = 4 J_c / k. Blades that close past
+/// that angle within one step leave the front there.
 inline bool Scissors::grow (Plate& p, double from) noexcept
 {
     const double h = p.params.thickness, k = p.params.stiffness, price = p.params.toughness * h;

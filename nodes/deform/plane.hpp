@@ -10,7 +10,7 @@ namespace tactus::nodes
 
 /// A flat wall or floor: no force until the tool touches it, then more force with depth.
 ///
-///     depth = offset - n . p                                  n out of the object, offset along it
+///     depth = offset - n . p                                  n points out of the object; offset is measured along n
 ///     N     = max (0, K (depth) (1 + dissipation rate) + damping rate)   while depth > 0; N = 0 otherwise
 ///     f     = N n                                             force on the tool
 ///
@@ -26,9 +26,10 @@ namespace tactus::nodes
 ///
 /// Good to know
 ///  - The force never pulls: when the tool leaves fast, a damped wall lets go before the tool is out.
-///  - Held between samples, a spring of stiffness K leaks K dp^2 / 2 per sample: the device must damp K T / 2 (section 1).
+///  - The force is held between samples, so a spring of stiffness K leaks K dp^2 / 2 for a movement dp in one sample: the device
+///    needs a damping of at least K T / 2 (section 1).
 ///  - The rate of a quantised position is coarse: one quantum in one sample. Damping times quantum / T is felt as a tick.
-///  - A wall that is moved by a wire or a knob does work, as a moving wall does.
+///  - A wall that is moved by a wire or a knob does work, as a real moving wall does.
 struct Plane
 {
     struct Inputs
@@ -73,7 +74,7 @@ struct Plane
         param (&Params::offset, "offset", unit::metre, "position of the surface along the unit normal", { .usual = { -0.1, 0.1 } }),
         param (&Params::stiffness, "stiffness", unit::stiffness, "stiffness of the wall, if no law is given", { .hard = { 0, inf }, .usual = { 0, 1e4 } }),
         param (&Params::damping, "damping", unit::damping, "viscous damping from the first touch; never pulls", { .hard = { 0, inf }, .usual = { 0, 20 } }),
-        param (&Params::dissipation, "dissipation", unit::second_per_metre, "Hunt-Crossley: the law times 1 + dissipation rate",
+        param (&Params::dissipation, "dissipation", unit::second_per_metre, "Hunt-Crossley damping: the law is multiplied by 1 + dissipation times rate",
                { .hard = { 0, inf }, .usual = { 0, 10 } }),
         setting (&Settings::law, "law", unit::metre, unit::newton, "force against depth; none: stiffness times depth"),
         output (&Outputs::force, "force", unit::newton, "force on the tool"),

@@ -24,13 +24,13 @@ namespace tactus::nodes
 ///     f^nu = sum_i n_i (c) f_i^nu (d^nu)      force along each; odd along x and y, along z only if d^z > 0   (6)
 ///     f    = - sum_nu f^nu u^nu               force on the tool
 ///     |(d^x, d^y)| <= mu_c d^z                else c is dragged along until it is                            (7)
-///     f^nu = sum_t w_t f_t^nu (d^nu)          between the shapes of tools t                                  (8) (9)
+///     f^nu = sum_t w_t f_t^nu (d^nu)          interpolated between the shapes of tools t                     (8) (9)
 ///
-/// A touch begins where the vector from p to the nearest point of the mesh turns inward. c stays there, and the tool pulls on it
-/// as on a leaning bristle: flesh sticks, stretches, slips and lets go without a second model. mu_c is a ratio of deflections:
-/// a body of stiffnesses k_t across and k_n along the normal has mu_c = mu k_n / k_t. It may be a law of depth. With
+/// A touch begins where the vector from the nearest point of the mesh to p turns inward. c stays there, and the tool pulls on it
+/// as on a leaning bristle: flesh sticks, stretches, slips and lets go without a second model. mu_c is a ratio of deflections: a
+/// body of stiffnesses k_t across and k_n along the normal has mu_c = mu k_n / k_t. mu_c may be a law of depth. With
 /// `friction: frictionless`, or mu 0 everywhere, c follows the tool instead and the force includes -dU/dc, U the stored energy:
-/// without it a slide from soft to stiff would create energy.
+/// without that term, a slide from soft to stiff would create energy.
 ///
 /// Source: Hayward, "Physically-Based Haptic Synthesis" (2007), section 4, eq. (5) to (9), Fig. 8 and 9;
 /// Mahvash & Hayward 2004.
@@ -40,25 +40,27 @@ namespace tactus::nodes
 ///    u^y = u^z x u^x.
 ///  - Eq. (7) is printed upside down: with more mu_c the contact would slip earlier.
 ///  - The weights of the tools are latched at contact onset: changing them in contact would add energy.
-///  - The chapter does not say what a move of c costs. Each slip turns (f_t - dU/dc) . dc into heat. This is negative, so it
-///    creates energy, where stiffness rises steeply over the mesh and friction is small. The node warns of such a mesh and
-///    reports the depth at which this begins; dissipated_energy shows it.
+///  - The chapter does not say what a move of c costs. Each slip turns (f_t - dU/dc) . dc into heat. Where stiffness rises
+///    steeply over the mesh and friction is small, this amount is negative, so a slip creates energy. The node warns of such a
+///    mesh and reports the depth at which this begins; dissipated_energy then falls.
 ///
 /// Good to know
-///  - With c fixed, the force is the gradient of stored_energy, whatever the frames: a closed path that sticks costs nothing.
-///  - Without friction the force has a potential where frames are orthogonal to their triangles. Frames of smooth normals tilt
-///    the force, as shading does: the felt curvature costs the tilt times the force.
-///  - Finding the patch: with search_ticks 0 every triangle is searched within the tick, while nothing is touched. With more,
-///    a thread searches and answers that many ticks later; meanwhile the node walks over neighbouring triangles. In contact it
-///    only walks: a search never moves c. Nothing can be touched before the first answer.
-///  - `depth` is 0 while apart. contact.impact needs it signed: wire `hit` instead.
+///  - With c fixed, the force is the gradient of stored_energy, whatever the frames: along a closed path on which the contact
+///    sticks, it does no work.
+///  - Without friction the force has a potential where frames are orthogonal to their triangles. Frames made of smooth normals
+///    tilt the force, as shading does: coarse triangles then feel curved, but a part of the force, about the tilt times the
+///    force, has no potential.
+///  - Finding the patch: with search_ticks 0 every triangle is searched within the tick, while nothing is touched. With
+///    search_ticks above 0, a thread searches and answers that many ticks later; meanwhile the node walks over neighbouring
+///    triangles. In contact it only walks: a search never moves c. Nothing can be touched before the first answer.
+///  - `depth` is 0 while apart. contact.impact needs a signed depth, so wire `hit` of this node instead.
 ///  - `normal` and `contact` are meant for friction and texture nodes that follow this one. While apart, contact is p, and normal
 ///    is the normal of the nearest patch.
 ///  - A slip is one step of eq. (7). Where mu_c or the frames change over the mesh it ends near the bound, not on it. The rest
 ///    follows on the next ticks, even for a tool at rest; this takes about ten ticks.
-///  - Beyond the rim of an open mesh, by more than the depth, there is no body: a contact that is dragged there opens. A tool
-///    that entered beyond the rim, or was inside when the first search ended, feels nothing until it has been outside the body
-///    once.
+///  - A tool that is farther past the rim of an open mesh than it is above or below it is outside the body: a contact that is
+///    dragged there opens. A tool that came in past the rim, or was inside when the first search ended, feels nothing until it
+///    has been outside the body once.
 ///  - Energy in the sideways stretch at the moment the tool lets go is dissipated.
 struct ElasticSurface
 {
@@ -113,7 +115,7 @@ struct ElasticSurface
 
     static constexpr std::tuple ports {
         input (&Inputs::position, "position", unit::metre, "tool position p"),
-        input (&Inputs::tool, "tool", unit::count, "shape of the tool, 0…n-1, interpolated between two; latched at onset"),
+        input (&Inputs::tool, "tool", unit::count, "number of the tool's shape, 0…n-1; a fraction blends two shapes; read at the start of a contact"),
         choice (&Params::friction, "friction", friction_names, "the contact point sticks within a bound, or follows freely"),
         setting (&Settings::surface, "surface", unit::count, "mesh, frames, curves of each tool, deflection ratios mu"),
         setting (&Settings::scale, "scale", unit::metre, "length of one unit of the mesh", { .hard = { 1e-9, inf }, .usual = { 1e-3, 1.0 } }),
@@ -136,7 +138,7 @@ struct ElasticSurface
     Params params;
     Settings settings;
 
-    std::string problem() const { return settings.surface ? problemOf (*settings.surface) : "it has no surface"; }
+    std::string problem() const { return settings.surface ? problemOf (*settings.surface) : "no surface is given"; }
 
     std::string warning (const Setup&) const
     {
@@ -165,7 +167,7 @@ struct ElasticSurface
         search = std::make_shared<Search> (find, settings.search_ticks, setup.services.answers);
     }
 
-    /// The contact continues if the mesh is the same.
+    /// The contact continues if the mesh, its scale, its origin and its rotation are the same.
     void adopt (const ElasticSurface& old) noexcept
     {
         dissipated = old.dissipated;
@@ -281,7 +283,8 @@ private:
     {
         // Relative; a steady slip ends exactly on the bound, so without this tolerance rounding would make the contact chatter.
         constexpr double guard = 1e-9;
-        constexpr double past_rim = 1e-3;   // relative: the stretch exceeds the bound by more if the rim holds the contact back, else by less
+        // Relative; after a slip, the stretch exceeds the bound by more than this only if the rim holds the contact point back.
+        constexpr double past_rim = 1e-3;
         bool off = false;
         Felt felt = body->feel (touch.spot, p, touch.tool);
         const double bound = std::max (0.0, body->ratio (touch.spot, felt.d.z()) * felt.d.z());
@@ -370,7 +373,7 @@ private:
 
     double dt = 1.0 / Setup {}.rate_hz;   // s
     std::shared_ptr<const PlacedSurface> body;
-    std::shared_ptr<Search> search;   // null: searches within the tick
+    std::shared_ptr<Search> search;   // null: the node searches within the tick
     int until_asked = 0;              // ticks until the next search may begin
     Touch touch;
     // The tool went in past the rim of an open mesh, or was already inside when first found; it feels nothing

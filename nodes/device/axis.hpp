@@ -11,8 +11,8 @@ namespace tactus::nodes
 
 /// One axis of the device other than the tool: a trigger, a thumb stick, a joint of a glove, a wheel.
 ///
-/// Its unit is the device's: m, rad, or 1 from end to end. While the device gives no valid reading, the last valid one is kept,
-/// as in device.position. It gives 0 on a device without such an axis, with a warning when the run is set up, and on a
+/// Its unit is the device's: m, rad, or 1 for the whole travel. While the device gives no valid reading, the last valid one is
+/// kept, as in device.position. It gives 0 on a device without such an axis, with a warning when the run is set up, and on a
 /// reading that is not finite, which is not kept.
 struct DeviceAxis
 {
@@ -38,7 +38,7 @@ struct DeviceAxis
 
     static constexpr std::tuple ports {
         setting (&Settings::axis, "axis", unit::count, "name of the axis on the device"),
-        output (&Outputs::axis, "axis", any_unit, "position of the axis: m, rad, or 1 from end to end"),
+        output (&Outputs::axis, "axis", any_unit, "position of the axis in m, in rad, or with 1 for the whole travel"),
     };
 
     Params params;
@@ -64,7 +64,7 @@ struct DeviceAxis
 private:
     const DeviceState* device = &no_device;
     int index = -1;
-    double value = 0.0;   // last valid
+    double value = 0.0;   // the last valid value
 };
 
 }   // namespace tactus::nodes

@@ -90,7 +90,7 @@ private:
 
     const DeviceState* device = &no_device;
     int index = -1;
-    bool is_held = false;   // last valid
+    bool is_held = false;   // the last valid value
 };
 
 }   // namespace tactus::nodes

@@ -50,7 +50,7 @@ struct DeviceEffort
 
     void bind (const DeviceState& state) noexcept { index = partNamed (settings.axis, state.layout.efforts); }
 
-    std::string missing (const DeviceLayout& device_has) const { return lacking ("axis to push called", "axes to push", settings.axis, device_has.efforts); }
+    std::string missing (const DeviceLayout& device_has) const { return lacking ("driven axis", "driven axes", settings.axis, device_has.efforts); }
 
     Outputs tick (const Inputs& in) noexcept
     {

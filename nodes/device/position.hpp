@@ -8,10 +8,10 @@ namespace tactus::nodes
 
 /// Position and rotation of the tool as the device measures them. This is where the hand enters the graph.
 ///
-/// The position is quantised by the device's encoders. While the device gives no valid reading, position and rotation stay at
-/// the last valid one, so that a dropped packet moves nothing; `valid` and `age` report this. Before the first valid reading
-/// they are 0. A reading that is not finite is ignored: a tool at the origin for one tick would be a stroke through the world,
-/// with a hit at its end.
+/// The position is quantised by the device's encoders. While the device gives no valid reading, position and rotation stay at the
+/// last valid one, so that a dropped packet moves nothing; `valid` and `age` report this. Before the first valid reading they are
+/// 0. A reading that is not finite is ignored: a tool that jumped to the origin for one tick would seem to stroke through the
+/// world, and to hit something at the end.
 struct DevicePosition
 {
     using Inputs = Empty;
@@ -57,7 +57,7 @@ struct DevicePosition
 
 private:
     const DeviceState* device = &no_device;
-    Vec3 position = Vec3::Zero(), rotation = Vec3::Zero();   // last valid
+    Vec3 position = Vec3::Zero(), rotation = Vec3::Zero();   // the last valid values
 };
 
 }   // namespace tactus::nodes

@@ -9,7 +9,7 @@ namespace tactus::nodes
 /// How hard the hand presses or squeezes: a pen's tip, a gripper's handle, a force plate.
 ///
 /// While the device gives no valid reading, the last valid one is kept, as in device.position, whose `valid` and `age` report
-/// it. It gives 0 on devices without such a sensor, and on a reading that is not finite, which is not kept.
+/// this. It gives 0 on devices without such a sensor, and on a reading that is not finite, which is not kept.
 struct DevicePressure
 {
     using Inputs = Empty;
@@ -45,7 +45,7 @@ struct DevicePressure
 
 private:
     const DeviceState* device = &no_device;
-    double force = 0.0;   // N, last valid
+    double force = 0.0;   // the last valid value, in N
 };
 
 }   // namespace tactus::nodes

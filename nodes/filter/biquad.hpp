@@ -18,8 +18,8 @@ namespace tactus::nodes
 ///     peak         gain_db at the cutoff, 0 dB far from it
 ///     low_shelf    gain_db below the cutoff, 0 dB above; high_shelf the other way round
 ///
-/// Bilinear transform, prewarped. The cutoff is limited to 1e-6 … 0.4999 of the tick rate. It starts from rest, even after a
-/// non-finite input. Parameters may move while it runs, slowly compared with the cutoff; a new kind takes effect immediately,
+/// Bilinear transform, prewarped. The cutoff is limited to 1e-6 … 0.4999 of the tick rate. The filter starts from rest, even after
+/// a non-finite input. Parameters may move while it runs, slowly compared with the cutoff; a new kind takes effect immediately,
 /// with a click if there is a signal. High and band give 0 at rest: in a force path they drop the force on a hand that holds
 /// still.
 ///

@@ -14,8 +14,9 @@ namespace tactus::nodes
 ///     H(s) = 1 / (1 + s / w_c)      6 dB per octave, -3 dB at the cutoff, gain 1 at rest
 ///
 /// discretised by the bilinear transform, prewarped so that the cutoff is exact; a signal at half the tick rate is removed
-/// completely. The delay is about 1 / (2 pi cutoff) s at low frequencies, which in a loop through the hand costs stiffness. The
-/// cutoff is limited to 1e-6 … 0.4999 of the tick rate. The filter starts from rest, even after a non-finite input.
+/// completely. The delay is about 1 / (2 pi cutoff) s at low frequencies, which, in a loop through the hand, lowers the largest
+/// stable stiffness. The cutoff is limited to 1e-6 … 0.4999 of the tick rate. The filter starts from rest, even after a
+/// non-finite input.
 ///
 /// Source: Oppenheim & Schafer, Discrete-Time Signal Processing, bilinear transformation.
 struct OnePole
@@ -48,7 +49,8 @@ struct OnePole
         a = (k - 1.0) / (k + 1.0);
     }
 
-    /// The same form as BiquadState, reduced to first order, and the same rule: a sample that it cannot process gives 0.
+    /// The same form as BiquadState, reduced to first order, and the same rule: a sample that would make the state non-finite
+    /// gives 0.
     Outputs tick (const Inputs& in) noexcept
     {
         const double out = b * in.in + s;

@@ -37,8 +37,9 @@ namespace tactus::nodes
 /// Hayward & Armstrong 2000; Dupont, Hayward, Armstrong & Altpeter 2002.
 ///
 /// Departures from the printed chapter
-///  - The chapter leaves the first contact point open. Here it is where the tool is: a touch starts without a force.
-///  - Eq. (4) lacks a clamp: where |dp| zeta > 1 on a reversal, the force would flip sign. It is clamped at 1.
+///  - The chapter leaves the first contact point open. Here it is the tool's position at the first touch, so a touch starts
+///    without a force.
+///  - Eq. (4) lacks a clamp: where |dp| zeta > 1 on a reversal, the force would flip sign. Here |dp| zeta is clamped at 1.
 ///  - Steady sliding by eq. (3) or (4) ends exactly on the branch point, where rounding would make force and state chatter.
 ///    Both branches keep away from it by the relative guard 1e-9.
 ///  - The default for functions 2 to 4 is not eq. (4) but the solution of eq. (2) with zeta held over the step,
@@ -59,8 +60,8 @@ namespace tactus::nodes
 ///    contact re-anchors, the normal turns or the contact opens. So the work of the hand is the growth of stored plus
 ///    dissipated energy, and dissipated_energy never falls. Under `load: scale` it does fall when the load rises: this is the
 ///    energy that rule creates. Energy stored when a fault opens the contact is not counted.
-///  - The force is held between samples, so while it sticks the device must damp sigma T / 2 (section 1), or twice this with
-///    functions 2 to 4, which are twice as stiff on a reversal.
+///  - The force is held between samples, so while the contact sticks, the device needs a damping of at least sigma T / 2
+///    (section 1), or twice that with functions 2 to 4, which are twice as stiff on a reversal.
 ///  - If the bound shrinks below the stretch, the bristle slips immediately, even at rest. This is how a texture on d_max is
 ///    felt; keep `stiffness` constant for that.
 ///  - With functions 2 and 3 and static_ratio > 1, the exponential integrator slides at a stretch between d_max and d_stick,
@@ -142,10 +143,10 @@ struct ElastoPlastic
         param (&Params::static_ratio, "static_ratio", unit::gain, "d_stick / d_max = mu_s / mu_k; above 1: stick-slip",
                { .hard = { 1, inf }, .usual = { 1, 5 } }),
         param (&Params::break_away, "break_away", unit::gain, "d_ba / d_max, where adhesion dupont begins to yield", { .hard = { 0, 1 } }),
-        param (&Params::stiffness, "stiffness", unit::stiffness, "sigma; 0: mu normal_force / d_max; else mu and load have no effect",
+        param (&Params::stiffness, "stiffness", unit::stiffness, "stiffness sigma; 0: mu normal_force / d_max; above 0: mu and load have no effect",
                { .hard = { 0, inf }, .usual = { 0, 1e5 } }),
         choice (&Params::adhesion, "adhesion", adhesion_names, "how the contact yields, Fig. 2"),
-        choice (&Params::integrator, "integrator", integrator_names, "eq. (2) exactly over each step, or eq. (4)"),
+        choice (&Params::integrator, "integrator", integrator_names, "exponential solves eq. (2) over each step; euler is eq. (4)"),
         choice (&Params::load, "load", load_names, "a rising load re-anchors the contact, or scales its force"),
         setting (&Settings::adhesion_curve, "adhesion_curve", unit::gain, unit::gain, "zeta d_max over |d| / d_max, for adhesion curve"),
         output (&Outputs::force, "force", unit::newton, "force on the tool"),
@@ -172,7 +173,8 @@ struct ElastoPlastic
         dissipated = old.dissipated;
     }
 
-    /// The slope follows normal_force without limit unless `stiffness` is given; functions 2 to 4 are twice as stiff on a reversal.
+    /// The stiffness of the contact grows with normal_force without limit unless `stiffness` is given; functions 2 to 4 are twice as
+    /// stiff on a reversal.
     Claims claims() const
     {
         return {
@@ -190,8 +192,8 @@ private:
     struct Contact
     {
         bool touching = false;
-        Vec3 p = Vec3::Zero(), n = Vec3::UnitZ();   // tool and unit normal
-        Vec3 given = Vec3::UnitZ();                 // the normal as given, of any length
+        Vec3 p = Vec3::Zero(), n = Vec3::UnitZ();   // position of the tool, unit normal
+        Vec3 given = Vec3::UnitZ();                 // the normal input, of any length
         Vec3 d = Vec3::Zero();                      // stretch; the contact point is c = p - d
         double sigma = 0.0, d_max = 0.0, d_stick = 0.0;
         Adhesion adhesion {};
@@ -368,8 +370,8 @@ inline ElastoPlastic::Step ElastoPlastic::drag (double from, const Vec3& d, doub
     return { .d = d * (d_max / r), .loss = 0.5 * ((peak - d_max) * (peak + d_max) + (hold + d_max) * (r - peak)), .slips = true };
 }
 
-/// If a shrinking bound has left the stretch outside, brings it back to the stretch at which the contact slides. Eq. (3) and (4)
-/// do so on their own.
+/// If a shrinking bound has left the stretch outside it, brings the stretch back to the value at which the contact slides.
+/// Eq. (3) and (4) do so on their own.
 inline bool ElastoPlastic::letGo (Vec3& d, Adhesion adhesion) const noexcept
 {
     const double r = d.norm(), yield = zeta (r, adhesion) * r;

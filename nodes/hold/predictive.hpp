@@ -11,10 +11,11 @@ namespace tactus::nodes
 
 /// Removes most of the energy leak of a sampled force.
 ///
-/// A force held between samples is half a sample old on average. So a spring gives back more than it took, sigma dp^2 / 2 per
-/// sample, and feels active. This node predicts the force in the middle of the sample and holds that:
+/// A force held between samples is half a sample old on average. So a spring of stiffness sigma that moves by dp in a sample
+/// gives back more than it took, sigma dp^2 / 2 per sample, and feels active. This node predicts the force in the middle of the
+/// sample and holds that:
 ///
-///     out = f_k + (f_k - f_(k-1)) / 2 = 1.5 f_k - 0.5 f_(k-1)         no longer than `limit`
+///     out = f_k + (f_k - f_(k-1)) / 2 = 1.5 f_k - 0.5 f_(k-1)         its length limited to `limit`
 ///
 /// With a spring pushed in and released by 10 mm, the leak falls to less than a hundredth (see the test).
 ///
@@ -56,7 +57,7 @@ struct PredictiveHold
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", unit::newton, "force f"),
         input (&Inputs::contact, "contact", unit::state, "a change restarts the prediction; unwired: ignored"),
-        param (&Params::limit, "limit", unit::newton, "largest force it gives", { .hard = { 0, inf }, .usual = { 0, 100 } }),
+        param (&Params::limit, "limit", unit::newton, "largest magnitude of the output", { .hard = { 0, inf }, .usual = { 0, 100 } }),
         output (&Outputs::out, "out", unit::newton, "the force to hold"),
     };
 
@@ -91,7 +92,7 @@ private:
     {
         Vec3 force = Vec3::Zero();
         double contact = 0.0;
-        bool wired = false;   // `contact` has had a value
+        bool wired = false;   // true once `contact` has had a value
         bool known = false;   // false until the first finite sample
     };
 

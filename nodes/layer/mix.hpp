@@ -20,7 +20,7 @@ namespace tactus::nodes
 ///     solo       m_i is also 0 if any solo is on and solo[i] is not; m_i moves in straight ramps of 10 ms
 ///     level      level[i] = max (|m_i x_i|, level[i] e^(-T / 50 ms)): rises immediately, decays over 50 ms
 ///     ducking    times d_i: goes to 10^(-duck_db / 20) with time constant 5 ms while a channel of higher priority
-///                sounds, else to 1 with 100 ms. It is the same for one or several such channels.
+///                sounds, else to 1 with 100 ms. Several such channels duck no more than one.
 ///     sum        s = sum of d_i m_i x_i
 ///     ceiling    out = s within -ceiling…ceiling, cut hard; reduction = 20 log10 |s / out|, dB
 ///
@@ -33,10 +33,10 @@ namespace tactus::nodes
 ///  - mute and solo are switches: on above 0.5. A channel that is both soloed and muted is silent. Muted channels duck no other
 ///    channel.
 ///  - Equal priorities, the default, do not duck each other. A higher number has priority.
-///  - A channel that is open, not ducked, and below the ceiling passes bit for bit.
-///  - The ceiling has no memory and no knee: it cannot overshoot or pump, and a force that depends only on position still does.
-///    Everything above the ceiling is lost, so if reduction is not 0, turn the gains down.
-///  - Ducking depends on time. A spring that is ducked while pressed and not on release generates energy.
+///  - A channel that is open, not ducked, and below the ceiling passes unchanged, bit for bit.
+///  - The ceiling has no memory and no knee: it cannot overshoot or pump, and a force that depends only on position still depends
+///    only on position behind it. Everything above the ceiling is lost, so if reduction is not 0, turn the gains down.
+///  - Ducking depends on time. A spring that is ducked while it is pressed but not while it is released generates energy.
 ///  - The first tick starts without ramps, and so does the tick after a fault. One non-finite input silences all channels.
 ///  - `names` are the labels of the channels for people and hosts, separated by commas: "contact, texture, shock".
 ///  - It mixes numbers. For forces in three axes, mix before vector.scale, or use one desk per axis.
@@ -126,7 +126,7 @@ struct LayerMix
 private:
     struct Channel
     {
-        double open = 1.0;    // m_i of the mute and solo ramps
+        double open = 1.0;    // m_i, the ramp of mute and solo
         double level = 0.0;   // level of m_i x_i
         double duck = 1.0;    // d_i
     };

@@ -27,16 +27,16 @@ namespace tactus::nodes
 ///  - Rest. If all samples of the full window lie within `noise` of each other, their line is noise too, and a tool at rest
 ///    would creep by up to q / (n T). The velocity is then 0, unless they lie on a line to within 1e-6 of its rise: a true
 ///    ramp is exact, however slow. So the resolution is noise / (max_window T), as in the paper.
-///  - `noise` 0 means the quantum of the device. No wire carries it, so the node takes the smallest step it has seen, per axis.
-///    For quantised positions this is the quantum, once the tool has moved slowly. For exact positions it is the step of the slowest
-///    moment so far, and the window soon shrinks to a tick or two. Steps below 1e-10 m are rounding.
+///  - `noise` 0 means the quantum of the device. No wire carries the quantum, so the node takes the smallest step it has seen, per
+///    axis. For quantised positions this is the quantum, once the tool has moved slowly. For exact positions it is the step of the
+///    slowest moment so far, and the window soon shrinks to a tick or two. Steps below 1e-10 m are rounding.
 ///
 /// Good to know
 ///  - If the noise is not in steps, or the steps are rotated out of their axes, set `noise`: the largest distance between two
 ///    samples of a tool at rest. The value learnt by the node would be too small.
 ///  - Exact on ramps, from the second sample if its steps exceed the noise, else from the third. With quantised positions the
-///    error is below 2 noise / (n T). The lag is n T / 2: under an acceleration a, n T is about sqrt (8 noise / a).
-///    So it helps most where the hand is slow; with `noise` set too large it lags.
+///    error is below 2 noise / (n T). The lag is n T / 2: under an acceleration a, n T is about sqrt (8 noise / a). So the node
+///    helps most where the hand is slow; with `noise` set too large it lags.
 ///  - Cost grows with max_window.
 ///  - It is 0 on the first sample and after a fault. The learnt quantum stays.
 struct Velocity
@@ -128,7 +128,7 @@ private:
     static constexpr int capacity = longest_window + 1;
     static constexpr double rounding = 1e-10;   // m; no encoder is finer
 
-    static constexpr auto inverses = []   // 1/n: multiplying costs a fifth of dividing
+    static constexpr auto inverses = []   // 1/n; a multiplication costs a fifth of a division
     {
         std::array<double, capacity> all {};
         for (int n = 1; n < capacity; ++n)

@@ -20,15 +20,15 @@ namespace tactus::nodes
 /// Source: Hannaford & Ryu 2002; Hayward, "Physically-Based Haptic Synthesis" (2007), section 1.
 ///
 /// Departures from Hannaford and Ryu
-///  - Pairing. The force held while the tool moved by dp_n is the force of the previous sample. `pairing: zoh` counts that one,
+///  - Pairing. The force held while the tool moved by dp_n is the force of the previous sample. `pairing: zoh` counts that force,
 ///    which is exact. `pairing: backward` is, as far as we know, theirs: f(n) with dp_n:
 ///        E_n = E_(n-1) - f_n . dp_n + alpha_(n-1) |dp_(n-1)|^2 / T
 ///    It credits a spring with sigma dp^2 / 2 per sample, as much as the hold leaks, so it does not see the leak: against a
 ///    buzzing wall it does nothing (see the test).
-///  - Cap. Without one the damper itself is too much for the sampled mass, and the controller diverges: in 11 of 12 swept
-///    cases, to 1e6 N. The bound is B + 2 M / T, less with a wall behind it. alpha_max 0 means mass / (2 T). More than
-///    1.8 mass / T is never applied, whatever alpha_max is: at 2 a wall of 8000 N/m is calm for some seconds, and then throws
-///    the hand back with kilonewtons.
+///  - Cap. Without one the damper itself is too much for the sampled mass, and the controller diverges: in 11 of 12 swept cases,
+///    to 1e6 N. The bound is B + 2 M / T for a device of mass M and damping B, less with a wall behind it. alpha_max 0 means
+///    mass / (2 T). More than 1.8 mass / T is never applied, whatever alpha_max is: at 2 mass / T a wall of 8000 N/m is calm for
+///    some seconds, and then throws the hand back with kilonewtons.
 ///
 /// What to expect: a buzz of millimetres shrinks to a tenth or less (K = 3000 N/m, B = 0.5 N s/m, M = 0.1 kg, T = 1 ms,
 /// a hand of 1.5 N: from 12 to 0.13 mm in 3 s), not to silence. With a cap, E dips below 0 for a while and then recovers.
@@ -37,12 +37,13 @@ namespace tactus::nodes
 ///  - `energy` is E before the correction of this sample.
 ///  - `contact` 0 resets the energy; without that, energy taken by real dampers could be given back later. Any other value keeps
 ///    the balance running.
-///  - On the first sample, and after a fault, the force passes unchanged. A fault gives no force and keeps the energy; the
-///    motion across it is not counted.
-///  - `mass` is the mass of the device as the hand feels it. Too large a value makes the cap unsafe; with 0 it never brakes.
+///  - On the first sample, and after a fault, the force passes unchanged. A fault gives no force and keeps the energy; the motion
+///    during the fault is not counted.
+///  - `mass` is the mass of the device as the hand feels it. Too large a value makes the cap unsafe; with a mass of 0 the node
+///    never brakes.
 ///  - T is the sampling period. A device with a delay needs a smaller alpha_max.
 ///  - A change of `pairing` takes effect when `contact` is 0, after a fault, or on a restart.
-///  - A limiter belongs after it; every role has its own guard.
+///  - Limit the force after this node; the guard of the role does so in any case.
 struct PassivityObserver
 {
     enum class Pairing
@@ -85,13 +86,13 @@ struct PassivityObserver
         input (&Inputs::position, "position", unit::metre, "tool position p"),
         input (&Inputs::force, "force", unit::newton, "force f of the object on the tool"),
         input (&Inputs::contact, "contact", unit::state, "0 resets the energy"),
-        param (&Params::alpha_max, "alpha_max", unit::damping, "most damping it adds; 0: mass / (2 T); at most 1.8 mass / T",
+        param (&Params::alpha_max, "alpha_max", unit::damping, "largest damping that the node adds; 0: mass / (2 T); at most 1.8 mass / T",
                { .hard = { 0, inf }, .usual = { 0, 200 } }),
         param (&Params::mass, "mass", unit::kilogram, "mass of the device, as the hand feels it", { .hard = { 0, inf }, .usual = { 0, 1 } }),
         choice (&Params::pairing, "pairing", pairing_names, "the force that is paired with dp: the held one, or the new one"),
         output (&Outputs::force, "force", unit::newton, "f_out, force on the tool with the damper"),
         output (&Outputs::energy, "energy", unit::joule, "energy E taken from the hand since the reset, before correction"),
-        output (&Outputs::alpha, "alpha", unit::damping, "damping it currently adds"),
+        output (&Outputs::alpha, "alpha", unit::damping, "damping that the node currently adds"),
     };
 
     Params params;
@@ -147,7 +148,7 @@ private:
 
     struct Account
     {
-        Vec3 p = Vec3::Zero(), force = Vec3::Zero();   // of the last sample; the force as it was applied
+        Vec3 p = Vec3::Zero(), force = Vec3::Zero();   // position of the tool and applied force on the last sample
         double energy = 0.0;                           // J
         double braked = 0.0;                           // energy that the damper took on the last sample, J
         Pairing pairing = Pairing::zoh;

@@ -33,7 +33,7 @@ namespace tactus::nodes
 ///
 /// Departures from the printed chapter
 ///  - Eq. (10) is printed N = K - D d'. With d' positive into the object this creates energy: lambda v = 0.3 returns 1.25 v.
-///  - The "initial value of d^z" is 0 at the first touch; its speed is meant.
+///  - The "initial value of d^z" is 0 at the first touch; the chapter means its rate.
 ///  - No adhesion: N is never negative. It would not become negative in a free impact.
 ///
 /// Good to know
@@ -42,8 +42,8 @@ namespace tactus::nodes
 ///  - The steps are explicit: where h D / m approaches 1 (h: the length of a substep), the mass is thrown back too soon. Use more
 ///    substeps then.
 ///  - While all voices sound, a new hit is dropped; no voice is cut short.
-///  - A contact of fewer than four samples is not accurate: `warning` reports it for a hit of 1 m/s. Harder hits are shorter;
-///    with a stiffness k d^n, by v^(-(n - 1) / (n + 1)).
+///  - A contact of fewer than four samples is not accurate: `warning` reports it for a hit of 1 m/s. Harder hits are shorter:
+///    with a stiffness k d^n, their duration is proportional to v^(-(n - 1) / (n + 1)).
 ///  - A hit whose speed is not positive or not finite is ignored. A quantised position makes the contact
 ///    flicker: use contact.impact.
 ///  - It gives the hand an impulse that the hand never put in: this node is not passive.

@@ -36,7 +36,7 @@ struct Delay
     static constexpr std::tuple ports {
         input (&Inputs::in, "in", any_unit, "signal"),
         setting (&Settings::ticks, "ticks", unit::count, "length of the delay in ticks", { .hard = { 1, 1e6 }, .usual = { 1, 100 } }),
-        output (&Outputs::out, "out", sameAs ("in"), "the signal, that many ticks ago"),
+        output (&Outputs::out, "out", sameAs ("in"), "the delayed signal"),
     };
 
     Params params;
@@ -69,7 +69,7 @@ struct Delay
 
 private:
     std::vector<double> line { 0.0 };
-    std::size_t now = 0;   // oldest sample
+    std::size_t now = 0;   // index of the oldest sample, which the next tick overwrites
 };
 
 }   // namespace tactus::nodes

@@ -14,7 +14,8 @@ namespace tactus::nodes
 ///     else         falls to 0 in `release`, from wherever it is
 ///
 /// All segments are straight lines. Each starts from the current level: a gate that reopens during the release continues from
-/// there, without a step. A time of less than one tick is a step. On a non-finite gate it gives 0 and starts again from rest.
+/// there, without a step. A time of less than one tick makes its segment a step. On a non-finite gate it gives 0 and
+/// starts again from rest.
 ///
 /// Source: the ADSR of the early Moog and ARP synthesisers, with the straight segments and constant release time of
 /// juce::ADSR.
@@ -47,7 +48,7 @@ struct SignalEnvelope
         param (&Params::attack, "attack", unit::second, "time from 0 to 1", { .hard = { 0, inf }, .usual = { 0, 1 } }),
         param (&Params::decay, "decay", unit::second, "time from 1 to sustain", { .hard = { 0, inf }, .usual = { 0, 1 } }),
         param (&Params::sustain, "sustain", unit::gain, "level while the gate stays open", { .hard = { 0, 1 } }),
-        param (&Params::release, "release", unit::second, "time to 0 after the gate", { .hard = { 0, inf }, .usual = { 0, 2 } }),
+        param (&Params::release, "release", unit::second, "time to 0 after the gate closes", { .hard = { 0, inf }, .usual = { 0, 2 } }),
         output (&Outputs::out, "out", unit::gain, "0 … 1"),
     };
 
@@ -111,7 +112,7 @@ private:
         attack,
         decay,
         sustain,
-        release   // and rest
+        release   // also the state at rest
     };
 
     static constexpr double rounding = 1e-9;   // so that n steps of 1/n take n ticks

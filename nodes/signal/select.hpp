@@ -9,7 +9,7 @@
 namespace tactus::nodes
 {
 
-/// Passes on one of its inputs, by number from 0.
+/// Passes on one of its inputs, chosen by a number that counts from 0.
 ///
 /// The number is rounded to the nearest integer, so that a computed 0.9999 means 1, and limited to the inputs that exist. The
 /// switch is hard; signal.crossfade is gradual.

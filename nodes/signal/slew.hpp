@@ -8,8 +8,8 @@ namespace tactus::nodes
 
 /// Limits how fast a signal changes: steps become ramps.
 ///
-/// It starts at the first sample, without a ramp from 0, and does so again after a non-finite input. A signal slower than the
-/// rate passes bit for bit.
+/// The output starts at the first sample, without a ramp from 0, and does so again after a non-finite input. A signal slower than
+/// the rate passes unchanged, bit for bit.
 struct SignalSlew
 {
     using Inputs = In<double>;

@@ -58,7 +58,7 @@ struct AntiAlias
                { .hard = { 0, inf }, .usual = { 10, 5000 } }),
         param (&Params::angle, "angle", unit::radian, "angle of the wave in the xy plane, from x towards y",
                { .usual = { -std::numbers::pi, std::numbers::pi } }),
-        param (&Params::f_max, "f_max", unit::hertz, "silent from this frequency up; the fade begins at half of it",
+        param (&Params::f_max, "f_max", unit::hertz, "the gain is 0 from this frequency up; the fade begins at half of it",
                { .hard = { 0, inf }, .usual = { 0, 1000 } }),
         output (&Outputs::gain, "gain", unit::gain, "factor on the texture"),
         output (&Outputs::speed, "speed", unit::speed, "signed speed along the grating"),

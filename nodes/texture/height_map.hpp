@@ -24,7 +24,7 @@ namespace tactus::nodes
 /// A relief scanned fast would contain higher frequencies than the tick rate can carry. So h has levels, each with half the
 /// detail of the previous one, and the speed of the hand blends between two of them: nothing is left above
 ///
-///     f_max = 1 / (alpha T),  alpha = 4      at 1 kHz 250 Hz, where touch is most sensitive (Table 1: alpha >= 2, better 10)
+///     f_max = 1 / (alpha T),  alpha = 4      250 Hz at 1 kHz, where touch is most sensitive (Table 1: alpha >= 2, better 10)
 ///
 /// A component (kx, ky) sounds at |kx vx + ky vy| <= k_max (|vx| + |vy|), and each level ends at a k_max in x and in y, so it is
 /// usable up to the speed at which this bound reaches f_max. From half of that speed up, the finest level gives way to the next.
@@ -45,12 +45,13 @@ namespace tactus::nodes
 ///    "1 um" suits a table from an instrument that writes micrometres.
 ///  - At a speed v, waves shorter than about v / f_max are gone: at 4 kHz and 0.1 m/s those below 0.1 mm, at 1 kHz below 0.4 mm.
 ///    A finer map only helps a slower hand.
-///  - Speed is the difference between two samples, and 0 on the first sample and after a fault. A rise acts immediately, a fall late
-///    and slowly (after 20 ms, within 50 ms). So a quantum q of the position counts as a speed q / T throughout, and nothing
-///    flutters. Detail finer than that is gone (Table 1, high speed: alpha k q < 1).
+///  - Speed is the difference between two samples, and 0 on the first sample and after a fault. A rise in speed acts immediately;
+///    a fall acts only after 20 ms and then decays with a time constant of 50 ms. So a quantum q of the position counts as a
+///    speed q / T throughout, and nothing flutters. Detail too fine for that speed is gone (Table 1, high speed: alpha k q < 1).
 ///  - A hand at rest keeps the detail it arrived with, so its force does not change.
 ///  - For the roughest possible map, white noise, less than 0.6 % of the force (-45 dB) is left above f_max.
-///  - While the speed changes, so does h: a closed path may then generate or absorb energy. It claims to be passive only if flat.
+///  - While the speed changes, so does h: a closed path may then generate or absorb energy. The node claims to be passive only if
+///    the map is flat.
 ///  - For a force in N think of slopes: gain is the force on a slope of 1, 45 degrees. Real slopes are about 0.1.
 ///  - Multiply by contact.window, so that a touch does not step the force.
 struct HeightMap
@@ -158,7 +159,7 @@ private:
     /// The surface at one level of detail.
     struct Level
     {
-        double edge = 0.0;   // 1/m; the level holds nothing above this, along x or y
+        double edge = 0.0;   // spatial frequency in 1/m above which the level holds nothing, along x and y
         SplineSurface surface;
     };
 

@@ -182,7 +182,7 @@ private:
     std::vector<double> speeds, forces;   // speeds and forces of the models, sorted
     std::vector<std::size_t> grid;        // by speed, then force: index of the model
     std::vector<Shape> shapes;
-    double full_speed = 0.0, full_force = 0.0;   // no fade from here up
+    double full_speed = 0.0, full_force = 0.0;   // from this speed and force up, the noise does not fade
 
     Random random;
     Lattice lattice;

@@ -60,7 +60,7 @@ struct Wavetable
         static constexpr std::tuple fields {
             field (&Table::modes, "modes", unit::count, "the tones of the object"),
             field (&Table::rate, "rate", unit::hertz, "rate of the samples computed from the modes", { .hard = { 1, 1e6 }, .usual = { 1000, 48000 } }),
-            field (&Table::length, "length", unit::count, "number of these samples", { .hard = { 2, longest }, .usual = { 100, 48000 } }),
+            field (&Table::length, "length", unit::count, "number of samples computed from the modes", { .hard = { 2, longest }, .usual = { 100, 48000 } }),
             field (&Table::wav, "wav", unit::count, "a recording instead of modes, in N s/m"),
             field (&Table::channel, "channel", unit::count, "channel of the recording, from 1", { .hard = { 1, 1024 }, .usual = { 1, 8 } }),
         };
@@ -158,7 +158,7 @@ private:
 
     struct Voice
     {
-        double at = 0.0, v = 0.0;   // samples into the table, m/s
+        double at = 0.0, v = 0.0;   // position in the table, in samples; speed of the hit, in m/s
         const Tables* table = nullptr;
         std::size_t octave = 0;
         bool sounds = false;
@@ -233,7 +233,7 @@ inline std::string Wavetable::warning (const Setup& setup) const
     for (const Mode& m : t.modes)
         if (m.frequency >= 0.5 * t.rate && m.frequency < 0.5 * setup.rate_hz)
             return "the table's rate is too low for the mode at " + std::to_string (std::lround (m.frequency))
-                   + " Hz, which will alias: it needs more than twice that frequency";
+                   + " Hz, which will alias: raise the rate to more than twice that frequency";
 
     constexpr double unheard = 0.02;
     for (const Mode& m : t.modes)
@@ -241,7 +241,7 @@ inline std::string Wavetable::warning (const Setup& setup) const
         {
             const auto enough = std::lround (std::ceil (-std::log (unheard) * t.rate / m.decay));
             return "the table ends while the mode at " + std::to_string (std::lround (m.frequency))
-                   + " Hz still sounds, which clicks: a length of " + std::to_string (enough) + " is enough";
+                   + " Hz still sounds, which clicks: set the length to at least " + std::to_string (enough);
         }
     return {};
 }

@@ -70,7 +70,7 @@ def judge(sound, full_scale):
         since = (cycles + phase / (2.0 * numpy.pi)) / f
         found.append((f, 20.0 * numpy.log10(numpy.hypot(a, b) * numpy.exp(d * since) / (SPEED * AMPLITUDE / full_scale)), d, rest))
     if len(found) < 4:
-        raise SystemExit(f"only {len(found)} rings were found")
+        raise SystemExit(f"only {len(found)} rings were found in the recording; at least 4 are needed")
     return found
 
 
@@ -125,7 +125,7 @@ def lose(program, server):
     server.start()
     said = run.communicate()[1]
     print("\n".join("  " + line.strip() for line in said.splitlines() if "went away" in line or "from the timer" in line), flush=True)
-    if run.returncode != 0 or "it went away 1 time\n" not in said or "ticks came from the timer" not in said:
+    if run.returncode != 0 or "the card went away 1 time\n" not in said or "ticks came from the timer" not in said:
         raise SystemExit(said)
 
 
@@ -139,11 +139,11 @@ def main():
                 (hz, db), ratio = play(program, server, out, clock)
                 if hz <= MOST_HZ and db <= MOST_DB:
                     break
-                print(f"  not within {MOST_HZ} Hz and {MOST_DB} dB", flush=True)
+                print(f"  the worst ring is not within {MOST_HZ} Hz and {MOST_DB} dB of theory", flush=True)
             else:
                 raise SystemExit("the recording does not match theory")
             if clock == "audio" and ratio != 1.0:
-                raise SystemExit("if the card ticks the run, the ratio must be 1")
+                raise SystemExit(f"the card ticks this run, so the ratio must be 1, but it is {ratio}")
         refuse(program, server)
         lose(program, server)
     finally:

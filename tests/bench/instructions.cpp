@@ -46,7 +46,7 @@ double plausible (const PortSheet& port, int component, double t)
 {
     const auto& unit = port.unit.unit;
     const double initial = port.initial[component];
-    if (std::isnan (initial)) return initial;   // stays unwired
+    if (std::isnan (initial)) return initial;   // this input stays unwired
 
     const double phase = 0.1 * component;
     switch (port.unit.kind == UnitRule::Kind::fixed ? unit.quantity : Quantity::any)

@@ -36,7 +36,7 @@ def compiled(build):
     """Returns the compiler and the flags that affect the generated code; nodes and everything else use the same."""
     entries = json.loads((build / "compile_commands.json").read_text())
     command = next(shlex.split(e["command"]) for e in entries if "nodes_friction_elasto_plastic_hpp" in e["file"])
-    command = command[next(i for i, word in enumerate(command) if word.endswith("++")):]   # without ccache
+    command = command[next(i for i, word in enumerate(command) if word.endswith("++")):]   # drops ccache
     version = subprocess.run([command[0], "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
     flags = [f for f in command[1:] if re.match(r"-(O|m|f|std=)|-DNDEBUG", f)]
     return re.sub(r"^c\+\+", "g++", version), " ".join(flags)
@@ -59,7 +59,7 @@ def main():
     family = None
     for node, mean, problem in nodes:
         its = node.split(".")[0]
-        lines.append(f"| {its if its != family else ''} | `{node}` | {f'{mean - nothing:.0f}' if mean is not None else f'not with defaults: {problem}'} |")
+        lines.append(f"| {its if its != family else ''} | `{node}` | {f'{mean - nothing:.0f}' if mean is not None else f'not counted: {problem}'} |")
         family = its
     (ROOT / "docs" / "instructions.md").write_text("\n".join(lines) + "\n")
     print(f"docs/instructions.md: {len(nodes)} nodes")

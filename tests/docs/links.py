@@ -79,7 +79,7 @@ def main():
     shown = {(p.parent / (a or b)).resolve() for p in PAGES for a, b in LINK.findall(p.read_text(encoding="utf-8")) if "://" not in (a or b)}
     for picture in sorted(ROOT.glob("docs/host/*.png")):
         if picture not in shown:
-            print(f"{picture.relative_to(ROOT)}: no page shows it")
+            print(f"{picture.relative_to(ROOT)}: no page shows this picture")
             count += 1
     print(f"{len(PAGES)} pages, {count} problems")
     return 1 if count else 0

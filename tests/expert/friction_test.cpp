@@ -20,7 +20,7 @@ namespace
 constexpr std::string_view adhesions[] { "stick", "dupont", "ramp", "dahl", "curve" };
 constexpr std::string_view integrators[] { "exponential", "euler" };
 
-/// A tool dragged along x by a hand whose work is summed by trapezoids.
+/// A tool dragged along x by a hand whose work is summed by the trapezoid rule.
 struct Drag
 {
     Drag (std::string_view adhesion, std::string_view integrator, double d_max, std::string_view load = "passive")

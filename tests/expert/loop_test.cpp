@@ -223,7 +223,7 @@ TEST_CASE ("expert 19: at a different rate, everything is just as fast, as deep 
 
 TEST_CASE ("expert 20: a nan from the device is neither stored nor sent to the motor", "[expert]")
 {
-    // The object includes the origin: if a lost tool were assumed to be there, it would hit the object from inside.
+    // The object includes the origin: if a lost tool were assumed to be at the origin, it would hit the object from inside.
     auto graph = floorboard();
     const Vec3 away { 0.05, -0.03, 0.06 };
     graph.graph.root.nodes[2].params["offset"] = away.z();
@@ -257,7 +257,7 @@ TEST_CASE ("expert 20: a nan from the device is neither stored nor sent to the m
             RC_ASSERT (isFinite (f));
             RC_ASSERT (f.norm() <= 1.5 * most);
         }
-        for (std::size_t k = 700; k < well.size(); ++k)   // after the contact has ended, no trace of it is left
+        for (std::size_t k = 700; k < well.size(); ++k)   // after the contact has ended, no trace of the lost ticks is left
             RC_ASSERT ((hand.forces[k] - well[k]).norm() < 1e-6 * most);
     });
 }

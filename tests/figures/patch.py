@@ -19,7 +19,7 @@ def draw():
         known = mark.isupper()
         colour = INK if known else VERMILION
         plan.plot(x, y, "o", color=colour, markersize=5, clip_on=False, zorder=4)
-        dx = -3.2 if x == 0 or 32 < x < 40 else 3.2  # clear of the sides
+        dx = -3.2 if x == 0 or 32 < x < 40 else 3.2  # keeps the label clear of the sides
         name(plan, x + dx, y, mark, colour, ha="center", fontweight="semibold")
 
         depth, force = 1e3 * run["depth"][mine], run["resistance"][mine]

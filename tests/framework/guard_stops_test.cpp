@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The causes for which a guard stops the force: speed, impulse, energy, the dead-man's switch, the emergency stop.
+// The reasons why a guard stops the force: speed, impulse, energy, the dead-man's switch, the emergency stop.
 
 #include <framework/run/guard.hpp>
 #include <framework/run/guard_log.hpp>
@@ -158,7 +158,7 @@ TEST_CASE ("guard: a passive load never trips the energy watchdog", "[framework]
             most = std::max (most, 0.5 * stiffness * x * x);
             leak += 0.5 * stiffness * dx * dx + damping / dt * std::abs (dx * (hand (k + 1) - 2.0 * x + hand (k - 1)));
         }
-        auto guard = guardWith ({ .max_energy = most + leak + 1e-9 });   // for the whole session
+        auto guard = guardWith ({ .max_energy = most + leak + 1e-9 });   // without a window, so the limit is for the whole session
         for (int k = 0; k < 3000; ++k)
         {
             const double x = hand (k), v = (x - hand (k - 1)) / dt;
@@ -334,12 +334,12 @@ TEST_CASE ("guard: every cause is reported with its numbers", "[framework][guard
         return describe (guard.latest());
     };
     CHECK (told ({ .max_speed = 1.0 }, {}, at (0.06)) == "the tool moves at 10 m/s; the limit is 1 m/s");
-    CHECK (told ({ .max_impulse = 0.005, .impulse_window = 0.5 }, {}, at (0.0)) == "the force has pushed for 0.01 N*s; the limit is 0.005 N*s in 0.5 s");
+    CHECK (told ({ .max_impulse = 0.005, .impulse_window = 0.5 }, {}, at (0.0)) == "the impulse of the force is 0.01 N*s; the limit is 0.005 N*s in 0.5 s");
     CHECK (told ({ .max_energy = 0.1 }, {}, at (0.03)) == "the device has given the hand 0.3 J; the limit is 0.1 J");
     CHECK (told ({}, { .axes = { 1.0, not_a_number } }, at (0.0)) == "the graph asked for an effort on axis 2 that is not a number: nan");
     CHECK (told ({}, { .signals = { -tactus::GuardLimits::none } }, at (0.0)) == "the graph asked for a signal on channel 1 that is not a number: -inf");
     CHECK (told ({}, {}, at (not_a_number)) == "the reading is not a number: (nan, 0, 0)");
-    CHECK (told ({ .watchdog = 0.02 }, {}, { .age = not_a_number }) == "the reading has no age");
+    CHECK (told ({ .watchdog = 0.02 }, {}, { .age = not_a_number }) == "the age of the reading is not a number");
 }
 
 TEST_CASE ("guard: the effort of an axis that is no longer commanded falls to zero as fast as the limits allow", "[framework][guard]")

@@ -87,7 +87,7 @@ struct Log
     /// Returns true if the report contains a force.
     bool got (std::span<const std::uint8_t> report)
     {
-        // Without a report id, some kernels pass on the 0 that replaces it.
+        // Some kernels prepend a 0 in place of the missing report id.
         if (report.size() == 65) report = report.subspan (1);
         if (report.size() != 64)
         {

@@ -53,11 +53,11 @@ def counted(name):
             "refused": number(r"lost, (\d+) refused"),
             "short": number(r"(\d+) too short"), "long": number(r"(\d+) too long"), "mark": number(r"(\d+) wrong mark"),
             "restarts": number(r"(\d+) out of order"), "dropped": number(r"(\d+) replaced by newer"), "departures": number(r"unplugged (\d+) times"),
-            "no room": number(r"(\d+) without room")}
+            "no room": number(r"(\d+) dropped for lack of room")}
 
 
 def starved(name):
-    """True if ticks were so late, on a busy computer, that the kernel lost reports. The kernel keeps 64 per program."""
+    """True if ticks were so late, on a busy computer, that the kernel lost reports. The kernel keeps 64 reports per program."""
     late = re.search(r"late p50 .* max ([0-9.e+]+) us", text(name + ".play.err"))
     if late and float(late[1]) < 60e3:
         return False
@@ -66,7 +66,7 @@ def starved(name):
 
 
 def expected(sent, reports, with_short):
-    """The expected count after this many reports. Newer kernels do not pass on short reports."""
+    """The counts that the program must report after this many reports. Newer kernels do not pass on short reports."""
     out = {"lost": 0, "restarts": 0, "short": 0, "long": 0, "mark": 0}
     kinds = {"short": "short", "oversized": "long", "malformed": "mark"}
     last = None
@@ -83,7 +83,7 @@ def expected(sent, reports, with_short):
 
 
 def micro(newton):
-    """Encoded as in the profile: s32, 1 uN."""
+    """A force in N, encoded as in the profile: s32, in units of 1 uN."""
     return int(math.floor(newton / 1e-6 + 0.5))
 
 
@@ -166,11 +166,11 @@ check(first < most / 4, f"unplug: force starts at {first} uN and rises to {most}
 for signal in ("INT", "TERM", "KILL", "SEGV"):
     heard = Board(signal).heard
     pushed = [h for h in heard if h[0] == "driven" and any(h[2])]
-    check(len(pushed) > 10, f"{signal}: the board was under force")
+    check(len(pushed) > 10, f"{signal}: the board received forces")
     check(heard[-1][0] == "neutral", f"{signal}: the last report to the board is neutral")
     if signal in ("INT", "TERM"):
         last = [h for h in heard if h[0] == "driven"][-1]
-        check(not any(last[2]), f"{signal}: the force had gone to zero before that")
+        check(not any(last[2]), f"{signal}: the force had already fallen to zero")
     else:
         print(f"        {1e3 * (heard[-1][3] - pushed[-1][3]):.1f} ms after the last push")
 

@@ -51,14 +51,14 @@ play --duration 3 "${recorded[@]}" || fail "the faulty board"
 unplug
 keep faults
 
-say "unplugged under force, and plugged in again"
+say "unplugged while a force acts, and plugged in again"
 plug --unplug 800 --away 1.5
 play --duration 5 "${recorded[@]}" || fail "the unplugged board"
 unplug
 keep unplug
 
 for signal in INT TERM KILL SEGV; do
-    say "ended by $signal under force"
+    say "ended by $signal while a force acts"
     plug --mark $work/pushed
     play --duration 600 & player=$!
     end_under_force $signal
@@ -114,7 +114,7 @@ if [ -e "$FFB_DESCRIPTOR" ]; then
     unplug
     keep uncalibrated
 
-    say "the same, unplugged under force and plugged in again with another effect block"
+    say "the same, unplugged while a force acts and plugged in again with another effect block"
     stick --unplug 1 --away 0.8
     feel --device stylus=$work/joystick.json --duration 4 "${recorded[@]}" || fail "the joystick, unplugged"
     unplug
@@ -127,7 +127,7 @@ if [ -e "$FFB_DESCRIPTOR" ]; then
     unplug
     keep no_room
 
-    say "the same, its program killed under force"
+    say "the same, with its program killed while a force acts"
     stick --mark $work/pushed
     feel --device stylus=$work/joystick.json --duration 600 & player=$!
     end_under_force KILL

@@ -55,7 +55,7 @@ std::array<std::uint8_t, 25> reportAt (double t)
 
 /// A joystick with OpenFFBoard's report descriptor, read from a file. It answers like a real one, and logs everything it receives.
 /// --file NAME --log FILE --mark FILE --seconds S --blocks N (effect blocks it assigns; 0: its memory is full) --unplug S
-/// (this long after it was opened) --away S (for this long; comes back with another block)
+/// (unplugged this long after it was opened) --away S (stays unplugged for this long; comes back with another block)
 int joystick (const std::vector<std::string>& args)
 {
     std::signal (SIGTERM, [] (int) { ended = 1; });

@@ -62,7 +62,7 @@ def points_upwards(file, target):
         return None
     below, above = level(file, LAYERS, 1), level(target, LAYERS, 1)
     if below is None or above is None:
-        return "framework/ has a folder that LAYERS does not list"
+        return "framework/ has a folder that LAYERS does not list; add it to LAYERS in rooms.py"
     return f"{LAYERS[below]} must not include {LAYERS[above]}" if above > below else None
 
 
@@ -100,7 +100,7 @@ def main():
             continue
         in_ring.update(ring)
         problems.append(f"{edges[ring[0]][ring[1 % len(ring)]]}: these folders form a ring: {' -> '.join(map(str, ring + ring[:1]))}")
-        problems += [f"{edges[a][b]}: part of that ring" for a, b in zip(ring[1:], ring[2:] + ring[:1])]
+        problems += [f"{edges[a][b]}: part of the ring above" for a, b in zip(ring[1:], ring[2:] + ring[:1])]
 
     print("\n".join(problems) if problems else "all includes follow the order of the folders")
     return 1 if problems else 0

@@ -200,7 +200,7 @@ int Interpreter::fromComponent (const Wire& w, int component)
     return w.to.component >= 0 ? 0 : component;
 }
 
-/// For each wire: the sections it leaves (innermost first) and the sections it enters (outermost first).
+/// Finds, for each wire, the sections it leaves (innermost first) and the sections it enters (outermost first).
 void Interpreter::route()
 {
     for (auto& w : wires)
@@ -390,7 +390,7 @@ void Interpreter::evaluate (const std::string& path)
     if (fault && in.empty()) i.type->initialiseOutputs (i.outputs.data());
 }
 
-/// Runs one of the section's own ticks.
+/// Runs one tick of a section.
 void Interpreter::run (int section)
 {
     for (auto& s : sections)

@@ -23,7 +23,7 @@ public:
 
     void tick (const std::map<std::string, Reading>& readings);
 
-    /// A component of an output, by its full name: "sub/n3.force.x".
+    /// The components of all outputs, by full name: "sub/n3.force.x".
     std::map<std::string, double> outputs() const;
 
 private:
@@ -45,7 +45,7 @@ private:
         int every = 1, times = 1;
         bool linear = false;
         double up = 1.0, down = 1.0;   // it ticks up / down times per tick of the graph
-        std::uint64_t number = 0;      // number of its own ticks
+        std::uint64_t number = 0;      // number of its current tick, counted in its own ticks
         bool done = false;             // has run in this tick of the enclosing section
     };
     struct End
@@ -62,12 +62,12 @@ private:
     {
         End from, to;
         const graph::Wire* wire = nullptr;
-        int section = 0;   // the section it is written in
+        int section = 0;   // the section in which the wire is written
         double gain = 1.0;
-        bool hits = false, steps = false;                           // if neither is set: a signal
-        std::vector<int> leaves, enters;                            // sections it crosses
+        bool hits = false, steps = false;                           // what the wire carries; if neither is set, a signal
+        std::vector<int> leaves, enters;                            // the sections that the wire crosses
         std::map<int, std::deque<double>> line;                     // delayed values, by component
-        std::map<int, std::map<int, Crossing>> leaving, entering;   // by component, by section
+        std::map<int, std::map<int, Crossing>> leaving, entering;   // by component, then by section
     };
 
     const graph::Graph& g;

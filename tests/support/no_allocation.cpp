@@ -34,7 +34,7 @@ int NoAllocation::locks() const noexcept { return locks_seen; }
 
 namespace
 {
-/// The libc function overridden by the function here.
+/// The libc function of this name, which the wrapper below overrides.
 template <typename Lock>
 auto next (const char* name) noexcept
 {

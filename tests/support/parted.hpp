@@ -89,7 +89,7 @@ inline Parted doubling (Json rate)
     return sketch;
 }
 
-/// From a hand to a motor through a section. The two wires are "split.x -> late.in" inside and "sec.out -> motor.force.x"
+/// A path from a hand to a motor through a section. The two wires are "split.x -> late.in" inside and "sec.out -> motor.force.x"
 /// outside, or variants of them.
 inline Parted fromHandToMotor (Json rate, const std::string& inside, const std::string& outside)
 {

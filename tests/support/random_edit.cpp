@@ -43,7 +43,7 @@ private:
     const graph::Patch& patch() const { return in.empty() ? g.root : *g.find (in); }
     std::string freshName() { return prefix + "x" + std::to_string (below (1000)); }
 
-    /// Never uses the edited subgraphs themselves: a subgraph must never contain itself, and the nesting must end.
+    /// The new node is never one of the edited subgraphs: a subgraph must never contain itself, and the nesting must end.
     graph::Node newNode()
     {
         auto n = randomNode (random, freshName(), {});

@@ -26,23 +26,23 @@ public:
     struct Component
     {
         const tactus::PortSheet* port;
-        int index;   ///< within the port
+        int index;   ///< position of the number within the port
     };
 
     explicit Rig (const tactus::NodeType&, double rate_hz = 4000.0);
     explicit Rig (std::string_view type_id, double rate_hz = 4000.0);
 
-    Rig& set (std::string_view setting, const tactus::SettingValue&);   ///< before prepare
-    Rig& param (std::string_view id, double value, int index = 0);      ///< index: component or entry
+    Rig& set (std::string_view setting, const tactus::SettingValue&);   ///< call before prepare
+    Rig& param (std::string_view id, double value, int index = 0);      ///< index: component of a vector, or entry of a list
     Rig& choose (std::string_view choice, std::string_view alternative);
     std::string problem() const;
 
-    void prepare();   ///< bind, prepare, update
+    void prepare();   ///< calls the node's bind, prepare and update
     void adopt (const Rig& old);
 
     Rig& input (std::string_view id, double value, int index = 0);
     Rig& input (std::string_view id, const tactus::Vec3&);
-    void tick() noexcept;   ///< update if a param moved, peek, tick
+    void tick() noexcept;   ///< calls the node's update if a param has moved, then peek and tick
 
     double out (std::string_view id, int index = 0) const;
     tactus::Vec3 vector (std::string_view id) const;

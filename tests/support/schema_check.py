@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Checks a JSON schema against examples: good examples must be valid, and each bad change to one must not be.
+"""Checks a JSON schema against examples: good examples must be valid, and must be invalid after each bad change.
 
 Exits with status 77 (skipped) if python3-jsonschema is not installed."""
 

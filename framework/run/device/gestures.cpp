@@ -18,7 +18,8 @@ struct Rest
     double t, value;
 };
 
-/// From rest to rest with minimum jerk: 10 u^3 - 15 u^4 + 6 u^5 between two points. Outside, the ends are held.
+/// Moves from rest to rest with minimum jerk: 10 u^3 - 15 u^4 + 6 u^5 between two points. Before the first point and after the
+/// last one, the value is constant.
 template <std::size_t n>
 double through (const Rest (&rests)[n], double t) noexcept
 {

@@ -17,9 +17,9 @@ namespace tactus
 struct Gesture
 {
     std::string_view id;
-    std::string_view about;        ///< one sentence
-    double duration_s;             ///< until it repeats
-    Vec3 (*position) (double t);   ///< in m, for t in s from 0 to duration_s; held at both ends
+    std::string_view about;        ///< what the hand does, in one sentence
+    double duration_s;             ///< time until the gesture repeats
+    Vec3 (*position) (double t);   ///< in m, at t in s; constant before 0 and after duration_s
 };
 
 /// All gestures, in the order in which lists show them.

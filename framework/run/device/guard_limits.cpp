@@ -22,7 +22,7 @@ constexpr int most_buttons = 32;
 constexpr auto any = Bounds::notNegative();
 constexpr auto some = Bounds::positive();
 
-/// Without a window, the limits would have no meaning.
+/// Reads the window of some limits. If any of them is set, the window is required, because the limit has no meaning without it.
 double window (ObjectReader& in, std::initializer_list<std::string_view> limits, std::string_view key)
 {
     for (const auto limit : limits)
@@ -30,7 +30,7 @@ double window (ObjectReader& in, std::initializer_list<std::string_view> limits,
     return in.number (key, unit::second, some, 0.0);
 }
 
-/// An axis slides or rotates; the unit in the text decides which.
+/// Reads a limit for axes that slide or rotate; the unit of the value decides which of the two is meant.
 double either (ObjectReader& in, std::string_view key, const Unit& sliding, const Unit& turning, Bounds bounds, double otherwise)
 {
     const auto& json = in.json();
@@ -53,7 +53,7 @@ std::uint64_t button (const Json& json, ObjectReader& in, const DeviceLayout& de
         if (number >= most_buttons) number = -1;
         if (number < 0)
             in.error (key, "device/unknown_button", "the device has " + lacking ("button", "buttons", name, device.buttons),
-                      "name one of its buttons, or give its number from 0");
+                      "name one of its buttons, or give the number of the button, counted from 0");
     }
     // If the button is unknown, no force may pass.
     return number >= 0 ? std::uint64_t { 1 } << number : ~std::uint64_t { 0 };
@@ -112,7 +112,7 @@ void checkStops (const GuardLimits& limits, const std::string& where, Messages& 
         const auto least = numberText (p.most / longest_stop_s);
         messages.push_back (Message::error ("device/slow_stop", where + "/" + p.slew_key,
                                             std::string (p.slew_key) + " " + numberText (p.slew) + " would take " + numberText (p.most / p.slew)
-                                                + " s to bring " + p.most_key + " " + numberText (p.most) + " to zero; a stop may take "
+                                                + " s to bring " + p.most_key + " " + numberText (p.most) + " to zero; a stop may take at most "
                                                 + numberText (longest_stop_s) + " s",
                                             "raise " + std::string (p.slew_key) + " to at least " + least + ", or lower " + p.most_key));
     }

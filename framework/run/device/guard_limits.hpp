@@ -20,17 +20,18 @@ namespace tactus
 ///      "dead_man_button": "grip", "dead_man_pressure": "0.5 N"}
 ///
 /// A limit with a window requires the key of the window. A button is given by its name on the device, or by its number from 0.
-/// Ids as in ObjectReader, and device/slow_stop.
+/// Ids: those of ObjectReader, device/unknown_button, device/slow_stop.
 GuardLimits readGuardLimits (const Json&, std::string where, Messages&, const DeviceLayout& = {});
 
-/// Reads the limits of efforts and motion from an object that may have other keys: all of the above but ramp, watchdog and the
-/// dead-man's switch.
+/// Reads the limits of efforts and motion from an object that may have other keys: all keys of readGuardLimits except
+/// ramp, watchdog and the dead-man's switch.
 void readEffortLimits (ObjectReader&, GuardLimits&);
 
-/// The longest that slew limits may draw out a stop, in s.
+/// The longest time that a stop may take because of slew limits, in s.
 inline constexpr double longest_stop_s = 0.5;
 
-/// Reports a slew limit that needs longer than longest_stop_s to bring the largest effort to zero: device/slow_stop.
+/// Reports each slew limit that needs longer than longest_stop_s to bring the largest allowed effort to zero. Ids:
+/// device/slow_stop.
 void checkStops (const GuardLimits&, const std::string& where, Messages&);
 
 }   // namespace tactus

@@ -33,7 +33,7 @@ std::vector<std::string> gestureNames()
 
 bool isFile (std::string_view path) { return path.find_first_of ("./\\") != path.npos; }
 
-/// Adds messages about a file. Their location is the reference to the file in the description.
+/// Adds messages about a file that a description refers to. Their location becomes this reference.
 void adopt (const Messages& from, const std::string& where, const std::string& file, Messages& messages)
 {
     for (auto message : from)
@@ -106,9 +106,9 @@ std::vector<Simulation::Axis> readAxes (const Json& json, const std::string& whe
     for (const auto& [name, description] : json.items())
     {
         if (! graph::isId (name))
-            all.error (name, "device/name", quote (name) + " is not the name of an axis", "use lower-case letters, digits and _, starting with a letter");
+            all.error (name, "device/name", quote (name) + " is not a valid name for an axis", "use lower-case letters, digits and _, starting with a letter");
         if (axes.size() == static_cast<std::size_t> (Channels::most))
-            all.error (name, "device/out_of_range", "there are more than " + std::to_string (Channels::most) + " axes", "leave some out");
+            all.error (name, "device/out_of_range", "there are more than " + std::to_string (Channels::most) + " axes", "remove some of them");
         ObjectReader in (description, where + "/" + name, messages);
         Simulation::Axis axis { .name = name };
         axis.mass = in.number ("mass", unit::kilogram, Bounds::positive(), axis.mass);
@@ -124,7 +124,7 @@ std::vector<Simulation::Axis> readAxes (const Json& json, const std::string& whe
 
 std::unique_ptr<Device> makeSimulated (ObjectReader& in, const Folder& folder, Messages& messages, std::string& about)
 {
-    // A delay of several seconds is a mistake.
+    // In ticks. A longer delay would be several seconds, which must be a mistake.
     constexpr int longest_delay = 10'000;
 
     Simulation sim;
@@ -143,13 +143,13 @@ std::unique_ptr<Device> makeSimulated (ObjectReader& in, const Folder& folder, M
     sim.signal_outputs = in.whole ("signal_outputs", 0, Channels::most, sim.signal_outputs);
 
     about = "A simulated tool of " + numberText (sim.mass) + " kg with a damping of " + numberText (sim.damping) + " N*s/m, ";
-    about += sim.hand.path ? "in a hand that follows " + in.object ("hand").value ("path", std::string()) + "." : std::string ("held by no hand.");
+    about += sim.hand.path ? "in a hand that follows " + in.object ("hand").value ("path", std::string()) + "." : std::string ("without a hand.");
     return std::make_unique<SimulatedDevice> (std::move (sim));
 }
 
 std::unique_ptr<Device> makeTrace (ObjectReader& in, const Folder& folder, Messages& messages, std::string& about)
 {
-    in.require ("path", "write the name of a CSV file with t,x,y,z");
+    in.require ("path", "write the name of a CSV file that has the columns t,x,y,z");
     const auto file = in.text ("path");
     const auto placement = readPlacement (in);
     if (file.empty()) return nullptr;
@@ -220,7 +220,7 @@ MadeDevice makeDevice (const Json& description, const Folder& folder)
     {
         // Without the driver, the valid keys are unknown, so only this problem is reported.
         if (id == "hid" || id == "audio")
-            in.error ("driver", "device/real", "this is a real device, and only `tactus play` can drive it",
+            in.error ("driver", "device/real", "this is a real device, which only `tactus play` and tactus-host can drive",
                       "give the role a simulated device instead: \"driver\": \"sim\"");
         else if (! id.empty())
             in.error ("driver", "device/unknown_driver", "there is no driver " + quote (id), suggestion (id, driverNames()));
@@ -258,13 +258,13 @@ Json simulated (std::string_view role, const std::vector<std::pair<std::string, 
             for (const auto key : known_to_sim)
                 if (const auto it = description.find (key); it != description.end()) sim[std::string (key)] = *it;
             if (const auto outputs = description.find ("outputs"); outputs != description.end() && outputs->is_array())
-                sim["signal_outputs"] = outputs->size();   // from a sound card
+                sim["signal_outputs"] = outputs->size();   // the description is that of a sound card
             return sim;
         }
     return defaultDevice();
 }
 
-/// A sound card, with the channels from the graph's description, if it has any.
+/// The description of a sound card: the one in the graph if the role has one, else an empty one; with the given card, if any.
 Json soundCard (std::string_view role, std::string_view card, const std::vector<std::pair<std::string, Json>>& described)
 {
     Json audio { { "driver", "audio" } };

@@ -34,7 +34,7 @@ struct MadeDevice
 ///     {"driver": "gesture", "path": "stroke"}
 ///
 /// A `path` is the name of a gesture or a CSV file, relative to `folder`; "offset" (v3, m) and "scale" (1) may accompany it.
-/// Each device may have a "guard"; "about" and "ui" are for people.
+/// Each device may have a "guard"; "about" and "ui" are ignored here.
 ///
 /// Defaults of a simulated device: mass 0.1 kg, damping 1 N s/m; for a hand, stiffness 100 N/m and damping 2 N s/m. The default
 /// position is the start of the hand's path, because the tool is in the hand, or 0 without a hand.
@@ -54,7 +54,7 @@ struct DeviceOption
 {
     std::string role;
     Json description;
-    std::filesystem::path folder;   ///< base of the paths in the description
+    std::filesystem::path folder;   ///< base of the relative paths in the description
 };
 
 /// `sim` uses the parts of the graph's description of the role that apply to a simulated device, or else defaultDevice(). Ids:

@@ -18,7 +18,8 @@ struct Placement
     double scale = 1.0;
 };
 
-/// The target position of a hand, as a smooth function of time. It pulls a simulated device and moves a kinematic one.
+/// The path of a hand: a position as a continuous function of time. The hand pulls a simulated device along; a GestureDevice
+/// follows the path exactly.
 class Path
 {
 public:
@@ -31,7 +32,7 @@ public:
     virtual ~Path() = default;
 
     virtual Point at (double t) const noexcept = 0;   // [tick thread]
-    virtual double duration() const noexcept = 0;     ///< time until it repeats or stops, in s
+    virtual double duration() const noexcept = 0;     ///< time until the path repeats or ends, in s
 };
 
 /// A gesture, repeated indefinitely.
@@ -48,8 +49,8 @@ private:
     Placement placement;
 };
 
-/// A recording, interpolated linearly from row to row so that it has a velocity; the end is held. Rows that are not finite are
-/// skipped: a hand does not vanish just because tracking was lost.
+/// A recording, interpolated linearly from row to row so that it has a velocity. After the end, the last position is held. Rows
+/// that are not finite are skipped: a hand does not vanish just because tracking was lost.
 class TracePath final : public Path
 {
 public:

@@ -23,7 +23,7 @@ struct Simulation
         std::shared_ptr<const Path> path;
     };
 
-    /// An axis in addition to the tool that slides against a spring, like a trigger.
+    /// An axis in addition to the tool, such as a trigger that slides against a spring.
     struct Axis
     {
         std::string name;
@@ -39,7 +39,7 @@ struct Simulation
     double quantum = 0.0;         ///< resolution of the position, in m; 0: exact
     double force_quantum = 0.0;   ///< resolution of the force, in N; 0: exact
     int delay = 0;                ///< delay of the force in ticks
-    double first_mode = 0.0;      ///< first resonance of the structure, in Hz; 0: none. Not simulated; used to check what the structure transmits
+    double first_mode = 0.0;      ///< first resonance of the structure, in Hz; 0: unknown. For information only: it is not simulated
     Vec3 position = Vec3::Zero();
     Vec3 velocity = Vec3::Zero();
     Vec3 rotation = Vec3::Zero();     ///< constant; torque is accepted but has no effect
@@ -64,8 +64,8 @@ struct Simulation
 ///
 /// Good to know
 ///  - A force that is not a number counts as 0. The state stays finite as long as the loop is stable.
-///  - The forces of the hand's spring and damper are held like any force, so a hand with damping > 2M/T - B makes the tool oscillate on
-///    its own.
+///  - The forces of the hand's spring and damper are held for a tick, like any force, so a hand with damping > 2M/T - B makes the
+///    tool oscillate on its own.
 ///  - Axes in addition to the tool follow the same law, with their own mass and damping; their efforts are neither delayed nor
 ///    rounded.
 ///  - duration() is the duration of the hand's path, or 0 without one.

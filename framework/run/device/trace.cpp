@@ -20,11 +20,11 @@ namespace
 {
 constexpr int most_buttons = 32;
 
-// Times in files are rounded, at worst to microseconds. A row that is late by less than this fraction of a tick belongs to the
-// tick.
+// Times in files are rounded, at worst to microseconds. A row that is late by less than this fraction of a tick counts
+// as on time.
 constexpr double slack = 1e-3;
 
-/// The number in a column name: 3 for "button3". Does not accept 03, or numbers outside the given range.
+/// The number in a column name: 3 for "button3". Does not accept numbers outside the given range.
 std::optional<int> numberOf (std::string_view column, std::string_view prefix, int min, int max)
 {
     if (! column.starts_with (prefix)) return {};
@@ -97,10 +97,11 @@ Messages checkColumns (std::span<const std::string> columns, std::size_t values)
 
     for (const char* needed : { "t", "x", "y", "z" })
         if (first (needed) == columns.end())
-            add ("trace/missing_column", "header", "a trace needs a column " + quote (needed), "write t (s), x, y, z (m), with these names in the first line");
+            add ("trace/missing_column", "header", "a trace needs a column " + quote (needed),
+                 "give the columns t (in s) and x, y, z (in m), with these names in the first line");
 
     if (columns.empty() || values == 0)
-        add ("trace/empty", "row 1", "the trace has no rows", "a trace needs at least one");
+        add ("trace/empty", "row 1", "the trace has no rows", "write at least one row of numbers below the header");
     else if (values % columns.size() != 0)
         add ("trace/ragged", "last row", "the last row is not complete", "give each row as many values as there are columns");
 
@@ -142,7 +143,8 @@ double TraceData::duration() const { return rows.empty() ? 0.0 : rows.back().t +
 
 namespace
 {
-/// The columns of the axes, then of the signals by number; channel numbers without a column are left empty.
+/// Finds the columns of the axes, followed by those of the signals in the order of their numbers. A signal number without a
+/// column has an empty entry.
 std::vector<std::optional<std::size_t>> findFurther (std::span<const std::string> columns, TraceData& trace)
 {
     std::vector<std::optional<std::size_t>> axes, signals;

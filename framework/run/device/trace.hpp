@@ -29,9 +29,9 @@ struct TraceData
     std::vector<Row> rows;
 
     std::vector<std::string> axes {};   ///< names of the recorded axes
-    int signals = 0;                    ///< number of channels
+    int signals = 0;                    ///< number of signal channels
     int buttons = 0;
-    std::vector<double> more {};   ///< values of the axes and signals: row after row, the axes first in each
+    std::vector<double> more {};   ///< values of the axes and signals, row by row; in each row, the axes come first
 
     /// The median time between rows; 0 for a single row.
     double step() const;
@@ -47,8 +47,8 @@ struct TraceResult
     Messages messages;
 };
 
-/// Reads columns `t,x,y,z[,rx,ry,rz,pressure,button0…,signal1…]` in any order, values row after row. Any other column
-/// with a valid node name is an axis of this name. The first t becomes 0. nan and inf are values, except in t. A column with
+/// Reads columns `t,x,y,z[,rx,ry,rz,pressure,button0…,signal1…]` in any order; the values come row by row. Any other column
+/// with a valid node name is an axis of this name. The times are shifted so that the first one is 0. nan and inf are values, except in t. A column with
 /// any other name is ignored with a warning; a name that looks misspelt gets a warning too.
 ///
 /// Ids: trace/missing_column, trace/duplicate_column, trace/unknown_column (warning), trace/like_column (warning), trace/ragged, trace/empty,

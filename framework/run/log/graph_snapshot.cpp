@@ -27,7 +27,7 @@ std::string relativeTo (const fs::path& folder, const fs::path& path)
     return (relative.empty() ? whole (path) : relative).generic_string();
 }
 
-/// The graph comes last, after the files that it includes.
+/// Writes a graph and the files that it includes. The graph comes last.
 class Writer
 {
 public:
@@ -60,7 +60,7 @@ private:
 
 Message wrong (std::string where, std::string text)
 {
-    return { .id = "log/graph", .where = std::move (where), .text = std::move (text), .remedy = "use the log as `tactus play` wrote it" };
+    return { .id = "log/graph", .where = std::move (where), .text = std::move (text), .remedy = "use the log unchanged, as `tactus play` wrote it" };
 }
 
 const Json* member (const Json& object, const char* key)
@@ -83,7 +83,7 @@ Json snapshotOf (const graph::Graph& graph, const std::set<std::string>& assets,
 Result<graph::Graph> readSnapshot (const Json& snapshot, const fs::path& folder)
 {
     const auto* files = snapshot.is_object() ? member (snapshot, "files") : nullptr;
-    if (files == nullptr || ! files->is_array() || files->empty()) return wrong ("", "it has no list of files");
+    if (files == nullptr || ! files->is_array() || files->empty()) return wrong ("", "the graph in the log has no list of files");
 
     std::vector<std::shared_ptr<const graph::Graph>> read;
     for (const auto& entry : *files)
@@ -93,12 +93,12 @@ Result<graph::Graph> readSnapshot (const Json& snapshot, const fs::path& folder)
         const auto *text = member (entry, "text"), *place = member (entry, "folder"), *ids = member (entry, "ids"), *includes = member (entry, "includes");
         if (text == nullptr || ! text->is_string() || place == nullptr || ! place->is_string() || ids == nullptr
             || includes == nullptr || ! includes->is_object())
-            return wrong (where, "a file needs text, folder, ids and includes");
+            return wrong (where, "an entry for a graph file needs text, folder, ids and includes");
 
         auto loaded = readGraph (text->asString());
         for (const auto& m : loaded.messages)
             if (m.severity == Message::Severity::error) return wrong (where + "/text", "the graph cannot be read: " + m.text + " [" + m.id + "]");
-        if (! graph::giveIds (loaded.graph, *ids)) return wrong (where + "/ids", "these are not the ids of its nodes and wires");
+        if (! graph::giveIds (loaded.graph, *ids)) return wrong (where + "/ids", "the ids do not match the nodes and wires of the graph");
         loaded.graph.folder = (folder / place->asString()).lexically_normal().string();
         for (const auto& [written, number] : includes->items())
         {
@@ -124,12 +124,12 @@ Messages checkAssets (const Json& snapshot, const fs::path& folder)
             messages.push_back ({ .id = "log/asset_missing",
                                   .where = "/assets/" + pointerPart (path),
                                   .text = quote (file.string()) + ", which the run used, cannot be read",
-                                  .remedy = "restore it; paths are relative to the folder of the log" });
+                                  .remedy = "restore the file; its path is relative to the folder of the log" });
         else if (Json (*now) != hash)
             messages.push_back ({ .id = "log/asset_changed",
                                   .where = "/assets/" + pointerPart (path),
                                   .text = quote (file.string()) + " has changed since the run used it",
-                                  .remedy = "restore the old file, or name a graph, which is then played with the new file" });
+                                  .remedy = "restore the old file, or name a graph file on the command line to replay that graph with the new file" });
     }
     return messages;
 }

@@ -12,8 +12,8 @@
 namespace tactus
 {
 
-/// Records the inputs of a run on the tick thread, for RunLog to write. Once a tick does not fit, it and all later ones are
-/// left out, because the run cannot be repeated past a gap.
+/// Records the inputs of a run on the tick thread, for RunLog to write. Once a tick does not fit into the buffer, it and all later
+/// ticks are left out, because the run cannot be repeated past a gap.
 class RunJournal final : public Journal
 {
 public:
@@ -21,10 +21,10 @@ public:
     /// number from the words that follow.
     enum class Kind : std::uint8_t
     {
-        took,        ///< 0; serial of the plan
+        took,        ///< 0; serial number of the plan
         turned,      ///< number of the instance; number of the knob, target
         outdone,     ///< number of the instance; number of the knob
-        struck,      ///< number of the instance; number of the input for hits, speed
+        struck,      ///< number of the instance; number of the hit input, speed
         late,        ///< 0; number of the query
         halted,      ///< 0
         resumed,     ///< 0
@@ -49,7 +49,7 @@ public:
 
     SpscRing<std::uint64_t>& words() noexcept { return ring; }
 
-    /// The first tick that did not fit. [any thread]
+    /// The first tick that did not fit into the buffer; empty if all have fitted. [any thread]
     std::optional<std::uint64_t> brokenAt() const noexcept;
 
 private:

@@ -106,7 +106,7 @@ Result<> RunLog::written()
 {
     if (out.good()) return {};
     const auto reason = errno != 0 ? std::generic_category().message (errno) : "the system gave no reason";
-    return Message::error ("output/unwritable", path.string(), "cannot be written: " + reason, "choose another file, or create its folder and free some space");
+    return Message::error ("output/unwritable", path.string(), "cannot be written: " + reason, "choose another file, create its folder, or free some space");
 }
 
 void RunLog::expect (std::shared_ptr<const Plan> plan, const Json& snapshot, const std::map<std::string, GuardLimits>& joining,

@@ -40,7 +40,7 @@ public:
     void expect (std::shared_ptr<const Plan>, const Json& snapshot, const std::map<std::string, GuardLimits>& joining = {},
                  const std::map<std::string, DeviceLayout>& devices = {});
 
-    /// Writes what has arrived. Call it many times a second, and once more after the last tick. If writing fails, the log ends
+    /// Writes what the tick thread has recorded. Call it many times a second, and once more after the last tick. If writing fails, the log ends
     /// after the last complete line, and nothing more is written.
     Result<> drain();
 
@@ -72,9 +72,9 @@ private:
     std::uintmax_t whole = 0;   // bytes known to be in the file, up to the end of a line
     RunJournal taken;
 
-    std::deque<Expected> expected;               // the running plan, and plans that may follow
+    std::deque<Expected> expected;               // the running plan, and submitted plans that may replace it
     std::string graph;                           // the last graph written
-    std::map<std::string, GuardLimits> joined;   // guards of roles that joined since the start, or are about to join
+    std::map<std::string, GuardLimits> joined;   // guards of roles that have joined or may join, until they are written
     std::map<std::string, DeviceLayout> joined_devices;
     std::map<std::string, LoggedReading> readings;
     std::vector<double> feed;

@@ -17,7 +17,7 @@ namespace tactus
 
 namespace
 {
-const std::string as_written = "use the log as `tactus play` wrote it";
+const std::string as_written = "use the log unchanged, as `tactus play` wrote it";
 
 /// Reads the members of one line. The first error is reported.
 class Line
@@ -184,7 +184,7 @@ Result<RunLogReader> RunLogReader::open (std::unique_ptr<std::istream> from, std
 /// Reads a complete line; empty if there is none, if it breaks off, or if it is longer than any line of a log can be.
 std::optional<std::string> RunLogReader::line()
 {
-    constexpr std::size_t longest = 4 * largest_file;   // a graph with its included files
+    constexpr std::size_t longest = 4 * largest_file;   // in bytes: a line may hold a graph with its included files
     std::string text;
     for (int c = in->get(); c != std::istream::traits_type::eof() && text.size() < longest; c = in->get())
     {
@@ -214,7 +214,7 @@ Result<> RunLogReader::readHead()
         return no_log ("its first line does not have \"format\": \"" + std::string (run_format) + "\"");
     const auto version = head.json.root.value ("version", Json());
     if (! version.is_number_integer() || version.get<std::int64_t>() < 1)
-        return at ("log/unknown_version", "version " + version.dump() + " does not exist", as_written);
+        return at ("log/unknown_version", "version " + version.dump() + " of the log format does not exist", as_written);
     if (version.get<std::int64_t>() > run_version) return at ("log/newer_version", "the log was written by a newer Tactus", "replay it with that version");
 
     head.read (head.json.root, "", {
@@ -248,7 +248,7 @@ Result<std::optional<RunTick>> RunLogReader::next()
     return std::optional (std::move (*tick));
 }
 
-// Long because it is one table of what is read from each key of a line.
+// This function is long because it is one table: for each key of a line, what is read from its value.
 Result<RunTick> RunLogReader::readTick (const std::string& text)
 {
     Line line { text };
@@ -287,8 +287,8 @@ Result<RunTick> RunLogReader::readTick (const std::string& text)
          } },
         { "feed", JsonKind::list, [&] (Json& v, const std::string& where) {
              if (v.size() != begin.feeds.size())
-                 return line.wrong (where, "there are " + std::to_string (v.size()) + " values for the " + std::to_string (begin.feeds.size())
-                                               + " feeds of the first line");
+                 return line.wrong (where, "there are " + std::to_string (v.size()) + " values, but the first line names " + std::to_string (begin.feeds.size())
+                                               + " feeds");
              tick.feed.emplace (v.size());
              for (std::size_t i = 0; i < v.size(); ++i)
                  line.number (v[i], where + "/" + std::to_string (i), (*tick.feed)[i]);
@@ -306,7 +306,7 @@ Result<RunTick> RunLogReader::readTick (const std::string& text)
 /// Sets the number of a tick, which must be larger than the previous one, except that tick 0 may come again with another graph.
 Result<> RunLogReader::place (RunTick& tick, std::optional<std::uint64_t> k)
 {
-    if (! k) return at ("log/missing", "the line has no tick", as_written);
+    if (! k) return at ("log/missing", "the line has no \"tick\"", as_written);
     const bool follows = ! before ? *k == 0 : *k > *before || (*k == 0 && tick.graph);
     if (! follows)
         return at ("log/order",

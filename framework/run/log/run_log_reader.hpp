@@ -36,10 +36,10 @@ struct RunTick
     std::optional<Json> graph {};                           ///< snapshot of the graph that takes over
     std::map<std::string, GuardLimits> guards {};           ///< guards of the new roles in the graph
     std::map<std::string, DeviceLayout> devices {};         ///< devices of the new roles, only those with more than a tool
-    std::vector<std::string> kept {};                       ///< parameters that keep their turned values instead of the values in the graph
+    std::vector<std::string> kept {};                       ///< parameters that keep the values they were turned to, instead of the values in the graph
     std::vector<std::pair<std::string, double>> turns {};   ///< targets by parameter
     std::vector<std::pair<std::string, double>> hits {};    ///< speeds by input
-    std::vector<std::uint64_t> late {};                     ///< late queries, as for ReplayedQueries
+    std::vector<std::uint64_t> late {};                     ///< numbers of the late queries, as for ReplayedQueries::repeat
     std::optional<bool> halt {};                            ///< true: from this tick on, all efforts go to zero; false: they rise again
     bool rearm = false;                                     ///< true: clears all latched guard stops; applied before `emergency`
     bool emergency = false;
@@ -62,7 +62,7 @@ public:
 
     const RunHead& head() const noexcept { return begin; }
 
-    /// The next tick with new inputs; empty after the last one. If a graph replaced the first one before any tick, tick 0
+    /// The next tick with new inputs; empty after the last one. If another graph replaced the first one before any tick, tick 0
     /// appears twice.
     Result<std::optional<RunTick>> next();
 
@@ -72,7 +72,7 @@ public:
 
     const std::string& name() const noexcept { return called; }
 
-    /// "run.jsonl:7"
+    /// The file and this line in it, as in "run.jsonl:7".
     std::string placeOf (int line_number) const;
 
 private:

@@ -31,7 +31,7 @@ graph::Endpoint endpoint (const std::string& node, const FacePort& port, int com
 
 Json toJson (juce::Point<float> at) { return Json::array ({ std::round (static_cast<double> (at.x)), std::round (static_cast<double> (at.y)) }); }
 
-/// True if both are the same component, or if one is the whole vector.
+/// True if both ends are the same component of the same port, or if one of them is the whole vector.
 bool overlap (const graph::Endpoint& a, const graph::Endpoint& b)
 {
     return a.node == b.node && a.port == b.port && a.index == b.index && (a.component == b.component || a.component < 0 || b.component < 0);

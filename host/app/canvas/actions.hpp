@@ -13,7 +13,7 @@
 namespace tactus::host
 {
 
-using Selection = std::set<graph::Id>;   ///< nodes and wires
+using Selection = std::set<graph::Id>;   ///< ids of nodes, wires and notes
 
 /// Stores the positions of nodes in the graph.
 graph::Command placeNodes (const graph::Graph&, const std::string& patch, const std::vector<std::pair<graph::Id, juce::Point<float>>>&);
@@ -46,7 +46,7 @@ struct Plug
 /// Connects an output to an input or param. Replaces the existing wire if the destination takes only one.
 graph::Command connect (const graph::Graph&, const std::string& patch, const Plug& from, const Plug& to);
 
-/// Inserts a node into a wire, through its first pair of ports that fit. Empty if none do.
+/// Inserts a node into a wire, through the node's first pair of ports that fit. Empty if no pair fits.
 std::optional<graph::Command> insertInto (const graph::Graph&, const std::string& patch, const Scene&, graph::Id wire, graph::Id node);
 
 /// Exposes a port of a node inside a subgraph under a free name, or hides it again.

@@ -124,7 +124,7 @@ private:
 
     std::vector<juce::Point<float>> sizes, places;
     std::vector<int> column;
-    Wires steps;   // wires, cut at each column
+    Wires steps;   // the wires, cut into pieces that each lead from one column to the next
     std::vector<std::vector<int>> columns;
 
     float middle (int b) const { return places[at (b)].y + sizes[at (b)].y / 2; }

@@ -13,9 +13,9 @@ namespace tactus::host
 /// A port on a node: where it is, and where wires connect.
 struct Socket
 {
-    const FacePort* port = nullptr;   ///< a port of the face the box was made from
-    juce::Point<float> at;            ///< from the top left corner of the node
-    juce::Rectangle<float> row;       ///< its label, for hit testing
+    const FacePort* port = nullptr;   ///< a port of the face from which the box was made
+    juce::Point<float> at;            ///< position relative to the top left corner of the node
+    juce::Rectangle<float> row;       ///< the area of its label, for hit testing
     std::string value;                ///< a param's value as shown; empty for other ports
 };
 
@@ -24,7 +24,7 @@ struct Box
 {
     static constexpr float header_height = 28.0f, row_height = 20.0f, grid = 8.0f, padding = 10.0f;
     static constexpr float title_size = 13.0f, label_size = 12.0f;
-    static constexpr int most_params = 3;           ///< unwired params that are shown
+    static constexpr int most_params = 3;           ///< how many unwired params are shown at most
     static constexpr float widest_title = 220.0f;   ///< longer names are cut off
 
     float width = 0.0f, height = 0.0f;
@@ -37,7 +37,7 @@ struct Box
 using TextWidth = std::function<float (const std::string&, float size, bool bold)>;
 
 /// Lays out a node: inputs and params on the left, outputs on the right. Shows all params for which `wired` is true, then a few
-/// others, first those that the node sets. Each param is shown with its `valueNow`. The face must outlive the box.
+/// others, starting with those that the node sets. Each param is shown with its `valueNow`. The face must outlive the box.
 Box boxOf (const graph::Node&, const Face&, const std::function<bool (const FacePort&)>& wired,
            const std::function<Json (const FacePort&)>& valueNow, const TextWidth&);
 

@@ -14,11 +14,11 @@ namespace tactus::host
 
 namespace
 {
-constexpr float socket_reach = 9.0f, wire_reach = 6.0f;   // pixels
+constexpr float socket_reach = 9.0f, wire_reach = 6.0f;   // in pixels: how far the pointer may be from a port or a wire to hit it
 
 bool leadsTo (const graph::Node& node, const std::string& subgraph) { return node.type == "graph:" + subgraph; }
 
-/// The subgraph nodes on the path to a patch. Empty if the root does not reach it.
+/// The subgraph nodes on the path to a patch. Empty if the patch cannot be reached from the root.
 std::optional<Canvas::Breadcrumbs> breadcrumbsTo (const graph::Graph& g, const std::string& patch)
 {
     std::vector<Canvas::Breadcrumbs> open { {} };
@@ -40,7 +40,7 @@ std::optional<Canvas::Breadcrumbs> breadcrumbsTo (const graph::Graph& g, const s
     return std::nullopt;
 }
 
-/// Follows renamed nodes and subgraphs after an edit, and cuts the path where it no longer exists.
+/// Follows renamed nodes and subgraphs after an edit, and cuts the path before the first node that no longer exists.
 void updateBreadcrumbs (Canvas::Breadcrumbs& path, const graph::Graph& g)
 {
     const auto* in = &g.root;

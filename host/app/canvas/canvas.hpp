@@ -19,22 +19,22 @@ public:
     virtual ~Drag() = default;
     virtual void move (const juce::MouseEvent&) = 0;
     virtual void end (const juce::MouseEvent&) {}
-    virtual void paint (juce::Graphics&) const {}   ///< over the scene, in pixels
+    virtual void paint (juce::Graphics&) const {}   ///< paints over the scene, in pixels
 };
 
 /// A request to add a node that the user has yet to choose: where it goes and what it will be connected to.
 struct NodeRequest
 {
     juce::Point<float> at;
-    std::optional<PortId> start {};   ///< connect it to this port
-    graph::Id wire = 0;               ///< insert it into this wire; 0 for none
+    std::optional<PortId> start {};   ///< the port to connect the new node to
+    graph::Id wire = 0;               ///< the wire to insert the new node into; 0 for none
 };
 
 /// The patch editor: shows the nodes, wires and notes of one patch and edits them with mouse and keyboard.
 ///
 /// Dragging on empty canvas selects. The middle or right button pans; a right-click opens the menu. The wheel zooms at the
-/// pointer; a trackpad pans. Dragging from a port draws a wire: ports it fits are highlighted, others show why it does not
-/// fit. Keyboard commands: commands.hpp.
+/// pointer; a trackpad pans. Dragging from a port draws a wire: ports that the wire fits are highlighted, the others show why
+/// it does not fit. Keyboard commands: commands.hpp.
 class Canvas final : public juce::Component, private Document::Listener
 {
 public:
@@ -101,14 +101,14 @@ public:
     void editParam (const SceneNode&, const Socket&);
     void setParam (const SceneNode&, const FacePort&, const std::optional<Json>&, graph::Step = graph::Step::own);
 
-    /// Performs an edit and stores the positions of automatically arranged nodes with it. Returns false if it is refused.
+    /// Performs an edit and stores the positions of automatically arranged nodes with it. Returns false if the edit is refused.
     bool perform (graph::Command, graph::Step = graph::Step::own);
     graph::Graph placedGraph() const;   ///< the graph with the positions of all nodes of the patch stored
 
     void showLive (Live);   ///< call many times a second
 
     std::function<void()> onSelection, onBreadcrumbs;
-    std::function<void (const juce::String&)> onHint;   ///< describes what is under the pointer, or ""
+    std::function<void (const juce::String&)> onHint;   ///< receives a description of what is under the pointer, or ""
 
     /// The user wants to add a node: by double-click, by key, or by dropping a wire on empty canvas.
     std::function<void (NodeRequest)> onNodeRequested;
@@ -120,9 +120,9 @@ public:
     /// Asks the user to choose one of several entries; `chosen` receives the type of that entry.
     std::function<void (const juce::String& purpose, std::vector<PaletteEntry>, std::function<void (const std::string&)> chosen)> onChoose;
 
-    std::function<void (std::vector<std::string> ports)> onProbe;   ///< full paths
+    std::function<void (std::vector<std::string> ports)> onProbe;   ///< receives the full paths of the ports
 
-    std::function<void (const juce::String&)> onNotice;   ///< why an edit was not made
+    std::function<void (const juce::String&)> onNotice;   ///< receives the reason why an edit was not made
 
     void hint (const juce::String&);
     void notice (const juce::String& text)
@@ -157,7 +157,7 @@ private:
     Hover hoverAt (juce::Point<float>) const;
     std::unique_ptr<Drag> dragFor (const juce::MouseEvent&);
     const graph::Patch& patchShown() const;
-    std::optional<graph::Command> storePositions() const;      ///< of automatically arranged nodes; empty if all positions are stored
+    std::optional<graph::Command> storePositions() const;      ///< stores those of automatically arranged nodes; empty if all are stored
     juce::Point<float> freePlace (juce::Point<float>) const;   ///< this point, or the next free one below
 
     /// Opens a text editor over part of the canvas.

@@ -13,7 +13,7 @@ struct CanvasCommand
 {
     const char* name;                       ///< menu text
     const char* keys;                       ///< juce::KeyPress descriptions, separated by '|'; "" for none
-    bool (*can) (const Canvas&) noexcept;   ///< false if it does not apply to the selection
+    bool (*can) (const Canvas&) noexcept;   ///< false if the command does not apply to the selection
     void (*run) (Canvas&);
     bool ends_group = false;   ///< a separator follows in the menu
     bool in_menu = true;       ///< false: keyboard only

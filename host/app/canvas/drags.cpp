@@ -15,7 +15,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr float reach_px = 14.0f;   // from the centre of a port
+constexpr float reach_px = 14.0f;   // how far from the centre of a port a wire may be dropped
 
 class Pan final : public Drag
 {
@@ -264,7 +264,7 @@ public:
         }
         if (! check (*over.node, *over.socket->port)) return;
         const PortId other { over.node->id, over.socket->port->role, over.socket->port->id };
-        if (wire_id != 0) unplug ("re-plug");   // rebuilds the scene
+        if (wire_id != 0) unplug ("re-plug wire");   // rebuilds the scene
         const auto a = canvas.scene().findPort (start), b = canvas.scene().findPort (other);
         if (a && b) start.role == Role::output ? canvas.join (a, b) : canvas.join (b, a);
     }

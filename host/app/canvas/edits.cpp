@@ -193,7 +193,7 @@ void Canvas::toggleWires()
     bool any_on = false;
     for (const auto& w : patchShown().wires)
         any_on = any_on || (highlights.selected.contains (w.id) && w.enabled.value_or (true));
-    graph::Batch all { any_on ? "switch off" : "switch on", {} };
+    graph::Batch all { any_on ? "switch wires off" : "switch wires on", {} };
     for (const auto& w : patchShown().wires)
         if (highlights.selected.contains (w.id) && w.enabled.value_or (true) == any_on)
         {

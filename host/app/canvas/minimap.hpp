@@ -16,7 +16,7 @@ public:
     Minimap (const Scene&, const View&, juce::Rectangle<int> window);
 
     bool isShown() const noexcept { return ! area.isEmpty(); }
-    juce::Rectangle<float> bounds() const noexcept { return area; }   ///< pixels
+    juce::Rectangle<float> bounds() const noexcept { return area; }   ///< in pixels
 
     /// The canvas position under a pixel of the map.
     juce::Point<float> toCanvas (juce::Point<float> pixel) const noexcept { return world.getPosition() + (pixel - inner.getPosition()) / scale; }

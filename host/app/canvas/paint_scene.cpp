@@ -13,7 +13,7 @@ namespace tactus::host
 namespace
 {
 constexpr float corner = 5.0f, socket_radius = 4.0f;
-constexpr float too_small_to_read = 0.35f;   // zoom
+constexpr float too_small_to_read = 0.35f;   // zoom below which text is too small to read
 
 class NodePainter
 {
@@ -47,7 +47,7 @@ private:
     void nameAlone (const SceneNode& node) const
     {
         constexpr float size = 10.0f, least_width = 20.0f;   // pixels
-        constexpr float most_over = 1.6f;                    // times the width of the node
+        constexpr float most_over = 1.6f;                    // largest width of the name, as a multiple of the node's width
         if (node.box.width * zoom < least_width) return;
         const auto font = look.font (size / zoom);
         const float width = std::clamp (font.getStringWidthFloat (node.name) + 2.0f / zoom, node.box.width, most_over * node.box.width);

@@ -14,8 +14,8 @@ namespace tactus::host
 /// Live state of the running graph, shown on the canvas.
 struct Live
 {
-    std::map<graph::Id, int> states;             ///< of nodes that report a state
-    std::map<graph::Id, double> costs;           ///< per node, as a fraction of a tick; empty while costs are hidden
+    std::map<graph::Id, int> states;             ///< the state of each node that reports one
+    std::map<graph::Id, double> costs;           ///< the cost of each node, as a fraction of a tick; empty while costs are hidden
     std::map<graph::Id, double> hits;            ///< position of a hit along its wire, 0…1
     std::map<graph::Id, std::string> problems;   ///< messages about nodes and wires
 
@@ -25,7 +25,7 @@ struct Live
 /// Everything on the canvas that is not part of the graph.
 struct Highlights
 {
-    std::set<graph::Id> selected;   ///< nodes and wires
+    std::set<graph::Id> selected;   ///< ids of nodes, wires and notes
     graph::Id hovered = 0;
     /// While a wire is being drawn: true for the sockets it may connect to. The others are dimmed.
     std::function<bool (const SceneNode&, const FacePort&)> fits {};

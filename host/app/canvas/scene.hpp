@@ -43,10 +43,10 @@ struct SceneWire
     std::string out {}, in {};   ///< ids of the ports in their faces; empty if there is no such port
     Role in_role = Role::input;
     Quantity quantity = Quantity::any;
-    int width = 1;   ///< components
-    int delay = 0;   ///< ticks
+    int width = 1;   ///< number of components
+    int delay = 0;   ///< in ticks
     bool add = false, enabled = true;
-    std::string text;   ///< as in the file
+    std::string text;   ///< the wire as written in the file
 
     juce::Path path() const { return curveThrough (from, waypoints, to); }
 };
@@ -125,13 +125,13 @@ private:
     void addWires (const graph::Patch&);
     void routeWires();
     void addExposed (const graph::Patch&);
-    int indexOf (const std::string& name) const noexcept;   ///< -1 for none
+    int indexOf (const std::string& name) const noexcept;   ///< -1 if there is no such node
 
     std::vector<SceneNode> all_nodes;
     std::vector<SceneWire> all_wires;
     std::vector<Note> all_notes;
     std::vector<Exposed> all_exposed;
-    std::map<std::string, int, std::less<>> indices;   // by name
+    std::map<std::string, int, std::less<>> indices;   // of the nodes, by name
 };
 
 }   // namespace tactus::host

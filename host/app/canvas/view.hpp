@@ -14,7 +14,7 @@ struct View
     static constexpr float smallest = 0.1f, largest = 4.0f;
 
     float zoom = 1.0f;
-    juce::Point<float> origin;   ///< of the canvas, in pixels of the component
+    juce::Point<float> origin;   ///< where the canvas has its origin, in pixels of the component
 
     juce::Point<float> toCanvas (juce::Point<float> pixel) const noexcept { return (pixel - origin) / zoom; }
     juce::Point<float> toPixels (juce::Point<float> p) const noexcept { return p * zoom + origin; }

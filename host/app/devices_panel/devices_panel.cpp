@@ -16,7 +16,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr int card_width = 280, widest_card = 480, refreshes_apart = 6;   // five times a second
+constexpr int card_width = 280, widest_card = 480, refreshes_apart = 6;   // every sixth refresh updates the panel: five times a second
 
 constexpr const char* sound_card = "sound card";
 
@@ -59,8 +59,8 @@ constexpr Part parts_of_sound[] {
 };
 constexpr Part parts_of_card[] {
     { "/type", "audio system", "JACK, ALSA ... as listed by `tactus devices`. Default: any" },
-    { "/output", "output", "Name of the card, or part of it" },
-    { "/input", "input", "Name of the card, or part of it" },
+    { "/output", "output", "Name of the card for the outputs, or part of the name" },
+    { "/input", "input", "Name of the card for the inputs, or part of the name" },
     { "/rate_hz", "sample rate", "Sample rate in Hz. Default: the card's own rate" },
     { "/block", "block size", "Block size in frames. Small blocks risk gaps; large ones add delay" },
     { "/reserve", "reserve", "How late a tick or block may be without causing a gap, such as 10 ms. Adds to the delay" },
@@ -387,7 +387,7 @@ Remark DevicesPanel::fitRemark (const std::string& role) const
     if (! fit->lacking.empty()) addProblem ("The device does not fit:");
     for (const auto& l : fit->lacking)
         addProblem (l);
-    if (fit->from == RoleFit::From::graph) r.text << asText ("\nIn the graph: " + nameOf (fit->description) + ".");
+    if (fit->from == RoleFit::From::graph) r.text << asText ("\nThe device described in the graph is used: " + nameOf (fit->description) + ".");
     if (fit->from == RoleFit::From::none) r.text << "\nNo device is set. A simulated tool at rest is used.";
     return r;
 }
@@ -432,7 +432,8 @@ Remark DevicesPanel::clockRemark() const
     if (by_card) return { "Ticked by the sound card" + rate + ".", false };
     if (! role.empty()) return { "Ticked by " + asText (role) + rate + ".", false };
     if (wanted.empty() || wanted == "timer") return { "Ticked by a timer" + rate + ".", false };
-    const auto why = fitOf (wanted) == nullptr ? "this graph has no role " + asText (wanted) : asText (wanted) + " has no clock at the moment";
+    const auto why = fitOf (wanted) == nullptr ? "this graph has no role " + asText (wanted)
+                                               : "the device of " + asText (wanted) + " cannot tick the run at the moment";
     return { "Ticked by a timer" + rate + ": " + why + ".", false };
 }
 

@@ -38,7 +38,7 @@ public:
     std::size_t cards() const noexcept { return columns.size(); }   ///< one for the clock, one for each role, and one for the sound card
     Column& card (std::size_t i) { return *columns[i]; }
 
-    void bind (const std::string& role, const std::string& label);                                  ///< to the choice with this label
+    void bind (const std::string& role, const std::string& label);                                  ///< binds the role to the choice with this label
     void setPart (const std::string& role, const std::string& pointer, const juce::String& text);   ///< part of the binding; empty text removes it
 
     void setCard (const std::string& pointer, const juce::String& text);   ///< a setting of the sound card; empty text removes it
@@ -53,7 +53,7 @@ private:
     struct Shape
     {
         std::vector<std::string> roles;
-        std::vector<std::string> drivers;   // "" if not bound
+        std::vector<std::string> drivers;   // by role; "" if the role is not bound
         std::vector<std::vector<BindingChoice>> choices;
         std::size_t routes = 0;
 

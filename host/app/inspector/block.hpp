@@ -56,12 +56,12 @@ public:
     explicit Column (Margins m = { 16, 16, 16 }) : margins (m) {}
 
     void add (std::unique_ptr<Block>);
-    void add (const juce::String& text, TextBlock::Kind);   ///< no effect if empty
+    void add (const juce::String& text, TextBlock::Kind);   ///< no effect if the text is empty
 
     int heightFor (int width) override;
     void refresh (const graph::Node*) override;
     void resized() override;
-    void layOut (int width);   ///< also sets its own size
+    void layOut (int width);   ///< places the blocks, and sets the size of the column itself
 
     std::size_t size() const noexcept { return blocks.size(); }
     Block& operator[] (std::size_t i) { return *blocks[i]; }

@@ -18,7 +18,7 @@ struct Inspected
     std::string patch;   ///< "" is the graph itself
     Refusal refused;
     EditorContext editors;
-    std::function<Messages()> messages;   ///< about the current graph; may be null
+    std::function<Messages()> messages;   ///< returns the messages about the current graph; may be null
 
     const graph::Patch* in() const { return findPatch (document.graph(), patch); }
 

@@ -33,7 +33,7 @@ void addLeaves (const Json& v, const std::string& path, std::vector<std::string>
 Remark describeRole (const Document& d, const std::string& role)
 {
     const auto description = descriptionOf (d, role);
-    if (description.is_null()) return { "This role has no description. It runs simulated, without a hand. Add a description below.", false };
+    if (description.is_null()) return { "This role has no description. Its device is simulated, without a hand. Add a description below.", false };
     Remark r { "A physical device, identified by its profile.", false };
     const auto append = [&] (const Messages& messages) {
         for (const auto& m : messages)
@@ -106,7 +106,7 @@ void describeDevice (const Inspected& at, const graph::Node& node, Column& colum
     if (now.is_null())
     {
         const auto describe = [&document, role] { document.perform (graph::SetDevice { role, defaultDevice() }); };
-        column.add (buttonRow ("Add description", describe, "A simulated tool, moved by a hand that strokes"));
+        column.add (buttonRow ("Add description", describe, "Adds a simulated tool, moved by a hand that strokes"));
         return;
     }
     std::vector<std::string> paths;

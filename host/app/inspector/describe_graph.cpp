@@ -80,7 +80,7 @@ void describeGraph (const Inspected& at, Column& column)
             help, lines));
     };
     row ("name", &graph::Graph::name, &graph::SetHeader::name, "The name of the graph", 1);
-    row ("about", &graph::Graph::about, &graph::SetHeader::about, "What it feels like", 6);
+    row ("about", &graph::Graph::about, &graph::SetHeader::about, "What the graph feels like", 6);
     const auto tags = [&document] {
         juce::StringArray all;
         for (const auto& t : document.graph().tags)

@@ -63,8 +63,8 @@ void describeSubgraphNode (const Inspected& at, const graph::Node& node, Column&
         column.add (numberRow (key, sheet, bindingOf<graph::SetNodeKey> (at, node.name, key, &graph::Node::extra).asInteger(), at.refused));
     };
     addInteger ("count", "number of instances, numbered from 0");
-    addInteger ("every", "runs every n-th tick");
-    addInteger ("times", "runs n times per tick; only without feedback to the hand");
+    addInteger ("every", "the node runs on every n-th tick");
+    addInteger ("times", "the node runs n times per tick; allowed only without feedback to the hand");
 
     column.add ("Overrides", TextBlock::Kind::heading);
     const auto set = [&document = at.document, patch = at.patch, name = node.name] (const std::string& path, const juce::String& t) {
@@ -84,7 +84,7 @@ void describeSubgraphNode (const Inspected& at, const graph::Node& node, Column&
         if (t.trim().isEmpty()) return;
         if (! t.contains ("=")) return refused ("Write a parameter and a value: drag.mu = 0.4, or [3]/drag.mu = 0.4 for one instance");
         set (t.upToFirstOccurrenceOf ("=", false, false).trim().toStdString(), t.fromFirstOccurrenceOf ("=", false, false)); },
-        "Overrides a parameter inside, for this node only: drag.mu = 0.4, or [3]/drag.mu = 0.4 for one instance"));
+        "Overrides a parameter inside the subgraph, for this node only: drag.mu = 0.4, or [3]/drag.mu = 0.4 for one instance"));
 }
 }   // namespace
 

@@ -85,7 +85,7 @@ void describeWire (const Inspected& at, graph::Id id, Column& column)
         const auto* w = find (at, id);
         if (w == nullptr) return Remark {};
         const auto from = unitAt (at, w->from, true), to = unitAt (at, w->to, false);
-        if (from != to && ! to.starts_with (open) && ! from.starts_with (open)) return Remark { juce::String (from + " into " + to), false };
+        if (from != to && ! to.starts_with (open) && ! from.starts_with (open)) return Remark { juce::String ("leads from " + from + " to " + to), false };
         return Remark { juce::String ("carries " + (from.starts_with (open) ? to : from)), false };
     }));
     addDelay (at, id, column);

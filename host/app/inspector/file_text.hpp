@@ -15,7 +15,7 @@ struct FileText
 {
     std::string text;
     bool is_problem = false;
-    std::shared_ptr<const Grid> picture {};   ///< for an image
+    std::shared_ptr<const Grid> picture {};   ///< the image; null for other kinds of files
 };
 
 /// Describes a file of kind signal, image, table, or surface (a mesh). The path is as written in a graph that is stored in `folder`.

@@ -20,11 +20,11 @@ public:
     ~Inspector() override;
 
     void inspect (const std::string& patch, std::set<graph::Id> selection);
-    void setHelp (bool);   ///< describes all ports
+    void setHelp (bool);   ///< true: also shows the descriptions of all ports
     bool showsHelp() const noexcept { return help; }
 
-    std::function<void (const juce::String&)> onHint;   ///< why an edit was refused
-    std::function<Messages()> messagesNow;              ///< messages about the current graph
+    std::function<void (const juce::String&)> onHint;   ///< receives the reason why an edit was refused
+    std::function<Messages()> messagesNow;              ///< returns the messages about the current graph
 
     Column& shown() noexcept { return *column; }
 

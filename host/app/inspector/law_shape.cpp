@@ -24,7 +24,7 @@ std::string lawKindOf (const Json& law)
 
 Json lawOfKind (const std::string& kind, const Law& before)
 {
-    constexpr double pressed = 1.0;   // both laws agree at this force, in N
+    constexpr double pressed = 1.0;   // the old and the new law agree at this force, in N
     double at = before.inverse (pressed), force = pressed;
     if (! std::isfinite (at) || ! (at > 0.0))
     {

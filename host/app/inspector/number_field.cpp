@@ -92,7 +92,7 @@ void NumberField::mouseDoubleClick (const juce::MouseEvent& e)
 
 bool NumberField::keyPressed (const juce::KeyPress& key)
 {
-    constexpr double step = 4.0;   // pixels of a drag
+    constexpr double step = 4.0;   // an arrow key acts like a drag by this many pixels
     const bool is_up = key.isKeyCode (juce::KeyPress::upKey);
     if (is_up || key.isKeyCode (juce::KeyPress::downKey))
     {
@@ -247,7 +247,7 @@ juce::String tooltipOf (const PortSheet& sheet)
     if (! text.empty()) text[0] = static_cast<char> (std::toupper (static_cast<unsigned char> (text[0])));
     if (const auto hard = range (sheet.limits.hard); ! hard.empty()) text += "\nAllowed: " + hard;
     if (const auto usual = range (sheet.limits.usual); ! usual.empty() && ! (sheet.limits.usual == sheet.limits.hard)) text += "\nUsual: " + usual;
-    if (sheet.limits.latch) text += "\nSampled when contact begins, or on a hit.";
+    if (sheet.limits.latch) text += "\nThe value is sampled when contact begins, or on a hit.";
     return text;
 }
 

@@ -12,7 +12,7 @@
 namespace tactus::host
 {
 
-/// A number field. Drag up or down to change it (shift: fine), double-click or press Return to type, with an optional unit.
+/// A number field. Drag up or down to change it (shift: fine), double-click or press Return to type a value, with an optional unit.
 /// Alt-click restores the default; arrow keys change it in small steps. The bar shows the position within the usual range.
 /// Outside that range the field is amber; values outside the hard range are refused.
 class NumberField final : public juce::Component, public juce::SettableTooltipClient
@@ -23,7 +23,7 @@ public:
     /// A caption before the number, shown if both fit.
     void setCaption (const juce::String& text) { caption = text; }
 
-    void show (const Json& value);   ///< as stored in the file
+    void show (const Json& value);   ///< shows a value as stored in the file
     const QuantityText& shown() const noexcept { return value; }
 
     /// Called with the new value, or nothing for the default. `continues` is true during a drag, after its first change.

@@ -14,7 +14,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr double reach_n = 5.0, shallowest_m = 1e-4, deepest_m = 0.02;   // how hard a hand presses, and how deep it gets
+constexpr double reach_n = 5.0, shallowest_m = 1e-4, deepest_m = 0.02;   // how hard a hand presses, and the range of how deep it gets
 constexpr int points = 96;
 
 std::string symbolOf (const UnitRule& r) { return r.kind == UnitRule::Kind::fixed ? std::string (r.unit.symbol) : std::string(); }

@@ -64,7 +64,7 @@ protected:
             all.set (std::move (more), false);
         };
         const auto one = juce::String (std::string (sheet.id)).trimCharactersAtEnd ("s");
-        add (buttonRow ("+ " + one, append, "Append a copy of the last one"));
+        add (buttonRow ("+ " + one, append, "Append a copy of the last row"));
     }
 
 private:

@@ -58,7 +58,7 @@ public:
         auto now = paramNow (document.graph(), patch, *node, port);
         current = std::move (now.value);
         setIsSet (now.is_set);
-        setNote (now.control ? "by " + juce::String (now.control->name) : juce::String(), themeOf (*this).accent);
+        setNote (now.control ? "set by " + juce::String (now.control->name) : juce::String(), themeOf (*this).accent);
         if (port.isChoice())
         {
             const auto at = std::ranges::find (port.sheet->choices, current.is_string() ? current.get<std::string>() : std::string());

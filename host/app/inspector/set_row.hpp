@@ -16,7 +16,7 @@ public:
 
     int heightFor (int) override { return row_height; }
 
-    std::function<void()> onReset;                        ///< null if there is no default
+    std::function<void()> onReset;                        ///< called to reset the value to its default; null if there is none
     std::function<void (juce::PopupMenu&)> onWantsMenu;   ///< fills the context menu
 
     bool isSet() const noexcept { return is_set; }

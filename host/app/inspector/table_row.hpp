@@ -15,7 +15,7 @@ public:
     {
         PortSheet sheet;
         Binding binding;
-        bool is_text = false;   ///< edited as JSON
+        bool is_text = false;   ///< true if the cell is edited as JSON text
     };
 
     TableRow (std::vector<Cell>, std::function<void()> remove, const std::function<void (const juce::String&)>& refused);

@@ -16,7 +16,7 @@ public:
     {
         plain,   ///< no frame; highlighted on hover
         framed,
-        toggle,   ///< shows its state; the owner sets it
+        toggle,   ///< shows whether it is on, which the owner sets
         tab       ///< one of several tabs
     };
 
@@ -27,7 +27,7 @@ public:
         setMouseCursor (juce::MouseCursor::PointingHandCursor);
     }
 
-    /// The fill colour while on. The default is the accent colour.
+    /// The fill colour of the toggle while it is on. The default is the accent colour.
     void setColour (std::function<juce::Colour (const Theme&)> c) { on_colour = std::move (c); }
 
     void setJustification (juce::Justification j) { justified = j; }

@@ -12,7 +12,7 @@ namespace
 {
 constexpr double fine = 0.1;
 
-/// Rounds to the precision of a drag.
+/// Rounds a gain to the precision with which a drag sets it.
 double roundedGain (double gain) { return gain < 0.1 ? std::round (gain * 1e4) * 1e-4 : std::round (gain * 1e3) * 1e-3; }
 }   // namespace
 

@@ -9,7 +9,7 @@
 namespace tactus::host
 {
 
-/// A gain fader. Shift-drag is fine, Alt-click resets it to the default, and the wheel nudges it.
+/// A gain fader. Dragging with Shift moves it in fine steps, Alt-click resets it to the default, and the wheel nudges it.
 class Fader final : public juce::Component, public juce::SettableTooltipClient
 {
 public:
@@ -19,7 +19,7 @@ public:
 
     /// Without a gain: resets to the default. `goes_on`: continues the previous change of the same drag.
     std::function<void (std::optional<double> gain, bool goes_on)> onChange;
-    std::function<void()> onTextEntry;   ///< double click
+    std::function<void()> onTextEntry;   ///< called on a double click
 
     void paint (juce::Graphics&) override;
     void mouseDown (const juce::MouseEvent&) override;

@@ -47,12 +47,12 @@ private:
     Traces::Client traces;
     std::vector<MixerPlace> all;
     MixerPlace chosen;
-    std::vector<std::unique_ptr<ToolButton>> names;   // of the mixers
+    std::vector<std::unique_ptr<ToolButton>> names;   // one button for each mixer
     ToolButton more { "+ layer", ToolButton::Kind::framed, "Add a layer, with a texture or vibration wired into it" };
     ToolButton first { "Add a mixer before the motor", ToolButton::Kind::framed };
     juce::String preview;   // what adding a mixer would do, or why it is not possible
     juce::Viewport scroll;
-    juce::Component row;   // of strips
+    juce::Component row;   // contains the strips
     std::vector<std::unique_ptr<LayerStrip>> strips;
     std::unique_ptr<MixStrip> total;
     double refreshed_ms = 0.0;

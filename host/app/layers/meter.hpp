@@ -13,7 +13,7 @@ namespace tactus::host
 class Meter
 {
 public:
-    static constexpr double hold_s = 1.5, fall_per_s = 0.1;   ///< after the hold, the peak falls to a tenth within a second
+    static constexpr double hold_s = 1.5, fall_per_s = 0.1;   ///< the peak is held for hold_s, then falls to a tenth every second
 
     /// Takes the latest samples, the last `fresh` of which are new, and the time since the last call.
     void take (std::span<const double> latest, std::size_t fresh, double dt_s) noexcept

@@ -121,7 +121,7 @@ Result<graph::Command> permuted (const graph::Graph& g, const MixerPlace& at, co
     for (const auto* shown : { &patch->expose.inputs, &patch->expose.params, &patch->expose.outputs })
         for (const auto& [port, e] : *shown)
             if (isRemoved (e))
-                return Message::error ("mixer/exposed", {}, "the subgraph exposes this layer as its port '" + port + "'", "remove that port first");
+                return Message::error ("mixer/exposed", {}, "the subgraph exposes this layer as its port '" + port + "'", "hide that port first");
     sweep (*after);
     return graph::Command (graph::Batch { name, { graph::ReplaceGraph { after } } });
 }
@@ -230,8 +230,8 @@ Message noMotor (const graph::Graph& g)
         for (const auto& n : patch.nodes)
             if (n.type == "device.force")
                 return Message::error ("mixer/in_subgraph", {}, "the motor of this graph is inside the subgraph " + subgraph,
-                                       "enter it, and add a layer.mix before " + n.name);
-    return Message::error ("mixer/no_motor", {}, "this graph has no motor yet", "add a device.force; the mix will go there");
+                                       "enter the subgraph, and add a layer.mix before " + n.name);
+    return Message::error ("mixer/no_motor", {}, "this graph has no motor yet", "add a device.force node, which the mixer can then drive");
 }
 }   // namespace
 
@@ -404,7 +404,7 @@ Result<AddedMixer> addMixer (const graph::Graph& g, const Catalogue&)
     const bool is_beside = stream.wires.empty();
     if (is_beside && motor->type != "device.force")
         return Message::error ("mixer/no_forces", {}, "nothing is wired into " + motor->name + " yet",
-                               "wire something into it first; the mixer goes in between");
+                               "wire something into it first; the mixer is then inserted into that wire");
 
     graph::Node mixer;
     mixer.name = freeName (g.root, {}, "desk");
@@ -426,7 +426,8 @@ Result<AddedMixer> addMixer (const graph::Graph& g, const Catalogue&)
     batch.commands.push_back (graph::AddWire { {}, wire (endOf (name, "out"), into) });
     auto description = "Inserts a mixer between " + joined (names) + " and " + graph::toText (into) + '.';
     if (is_beside)
-        description = "Only vectors go into " + motor->name + ", but a mixer mixes scalars. This adds a mixer next to them, which pushes along z.";
+        description = "All wires into " + motor->name
+                      + " carry vectors, but a mixer mixes scalars. This adds a mixer next to those wires; its output pushes along z.";
     return AddedMixer { std::move (batch), std::move (description) };
 }
 

@@ -59,7 +59,7 @@ Result<AddedLayer> addLayer (const graph::Graph&, const MixerPlace&, const Catal
 /// The types that can be a layer: textures and vibrations with a scalar force output.
 std::vector<const NodeType*> layerTypes (const Catalogue&);
 
-/// Removes a layer and its wires; the later ones move up. Ids: mixer/gone, mixer/last_layer, mixer/exposed.
+/// Removes a layer and its wires; the layers after it move up. Ids: mixer/gone, mixer/last_layer, mixer/exposed.
 Result<graph::Command> removeLayer (const graph::Graph&, const MixerPlace&, const Catalogue&, int layer);
 
 /// Moves a layer to another position, with its name, values, wires and controls.

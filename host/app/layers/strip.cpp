@@ -159,7 +159,7 @@ void LayerStrip::show()
     gain_field.show (written);
     gain = gain_field.shown().si();
     fader.show (gain);
-    const auto note = held ? "\nSet by the control " + held_by + ", which moves with it." : juce::String();
+    const auto note = held ? "\nThe control " + held_by + " sets this gain. A change of the gain here moves the control." : juce::String();
     fader.setTooltip ("Gain. Drag to change, with Shift for fine steps; double-click to type; Alt-click to reset to 1" + note);
     gain_field.setTooltip (tooltipOf (sheetOf (context->catalogue, "gain")) + note);
     gain_field.setBold (held || gain != 1.0);
@@ -276,7 +276,7 @@ void LayerStrip::paint (juce::Graphics& g)
         g.setColour (colour);
         for (int b = 0; b < Bands::count; ++b)
         {
-            // An amplitude over four decades, as in the meter.
+            // The height shows the amplitude over four decades, as in the meter.
             const auto h = static_cast<float> (meterPosition (std::sqrt (2.0 * spectrum.power[static_cast<std::size_t> (b)]))) * (box.getHeight() - 4.0f);
             g.fillRect (box.getX() + 2.0f + each * static_cast<float> (b), box.getBottom() - 2.0f - h, each - 0.8f, h);
         }

@@ -22,7 +22,7 @@ struct MixerContext
     MixerPlace place;
     std::function<void (const juce::String&)> hint;
     std::function<void (const std::string& patch, graph::Id)> select;
-    std::function<void (int layer, int x, bool let_go)> drag;   ///< a strip is being dragged by its name; x is a position in its parent
+    std::function<void (int layer, int x, bool let_go)> drag;   ///< a strip is being dragged by its name; x is the position in its parent
 
     const graph::Node* node() const { return findMixer (document.graph(), place); }
     void perform (graph::Command c, bool goes_on = false) const { document.perform (std::move (c), goes_on ? graph::Step::joined : graph::Step::own); }
@@ -64,7 +64,7 @@ public:
 
     LayerStrip (std::shared_ptr<const MixerContext>, int layer);
 
-    void show();   ///< updates from the graph
+    void show();   ///< updates the strip from the graph
     void refresh (const Traces::Client&, double dt_s, bool with_spectrum);
 
     // What the user does.

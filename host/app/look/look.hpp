@@ -40,7 +40,7 @@ private:
     juce::Typeface::Ptr regular, bold_face;
 };
 
-/// The Look of a component. It must have one.
+/// The Look of a component, which must use one.
 Look& lookOf (const juce::Component&);
 inline const Theme& themeOf (const juce::Component& c) { return lookOf (c).theme(); }
 

@@ -6,7 +6,7 @@
 namespace tactus::host
 {
 
-/// A text button. The one that Return activates is filled with the accent colour.
+/// A text button. The button that Return activates is filled with the accent colour.
 class PlainButton final : public juce::Button
 {
 public:

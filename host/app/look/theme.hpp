@@ -11,10 +11,10 @@ namespace tactus::host
 /// The colours of the window by role. The dark and light themes have the same roles.
 struct Theme
 {
-    juce::Colour canvas, dots;            ///< canvas background and grid
-    juce::Colour panel, raised;           ///< panels and node bodies; fields and buttons on them
+    juce::Colour canvas, dots;            ///< canvas: its background; dots: its grid
+    juce::Colour panel, raised;           ///< panel: panels and node bodies; raised: fields and buttons on them
     juce::Colour hairline, text, dim;     ///< dim: labels, units, secondary text
-    juce::Colour accent, warning, stop;   ///< selected or live; out of the usual range; faults and the stop button
+    juce::Colour accent, warning, stop;   ///< accent: selected or live; warning: out of the usual range; stop: faults and the stop button
     bool is_dark = true;
 
     /// The colour of a quantity for ports, wires and traces.

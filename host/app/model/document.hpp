@@ -21,15 +21,15 @@ public:
     {
         virtual ~Listener() = default;
         virtual void documentChanged() = 0;                ///< after an edit, an undo, or when another graph is opened
-        virtual void documentRefused (const Message&) {}   ///< an edit was refused; nothing changed
+        virtual void documentRefused (const Message&) {}   ///< called when an edit was refused; nothing has changed
     };
 
     /// Where a graph came from.
     struct Source
     {
         std::filesystem::path file {};     ///< where to save it; if empty, ask the user
-        std::filesystem::path preset {};   ///< the preset it is a copy of
-        bool is_changed = false;           ///< it differs from its file, for example after crash recovery
+        std::filesystem::path preset {};   ///< the preset of which the graph is a copy; empty if none
+        bool is_changed = false;           ///< true if the graph differs from its file, for example after crash recovery
     };
 
     explicit Document (graph::Graph, std::filesystem::path file = {});
@@ -64,7 +64,7 @@ private:
     struct Origin
     {
         Source source;
-        std::string saved;   // the contents of the file
+        std::string saved;   // the text of the graph in its file
     };
 
     /// Notifies the listeners. A listener may remove itself or others meanwhile.

@@ -10,7 +10,7 @@
 namespace tactus::host
 {
 
-/// Levels of subgraphs that are looked into. compile() refuses a subgraph that contains itself, but the canvas still draws it.
+/// How many levels of nested subgraphs are looked into. compile() refuses a subgraph that contains itself, but the canvas still draws it.
 inline constexpr int deepest_subgraph = 32;
 
 /// A port as shown on a node: a datasheet row, one entry of an array port, or a port that a subgraph exposes.
@@ -18,10 +18,10 @@ struct FacePort
 {
     Role role = Role::input;
     std::string id;                     ///< the name after the dot in a wire: "force", "in[0]"
-    std::string about;                  ///< one sentence
-    UnitRule unit {};                   ///< fixed, or taken from what is wired to it
-    int width = 1;                      ///< components
-    const PortSheet* sheet = nullptr;   ///< null on a placeholder
+    std::string about;                  ///< description, in one sentence
+    UnitRule unit {};                   ///< fixed, or taken from what is wired to the port
+    int width = 1;                      ///< number of components
+    const PortSheet* sheet = nullptr;   ///< the datasheet row; null on a placeholder
 
     Quantity quantity() const noexcept { return unit.kind == UnitRule::Kind::fixed ? unit.unit.quantity : Quantity::any; }
     bool isChoice() const noexcept { return sheet != nullptr && ! sheet->choices.empty(); }

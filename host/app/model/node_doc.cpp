@@ -14,7 +14,7 @@ extern const std::vector<std::pair<std::string_view, std::string_view>> node_doc
 std::vector<DocPart> readDoc (std::string_view doc)
 {
     std::vector<DocPart> parts;
-    bool continues = false;   // this line continues the last part
+    bool continues = false;   // true if this line continues the last part
     std::istringstream lines { std::string (doc) };
     for (std::string line; std::getline (lines, line);)
     {

@@ -42,7 +42,7 @@ std::optional<graph::Command> changeParam (const graph::Graph& g, const std::str
 std::string outOfRangeText (const graph::Graph& g, const graph::Node& node, const FacePort& port)
 {
     const auto control = controlOf (g, node.name + '.' + port.id);
-    return port.id + " is out of the range of " + (control ? control->name : "its control")
+    return "the new value of " + port.id + " is outside the range of " + (control ? "the control " + control->name : "its control")
            + "; widen that range, or right-click the parameter in the inspector to release it";
 }
 

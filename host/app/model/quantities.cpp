@@ -76,7 +76,7 @@ void Quantities::joinAlongWires (const graph::Patch& patch)
     for (const auto& wire : patch.wires)
     {
         const auto *from = portsOf (patch, wire.from.node), *to = portsOf (patch, wire.to.node);
-        const bool keeps = wire.gain.is_null();   // a gain may have a unit
+        const bool keeps = wire.gain.is_null();   // a gain may have a unit, and so change the quantity
         if (from != nullptr && to != nullptr && keeps) join (numberOf (*from, from->face.startOf (wire.from)), numberOf (*to, to->face.endOf (wire.to)));
     }
 }
@@ -129,7 +129,7 @@ int Quantities::root (int port) const
     return port;
 }
 
-/// If the two disagree, the quantity of the first one is shown.
+/// Notes that two ports carry the same quantity. If their quantities differ, that of the first port is shown.
 void Quantities::join (int a, int b)
 {
     if (a < 0 || b < 0) return;

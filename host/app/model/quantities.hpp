@@ -22,12 +22,12 @@ private:
     struct NodePorts
     {
         Face face;
-        int first;   ///< number of its first port; params follow inputs, outputs follow params
+        int first;   ///< number of the node's first port; params follow inputs, outputs follow params
     };
 
     struct PatchPorts
     {
-        std::vector<NodePorts> nodes;   ///< in the order of the patch
+        std::vector<NodePorts> nodes;   ///< in the order of the patch's nodes
         std::map<std::string_view, std::size_t> by_name;
     };
 
@@ -37,14 +37,14 @@ private:
     void joinWithInside (const graph::Graph& owner, const graph::Patch&);
 
     const NodePorts* portsOf (const graph::Patch&, std::string_view node) const;
-    static int numberOf (const NodePorts&, const FacePort*);   ///< -1 for none
+    static int numberOf (const NodePorts&, const FacePort*);   ///< -1 if there is no such port
     int root (int port) const;
     void join (int a, int b);
 
     const Catalogue& catalogue;
     std::map<const graph::Patch*, PatchPorts> patches;
     std::vector<int> parent;       // union-find: ports that carry the same quantity share a root
-    std::vector<Quantity> known;   // valid at the roots
+    std::vector<Quantity> known;   // by port: its quantity; valid only at the roots
 };
 
 }   // namespace tactus::host

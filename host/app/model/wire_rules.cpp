@@ -22,7 +22,7 @@ Result<> checkWireByComponent (const WireEnd& from, const WireEnd& to)
     const auto refuse = [] (std::string why) { return Message::error ("wire/refused", {}, std::move (why)); };
     if (from.port->role != Role::output) return refuse ("a wire starts at an output");
     if (to.port->role == Role::output) return refuse ("a wire ends at an input or a parameter");
-    if (to.port->isChoice()) return refuse ("a choice cannot be wired");
+    if (to.port->isChoice()) return refuse ("a list of choices cannot be wired");
 
     const auto unitAt = [] (const WireEnd& e) -> std::optional<Unit> {
         if (e.port->unit.kind == UnitRule::Kind::fixed) return e.port->unit.unit;
@@ -30,7 +30,7 @@ Result<> checkWireByComponent (const WireEnd& from, const WireEnd& to)
         return std::nullopt;
     };
     const auto a = unitAt (from), b = unitAt (to);
-    if (a && b && a->dimension != b->dimension) return refuse (std::string (a->symbol) + " into " + std::string (b->symbol));
+    if (a && b && a->dimension != b->dimension) return refuse (std::string (a->symbol) + " does not fit " + std::string (b->symbol));
     return {};
 }
 
@@ -38,7 +38,7 @@ Result<> checkWire (const WireEnd& from, const WireEnd& to)
 {
     auto checked = checkWireByComponent (from, to);
     if (! checked || from.port->width == to.port->width) return checked;
-    return Message::error ("wire/refused", {}, from.port->width == 3 ? "a vector into a scalar" : "a scalar into a vector");
+    return Message::error ("wire/refused", {}, from.port->width == 3 ? "a vector does not fit a scalar" : "a scalar does not fit a vector");
 }
 
 }   // namespace tactus::host

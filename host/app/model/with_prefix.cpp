@@ -9,7 +9,7 @@ namespace tactus::host
 
 std::string withPrefix (double value, const std::string& unit, int digits)
 {
-    if (std::isnan (value)) return "nan";   // an unstable model
+    if (std::isnan (value)) return "nan";   // the value may come from an unstable model
     if (std::isinf (value)) return value > 0.0 ? "inf" : "-inf";
     struct Prefix
     {

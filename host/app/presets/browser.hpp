@@ -19,7 +19,7 @@ public:
     PresetBrowser (const Catalogue&, Settings&, PictureStore&);
 
     std::function<void (const Preset&, bool is_own)> onOpen;
-    std::function<void()> onSettings;   ///< the favourites changed
+    std::function<void()> onSettings;   ///< called when the favourites have changed
 
     /// Preview a preset with its own gesture while the mouse button is held.
     std::function<void (const std::filesystem::path&)> onPreview;
@@ -30,7 +30,7 @@ public:
     void refresh();                                 ///< call this many times a second
 
     const std::vector<Preset>& shipped() const noexcept { return presets; }
-    void search (const juce::String&);   ///< as if typed
+    void search (const juce::String&);   ///< as if the user had typed the text
 
     /// A row of the list: a heading or a preset.
     struct Row
@@ -76,8 +76,8 @@ private:
     PictureStore& pictures;
     const std::filesystem::path folder, own_folder;
     std::filesystem::path open;
-    std::vector<Preset> presets, own, recent;   // everything in the folders
-    std::vector<Preset> found, found_own;       // those that match the search
+    std::vector<Preset> presets, own, recent;   // all presets in the folders
+    std::vector<Preset> found, found_own;       // the presets that match the search
     std::vector<Row> shown;
     int hovered = -1, pictures_done = 0;
     bool is_previewing = false;

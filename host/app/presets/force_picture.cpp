@@ -40,7 +40,7 @@ ForcePicture pictureOf (const std::filesystem::path& file, const Catalogue& cata
     std::vector<std::string> roles;
     for (const auto& role : compiled.plan->roles())
         roles.push_back (role.name);
-    if (roles.empty()) return refuse ("no force device in the graph");
+    if (roles.empty()) return refuse ("no preview: the graph has no device node");
     std::vector<MadeDevice> devices;   // must outlive the engine
     for (const auto& role : roles)
     {

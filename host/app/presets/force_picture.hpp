@@ -19,10 +19,10 @@ struct ForcePicture
     static constexpr std::size_t columns = 192;
 
     std::vector<float> peaks;   ///< maximum per time column, in `unit`
-    double peak = 0.0;          ///< overall maximum
-    double seconds = 0.0;       ///< duration
+    double peak = 0.0;          ///< the largest of `peaks`
+    double seconds = 0.0;       ///< duration of the picture
     const char* unit = "N";     ///< "N m" if there is only torque
-    std::string problem;        ///< why there is no picture
+    std::string problem;        ///< why there is no picture; empty if there is one
 };
 
 /// Takes up to several seconds for a large mesh. Stops early with a problem once `cancelled` is true. [any thread, one call at a time]

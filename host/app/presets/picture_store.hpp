@@ -30,7 +30,7 @@ private:
     void run() override;
 
     const Catalogue& catalogue;
-    std::mutex lock;   // guards the two below
+    std::mutex lock;   // guards `pictures` and `wanted`
     std::map<std::filesystem::path, std::shared_ptr<const ForcePicture>> pictures;
     std::deque<std::filesystem::path> wanted;
     std::atomic<bool> cancelled { false };

@@ -18,9 +18,9 @@ struct Preset
     std::filesystem::path file;
     std::string name, about;
     std::vector<std::string> tags;
-    std::set<std::string> types;             ///< node types it uses
+    std::set<std::string> types;             ///< node types that the preset uses
     std::vector<std::string> placeholders;   ///< types missing from the catalogue
-    std::string problem;                     ///< why it cannot be read; empty if it can
+    std::string problem;                     ///< why the preset cannot be read; empty if it can
 };
 
 /// Reads one preset. If that fails, `problem` says why. [main thread]

@@ -23,7 +23,7 @@ public:
     int heightFor (int width, int rows) const;   ///< at most this many rows; all rows after a click on "more"
 
     std::function<void()> onChange;
-    std::function<void()> onResize;   ///< the height changed
+    std::function<void()> onResize;   ///< called when the height has changed
 
     void paint (juce::Graphics&) override;
     void mouseUp (const juce::MouseEvent&) override;

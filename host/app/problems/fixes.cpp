@@ -73,7 +73,7 @@ std::optional<Fix> fixOf (const graph::Graph& g, const Message& m)
     {
         auto delayed = *wire;
         delayed.delay = std::max (1, wire->delay);
-        return Fix { "Delay it by a tick", graph::Batch { "break loop", { graph::ChangeWire { culprit.patch, culprit.id, std::move (delayed) } } } };
+        return Fix { "Delay wire by a tick", graph::Batch { "break loop", { graph::ChangeWire { culprit.patch, culprit.id, std::move (delayed) } } } };
     }
     if (m.severity != Message::Severity::error) return std::nullopt;
     const auto& [patch, id, node, param, role] = culprit;

@@ -14,9 +14,9 @@ namespace tactus::host
 struct Culprit
 {
     std::string patch;         ///< "" is the graph itself
-    graph::Id id = 0;          ///< of the node or wire; 0 if it is about neither
-    std::string node;          ///< its name, if it is a node
-    std::string param, role;   ///< if it is about a param or a device role
+    graph::Id id = 0;          ///< id of the node or wire; 0 if the message is about neither
+    std::string node;          ///< name of the node, if the message is about one
+    std::string param, role;   ///< name of the param or device role, if the message is about one
 };
 
 Culprit culpritOf (const graph::Graph&, const Message&);

@@ -30,7 +30,7 @@ public:
     /// Changes the session and its file, or neither.
     Result<> edit (const std::function<void (DeviceSession&)>&);
 
-    std::function<void()> onChange;   ///< the session has changed
+    std::function<void()> onChange;   ///< called when the session has changed
 
     /// Turns the scan for connected devices on or off. It runs once a second, on its own thread.
     void scan (bool on);
@@ -48,7 +48,7 @@ private:
     std::condition_variable changed;
     bool scans = false, ends = false;
     std::vector<hid::ConnectedDevice> found;
-    std::jthread scanner;   // last: it uses the members above
+    std::jthread scanner;   // declared last: it uses the members above
 };
 
 }   // namespace tactus::host

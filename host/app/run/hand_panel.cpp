@@ -20,7 +20,7 @@ public:
     PlayButton() : Button ("Play")
     {
         setClickingTogglesState (true);
-        setTooltip ("Plays or pauses the gesture. The hand stays where it is.");
+        setTooltip ("Plays or pauses the gesture. While paused, the hand stays where it is.");
     }
 
     void paintButton (juce::Graphics& g, bool over, bool) override
@@ -172,10 +172,10 @@ void HandPanel::showTransport (const LiveRun& run)
 
 juce::String HandPanel::noteFor (const LiveRun& run) const
 {
-    if (! run.isRunning()) return "Not running. START is at the top right.";
+    if (! run.isRunning()) return "Not running. Press START at the top right.";
     if (run.hand().kind != LiveRun::Hand::Kind::pointer) return "The tool follows its device.";
-    const auto depth = juce::String (1000.0 * surface.depth(), 1) + " mm deep";
-    return surface.isHeld() ? "Held " + depth + "; H releases" : "Press and drag: " + depth + " (wheel); H holds";
+    const auto depth = juce::String (1000.0 * surface.depth(), 1) + " mm. ";
+    return surface.isHeld() ? "Held at a depth of " + depth + "H: release" : "Press and drag. The wheel sets the depth: " + depth + "H: hold";
 }
 
 bool HandPanel::isInterestedInFileDrag (const juce::StringArray& files) { return files.size() == 1 && files[0].endsWithIgnoreCase (".csv"); }

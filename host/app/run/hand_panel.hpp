@@ -16,7 +16,7 @@ public:
 
     HandView& view() noexcept { return surface; }
 
-    std::function<void (const juce::String&)> onHint;   ///< why something is not possible
+    std::function<void (const juce::String&)> onHint;   ///< receives the reason why something is not possible
 
     void paint (juce::Graphics&) override;
     void resized() override;

@@ -22,7 +22,7 @@ void HandView::refresh()
     by_pointer = run.hand().kind == LiveRun::Hand::Kind::pointer;
     held = held && by_pointer;
     tool = run.tool();
-    if (tool && ! (isFinite (tool->position) && isFinite (tool->force))) tool.reset();   // an unstable loop may throw it anywhere
+    if (tool && ! (isFinite (tool->position) && isFinite (tool->force))) tool.reset();   // an unstable loop may throw the tool anywhere
     if (tool)
     {
         trail.push_back (tool->position);

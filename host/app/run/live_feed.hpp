@@ -23,7 +23,7 @@ private:
     void showCosts (Live&);
     void showProblems (Live&) const;
 
-    static constexpr std::size_t most_ports = 12;   ///< probed at most; the rest of the probe capacity is left for the scopes
+    static constexpr std::size_t most_ports = 12;   ///< how many ports this probes at most; the rest of the probe capacity is left for the scopes
     static constexpr double hit_travels_s = 0.25;
     static constexpr int refreshes_per_cost = 30;
 

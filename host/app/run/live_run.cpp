@@ -21,12 +21,12 @@ namespace
 /// In m. The pointer starts this far above the origin, so that a run does not start inside an object.
 constexpr double hover = 5e-3;
 
-constexpr int looks_apart = 3;   // calls of attend() between two checks of the devices: checks ten times a second
+constexpr int looks_apart = 3;   // every third call of attend() checks the devices: ten times a second
 
 // For a hand that the graph does not describe.
 constexpr double usual_stiffness = 400.0, usual_damping = 4.0;   // N/m, N s/m
 
-Message stopped() { return Message::error ("run/stopped", {}, "nothing is running in the window", "press START there"); }
+Message stopped() { return Message::error ("run/stopped", {}, "nothing is running in the window", "press START in the window"); }
 }   // namespace
 
 LiveRun::LiveRun (Document& d, const Catalogue& c, Sound* s) : document (d), catalogue (c), sound (s)
@@ -333,10 +333,10 @@ void LiveRun::documentChanged()
     const auto& graph = document.graph();
     const bool is_same_run = isLive() && graph.rate_hz == graph_rate_hz && graph.devices == run_devices;
     if (is_same_run) return takeOver();
-    auto checked = makeRun (Run::Queries::within_tick)->check (graph);   // report now: the previous run may take a moment to end
+    auto checked = makeRun (Run::Queries::within_tick)->check (graph);   // reports problems now: the previous run may take a moment to end
     said = std::move (checked.messages);
     if (checked.plan) needed = needsOf (*checked.plan);
-    if (wanted) beginAnew (true);   // it may compile now
+    if (wanted) beginAnew (true);   // the edited graph may compile now
 }
 
 void LiveRun::takeOver()
@@ -371,7 +371,7 @@ void LiveRun::emergencyStop() noexcept
 {
     held = true;
     stopped_at = std::chrono::steady_clock::now();
-    if (begins || ! isRunning()) return stop();   // otherwise a run that is about to begin would miss it
+    if (begins || ! isRunning()) return stop();   // otherwise a run that is about to begin would miss the emergency stop
     run->engine().emergencyStop();
 }
 

@@ -53,12 +53,12 @@ public:
         bool operator== (const Hand&) const = default;
     };
 
-    /// Plays the force on the first role's tool through `sound`, if it is not null. It must outlive this.
+    /// Plays the force on the first role's tool through `sound`, if that is not null. The sound must outlive this object.
     LiveRun (Document&, const Catalogue&, Sound* = nullptr);
     ~LiveRun() override;
 
-    /// From now on, the session decides how roles are bound, which ports are played and what ticks the runs. It must outlive
-    /// this. If something that the run uses changes, the run restarts.
+    /// From now on, the session decides how roles are bound, which ports are played and what ticks the runs. The setup must
+    /// outlive this object. If something that the run uses changes, the run restarts.
     void use (const DeviceSetup&);
     void setupChanged();
 
@@ -76,7 +76,7 @@ public:
     /// cannot undo the stop.
     void rearm() noexcept;
     bool canRearm() const noexcept;
-    bool isStoppedForGood() const;   ///< until rearm(), or until the user starts another run
+    bool isStoppedForGood() const;   ///< true after a latched stop, until rearm() or until the user starts another run
 
     /// Stops, waits until the forces are zero, and releases the devices.
     void letGo();
@@ -138,7 +138,7 @@ public:
     Result<> turn (const std::string& param, const Json& value);
     Result<> turnControl (const std::string& id, double value);
 
-    /// Triggers a hit at an input, with a speed in m/s. Errors have the same ids.
+    /// Triggers a hit at an input, with a speed in m/s. Ids: those of turn().
     Result<> strike (const std::string& input, double speed);
 
     /// Captures a port around an edge of another one, replacing any earlier capture. Returns the names of the captured
@@ -190,9 +190,9 @@ private:
     std::vector<std::pair<std::string, Json>> run_devices;   // the graph's devices at the start of the run
     const DeviceSetup* setup = nullptr;
     DeviceSession run_session;    // the session at the start of the run
-    double graph_rate_hz = 0.0;   // at the start of the run
+    double graph_rate_hz = 0.0;   // the graph's rate at the start of the run
     std::string clock_role, hand_role;
-    double hand_damping = 0.0;   // of the device of the hand role, as seen in the graph's workspace, in N s/m
+    double hand_damping = 0.0;   // damping of the hand role's device, as seen in the graph's workspace, in N s/m
     HealthWatch watch;
     std::vector<RoleNeeds> needed;
     int attended = 0;
@@ -202,7 +202,7 @@ private:
     Snapshot<std::array<double, 6>> seen;   // the tool's position and the force on it
     std::unique_ptr<audio::AudioRig> rig;   // declared before the run, because it drives some of the run's devices
     std::unique_ptr<TickClock> clock;       // empty if the rig provides the clock
-    std::unique_ptr<Run> run;               // last, because it ticks the other members
+    std::unique_ptr<Run> run;               // declared last, because it ticks the other members
 };
 
 }   // namespace tactus::host

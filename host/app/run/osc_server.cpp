@@ -69,7 +69,7 @@ void OscServer::performEdits (RemoteControl::Clock::time_point now)
 Result<std::vector<std::string>> OscServer::probe (const std::vector<std::string>& ports)
 {
     if (! ports.empty() && ! live_run.isRunning())
-        return Message::error ("run/stopped", {}, "nothing is running in the window", "press START there, or send /tactus/start");
+        return Message::error ("run/stopped", {}, "nothing is running in the window", "press START in the window, or send /tactus/start");
     const auto before = probed.wanted();
     probed.want (ports);
     std::vector<std::string> names;

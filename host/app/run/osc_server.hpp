@@ -16,7 +16,7 @@ namespace tactus::host
 class OscServer final : private Controlled
 {
 public:
-    /// The playback and the document must outlive this.
+    /// The playback and the document must outlive the server.
     OscServer (std::unique_ptr<OscPort>, Playback&, Document&);
 
     int port() const noexcept { return osc->number(); }
@@ -50,14 +50,14 @@ private:
     LiveRun& live_run { playback.run() };
     Document& document;
     Traces::Client probed { live_run.traces() };
-    std::vector<std::string> components;   // of the probed ports
+    std::vector<std::string> components;   // all components of the probed ports
     std::uint64_t sent = 0;                // all ticks before this one are sent
     bool captures = false;
-    std::map<std::string, Json> new_params;       // set, but not yet edits of the document
-    std::map<std::string, double> new_controls;   // the same
+    std::map<std::string, Json> new_params;       // params that are set, but not yet stored by an edit of the document
+    std::map<std::string, double> new_controls;   // controls likewise
     RemoteControl::Clock::time_point edited_at {};
-    std::size_t edited_position = 0;         // in the history
-    RemoteControl control { *osc, *this };   // last: it uses this
+    std::size_t edited_position = 0;         // position in the history after this server's last edit
+    RemoteControl control { *osc, *this };   // declared last: it calls the functions of this object
 };
 
 }   // namespace tactus::host

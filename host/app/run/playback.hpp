@@ -11,15 +11,15 @@ namespace tactus::host
 class Playback
 {
 public:
-    /// The sound and the device setup must outlive this. `before_run` is called before each start.
+    /// The sound and the device setup must outlive the playback. `before_run` is called before each start.
     Playback (Document&, const Catalogue&, Sound&, DeviceSetup&, std::function<void()> before_run);
 
-    LiveRun& run() noexcept { return live_run; }   ///< of the document
+    LiveRun& run() noexcept { return live_run; }   ///< the run of the document, even during a preview
     LiveRun& current() noexcept { return preview_run ? *preview_run : live_run; }
 
     void start (LiveRun::Hand);
     void restart() { start (live_run.hand()); }
-    void stop() noexcept;   ///< even if a preview is running
+    void stop() noexcept;   ///< stops the document's run or the preview, whichever is current
     void emergencyStop() noexcept;
 
     /// Stops the document, and runs another graph with its own gesture until endPreview().

@@ -9,8 +9,8 @@
 namespace tactus::host
 {
 
-/// The position of the mouse or pen as a path. It arrives about 60 times a second and is smoothed for the tick: the hand follows it like
-/// a critically damped spring, solved exactly from tick to tick.
+/// The position of the mouse or pen as a path. The system reports it about 60 times a second, so it is smoothed: the hand follows it
+/// like a critically damped spring, solved exactly from tick to tick.
 class PointerPath final : public Path
 {
 public:

@@ -41,7 +41,7 @@ juce::String reason (const RunStatus& s, LiveRun& run)
 juce::String runningText (const LiveRun& run)
 {
     const auto rate = "running at " + juce::String (run.rate()) + " Hz";
-    return run.clockRole().empty() ? rate : rate + " by " + juce::String (run.clockRole());
+    return run.clockRole().empty() ? rate : rate + ", ticked by " + juce::String (run.clockRole());
 }
 
 juce::String delayText (const LiveRun& run)
@@ -50,7 +50,7 @@ juce::String delayText (const LiveRun& run)
     if (! d) return "no path from a hand to a motor";
     const auto delay = "delay " + juce::String (*d) + (*d == 1 ? " tick" : " ticks");
     const auto stiffness = run.stiffnessLeft();
-    return stiffness ? delay + ", stiff up to " + stiffnessText (*stiffness) : delay;
+    return stiffness ? delay + ", walls up to " + stiffnessText (*stiffness) : delay;
 }
 }   // namespace
 
@@ -122,7 +122,7 @@ SafetyStrip::Shown SafetyStrip::stateOf (LiveRun& run)
     now.warned = has_errors;
     showGuards (run, *status, now);
     now.force = newtonText (status->force) + "  |  peak " + newtonText (status->peak);
-    now.misses = juce::String (static_cast<juce::int64> (status->misses)) + " missed";
+    now.misses = "missed ticks: " + juce::String (static_cast<juce::int64> (status->misses));
     now.delay = delayText (run);
     return now;
 }
@@ -143,7 +143,7 @@ void SafetyStrip::showGuards (const LiveRun& run, const RunStatus& status, Shown
         }
     if (now.running && status.clock_replaced)
     {
-        now.guard = juce::String (run.clockRole()) + " is not ticking: forces are held at zero";
+        now.guard = "the clock " + juce::String (run.clockRole()) + " has stopped: forces are held at zero";
         now.alarmed = true;
     }
 }

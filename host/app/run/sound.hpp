@@ -29,7 +29,7 @@ public:
     bool isOn() const noexcept { return on.load (std::memory_order_relaxed); }
     void attend() { keeper.attend(); }   ///< call many times a second; reopens a card that was lost [main thread]
 
-    void setTickRate (double hz);                                     ///< while nothing ticks [main thread]
+    void setTickRate (double hz);                                     ///< call only while nothing ticks [main thread]
     void setVolume (float v) noexcept { volume = v; }                 ///< 0…1
     void push (double newton) noexcept;                               ///< [tick thread]
     audio::StreamReport report() const { return stream->report(); }   ///< [main thread]
@@ -45,7 +45,7 @@ private:
     audio::HighPass high_pass { lowest_hz, tick_rate };
     std::unique_ptr<audio::OutStream> stream;
     int longest_block = 0;
-    audio::CardKeeper keeper;   // last: the card calls this
+    audio::CardKeeper keeper;   // declared last: the card calls the functions of this object
 };
 
 }   // namespace tactus::host

@@ -89,7 +89,7 @@ public:
 
     std::vector<std::shared_ptr<const Trace>> of (const std::string& port) const;
 
-    std::function<void()> onWanted;   ///< the requested ports have changed
+    std::function<void()> onWanted;   ///< called when the requested ports have changed
 
     /// The requested components that exist, but exceed the number that can be recorded.
     const std::vector<std::string>& leftOut() const noexcept { return too_many; }
@@ -107,7 +107,7 @@ private:
     ProbeRing ring;
     std::vector<std::uint64_t> selected;   ///< serials of plans that all have the same taps
     std::vector<std::size_t> taps;
-    std::vector<std::shared_ptr<Trace>> in_frame;   ///< by index in a frame
+    std::vector<std::shared_ptr<Trace>> in_frame;   ///< the trace of each value in a frame
     std::map<std::string, std::shared_ptr<Trace>> by_name;
     std::vector<std::string> too_many;
     std::vector<Client*> clients;

@@ -88,8 +88,8 @@ void EnergyMeter::add (const std::array<double, 3>& p, const std::array<double, 
         double step = 0.0;
         for (std::size_t i = 0; i < 3; ++i)
         {
-            // The force at the end of the previous step is known only now. It gives the work of a continuous force (the trapezoid rule) minus
-            // the work of the held force.
+            // The force at the end of the previous step is known only now. With it, this adds the work of a continuous force (the trapezoid
+            // rule) minus the work of the held force.
             if (! was_gap) now.held -= 0.5 * (f[i] - last_force[i]) * last_step[i];
             last_step[i] = p[i] - last[i];
             step -= (was_gap ? 0.5 * (f[i] + last_force[i]) : f[i]) * last_step[i];
@@ -126,8 +126,8 @@ std::string describe (const EnergyBalance& b)
     text += (b.isPassive() ? ": work of the hand " : "; work of the hand ") + joule (b.work);
     text += ", " + joule (b.stored) + " stored, " + joule (b.dissipated) + " dissipated";
     if (matters (b.held, 0.01)) text += "; holding the force between ticks created " + joule (b.held);
-    if (matters (b.elsewhere(), 0.02)) text += ", " + joule (b.elsewhere()) + " elsewhere";
-    if (matters (-b.elsewhere(), 0.02)) text += ": " + joule (-b.elsewhere()) + " too much, because the tool moves too far in each tick";
+    if (matters (b.elsewhere(), 0.02)) text += ", " + joule (b.elsewhere()) + " unaccounted for";
+    if (matters (-b.elsewhere(), 0.02)) text += "; the nodes report " + joule (-b.elsewhere()) + " too much, because the tool moves too far in each tick";
     return text;
 }
 

@@ -36,7 +36,7 @@ class EnergyMeter
 public:
     struct Sources
     {
-        TraceList position;   ///< of the tool
+        TraceList position;   ///< position of the tool
         TraceList applied;    ///< the force held until this tick
         TraceList stored, dissipated;
     };

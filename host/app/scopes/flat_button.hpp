@@ -15,8 +15,8 @@ public:
     explicit FlatButton (const juce::String& label) : Button (label) { setWantsKeyboardFocus (false); }
     FlatButton (const juce::String& name, juce::Path p) : FlatButton (name) { picture = std::move (p); }
 
-    juce::Colour dot = juce::Colours::transparentBlack;   ///< before the label
-    bool is_wrong = false;                                ///< shown in the warning colour
+    juce::Colour dot = juce::Colours::transparentBlack;   ///< the colour of a dot before the label
+    bool is_wrong = false;                                ///< true: shown in the warning colour
     std::function<void()> onCross;                        ///< if set, there is a cross after the label
 
     int wantedWidth() const

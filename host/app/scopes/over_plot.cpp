@@ -38,7 +38,8 @@ void OverPlot::show (const Signals& signals)
         component = spec.component;
     else
     {
-        // The component that moves most. To take over, another must move clearly more, so that the choice does not change at every reversal.
+        // Shows the component that moves most. Another one replaces it only if that moves clearly more, so that the choice does not change
+        // at every reversal.
         const auto travel = [&] (std::size_t i) {
             const auto e = extentOf (*xs[i], static_cast<double> (from), static_cast<double> (end));
             return e.isEmpty() ? 0.0 : e.size();

@@ -53,12 +53,12 @@ struct ScopeSpec
     std::vector<std::string> ports;   ///< time, spectrum: the traces
     std::string x, y, state;          ///< over: the axes, and the state (stuck or sliding); energy: hand position, and force on the hand
     std::string node;                 ///< tool: the friction node
-    bool has_normal = false;          ///< tool: its input `normal` is wired
+    bool has_normal = false;          ///< tool: true if the node's input `normal` is wired
     int component = -1;               ///< over: component of vectors; -1 for the one that moves most
     double seconds = 1.0;             ///< length of the window
     double back_s = 0.0;              ///< time: how long before the newest tick the window ends, while frozen
     ScopeTrigger trigger;
-    bool in_decibels = true;                ///< spectrum
+    bool in_decibels = true;                ///< spectrum: true if amplitudes are in decibels
     std::map<std::string, Extent> zoomed;   ///< ranges that the user has zoomed, by unit
     std::vector<Cursor> cursors;            ///< at most two
     bool is_frozen = false;

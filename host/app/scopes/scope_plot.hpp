@@ -16,7 +16,7 @@ struct Lane
     Extent x, y;
     std::string unit, x_unit;
     bool is_logarithmic = false;           ///< true if the x axis is logarithmic
-    bool shows_x = true, shows_y = true;   ///< draws the numbers of the axis
+    bool shows_x = true, shows_y = true;   ///< true if the numbers of the axis are drawn
 
     juce::Point<float> toPixels (double at_x, double at_y) const noexcept;
     double xAt (float pixel) const noexcept;
@@ -28,7 +28,7 @@ struct ScopeContext
 {
     std::vector<ScopePort> ports;        ///< all ports that can be probed
     std::vector<std::string> energies;   ///< the ports that report energies
-    std::function<void()> onChange;      ///< the spec of a scope has changed
+    std::function<void()> onChange;      ///< called when the spec of a scope has changed
 };
 
 /// The plot of a scope: lanes with axes, two cursors, and zoom with the wheel.
@@ -63,7 +63,7 @@ public:
 
 protected:
     static constexpr float gutter = 44.0f, foot = 18.0f, legend_height = 16.0f;
-    static constexpr const char* not_run_yet = "Not run yet";
+    static constexpr const char* not_run_yet = "The graph has not run yet";
 
     virtual void paintLane (juce::Graphics&, const Lane&, std::size_t index) = 0;
     virtual void paintOver (juce::Graphics&) {}

@@ -14,7 +14,7 @@ struct ScopePort
     std::string name;   ///< "drag.force", "grain/wave.value"
     std::string path;   ///< "grain/wave"
     graph::Id node = 0;
-    std::string type;   ///< of the node, in the catalogue
+    std::string type;   ///< the node's type in the catalogue
     FacePort port;
 };
 

@@ -140,7 +140,7 @@ std::string ScopeView::headerKey()
 void ScopeView::add (Chip c)
 {
     const bool is_gone = ! c.port.empty() && ! isThere (c.port, context.ports);
-    auto& chip = *chips.emplace_back (std::make_unique<FlatButton> (is_gone ? juce::String (c.port) + " is gone" : c.text));
+    auto& chip = *chips.emplace_back (std::make_unique<FlatButton> (is_gone ? juce::String (c.port) + " no longer exists" : c.text));
     chip.dot = c.dot;
     chip.is_wrong = is_gone;
     chip.setTooltip (c.about);

@@ -20,7 +20,7 @@ public:
     ScopeView (ScopeSpec&, ScopeContext&, Signals live);
 
     std::function<void()> onClose, onFreeze;
-    std::function<void (juce::Component& below)> onSave;   ///< the save button was clicked
+    std::function<void (juce::Component& below)> onSave;   ///< called when the save button is clicked
 
     void refresh();   ///< may rebuild the header, so do not call it from a header button
     void redraw();
@@ -65,7 +65,7 @@ private:
     ScopeSpec& spec;
     ScopeContext& context;
     Signals live;
-    std::map<std::string, TraceList> held;   // while frozen
+    std::map<std::string, TraceList> held;   // the traces that are shown while frozen
     std::unique_ptr<ScopePlot> drawing;
     std::vector<std::unique_ptr<FlatButton>> links, chips;
     std::unique_ptr<FlatButton> freeze_button, save_button, close_button;

@@ -26,7 +26,7 @@ private:
         Spectrum spectrum;
         juce::Path path;
     };
-    static constexpr int every = 3;   // refreshes; faster updates could not be read
+    static constexpr int every = 3;   // every third refresh updates the plot; faster updates could not be read
     static constexpr double lowest_hz = 1.0, decades_down = 5.0, most_s = 4.0;
 
     void paintLane (juce::Graphics&, const Lane&, std::size_t) override;

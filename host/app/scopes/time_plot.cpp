@@ -10,7 +10,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr double hysteresis = 0.02;   // of the range
+constexpr double hysteresis = 0.02;   // as a fraction of the range
 constexpr float grip = 8.0f;
 
 using Edge = ScopeTrigger::Edge;

@@ -24,7 +24,7 @@ private:
     {
         std::size_t lane = 0;
         juce::Colour colour;
-        juce::String component;   // of a vector, such as "x"
+        juce::String component;   // the component of a vector, such as "x"
         TraceColumns columns;
     };
 

@@ -11,8 +11,8 @@ namespace tactus::host
 namespace
 {
 constexpr double ease = 0.2, forget = 0.995;
-constexpr double circles_in_view = 2.0;   // half the height of the view, in radii
-constexpr float longest_arrow = 0.75f;    // of half the height
+constexpr double circles_in_view = 2.0;   // half the height of the view, in radii of the circle
+constexpr float longest_arrow = 0.75f;    // as a fraction of half the height of the view
 
 void arrow (juce::Graphics& g, juce::Point<float> from, juce::Point<float> to, float thickness)
 {

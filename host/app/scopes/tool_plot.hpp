@@ -29,8 +29,8 @@ private:
     std::optional<ToolPicture> now;
     std::deque<Vec3> tool_trail, anchor_trail;
     Vec3 centre = Vec3::Zero();
-    double half_width = 0.0;   // eased, in m
-    double most_force = 0.0;   // eased, in N
+    double half_width = 0.0;   // half the width of the view, in m; follows changes gradually
+    double most_force = 0.0;   // the largest recent force, in N, shown by the longest arrow; falls gradually
 };
 
 }   // namespace tactus::host

@@ -7,7 +7,7 @@
 namespace tactus::host
 {
 
-/// Draws a trace over time. Where many ticks share a column of pixels, it spans from the lowest to the highest of them.
+/// Draws a trace over time. Where many ticks share a column of pixels, the line spans from the lowest to the highest of them.
 void drawTrace (juce::Graphics&, const Lane&, const TraceColumns&, double tick_of_zero, double rate_hz, juce::Colour);
 
 using Points = std::vector<juce::Point<double>>;

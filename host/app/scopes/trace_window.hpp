@@ -41,7 +41,7 @@ std::optional<std::uint64_t> latestCrossing (const Trace&, const ScopeTrigger&, 
 
 struct TickWindow
 {
-    static constexpr double before_trigger = 0.2;   ///< fraction of the window
+    static constexpr double before_trigger = 0.2;   ///< the part of the window that lies before the trigger, as a fraction
 
     double from = 0.0, to = 0.0;   ///< ticks
     std::optional<std::uint64_t> trigger;

@@ -194,7 +194,7 @@ RecoveryQuestion questionAbout (const CrashedSession& s, double now_s)
     }
     const auto name = "'" + nameOf (s.document()) + "'";
     const auto ago = howLongAgo (now_s - s.document().at_s) + " ago";
-    q.text = s.document().changed ? name + " has unsaved changes, last autosaved " + ago + "." : name + " was open, " + ago + ".";
+    q.text = s.document().changed ? name + " has unsaved changes, last autosaved " + ago + "." : name + " was open " + ago + ".";
     q.safe_first = s.endedInTrial();
     if (q.safe_first)
         q.text += " Tactus quit soon after the graph was started or changed, so running the graph may crash Tactus again. "

@@ -16,8 +16,8 @@ namespace tactus::host
 /// The open document, as autosaved in case the program crashes.
 struct AutosavedDocument
 {
-    std::filesystem::path file, preset;   ///< where it is saved, and what it is a copy of; empty if neither
-    bool changed = false;                 ///< has changes that its file does not have
+    std::filesystem::path file, preset;   ///< the file it is saved in, and the preset it is a copy of; empty if none
+    bool changed = false;                 ///< true if the document has changes that its file does not have
     double at_s = 0.0;                    ///< when it was autosaved, in s since 1970
     std::string graph;                    ///< text of a graph file
 };
@@ -31,7 +31,7 @@ Result<AutosavedDocument> readAutosave (const std::string& text);
 struct RestoredGraph
 {
     graph::Graph graph;
-    std::string problem;   ///< why it cannot be restored; empty if it can
+    std::string problem;   ///< why the graph cannot be restored; empty if it can
 };
 RestoredGraph restore (const AutosavedDocument&);
 
@@ -49,7 +49,7 @@ public:
     /// Ids: recovery/no_folder, and those of writeTextFile.
     Result<> autosave (const AutosavedDocument&);
 
-    /// Call when a graph starts to run, or changes while it runs. If the program crashes during the trial, that may be why.
+    /// Call when a graph starts to run, or changes while it runs. If the program crashes during the trial, the graph may be the cause.
     void beginTrial();
     void endTrial();   ///< call when it has run well for a while, or was stopped
     bool inTrial() const noexcept { return trial; }
@@ -69,7 +69,7 @@ class CrashedSession
 public:
     const AutosavedDocument& document() const noexcept { return saved; }
     const std::string& problem() const noexcept { return wrong; }   ///< why the document cannot be read
-    bool endedInTrial() const noexcept { return in_trial; }         ///< soon after the graph was started or changed
+    bool endedInTrial() const noexcept { return in_trial; }         ///< true if it ended soon after the graph was started or changed
     const std::filesystem::path& folder() const noexcept { return own; }
 
     void discard();
@@ -93,7 +93,7 @@ struct RecoveryQuestion
 {
     std::string title, text;
     bool can_recover = true;
-    bool safe_first = false;   ///< offer to recover without running first
+    bool safe_first = false;   ///< true: the first choice is to recover without running
 };
 RecoveryQuestion questionAbout (const CrashedSession&, double now_s);
 

@@ -18,7 +18,7 @@ struct Settings
     static constexpr std::size_t most_recent = 12;
 
     bool light = false;
-    double scale = 0.0;   ///< of the user interface; 0: automatic
+    double scale = 0.0;   ///< scale of the user interface; 0: automatic
     bool welcomed = false;
     std::map<std::string, int> panels;           ///< panel sizes by name, in pixels; 0: folded
     std::vector<std::filesystem::path> recent;   ///< the latest first

@@ -189,12 +189,12 @@ void Files::restoreNext (bool runs)
     auto restored = restore (saved);
     const auto called = restored.graph.name.empty() ? std::string ("a graph") : restored.graph.name;
     show (std::move (restored.graph), { saved.file, saved.preset, saved.changed }, "recover " + called, runs, false);
-    if (autosave()) crashed.front().discard();   // only now that this session has an autosave of it
+    if (autosave()) crashed.front().discard();   // only now that the document is autosaved in this session
     const auto more = crashed.size() - 1;
     crashed.clear();
     juce::String text = "Recovered. Press Ctrl+S to save.";
     if (! runs || safe) text << " The graph is not running: check it, then press START.";
-    if (more > 0) text += " At the next start, Tactus offers " + juce::String (static_cast<int> (more)) + " more.";
+    if (more > 0) text += " At the next start, Tactus offers to recover " + juce::String (static_cast<int> (more)) + " more.";
     callbacks.notify (text);
 }
 

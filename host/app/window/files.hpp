@@ -19,10 +19,10 @@ public:
     struct Callbacks
     {
         std::function<void (const juce::String&)> notify;
-        std::function<void()> stop;                  ///< before another graph is opened
-        std::function<void (bool by_pointer)> run;   ///< after a graph was opened
+        std::function<void()> stop;                  ///< called before another graph is opened
+        std::function<void (bool by_pointer)> run;   ///< called after a graph was opened
         std::function<bool()> isRunning;
-        std::function<void()> onSettings;   ///< the settings have changed and must be saved
+        std::function<void()> onSettings;   ///< called when the settings have changed and must be saved
 
         /// Asks for a file to open or save, and calls back with it unless the user cancels.
         std::function<void (bool saves, const std::filesystem::path& begin, std::function<void (const std::filesystem::path&)>)> choose;
@@ -31,15 +31,15 @@ public:
     Files (Document&, Question&, Settings&, Callbacks);
     ~Files() override;
 
-    std::function<double()> clock;   ///< s since 1970
+    std::function<double()> clock;   ///< the time in s since 1970
 
     void beginSession (const std::filesystem::path& home);
 
     void create();
-    void open();   ///< asks for the file
+    void open();   ///< asks the user for the file
     void open (const std::filesystem::path&);
     void openCopy (const std::filesystem::path& preset, bool by_pointer);
-    void openGraph (graph::Graph, const std::string& step);   ///< a graph without a file
+    void openGraph (graph::Graph, const std::string& step);   ///< opens a graph that has no file
     void save (std::function<void()> then = {});
     void saveAs (std::function<void()> then = {});
 

@@ -12,7 +12,7 @@ namespace tactus::host
 namespace
 {
 constexpr int hand_width = 420, refreshes_per_second = 30;
-constexpr int least_canvas = 240;   // width and height, in pixels
+constexpr int least_canvas = 240;   // smallest width and height of the canvas, in pixels
 }   // namespace
 
 MainView::MainView (const Catalogue& c)
@@ -35,7 +35,7 @@ MainView::MainView (const Catalogue& c)
     connectTopBar();
     connectWelcome();
     addPanels();
-    edited.add (*this);   // after the canvas, which must be up to date when this is called
+    edited.add (*this);   // added after the canvas, which must be up to date when this view is notified
     documentChanged();
     juce::Desktop::getInstance().addFocusChangeListener (this);
     startTimerHz (refreshes_per_second);

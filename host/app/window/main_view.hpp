@@ -49,7 +49,7 @@ public:
     /// Opens a graph file. Problems appear in the status line.
     void open (const std::filesystem::path&);
 
-    void closeWhenSaved (std::function<void()> close);   ///< once unsaved changes are saved or discarded
+    void closeWhenSaved (std::function<void()> close);   ///< calls `close` once unsaved changes are saved or discarded
     void closeSuddenly();                                ///< autosaves unsaved changes for the next start
 
     /// Runs another graph with its own gesture in place of the document, until endPreview().
@@ -88,7 +88,7 @@ private:
     void connectWelcome();
     void addPanels();
     void openOscPort (const OscListen&);
-    bool hasBoundRole() const;   ///< the session binds a role of the graph
+    bool hasBoundRole() const;   ///< true if the session binds a role of the graph
     void escape (const juce::KeyPress&);
     void stopBy (const juce::KeyPress&);
     bool fileKey (const juce::KeyPress&);
@@ -104,15 +104,15 @@ private:
     const Catalogue& catalogue;
     Settings settings;
     std::filesystem::path home;   // empty until begin()
-    bool light = false;           // now; settings.light applies at the next start
+    bool light = false;           // the current theme; settings.light applies at the next start
     PictureStore pictures;
     Question question;
     StatusLine status;
     Document edited { graph::Graph {} };
     Sound sound;
     DeviceSetup device_setup;
-    Files files;         // before the run, so that an edit is autosaved before it runs
-    Playback playback;   // before the panels that show it
+    Files files;         // declared before the run, so that an edit is autosaved before it runs
+    Playback playback;   // declared before the panels that show it
     std::unique_ptr<OscServer> osc_server;
     SafetyStrip strip { playback };
     HandPanel hand { playback, sound };
@@ -131,9 +131,9 @@ private:
     WelcomePage welcome { pictures };
     HelpPanel help;
     std::unique_ptr<juce::FileChooser> chooser;
-    juce::Component::SafePointer<juce::Component> focused;   // whose keys are listened to
-    const void* shown_identity = nullptr;                    // of the document
-    int ticks_to_save = 0;                                   // the settings, in timer ticks; 0: nothing to save
+    juce::Component::SafePointer<juce::Component> focused;   // the component with the focus, whose keys are listened to
+    const void* shown_identity = nullptr;                    // identity of the document that is shown
+    int ticks_to_save = 0;                                   // timer ticks until the settings are saved; 0: nothing to save
     juce::TooltipWindow tooltips { this, 600 };
 };
 

@@ -16,7 +16,7 @@ namespace tactus::host
 
 namespace
 {
-constexpr int ticks_before_saving = 15;   // half a second, so that a drag writes the settings once
+constexpr int ticks_before_saving = 15;   // timer ticks; half a second, so that a drag writes the settings only once
 constexpr std::array scales { 1.0, 1.25, 1.5, 2.0 };
 }   // namespace
 
@@ -29,7 +29,7 @@ bool MainView::keyPressed (const juce::KeyPress& key)
     }
     if (question.isOpen())
     {
-        question.keyPressed (key);   // even if it does not have the focus
+        question.keyPressed (key);   // even if the question does not have the focus
         return true;
     }
     if (fileKey (key)) return true;
@@ -136,7 +136,7 @@ void MainView::recall (int number)
     const juce::String n (number);
     if (! hasSnapshot (edited.graph(), number)) return status.notify ("Snapshot " + n + " is empty. Ctrl+" + n + " stores all values in it.");
     if (auto command = recallSnapshot (edited.graph(), number)) edited.perform (std::move (*command));
-    status.notify ("Snapshot " + n);
+    status.notify ("Recalled snapshot " + n + ".");
 }
 
 void MainView::store (int number)

@@ -8,7 +8,7 @@ namespace tactus::host
 
 namespace
 {
-/// The free end of a wire being drawn, or both ends of a wire to insert into. Ends whose node has gone are left out.
+/// The free end of a wire being drawn, or both ends of a wire to insert into. Ends whose node no longer exists are left out.
 std::vector<WireEnd> endsOf (const NodeRequest& request, const Scene& scene)
 {
     std::vector<WireEnd> found;

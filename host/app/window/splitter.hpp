@@ -16,9 +16,9 @@ public:
 
     enum class Edge
     {
-        left,    ///< of a panel on the right
-        right,   ///< of a panel on the left
-        top      ///< of a panel at the bottom
+        left,    ///< the left edge of a panel on the right
+        right,   ///< the right edge of a panel on the left
+        top      ///< the top edge of a panel at the bottom
     };
 
     Splitter (Edge e, int initial, int least) : edge (e), extent (initial), least_extent (least), unfolded (initial)

@@ -43,7 +43,7 @@ juce::Path bars()
 }
 }   // namespace
 
-/// A snapshot button, filled if the snapshot is in use.
+/// A snapshot button, filled if the snapshot has been stored.
 class TopBar::Slot final : public juce::Button
 {
 public:

@@ -27,7 +27,7 @@ public:
     void show (std::vector<juce::String> trail);   ///< call after each change of the document or the trail
 
     std::function<void (std::size_t depth)> onLeave;
-    std::function<void (int number)> onRecall, onStore;   ///< of a snapshot, from 1
+    std::function<void (int number)> onRecall, onStore;   ///< receive the number of a snapshot, from 1
     std::function<void()> onHelp;
     std::function<void (juce::Component& at)> onMenu;
 

@@ -25,7 +25,7 @@ public:
         return *this / name;
     }
 
-    /// A graph that includes other graphs.
+    /// Writes a graph that includes other graphs.
     fs::path putIncluding (const std::string& name, std::initializer_list<const char*> others) const
     {
         std::string nodes;

@@ -15,7 +15,7 @@ using namespace tactus;
 
 namespace
 {
-using Question = long long;   // the tick on which it is asked
+using Question = long long;   // the tick on which the question is asked
 using Answer = long long;
 using Slow = AsyncQuery<Question, Answer>;
 

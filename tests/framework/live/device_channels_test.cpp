@@ -90,10 +90,10 @@ TEST_CASE ("a missing part of a device is reported once per role and name, with 
     CHECK (std::ranges::all_of (messages, [] (const Message& m) { return m.id == "device/missing_part" && m.severity == Message::Severity::warning; }));
     const auto all = test::text (messages);
     INFO (all);
-    CHECK (all.find ("/nodes/left: 'left' (device.axis): the device of the role 'left' has no axis 'trigger'; it has no axes at all; it reads 0 until you set")
+    CHECK (all.find ("/nodes/left: 'left' (device.axis): the device of the role 'left' has no axis 'trigger'; it has no axes at all; the node reads 0 until")
            != std::string::npos);
     CHECK (all.find ("the device of the role 'stylus' has no axis 'triger' (did you mean 'trigger'?); its axes: 'stick', 'trigger'") != std::string::npos);
-    CHECK (all.find ("'third' (device.signal_out): the device of the role 'stylus' has no signal output 3; it has 2; it has no effect until you set")
+    CHECK (all.find ("'third' (device.signal_out): the device of the role 'stylus' has no signal output 3; it has 2; the node has no effect until")
            != std::string::npos);
     engine.tick();
     CHECK (pad.last.signals.size() == 2);

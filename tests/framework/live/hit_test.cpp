@@ -70,7 +70,7 @@ TEST_CASE ("a hit from outside is at its input for one tick, whatever value the 
                       .node ("hold", "signal.sample_hold")
                       .wire ("one.out -> hold.in")
                       .compile ({ .records = { "hold.out" } })
-                      .plan };   // a node without parameters
+                      .plan };   // signal.sample_hold has no parameters
     CHECK (ticked (held, 1) == std::vector<double> { 0.0 });
     REQUIRE (strike (held, "hold.hit", 1.0));
     CHECK (ticked (held, 2) == std::vector<double> { 3.0, 3.0 });

@@ -35,7 +35,7 @@ test::Sketch& addThumb (test::Sketch& s)
     return s.wire ("thumb.position -> nail.position").wire ("nail.force -> thimble.force");
 }
 
-/// Records when it was first read.
+/// Counts how often it is read, and records the efforts it receives.
 struct Thumb final : Device
 {
     void prepare (double dt_s) override { dt = dt_s; }

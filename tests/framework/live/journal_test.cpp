@@ -54,7 +54,7 @@ TEST_CASE ("a journal gets each event on the tick on which it takes effect", "[l
     CHECK (notes.taken() == std::vector<std::string> { plan() });
 
     REQUIRE (live.set ("amp.gain", 2.0));
-    REQUIRE (live.set ("amp.gain", 3.0));   // the last one counts
+    REQUIRE (live.set ("amp.gain", 3.0));   // only the last value before the tick counts
     CHECK (notes.taken().empty());
     engine.tick();
     CHECK (notes.taken() == std::vector<std::string> { "turn 1 0 3.000000", "tick" });
@@ -76,7 +76,7 @@ TEST_CASE ("a journal gets each event on the tick on which it takes effect", "[l
     engine.emergencyStop();
     CHECK (notes.taken().empty());
     engine.tick();
-    engine.emergencyStop();   // like pressing the button
+    engine.emergencyStop();   // pressing it again has no effect
     engine.tick();
     CHECK (notes.taken() == std::vector<std::string> { "emergency", "tick", "tick" });
     engine.rearm();

@@ -243,7 +243,7 @@ TEST_CASE ("a change in a section that runs only on some ticks takes effect when
     double step = 0.0, last = applied();
     for (int n = 21; n < 100; ++n)
     {
-        if (n < 31) bench.touch();   // an edit outside the section does not cancel it
+        if (n < 31) bench.touch();   // an edit outside the section does not cancel the change
         bench.tick();
         if (n <= 32) CHECK (applied() == 0.0);
         step = std::max (step, std::abs (applied() - last));

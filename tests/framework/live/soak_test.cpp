@@ -80,6 +80,6 @@ TEST_CASE ("a million ticks with edits of other nodes leave the model bit-identi
     }
     CHECK (hand.digest == other.digest);
     const auto grown = static_cast<double> (memory()) - static_cast<double> (settled);
-    if (wanted) std::cout << ticks << " ticks, " << edits << " edits, memory " << settled << " bytes at half time, " << grown << " bytes more at the end\n";
+    if (wanted) std::cout << ticks << " ticks, " << edits << " edits, memory " << settled << " bytes halfway, " << grown << " bytes more at the end\n";
     if (NoAllocation::watches) CHECK (grown < 2e6);   // a sanitizer keeps freed memory
 }

@@ -50,7 +50,7 @@ struct Bench
     test::Live live;
 };
 
-/// A ramp that rises by 1 per tick, counted by a loop through a delayed wire, followed by a node.
+/// A number that rises by 1 per tick, counted by a loop through a delayed wire.
 Sketch counting()
 {
     return Sketch {}

@@ -23,7 +23,7 @@ double arrived (Engine& engine, const std::string& name)
     return param.knobs->all[param.index].value;
 }
 
-/// The value of the parameter in a plan that was compiled with this value.
+/// The value of parameter `name` in a plan that was compiled with `value` for the parameter or control `set`.
 double compiled (const graph::Graph& graph, const std::string& set, const Json& value, const std::string& name)
 {
     Engine engine { compile (graph, catalogue(), { .overrides = { { set, value } } }).plan };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Measures how the force responds when something goes wrong. The results are the table in docs/safety.md.
 //
-//     TACTUS_UPDATE=1 build/release/bin/tactus_tests "the table of faults*"       rewrites it
+//     TACTUS_UPDATE=1 build/release/bin/tactus_tests "the table of faults*"       rewrites the table
 
 #include "support/sketch.hpp"
 
@@ -98,7 +98,7 @@ struct Measured
     Ms to_zero, back;
     double largest_step = 0.0;   // from tick to tick, in N
     std::string message;
-    bool stays_away = true;   // the force stays away until rearm, for faults that need it
+    bool stays_away = true;   // true if the force stays at zero until rearm, for faults that need a rearm
 };
 
 Measured measure (const Fault& fault)
@@ -198,7 +198,7 @@ std::vector<Fault> faults()
           [] (Bench& b) { b.tool.speed = 0.2; },
           still, true },
         { "2 N for longer than allowed (limit 0.4 N*s in 1 s)", with ([] (auto& l) { l.max_impulse = 0.4; l.impulse_window = 1.0; }),
-          [] (Bench& b) { b.live.engine().rearm(); },   // restarts the window
+          [] (Bench& b) { b.live.engine().rearm(); },   // rearm() also restarts the window of the impulse
           nothing, true },
     };
 }
@@ -240,7 +240,7 @@ std::string overrunRow()
     CHECK (runner.status().end == RunStatus::End::overrun);
     CHECK (tool.force == 0.0);
     const double slow_at = 0.5 * static_cast<double> (Slow::slow_from) / rate_hz;
-    return "| a graph that takes four times as long as a tick period (in its own time, not tick time) | "
+    return "| a graph that takes four times as long as a tick period (real time, not tick time) | "
            + inWords (1e3 * (clock.time - slow_at)) + " | " + inWords (clock.largest_step)
            + " | \"the graph takes longer than a tick period\" | the run is over |";
 }

@@ -36,7 +36,7 @@ Vec3 anyDirection()
     return v.normalized();
 }
 
-/// The tick at which the guard stops, from 1; 0 if it does not within `most` ticks.
+/// The tick at which the guard stops, counted from 1; 0 if it does not stop within `most` ticks.
 template <typename Tick>
 int stopsAt (Guard& guard, int most, Tick tick)
 {
@@ -121,7 +121,7 @@ TEST_CASE ("guard: torque and axis effort together give little more than the lim
         applied = guard ({ .torque = { 0, 0, 1 }, .axes = { 5.0 } }, reading);
     }
     CHECK (guard.stop() == Guard::Stop::energy);
-    CHECK (given < most + 120.0 * (Guard::fade_s + 3 * dt));   // the ticks until it is noticed, and the fade
+    CHECK (given < most + 120.0 * (Guard::fade_s + 3 * dt));   // the excess is noticed after a few ticks, and the fade follows
 }
 
 TEST_CASE ("guard: bad readings in between do not hide motion, and an axis that is not a number makes the reading stale", "[framework][guard]")

@@ -231,7 +231,7 @@ TEST_CASE ("guard: the effort never changes faster than the slew limit, even in 
                   const auto limits = *anyLimits();
                   auto guard = guardWith (limits);
                   play (guard, anyRun(), [&] (const Tick&, const Effort& before, const Effort& now) {
-                      // The remainder is the rounding error of a sum: one ulp of the force itself.
+                      // The slack is the rounding error of a sum: one ulp of the force itself.
                       const auto slack = [] (const Vec3& a, const Vec3& b) { return 1e-15 * (norm (a) + norm (b)); };
                       RC_ASSERT (norm (0.5 * now.force - 0.5 * before.force) <= 0.5 * limits.max_slew * dt + slack (now.force, before.force));
                       RC_ASSERT (norm (0.5 * now.torque - 0.5 * before.torque) <= 0.5 * limits.max_torque_slew * dt + slack (now.torque, before.torque));

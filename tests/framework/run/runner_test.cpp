@@ -275,7 +275,7 @@ TEST_CASE ("a run computes with denormal numbers, regardless of the floating-poi
     FreeRun clock;
     Runner runner { engine, clock, rate_hz, { .length = 3 } };
     const auto before = _mm_getcsr();
-    _mm_setcsr (before | 0x8040);   // flush to zero, denormals are zero
+    _mm_setcsr (before | 0x8040);   // sets flush-to-zero and denormals-are-zero
     runner.start();
     runner.wait();
     _mm_setcsr (before);

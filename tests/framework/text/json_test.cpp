@@ -35,7 +35,7 @@ Json randomJson (int depth)
     return all;
 }
 
-/// Valid UTF-8, as in a file: text of ASCII characters only.
+/// Replaces all text by ASCII characters, so that it is valid UTF-8, as in a file.
 Json onlyAscii (Json v)
 {
     const auto clean = [] (std::string& text) {

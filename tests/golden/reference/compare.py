@@ -121,7 +121,7 @@ def compare(program, model, seeds):
     """Returns whether all sets of a model agree."""
     missing = unknown_type(program, model)
     if missing:
-        print(f"skipped: {model}: the program has no {missing}")
+        print(f"skipped: {model}: the program has no node type {missing}")
         return True
     results = [one(program, model, seed) for seed in seeds]
     wrong = [sentence for _, sentence in results if sentence]

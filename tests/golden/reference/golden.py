@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The reference models on the golden sets themselves."""
+"""Runs the reference models on the golden sets."""
 
 import csv
 import math

@@ -330,7 +330,7 @@ def modal_set(rng):
 
 
 def low(mode, rate):
-    """The mode an octave or two down, unless it is mute. The specification leaves open
+    """The mode lowered to 0.4 of its frequency, unless it is mute. The specification leaves open
     what else becomes mute when the pitch is raised."""
     mute = mode["frequency"] >= 0.5 * rate
     return mode if mute else {**mode, "frequency": 0.4 * mode["frequency"]}
@@ -506,7 +506,8 @@ def wall_set(rng):
 
 
 def past_tie(positions, quantum, rows):
-    """The rows after a value that is so close to half a quantum that rounding decides."""
+    """The rows from a value on that is so close to half a quantum that the last bit decides how it
+    is rounded."""
     if not quantum:
         return ()
     for k, p in enumerate(positions):

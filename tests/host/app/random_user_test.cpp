@@ -542,7 +542,7 @@ private:
             for (int i = 0; i < c.getNumChildComponents(); ++i)
                 self (self, *c.getChildComponent (i));
         };
-        // Mostly small jumps, so that there is something left to patch.
+        // Mostly small jumps in the history, so that there are still nodes to edit.
         if (upTo (4) == 0)
             look_in (look_in, *view);
         else

@@ -59,7 +59,7 @@ TEST_CASE ("blocks trigger as many ticks as fit into their length, at any rates"
                   Counted ticked;
                   std::jthread driver ([&] { clock.drive (ticked); });
                   int frames = 0;
-                  while (ticked.count == 0)   // waits until it is driven
+                  while (ticked.count == 0)   // waits until the clock is driven
                   {
                       clock.block (1000, card_hz);
                       std::this_thread::yield();

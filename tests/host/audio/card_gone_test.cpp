@@ -70,7 +70,7 @@ struct Played
             tick();
             if (before == value) return 1e3 * k / rate_hz;
         }
-        FAIL ("never " << value);
+        FAIL ("the channel never reaches " << value);
         return 0.0;
     }
 

@@ -16,7 +16,7 @@ struct TwoClocks
 {
     double tick_hz = 1000.0, card_hz = 48000.0;
     int block = 64;
-    double card_is_faster = 0.0;   ///< relative
+    double card_is_faster = 0.0;   ///< how much faster the card's clock is, relative to nominal
     double jitter_s = 0.0;         ///< how late a tick or a block may be
 
     /// Runs for this many seconds, continuing from the last call.

@@ -84,7 +84,7 @@ TEST_CASE ("every signal that would end or suspend a play ends it as Ctrl-C does
         Running play { { "play", graph, "--device", "tip=sim", "--record", "motor.applied.x", "--out", recorded } };
         REQUIRE (play.says ("Ctrl-C stops"));
         std::this_thread::sleep_for (std::chrono::milliseconds (50));
-        play.signal (SIGTTIN);   // reading and writing in the background neither suspends nor ends it
+        play.signal (SIGTTIN);   // reading and writing in the background neither suspends nor ends the program
         play.signal (SIGTTOU);
         play.signal (number);
         const auto ran = play.finish();

@@ -133,7 +133,7 @@ double at (const std::vector<double>& x, const std::vector<double>& y, double wh
 struct Measured
 {
     std::vector<double> x, force;   // m, N
-    std::size_t turn = 0;           // first row of the way up
+    std::size_t turn = 0;           // first row of the release
 
     std::vector<double> part (const std::vector<double>& v, bool up) const
     {
@@ -401,7 +401,7 @@ TEST_CASE ("a key's curve may be in any unit, and errors in it are reported", "[
     CHECK (compile (read.graph, catalogue()).messages.empty());
     CHECK (import ("force_N,x_mm,actuated\n0,0,0\n0.3,0.1,0\n0.6,4,1\n0.5,3.9,1\n0.2,0.1,0\n0,0,0\n").out == made.out);
 
-    // With a meter that has 100 um of play, the way up appears 100 um too high.
+    // With a meter that has 100 um of play, the positions of the release appear 100 um too high.
     CHECK (import ("x_um,force_mN\n0,0\n100,300\n4000,600\n3900,600\n3800,500\n0,200\n-100,0\n", { "--backlash", "0.1 mm" }).out == made.out);
 
     const auto refused = [&] (const std::string& text, const std::string& id) {

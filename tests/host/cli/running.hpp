@@ -28,10 +28,10 @@ public:
     void signal (int number);
     long id() const noexcept { return process; }   ///< process id
 
-    /// Stops it as Ctrl-C does, and waits until it ends.
+    /// Stops the program as Ctrl-C does, and waits until it ends.
     Ran stop();
 
-    /// Waits until it ends on its own.
+    /// Waits until the program ends on its own.
     Ran finish();
 
 private:

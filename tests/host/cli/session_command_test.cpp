@@ -127,7 +127,7 @@ TEST_CASE ("an absent device of the session keeps its role at rest, or ends a st
     CHECK (has (ran.err, desk + ":3:11: warning: no Tactus board is connected"));
     CHECK (has (ran.err, "at 1000 Hz, ticked by stylus"));
     CHECK (has (ran.err, "peak  0.000 N"));
-    CHECK (has (ran.err, "stylus (tactus_board): was never available"));
+    CHECK (has (ran.err, "stylus (tactus_board): the device was never available"));
 
     ran = play (desk, { "--strict" });
     CHECK (ran.status == 1);

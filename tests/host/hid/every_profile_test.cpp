@@ -203,7 +203,7 @@ TEST_CASE ("the most specific of the matching profiles comes first")
     CHECK (idsOf ({ .vid = 0x054c, .pid = 0x0ce6, .bus = Bus::bluetooth, .product = {} }) == Ids { "dualsense_bluetooth", "dualsense_bluetooth_samples" });
     CHECK (idsOf ({ .vid = 0x256f, .pid = 0xc62e, .product = {} }) == Ids { "spacemouse_wireless" });
     CHECK (idsOf ({ .vid = 0x16c0, .pid = 0x0486, .usage_page = 0xffab, .usage = 0x0200, .product = {} }) == Ids { "tactus_board" });
-    CHECK (idsOf ({ .vid = 0x16c0, .pid = 0x0486, .usage_page = 0xffc9, .usage = 0x0004, .product = {} }).empty());   // the board's serial emulation
+    CHECK (idsOf ({ .vid = 0x16c0, .pid = 0x0486, .usage_page = 0xffc9, .usage = 0x0004, .product = {} }).empty());   // the board's emulated serial port
     CHECK (idsOf ({ .vid = 0x16c0, .pid = 0x0486, .product = {} }) == Ids { "tactus_board" });                        // if usages are unknown
     CHECK (idsOf ({ .vid = 0x046d, .pid = 0xffff, .product = {} }).empty());
 

@@ -90,7 +90,7 @@ TEST_CASE ("no report carries more force, or a larger step of it, than the profi
             const auto pose = kinematics.pose (kinematics.joints (counts));
 
             const Mat3 inverse = forces (kinematics, pose);
-            const double rounding = 1e-3 * inverse.norm() + 1e-6;   // at most a count in each motor
+            const double rounding = 1e-3 * inverse.norm() + 1e-6;   // each motor's value is rounded by at most a count
             Vec3 last = Vec3::Zero();
             for (int k = 0; k < 40; ++k)
             {

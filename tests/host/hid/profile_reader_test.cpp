@@ -259,7 +259,7 @@ TEST_CASE ("profiles with any value anywhere are read or refused, and those that
     std::vector<std::string> pointers;
     for (const auto& [pointer, value] : flat.items())
         pointers.push_back (pointer);
-    const std::vector<Json> values { nullptr, true, -1, 0, 1, 1e300, 4294967296.0,   // no strings
+    const std::vector<Json> values { nullptr, true, -1, 0, 1, 1e300, 4294967296.0,   // values that are not strings
                                      "",
                                      "x",
                                      "fx",

@@ -104,7 +104,7 @@ TEST_CASE ("lost reports are counted; repeated reports and restarts are not")
     CHECK (lost (251) == 0);
     CHECK (lost (251) == 0);
     CHECK (lost (254) == 2);
-    CHECK (lost (1) == 2);   // 255 and 0
+    CHECK (lost (1) == 2);   // 255 and 0 are missing
     CHECK (lost (0) == 0);   // backwards: a restart
     CHECK (lost (200) == 0);
     CHECK (model.counts().lost == 4);

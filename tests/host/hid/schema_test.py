@@ -52,4 +52,4 @@ for name, profile in profiles.items():
 for name, changes in bad.items():
     check.must_refuse(name, profiles[name], changes)
 
-check.finish(f"{len(profiles)} profiles, {sum(map(len, bad.values()))} invalid ones")
+check.finish(f"{len(profiles)} profiles, {sum(map(len, bad.values()))} invalid profiles")

@@ -209,7 +209,7 @@ TEST_CASE ("a force feedback device without a profile is initialised, driven in 
     Driven run (made);
     for (int i = 0; i < 50; ++i)
         run.tick (push (2.0));
-    CHECK_FALSE (run.reading.valid);   // it has not sent anything yet
+    CHECK_FALSE (run.reading.valid);   // the wheel has not sent anything yet
     CHECK (wheel.magnitude() == 0);
 
     wheel.moveTo (16384);

@@ -207,7 +207,7 @@ TEST_CASE ("a device unplugged under force goes to rest, and starts from zero wh
     CHECK (run.guard.isAtRest());
     const auto before = board.told().size();
 
-    // It comes back under a different path, as real devices do.
+    // The device comes back under a different path, as real devices do.
     board.what.path = "fake/1";
     board.plug (true);
     REQUIRE (board.until ([&] { return device->port().isConnected(); }));

@@ -235,7 +235,7 @@ TEST_CASE ("the emergency stop works, and rearm ends it", "[osc]")
 TEST_CASE ("an emergency stop over OSC passes all messages that wait, and needs no room among them", "[osc]")
 {
     Stage stage;
-    constexpr int flood = 5000;   // more than fit; nothing handles them
+    constexpr int flood = 5000;   // more than fit into the queue; nothing handles them
     for (int i = 0; i < flood; ++i)
     {
         stage.other->send (stage.port->number(), OSCMessage ("/tactus/param", String ("drag.mu"), 0.5f));
@@ -279,7 +279,7 @@ TEST_CASE ("a probe sends the requested values at the requested rate, and ends i
     stage.now += 1900ms;
     stage.control.attend (stage.now);
     CHECK (stage.control.isProbing());
-    stage.ask ("/tactus/probe", String ("drag.force"), stage.me(), 100.0f, 2.0f);   // continues
+    stage.ask ("/tactus/probe", String ("drag.force"), stage.me(), 100.0f, 2.0f);   // continues the probe
     stage.now += 200ms;
     stage.control.attend (stage.now);
     stage.control.values (9000, std::vector<double> { 1.0, 2.0, 3.0 });
@@ -402,7 +402,7 @@ TEST_CASE ("only one trigger is awaited at a time, until it expires", "[osc]")
     CHECK (ask ("drag.force") == "/tactus/done");
     CHECK (ask ("drag.state") == "probe/busy");
     stage.now += 4s;
-    CHECK (ask ("drag.force") == "/tactus/done");   // continues
+    CHECK (ask ("drag.force") == "/tactus/done");   // the probe continues
     stage.now += 4s;
     stage.control.attend (stage.now);
     CHECK (stage.puppet.capturing);

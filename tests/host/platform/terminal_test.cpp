@@ -62,7 +62,7 @@ TEST_CASE ("typed keys arrive one by one and are not echoed, and the terminal is
             host::Keys keys;
             if (! keys.areThere()) return 1;
             if (modeOf (paper) & (ICANON | ECHO)) return 2;
-            if (! (modeOf (paper) & ISIG)) return 3;   // Ctrl-C
+            if (! (modeOf (paper) & ISIG)) return 3;   // Ctrl-C would not work
             if (keys.next() != 0) return 4;
             if (write (typewriter.hand, " r", 2) != 2) return 5;
             pollfd typed { STDIN_FILENO, POLLIN, 0 };

@@ -111,7 +111,7 @@ TEST_CASE ("missing parts refer to the device in the session, or else in the gra
     s.graph.devices = { { "stylus", { { "driver", "sim" }, { "axes", { { "grip", Json::object() } } }, { "signal_outputs", 3 } } } };
     fit = fitsOf (needsOf (*plan), s.graph, {}, profiles, {}).front();
     CHECK (fit.from == RoleFit::From::graph);
-    CHECK (fit.lacking.size() == 2);   // button and signal input
+    CHECK (fit.lacking.size() == 2);   // the button and the signal input
 
     const auto there = board.connected();
     fit = fitsOf (needsOf (*plan), s.graph, bound ("stylus", { { "driver", "hid" }, { "profile", "board" }, { "workspace", { { "scale", 3 } } } }), profiles,

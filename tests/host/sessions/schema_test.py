@@ -29,4 +29,4 @@ check.must_fit("the manual's example", example)
 check.must_refuse("the manual's example with", example, bad)
 check.must_fit("an unknown key", {**example, "tomorrow": 1, "audio": {"any": "thing"}})
 
-check.finish(f"{len(bad)} invalid ones")
+check.finish(f"{len(bad)} invalid sessions")

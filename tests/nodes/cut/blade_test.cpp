@@ -42,7 +42,7 @@ struct Bench
         return out;
     }
 
-    /// In n equal steps.
+    /// Moves the blade to a depth in n equal steps.
     const Blade::Outputs& move (double to, int n)
     {
         const double from = depth;
@@ -155,7 +155,7 @@ TEST_CASE ("blade: the chapter's potato is cut with 4 N", "[nodes][cut]")
     CHECK (bench.out.resistance == Approx (2.0));   // 2 f_cut - f_r: the dip
     CHECK (bench.out.dissipated_energy == Approx (0.008));
 
-    bench.move (0.004, 100);   // reloads
+    bench.move (0.004, 100);   // the force rises again
     CHECK (bench.out.state == 3.0);
     CHECK (bench.out.resistance == Approx (4.0));
     bench.most = 0.0;
@@ -174,7 +174,7 @@ TEST_CASE ("blade: a rupture force above twice the cutting force opens the whole
     CHECK (bench.out.state == 2.0);
     CHECK (bench.out.crack == d);
     CHECK (bench.out.resistance == 0.0);
-    CHECK (bench.out.dissipated_energy == Approx (stored));   // 4 N over 5 mm, and an excess of 5 mJ
+    CHECK (bench.out.dissipated_energy == Approx (stored));   // that is 4 N over 5 mm, plus an excess of 5 mJ
     CHECK (stored - 4.0 * d == Approx (0.005));
     bench.tick (d);
     CHECK (bench.out.state == 0.0);
@@ -250,7 +250,7 @@ TEST_CASE ("blade: a closed path never generates energy", "[nodes][cut][energy]"
         if (dice.below (3) == 0) s.params.thickness = dice.uniform (0.2, 5.0) * s.d_rupture;
         Bench bench (s.params, s.settings);
         // With laws that rise, the work of the hand against the force after each step is never less than what the sample took.
-        // Where the force collapses, at rupture and at the end, the work is what the sample took.
+        // Where the force collapses, at rupture and when the sample falls in two, the work is what the sample took.
         double given = 0.0, before = 0.0, heat = 0.0;
         for (int k = 0; k < 2000; ++k)
         {
@@ -325,7 +325,7 @@ TEST_CASE ("blade: the cutting force is J_c w, however stiff the sample", "[node
         bench.tick (5.0 * s.d_rupture);
         for (int k = 0; k < 10; ++k)
         {
-            bench.tick (bench.depth + 2.0 * s.d_rupture);   // reloads, if rupture opened more than the indentation
+            bench.tick (bench.depth + 2.0 * s.d_rupture);   // the first step may only load the sample up to the cutting force again
             if (k > 0) RC_ASSERT (bench.out.state == 4.0);
             RC_ASSERT (std::abs (bench.out.resistance - s.params.width * s.params.toughness) <= 1e-9 * s.params.rupture_force);
         }
@@ -413,7 +413,7 @@ TEST_CASE ("blade: params are read on touch", "[nodes][cut]")
     bench.tick (0.01);
     CHECK (bench.out.resistance == Approx (4.0));
 
-    bench.tick (0.0);   // leaves the sample, and touches the tip of the crack again
+    bench.tick (0.0);   // leaves the sample; the next tick touches the tip of the crack again
     bench.tick (0.02);
     CHECK (bench.out.resistance == Approx (12.0));
 }

@@ -40,7 +40,7 @@ struct Bench
         return out;
     }
 
-    /// In n equal steps.
+    /// Moves the blades to an angle in n equal steps.
     const Scissors::Outputs& move (double to, int n)
     {
         const double from = angle;

@@ -236,8 +236,9 @@ TEST_CASE ("surface: the work of the hand is the stored plus the lost energy", "
             moved = hand.moved;
             return hand.work - hand.out.stored_energy - hand.out.dissipated_energy;
         };
-        // The slip within a step is of the order of the step. A stroke that only grazes has few steps in contact, so it is
-        // repeated in finer steps: a real error would remain, however fine they are.
+        // The error of a slip is proportional to the step, so the difference is extrapolated to a step of 0. A stroke that only
+        // grazes the surface has few steps in contact, so if the result is too large, it is computed again with finer steps: a
+        // real error would remain, however fine they are.
         const auto extrapolated = [&] (int steps) { return std::abs (2.0 * missing (2 * steps) - missing (steps)); };
         const double at_once = extrapolated (1000);
         RC_ASSERT ((at_once <= 5e-3 * moved || extrapolated (16000) <= 5e-3 * moved));
@@ -301,7 +302,7 @@ TEST_CASE ("surface: without -dU/dc, pressing where it is soft and releasing whe
     };
     CHECK (std::abs (loop (Frictions::frictionless, 0.5).first) < 1e-6);
     CHECK (std::abs (loop (Frictions::bound, 0.0).first) < 1e-6);   // mu 0 is frictionless
-    CHECK (loop (Frictions::bound, 0.01).first < -1e-4);            // the warning reports this loop
+    CHECK (loop (Frictions::bound, 0.01).first < -1e-4);            // this loop generates energy, and the warning says so
     CHECK (loop (Frictions::bound, 0.01).second.warning ({}).find ("generates energy") != std::string::npos);
     CHECK_FALSE (loop (Frictions::bound, 0.01).second.claims().passive);
     CHECK (loop (Frictions::bound, 0.6).first > 1e-4);
@@ -525,7 +526,7 @@ TEST_CASE ("surface: past the rim of an open mesh there is nothing to touch", "[
         }
         CHECK (out.state == 0.0);
         CHECK (most <= 400.0 * 0.002 + 1e-9);                                         // k_t d^z
-        CHECK (node.tick ({ .position = Vec3 (0.02, 0.02, -0.002) }).state == 0.0);   // it entered from behind
+        CHECK (node.tick ({ .position = Vec3 (0.02, 0.02, -0.002) }).state == 0.0);   // the tool came in past the rim, from behind
         CHECK (node.tick ({ .position = Vec3 (0.02, 0.02, 0.002) }).state == 0.0);
         out = node.tick ({ .position = Vec3 (0.02, 0.02, -0.002) });
         CHECK (out.state > 0.0);

@@ -70,7 +70,7 @@ TEST_CASE ("device: an effort goes to the axis of its name, or nowhere if that a
     node.settings.axis = "stick";   // can only be read
     node.bind (device);
     CHECK (node.effort().axes.size() == 0);
-    CHECK (node.missing (pad) == "no axis to push called 'stick'; its axes to push: 'trigger'");
+    CHECK (node.missing (pad) == "no driven axis 'stick'; its driven axes: 'trigger'");
 }
 
 TEST_CASE ("device: a button is found by name or by number", "[nodes][device]")
@@ -85,7 +85,7 @@ TEST_CASE ("device: a button is found by name or by number", "[nodes][device]")
     };
     CHECK_FALSE (pressed ("cross"));
     CHECK (pressed ("1"));
-    CHECK_FALSE (pressed ("0"));   // the name of button 2
+    CHECK_FALSE (pressed ("0"));   // "0" is the name of button 2
     CHECK_FALSE (pressed ("3"));
     CHECK_FALSE (pressed (""));   // a button without a name is not found by the empty name
     device.reading.buttons = 5;

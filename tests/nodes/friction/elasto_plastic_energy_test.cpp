@@ -11,7 +11,7 @@
 // The work of the hand over a step is counted in four ways:
 //
 //   model      the growth of stored_energy plus dissipated_energy, over the straight path between the samples
-//   trapezoid  -(f before + f after) / 2 . dp; equal to the model's while sticking, and on dense paths
+//   trapezoid  -(f before + f after) / 2 . dp; equal to `model` while sticking, and on dense paths
 //   held       -f before . dp, the work on a device that holds its force between samples; a spring of slope K leaks
 //              up to K |dp|^2 / 2 per step, which the device must damp (section 1)
 //   reached    -f after . dp; never less than the growth of stored energy, whatever the step: the proof of passivity

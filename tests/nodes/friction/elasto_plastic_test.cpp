@@ -57,7 +57,7 @@ struct Drag
 
     ElastoPlastic node;
     Outputs out;
-    double p, work = 0.0;   // in m; work of the hand in J, by trapezoids
+    double p, work = 0.0;   // p in m; work of the hand in J, by the trapezoid rule
 };
 
 bool sameBits (const Outputs& a, const Outputs& b)

@@ -36,8 +36,8 @@ struct Wall
 struct Course
 {
     double buzz = 0.0;     // peak to peak in the last fifth of the time, m
-    double force = 0.0;    // largest, N
-    double lowest = 0.0;   // energy, J
+    double force = 0.0;    // largest force, N
+    double lowest = 0.0;   // lowest energy, J
 };
 
 /// A hand presses against the wall for a while, with or without an observer. A buzz takes seconds to grow to its full
@@ -214,7 +214,7 @@ TEST_CASE ("passivity: the damper only ever brakes", "[nodes][safety]")
     const auto out = step (node, 1e-3, 5.0);   // the held force pushed along, so the energy is 5 mJ below 0
     CHECK (out.energy == Approx (-5e-3));
     CHECK (out.alpha == Approx (5e-3 * 1e-3 / 1e-6));
-    CHECK (out.force.x() == Approx (5.0 - 5.0).margin (1e-12));   // alpha dp / T
+    CHECK (out.force.x() == Approx (5.0 - 5.0).margin (1e-12));   // the damper's force alpha dp / T is 5 N
     CHECK (step (node, 1e-3, 5.0).alpha == 0.0);                  // at rest there is nothing to brake
     CHECK (step (node, 1e-3 + 5e-10, 5.0).alpha == 0.0);
 }

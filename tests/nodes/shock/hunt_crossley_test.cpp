@@ -59,7 +59,7 @@ private:
     std::mt19937 random;
 };
 
-/// The effect of one hit, from its force alone.
+/// The effect of one hit, computed from its force alone.
 struct Impact
 {
     double impulse = 0.0;   // N s
@@ -140,7 +140,7 @@ TEST_CASE ("shock: without damping the mass returns at its initial speed", "[nod
     const auto impact = strike (shock ({ .stiffness = power (k, 1.5), .damping = dissipation (0.0) }, rate), v, 1.0 / rate);
     CHECK (impact.impulse == Approx (2.0 * m * v).epsilon (1e-4));
     CHECK (impact.loop == Approx (0.0).margin (1e-4 * m * v * v));
-    CHECK (impact.samples / rate == Approx (2.943275 * d_max / v).epsilon (2e-3));   // Hertz
+    CHECK (impact.samples / rate == Approx (2.943275 * d_max / v).epsilon (2e-3));   // Hertz's duration of contact
     CHECK (impact.peak == Approx (k * std::pow (d_max, 1.5)).epsilon (1e-3));
 }
 

@@ -22,7 +22,7 @@ namespace
 {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// Its output on the second of two samples, v m/s apart in x.
+/// The node's output on the second of two samples that move at v m/s along x.
 AntiAlias::Outputs at (AntiAlias node, double v)
 {
     node.tick ({});

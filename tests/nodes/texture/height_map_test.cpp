@@ -314,7 +314,7 @@ TEST_CASE ("height map: a measured profile is felt as measured, and does not buz
     std::ifstream file (TACTUS_SHARED_DATA "/topography_contactengineering/dektak-1.csv");
     if (! file)
     {
-        std::printf ("skipped: there is no profilometer line\n");
+        std::printf ("skipped: the profilometer line dektak-1.csv is missing\n");
         return;
     }
     std::vector<double> across, heights;   // um

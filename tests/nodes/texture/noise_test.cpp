@@ -225,7 +225,7 @@ TEST_CASE ("texture noise: between models the logarithm of the variance is inter
         }
     });
 
-    // a hole in the grid is filled from its neighbour
+    // a grid point without a model uses its nearest model
     const std::vector<Model> three { model (0.1, 1.0, {}, 1.0), model (0.2, 1.0, {}, 2.0), model (0.1, 4.0, {}, 3.0) };
     auto node = sounding (three);
     Random noise { 1 };
@@ -311,7 +311,7 @@ TEST_CASE ("texture noise: at another rate it has the same spectrum, without ima
         }
     }
 
-    for (const double tick_rate : { 500.0, 270.0 })   // slower than the models: nothing aliases
+    for (const double tick_rate : { 500.0, 270.0 })   // slower than the rate of the models: nothing may alias
     {
         const Model low = model (0.1, 1.0, { 1.9, -0.95 }, 1e-3);   // about 35 Hz
         auto node = sounding ({ low }, tick_rate);

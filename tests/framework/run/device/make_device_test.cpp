@@ -87,7 +87,7 @@ TEST_CASE ("device description: a simulated device needs only its driver, and ha
     CHECK (simulationOf (m).damping == 1.0);
     CHECK (m.limits == GuardLimits {});
     CHECK (m.device->duration() == 0.0);
-    CHECK (m.about.ends_with ("held by no hand."));
+    CHECK (m.about.ends_with ("without a hand."));
 }
 
 TEST_CASE ("device description: the tool starts in the hand, unless it has its own position", "[host][devices]")

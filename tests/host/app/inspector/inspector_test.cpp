@@ -205,7 +205,7 @@ TEST_CASE ("an exposed param can be set from outside, and defaults to the value 
 
     warp->onChange (std::nullopt, false);
     CHECK_FALSE (rig.node ("threads").params.contains ("warp"));
-    CHECK (warp->shown().toText() == "70 mN");   // the value inside
+    CHECK (warp->shown().toText() == "70 mN");   // the value inside the subgraph
 
     rig.in<NumberField> ("count")->type ("3");
     CHECK (rig.node ("threads").extra["count"] == 3);
@@ -243,7 +243,7 @@ TEST_CASE ("a mode can be added, changed and removed, and the plot follows", "[i
     const auto plot = *rig.all<PlotBlock>().front()->plot();
     CHECK (plot.x == std::vector<double> { 228.0, 275.0, 400.0 });
 
-    REQUIRE (press (rig, "\xc3\x97"));   // the first one
+    REQUIRE (press (rig, "\xc3\x97"));   // the cross of the first row
     CHECK (rig.node ("warble").settings["modes"].size() == 2);
     CHECK (rig.node ("warble").settings["modes"][1]["frequency"] == "400 Hz");
     for (int i = 0; i < 3; ++i)

@@ -81,7 +81,7 @@ private:
         for (const auto* child : c.getChildren())
         {
             if (! child->isVisible()) continue;
-            if (dynamic_cast<const juce::TextEditor*> (child) != nullptr) continue;   // it scrolls
+            if (dynamic_cast<const juce::TextEditor*> (child) != nullptr) continue;   // a text editor scrolls
             if (child->getX() < 0 || child->getRight() > c.getWidth()) return false;
             if (! fits (*child)) return false;
         }

@@ -48,7 +48,7 @@ TEST_CASE ("a loop is fixed by a delay on the wire that closes it", "[app][probl
     const auto errors = errorsOf (g);
     REQUIRE (errors.size() == 1);
     CHECK (errors[0].id == "graph/loop");
-    CHECK (fixOf (g, errors[0])->label == "Delay it by a tick");
+    CHECK (fixOf (g, errors[0])->label == "Delay wire by a tick");
     CHECK (fixAll (g).empty());
     CHECK (std::ranges::count (g.root.wires, 1, &graph::Wire::delay) == 1);
 }

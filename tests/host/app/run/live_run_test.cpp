@@ -221,7 +221,7 @@ TEST_CASE ("the role of a sound card never becomes the hand, even if it comes fi
     const TemporaryFolder folder;
     std::ifstream preset (TACTUS_SOURCE_DIR "/graphs/dry_wood.json");
     auto json = Json::parse (std::string { std::istreambuf_iterator<char> (preset), {} });
-    json["nodes"]["shake"] = { { "type", "device.signal_out" }, { "role", "a_shaker" } };   // before "stylus"
+    json["nodes"]["shake"] = { { "type", "device.signal_out" }, { "role", "a_shaker" } };   // its name comes before "stylus"
     json["devices"]["a_shaker"] = { { "driver", "audio" }, { "card", "no such card" } };
     json["wires"].push_back ("grain.value -> shake.in");
     const auto file = folder.path() / "graph.json";

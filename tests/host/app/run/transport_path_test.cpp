@@ -21,7 +21,7 @@ TEST_CASE ("a path that is only played equals the original path", "[app][transpo
     {
         const double t = k / 4000.0;
         const auto a = played.at (t), b = path->at (t);
-        // TransportPath sums the time tick by tick.
+        // Not exactly equal, because TransportPath sums the time tick by tick.
         REQUIRE ((a.position - b.position).norm() < 1e-12);
     }
 }

@@ -86,7 +86,7 @@ TEST_CASE ("scopes: an automatic range does not follow every stroke, and narrows
     CHECK (range.shown().high < 0.2);
     CHECK (range.shown().high > 0.1);
 
-    // A slightly smaller signal does not narrow it.
+    // A slightly smaller signal does not narrow the range.
     const auto narrow = range.shown();
     for (int i = 0; i < 100; ++i)
         range.update ({ -0.08, 0.08 });

@@ -178,11 +178,11 @@ TEST_CASE ("scopes: a removed port is marked as gone, and comes back with undo",
     REQUIRE (b.document.perform (graph::RemoveNode { "", "grain" }));
     b.live_run.stop();
     b.run (100);
-    CHECK (std::ranges::count (Bench::labels (view), "grain.value is gone") == 1);
+    CHECK (std::ranges::count (Bench::labels (view), "grain.value no longer exists") == 1);
     b.document.undo();
     b.live_run.stop();
     b.run (100);
-    CHECK (std::ranges::count (Bench::labels (view), "grain.value is gone") == 0);
+    CHECK (std::ranges::count (Bench::labels (view), "grain.value no longer exists") == 0);
 }
 
 TEST_CASE ("scopes: the cross of a port removes it, its name does not", "[app][scopes]")

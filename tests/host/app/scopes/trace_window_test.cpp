@@ -112,7 +112,7 @@ TEST_CASE ("scopes: the window ends at the newest tick, or surrounds the latest 
 
 TEST_CASE ("scopes: a trace visits its ticks in order, even across the end of its ring buffer", "[app][scopes]")
 {
-    auto trace = emptyTrace ("a", 10.0);   // holds 100
+    auto trace = emptyTrace ("a", 10.0);   // holds 100 values
     for (std::uint64_t i = 0; i < 250; ++i)
         trace->add (i, static_cast<double> (i));
     std::uint64_t expected = 150, count = 0;

@@ -79,7 +79,7 @@ def main():
     ratio = (found["fast"][1] / found["slow"][1]) / (found["fast"][0] / found["slow"][0])
     print(f"  ratio of the pitch change to the speed change: {ratio:.2f}")
     if min(loud for _, _, loud in found.values()) < 1e-3:
-        raise SystemExit("nothing was heard")
+        raise SystemExit("the recording is silent")
     if abs(ratio - 1.0) > TOLERANCE:
         raise SystemExit("the pitch does not follow the speed")
 

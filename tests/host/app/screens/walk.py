@@ -74,7 +74,7 @@ class Walk:
             if self.program and self.program.poll() is not None:
                 raise SystemExit(f"the host exited with {self.program.returncode} while the walk waited for: {what}")
             if time.monotonic() > end:
-                raise SystemExit(f"{self.size} {self.theme}: not there after {PATIENCE:.0f} s: {what}")
+                raise SystemExit(f"{self.size} {self.theme}: did not appear within {PATIENCE:.0f} s: {what}")
             time.sleep(0.05)
 
     def at(self, name):
@@ -199,7 +199,7 @@ def walk(w):
     w.wait(lambda: w.problems(), "a problem")
     w.click(w.problems())
     w.shot("loop")
-    w.click("Delay it by a tick")
+    w.click("Delay wire by a tick")
     w.wait(lambda: not w.problems(), "no problems left")
     w.shot("loop-fixed")
     w.key("ctrl+z", "ctrl+z")
