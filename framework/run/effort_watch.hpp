@@ -106,10 +106,10 @@ public:
         ticks_in_part = ticks < 1e15 ? std::max (std::uint64_t { 1 }, static_cast<std::uint64_t> (ticks)) : ~std::uint64_t { 0 };
     }
 
-    /// The impulse within the window in N s, including this sample. [tick thread]
-    double operator() (double newton_seconds) noexcept
+    /// The impulse within the window in N s, including this sample, which lasts `ticks`. [tick thread]
+    double operator() (double newton_seconds, std::uint64_t ticks = 1) noexcept
     {
-        if (ticks_in_now == ticks_in_part)
+        if (ticks_in_now >= ticks_in_part)
         {
             full[oldest] = now;
             oldest = (oldest + 1) % parts;
@@ -119,7 +119,7 @@ public:
             now = 0.0;
             ticks_in_now = 0;
         }
-        ++ticks_in_now;
+        ticks_in_now += ticks;
         now += newton_seconds;
         return in_full + now;
     }
@@ -149,23 +149,23 @@ class EnergyWatch
 {
 public:
     /// A window that is not finite lasts for ever. [main thread]
-    void prepare (double most_j, double window_s, double dt_s) noexcept
+    void prepare (double most_j, double window_s) noexcept
     {
         delivered = 0.0;
-        allowed_per_tick = std::isfinite (window_s) ? most_j / window_s * dt_s : 0.0;
-        if (! std::isfinite (allowed_per_tick)) allowed_per_tick = 0.0;
+        power = std::isfinite (window_s) ? most_j / window_s : 0.0;
+        if (! std::isfinite (power)) power = 0.0;
     }
 
-    /// D in J, after the device has done this work. [tick thread]
-    double operator() (double work_j) noexcept
+    /// D in J, after the device has done this work in this time. [tick thread]
+    double operator() (double work_j, double elapsed_s) noexcept
     {
-        const double sum = delivered + work_j - allowed_per_tick;
+        const double sum = delivered + work_j - power * elapsed_s;
         if (sum != sum) return std::numeric_limits<double>::infinity();
         return delivered = std::max (0.0, sum);
     }
 
 private:
-    double delivered = 0.0, allowed_per_tick = 0.0;
+    double delivered = 0.0, power = 0.0;   // in J and W
 };
 
 }   // namespace tactus

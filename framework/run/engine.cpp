@@ -283,11 +283,12 @@ void Engine::afterPlan() noexcept
         auto& channel = *used[i];
         const auto wanted = channel.bumpless (total (role, scratch));
         const auto events = channel.guard.events();
-        role.state->applied = channel.guard (wanted, role.state->reading);
+        role.state->applied = channel.guard (wanted, role.state->reading, lost_s);
         if (channel.guard.stop() != Guard::Stop::none) channel.bumpless.stop (role.state->applied);
         if (channel.device) channel.device->write (role.state->applied);
         if (channel.guard.events() != events) stops.note ({ ticks, channel.role, channel.guard.latest() });   // last, so as not to delay the effort
     }
+    lost_s = 0.0;
     if (journal) journal->ticked (*plan);
     ++ticks;
 }
@@ -309,6 +310,12 @@ void Engine::resume() noexcept
     if (journal) journal->resumed();
     for (auto* channel : running->channels)
         channel->guard.resume();
+}
+
+void Engine::loseTime (double s) noexcept
+{
+    lost_s = s > 0.0 ? s : 0.0;
+    if (journal && lost_s > 0.0) journal->lost (lost_s);
 }
 
 bool Engine::isAtRest() const noexcept

@@ -113,6 +113,9 @@ public:
     /// clock. A log records these readings as invalid. [tick thread]
     void invalidateReadings (bool so) noexcept { readings_invalid = so; }
 
+    /// Tells the guards that this much time has passed without ticks before the next tick, in s. 0 for none. [tick thread]
+    void loseTime (double s) noexcept;
+
     /// Like halt, but callable from anywhere, including a signal handler, and it also applies to roles that join later. It
     /// takes effect on the next tick; resume does not end it. [any thread]
     void emergencyStop() noexcept;
@@ -216,6 +219,7 @@ private:
     bool fresh = true;         // the running plan has not ticked yet
     bool is_stopped = false;   // the guards have been told of the emergency stop
     bool readings_invalid = false;
+    double lost_s = 0.0;   // time without ticks before this one
     std::uint64_t ticks = 0;
     std::uint64_t settled_at = 0;   // by this tick, every section has run at least once since the takeover
 };

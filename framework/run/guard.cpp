@@ -68,9 +68,6 @@ double approached (double from, double to, double most) noexcept
 bool hasChannels (const Effort& e) noexcept { return (e.axes.size() | e.signals.size()) != 0; }
 [[gnu::noinline]] bool channelsAreFinite (const Effort& e) noexcept { return isFinite (e.axes, e.signals); }
 
-/// The largest change per tick: rate times T. "No limit" remains "no limit".
-double perTick (double rate, double dt_s) noexcept { return rate == GuardLimits::none ? rate : rate * dt_s; }
-
 double orNothing (double limit) noexcept { return limit >= 0.0 ? limit : 0.0; }
 double orForever (double s) noexcept { return s >= 0.0 ? s : GuardLimits::none; }
 
@@ -185,7 +182,7 @@ void Guard::rearm() noexcept
     axis_velocity = {};
     for (auto* all : { &impulse, &angular_impulse, &axis_impulse })
         all->prepare (windowOf (smallestImpulse (limits), limits.impulse_window), dt);
-    energy.prepare (limits.max_energy, windowOf (limits.max_energy, limits.energy_window), dt);
+    energy.prepare (limits.max_energy, windowOf (limits.max_energy, limits.energy_window));
 }
 
 bool Guard::isAtRest() const noexcept
@@ -204,10 +201,23 @@ void Guard::latch (Stop why, double value, Event::Part part, int channel) noexce
     is_news = true;
 }
 
-/// Updates the watches with the motion of the device under its last effort.
-void Guard::watch (const Reading& reading) noexcept
+/// Counts time without ticks. Starvation ends once half of the watchdog's time has been made up.
+void Guard::loseTime (double lost_s) noexcept
 {
-    const double now = static_cast<double> (ticks++) * dt;
+    if (lost_s > 0.0)
+    {
+        lost += lost_s;
+        if (is_watching) countImpulse (lost_s);
+    }
+    if (limits.watchdog == GuardLimits::none) return;
+    behind = std::clamp (behind + lost_s - dt, 0.0, 1.5 * limits.watchdog);
+    is_starved = behind > (is_starved ? 0.5 : 1.0) * limits.watchdog;
+}
+
+/// Updates the watches with the motion of the device under its last effort.
+void Guard::watch (const Reading& reading, double elapsed_s) noexcept
+{
+    const double now = static_cast<double> (ticks++) * dt + lost;
     if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! isFinite (reading.age) || hasBrokenAxes (reading))
     {
         // While an effort is on the device, the distance to the next reading counts, so a device cannot hide its motion behind bad readings.
@@ -229,7 +239,7 @@ void Guard::watch (const Reading& reading) noexcept
     }
     if (watches_axes) work += watchAxes (reading, motion.elapsed);
     if (limits.max_energy != GuardLimits::none)
-        if (const double given = energy (work); ! (given <= limits.max_energy)) latch (Stop::energy, given);
+        if (const double given = energy (work, elapsed_s); ! (given <= limits.max_energy)) latch (Stop::energy, given);
 }
 
 bool Guard::hasBrokenAxes (const Reading& reading) const noexcept { return watches_axes && ! isFinite (reading.axes); }
@@ -251,11 +261,13 @@ bool Guard::hasBrokenAxes (const Reading& reading) const noexcept { return watch
     return work;
 }
 
-void Guard::countImpulse() noexcept
+/// Adds the last effort, which was on the device for this time.
+void Guard::countImpulse (double s) noexcept
 {
-    const auto add = [this] (ImpulseWatch& watch, double limit, double effort, Event::Part part) {
+    const auto for_ticks = static_cast<std::uint64_t> (std::clamp (s / dt, 1.0, 1e9));
+    const auto add = [&] (ImpulseWatch& watch, double limit, double effort, Event::Part part) {
         if (limit == GuardLimits::none) return;
-        if (const double pushed = watch (effort * dt); ! (pushed <= limit)) latch (Stop::impulse, pushed, part);
+        if (const double pushed = watch (effort * s, for_ticks); ! (pushed <= limit)) latch (Stop::impulse, pushed, part);
     };
     add (impulse, limits.max_impulse, last.force.stableNorm(), Event::Part::none);
     add (angular_impulse, limits.max_angular_impulse, last.torque.stableNorm(), Event::Part::torque);
@@ -273,6 +285,7 @@ Guard::Stop Guard::causeOf (const Effort& wanted, const Reading& reading) const 
     if (hasChannels (wanted) && ! channelsAreFinite (wanted)) return Stop::not_finite;
     if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! (reading.age <= limits.watchdog) || hasBrokenAxes (reading))
         return Stop::stale;
+    if (is_starved) return Stop::starved;
     if (latched != Stop::none) return latched;
     if (asked_to_halt) return Stop::halted;
 
@@ -317,6 +330,10 @@ Guard::Event Guard::describeNow (Stop why, const Effort& wanted, const Reading& 
         e.value = reading.age;
         e.limit = limits.watchdog;
         break;
+    case Stop::starved:
+        e.value = behind;
+        e.limit = limits.watchdog;
+        break;
     case Stop::released:
         e.value = reading.pressure;
         e.limit = limits.dead_man_pressure;
@@ -346,10 +363,14 @@ Guard::Event Guard::describeNow (Stop why, const Effort& wanted, const Reading& 
     return e;
 }
 
-Effort Guard::operator() (const Effort& wanted, const Reading& reading) noexcept
+Effort Guard::operator() (const Effort& wanted, const Reading& reading, double lost_s) noexcept
 {
-    if (is_watching) watch (reading);
+    const double elapsed = dt + (lost_s > 0.0 && isFinite (lost_s) ? lost_s : 0.0);
+    loseTime (elapsed - dt);
+    if (is_watching) watch (reading, elapsed);
     const auto cause = causeOf (wanted, reading);
+    // A stop that has begun continues during lost time. A stop that begins now, and all that rises, takes one tick at a time.
+    const double step_s = reason != Stop::none && cause != Stop::none ? elapsed : dt;
 
     if (cause != reason && cause != Stop::none)
     {
@@ -370,22 +391,22 @@ Effort Guard::operator() (const Effort& wanted, const Reading& reading) noexcept
     }
     reason = cause;
 
-    const auto smooth = crossfade (wanted);
+    const auto smooth = crossfade (wanted, step_s);
 
-    last.force = approached (last.force, shortened (smooth.force, limits.max_force), perTick (limits.max_slew, dt));
-    last.torque = approached (last.torque, shortened (smooth.torque, limits.max_torque), perTick (limits.max_torque_slew, dt));
+    last.force = approached (last.force, shortened (smooth.force, limits.max_force), limits.max_slew * step_s);
+    last.torque = approached (last.torque, shortened (smooth.torque, limits.max_torque), limits.max_torque_slew * step_s);
     if (hasChannels (last) || hasChannels (smooth))
     {
-        last.axes = approached (last.axes, smooth.axes, limits.max_axis_effort, perTick (limits.max_axis_slew, dt));
-        last.signals = approached (last.signals, smooth.signals, limits.max_signal, perTick (limits.max_signal_slew, dt));
+        last.axes = approached (last.axes, smooth.axes, limits.max_axis_effort, limits.max_axis_slew * step_s);
+        last.signals = approached (last.signals, smooth.signals, limits.max_signal, limits.max_signal_slew * step_s);
     }
-    if (is_watching) countImpulse();
+    if (is_watching) countImpulse (dt);
     return last;
 }
 
-Effort Guard::crossfade (const Effort& wanted) noexcept
+Effort Guard::crossfade (const Effort& wanted, double fade_by_s) noexcept
 {
-    withheld = std::max (0.0, withheld - dt / fade_s);
+    withheld = std::max (0.0, withheld - fade_by_s / fade_s);
 
     if (reason != Stop::none)
         return { withheld * at_stop.force, withheld * at_stop.torque, mixed (withheld, at_stop.axes, 0.0, {}), mixed (withheld, at_stop.signals, 0.0, {}) };
@@ -416,6 +437,9 @@ std::string describe (const Guard::Event& event)
         if (event.part == Part::reading) return "the reading is not a number: " + inWords (event.wanted);
         if (! (event.value >= 0.0)) return "the age of the reading is not a number";
         return "the last reading is " + inMilliseconds (event.value) + " old; the watchdog allows " + inMilliseconds (event.limit);
+
+    case Guard::Stop::starved:
+        return "the run cannot keep up: its ticks are " + inMilliseconds (event.value) + " behind; the watchdog allows " + inMilliseconds (event.limit);
 
     case Guard::Stop::released:
         if (event.limit > 0.0 && ! (event.value >= event.limit))

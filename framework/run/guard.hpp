@@ -68,6 +68,7 @@ GuardLimits tightest (const GuardLimits&, const GuardLimits&) noexcept;
 ///     stop        cause                                                       ends
 ///     not_finite  the graph asked for a value that is not a number            with its cause, then the ramp
 ///     stale       no reading, or one that is old or not a number              with its cause, then the ramp
+///     starved     for longer than the watchdog, more time lost than ticked    with its cause, then the ramp
 ///     released    the dead-man's switch is not held                           with its cause, then the ramp
 ///     halted      requested: the end of a session, the stop button            with resume(), then the ramp
 ///     speed       the tool or an axis moves or turns too fast                 with rearm(), then the ramp
@@ -82,6 +83,8 @@ GuardLimits tightest (const GuardLimits&, const GuardLimits&) noexcept;
 ///  - The guard is a total function: whatever the effort, reading or limits, the result is finite.
 ///  - The torque has its own slew limit, since N/s does not apply to it. Stops and the ramp apply to everything.
 ///  - With ramp 0, full effort returns on the first good tick, as fast as the slew limit allows.
+///  - Time without ticks counts: for the watchdog, impulse, energy, and the end of a stop. Only a rising effort counts ticks, so
+///    it never rises faster, and has no step after a pause.
 ///  - Energy and speed include the axes that efforts push: for each effort the axis of the same name, or axisN for effortN. An
 ///    effort without such an axis is limited in size, slew and impulse only.
 ///  - Speed, impulse and energy are measured from the last effort on the device and its motion, so an excess is
@@ -98,6 +101,7 @@ public:
         none,
         not_finite,
         stale,
+        starved,
         released,
         halted,
         speed,
@@ -125,7 +129,7 @@ public:
 
         Stop why = Stop::none;
         Part part = Part::none;
-        double value = 0.0;                ///< the measured age, pressure, speed, impulse or energy
+        double value = 0.0;                ///< the measured age, lost time, pressure, speed, impulse or energy
         double limit = 0.0;                ///< the limit of this value
         double window = 0.0;               ///< window of the limit, in s; 0: the whole session
         std::array<double, 3> wanted {};   ///< force or torque that was not a number; for an axis or signal, only the first component is used
@@ -135,7 +139,10 @@ public:
 
     /// The layout says which axes the efforts push. [main thread]
     void prepare (const GuardLimits&, double dt_s, const DeviceLayout& = {}) noexcept;
-    Effort operator() (const Effort& wanted, const Reading&) noexcept;   // [tick thread]
+
+    /// Returns the effort for the device. `lost_s` is the time without ticks before this one, in s; the last effort was on the
+    /// device during this time. [tick thread]
+    Effort operator() (const Effort& wanted, const Reading&, double lost_s = 0.0) noexcept;
 
     /// Brings the effort to zero and keeps it there until resume(). [tick thread]
     void halt() noexcept { asked_to_halt = true; }
@@ -160,17 +167,21 @@ public:
     bool isAtRest() const noexcept;
 
 private:
-    void watch (const Reading&) noexcept;
+    void loseTime (double lost_s) noexcept;
+    void watch (const Reading&, double elapsed_s) noexcept;
     double watchAxes (const Reading&, double elapsed_s) noexcept;
     bool hasBrokenAxes (const Reading&) const noexcept;
-    void countImpulse() noexcept;
+    void countImpulse (double s) noexcept;
     void latch (Stop, double value, Event::Part = Event::Part::none, int channel = 0) noexcept;
     Stop causeOf (const Effort& wanted, const Reading&) const noexcept;
     Event describeNow (Stop, const Effort& wanted, const Reading&) const noexcept;
-    Effort crossfade (const Effort& wanted) noexcept;
+    Effort crossfade (const Effort& wanted, double fade_by_s) noexcept;
 
     GuardLimits limits;
-    double dt = fade_s;      // in s; until prepare is called, a stop takes one tick
+    double dt = fade_s;    // in s; until prepare is called, a stop takes one tick
+    double lost = 0.0;     // total time without ticks, in s
+    double behind = 0.0;   // lost time that has not been made up by as much time with ticks, in s
+    bool is_starved = false;
     double enabled = 1.0;    // progress of the enable ramp, 0…1
     double withheld = 0.0;   // fraction of `at_stop` that is still on the device, 1…0
     Effort at_stop;

@@ -10,7 +10,8 @@ namespace tactus
 {
 
 Runner::Runner (Engine& e, TickClock& c, double rate_hz, Options o)
-    : engine (e), clock (c), options (o), longest_halt (static_cast<std::uint64_t> (longest_halt_s * rate_hz)), ticks_so_far (1.0 / rate_hz), node_costs (c)
+    : engine (e), clock (c), options (o), longest_halt (static_cast<std::uint64_t> (longest_halt_s * rate_hz)), ticks_so_far (1.0 / rate_hz), lost_time (1.0 / rate_hz),
+      node_costs (c)
 {
 }
 
@@ -45,6 +46,7 @@ bool Runner::tick (double late_s) noexcept
     const double begin = clock.now();
     now.clock_replaced = clock.isReplaced();
     engine.invalidateReadings (now.clock_replaced);
+    if (clock.isRealTime()) engine.loseTime (lost_time (begin, clock.block_s()));
     if (options.hooks) options.hooks->before (k);
     engine.tick ([this] (Plan& plan) noexcept { node_costs.tick (plan); });
     if (options.hooks) options.hooks->after (k, now.phase == RunStatus::Phase::halting);

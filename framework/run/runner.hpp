@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "lost_time.hpp"
 #include "node_costs.hpp"
 #include "run_status.hpp"
 #include "tick_account.hpp"
@@ -93,6 +94,7 @@ private:
     const std::uint64_t longest_halt;   // in ticks
     std::atomic<bool> asked = false;
     TickAccount ticks_so_far;
+    LostTime lost_time;
     NodeCosts node_costs;
     Snapshot<RunStatus> published;
 

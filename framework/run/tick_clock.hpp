@@ -45,6 +45,9 @@ public:
     /// [any thread]
     virtual bool isReplaced() const noexcept { return false; }
 
+    /// The length of the blocks in s if the clock runs several ticks at once, or 0 if one tick at a time. [tick thread]
+    virtual double block_s() const noexcept { return 0.0; }
+
     /// The time in s since an arbitrary origin. [tick thread]
     virtual double now() const noexcept { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
 };

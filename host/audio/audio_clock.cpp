@@ -9,7 +9,7 @@ namespace tactus::host::audio
 {
 void AudioClock::block (int frames, double card_rate_hz) noexcept
 {
-    block_s.store (frames / card_rate_hz, std::memory_order_relaxed);
+    last_block_s.store (frames / card_rate_hz, std::memory_order_relaxed);
     blocks.fetch_add (1, std::memory_order_release);
     if (! seize()) return;
     std::fenv_t before;
@@ -41,7 +41,7 @@ void AudioClock::drive (Ticked& what) noexcept
     while (! over.load (std::memory_order_acquire))
     {
         std::this_thread::sleep_for (look);
-        const auto silence = toDuration (std::max (longest_silence_s, longest_silence_blocks * block_s.load (std::memory_order_relaxed)));
+        const auto silence = toDuration (std::max (longest_silence_s, longest_silence_blocks * last_block_s.load (std::memory_order_relaxed)));
         const auto now = Clock::now();
         if (const auto n = blocks.load (std::memory_order_acquire); n != seen)
         {

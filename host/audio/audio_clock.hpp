@@ -24,6 +24,7 @@ public:
 
     void drive (Ticked&) noexcept override;
     bool isReplaced() const noexcept override { return by_timer.load (std::memory_order_relaxed); }
+    double block_s() const noexcept override { return last_block_s.load (std::memory_order_relaxed); }
 
     /// Runs the ticks of a block, possibly none. [audio thread]
     void block (int frames, double card_rate_hz) noexcept;
@@ -39,7 +40,7 @@ private:
     const double rate_hz;
     std::atomic<bool> ticking = true;   // true while a thread ticks; initially true, so that no thread may tick yet
     std::atomic<std::uint64_t> blocks = 0, timed = 0;
-    std::atomic<double> block_s = 0.0;
+    std::atomic<double> last_block_s = 0.0;
     std::atomic<bool> by_timer = false, over = false;
 
     // [the thread that ticks]

@@ -8,7 +8,8 @@ namespace tactus::host::hid
 {
 
 HidModel::HidModel (std::shared_ptr<const Profile> p)
-    : description (std::move (p)), decoder (description), encoder (description, decoder), kinematics (description->kinematics)
+    : description (std::move (p)), decoder (description), encoder (description, decoder), kinematics (description->kinematics),
+      limiter (*description, encoder.effortNames(), encoder.effortUnits(), encoder.restEfforts())
 {
     for (std::size_t i = 0; i < 3; ++i)
     {
@@ -84,7 +85,7 @@ void HidModel::take (const Channels& axes, HidEffort& effort) const noexcept
         if (const double asked = axes[static_cast<int> (i)]; asked != 0.0) effort.efforts[own[i]] = asked;
 }
 
-std::array<double, most_efforts> HidModel::asked (const HidEffort& effort) const noexcept
+EffortValues HidModel::asked (const HidEffort& effort) const noexcept
 {
     auto all = effort.efforts;
     const Vec3 turn = description->axes.transpose() * effort.torque;
@@ -98,11 +99,23 @@ std::array<double, most_efforts> HidModel::asked (const HidEffort& effort) const
     return all;
 }
 
-std::span<const std::uint8_t> HidModel::encode (std::size_t report, const HidEffort& effort) noexcept { return encode (report, effort, {}); }
+EffortValues HidModel::drive (const HidEffort& effort) noexcept
+{
+    auto values = asked (effort);
+    limiter (values);
+    return values;
+}
+
+std::span<const std::uint8_t> HidModel::encode (std::size_t report, const EffortValues& values, std::span<const float> samples) noexcept
+{
+    return encoder.encode (report, values, samples, decoder);
+}
 
 std::span<const std::uint8_t> HidModel::encode (std::size_t report, const HidEffort& effort, std::span<const float> samples) noexcept
 {
-    return encoder.encode (report, asked (effort), samples, decoder);
+    auto values = asked (effort);
+    limiter.shrink (values);
+    return encode (report, values, samples);
 }
 
 std::span<const std::uint8_t> HidModel::neutral (std::size_t report) noexcept { return encoder.neutral (report); }
@@ -117,6 +130,7 @@ void HidModel::reset()
 {
     decoder.reset();
     encoder.reset();
+    limiter.forget();
     forget();
 }
 

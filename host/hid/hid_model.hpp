@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kinematics.hpp"
+#include "motor_limiter.hpp"
 #include "report_decoder.hpp"
 #include "report_encoder.hpp"
 
@@ -61,13 +62,21 @@ public:
     /// Copies values, in the order of ownEffortNames(), into the effort. A value of 0 keeps the value of the neutral report.
     void take (const Channels& axes, HidEffort&) const noexcept;
 
-    /// The n-th output report of the profile, ready for hid_write (or hid_send_feature_report): without an id it begins
-    /// with 0. Force and torque are converted by the kinematics at the latest decoded pose; without a pose there is no force.
-    /// A field stays neutral if its value is not finite or if the pose has no solution. The span is valid until the next call.
-    std::span<const std::uint8_t> encode (std::size_t report, const HidEffort&) noexcept;
+    /// The values of all efforts for this tick. Force and torque are converted by the kinematics at the latest decoded pose, then
+    /// limited motor by motor. Call once per tick; `dt_s` is the tick period. [tick thread]
+    void prepare (double dt_s) noexcept { limiter.prepare (dt_s); }
+    EffortValues drive (const HidEffort&) noexcept;
 
-    /// The same for a report with a stream: the samples are interleaved frames, -1…1; missing samples are 0.
-    std::span<const std::uint8_t> encode (std::size_t report, const HidEffort&, std::span<const float> samples) noexcept;
+    /// Neutral reports are sent on this tick, so the motors start from rest on the next one. [tick thread]
+    void rest() noexcept { limiter.forget(); }
+
+    /// The n-th output report of the profile, ready for hid_write (or hid_send_feature_report): without an id it begins
+    /// with 0. A field stays neutral if its value is not finite or if the pose has no solution. A report with a stream carries the
+    /// samples: interleaved frames, -1…1; missing samples are 0. The span is valid until the next call.
+    std::span<const std::uint8_t> encode (std::size_t report, const EffortValues&, std::span<const float> samples = {}) noexcept;
+
+    /// The same for a single effort, without the limit on the change of the motors.
+    std::span<const std::uint8_t> encode (std::size_t report, const HidEffort&, std::span<const float> samples = {}) noexcept;
 
     /// The report that makes the device do nothing, with the counters and the checksum that it requires.
     std::span<const std::uint8_t> neutral (std::size_t report) noexcept;
@@ -100,12 +109,13 @@ public:
 private:
     void place() noexcept;
     void forget() noexcept;
-    std::array<double, most_efforts> asked (const HidEffort&) const noexcept;
+    EffortValues asked (const HidEffort&) const noexcept;
 
     std::shared_ptr<const Profile> description;
     ReportDecoder decoder;
     ReportEncoder encoder;
     Kinematics kinematics;
+    MotorLimiter limiter;
     Kinematics::Pose pose;
     HidSample last;
     std::array<int, 3> position {}, rotation {}, force {}, torque {};   // indices of axes and efforts; -1: none

@@ -250,14 +250,16 @@ using KinematicsModel = std::variant<Direct, LinearMap, SerialArm, FiveBar>;
 /// Limits and properties of the device; infinity or 0 if unknown.
 struct Limits
 {
-    GuardLimits guard;                          ///< its watchdog is the largest age that an input may have on the host
-    double max_stiffness = GuardLimits::none;   ///< N/m
-    double max_damping = GuardLimits::none;     ///< N s/m
-    double device_damping = 0.0;                ///< damping of the device itself, in N s/m
-    double first_mode = 0.0;                    ///< Hz
-    double position_quantum = 0.0;              ///< m
-    double force_quantum = 0.0;                 ///< N
-    double device_watchdog = 0.0;               ///< time after which the device itself switches its force off, in s; 0: never
+    GuardLimits guard;                           ///< its watchdog is the largest age that an input may have on the host
+    double max_motor = GuardLimits::none;        ///< of each effort that renders the force, in its unit (A, N m or N)
+    double max_motor_slew = GuardLimits::none;   ///< of the same, per s
+    double max_stiffness = GuardLimits::none;    ///< N/m
+    double max_damping = GuardLimits::none;      ///< N s/m
+    double device_damping = 0.0;                 ///< damping of the device itself, in N s/m
+    double first_mode = 0.0;                     ///< Hz
+    double position_quantum = 0.0;               ///< m
+    double force_quantum = 0.0;                  ///< N
+    double device_watchdog = 0.0;                ///< time after which the device itself switches its force off, in s; 0: never
 };
 
 /// A report and its values, for testing a profile without the device.

@@ -3,6 +3,7 @@
 #include "bits.hpp"
 
 #include <framework/node/device.hpp>
+#include <framework/run/device/guard_limits.hpp>
 #include <framework/text/closest_match.hpp>
 #include <framework/text/number_text.hpp>
 #include <framework/text/quote.hpp>
@@ -173,6 +174,7 @@ private:
         const auto& guard = p.limits.guard;
         if (names (p.force) && guard.max_force == GuardLimits::none) need ("max_force", "a force");
         if (names (p.torque) && guard.max_torque == GuardLimits::none) need ("max_torque", "a torque");
+        motorLimits();
         if (guard.max_axis_effort != GuardLimits::none) return;
         for (const auto& report : p.outputs)
             for (const auto& field : report.fields)
@@ -184,6 +186,22 @@ private:
                 if (! drives (p.force) && ! drives (p.torque) && std::ranges::none_of (p.signals, isSignal))
                     return need ("max_axis_effort", "the effort " + quote (field.name));
             }
+    }
+
+    /// The motors come to rest as fast as the guard does: no limit of their slew draws out a stop.
+    void motorLimits()
+    {
+        const double most = p.limits.max_motor, slew = p.limits.max_motor_slew;
+        const bool pushes = std::ranges::any_of (p.force, [] (const auto& name) { return ! name.empty(); });
+        if (! pushes && (most != GuardLimits::none || slew != GuardLimits::none))
+            in.error ("limits", "profile/no_motor", "max_motor and max_motor_slew limit the motors that render the force, but the profile has none",
+                      "name them in \"force\", or remove the limits");
+        if (slew != GuardLimits::none && ! (most / slew <= longest_stop_s))
+            in.error ("limits", "device/slow_stop",
+                      most == GuardLimits::none ? "max_motor_slew without max_motor lets a stop take for ever"
+                                                : "with max_motor_slew, a stop from max_motor takes " + numberText (most / slew) + " s; at most "
+                                                      + numberText (longest_stop_s) + " s are allowed",
+                      "raise max_motor_slew, or lower max_motor");
     }
 
     void echoes()

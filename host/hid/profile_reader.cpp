@@ -64,7 +64,27 @@ std::vector<Step> readSteps (ProfileFields& profile, std::string_view key)
     return steps;
 }
 
-Limits readLimits (ProfileFields& profile)
+/// The unit of the efforts that render the force; empty if there are none.
+std::string motorUnit (const Profile& p)
+{
+    for (const auto& report : p.outputs)
+        for (const auto& field : report.fields)
+            if (! field.name.empty() && std::ranges::count (p.force, field.name) > 0) return field.unit;
+    return {};
+}
+
+/// Reads a limit of the motors, which may be a bare number, since Tactus does not know all units of motors.
+double motorLimit (ProfileFields& in, const char* key, const std::string& unit)
+{
+    const auto [value, given] = in.scale (key, GuardLimits::none);
+    if (! (value > 0.0)) in.error (key, "profile/out_of_range", std::string (key) + " must be greater than 0", "write a number greater than 0");
+    if (! given.empty() && given != unit)
+        in.error (key, "profile/unit", std::string (key) + " is in " + given + ", but the motors of this profile need " + unit,
+                  "write a number in " + unit);
+    return value;
+}
+
+Limits readLimits (ProfileFields& profile, const std::string& motor_unit)
 {
     constexpr auto any = Bounds::notNegative();
     constexpr auto some = Bounds::positive();
@@ -74,6 +94,8 @@ Limits readLimits (ProfileFields& profile)
         checkStops (l.guard, in.where(), in.messages());
         l.guard.ramp = in.number ("ramp", unit::second, any, l.guard.ramp);
         l.guard.watchdog = in.number ("stale_input", unit::second, some, l.guard.watchdog);
+        l.max_motor = motorLimit (in, "max_motor", motor_unit);
+        l.max_motor_slew = motorLimit (in, "max_motor_slew", motor_unit + "/s");
         l.max_stiffness = in.number ("max_stiffness", unit::stiffness, any, l.max_stiffness);
         l.max_damping = in.number ("max_damping", unit::damping, any, l.max_damping);
         l.device_damping = in.number ("device_damping", unit::damping, any, 0.0);
@@ -166,7 +188,7 @@ Profile read (ProfileFields& in)
     });
     p.axes = readAxes (in);
     p.kinematics = readKinematics (in);
-    p.limits = readLimits (in);
+    p.limits = readLimits (in, motorUnit (p));
     p.rate = in.number ("rate", unit::hertz, Bounds::positive(), 0.0);
     p.quirks = in.texts ("quirks");
     p.sources = in.texts ("sources");

@@ -65,6 +65,7 @@ HidDevice::HidDevice (std::unique_ptr<HidPort> port)
 void HidDevice::prepare (double dt_s)
 {
     dt = dt_s;
+    values.prepare (dt);
     for (auto& s : streams)
         s.feed.prepare (dt);
     for (auto& m : motors)
@@ -159,11 +160,13 @@ void HidDevice::write (const Effort& guarded) noexcept
     values.take (guarded.axes, effort);
     vibrate (guarded.signals, effort);
 
+    if (has_to_rest) values.rest();
+    const auto driven = has_to_rest ? EffortValues {} : values.drive (effort);
     for (std::size_t i = 0; i < values.outputs(); ++i)
-        if (values.channelNames (i).empty()) link->offer (i, has_to_rest ? values.neutral (i) : values.encode (i, effort), episode, latest);
+        if (values.channelNames (i).empty()) link->offer (i, has_to_rest ? values.neutral (i) : values.encode (i, driven), episode, latest);
     for (auto& [report, feed] : streams)
         feed.tick (guarded.signals, [&, i = report] (std::span<const float> samples) {
-            const auto& bytes = has_to_rest ? values.neutral (i) : values.encode (i, effort, samples);
+            const auto& bytes = has_to_rest ? values.neutral (i) : values.encode (i, driven, samples);
             link->offer (i, bytes, episode, latest);
         });
     link->sendNow();

@@ -13,7 +13,7 @@ namespace tactus
 {
 
 inline constexpr std::string_view run_format = "tactus-run";
-inline constexpr int run_version = 3;   ///< version 1 had no axes, signals, device layouts or emergency stops; version 2 had no hits
+inline constexpr int run_version = 4;   ///< version 1 had no axes, signals, device layouts or emergency stops; 2 had no hits; 3 had no lost time
 
 /// The fixed properties of a run, stored in the first line of its log.
 struct RunHead

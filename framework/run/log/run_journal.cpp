@@ -55,6 +55,12 @@ void RunJournal::late (std::uint64_t question) noexcept
     ring.put (question);
 }
 
+void RunJournal::lost (double s) noexcept
+{
+    put (Kind::lost);
+    put (s);
+}
+
 void RunJournal::halted() noexcept
 {
     if (! std::exchange (halting, true)) put (Kind::halted);

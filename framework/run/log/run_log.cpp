@@ -164,6 +164,9 @@ void RunLog::take()
     case RunJournal::Kind::late:
         late += (late.empty() ? "" : ",") + std::to_string (words.pop());
         break;
+    case RunJournal::Kind::lost:
+        add ("lost", logNumber (number()));
+        break;
     case RunJournal::Kind::halted:
         add ("halt", "true");
         break;

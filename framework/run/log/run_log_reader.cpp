@@ -274,6 +274,10 @@ Result<RunTick> RunLogReader::readTick (const std::string& text)
                  line.whole (question, where, tick.late.emplace_back());
              if (! std::ranges::is_sorted (tick.late)) line.wrong (where, "the queries are not in order");
          } },
+        { "lost", JsonKind::any, [&] (Json& v, const std::string& where) {
+             line.number (v, where, tick.lost_s);
+             if (! (tick.lost_s >= 0.0 && tick.lost_s <= 1e9)) line.wrong (where, "the lost time must be from 0 to 1e9 s");
+         } },
         { "halt", JsonKind::truth, [&] (Json& v, const std::string&) { tick.halt = v.get<bool>(); } },
         { "rearm", JsonKind::truth, [&] (Json& v, const std::string&) { tick.rearm = v.get<bool>(); } },
         { "emergency", JsonKind::truth, [&] (Json& v, const std::string&) { tick.emergency = v.get<bool>(); } },

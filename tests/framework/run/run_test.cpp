@@ -38,10 +38,11 @@ struct Hands
         return [this] (const std::string& role, const graph::Graph&, const Plan&, Messages&) -> Run::RoleDevice {
             auto hand = std::make_unique<Hand>();
             hands[role] = hand.get();
-            return { std::move (hand) };
+            return { std::move (hand), limits };
         };
     }
 
+    GuardLimits limits {};
     std::map<std::string, Hand*> hands;
 };
 
@@ -54,6 +55,18 @@ Sketch spring (double stiffness = 100.0)
     s.graph.root.wires[0].gain = "1 N/m";
     return s;
 }
+
+/// A real-time clock in virtual time that pauses again and again.
+struct Pausing final : TickClock
+{
+    void drive (Ticked& t) noexcept override
+    {
+        for (int k = 0; t.tick (0.0); ++k)
+            time += k % 50 < 40 ? 1e-3 : 20e-3;
+    }
+    double now() const noexcept override { return time; }
+    double time = 0.0;
+};
 
 struct Counting final : RunListener
 {
@@ -266,8 +279,12 @@ TEST_CASE ("a live run ends at rest, and its log replays bit for bit", "[run]")
     std::vector<double> live;
     {
         Hands all;
+        const bool pauses = GENERATE (false, true);
+        if (pauses) all.limits = { .max_slew = 200.0, .ramp = 0.01, .watchdog = 0.05 };
         const auto s = spring();
-        FreeRun clock;
+        FreeRun free_run;
+        Pausing pausing;
+        TickClock& clock = pauses ? static_cast<TickClock&> (pausing) : free_run;
         Run run { catalogue(), { .rate_hz = 1000.0 }, all.opener(), Run::Queries::on_thread };
         auto messages = run.load (s.graph);
         run.openDevices (s.graph, messages);
@@ -277,6 +294,7 @@ TEST_CASE ("a live run ends at rest, and its log replays bit for bit", "[run]")
         REQUIRE (run.finish());
         live = all.hands["stylus"]->forces;
         REQUIRE (live.size() >= 200);
+        CHECK (run.live().status().roles[0].event.why == (pauses ? Guard::Stop::starved : Guard::Stop::halted));
     }
     auto replayed = Replay::open (path.string(), { .program = "test 1" });
     REQUIRE (replayed);

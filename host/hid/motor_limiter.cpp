@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "motor_limiter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::host::hid
+{
+
+namespace
+{
+const OutputField* fieldOf (const Profile& profile, const std::string& name)
+{
+    for (const auto& report : profile.outputs)
+        for (const auto& field : report.fields)
+            if (field.source == OutputField::Source::effort && field.name == name) return &field;
+    return nullptr;
+}
+}   // namespace
+
+MotorLimiter::MotorLimiter (const Profile& profile, const std::vector<std::string>& names, const std::vector<std::string>& units, const EffortValues& rest)
+    : at_rest (rest), last (rest)
+{
+    for (std::size_t i = 0; i < names.size(); ++i)
+    {
+        const auto isI = [&] (const std::string& name) { return name == names[i]; };
+        const bool renders_force = std::ranges::any_of (profile.force, isI), renders_torque = std::ranges::any_of (profile.torque, isI);
+        if (! renders_force && ! renders_torque && units[i] != "N" && units[i] != "N*m" && units[i] != "A") continue;
+        Motor motor { i };
+        if (const auto* field = fieldOf (profile, names[i]); field != nullptr && field->encoding.law == Encoding::Law::linear)
+        {
+            motor.least = field->min;
+            motor.most = field->max;
+        }
+        if (renders_force)
+        {
+            motor.least = std::max (motor.least, -profile.limits.max_motor);
+            motor.most = std::min (motor.most, profile.limits.max_motor);
+            motor.slew = profile.limits.max_motor_slew;
+        }
+        motors.push_back (motor);
+    }
+}
+
+/// A motor that cannot pull, for example on a string, does not take the others' force away: its own field is clamped later.
+void MotorLimiter::shrink (EffortValues& values) const noexcept
+{
+    double share = 1.0;
+    for (const auto& [effort, least, most, slew] : motors)
+    {
+        const double limit = values[effort] < 0.0 ? -least : most, size = std::abs (values[effort]);
+        if (limit > 0.0 && size > limit && std::isfinite (size)) share = std::min (share, limit / size);
+    }
+    if (share == 1.0) return;
+    for (const auto& motor : motors)
+        values[motor.effort] *= share;
+}
+
+void MotorLimiter::operator() (EffortValues& values) noexcept
+{
+    shrink (values);
+    double share = 1.0;
+    for (const auto& [effort, least, most, slew] : motors)
+    {
+        const double step = std::abs (values[effort] - last[effort]);
+        if (step > slew * dt && std::isfinite (step)) share = std::min (share, slew * dt / step);
+    }
+    for (const auto& motor : motors)
+    {
+        double& value = values[motor.effort];
+        if (share < 1.0) value = last[motor.effort] + share * (value - last[motor.effort]);
+        last[motor.effort] = std::isfinite (value) ? value : at_rest[motor.effort];
+    }
+}
+
+}   // namespace tactus::host::hid

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "profile.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace tactus::host::hid
+{
+
+/// The values of all efforts of a device, in the order of HidModel::effortNames().
+using EffortValues = std::array<double, most_efforts>;
+
+/// The last limit before the report: it acts on the values of the motors, after the force at the tool has been mapped to them. One
+/// factor scales all mechanical efforts of a device (force, torque, and efforts in N, N m or A), so directions are kept:
+///
+///     size    v = k u          so that each motor stays within its field's min and max, and within max_motor
+///     slew    w' = w + s (v - w)   so that no motor changes by more than max_motor_slew T in a tick
+///
+/// Other values, such as the frequency of a rumble motor, pass through unchanged. max_motor and max_motor_slew hold for the
+/// motors that render the force.
+class MotorLimiter
+{
+public:
+    MotorLimiter (const Profile&, const std::vector<std::string>& effort_names, const std::vector<std::string>& effort_units, const EffortValues& rest);
+
+    void prepare (double dt_s) noexcept { dt = dt_s; }
+
+    /// Scales the efforts so that each motor stays within its limit. [any thread that owns it]
+    void shrink (EffortValues&) const noexcept;
+
+    /// Applies both limits. Call once per tick. [tick thread]
+    void operator() (EffortValues&) noexcept;
+
+    /// The neutral reports are sent instead of efforts. [tick thread]
+    void forget() noexcept { last = at_rest; }
+
+private:
+    struct Motor
+    {
+        std::size_t effort;                                            // index
+        double least = -GuardLimits::none, most = GuardLimits::none;   // of the effort's value; 0: the motor has no such direction
+        double slew = GuardLimits::none;                               // per s
+    };
+
+    std::vector<Motor> motors;
+    EffortValues at_rest, last;
+    double dt = 1e-3;   // in s
+};
+
+}   // namespace tactus::host::hid
