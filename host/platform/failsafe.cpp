@@ -44,7 +44,8 @@ struct Entry
 std::array<Entry, Failsafe::most_devices> armed;
 static_assert (std::atomic<int>::is_always_lock_free, "a signal handler reads it");
 
-constexpr std::int64_t shortest_sleep = 50'000'000;   // ns; far longer than the two readings of hasSleptFor() are apart
+constexpr std::int64_t shortest_sleep = 50'000'000;     // ns; far longer than the two readings of hasSleptFor() are apart
+constexpr std::int64_t longest_pause = 1'000'000'000;   // ns between two beats; longer than patience, because only a frozen guardian lets it happen
 
 std::mutex changing;
 std::atomic<Shared*> shared { nullptr };   // from the first guardian on
@@ -230,9 +231,12 @@ bool Failsafe::beat (bool driven) noexcept
     if (slot == none) return true;
     auto& with = *shared.load();
     noticeSleep (with);
+    const auto now = nanoseconds (CLOCK_MONOTONIC);
     auto& latest = with.beats[static_cast<std::size_t> (slot)];
     auto before = latest.load();
-    const bool is_ours = before != Shared::taken && latest.compare_exchange_strong (before, driven ? nanoseconds (CLOCK_MONOTONIC) : Shared::at_rest);
+    if (before > Shared::at_rest && now - before > longest_pause && latest.compare_exchange_strong (before, Shared::taken))
+        with.raiseAlarm (Shared::Cause::frozen, before);
+    const bool is_ours = before != Shared::taken && latest.compare_exchange_strong (before, driven ? now : Shared::at_rest);
     return is_ours && with.asleep == asleep;
 }
 
@@ -254,8 +258,8 @@ Message Failsafe::alarm()
     case Shared::Cause::frozen:
         return Message::warning ("run/frozen", {},
                                  "this program did not serve a device for " + inMs (nanoseconds (CLOCK_MONOTONIC) - detail)
-                                     + ", because it was suspended or the computer or the device was too busy, so the guardian process brought the device"
-                                       " to rest; all forces are held at zero",
+                                     + ", because it was suspended or the computer or the device was too busy, so the device was brought to rest; all"
+                                       " forces are held at zero",
                                  remedy);
     case Shared::Cause::unguarded:
         return Message::warning ("run/unguarded", {},

@@ -20,8 +20,8 @@ namespace tactus::host
 ///  - by the guardian, too, if the thread that drives the device gives no sign of life (beat()) for as long as `patience`, for
 ///    example because the process was suspended (kill -STOP, a debugger).
 ///
-/// Three events raise an alarm, after which the forces of the whole run must stay at zero until someone rearms: the guardian has
-/// taken a device, the guardian itself was killed, or the computer has slept. Runs compare alarms() on every tick.
+/// Three events raise an alarm, after which the forces of the whole run must stay at zero until someone rearms: a device was
+/// taken, the guardian itself was killed, or the computer has slept. Runs compare alarms() on every tick.
 ///
 /// Good to know
 ///  - After a fault both the handler and the guardian write, so the device must tolerate receiving the reports twice.
@@ -29,7 +29,7 @@ namespace tactus::host
 ///  - The guardian is forked when the first failsafe is armed, and ends with this process. It ignores Ctrl-C. If it is killed, a
 ///    thread of this process forks another one at once.
 ///  - The guardian counts its own looks at the beats and reads no clock, so it takes no device when the whole computer pauses.
-///    If program and guardian are frozen together, nothing is sent.
+///    While program and guardian are frozen together, nothing is sent. beat() finds a pause of a second out afterwards.
 class Failsafe
 {
 public:
@@ -52,8 +52,9 @@ public:
     ~Failsafe();   ///< disarms it
 
     /// A sign of life from the thread that writes to the device. Needed several times per `patience` while there may be an effort
-    /// on the device (`driven`), and once more without. No system call. Returns false from when the guardian has taken the device or
-    /// the computer has slept: the device must then be opened anew, and get no effort until then. [one thread at a time]
+    /// on the device (`driven`), and once more without. No system call. Returns false from when the guardian has taken the device,
+    /// the computer has slept, or the last beat under effort was more than a second ago. The device must then be opened anew, and
+    /// get no effort until then. [one thread at a time]
     bool beat (bool driven) noexcept;
 
     /// The number of alarms so far. One atomic read. [any thread, also the tick thread]

@@ -146,6 +146,28 @@ TEST_CASE ("the guardian brings the device of a frozen process to rest, and the 
     CHECK (contentOf (other).empty());
 }
 
+TEST_CASE ("a process that was frozen together with its guardian finds out when it goes on", "[platform]")
+{
+    const TemporaryFolder folder;
+    const auto file = (folder / "device").string();
+    std::ofstream { file };
+    const auto end = test::inChild ([&] {
+        auto failsafe = Failsafe::arm (file, rest());
+        if (! failsafe || ! failsafe->beat (false)) return 1;
+        pid_t guardian = -1;
+        if (! until ([&] { return (guardian = test::guardianOf (::getpid())) > 0; })) return 2;
+        ::kill (guardian, SIGSTOP);
+        if (::waitpid (guardian, nullptr, WUNTRACED) != guardian) return 3;
+        if (! failsafe->beat (true)) return 4;
+        std::this_thread::sleep_for (std::chrono::milliseconds (1100));
+        const bool noticed = ! failsafe->beat (true) && ! failsafe->beat (false) && Failsafe::alarms() == 1 && Failsafe::alarm().id == "run/frozen";
+        ::kill (guardian, SIGCONT);
+        return noticed ? 0 : 5;
+    });
+    CHECK (end.status == 0);
+    CHECK (contentOf (file).empty());
+}
+
 TEST_CASE ("if the guardian is killed, there is an alarm, and another one takes its place", "[platform]")
 {
     const TemporaryFolder folder;
