@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "emergency.hpp"
 
+#include <host/platform/failsafe.hpp>
 #include <host/platform/signals.hpp>
 
 #include <chrono>
 #include <limits>
+#include <utility>
 
 namespace tactus::host
 {
@@ -17,7 +19,8 @@ std::atomic<bool> asked_by_signal { false };         // SIGUSR2 has arrived
 double now() noexcept { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
 }   // namespace
 
-Emergency::Emergency (Engine& e) : engine (e), pressed_at (-std::numeric_limits<double>::infinity())
+Emergency::Emergency (Engine& e)
+    : engine (e), pressed_at (-std::numeric_limits<double>::infinity()), alarms_told (Failsafe::alarms()), alarms_stopped (alarms_told)
 {
     static_assert (std::atomic<double>::is_always_lock_free, "a signal handler writes it");
     under_signals = this;
@@ -54,9 +57,20 @@ void Emergency::readKeys (const std::stop_token& stop)
             came_too_early = true;
 }
 
+void Emergency::before (Plan&, std::uint64_t) noexcept
+{
+    if (const auto now = Failsafe::alarms(); std::exchange (alarms_stopped, now) != now) engine.emergencyStop();
+}
+
 std::string Emergency::takeNotes()
 {
     std::string notes;
+    if (const auto now = Failsafe::alarms(); std::exchange (alarms_told, now) != now)
+    {
+        press();   // also refuses to rearm within a second
+        const auto alarm = Failsafe::alarm();
+        notes += "warning: " + sentence (alarm) + (hasKeys() ? " (R)" : "") + " [" + alarm.id + "]\n";
+    }
     if (came_too_early.exchange (false)) notes += "R has no effect within a second of an emergency stop: when forces may safely return, press R again\n";
     if (asked_by_signal.exchange (false)) notes += "SIGUSR2 does not rearm: when forces may safely return, press R in this terminal\n";
     return notes;

@@ -1,28 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <framework/run/engine.hpp>
+#include <framework/run/run.hpp>
 #include <framework/text/result.hpp>
 #include <host/platform/terminal.hpp>
 
 #include <atomic>
+#include <cstdint>
 #include <string>
 #include <thread>
 
 namespace tactus::host
 {
 
-/// The emergency stop of a run, while this object exists: the space bar in a terminal, SIGUSR1 from anywhere, and press(). A
-/// thread of its own reads the keys, so a stop takes effect however long the main thread compiles, prints or waits. R rearms,
-/// but not within a second of the stop, so that two keys pressed in a hurry do not undo the stop. Only one may exist at a time. [main thread]
-class Emergency
+/// The emergency stop of a run, while this object exists: the space bar in a terminal, SIGUSR1 from anywhere, press(), and an
+/// alarm of the failsafe. A thread of its own reads the keys, so a stop takes effect however long the main thread compiles, prints
+/// or waits. As a listener of the run, this object looks for alarms before every tick. R rearms, but not within a second of the
+/// stop, so that two keys pressed in a hurry do not undo the stop. Only one may exist at a time. [main thread]
+class Emergency final : public RunListener
 {
 public:
     static constexpr double pause_s = 1.0;   ///< shortest time between a stop and a rearm
 
     /// The engine must outlive this object.
     explicit Emergency (Engine&);
-    ~Emergency();
+    ~Emergency() override;
     Emergency (const Emergency&) = delete;
     Emergency& operator= (const Emergency&) = delete;
 
@@ -37,6 +39,8 @@ public:
     /// Messages for the user since the last call, one per line; "" if there are none. [main thread]
     std::string takeNotes();
 
+    void before (Plan&, std::uint64_t tick) noexcept override;
+
 private:
     void readKeys (const std::stop_token&);
 
@@ -44,7 +48,9 @@ private:
     Keys keys;
     std::atomic<double> pressed_at;   // time on the steady clock, in s
     std::atomic<bool> came_too_early { false };
-    std::jthread reading;   // declared last: it uses the other members
+    std::uint32_t alarms_told;      // number of alarms that the user has been told about
+    std::uint32_t alarms_stopped;   // number of alarms that have stopped the run   [tick thread]
+    std::jthread reading;           // declared last: it uses the other members
 };
 
 }   // namespace tactus::host

@@ -85,6 +85,7 @@ public:
     explicit Playing (const Options& o) : options (o)
     {
         watchForStop();   // before this there is nothing to shut down
+        command.run().add (emergency);
         if (! options.outputs.empty()) command.run().add (recording.emplace (command.run(), options.outputs));
         if (port) control.emplace (*port, remote, token);
         file_watch.watch (command.files());
@@ -130,10 +131,15 @@ private:
         std::fprintf (stderr, "%s at %g Hz%s; %s\n", name.c_str(), command.rate(), more.c_str(), keys);
     }
 
+    void printNotes()
+    {
+        if (const auto notes = emergency.takeNotes(); ! notes.empty()) std::fprintf (stderr, "%s%s", terminal ? "\r\033[K" : "", notes.c_str());
+    }
+
     /// The work that is done every 20 ms.
     void attend (int i)
     {
-        if (const auto notes = emergency.takeNotes(); ! notes.empty()) std::fprintf (stderr, "%s%s", terminal ? "\r\033[K" : "", notes.c_str());
+        printNotes();
         if (recording) recording->drain();
         command.attend();
         if (const auto attended = command.audio().attend(); ! attended) warnOfCapture (options.capture, attended.error());
@@ -161,6 +167,7 @@ private:
 
     void finish()
     {
+        printNotes();
         const auto sound = command.audio().status();   // before the card is released
         if (const auto ended = command.audio().end(); ! ended) warnOfCapture (options.capture, ended.error());
         const auto logged = command.run().finish();

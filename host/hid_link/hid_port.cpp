@@ -21,6 +21,7 @@ using Clock = HidPort::Clock;
 
 constexpr std::size_t reports_waiting = 1024;   // one second of reports from a fast device: a run starts a while after its devices are opened
 constexpr auto longest_read = 20ms;             // short, so that a stop request is noticed promptly
+constexpr auto longest_between_beats = 20ms;    // several times within Failsafe::patience
 constexpr const char* check_device = "check that the connected device is the one that the profile describes, and plug it in again";
 
 double secondsOf (Clock::duration d) { return std::chrono::duration<double> (d).count(); }
@@ -259,12 +260,13 @@ void HidPort::push (std::span<const std::uint8_t> report, Nanoseconds at)
     ring.commit();
 }
 
-/// Handles a lost device. The device may still be able to receive the neutral reports.
+/// Handles a lost device; both threads may find out that it is. The device may still be able to receive the neutral reports.
 void HidPort::lose (Transport& t, const std::string& why)
 {
-    departures.fetch_add (1, std::memory_order_relaxed);
     {
         const std::lock_guard lock (opening);
+        if (link.get() != &t) return;
+        departures.fetch_add (1, std::memory_order_relaxed);
         link.reset();
         connected.store (false, std::memory_order_release);
         last_trouble = why;
@@ -323,7 +325,7 @@ void HidPort::offer (std::size_t report, std::span<const std::uint8_t> bytes, st
 
 Clock::time_point HidPort::nextLook (Clock::time_point now) const
 {
-    double wait = secondsOf (longest_silence) / 4.0;
+    double wait = std::min (secondsOf (longest_silence) / 4.0, secondsOf (longest_between_beats));
     for (const auto& o : description->outputs)
         wait = std::min (wait, 0.5 / o.max_rate);
     return now + toDuration (std::max (wait, 250e-6));
@@ -336,25 +338,33 @@ void HidPort::writeOn()
     {
         something.wait (nextLook (Clock::now()));
         const auto t = transport();
-        const std::lock_guard lock (writing);
         if (! t)
         {
+            const std::lock_guard lock (writing);
             for (const auto& o : outputs)
                 o->seen = o->offered.load().number;   // the device is disconnected, so these offers do not count as dropped
-            continue;
         }
-        const auto now = Clock::now();
-        for (std::size_t i = 0; i < outputs.size(); ++i)
-            attend (*t, *outputs[i], i, now);
-        if (driven && now - given > longest_silence)
-        {
-            silences.fetch_add (1, std::memory_order_relaxed);
-            current_episode.fetch_add (1, std::memory_order_acq_rel);
-            quieten (*t);
-        }
+        else if (! serve (*t))
+            lose (*t, "the program or the computer was suspended, so the device is opened again");
     }
     const std::lock_guard lock (writing);
     if (const auto t = transport()) leave (*t);
+}
+
+/// Sends what is due. False if the device must be opened again (Transport::beat).
+bool HidPort::serve (Transport& t)
+{
+    const std::lock_guard lock (writing);
+    const auto now = Clock::now();
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+        attend (t, *outputs[i], i, now);
+    if (driven && now - given > longest_silence)
+    {
+        silences.fetch_add (1, std::memory_order_relaxed);
+        current_episode.fetch_add (1, std::memory_order_acq_rel);
+        quieten (t);
+    }
+    return t.beat (driven);
 }
 
 void HidPort::attend (Transport& t, Output& o, std::size_t report, Clock::time_point now)
@@ -381,7 +391,7 @@ void HidPort::attend (Transport& t, Output& o, std::size_t report, Clock::time_p
         o.seen = latest.number;
         return;
     }
-    if (o.credit < 1.0) return;
+    if (o.credit < 1.0 || ! t.beat (true)) return;
 
     // Offers in between were never sent, so they count as dropped. With a keepalive, an unchanged offer is neither sent nor counted.
     if (is_new && how.keepalive == 0.0) dropped.fetch_add (latest.number - o.seen - 1, std::memory_order_relaxed);
@@ -428,6 +438,7 @@ void HidPort::quieten (Transport& t)
         static_cast<void> (send (t, i, bytes));   // counts and records its own failures
     }
     driven = false;
+    t.beat (driven);
 }
 
 /// [with `writing` held]

@@ -58,7 +58,8 @@ struct PortCounts
 ///    everything sent afterwards.
 ///  - If the device goes away, the port looks for it every half second, by serial number, else by path, else by ids.
 ///  - If no effort is offered for longer than the watchdog, the port sends the neutral reports.
-///  - If the process dies, the neutral reports are sent too (Transport::armFailsafe).
+///  - If the process dies or freezes, the failsafe sends the neutral reports (Transport::armFailsafe). A port whose device got
+///    them, or that finds that the computer has slept, treats the device as gone away and back.
 ///
 /// Each return of the device and each silence starts a new `episode`. Efforts offered for an earlier episode are not sent:
 /// the caller must start from zero again, as HidDevice does.
@@ -172,6 +173,7 @@ private:
     const ConnectedDevice* sameAmong (const std::vector<ConnectedDevice>&) const;
 
     void writeOn();
+    bool serve (Transport&);
     void attend (Transport&, Output&, std::size_t report, Clock::time_point now);
     Clock::time_point nextLook (Clock::time_point now) const;
     Result<> send (Transport&, std::size_t report, std::span<const std::uint8_t>);

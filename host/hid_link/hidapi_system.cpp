@@ -106,6 +106,8 @@ public:
         return {};
     }
 
+    bool beat (bool driven) noexcept override { return ! failsafe || failsafe->beat (driven); }
+
 private:
     Result<> outcome (int result)
     {

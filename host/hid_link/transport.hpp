@@ -43,9 +43,13 @@ public:
     /// Requests the feature report whose id is the first byte of `report`, and stores it in `report`.
     virtual Result<> getFeature (std::span<std::uint8_t> report) = 0;
 
-    /// Arranges for these reports to be written, in this order, if the process dies without closing the device. Replaces
-    /// the reports of the previous call.
+    /// Arranges for these reports to be written, in this order, if the process dies or freezes without closing the device.
+    /// Replaces the reports of the previous call.
     virtual Result<> armFailsafe (const std::vector<OutgoingReport>&) { return {}; }
+
+    /// Tells the failsafe that the writing thread is alive, and whether there may be an effort on the device. Returns false if the
+    /// device must be opened anew and get no effort until then, because the failsafe has written to it or the computer has slept.
+    virtual bool beat (bool /*driven*/) noexcept { return true; }
 };
 
 /// A connected device, whether open or not.

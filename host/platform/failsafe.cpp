@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "failsafe.hpp"
+#include "guardian.hpp"
 
 #include <utility>
 
 #if defined(__linux__)
 #include <fcntl.h>
-#include <linux/hidraw.h>
-#include <sys/ioctl.h>
-#include <sys/prctl.h>
+#include <poll.h>
+#include <sys/mman.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -16,8 +17,11 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <mutex>
+#include <new>
 #include <system_error>
+#include <thread>
 #endif
 
 namespace tactus::host
@@ -25,17 +29,12 @@ namespace tactus::host
 
 #if defined(__linux__)
 
+using guardian::faults;
+using guardian::FinalReports;
+using guardian::Shared;
+
 namespace
 {
-/// Plain bytes, because a signal handler reads it and it is sent through a socket.
-struct FinalReports
-{
-    std::uint32_t slot = 0, count = 0;   // count 0: disarmed
-    std::array<std::uint16_t, Failsafe::most_reports> sizes {};
-    std::array<std::uint8_t, Failsafe::most_reports> is_feature {};
-    std::array<std::uint8_t, Failsafe::most_bytes> bytes {};
-};
-
 struct Entry
 {
     std::atomic<int> file { -1 };   // `reports` is valid only while this is an open file
@@ -45,26 +44,42 @@ struct Entry
 std::array<Entry, Failsafe::most_devices> armed;
 static_assert (std::atomic<int>::is_always_lock_free, "a signal handler reads it");
 
-std::mutex changing;
-int to_guardian = -1;
+constexpr std::int64_t shortest_sleep = 50'000'000;     // ns; far longer than the two readings of hasSleptFor() are apart
+constexpr std::int64_t longest_pause = 1'000'000'000;   // ns between two beats; longer than patience, because only a frozen guardian lets it happen
 
-constexpr std::array faults { SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL };
+std::mutex changing;
+std::atomic<Shared*> shared { nullptr };   // from the first guardian on
+int to_guardian = -1;
+pid_t guardian_process = -1;
+
 std::array<struct sigaction, faults.size()> handled_before;
 
-void write (int file, const FinalReports& reports) noexcept
+std::int64_t nanoseconds (clockid_t clock) noexcept
 {
-    const auto* at = reports.bytes.data();
-    for (std::size_t i = 0; i < reports.count; at += reports.sizes[i++])
-        if (reports.is_feature[i] != 0)
-            (void)::ioctl (file, HIDIOCSFEATURE (reports.sizes[i]), at);
-        else if (::write (file, at, reports.sizes[i]) < 0)
-            continue;   // there is nothing left to report the error to
+    timespec now {};
+    ::clock_gettime (clock, &now);
+    return std::int64_t { now.tv_sec } * 1'000'000'000 + now.tv_nsec;
+}
+
+/// The steady clock pauses while the computer sleeps, and CLOCK_BOOTTIME does not. Read in this order, so that a delay between the
+/// two readings looks like less sleep, never like more.
+std::int64_t hasSleptFor() noexcept
+{
+    const auto with_sleep = nanoseconds (CLOCK_BOOTTIME);
+    return with_sleep - nanoseconds (CLOCK_MONOTONIC);
+}
+
+void noticeSleep (Shared& with) noexcept
+{
+    const auto now = hasSleptFor();
+    auto before = with.asleep.load();
+    if (now - before > shortest_sleep && with.asleep.compare_exchange_strong (before, now)) with.raiseAlarm (Shared::Cause::slept, now - before);
 }
 
 void writeAll() noexcept
 {
     for (const auto& entry : armed)
-        if (const int file = entry.file.load(); file >= 0) write (file, entry.reports);
+        if (const int file = entry.file.load(); file >= 0) guardian::write (file, entry.reports);
 }
 
 extern "C" void afterFault (int signal)
@@ -77,103 +92,74 @@ extern "C" void afterFault (int signal)
     ::raise (signal);   // takes effect when this handler returns
 }
 
-/// Receives a message and, if it arms a failsafe, the device file. False once the other end is closed.
-bool receive (int from, FinalReports& reports, int& file) noexcept
-{
-    iovec part { &reports, sizeof reports };
-    alignas (cmsghdr) std::array<char, CMSG_SPACE (sizeof (int))> room {};
-    msghdr message {};
-    message.msg_iov = &part;
-    message.msg_iovlen = 1;
-    message.msg_control = room.data();
-    message.msg_controllen = room.size();
-
-    ssize_t got = 0;
-    while ((got = ::recvmsg (from, &message, 0)) < 0 && errno == EINTR)
-        ;
-    if (got != sizeof reports) return false;
-
-    file = -1;
-    if (const auto* header = CMSG_FIRSTHDR (&message); header != nullptr && header->cmsg_type == SCM_RIGHTS)
-        std::memcpy (&file, CMSG_DATA (header), sizeof file);
-    return true;
-}
-
-bool send (int to, const FinalReports& reports, int file) noexcept
-{
-    FinalReports copy = reports;
-    iovec part { &copy, sizeof copy };
-    alignas (cmsghdr) std::array<char, CMSG_SPACE (sizeof (int))> room {};
-    msghdr message {};
-    message.msg_iov = &part;
-    message.msg_iovlen = 1;
-    if (file >= 0)
-    {
-        message.msg_control = room.data();
-        message.msg_controllen = room.size();
-        auto* const header = CMSG_FIRSTHDR (&message);
-        header->cmsg_level = SOL_SOCKET;
-        header->cmsg_type = SCM_RIGHTS;
-        header->cmsg_len = CMSG_LEN (sizeof file);
-        std::memcpy (CMSG_DATA (header), &file, sizeof file);
-    }
-    return ::sendmsg (to, &message, MSG_NOSIGNAL) == sizeof copy;
-}
-
-/// The whole guardian process. It is forked from a process with threads, so nothing here may allocate or lock. It has its own
-/// copy of `armed`.
-[[noreturn]] void guard (int socket) noexcept
-{
-    // Ctrl-C is meant for the other process. Files that the other process has open must not stay open here.
-    ::setsid();
-    for (const int signal : { SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT })
-        ::signal (signal, SIG_IGN);
-    for (const int signal : faults)
-        ::signal (signal, SIG_DFL);
-    ::prctl (PR_SET_NAME, "tactus-guardian");
-    if (::chdir ("/") != 0) ::_exit (1);
-    if (socket != 0) ::dup2 (socket, 0);
-    ::close_range (1, ~0U, 0);
-
-    for (auto& entry : armed)
-        entry.file = -1;
-
-    static FinalReports reports;
-    int file = -1;
-    while (receive (0, reports, file))
-    {
-        if (reports.slot >= armed.size()) continue;
-        auto& entry = armed[reports.slot];
-        if (const int old = entry.file.exchange (-1); old >= 0) ::close (old);
-        entry.reports = reports;
-        if (reports.count > 0) entry.file = file;
-    }
-    writeAll();
-    ::_exit (0);
-}
-
 std::string reason (int error) { return std::generic_category().message (error); }
 
-/// Starts the guardian if there is none yet. Returns why this failed; empty if it did not. [with `changing` held]
-std::string needGuardian()
+/// Forks a guardian and gives it what is armed. Returns an errno; 0 if it worked. [with `changing` held]
+int startGuardian()
 {
-    if (to_guardian >= 0) return {};
     std::array<int, 2> ends {};
-    if (::socketpair (AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) return reason (errno);
+    if (::socketpair (AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) return errno;
+    auto& with = *shared.load();
     const auto child = ::fork();
     if (child == 0)
     {
         ::close (ends[0]);
-        guard (ends[1]);
+        guardian::guard (ends[1], with);
     }
+    const int error = errno;
     ::close (ends[1]);
     if (child < 0)
     {
-        const auto why = reason (errno);
         ::close (ends[0]);
-        return why;
+        return error;
     }
     to_guardian = ends[0];
+    guardian_process = child;
+    for (const auto& entry : armed)
+        if (const int file = entry.file.load(); file >= 0) guardian::send (to_guardian, entry.reports, file);
+    return 0;
+}
+
+/// A thread that replaces the guardian whenever someone kills it. As long as that fails, the alarm is raised again and again, and
+/// because nothing rearms within a second of an alarm, the forces stay at zero.
+void watchGuardian()
+{
+    std::unique_lock lock (changing);
+    for (;;)
+    {
+        pollfd socket { .fd = to_guardian, .events = 0, .revents = 0 };
+        const auto child = guardian_process;
+        lock.unlock();
+        while (::poll (&socket, 1, -1) < 0)
+            ;
+        shared.load()->raiseAlarm (Shared::Cause::unguarded, 0);
+        ::waitpid (child, nullptr, 0);
+        lock.lock();
+        ::close (std::exchange (to_guardian, -1));
+        while (to_guardian < 0)
+            if (const int error = startGuardian(); error != 0)
+            {
+                shared.load()->raiseAlarm (Shared::Cause::unguarded, error);
+                lock.unlock();
+                std::this_thread::sleep_for (std::chrono::milliseconds (250));
+                lock.lock();
+            }
+    }
+}
+
+/// Starts the first guardian, unless there is one. Returns why this failed; empty if it did not. [with `changing` held]
+std::string needGuardian()
+{
+    if (shared.load() == nullptr)
+    {
+        void* const memory = ::mmap (nullptr, sizeof (Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+        if (memory == MAP_FAILED) return reason (errno);
+        auto* const fresh = new (memory) Shared;
+        fresh->asleep = hasSleptFor();
+        shared = fresh;
+    }
+    if (guardian_process >= 0) return {};   // if it has just died, watchGuardian() starts another one
+    if (const int error = startGuardian(); error != 0) return reason (error);
 
     for (std::size_t i = 0; i < faults.size(); ++i)
     {
@@ -183,6 +169,7 @@ std::string needGuardian()
         action.sa_handler = afterFault;
         ::sigaction (faults[i], &action, &handled_before[i]);
     }
+    std::thread (watchGuardian).detach();
     return {};
 }
 }   // namespace
@@ -213,14 +200,20 @@ Result<Failsafe> Failsafe::arm (const std::string& device_file, const std::vecto
     const int file = ::open (device_file.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
     if (file < 0) return failed (reason (errno));
     auto why = needGuardian();
-    if (why.empty() && ! send (to_guardian, final, file)) why = "the guardian process has died";
+    if (why.empty())
+    {
+        noticeSleep (*shared.load());
+        shared.load()->beats[slot] = Shared::at_rest;
+        // If the guardian has just died, the next one gets everything that is armed.
+        if (! guardian::send (to_guardian, final, file) && errno != EPIPE && errno != EBADF) why = reason (errno);
+    }
     if (! why.empty())
     {
         ::close (file);
         return failed (why);
     }
     entry.file = file;
-    return Failsafe (static_cast<int> (slot));
+    return Failsafe (static_cast<int> (slot), shared.load()->asleep);
 }
 
 Failsafe::~Failsafe()
@@ -228,8 +221,56 @@ Failsafe::~Failsafe()
     if (slot == none) return;
     const std::lock_guard lock (changing);
     auto& entry = armed[static_cast<std::size_t> (slot)];
+    shared.load()->beats[static_cast<std::size_t> (slot)] = Shared::at_rest;
     if (const int file = entry.file.exchange (-1); file >= 0) ::close (file);
-    send (to_guardian, { .slot = static_cast<std::uint32_t> (slot), .count = 0 }, -1);
+    guardian::send (to_guardian, { .slot = static_cast<std::uint32_t> (slot), .count = 0 }, -1);
+}
+
+bool Failsafe::beat (bool driven) noexcept
+{
+    if (slot == none) return true;
+    auto& with = *shared.load();
+    noticeSleep (with);
+    const auto now = nanoseconds (CLOCK_MONOTONIC);
+    auto& latest = with.beats[static_cast<std::size_t> (slot)];
+    auto before = latest.load();
+    if (before > Shared::at_rest && now - before > longest_pause && latest.compare_exchange_strong (before, Shared::taken))
+        with.raiseAlarm (Shared::Cause::frozen, before);
+    const bool is_ours = before != Shared::taken && latest.compare_exchange_strong (before, driven ? now : Shared::at_rest);
+    return is_ours && with.asleep == asleep;
+}
+
+std::uint32_t Failsafe::alarms() noexcept
+{
+    const auto* with = shared.load();
+    return with == nullptr ? 0 : with->alarms.load();
+}
+
+Message Failsafe::alarm()
+{
+    constexpr auto remedy = "rearm once it is safe";
+    const auto* with = shared.load();
+    if (with == nullptr) return {};
+    const auto detail = with->detail.load();
+    const auto inMs = [] (std::int64_t ns) { return std::to_string (ns / 1'000'000) + " ms"; };
+    switch (with->cause.load())
+    {
+    case Shared::Cause::frozen:
+        return Message::warning ("run/frozen", {},
+                                 "this program did not serve a device for " + inMs (nanoseconds (CLOCK_MONOTONIC) - detail)
+                                     + ", because it was suspended or the computer or the device was too busy, so the device was brought to rest; all"
+                                       " forces are held at zero",
+                                 remedy);
+    case Shared::Cause::unguarded:
+        return Message::warning ("run/unguarded", {},
+                                 "the guardian process, which brings the devices to rest if this program dies, has been killed; "
+                                     + (detail == 0 ? "another one takes its place" : "another one cannot be started: " + reason (static_cast<int> (detail)))
+                                     + "; all forces are held at zero",
+                                 remedy);
+    case Shared::Cause::slept:
+        return Message::warning ("run/slept", {}, "the computer was suspended for " + inMs (detail) + "; all forces are held at zero", remedy);
+    }
+    return {};
 }
 
 #else
@@ -240,16 +281,20 @@ Result<Failsafe> Failsafe::arm (const std::string& device_file, const std::vecto
 }
 
 Failsafe::~Failsafe() = default;
+bool Failsafe::beat (bool) noexcept { return true; }
+std::uint32_t Failsafe::alarms() noexcept { return 0; }
+Message Failsafe::alarm() { return {}; }
 
 #endif
 
-Failsafe::Failsafe (Failsafe&& other) noexcept : slot (std::exchange (other.slot, none))
+Failsafe::Failsafe (Failsafe&& other) noexcept : slot (std::exchange (other.slot, none)), asleep (other.asleep)
 {
 }
 
 Failsafe& Failsafe::operator= (Failsafe&& other) noexcept
 {
     std::swap (slot, other.slot);
+    std::swap (asleep, other.asleep);
     return *this;
 }
 

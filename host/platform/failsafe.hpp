@@ -3,6 +3,7 @@
 
 #include <framework/text/result.hpp>
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -11,16 +12,24 @@
 namespace tactus::host
 {
 
-/// Reports that are written to a device file if this process dies, for whatever reason, while the object exists:
+/// Reports that are written to a device file if this process dies or freezes, for whatever reason, while the object exists:
 ///  - after a fault (SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL) immediately, by a signal handler that only writes; then the
 ///    previous signal handler runs;
 ///  - after anything else (kill -9, out of memory) by a guardian: a small process that also has the device file open, and
-///    notices the death because a socket closes.
+///    notices the death because a socket closes;
+///  - by the guardian, too, if the thread that drives the device gives no sign of life (beat()) for as long as `patience`, for
+///    example because the process was suspended (kill -STOP, a debugger).
+///
+/// Three events raise an alarm, after which the forces of the whole run must stay at zero until someone rearms: a device was
+/// taken, the guardian itself was killed, or the computer has slept. Runs compare alarms() on every tick.
 ///
 /// Good to know
 ///  - After a fault both the handler and the guardian write, so the device must tolerate receiving the reports twice.
 ///  - After a stack overflow the handler has no stack, so only the guardian writes.
-///  - The guardian is forked when the first failsafe is armed, and ends with this process. It ignores Ctrl-C.
+///  - The guardian is forked when the first failsafe is armed, and ends with this process. It ignores Ctrl-C. If it is killed, a
+///    thread of this process forks another one at once.
+///  - The guardian counts its own looks at the beats and reads no clock, so it takes no device when the whole computer pauses.
+///    While program and guardian are frozen together, nothing is sent. beat() finds a pause of a second out afterwards.
 class Failsafe
 {
 public:
@@ -32,6 +41,9 @@ public:
 
     static constexpr std::size_t most_devices = 16, most_reports = 16, most_bytes = 4096;
 
+    /// How long a device under effort may go without a beat. The guardian takes the device about this long after the last one.
+    static constexpr std::chrono::milliseconds patience { 100 };
+
     /// Arms the failsafe. Writes nothing now. Id: device/failsafe. [main thread, or one that opens devices]
     static Result<Failsafe> arm (const std::string& device_file, const std::vector<Report>&);
 
@@ -39,11 +51,24 @@ public:
     Failsafe& operator= (Failsafe&&) noexcept;
     ~Failsafe();   ///< disarms the failsafe
 
+    /// A sign of life from the thread that writes to the device. Needed several times per `patience` while there may be an effort
+    /// on the device (`driven`), and once more without. No system call. Returns false from when the guardian has taken the device,
+    /// the computer has slept, or the last beat under effort was more than a second ago. The device must then be opened anew, and
+    /// get no effort until then. [one thread at a time]
+    bool beat (bool driven) noexcept;
+
+    /// The number of alarms so far. One atomic read. [any thread, also the tick thread]
+    static std::uint32_t alarms() noexcept;
+
+    /// What the latest alarm was about. Ids: run/frozen, run/unguarded, run/slept. [any thread but the tick thread]
+    static Message alarm();
+
 private:
-    explicit Failsafe (int s) noexcept : slot (s) {}
+    Failsafe (int s, std::int64_t slept) noexcept : slot (s), asleep (slept) {}
 
     static constexpr int none = -1;
     int slot = none;
+    std::int64_t asleep = 0;   // how long the computer had slept when this was armed, in ns
 };
 
 }   // namespace tactus::host

@@ -174,6 +174,21 @@ for signal in ("INT", "TERM", "KILL", "SEGV"):
     else:
         print(f"        {1e3 * (heard[-1][3] - pushed[-1][3]):.1f} ms after the last push")
 
+heard = Board("STOP").heard
+gap = next((i for i in range(len(heard) - 1) if heard[i + 1][3] - heard[i][3] > 2.0), 0)   # frozen from here to the next report
+check(gap > 10 and any(any(h[2]) for h in heard[:gap]) and heard[gap][0] == "neutral", "STOP: while the program is frozen, the board is at rest")
+later = [i for i in range(gap + 1, len(heard)) if heard[i][0] == "driven" and any(heard[i][2])]
+# A report that was on its way into the kernel when the program froze gets there when the program goes on. The next one is neutral.
+check(later in ([], [gap + 1]) and all(heard[i + 1][0] == "neutral" for i in later), "STOP: the program goes on without a force")
+check("run/frozen" in text("STOP.play.err"), "STOP: the program says that it was frozen")
+
+heard = Board("guardian").heard
+last = max((i for i, h in enumerate(heard) if h[0] == "driven" and any(h[2])), default=0)
+check(last > 10 and heard[-1][3] - heard[last][3] > 0.5, "guardian: there is no force after the guardian has been killed")
+check(not any([h for h in heard if h[0] == "driven"][-1][2]), "guardian: the force had gone to zero before the program was killed")
+check(heard[-1][0] == "neutral", "guardian: the last report to the board is neutral, from the next guardian")
+check("run/unguarded" in text("guardian.play.err"), "guardian: the program says that its guardian was killed")
+
 class Joystick:
     """What a joystick received, according to OpenFFBoard's descriptor: 05 block magnitude, 0a block operation, 0b block, 0c control."""
 

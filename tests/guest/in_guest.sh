@@ -23,12 +23,14 @@ unplug () { kill -TERM $sim; wait $sim; }
 keep () { local f; for f in board.csv play.csv play.err; do [ -e $work/$f ] && mv $work/$f "/run/results/$1.$f"; done; }
 
 play () { $tactus play graphs/dry_wood.json --device stylus=hid:tactus_board --osc off "$@" 2>$work/play.err; }
+to_player () { kill -"$1" "$(pgrep -x tactus | head -1)"; }
+wait_for_words () { for _ in $(seq 1200); do grep -q "$1" $work/play.err && return; sleep 0.1; done; fail "play did not say $1"; }
 # end_under_force SIGNAL: sends SIGNAL to the playing program once the device has received forces. Then waits until no process
 # has the device open, including the guardian that sends the neutral reports.
 end_under_force ()
 {
     wait_for "$work/pushed"
-    kill -"$1" "$(pgrep -x tactus | head -1)"
+    to_player "$1"
     wait $player
     for _ in $(seq 100); do pgrep ^tactus >/dev/null || break; sleep 0.1; done
     rm -f $work/pushed
@@ -65,6 +67,30 @@ for signal in INT TERM KILL SEGV; do
     unplug
     keep "$signal"
 done
+
+say "frozen under force, and continued"
+plug --mark $work/pushed
+play --duration 600 & player=$!
+wait_for "$work/pushed"
+to_player STOP
+sleep 3   # the guardian needs 0.1 s
+to_player CONT
+wait_for_words run/frozen
+sleep 2   # the device is opened again, and gets no force
+end_under_force INT
+unplug
+keep STOP
+
+say "its guardian is killed under force, and then the program"
+plug --mark $work/pushed
+play --duration 600 & player=$!
+wait_for "$work/pushed"
+kill -KILL "$(pgrep -x tactus-guardian)"
+wait_for_words run/unguarded
+sleep 1
+end_under_force KILL
+unplug
+keep guardian
 
 # gadget: creates a board on its own bus, behind the kernel's USB stack.
 gadget=/sys/kernel/config/usb_gadget/board

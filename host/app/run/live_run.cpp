@@ -8,10 +8,12 @@
 #include <host/app/model/device_profiles.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/hid_link/open_device.hpp>
+#include <host/platform/failsafe.hpp>
 #include <host/sessions/binding.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tactus::host
 {
@@ -301,6 +303,7 @@ void LiveRun::begin()
     note (run->engine().newest());
     probes.clear();
     run->openDevices (graph, said);
+    alarms_told = alarms_stopped = Failsafe::alarms();   // what happened before concerns no device of this run
     if (held) run->engine().emergencyStop();
     std::ranges::move (missingParts (run->engine().newest()), std::back_inserter (said));
     for (const auto& real : realDevices())
@@ -451,6 +454,11 @@ std::optional<LiveRun::Tool> LiveRun::tool() const
     return Tool { Vec3 (values.data()), Vec3 (values.data() + 3) };
 }
 
+void LiveRun::before (Plan&, std::uint64_t) noexcept
+{
+    if (const auto now = Failsafe::alarms(); std::exchange (alarms_stopped, now) != now) run->engine().emergencyStop();
+}
+
 void LiveRun::after (const Plan& plan, std::uint64_t, bool) noexcept
 {
     const auto role = std::ranges::find_if (plan.roles(), [this] (const auto& r) { return r.name == hand_role; });
@@ -467,8 +475,19 @@ std::optional<audio::AudioStatus> LiveRun::audioStatus() const
     return rig->status();
 }
 
+void LiveRun::noticeAlarms()
+{
+    const auto now = Failsafe::alarms();
+    if (std::exchange (alarms_told, now) == now || ! isRunning()) return;
+    emergencyStop();
+    auto alarm = Failsafe::alarm();
+    std::erase_if (said, [&] (const Message& m) { return m.id == alarm.id; });
+    said.push_back (std::move (alarm));
+}
+
 void LiveRun::attend()
 {
+    noticeAlarms();
     if (begins && ! isRunning()) begin();
     if (isLive())
     {

@@ -21,6 +21,7 @@
 #include <host/sessions/run_clock.hpp>
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <variant>
@@ -68,8 +69,8 @@ public:
     void start (Hand);      ///< restarts a run that is in progress, once its forces are zero
     void stop() noexcept;   ///< ramps the forces to zero, then stops; does not wait
 
-    /// Brings all forces to zero smoothly while the graph keeps running. Like every latched stop, this ends with rearm() or when
-    /// the user starts again; an edit does not end it.
+    /// Brings all forces to zero smoothly while the graph keeps running. An alarm of the failsafe does this too. Like every latched
+    /// stop, this ends with rearm() or when the user starts again; an edit does not end it.
     void emergencyStop() noexcept;
 
     /// Lets the forces rise again. Does nothing within a second of emergencyStop(), so that a double click or a second key press
@@ -152,7 +153,9 @@ public:
     void attend();
 
 private:
+    void noticeAlarms();
     void documentChanged() override;
+    void before (Plan&, std::uint64_t tick) noexcept override;
     void after (const Plan&, std::uint64_t tick, bool halts) noexcept override;
 
     bool isLive() const noexcept { return run && run->isLive(); }
@@ -185,6 +188,7 @@ private:
     Hand moved_by;
     std::chrono::steady_clock::time_point stopped_at = std::chrono::steady_clock::time_point::min();
     bool held = false;                                       // an emergency stop or another latched stop holds the forces at zero until rearm()
+    std::uint32_t alarms_told = 0, alarms_stopped = 0;       // alarms of the failsafe; the second is for the tick thread
     bool begins = false;                                     // starts once the previous run is over
     bool wanted = false;                                     // started and not stopped: the run begins as soon as the graph compiles
     std::vector<std::pair<std::string, Json>> run_devices;   // the graph's devices at the start of the run

@@ -133,6 +133,19 @@ public:
         change ([&] { forbidden = f; });
     }
 
+    /// As if the guardian had brought the board to rest: it must be opened again.
+    void take()
+    {
+        change ([&] { taken = opened; });
+    }
+
+    /// The number of beats while there could be an effort on the board.
+    int beats() const
+    {
+        const std::lock_guard lock (mutex);
+        return beaten;
+    }
+
     std::vector<Told> told() const
     {
         const std::lock_guard lock (mutex);
@@ -170,14 +183,14 @@ public:
         if (forbidden) return Message::error ("hid/not_permitted", what.path, "Permission denied");
         if (! plugged) return Message::error ("hid/not_opened", what.path, "No such device");
         ++opened;
-        return std::make_unique<Wire> (*this, plugging);
+        return std::make_unique<Wire> (*this, plugging, opened);
     }
 
 private:
     class Wire final : public host::hid::Transport
     {
     public:
-        Wire (FakeBoard& b, int p) : board (b), plugging (p) {}
+        Wire (FakeBoard& b, int p, int o) : board (b), plugging (p), opening (o) {}
 
         Result<std::size_t> read (std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override
         {
@@ -203,6 +216,13 @@ private:
             return armed;
         }
 
+        bool beat (bool driven) noexcept override
+        {
+            const std::lock_guard lock (board.mutex);
+            board.beaten += driven ? 1 : 0;
+            return opening > board.taken;
+        }
+
     private:
         bool gone() const { return ! board.plugged || board.plugging != plugging; }
 
@@ -217,7 +237,7 @@ private:
         }
 
         FakeBoard& board;
-        const int plugging;
+        const int plugging, opening;
     };
 
     template <typename F>
@@ -235,7 +255,7 @@ private:
     std::deque<Bytes> waiting;
     std::vector<Told> log;
     bool plugged = true, failing = false, forbidden = false;
-    int plugging = 0, opened = 0;
+    int plugging = 0, opened = 0, taken = 0, beaten = 0;
 };
 
 inline std::unique_ptr<host::hid::HidDevice> openBoard (FakeBoard& board, const BoardProfile& profile = {})

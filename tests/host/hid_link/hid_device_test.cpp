@@ -260,6 +260,42 @@ TEST_CASE ("an effort from before a device went away is never sent afterwards", 
     CHECK (board.until ([&] { return driven (board) > before; }));
 }
 
+TEST_CASE ("a device that the guardian has brought to rest is opened again, and starts from zero", "[hid]")
+{
+    FakeBoard board;
+    const auto device = openBoard (board, { .watchdog = 10.0 });
+    tell (board, *device, boardReport (1));
+    CHECK (board.beats() == 0);
+    const Effort none {}, push { { 1.0, 0.0, 0.0 }, Vec3::Zero() };
+    device->write (none);
+    device->read();
+    device->write (push);
+    REQUIRE (board.until ([&] { return board.told().back().isDriven() && board.told().back().force (0) == 1000000; }));
+    const auto beats = board.beats();
+    CHECK (board.until ([&] { return board.beats() > beats + 5; }));   // they do not depend on the ticks
+
+    const auto before = board.told().size();
+    const auto driven_before = driven (board);
+    board.take();
+    device->write (push);   // the ticks continue as if nothing had happened
+    REQUIRE (board.until ([&] { return board.openings() == 2 && device->port().isConnected(); }));
+    const auto told = board.told();
+    CHECK (told.at (before).isNeutral());
+    const auto isInit = [] (const test::Told& t) { return t.bytes == Bytes { 0, 0xaa, 0x01 }; };
+    CHECK (std::any_of (told.begin() + static_cast<std::ptrdiff_t> (before), told.end(), isInit));
+    CHECK (device->port().counts().departures == 1);
+
+    device->write (push);
+    CHECK_FALSE (tell (board, *device, boardReport (2)).valid);   // so the guard must stop,
+    device->write (push);                                         // but it is not at zero yet
+    std::this_thread::sleep_for (5ms);
+    CHECK (driven (board) == driven_before);
+    device->write (none);
+    CHECK (tell (board, *device, boardReport (3)).valid);
+    device->write (push);
+    CHECK (board.until ([&] { return driven (board) > driven_before; }));
+}
+
 TEST_CASE ("a port without new efforts sends its device to rest, and later efforts start from zero", "[hid]")
 {
     FakeBoard board;

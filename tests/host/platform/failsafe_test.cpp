@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "support/guardian.hpp"
 #include "support/no_system_calls.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -12,6 +13,8 @@
 #include <sstream>
 #include <thread>
 
+#include <sched.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 using namespace tactus;
@@ -28,6 +31,38 @@ std::string contentOf (const std::string& file)
 }
 
 std::vector<Failsafe::Report> rest() { return { { { 'r', 'e', 's', 't' }, false }, { { '!' }, false } }; }
+
+/// True as soon as the condition holds; false if it still does not hold after a long time.
+template <typename F>
+bool until (F&& isSo)
+{
+    for (int i = 0; i < 5000 && ! isSo(); ++i)
+        std::this_thread::sleep_for (std::chrono::milliseconds (2));
+    return isSo();
+}
+
+/// Suspends this process, with all its threads, until the file has this content.
+void freezeUntil (const std::string& file, const std::string& content)
+{
+    const auto frozen = ::getpid();
+    const auto waker = ::fork();
+    if (waker == 0)
+    {
+        until ([&] { return contentOf (file) == content; });
+        ::kill (frozen, SIGCONT);
+        ::_exit (0);
+    }
+    ::raise (SIGSTOP);
+    ::waitpid (waker, nullptr, 0);
+}
+
+/// Lets the child processes of this one live in a world in which the computer has slept for 100 s. False if the system refuses.
+bool letChildrenSleep()
+{
+    constexpr int new_time = 0x80;   // CLONE_NEWTIME, which older headers lack
+    if (::unshare (CLONE_NEWUSER | new_time) != 0 && ::unshare (new_time) != 0) return false;
+    return static_cast<bool> (std::ofstream ("/proc/self/timens_offsets") << "boottime 100 0" << std::flush);
+}
 
 /// Forks a process that arms a failsafe on a file and dies. Returns what was written to the file.
 std::string afterDying (const std::string& file, const std::function<void()>& die, const std::string& awaited)
@@ -85,4 +120,89 @@ TEST_CASE ("a process that disarms its failsafe writes nothing", "[platform]")
     });
     std::this_thread::sleep_for (std::chrono::milliseconds (50));
     CHECK (contentOf (file).empty());
+}
+
+TEST_CASE ("the guardian brings the device of a frozen process to rest, and the process finds out when it goes on", "[platform]")
+{
+    const TemporaryFolder folder;
+    const auto file = (folder / "device").string(), other = (folder / "other").string();
+    std::ofstream { file };
+    std::ofstream { other };
+    const auto end = test::inChild ([&] {
+        auto resting = Failsafe::arm (other, rest());   // armed first, so the guardian looks at it first
+        auto driven = Failsafe::arm (file, rest());
+        if (! resting || ! driven) return 1;
+        if (! resting->beat (false) || ! driven->beat (true)) return 2;
+        freezeUntil (file, "rest!");
+        if (Failsafe::alarms() != 1 || Failsafe::alarm().id != "run/frozen") return 3;
+        if (driven->beat (true) || driven->beat (false) || driven->beat (true)) return 4;
+        if (! resting->beat (false)) return 5;
+        driven = Failsafe::arm (file, rest());   // opened again, the device is this process's
+        if (! driven || ! driven->beat (false) || Failsafe::alarms() != 1) return 6;
+        return 0;
+    });
+    CHECK (end.status == 0);
+    CHECK (contentOf (file) == "rest!");
+    CHECK (contentOf (other).empty());
+}
+
+TEST_CASE ("a process that was frozen together with its guardian finds out when it goes on", "[platform]")
+{
+    const TemporaryFolder folder;
+    const auto file = (folder / "device").string();
+    std::ofstream { file };
+    const auto end = test::inChild ([&] {
+        auto failsafe = Failsafe::arm (file, rest());
+        if (! failsafe || ! failsafe->beat (false)) return 1;
+        pid_t guardian = -1;
+        if (! until ([&] { return (guardian = test::guardianOf (::getpid())) > 0; })) return 2;
+        ::kill (guardian, SIGSTOP);
+        if (::waitpid (guardian, nullptr, WUNTRACED) != guardian) return 3;
+        if (! failsafe->beat (true)) return 4;
+        std::this_thread::sleep_for (std::chrono::milliseconds (1100));
+        const bool noticed = ! failsafe->beat (true) && ! failsafe->beat (false) && Failsafe::alarms() == 1 && Failsafe::alarm().id == "run/frozen";
+        ::kill (guardian, SIGCONT);
+        return noticed ? 0 : 5;
+    });
+    CHECK (end.status == 0);
+    CHECK (contentOf (file).empty());
+}
+
+TEST_CASE ("if the guardian is killed, there is an alarm, and another one takes its place", "[platform]")
+{
+    const TemporaryFolder folder;
+    const auto file = (folder / "device").string();
+    const auto killGuardianFirst = [&] {
+        const auto guardian = [] { return test::guardianOf (::getpid()); };
+        pid_t first = -1;
+        if (! until ([&] { return (first = guardian()) > 0; }) || Failsafe::alarms() != 0) return;
+        ::kill (first, SIGKILL);
+        const auto hasNext = [&] { return guardian() > 0 && guardian() != first; };
+        if (! until ([&] { return Failsafe::alarms() == 1 && hasNext(); }) || Failsafe::alarm().id != "run/unguarded") return;
+        static_cast<void> (Failsafe::arm (file, {}));   // returns only after the next guardian has been told everything
+        ::kill (::getpid(), SIGKILL);
+    };
+    CHECK (afterDying (file, killGuardianFirst, "rest!") == "rest!");
+}
+
+TEST_CASE ("a process finds out that the computer has slept, before it drives a device again", "[platform]")
+{
+    constexpr int refused = 77;
+    const TemporaryFolder folder;
+    const auto file = (folder / "device").string();
+    std::ofstream { file };
+    const auto end = test::inChild ([&] {
+        if (! letChildrenSleep()) return refused;
+        auto failsafe = Failsafe::arm (file, rest());
+        if (! failsafe || ! failsafe->beat (false) || Failsafe::alarms() != 0) return 1;
+        const auto later = test::inChild ([&] {
+            if (failsafe->beat (false) || failsafe->beat (false)) return 2;
+            return Failsafe::alarms() == 1 && Failsafe::alarm().id == "run/slept" ? 0 : 3;
+        });
+        return later.status;
+    });
+    if (end.status == refused)
+        WARN ("skipped: time namespaces are not available here");
+    else
+        CHECK (end.status == 0);
 }

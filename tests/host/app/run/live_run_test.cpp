@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "host/app/support/canvas_rig.hpp"
 
+#include "support/guardian.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <host/app/run/device_setup.hpp>
 #include <host/app/run/live_run.hpp>
+#include <host/platform/failsafe.hpp>
 
 #include <framework/file/graph_file.hpp>
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <chrono>
+#include <csignal>
 #include <fstream>
 #include <thread>
+
+#include <unistd.h>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -146,6 +152,28 @@ TEST_CASE ("the emergency stop removes the forces while the graph keeps running,
     p.emergencyStop();
     p.start ({});   // starting the run by hand also clears the stop
     CHECK (until (p, [&] { return p.isRunning() && force() > 0.1; }));
+}
+
+TEST_CASE ("an alarm of the failsafe removes the forces until someone rearms, and the messages say why", "[app][run]")
+{
+    const TemporaryFolder folder;
+    std::ofstream { folder / "device" };
+    const auto failsafe = Failsafe::arm ((folder / "device").string(), { { { 0 }, false } });
+    REQUIRE (failsafe);
+    CanvasRig rig { CanvasRig::preset ("dry_wood") };
+    LiveRun p { rig.document, catalogue() };
+    p.start ({});
+    const auto force = [&] { return p.status()->force; };
+    REQUIRE (until (p, [&] { return force() > 0.1; }));
+    REQUIRE (until (p, [&] { return tactus::test::guardianOf (::getpid()) > 0; }));
+    ::kill (tactus::test::guardianOf (::getpid()), SIGKILL);
+    const auto saysWhy = [&] { return std::ranges::any_of (p.messages(), [] (const Message& m) { return m.id == "run/unguarded"; }); };
+    REQUIRE (until (p, [&] { return p.isStoppedForGood() && force() == 0.0 && saysWhy(); }));
+    CHECK (p.isRunning());
+
+    CHECK (until (p, [&] { return p.canRearm(); }));   // a second after the alarm
+    p.rearm();
+    CHECK (until (p, [&] { return force() > 0.1; }));
 }
 
 TEST_CASE ("the tool follows the mouse, and meets the surface where the mouse points", "[app][run]")

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "guardian.hpp"
+
+#if defined(__linux__)
+#include <fcntl.h>
+#include <linux/hidraw.h>
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace tactus::host::guardian
+{
+
+namespace
+{
+constexpr int look_apart_ms = 10, looks_until_taken = static_cast<int> (Failsafe::patience.count()) / look_apart_ms;
+
+struct Held
+{
+    int file = -1;   // `reports` is valid only while this is an open file
+    FinalReports reports {};
+};
+std::array<Held, Failsafe::most_devices> held;   // by the guardian process; unused in the other one
+
+/// Receives a message and, if it arms a failsafe, the device file. False once the other end is closed.
+bool receive (int from, FinalReports& reports, int& file) noexcept
+{
+    iovec part { &reports, sizeof reports };
+    alignas (cmsghdr) std::array<char, CMSG_SPACE (sizeof (int))> room {};
+    msghdr message {};
+    message.msg_iov = &part;
+    message.msg_iovlen = 1;
+    message.msg_control = room.data();
+    message.msg_controllen = room.size();
+
+    ssize_t got = 0;
+    while ((got = ::recvmsg (from, &message, 0)) < 0 && errno == EINTR)
+        ;
+    if (got != sizeof reports) return false;
+
+    file = -1;
+    if (const auto* header = CMSG_FIRSTHDR (&message); header != nullptr && header->cmsg_type == SCM_RIGHTS)
+        std::memcpy (&file, CMSG_DATA (header), sizeof file);
+    return true;
+}
+
+/// Takes each device whose beats have stopped under effort. The exchange fails if a beat comes at the last moment, and later
+/// beats see that the device is taken, so it never happens that both sides drive the device.
+void lookAtBeats (Shared& shared) noexcept
+{
+    struct Seen
+    {
+        std::int64_t beat = Shared::at_rest;
+        int times = 0;
+    };
+    static std::array<Seen, Failsafe::most_devices> all;
+
+    for (std::size_t i = 0; i < held.size(); ++i)
+    {
+        auto beat = shared.beats[i].load();
+        const bool stands_still = beat > Shared::at_rest && beat == all[i].beat;
+        all[i] = { beat, stands_still ? all[i].times + 1 : 0 };
+        if (held[i].file < 0 || all[i].times < looks_until_taken || ! shared.beats[i].compare_exchange_strong (beat, Shared::taken)) continue;
+        shared.raiseAlarm (Shared::Cause::frozen, beat);
+        write (held[i].file, held[i].reports);
+    }
+}
+
+void takeOver (const FinalReports& reports, int file) noexcept
+{
+    if (reports.slot >= held.size()) return;
+    auto& slot = held[reports.slot];
+    if (slot.file >= 0) ::close (slot.file);
+    slot = { reports.count > 0 ? file : -1, reports };
+}
+}   // namespace
+
+void write (int file, const FinalReports& reports) noexcept
+{
+    const auto* at = reports.bytes.data();
+    for (std::size_t i = 0; i < reports.count; at += reports.sizes[i++])
+        if (reports.is_feature[i] != 0)
+            (void)::ioctl (file, HIDIOCSFEATURE (reports.sizes[i]), at);
+        else if (::write (file, at, reports.sizes[i]) < 0)
+            continue;   // there is nothing left to report the error to
+}
+
+bool send (int to, const FinalReports& reports, int file) noexcept
+{
+    FinalReports copy = reports;
+    iovec part { &copy, sizeof copy };
+    alignas (cmsghdr) std::array<char, CMSG_SPACE (sizeof (int))> room {};
+    msghdr message {};
+    message.msg_iov = &part;
+    message.msg_iovlen = 1;
+    if (file >= 0)
+    {
+        message.msg_control = room.data();
+        message.msg_controllen = room.size();
+        auto* const header = CMSG_FIRSTHDR (&message);
+        header->cmsg_level = SOL_SOCKET;
+        header->cmsg_type = SCM_RIGHTS;
+        header->cmsg_len = CMSG_LEN (sizeof file);
+        std::memcpy (CMSG_DATA (header), &file, sizeof file);
+    }
+    return ::sendmsg (to, &message, MSG_NOSIGNAL) == sizeof copy;
+}
+
+[[noreturn]] void guard (int socket, Shared& shared) noexcept
+{
+    // Ctrl-C is meant for the other process. Files that the other process has open must not stay open here.
+    ::setsid();
+    for (const int signal : { SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT })
+        ::signal (signal, SIG_IGN);
+    for (const int signal : faults)
+        ::signal (signal, SIG_DFL);
+    ::prctl (PR_SET_NAME, "tactus-guardian");
+    if (::chdir ("/") != 0) ::_exit (1);
+    if (socket != 0) ::dup2 (socket, 0);
+    ::close_range (1, ~0U, 0);
+
+    static FinalReports reports;
+    int file = -1;
+    for (;;)
+    {
+        pollfd messages { .fd = 0, .events = POLLIN, .revents = 0 };
+        const int ready = ::poll (&messages, 1, look_apart_ms);
+        if (ready == 0)
+            lookAtBeats (shared);
+        else if (ready > 0 && receive (0, reports, file))
+            takeOver (reports, file);
+        else if (ready > 0 || errno != EINTR)
+            break;
+    }
+    for (const auto& [kept, last] : held)
+        if (kept >= 0) write (kept, last);
+    ::_exit (0);
+}
+
+}   // namespace tactus::host::guardian
+
+#endif

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "failsafe.hpp"
+
+#if defined(__linux__)
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <cstdint>
+#endif
+
+namespace tactus::host::guardian
+{
+
+#if defined(__linux__)
+
+/// Plain bytes, because a signal handler reads it and it is sent through a socket.
+struct FinalReports
+{
+    std::uint32_t slot = 0, count = 0;   // count 0: disarmed
+    std::array<std::uint16_t, Failsafe::most_reports> sizes {};
+    std::array<std::uint8_t, Failsafe::most_reports> is_feature {};
+    std::array<std::uint8_t, Failsafe::most_bytes> bytes {};
+};
+
+/// Memory that this process and the guardian share. Beats and alarms go through it because they must cost no system call.
+struct Shared
+{
+    enum class Cause
+    {
+        frozen,
+        unguarded,
+        slept
+    };
+
+    /// When the latest beat of each device came, in ns of the steady clock, or at_rest, or taken.
+    std::array<std::atomic<std::int64_t>, Failsafe::most_devices> beats {};
+    std::atomic<std::int64_t> asleep { 0 };   ///< how long the computer has slept, in ns, as far as anyone has noticed
+
+    /// The latest alarm. The detail is, if frozen: the last beat; unguarded: an errno, or 0; slept: for how long, in ns.
+    std::atomic<Cause> cause { Cause::frozen };
+    std::atomic<std::int64_t> detail { 0 };
+    std::atomic<std::uint32_t> alarms { 0 };   ///< counts them
+
+    static constexpr std::int64_t at_rest = 0, taken = -1;   ///< there is nothing to watch; the device is no longer the program's, until it is opened again
+
+    void raiseAlarm (Cause c, std::int64_t d) noexcept
+    {
+        detail = d;
+        cause = c;
+        ++alarms;   // last, because readers look at this first
+    }
+};
+static_assert (std::atomic<std::int64_t>::is_always_lock_free && std::atomic<Shared::Cause>::is_always_lock_free, "two processes share them");
+
+/// The signals that mean a fault of the program.
+inline constexpr std::array faults { SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL };
+
+/// Writes all reports to a device file. [also in a signal handler]
+void write (int file, const FinalReports&) noexcept;
+
+/// Sends the guardian a message that arms a slot, with its device file, or disarms it. False, with errno, if this failed.
+bool send (int to, const FinalReports&, int file) noexcept;
+
+/// The whole guardian process, from the fork to its end. It is forked from a process with threads, so nothing in it may allocate or
+/// lock. `socket` brings its messages.
+[[noreturn]] void guard (int socket, Shared&) noexcept;
+
+#endif
+
+}   // namespace tactus::host::guardian
