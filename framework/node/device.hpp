@@ -2,6 +2,7 @@
 #pragma once
 
 #include <framework/kit/vec3.hpp>
+#include <framework/node/reading_fault.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -73,6 +74,7 @@ struct Reading
     Vec3 rotation = Vec3::Zero();        ///< rotation vector, in rad
     double pressure = 0.0;               ///< in N, if the device measures it
     std::uint32_t buttons = 0;           ///< bit i: button i is down
+    ReadingFault fault {};               ///< why the reading is not valid, or why it gets old, if the driver knows
     double age = 0.0;                    ///< time since the device took this reading, in s
     bool valid = true;                   ///< false while the device has nothing to report
     Vec3 true_position = Vec3::Zero();   ///< in m; known only for a simulated device

@@ -93,6 +93,32 @@ private:
     Vec3 velocity = Vec3::Zero();
 };
 
+/// How long a position has stayed the same, to the last bit, while a force pushed the hand.
+///
+/// A hand that holds against a force never rests: it trembles at 8 to 12 Hz, by tens of micrometres. So a position that does not
+/// change comes from a sensor that has stopped, if the sensor's quantum is finer than the tremor: at most about 10 um.
+class StillWatch
+{
+public:
+    /// Only another position ends the count. Without a force the count waits, because a stop that ended itself by taking the
+    /// force away would push the hand again and again. [tick thread]
+    void operator() (const Vec3& position, bool is_pushed, double dt_s) noexcept
+    {
+        if (position != before)
+            still = 0.0;
+        else if (is_pushed)
+            still += dt_s;
+        before = position;
+    }
+
+    /// In s.
+    double time() const noexcept { return still; }
+
+private:
+    Vec3 before = Vec3::Zero();
+    double still = 0.0;
+};
+
 /// The integral of |force| over the last `window`, stored in sixteenths of the window. It covers at least the window, and at
 /// most 17/16 of it plus 17 ticks.
 class ImpulseWatch

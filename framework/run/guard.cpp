@@ -148,6 +148,8 @@ GuardLimits tightest (const GuardLimits& a, const GuardLimits& b) noexcept
         .impulse_window = longer (smallestImpulse (a), a.impulse_window, smallestImpulse (b), b.impulse_window),
         .max_energy = less (a.max_energy, b.max_energy),
         .energy_window = longer (a.max_energy, a.energy_window, b.max_energy, b.energy_window),
+        .max_still = less (a.max_still, b.max_still),
+        .still_force = less (a.still_force, b.still_force),
         .dead_man_pressure = std::max (orForever (a.dead_man_pressure), orForever (b.dead_man_pressure)),
         .dead_man_buttons = a.dead_man_buttons | b.dead_man_buttons,
     };
@@ -163,7 +165,7 @@ void Guard::prepare (const GuardLimits& wanted, double dt_s, const DeviceLayout&
     axis_of_effort = axesOf (layout);
     const bool knows_axes = std::ranges::any_of (axis_of_effort, [] (int axis) { return axis >= 0; });
     watches_axes = knows_axes && limitsAny (limits.max_axis_speed, limits.max_energy);
-    is_watching = watches_turns || watches_axes || limitsAny (limits.max_speed, smallestImpulse (limits));
+    is_watching = watches_turns || watches_axes || limitsAny (limits.max_speed, limits.max_still, smallestImpulse (limits));
     enabled = 0.0;
     rearm();
 }
@@ -240,6 +242,7 @@ void Guard::watch (const Reading& reading, double elapsed_s) noexcept
     if (watches_axes) work += watchAxes (reading, motion.elapsed);
     if (limits.max_energy != GuardLimits::none)
         if (const double given = energy (work, elapsed_s); ! (given <= limits.max_energy)) latch (Stop::energy, given);
+    if (limits.max_still != GuardLimits::none) still (reading.position, last.force.norm() >= limits.still_force, dt);
 }
 
 bool Guard::hasBrokenAxes (const Reading& reading) const noexcept { return watches_axes && ! isFinite (reading.axes); }
@@ -283,7 +286,8 @@ Guard::Stop Guard::causeOf (const Effort& wanted, const Reading& reading) const 
     if (latched == Stop::emergency) return latched;
     if (! isFinite (wanted.force, wanted.torque)) return Stop::not_finite;
     if (hasChannels (wanted) && ! channelsAreFinite (wanted)) return Stop::not_finite;
-    if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! (reading.age <= limits.watchdog) || hasBrokenAxes (reading))
+    if (! reading.valid || ! isFinite (reading.position, reading.rotation) || ! (reading.age <= limits.watchdog) || hasBrokenAxes (reading)
+        || isFrozen())
         return Stop::stale;
     if (is_starved) return Stop::starved;
     if (latched != Stop::none) return latched;
@@ -327,8 +331,14 @@ Guard::Event Guard::describeNow (Stop why, const Effort& wanted, const Reading& 
     case Stop::stale:
         if (! isFinite (reading.position, reading.rotation)) ofVector (Part::reading, isFinite (reading.position) ? reading.rotation : reading.position);
         if (hasBrokenAxes (reading)) ofChannel (Part::reading, reading.axes);
+        e.fault = reading.fault;
         e.value = reading.age;
         e.limit = limits.watchdog;
+        if (! reading.valid || e.part != Part::none || ! (reading.age <= limits.watchdog)) break;
+        ofVector (Part::none, last.force);
+        e.fault = ReadingFault::frozen;
+        e.value = still.time();
+        e.limit = limits.max_still;
         break;
     case Stop::starved:
         e.value = behind;
@@ -389,6 +399,8 @@ Effort Guard::operator() (const Effort& wanted, const Reading& reading, double l
             enabled = 0.0;
         }
     }
+    else if (cause == Stop::stale && event.why == Stop::stale && reading.fault != ReadingFault::none && reading.fault != event.fault && ! isFrozen())
+        event = describeNow (cause, wanted, reading);   // not another stop, but another reason: a board that was silent is now too hot
     reason = cause;
 
     const auto smooth = crossfade (wanted, step_s);
@@ -420,6 +432,23 @@ Effort Guard::crossfade (const Effort& wanted, double fade_by_s) noexcept
              mixed (enabled, wanted.axes, rest, at_stop.axes), mixed (enabled, wanted.signals, rest, at_stop.signals) };
 }
 
+namespace
+{
+std::string inWordsStale (const Guard::Event& event)
+{
+    const auto& f = event.wanted;
+    if (event.fault == ReadingFault::frozen)
+        return "the position has not changed for " + inWords (event.value) + " s while a force of " + inWords (std::hypot (f[0], f[1], f[2]))
+               + " N pushes the hand";
+    const std::string why (describe (event.fault));
+    if (! event.valid) return why.empty() ? "the device has no valid reading" : why;
+    if (event.part == Guard::Event::Part::reading) return "the reading is not a number: " + inWords (f);
+    if (! (event.value >= 0.0)) return "the age of the reading is not a number";
+    return why + (why.empty() ? "" : ": ") + "the last reading is " + inMilliseconds (event.value) + " old; the watchdog allows "
+           + inMilliseconds (event.limit);
+}
+}   // namespace
+
 std::string describe (const Guard::Event& event)
 {
     using Part = Guard::Event::Part;
@@ -433,10 +462,7 @@ std::string describe (const Guard::Event& event)
         return "the emergency stop was pressed";
 
     case Guard::Stop::stale:
-        if (! event.valid) return "the device has no valid reading";
-        if (event.part == Part::reading) return "the reading is not a number: " + inWords (event.wanted);
-        if (! (event.value >= 0.0)) return "the age of the reading is not a number";
-        return "the last reading is " + inMilliseconds (event.value) + " old; the watchdog allows " + inMilliseconds (event.limit);
+        return inWordsStale (event);
 
     case Guard::Stop::starved:
         return "the run cannot keep up: its ticks are " + inMilliseconds (event.value) + " behind; the watchdog allows " + inMilliseconds (event.limit);

@@ -40,6 +40,8 @@ struct GuardLimits
     double impulse_window = 0.0;         ///< window of all three impulse limits, in s; 0: the whole session
     double max_energy = none;            ///< energy that force, torque and axes may give to the hand, as counted by EnergyWatch, in J
     double energy_window = 0.0;          ///< window of max_energy, in s; 0: the whole session
+    double max_still = none;             ///< how long the position may stay exactly the same under a force, as counted by StillWatch, in s
+    double still_force = none;           ///< the least force for max_still, in N
 
     double dead_man_pressure = 0.0;       ///< how hard the hand must press before the guard allows any effort, in N; 0: not required
     std::uint64_t dead_man_buttons = 0;   ///< buttons that must all be held, as in Reading::buttons; 0: none
@@ -67,7 +69,7 @@ GuardLimits tightest (const GuardLimits&, const GuardLimits&) noexcept;
 ///
 ///     stop        cause                                                       ends
 ///     not_finite  the graph asked for a value that is not a number            with its cause, then the ramp
-///     stale       no reading, or one that is old or not a number              with its cause, then the ramp
+///     stale       no reading, or one that is old, frozen or not a number      with its cause, then the ramp
 ///     starved     for longer than the watchdog, more time lost than ticked    with its cause, then the ramp
 ///     released    the dead-man's switch is not held                           with its cause, then the ramp
 ///     halted      requested: the end of a session, the stop button            with resume(), then the ramp
@@ -129,12 +131,13 @@ public:
 
         Stop why = Stop::none;
         Part part = Part::none;
-        double value = 0.0;                ///< the measured age, lost time, pressure, speed, impulse or energy
+        double value = 0.0;                ///< the measured age, lost time, pressure, speed, impulse or energy, or the time without a change of position
         double limit = 0.0;                ///< the limit of this value
         double window = 0.0;               ///< window of the limit, in s; 0: the whole session
         std::array<double, 3> wanted {};   ///< force or torque that was not a number; for an axis or signal, only the first component is used
         std::int32_t channel = 0;          ///< number of the axis or signal, from 0
         std::uint32_t valid = 1;           ///< 1 if the reading was valid
+        ReadingFault fault {};             ///< what is wrong with the reading, if it is known; `frozen` has the force on the tool in `wanted`
     };
 
     /// The layout says which axes the efforts push. [main thread]
@@ -156,11 +159,11 @@ public:
     /// Why the last effort was withheld. [any thread that owns the guard]
     Stop stop() const noexcept { return reason; }
 
-    /// The values on the first tick of the latest stop, even after the stop has ended. `why` is none if there was no stop since
-    /// prepare().
+    /// The values on the first tick of the latest stop, even after the stop has ended. If a reading stays bad for another reason
+    /// that is known, the values on the tick on which that reason began. `why` is none if there was no stop since prepare().
     const Event& latest() const noexcept { return event; }
 
-    /// How many times latest() has changed.
+    /// How many stops there were since prepare.
     std::uint64_t events() const noexcept { return count; }
 
     /// True while no effort is on the device, so that it can be released without a step.
@@ -171,6 +174,7 @@ private:
     void watch (const Reading&, double elapsed_s) noexcept;
     double watchAxes (const Reading&, double elapsed_s) noexcept;
     bool hasBrokenAxes (const Reading&) const noexcept;
+    bool isFrozen() const noexcept { return still.time() > limits.max_still; }
     void countImpulse (double s) noexcept;
     void latch (Stop, double value, Event::Part = Event::Part::none, int channel = 0) noexcept;
     Stop causeOf (const Effort& wanted, const Reading&) const noexcept;
@@ -206,6 +210,7 @@ private:
     std::array<std::int8_t, Channels::most> axis_of_effort {};   // by effort, the number of the axis that it pushes; -1: unknown
     ImpulseWatch impulse, angular_impulse, axis_impulse;
     EnergyWatch energy;
+    StillWatch still;
 };
 
 /// The event in words, with its numbers: "the last reading is 31 ms old; the watchdog allows 20 ms".

@@ -27,6 +27,8 @@ HidModel::HidModel (std::shared_ptr<const Profile> p)
     }
     pressure = decoder.axis (description->pressure);
     valid = decoder.axis (description->valid);
+    for (const auto& alarm : description->alarms)
+        alarms.push_back (decoder.axis (alarm.field));
     forget();
 }
 
@@ -41,6 +43,7 @@ const HidSample& HidModel::decode (std::span<const std::uint8_t> report) noexcep
 {
     last.refusal = decoder.decode (report);
     last.lost = decoder.lostBefore();
+    last.succession = decoder.succession();
     if (last.refusal != Refusal::none) return last;
 
     last.axes = decoder.axes();
@@ -68,14 +71,29 @@ void HidModel::place() noexcept
     last.valid = placed && (valid < 0 || last.axes[static_cast<std::size_t> (valid)] != 0.0);
 }
 
-Reading HidModel::reading() const noexcept
+ReadingFault HidModel::fault (double driven_s) const noexcept
+{
+    if (last.problem == PoseProblem::unreachable || last.problem == PoseProblem::not_finite) return ReadingFault::impossible_pose;
+    if (valid >= 0 && last.axes[static_cast<std::size_t> (valid)] == 0.0) return ReadingFault::not_homed;
+    for (std::size_t i = 0; i < alarms.size(); ++i)
+    {
+        const auto& alarm = description->alarms[i];
+        if (alarms[i] < 0 || driven_s < alarm.while_driven) continue;
+        const auto raw = decoder.raw (static_cast<std::size_t> (alarms[i]));
+        if (alarm.is ? raw == *alarm.is : raw != 0) return alarm.means;
+    }
+    return ReadingFault::none;
+}
+
+Reading HidModel::reading (double driven_s) const noexcept
 {
     Reading r;
     r.position = last.position;
     r.rotation = last.rotation;
     r.pressure = last.pressure;
     r.buttons = last.buttons;
-    r.valid = last.valid;
+    r.fault = fault (driven_s);
+    r.valid = last.valid && r.fault == ReadingFault::none;
     return r;
 }
 

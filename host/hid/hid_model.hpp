@@ -8,6 +8,7 @@
 
 #include <framework/node/device.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <string>
@@ -26,6 +27,7 @@ struct HidSample
     std::array<double, most_axes> axes {};     ///< in the order of axisNames()
     double time = 0.0;                         ///< time since the device's first report, on its own clock, in s; 0 unless hasTime()
     std::uint32_t lost = 0;                    ///< reports lost just before this one
+    Succession succession {};                  ///< how the report continues the previous one
     bool valid = false;                        ///< true if the device reports the values as valid and the kinematics have a solution
     Refusal refusal = Refusal::none;           ///< why the last report changed nothing
     PoseProblem problem = PoseProblem::none;   ///< why the pose cannot be used; none if it can
@@ -52,8 +54,9 @@ public:
     const HidSample& decode (std::span<const std::uint8_t> report) noexcept;
     const HidSample& sample() const noexcept { return last; }
 
-    /// The reading for the framework. The caller adds its age, since it knows when the report arrived.
-    Reading reading() const noexcept;
+    /// The reading for the framework, not valid while an alarm is on. The caller adds its age, since it knows when the report
+    /// arrived. driven_s: for how long the motors have been driven; alarms with a longer `while_driven` are ignored.
+    Reading reading (double driven_s = 0.0) const noexcept;
 
     /// The efforts that neither the force nor the torque drives. A graph can drive only these by name: if a motor could be
     /// driven both by the force and by name, the guard would limit the two separately, but not their sum.
@@ -99,6 +102,12 @@ public:
 
     /// The steps to perform after the neutral reports.
     const std::vector<Step>& exit() const noexcept { return description->exit; }
+    /// Whether any of the input reports has a number.
+    bool hasSequence() const noexcept
+    {
+        return std::ranges::any_of (description->inputs, [] (const auto& r) { return ! r.sequence.empty(); });
+    }
+
     const GuardLimits& limits() const noexcept { return description->limits.guard; }
 
     const ReportDecoder::Counts& counts() const noexcept { return decoder.counts(); }
@@ -110,6 +119,7 @@ private:
     void place() noexcept;
     void forget() noexcept;
     EffortValues asked (const HidEffort&) const noexcept;
+    ReadingFault fault (double driven_s) const noexcept;
 
     std::shared_ptr<const Profile> description;
     ReportDecoder decoder;
@@ -121,6 +131,7 @@ private:
     std::array<int, 3> position {}, rotation {}, force {}, torque {};   // indices of axes and efforts; -1: none
     std::vector<std::size_t> own;                                       // indices of the efforts in ownEffortNames()
     std::vector<std::string> own_names;
+    std::vector<int> alarms;   // axes of the alarms in the profile
     int pressure = -1, valid = -1;
 };
 

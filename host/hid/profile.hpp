@@ -247,6 +247,15 @@ struct FiveBar
 
 using KinematicsModel = std::variant<Direct, LinearMap, SerialArm, FiveBar>;
 
+/// A field by which the device says that something is wrong.
+struct Alarm
+{
+    std::string field;
+    std::optional<std::uint32_t> is;             ///< the raw value that means the alarm; empty: any but 0
+    ReadingFault means = ReadingFault::failed;   ///< one that isAlarm
+    double while_driven = 0.0;                   ///< counts only after the motors have been driven for so long, in s
+};
+
 /// Limits and properties of the device; infinity or 0 if unknown.
 struct Limits
 {
@@ -287,6 +296,7 @@ struct Profile
 
     std::array<std::string, 3> position, rotation;   ///< input axes of the kinematics, or the pose itself; empty: none
     std::string pressure, valid;                     ///< names of axes; the one named by `valid` is nonzero while the reading is valid
+    std::vector<Alarm> alarms;                       ///< the first that is on is the one reported
     std::array<std::string, 3> force, torque;        ///< names of efforts; with kinematics, `force` names the motors
     std::vector<SignalEffort> signals;               ///< signal outputs after those of the streams
     Mat3 axes = Mat3::Identity();                    ///< Tactus (x right, y away, z up) = axes · device

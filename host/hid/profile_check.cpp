@@ -72,6 +72,8 @@ public:
         three ("torque", p.torque, efforts, "N*m");
         known ("pressure", p.pressure, axes, "N");
         known ("valid", p.valid, axes, "");
+        for (const auto& alarm : p.alarms)
+            known ("alarms", alarm.field, axes, "");
         signals();
         joints();
         neutrals();

@@ -84,6 +84,36 @@ double motorLimit (ProfileFields& in, const char* key, const std::string& unit)
     return value;
 }
 
+std::vector<Alarm> readAlarms (ProfileFields& profile)
+{
+    std::vector<Alarm> alarms;
+    profile.each ("alarms", [&] (ProfileFields& in) {
+        Alarm alarm;
+        in.ignore ("about");
+        alarm.field = in.name ("field");
+        if (const auto raw = in.id ("is", 0x7fffffff)) alarm.is = static_cast<std::uint32_t> (*raw);
+        alarm.while_driven = in.number ("while_driven", unit::second, { .min = 0.0, .max = 10.0 }, 0.0);
+        const auto means = in.text ("means");
+        std::string known;
+        bool is_known = false;
+        for (std::size_t i = 0; i < reading_faults.size(); ++i)
+        {
+            const auto fault = static_cast<ReadingFault> (i);
+            if (! isAlarm (fault)) continue;
+            known += (known.empty() ? "" : ", ") + std::string (reading_faults[i].id);
+            if (means != reading_faults[i].id) continue;
+            alarm.means = fault;
+            is_known = true;
+        }
+        if (! in.has ("means"))
+            in.require ("means", "write one of " + known);
+        else if (! is_known)
+            in.error ("means", "profile/kind", quote (means) + " is not an alarm", "write one of " + known);
+        alarms.push_back (std::move (alarm));
+    });
+    return alarms;
+}
+
 Limits readLimits (ProfileFields& profile, const std::string& motor_unit)
 {
     constexpr auto any = Bounds::notNegative();
@@ -180,6 +210,7 @@ Profile read (ProfileFields& in)
     p.torque = in.threeNames ("torque");
     if (in.has ("pressure")) p.pressure = in.name ("pressure");
     if (in.has ("valid")) p.valid = in.name ("valid");
+    p.alarms = readAlarms (in);
     in.each ("signals", [&] (ProfileFields& s) {
         s.require ("amplitude", "name the effort that sets the amplitude");
         auto& signal = p.signals.emplace_back();

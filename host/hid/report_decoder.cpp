@@ -89,6 +89,7 @@ Refusal ReportDecoder::decode (std::span<const std::uint8_t> bytes) noexcept
     auto refusal = bytes.empty() ? Refusal::too_short : Refusal::unknown_id;
     if (r != nullptr) refusal = check (*r, bytes);
     gap = 0;
+    order = Succession::next;
     if (refusal != Refusal::none)
     {
         ++tally.refused[static_cast<std::size_t> (refusal)];
@@ -105,14 +106,22 @@ Refusal ReportDecoder::decode (std::span<const std::uint8_t> bytes) noexcept
         if (static_cast<int> (i) == r->sequence) follow (*r, raw, f.field->bits.size);
     }
 
-    if (r->timestamp >= 0)
-    {
-        const double now = values[static_cast<std::size_t> (r->fields[static_cast<std::size_t> (r->timestamp)].axis)];
-        if (! r->timed) r->first_time = now;
-        r->timed = true;
-        clock = now - r->first_time;
-    }
+    if (r->timestamp >= 0) keepTime (*r);
     return Refusal::none;
+}
+
+void ReportDecoder::keepTime (Report& r) noexcept
+{
+    const double now = values[static_cast<std::size_t> (r.fields[static_cast<std::size_t> (r.timestamp)].axis)];
+    if (! r.timed)
+        r.first_time = now;
+    else if (now < r.last_time)
+        order = Succession::back;
+    else if (now == r.last_time && order == Succession::next)
+        order = Succession::clock_stopped;
+    r.timed = true;
+    r.last_time = now;
+    clock = now - r.first_time;
 }
 
 void ReportDecoder::takeAxis (Field& f, std::uint32_t raw) noexcept
@@ -158,12 +167,16 @@ void ReportDecoder::follow (Report& r, std::uint32_t raw, std::size_t bits) noex
 {
     const auto range = rangeOf (bits);
     const auto on = (raw - r.count) & range;
-    if (r.counted && on != 0)   // the same number means that the same report was sent again
+    if (r.counted && on == 0)
+        order = Succession::repeated;
+    else if (r.counted && on > range / 2)
     {
-        if (on > range / 2)
-            ++tally.restarts;
-        else
-            gap = on - 1;
+        order = Succession::back;
+        ++tally.restarts;
+    }
+    else if (r.counted)
+    {
+        gap = on - 1;
         tally.lost += gap;
     }
     r.counted = true;
@@ -181,6 +194,7 @@ void ReportDecoder::reset()
     values.fill (0.0);
     raws.fill (0);
     pressed = gap = 0;
+    order = Succession::next;
     clock = 0.0;
     tally = {};
 }

@@ -29,6 +29,15 @@ inline constexpr std::size_t refusals = 6;
 /// Describes a refusal, as in "too short".
 std::string_view describe (Refusal) noexcept;
 
+/// How a report continues the previous one with the same id, by its number and its clock.
+enum class Succession
+{
+    next,
+    repeated,        ///< the same number again
+    clock_stopped,   ///< another number, but the same time again
+    back             ///< the number or the time is an earlier one: the device has restarted, or the report is late
+};
+
 /// Decodes bytes into values. Unwraps counters, counts lost reports, and converts device clocks to seconds since the first
 /// report. A refused report changes no value. Never allocates or throws after construction.
 class ReportDecoder
@@ -50,6 +59,7 @@ public:
     std::uint32_t buttons() const noexcept { return pressed; }
     double time() const noexcept { return clock; }
     std::uint32_t lostBefore() const noexcept { return gap; }
+    Succession succession() const noexcept { return order; }
     const Counts& counts() const noexcept { return tally; }
     bool hasTime() const noexcept { return has_time; }
 
@@ -89,7 +99,7 @@ private:
         int timestamp = -1, sequence = -1;     // indices of fields
         bool counted = false, timed = false;   // true after the first report with a sequence number, or with a timestamp
         std::uint32_t count = 0;
-        double first_time = 0.0;
+        double first_time = 0.0, last_time = 0.0;
     };
 
     Report* find (std::span<const std::uint8_t>) noexcept;
@@ -97,6 +107,7 @@ private:
     void takeAxis (Field&, std::uint32_t raw) noexcept;
     void takeButtons (const Field&, std::uint32_t raw) noexcept;
     void follow (Report&, std::uint32_t raw, std::size_t bits) noexcept;
+    void keepTime (Report&) noexcept;
 
     std::shared_ptr<const Profile> profile;
     std::vector<Report> reports;
@@ -106,6 +117,7 @@ private:
     std::uint32_t pressed = 0;
     double clock = 0.0;
     std::uint32_t gap = 0;
+    Succession order = Succession::next;
     bool has_time = false;
     Counts tally;
 };

@@ -44,10 +44,13 @@ double periodOf (const Profile& profile, const std::string& effort)
         if (std::ranges::count (report.fields, effort, &OutputField::name) > 0) return 1.0 / report.max_rate;
     return 0.0;
 }
+
+bool sendsOnlyChanges (const Profile& profile) { return std::ranges::count (profile.quirks, "only_changes") > 0; }
 }   // namespace
 
 HidDevice::HidDevice (std::unique_ptr<HidPort> port)
-    : link (std::move (port)), values (link->profile()), only_changes (std::ranges::count (link->profile()->quirks, "only_changes") > 0)
+    : link (std::move (port)), values (link->profile()), only_changes (sendsOnlyChanges (values.profile())),
+      expected_rate (values.hasSequence() || only_changes || values.profile().inputs.size() != 1 ? 0.0 : values.profile().rate)
 {
     std::size_t channel = 0;
     for (std::size_t i = 0; i < values.outputs(); ++i)
@@ -72,6 +75,7 @@ void HidDevice::prepare (double dt_s)
         m.tracker.prepare (dt, m.hold);
     ticks_without = 0;
     has_to_rest = true;
+    driven_for = 0.0;
 }
 
 void HidDevice::take (const ArrivedReport& report) noexcept
@@ -82,6 +86,9 @@ void HidDevice::take (const ArrivedReport& report) noexcept
         if (connection != 0) owed = 0;
         connection = report.connection;
         has_one = false;
+        record = {};
+        restarted = false;
+        arrived_last = 0;
     }
 
     const auto before = values.counts();
@@ -99,12 +106,49 @@ void HidDevice::take (const ArrivedReport& report) noexcept
         return;
     }
     ++tally.taken;
-    const std::size_t id = link->hasIds() ? report.bytes.front() : 0;
-    if (came_now.test (id)) ++tally.skipped;
-    came_now.set (id);
     refused = false;
     has_one = true;
     latest = report.at;
+    judge (report, gap - without_room);
+    if (standing != ReadingFault::none) return;
+    const std::size_t id = link->hasIds() ? report.bytes.front() : 0;
+    if (came_now.test (id)) ++tally.skipped;
+    came_now.set (id);
+}
+
+void HidDevice::judge (const ArrivedReport& report, std::uint64_t lost) noexcept
+{
+    standing = ReadingFault::none;
+    switch (values.sample().succession)
+    {
+    case Succession::repeated:
+        standing = ReadingFault::repeated;
+        break;
+    case Succession::clock_stopped:
+        standing = ReadingFault::clock_stopped;
+        break;
+    case Succession::back:
+        record.restart();
+        restarted = true;
+        break;
+    case Succession::next:
+        if (expected_rate > 0.0 && arrived_last != 0)
+            lost = ReportRecord::missingAfter (1e-9 * static_cast<double> (report.at - arrived_last), expected_rate);
+        record.arrived (lost);
+        restarted = restarted && ! record.isTrusted();
+        break;
+    }
+    arrived_last = report.at;
+}
+
+/// What keeps the reading from being valid, other than its content.
+ReadingFault HidDevice::fault (bool is_connected) const noexcept
+{
+    if (! is_connected) return ReadingFault::unplugged;
+    if (! has_one) return ReadingFault::no_report;
+    if (refused) return ReadingFault::malformed;
+    if (restarted) return ReadingFault::restarted;
+    return record.isTrusted() ? ReadingFault::none : ReadingFault::lost;
 }
 
 Reading HidDevice::read() noexcept
@@ -127,11 +171,17 @@ Reading HidDevice::read() noexcept
     }
 
     const bool connected = link->isConnected();
-    auto reading = values.reading();
+    auto reading = values.reading (driven_for);
+    if (const auto why = fault (connected); why != ReadingFault::none)
+    {
+        reading.fault = why;
+        reading.valid = false;
+    }
     for (std::size_t i = 0; i < values.axisNames().size(); ++i)
         reading.axes.set (static_cast<int> (i), values.sample().axes[i]);
     reading.age = only_changes && connected && has_one ? 0.0 : static_cast<double> (ticks_without) * dt;
-    reading.valid = reading.valid && connected && has_one && ! refused && ! has_to_rest;
+    if (reading.fault == ReadingFault::none && reading.age > 0.0) reading.fault = standing;
+    reading.valid = reading.valid && ! has_to_rest;
 
     tally.age = reading.age;
     if (has_one) tally.oldest = std::max (tally.oldest, reading.age);
@@ -155,6 +205,7 @@ void HidDevice::write (const Effort& guarded) noexcept
     const bool rests = guarded.force.isZero (0.0) && guarded.torque.isZero (0.0) && std::ranges::all_of (guarded.axes, isZero)
                        && std::ranges::all_of (guarded.signals, isZero);
     has_to_rest = has_to_rest && ! rests;
+    driven_for = has_to_rest ? 0.0 : driven_for + dt;
 
     HidEffort effort { guarded.force, guarded.torque, values.restEfforts() };
     values.take (guarded.axes, effort);

@@ -8,6 +8,7 @@
 #include <framework/kit/snapshot.hpp>
 #include <framework/node/device.hpp>
 #include <host/hid/hid_model.hpp>
+#include <host/hid/report_record.hpp>
 
 #include <array>
 #include <bitset>
@@ -42,7 +43,9 @@ DeviceLayout layoutOf (const HidModel&);
 ///
 /// A reading is the newest report; its age is the time since the report arrived, counted in ticks. It is not valid before the first report,
 /// while the device is disconnected, and after a refused report until a good one arrives. (Reports whose ids the profile does not
-/// know are counted and ignored: many devices send some.)
+/// know are counted and ignored: many devices send some.) Nor is it valid while an alarm of the profile is on, while more than half
+/// of the last 32 reports are missing, and for 16 reports after one with an earlier number or time. A report with the same number or
+/// the same time as the last one is no new reading. `fault` says which of these it is.
 ///
 /// An axis effort of 0 leaves the value of the neutral report: a frequency of 0, for example, would be meaningless.
 ///
@@ -72,6 +75,8 @@ public:
 
 private:
     void take (const ArrivedReport&) noexcept;
+    void judge (const ArrivedReport&, std::uint64_t lost) noexcept;
+    ReadingFault fault (bool is_connected) const noexcept;
     void publish() noexcept;
     void vibrate (const Channels& signals, HidEffort&) noexcept;
 
@@ -92,7 +97,8 @@ private:
 
     std::unique_ptr<HidPort> link;
     HidModel values;
-    const bool only_changes;   // true if the device sends only when something moves, so its reading does not age while it is silent
+    const bool only_changes;      // true if the device sends only when something moves, so its reading does not age while it is silent
+    const double expected_rate;   // of reports without numbers, in Hz; 0: their loss cannot be told
     double dt = 1e-3;
 
     // [tick thread]
@@ -104,6 +110,12 @@ private:
     bool has_one = false;        // true once a report has been decoded since the device was connected
     bool refused = false;        // true if the newest report was refused
     bool has_to_rest = true;     // true until the guard has been at zero once
+
+    ReportRecord record;
+    bool restarted = false;         // the record is empty because a report went back
+    ReadingFault standing {};       // why the newest report is no new reading: repeated or clock_stopped
+    Nanoseconds arrived_last = 0;   // arrival of the report before; 0: none since the device was connected
+    double driven_for = 0.0;        // how long the motors have been driven, in s
 
     std::vector<Streamed> streams;
     std::vector<VibrationMotor> motors;

@@ -57,12 +57,12 @@ std::array<std::int32_t, 3> placeAt (std::uint32_t n)
     return { static_cast<std::int32_t> (2e7 * std::sin (6.0 * t)), static_cast<std::int32_t> (5e6 * std::sin (1.3 * t)), static_cast<std::int32_t> (-depth) };
 }
 
-Report reportOf (std::uint32_t n)
+Report reportOf (std::uint32_t n, bool is_driven)
 {
     Report r {};
     r[0] = 0x54;
     r[1] = 1;
-    r[2] = 1;   // homed
+    r[2] = is_driven ? 3 : 1;   // homed, motors driven
     put32 (r, 4, n);
     put32 (r, 8, 1000 * n);
     const auto place = placeAt (n);
@@ -75,6 +75,7 @@ Report reportOf (std::uint32_t n)
 struct Log
 {
     std::string lines;
+    bool is_driven = false;   // as the latest report to the board asked
 
     void sent (const char* how, std::uint32_t n)
     {
@@ -97,6 +98,7 @@ struct Log
         const bool good_sum = static_cast<std::uint32_t> (get32 (report, 60)) == crcOf (report.first (60));
         const bool neutral = std::all_of (report.begin() + 2, report.begin() + 60, [] (auto b) { return b == 0; });
         const bool driven = (report[2] & 1) != 0;
+        is_driven = driven && good_sum;
         const char* kind = driven ? "driven" : "other";
         if (neutral) kind = "neutral";
         if (! good_sum && ! neutral) kind = "sum";
@@ -122,7 +124,7 @@ std::uint32_t sendReport (VirtualDevice& device, Log& log, const std::vector<std
         const auto each = static_cast<std::uint32_t> (option (args, name, 0.0));
         return each > 0 && n % each == each - 1;
     };
-    auto r = reportOf (n);
+    auto r = reportOf (n, log.is_driven);
     if (every ("drop"))
         log.sent ("dropped", n);
     else if (every ("malformed"))
@@ -145,7 +147,7 @@ std::uint32_t sendReport (VirtualDevice& device, Log& log, const std::vector<std
     }
     else if (every ("swap"))
     {
-        device.input (reportOf (n + 1));
+        device.input (reportOf (n + 1, log.is_driven));
         log.sent ("good", n + 1);
         device.input (r);
         log.sent ("good", n);
@@ -202,6 +204,7 @@ int board (const std::vector<std::string>& args)
         if (n == unplug_at)
         {
             log.mark ("unplugged");
+            log.is_driven = false;
             device.reset();
             was_open = false;
             pauseFor (option (args, "away", 1.0));

@@ -93,6 +93,9 @@ void readEffortLimits (ObjectReader& in, GuardLimits& limits)
     limits.impulse_window = window (in, { "max_impulse", "max_angular_impulse", "max_axis_impulse" }, "impulse_window");
     limits.max_energy = in.number ("max_energy", unit::joule, some, limits.max_energy);
     limits.energy_window = window (in, { "max_energy" }, "energy_window");
+    if (in.has ("max_still")) in.require ("still_force", "give the force from which max_still counts, such as \"0.5 N\"");
+    limits.max_still = in.number ("max_still", unit::second, some, limits.max_still);
+    limits.still_force = in.number ("still_force", unit::newton, some, limits.still_force);
 }
 
 void checkStops (const GuardLimits& limits, const std::string& where, Messages& messages)

@@ -13,7 +13,7 @@ namespace tactus
 
 /// The part of a reading that every device has, as numbers in the order of reading_fields. A double holds each of these values
 /// exactly.
-inline constexpr std::size_t reading_size = 16;
+inline constexpr std::size_t reading_size = 17;
 using ReadingNumbers = std::array<double, reading_size>;
 
 struct ReadingField
@@ -31,8 +31,10 @@ inline constexpr ReadingField reading_fields[] {
     { "valid", 9, 1 },
     { "true_position", 10, 3 },
     { "true_velocity", 13, 3 },
+    { "fault", 16, 1 },
 };
-static_assert (sizeof (Reading) == reading_size * sizeof (double) + 2 * sizeof (Channels), "a new field of a reading must be added to the log too");
+static_assert (sizeof (Reading) == (reading_size - 1) * sizeof (double) + 2 * sizeof (Channels),   // buttons and fault share eight bytes
+               "a new field of a reading must be added to the log too");
 
 /// A complete reading, as in a log.
 struct LoggedReading
@@ -57,12 +59,12 @@ inline ReadingNumbers toNumbers (const Reading& r) noexcept
 {
     const auto &p = r.position, &w = r.rotation, &x = r.true_position, &v = r.true_velocity;
     return { p.x(), p.y(), p.z(), w.x(), w.y(), w.z(), r.pressure, static_cast<double> (r.buttons), r.age, r.valid ? 1.0 : 0.0,
-             x.x(), x.y(), x.z(), v.x(), v.y(), v.z() };
+             x.x(), x.y(), x.z(), v.x(), v.y(), v.z(), static_cast<double> (r.fault) };
 }
 
 inline LoggedReading toLogged (const Reading& r) noexcept { return { toNumbers (r), r.axes, r.signals }; }
 
-/// Numbers that a reading cannot hold are replaced: 0.5 for `valid` becomes true, and `buttons` out of range become 0.
+/// Numbers that a reading cannot hold are replaced: 0.5 for `valid` becomes true, and `buttons` or a `fault` out of range become 0.
 inline Reading toReading (const LoggedReading& logged) noexcept
 {
     const auto& n = logged.numbers;
@@ -73,6 +75,8 @@ inline Reading toReading (const LoggedReading& logged) noexcept
         .rotation = vector (3),
         .pressure = n[6],
         .buttons = n[7] >= 0.0 && n[7] <= most_buttons ? static_cast<std::uint32_t> (n[7]) : 0u,
+        .fault = n[16] >= 0.0 && n[16] < static_cast<double> (reading_faults.size()) ? static_cast<ReadingFault> (static_cast<std::uint32_t> (n[16]))
+                                                                                     : ReadingFault::none,
         .age = n[8],
         .valid = n[9] != 0.0,
         .true_position = vector (10),

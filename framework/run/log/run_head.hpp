@@ -13,7 +13,8 @@ namespace tactus
 {
 
 inline constexpr std::string_view run_format = "tactus-run";
-inline constexpr int run_version = 4;   ///< version 1 had no axes, signals, device layouts or emergency stops; 2 had no hits; 3 had no lost time
+/// Version 1 had no axes, signals, device layouts or emergency stops; 2 had no hits; 3 had no faults of readings and no lost time.
+inline constexpr int run_version = 4;
 
 /// The fixed properties of a run, stored in the first line of its log.
 struct RunHead
@@ -53,6 +54,8 @@ inline constexpr GuardField guard_fields[] {
     { "impulse_window", &GuardLimits::impulse_window },
     { "max_energy", &GuardLimits::max_energy },
     { "energy_window", &GuardLimits::energy_window },
+    { "max_still", &GuardLimits::max_still },
+    { "still_force", &GuardLimits::still_force },
     { "dead_man_pressure", &GuardLimits::dead_man_pressure },
 };
 inline constexpr std::string_view dead_man_buttons = "dead_man_buttons";   ///< the only limit that is not a double

@@ -28,6 +28,7 @@ bad = {
         (["outputs", 0, "fields", 2, "name"], None), (["outputs", 0, "crc32", "at"], None), (["position"], ["x", "y"]), (["position", 0], 3),
         (["limits", "max_forse"], "3 N"), (["limits", "max_force"], [3]), (["sources"], []), (["samples", 0, "input"], []), (["samples", 0, "input"], ["0"]),
         (["axes"], ["x", "y", "up"]), (["colour"], "red"),
+        (["alarms", 0, "field"], None), (["alarms", 0, "means"], "smoke"), (["alarms", 0, "means"], None), (["alarms", 2, "is"], -1), (["alarms", 0, "if"], 1),
     ],
     "woodenhaptics_usb": [
         (["kinematics", "serial", "links"], [1, 2]), (["kinematics", "serial", "links", 0], 0), (["kinematics", "serial", "drives", 0, "body"], None),

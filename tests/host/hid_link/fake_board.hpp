@@ -28,6 +28,7 @@ using Bytes = std::vector<std::uint8_t>;
 struct BoardProfile
 {
     double rate = 1000.0, max_rate = 1000.0, keepalive = 0.0, watchdog = 0.02, ramp = 0.01;
+    std::string more_fields {}, more_of_input {}, more {};   // further fields, and keys of the input report and of the profile
     std::string steps = R"("init": [{"bytes": "aa 01"}, {"kind": "feature", "bytes": "aa 02"}], "exit": [{"bytes": "aa 03"}],)";
 
     std::shared_ptr<const host::hid::Profile> make() const
@@ -38,7 +39,8 @@ struct BoardProfile
             "inputs": [{"length": 24, "verified": false, "why_not": "made up", "sequence": "count", "fields": [
                 {"name": "mark", "at": 0, "type": "u8", "expect": "0x54"}, {"name": "homed", "at": 1, "type": "u1"},
                 {"name": "count", "at": 2, "type": "u16le"}, {"name": "x", "at": 4, "type": "s32le", "scale": "1 nm"},
-                {"name": "y", "at": 8, "type": "s32le", "scale": "1 nm"}, {"name": "z", "at": 12, "type": "s32le", "scale": "1 nm"}]}],
+                {"name": "y", "at": 8, "type": "s32le", "scale": "1 nm"}, {"name": "z", "at": 12, "type": "s32le", "scale": "1 nm"})"
+            + more_fields + "]" + more_of_input + "}], " + more + R"(
             "outputs": [{"name": "effort", "neutral": "54 00*23", "verified": false, "why_not": "made up", "fields": [
                 {"source": "enable", "at": 1, "type": "u1"}, {"name": "count", "at": 2, "type": "u16le", "source": "echo"},
                 {"name": "fx", "at": 4, "type": "s32le", "scale": "1 uN"}, {"name": "fy", "at": 8, "type": "s32le", "scale": "1 uN"},

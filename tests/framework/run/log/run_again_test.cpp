@@ -60,6 +60,7 @@ public:
         r.buttons = random() % 7 == 0 ? static_cast<std::uint32_t> (random()) : 0u;
         r.age = random() % 5 == 0 ? 1e-3 : 0.0;
         r.valid = random() % 50 != 0;
+        if (! r.valid) r.fault = static_cast<ReadingFault> (random() % reading_faults.size());
         constexpr double odd[] { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                                  -std::numeric_limits<double>::infinity(), -0.0, 5e-324, 1.7976931348623157e308 };
         if (random() % 20 == 0) r.position[static_cast<int> (random() % 3)] = odd[random() % 6];
