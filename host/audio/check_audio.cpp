@@ -4,6 +4,7 @@
 #include <framework/run/device/guard_limits.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace tactus::host::audio
 {
@@ -11,15 +12,20 @@ namespace
 {
 constexpr double default_ramp = 0.2;   // s
 
-/// The limit on signals may be given in the unit that all outputs are calibrated in. Then this replaces it with the plain number.
+/// The limits on signals may be given in the unit that all outputs are calibrated in, such as N, and N/s for the slew. Then this
+/// replaces them with plain numbers.
 Json withoutUnit (Json guard, const AudioRole& role)
 {
-    if (! guard.is_object()) return guard;
-    const auto limit = guard.find ("max_signal");
-    if (limit == guard.end() || ! limit->is_string()) return guard;
-    const auto measure = parseMeasure (limit->asString());
-    const auto fits = [&] (const ChannelUse& use) { return use.full_scale.dimension == measure->dimension; };
-    if (measure && ! role.outputs.empty() && std::ranges::all_of (role.outputs, fits)) *limit = measure->value;
+    if (! guard.is_object() || role.outputs.empty()) return guard;
+    constexpr std::pair<const char*, Dimension> keys[] { { "max_signal", {} }, { "max_signal_slew", { 0, 0, -1 } } };
+    for (const auto& [key, per] : keys)
+    {
+        const auto limit = guard.find (key);
+        if (limit == guard.end() || ! limit->is_string()) continue;
+        const auto measure = parseMeasure (limit->asString());
+        const auto fits = [&, per = per] (const ChannelUse& use) { return use.full_scale.dimension && *use.full_scale.dimension * per == measure->dimension; };
+        if (measure && std::ranges::all_of (role.outputs, fits)) *limit = measure->value;
+    }
     return guard;
 }
 }   // namespace

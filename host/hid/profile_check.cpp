@@ -177,6 +177,8 @@ private:
         if (names (p.force) && guard.max_force == GuardLimits::none) need ("max_force", "a force");
         if (names (p.torque) && guard.max_torque == GuardLimits::none) need ("max_torque", "a torque");
         motorLimits();
+        const bool has_signals = ! p.signals.empty() || std::ranges::any_of (p.outputs, [] (const auto& report) { return report.stream.has_value(); });
+        if (has_signals && guard.max_signal == GuardLimits::none) need ("max_signal", "signals");
         if (guard.max_axis_effort != GuardLimits::none) return;
         for (const auto& report : p.outputs)
             for (const auto& field : report.fields)

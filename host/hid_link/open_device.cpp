@@ -169,6 +169,9 @@ FoundDevice findDevice (const Json& description, HidSystem& system, const Loaded
         return refuse ("hid/calibration", "the profile " + profile->id + " already specifies how strong " + found.device.product + " is",
                        "leave the calibration out, or write \"profile\": \"pid\"");
     found.profile = profile ? profile : profileOf (system, found.device, wanted.calibration, found.messages);
+    for (const auto& m : all.messages)
+        if (profile && ! profile->file.empty() && m.file == profile->file && m.severity == Message::Severity::warning)
+            found.messages.push_back (Message::warning (m.id, "", m.file + m.where + ": " + m.text, m.remedy));
     return found;
 }
 

@@ -21,6 +21,37 @@ bool isFolder (const fs::path& path)
     std::error_code forbidden;
     return fs::is_directory (path, forbidden);
 }
+
+/// True if one device can fit both rules. Only the ids count: the interfaces, usages, buses and names of one device lead to the same
+/// motors, and not every platform provides them.
+bool canFitOneDevice (const MatchRule& a, const MatchRule& b)
+{
+    const auto share = [] (const auto& x, const auto& y) {
+        return x.empty() || y.empty() || std::ranges::any_of (x, [&] (auto id) { return std::ranges::count (y, id) > 0; });
+    };
+    return share (a.vid, b.vid) && share (a.pid, b.pid);
+}
+
+bool canFitOneDevice (const Profile& a, const Profile& b)
+{
+    return std::ranges::any_of (a.match, [&] (const MatchRule& x) {
+        return std::ranges::any_of (b.match, [&] (const MatchRule& y) { return canFitOneDevice (x, y); });
+    });
+}
+
+/// The user's profile with the limits of the shipped ones that can fit the same device, except the one that it replaces. Appends
+/// their ids to `others`.
+std::shared_ptr<const Profile> limitedBy (const std::vector<std::shared_ptr<const Profile>>& shipped, std::shared_ptr<const Profile> own, std::string& others)
+{
+    auto limited = *own;
+    for (const auto& other : shipped)
+    {
+        if (other->id == own->replaces || ! canFitOneDevice (*own, *other)) continue;
+        limited.limits.guard = tightest (limited.limits.guard, other->limits.guard);
+        others += (others.empty() ? "" : ", ") + quote (other->id);
+    }
+    return others.empty() ? own : std::make_shared<const Profile> (std::move (limited));
+}
 }   // namespace
 
 fs::path profileFolder()
@@ -41,26 +72,39 @@ fs::path ownProfileFolder()
 
 LoadedProfiles joined (LoadedProfiles own, LoadedProfiles shipped)
 {
-    auto all = std::move (shipped);
+    LoadedProfiles all { {}, std::move (shipped.messages) };
+    std::vector<std::shared_ptr<const Profile>> used;
+    std::vector<std::string> replaced;
     for (auto& profile : own.profiles)
     {
-        const auto same = std::ranges::find (all.profiles, profile->id, &Profile::id);
         const auto note = [&] (Message m) {
             m.file = profile->file;
             all.messages.push_back (std::move (m));
         };
-        if (same == all.profiles.end())
-            all.profiles.push_back (std::move (profile));
-        else if (profile->replaces != profile->id)
+        const auto isShipped = [&] (const std::string& id) { return std::ranges::count (shipped.profiles, id, &Profile::id) > 0; };
+        if (isShipped (profile->id) && profile->replaces != profile->id)
+        {
             note (Message::error ("profile/shadows", "/id", "the profile has the id of a shipped one, " + quote (profile->id) + ", so it is not used",
                                   "give it another id; or, to use it instead of the shipped one and its limits, add \"replaces\": \"" + profile->id + '"'));
-        else
-        {
-            note (Message::warning ("profile/replaces", "/replaces", "the profile replaces the shipped profile " + quote (profile->id) + " and its limits",
-                                    "remove this file to use the shipped profile"));
-            *same = std::move (profile);
+            continue;
         }
+        if (isShipped (profile->replaces))
+        {
+            note (Message::warning ("profile/replaces", "/replaces", "the profile replaces the shipped profile " + quote (profile->replaces) + " and its limits",
+                                    "remove this file to use the shipped profile"));
+            replaced.push_back (profile->replaces);
+        }
+        std::string others;
+        profile = limitedBy (shipped.profiles, std::move (profile), others);
+        if (! others.empty())
+            note (Message::warning ("profile/competes", "/match",
+                                    "the profile fits the same devices as the shipped " + others + ", so it keeps to those limits too",
+                                    "fit other devices; or, to use it instead of one shipped profile and its limits, add \"replaces\" with the id of that one"));
+        used.push_back (std::move (profile));
     }
+    std::ranges::copy_if (shipped.profiles, std::back_inserter (all.profiles),
+                          [&] (const auto& profile) { return std::ranges::count (replaced, profile->id) == 0; });
+    std::ranges::move (used, std::back_inserter (all.profiles));
     std::ranges::move (own.messages, std::back_inserter (all.messages));
     return all;
 }

@@ -15,8 +15,9 @@ std::filesystem::path profileFolder();
 /// The folder of the user's own profiles: TACTUS_PROFILES in the environment, else ~/.config/tactus/profiles. It may not exist.
 std::filesystem::path ownProfileFolder();
 
-/// The user's own profiles and those that come with Tactus. An own one with the id of a shipped one is used only if its `replaces`
-/// says so, and then with a warning, because it also replaces the limits. Ids: profile/shadows, profile/replaces.
+/// The user's own profiles and those that come with Tactus. An own one may exceed the limits of a shipped one only if its `replaces`
+/// names that one, which is then not used; this gives a warning. Otherwise, an own one with the id of a shipped one is not used, and
+/// one that can fit the same device has the limits of both. Ids: profile/shadows, and the warnings profile/replaces, profile/competes.
 LoadedProfiles joined (LoadedProfiles own, LoadedProfiles shipped);
 
 /// All profiles in both folders, joined. [main thread]

@@ -55,7 +55,15 @@ struct Run
     bool stopped = false;
 };
 
-Run run (const graph::Graph& g, const std::vector<plan::Override>& overrides = {})
+/// The limits that a tool in play should stay far below, made smaller.
+GuardLimits partOf (GuardLimits limits, double share)
+{
+    for (auto* limit : { &limits.max_speed, &limits.max_impulse, &limits.max_energy })
+        *limit *= share;
+    return limits;
+}
+
+Run run (const graph::Graph& g, const std::vector<plan::Override>& overrides = {}, double share_of_limits = 1.0)
 {
     auto [plan, messages] = compiled (g, overrides);
     INFO (test::text (messages));
@@ -74,7 +82,7 @@ Run run (const graph::Graph& g, const std::vector<plan::Override>& overrides = {
         duration = std::max (duration, devices.back().device->duration());
     }
     for (std::size_t i = 0; i < devices.size(); ++i)
-        engine.attach (engine.plan().roles()[i].name, *devices[i].device, devices[i].limits);
+        engine.attach (engine.plan().roles()[i].name, *devices[i].device, partOf (devices[i].limits, share_of_limits));
     REQUIRE (duration > 0.0);
 
     Run result;
@@ -97,7 +105,8 @@ Run run (const graph::Graph& g, const std::vector<plan::Override>& overrides = {
 std::string readme()
 {
     std::string text = "# Presets\n\nOpen one in the host, or run `tactus play graphs/NAME.json`. This list is generated from the preset files: "
-                       "`TACTUS_UPDATE=1 build/release/bin/tactus_tests \"the list of presets*\"`.\n\n"
+                       "`TACTUS_UPDATE=1 build/release/bin/tactus_tests \"the list of presets*\"`. "
+                       "[Why their guards have the limits that they have](../docs/safety.md#the-limits-of-presets-and-profiles).\n\n"
                        "| preset | what it feels like | controls | needs | tags |\n|---|---|---|---|---|\n";
     for (const auto& path : presets())
     {
@@ -195,6 +204,25 @@ TEST_CASE ("every preset produces a force, stays within its guard, ends at zero,
             for (const double f : first.forces)
                 REQUIRE (std::isfinite (f));
             CHECK (run (g).forces == first.forces);
+        }
+    }
+}
+
+TEST_CASE ("the guard of every preset limits force, speed, impulse and energy, and its own gesture needs at most half of the last three", "[graphs]")
+{
+    for (const auto& path : presets())
+    {
+        DYNAMIC_SECTION (path.stem().string())
+        {
+            const auto g = loadGraph (path).graph;
+            for (const auto& [role, description] : g.devices)
+            {
+                INFO (role);
+                const auto limits = makeDevice (description, folder).limits;
+                for (const double limit : { limits.max_force, limits.max_speed, limits.max_impulse, limits.max_energy })
+                    CHECK (limit != GuardLimits::none);
+            }
+            CHECK_FALSE (run (g, {}, 0.5).stopped);
         }
     }
 }

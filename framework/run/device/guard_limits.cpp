@@ -70,7 +70,7 @@ GuardLimits readGuardLimits (const Json& json, std::string where, Messages& mess
     limits.dead_man_pressure = in.number ("dead_man_pressure", unit::newton, any, limits.dead_man_pressure);
     limits.dead_man_buttons = button (json, in, device);
     in.finish();
-    checkStops (limits, in.where(), messages);
+    checkStops (limits, in.where(), messages, Unlimited::may_be_limited_elsewhere);
     return limits;
 }
 
@@ -98,7 +98,7 @@ void readEffortLimits (ObjectReader& in, GuardLimits& limits)
     limits.still_force = in.number ("still_force", unit::newton, some, limits.still_force);
 }
 
-void checkStops (const GuardLimits& limits, const std::string& where, Messages& messages)
+void checkStops (const GuardLimits& limits, const std::string& where, Messages& messages, Unlimited unlimited)
 {
     struct Pair
     {
@@ -111,7 +111,16 @@ void checkStops (const GuardLimits& limits, const std::string& where, Messages& 
                          { "max_signal", "max_signal_slew", limits.max_signal, limits.max_signal_slew } };
     for (const auto& p : pairs)
     {
-        if (p.most == GuardLimits::none || p.slew == GuardLimits::none || p.most <= longest_stop_s * p.slew) continue;
+        if (p.slew == GuardLimits::none || p.most <= longest_stop_s * p.slew) continue;
+        if (p.most == GuardLimits::none)
+        {
+            if (unlimited == Unlimited::is_refused)
+                messages.push_back (Message::error ("device/slow_stop", where + "/" + p.slew_key,
+                                                    std::string ("without ") + p.most_key + ", " + p.slew_key + " " + numberText (p.slew)
+                                                        + " could draw out a stop without end; a stop may take " + numberText (longest_stop_s) + " s",
+                                                    std::string ("add ") + p.most_key + ", at most " + numberText (longest_stop_s * p.slew)));
+            continue;
+        }
         const auto least = numberText (p.most / longest_stop_s);
         messages.push_back (Message::error ("device/slow_stop", where + "/" + p.slew_key,
                                             std::string (p.slew_key) + " " + numberText (p.slew) + " would take " + numberText (p.most / p.slew)

@@ -31,8 +31,14 @@ void readEffortLimits (ObjectReader&, GuardLimits&);
 /// The longest time that a stop may take because of slew limits, in s.
 inline constexpr double longest_stop_s = 0.5;
 
-/// Reports each slew limit that needs longer than longest_stop_s to bring the largest allowed effort to zero. Ids:
-/// device/slow_stop.
-void checkStops (const GuardLimits&, const std::string& where, Messages&);
+/// What a slew limit means whose effort has no maximum in the same limits.
+enum class Unlimited
+{
+    is_refused,                ///< the limits are complete, and a stop could take for ever
+    may_be_limited_elsewhere   ///< the limits are those of a session or a graph; the device's profile may have the maximum
+};
+
+/// Reports a slew limit that needs longer than longest_stop_s to bring the largest effort to zero: device/slow_stop. [main thread]
+void checkStops (const GuardLimits&, const std::string& where, Messages&, Unlimited = Unlimited::is_refused);
 
 }   // namespace tactus

@@ -17,7 +17,11 @@ public:
     /// How fast the hand follows: it almost arrives within a twentieth of a second.
     static constexpr double follow_rate = 80.0;   // 1/s
 
-    explicit PointerPath (const Vec3& start) : target (Target { { start.x(), start.y(), start.z() } }), now { start, Vec3::Zero() } {}
+    /// How fast the hand moves at most. A mouse can leave the surface and enter it at the far side, which is no tool torn away: the guards
+    /// of presets stop a tool at 2 m/s.
+    static constexpr double top_speed = 1.0;   // m/s
+
+    explicit PointerPath (const Vec3& start) : target (Target { { start.x(), start.y(), start.z() } }), goal (start), now { start, Vec3::Zero() } {}
 
     void moveTo (const Vec3& p) noexcept { target.store ({ { p.x(), p.y(), p.z() } }); }   ///< [main thread]
 
@@ -28,10 +32,13 @@ public:
         last = t;
         if (! (dt > 0.0)) return now;
         const auto [wanted] = target.load();
-        // x = (a + b t) e^(-w t) about the target.
-        const Vec3 offset = now.position - Vec3 (wanted.data()), b = now.velocity + follow_rate * offset;
+        const Vec3 way = Vec3 (wanted.data()) - goal;
+        const double length = way.norm(), most = top_speed * dt;
+        goal = length > most ? Vec3 (goal + most / length * way) : Vec3 (wanted.data());
+        // x = (a + b t) e^(-w t) about the goal.
+        const Vec3 offset = now.position - goal, b = now.velocity + follow_rate * offset;
         const double decay = std::exp (-follow_rate * dt);
-        now.position = Vec3 (wanted.data()) + decay * (offset + b * dt);
+        now.position = goal + decay * (offset + b * dt);
         now.velocity = decay * (b - follow_rate * (offset + b * dt));
         return now;
     }
@@ -45,6 +52,7 @@ private:
     };
 
     Snapshot<Target> target;
+    mutable Vec3 goal;   // [tick thread] on the way to the target
     mutable Point now;   // [tick thread]
     mutable double last = 0.0;
 };

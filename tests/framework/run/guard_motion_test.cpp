@@ -209,7 +209,7 @@ TEST_CASE ("guard: limits with which a stop would take longer than half a second
     CHECK (found (R"({"max_torque": "1 N*m", "max_torque_slew": "1 N*m/s"})") == "device/slow_stop/guard/max_torque_slew");
     CHECK (found (R"({"max_axis_effort": 1, "max_axis_slew": 1})") == "device/slow_stop/guard/max_axis_slew");
     CHECK (found (R"({"max_signal": 1, "max_signal_slew": 1})") == "device/slow_stop/guard/max_signal_slew");
-    CHECK (found (R"({"max_slew": "1 N/s"})").empty());
+    CHECK (found (R"({"max_slew": "1 N/s"})").empty());   // the device's profile may have the maximum
     CHECK (found (R"({"max_angular_impulse": "1 N*m*s"})") == "device/missing/guard");
 }
 
@@ -234,6 +234,9 @@ TEST_CASE ("a run: the guard that the graph describes holds for any device of th
     CHECK (appliedWith ({ .max_force = 1.0 }, R"({"max_force": "2 N"})").first == Approx (1.0));
     CHECK (appliedWith ({ .max_force = 3.0 }, "{}").first == Approx (3.0));
     CHECK (appliedWith ({ .max_force = 30.0 }, R"({"max_slew": "50 N/s"})").second == "device/slow_stop/devices/stylus/guard/max_slew");
+    CHECK (appliedWith ({ .max_force = 20.0 }, R"({"max_slew": "50 N/s"})").second.empty());
+    CHECK (appliedWith ({}, R"({"max_slew": "50 N/s"})") == std::pair { 0.0, std::string ("device/slow_stop/devices/stylus/guard/max_slew") });
+    CHECK (appliedWith ({ .max_signal_slew = 50.0 }, R"({"max_force": "1 N"})").second == "device/slow_stop/devices/stylus/guard/max_signal_slew");
     CHECK (appliedWith ({}, R"({"max_signal": "2 N"})").second.empty());
     CHECK (appliedWith ({}, R"({"max_signal": "2 apples"})").second == "device/unit/devices/stylus/guard/max_signal");
     CHECK (appliedWith ({}, R"({"dead_man_button": "grip"})").second == "device/unknown_button/devices/stylus/guard/dead_man_button");

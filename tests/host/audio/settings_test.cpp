@@ -139,6 +139,10 @@ TEST_CASE ("a role uses the channels in its description, or else the channels of
     CHECK (guarded ("3").empty());
     CHECK (guarded (R"("300 mN")").empty());
     CHECK (test::has (guarded (R"("3 m/s2")"), "device/unit"));
+    CHECK (guarded (R"(3, "max_signal_slew": 5000)").empty());
+    CHECK (guarded (R"(3, "max_signal_slew": "5 kN/s")").empty());
+    CHECK (test::has (guarded (R"(3, "max_signal_slew": "5 kN")"), "device/unit"));
+    CHECK (test::has (guarded (R"(3, "max_signal_slew": "5 N/s")"), "device/slow_stop"));
 
     const auto plan = test::Sketch {}.node ("a", "device.signal_out", Json::object(), { { "channel", 3 } }).node ("b", "device.signal_in").compile().plan;
     REQUIRE (plan);

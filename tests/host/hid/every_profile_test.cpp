@@ -163,6 +163,36 @@ TEST_CASE ("every profile has a sample of each report, names its sources, and gi
     }
 }
 
+TEST_CASE ("every profile limits how strongly, how fast, how long and with how much energy its device drives the hand")
+{
+    const auto names = [] (const auto& all) { return std::ranges::any_of (all, [] (const auto& name) { return ! name.empty(); }); };
+    constexpr double none = GuardLimits::none;
+    int forces = 0, with_signals = 0;
+    for (const auto& profile : profiles())
+    {
+        INFO (profile->id);
+        const auto& guard = profile->limits.guard;
+        if (names (profile->force))
+        {
+            ++forces;
+            for (const double limit : { guard.max_force, guard.max_slew, guard.max_speed, guard.max_impulse, guard.max_energy })
+                CHECK (limit != none);
+        }
+        if (names (profile->torque))
+            for (const double limit : { guard.max_torque, guard.max_torque_slew, guard.max_angular_speed, guard.max_angular_impulse, guard.max_energy })
+                CHECK (limit != none);
+        const bool streams = std::ranges::any_of (profile->outputs, [] (const auto& report) { return report.stream.has_value(); });
+        if (streams || ! profile->signals.empty())
+        {
+            ++with_signals;
+            CHECK (guard.max_signal == 1.0);   // full scale
+            CHECK (guard.max_signal_slew != none);
+        }
+    }
+    CHECK (forces >= 2);
+    CHECK (with_signals >= 4);
+}
+
 TEST_CASE ("every profile with efforts has a neutral report, and rest efforts encode to it")
 {
     for (const auto& profile : profiles())

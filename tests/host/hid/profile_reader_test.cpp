@@ -141,6 +141,7 @@ TEST_CASE ("every error in a profile is reported with its position")
         { "/outputs/0/neutral", "03 00 00 01 00*6", "profile/neutral" },
         { "/signals", Json::parse (R"([{ "amplitude": "fx" }])"), "profile/signal_on_force" },
         { "/limits", Json::object(), "profile/no_limit" },
+        { "/signals", Json::parse (R"([{ "amplitude": "hum" }])"), "profile/no_limit" },
         { "/outputs/0/body", "04 01 00*8", "profile/format" },
         { "/outputs/0/name", null, "profile/missing" },
         { "/outputs/0/kind", "input", "profile/kind" },
@@ -211,6 +212,31 @@ TEST_CASE ("every error in a profile is reported with its position")
         for (const auto& m : loaded.messages)
             CHECK ((m.id.starts_with ("profile/") && ! m.text.empty() && ! m.remedy.empty()));
     }
+}
+
+TEST_CASE ("a profile that drives signals, by samples or by their amplitude, says how strongly")
+{
+    auto json = good();
+    json["signals"] = Json::parse (R"([{ "amplitude": "hum" }])");
+    json["limits"]["max_signal"] = 1;
+    CHECK (readProfile (json).messages.empty());
+
+    json = good();
+    json["outputs"].push_back (
+        Json::parse (R"({ "name": "samples", "id": 4, "neutral": "04 00*4", "verified": true, "stream": { "at": 1, "frames": 4, "channels": ["l"], "rate": 3000 } })"));
+    const auto unlimited = readProfile (json);
+    REQUIRE (unlimited.messages.size() == 1);
+    CHECK (unlimited.messages[0].id == "profile/no_limit");
+    json["limits"]["max_signal"] = 1;
+    CHECK (readProfile (json).messages.empty());
+}
+
+TEST_CASE ("a profile with a slew limit whose effort has no maximum is refused, because a stop could take for ever")
+{
+    const auto loaded = readProfile (with ("/limits/max_torque_slew", "1 N*m/s"));
+    CHECK_FALSE (loaded.profile);
+    REQUIRE (loaded.messages.size() == 1);
+    CHECK (loaded.messages[0].id == "device/slow_stop");
 }
 
 TEST_CASE ("too many items of any kind are refused")

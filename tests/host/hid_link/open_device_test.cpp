@@ -57,6 +57,26 @@ TEST_CASE ("a description opens the device that its profile fits, and can only t
     CHECK (loose.limits.max_force == 3.0);
 }
 
+TEST_CASE ("what there is to say about a user's profile is said when it opens a device", "[hid]")
+{
+    Several one;
+    one.devices = { board ("/dev/hidraw0", "A") };
+    auto profile = *test::BoardProfile {}.make();
+    profile.file = "own/board.json";
+    LoadedProfiles all { .profiles = { std::make_shared<const Profile> (profile) }, .messages = {} };
+    for (const auto* file : { "own/board.json", "own/another.json" })
+    {
+        all.messages.push_back (Message::warning ("profile/replaces", "/replaces", "the profile replaces the shipped one"));
+        all.messages.back().file = file;
+    }
+
+    const auto found = findDevice ({ { "driver", "hid" } }, one, all);
+    REQUIRE (found.messages.size() == 1);
+    CHECK (found.messages[0].id == "profile/replaces");
+    CHECK (found.messages[0].text == "own/board.json/replaces: the profile replaces the shipped one");
+    CHECK_FALSE (hasErrors (found.messages));
+}
+
 TEST_CASE ("a profile with efforts but without a ramp and watchdog gets the defaults", "[hid]")
 {
     auto profile = *test::BoardProfile {}.make();
