@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
 #include "report.hpp"
+#include "run_options.hpp"
 
 #include <framework/node/catalogue.hpp>
 #include <framework/plan/compile.hpp>
@@ -72,11 +73,13 @@ void addValidate (const Command& app)
     const auto files = std::make_shared<std::vector<std::string>>();
     const auto command = app.add ("validate", "Check graph files and report all problems in all of them");
     command.addOption ("graphs", *files, "Graph files").required();
+    addLimits (command);
     command.footer ("For each file without errors, the delay of every path from a device back to it is printed: each tick costs\n"
                     "stiffness that the hand can feel.\n\n"
                     "Examples:\n"
                     "  tactus validate graphs/dry_wood.json\n"
-                    "  tactus validate graphs/*.json && echo fine");
+                    "  tactus validate graphs/*.json && echo fine\n"
+                    "  tactus validate city.json --limits nodes=1M,memory=2GB");
     command.callback ([files] {
         bool all_fine = true;
         for (const auto& file : *files)
