@@ -5,6 +5,7 @@
 
 #include <framework/node/catalogue.hpp>
 #include <framework/plan/compile.hpp>
+#include <framework/text/quote.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/hid_link/open_device.hpp>
@@ -39,7 +40,7 @@ int checkDevices (const LoadedGraph& loaded, const std::string& file)
 
 std::string describe (const plan::PathDelay& d)
 {
-    auto text = "  " + d.source + " -> " + d.sink + ": ";
+    auto text = "  " + printableName (d.source) + " -> " + printableName (d.sink) + ": ";
     text += d.shortest == d.longest ? std::to_string (d.shortest) : std::to_string (d.shortest) + " to " + std::to_string (d.longest);
     text += d.longest == 1 ? " tick" : " ticks";
     return text + (d.recirculates ? ", with echoes\n" : "\n");
@@ -59,9 +60,9 @@ bool check (const std::string& file)
 
     for (const auto& role : compiled.plan->roles())
         if (std::ranges::count (loaded.graph.devices, role.name, &std::pair<std::string, Json>::first) == 0)
-            std::cerr << file << ": warning: no device is described for the role '" << role.name
+            std::cerr << printableName (file) << ": warning: no device is described for the role '" << printableName (role.name)
                       << "'\n    describe it under `devices`, or give --device when it runs [device/undescribed]\n";
-    std::cout << file << ": ok\n";
+    std::cout << printableName (file) << ": ok\n";
     for (const auto& d : compiled.plan->delays())
         std::cout << describe (d);
     return true;
