@@ -109,7 +109,7 @@ private:
         const auto list = at (scope.origin, "nodes");
         for (const auto& node : scope.patch->nodes)
         {
-            if (isTooLarge (all_nodes) || flat.isFull()) break;
+            if (isTooLarge (all_nodes, 1) || flat.isFull()) break;
             const auto here = at (list, node.name);
             if (! node.origin.empty()) flat.origins.emplace (node.id, node.origin);
             auto& member = scope.members[scope.names.add (node.name)];
@@ -275,6 +275,7 @@ private:
 
         if (open.size() >= max_depth)
         {
+            if (! flat.spend (work_of_a_search, 0.0, here)) return;
             flat.error ("graph/too_deep", at (here, "type"), "'" + scope.prefix + node.name + "' is nested " + std::to_string (max_depth) + " subgraphs deep",
                         "nest them less deeply");
             return;
@@ -632,7 +633,8 @@ Flattened flatten (const graph::Graph& g, const Catalogue& catalogue, std::span<
     return result;
 }
 
-Flattened flattenUnused (const graph::Graph& g, const std::string& subgraph, const graph::Patch& patch, const Catalogue& catalogue, Assets* assets, const Spent& spent)
+Flattened flattenUnused (const graph::Graph& g, const std::string& subgraph, const graph::Patch& patch, const Catalogue& catalogue, Assets* assets,
+                         const Spent& spent)
 {
     Flattened result;
     result.flat.spent = spent;

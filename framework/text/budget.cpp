@@ -26,12 +26,15 @@ const BudgetSheet& sheetOf (double Budgets::*which) noexcept { return *std::rang
 
 bool isInBytes (const BudgetSheet& sheet) noexcept { return sheet.unit == "bytes"; }
 
+/// Without an exponent, unlike numberText.
+std::string plainText (double v) { return v == std::floor (v) && v < 1e15 ? std::to_string (static_cast<long long> (v)) : numberText (v); }
+
 /// "64 MB", "200000 nodes".
 std::string amountText (const BudgetSheet& sheet, double amount)
 {
-    if (isInBytes (sheet) && amount < 1e5) return numberText (amount) + " bytes";
-    if (isInBytes (sheet)) return numberText (std::ceil (amount / 1e5) / 10.0) + " MB";
-    return numberText (amount) + " " + std::string (sheet.unit);
+    if (isInBytes (sheet) && amount < 1e5) return plainText (amount) + " bytes";
+    if (isInBytes (sheet)) return plainText (std::ceil (amount / 1e5) / 10.0) + " MB";
+    return plainText (std::ceil (amount)) + " " + std::string (sheet.unit);
 }
 
 /// An amount with room to spare, as --limits takes it: "400k", "2GB".
@@ -47,7 +50,7 @@ std::string limitText (const BudgetSheet& sheet, double amount)
             suffix = name;
             break;
         }
-    return numberText (std::round (rounded)) + suffix + (isInBytes (sheet) ? "B" : "");
+    return plainText (std::round (rounded)) + suffix + (isInBytes (sheet) ? "B" : "");
 }
 
 std::optional<double> amountIn (std::string_view text, bool in_bytes)

@@ -76,7 +76,7 @@ double costOf (const Grid& g) { return 8.0 * static_cast<double> (g.values.size(
 double costOf (const Mesh& m) { return 200.0 * static_cast<double> (m.points.size()); }
 
 /// A file that could be read only in part may have taken as long as a large one.
-constexpr double cost_of_a_failure = 16e6;
+constexpr double cost_of_a_failure = 8e6;
 }   // namespace
 
 template <typename T, typename Read>

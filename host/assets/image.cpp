@@ -31,7 +31,8 @@ Message broken (std::string_view name, const std::string& why)
 Message tooLarge (std::string_view name, std::size_t columns, std::size_t rows)
 {
     const double pixels = static_cast<double> (columns) * static_cast<double> (rows);
-    auto over = overBudget ("image/too_large", &Budgets::numbers, "with " + std::to_string (columns) + " times " + std::to_string (rows) + " pixels, it", pixels,
+    auto over = overBudget ("image/too_large", &Budgets::numbers, "with " + std::to_string (columns) + " times " + std::to_string (rows) + " pixels, it",
+                            pixels,
                             "make it smaller");
     over.where = name;
     return over;

@@ -50,7 +50,8 @@ std::string accountOf (const AudioStatus& s)
                          static_cast<std::size_t> (s.in.underruns));
     if (s.not_numbers > 0) account += "    " + std::to_string (s.not_numbers) + " samples of routes were not numbers and were played as 0\n";
     if (s.departures > 0)
-        account += "    it went away " + times (s.departures) + (s.is_open || s.trouble.empty() ? "" : ", and is still disconnected: " + printableName (s.trouble)) + "\n";
+        account += "    it went away " + times (s.departures)
+                   + (s.is_open || s.trouble.empty() ? "" : ", and is still disconnected: " + printableName (s.trouble)) + "\n";
     if (s.ticks_by_timer > 0)
         account += "    " + std::to_string (s.ticks_by_timer) + " ticks came from the timer because the card delivered no blocks; all forces were zero\n";
     return account;

@@ -130,7 +130,8 @@ std::string textOf (const Listed& l)
         return text;
     }
 
-    text += "profile " + printableName (l.profiles.front()->id) + " (" + printableName (l.profiles.front()->name) + "), " + std::string (verifiedOf (*l.profiles.front()));
+    text += "profile " + printableName (l.profiles.front()->id) + " (" + printableName (l.profiles.front()->name) + "), "
+            + std::string (verifiedOf (*l.profiles.front()));
     for (std::size_t i = 1; i < l.profiles.size(); ++i)
         text += (i == 1 ? "; would also fit: " : ", ") + printableName (l.profiles[i]->id);
     text += "\n    ";

@@ -402,7 +402,8 @@ void RemoteControl::answer (const OscReturn& to, const std::string& address, con
     if (to.port == 0) return;
     if (done) return port.send (to, OSCMessage ("/tactus/done", juceText (address), juceText (subject)));
     const auto& why = done.error();
-    port.send (to, OSCMessage ("/tactus/error", juceText (address), juceText (subject), juceText (why.id), juceText (printable (why.text)), juceText (printable (why.remedy))));
+    port.send (to, OSCMessage ("/tactus/error", juceText (address), juceText (subject), juceText (why.id), juceText (printable (why.text)),
+                               juceText (printable (why.remedy))));
 }
 
 }   // namespace tactus::host
