@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "csv.hpp"
+#include "text_file.hpp"
 
 #include <framework/kit/at.hpp>
+#include <framework/text/budget.hpp>
 #include <framework/text/number_text.hpp>
 #include <framework/text/quote.hpp>
 
@@ -205,6 +207,12 @@ private:
                          is_short ? "write nan where a number is missing" : "remove the extra fields; numbers have a decimal point, not a comma");
         }
 
+        if (const auto numbers = static_cast<double> (table.values.size() + fields.size()); numbers > budgets().numbers)
+        {
+            auto over = overBudget ("csv/too_large", &Budgets::numbers, "the table", numbers, "save a part of it");
+            return fail (std::move (over.id), 1, std::move (over.text), std::move (over.remedy));
+        }
+
         for (std::size_t i = 0; i < fields.size(); ++i)
         {
             const auto& [text, column] = fields[i];
@@ -278,17 +286,19 @@ Result<Table> readTable (std::istream& in, std::string_view name)
 
 Result<Table> readTable (const std::filesystem::path& path)
 {
-    std::error_code ignored;
-    if (std::filesystem::is_directory (path, ignored))
-        return unreadableTable (path.string(), "it is a folder, not a table");
-
-    if (std::filesystem::exists (path, ignored) && ! std::filesystem::is_regular_file (path, ignored) && ! std::filesystem::is_fifo (path, ignored))
-        return unreadableTable (path.string(), "it is not a regular file, so reading it might never end");
-
-    std::ifstream in (path, std::ios::binary);
-    if (! in)
-        return unreadableTable (path.string(), "there is no such file, or you are not allowed to read it");
-    return readTable (in, path.string());
+    auto text = readFile (path);
+    if (text)
+    {
+        auto table = readTable (*text, path.string());
+        constexpr double bytes_per_number = 16.0;
+        static_cast<void> (chargeReading (table ? bytes_per_number * static_cast<double> (table->values.size()) : 0.0));   // the next file is refused
+        return table;
+    }
+    auto why = std::move (text).error();
+    if (why.id == "file/unreadable")
+        return unreadableTable (path.string(), std::move (why.text));
+    why.where = path.string();
+    return why;
 }
 
 TableWriter::TableWriter (AtomicFile opened, std::size_t width) : file (std::move (opened)), columns (width) {}

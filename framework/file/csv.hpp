@@ -34,7 +34,7 @@ struct Table
 /// header alone is a table without rows. Accepts any text.
 ///
 /// Errors: csv/empty, csv/no_header, csv/empty_column_name, csv/duplicate_column, csv/empty_field, csv/not_a_number,
-/// csv/out_of_range, csv/ragged_row, csv/blank_line, csv/broken_quote, csv/nul_byte, csv/line_too_long, csv/unreadable. `where`
+/// csv/out_of_range, csv/ragged_row, csv/blank_line, csv/broken_quote, csv/nul_byte, csv/line_too_long, csv/too_large, csv/unreadable, file/too_large. `where`
 /// is name:line:column. Lines and columns count from 1, and columns count bytes.
 Result<Table> readTable (std::string_view text, std::string_view name);
 Result<Table> readTable (std::istream& in, std::string_view name);

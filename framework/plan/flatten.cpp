@@ -7,6 +7,7 @@
 #include <framework/graph/instances.hpp>
 #include <framework/graph/overrides.hpp>
 #include <framework/graph/text.hpp>
+#include <framework/text/budget.hpp>
 #include <framework/text/closest_match.hpp>
 
 #include <cmath>
@@ -17,8 +18,26 @@ namespace tactus::plan
 namespace
 {
 constexpr int max_depth = 32;
-constexpr std::size_t max_nodes = 1'000'000;   // nested subgraphs multiply: a small file can request 2^32 nodes
-constexpr std::size_t max_wires = 2'000'000;   // a wire may lead from all instances to all instances; values given to instances have the same limit
+
+// What compiling takes, measured, in units of the budget `work` (about 5 ns).
+constexpr double work_per_node = 800.0, work_per_value = 50.0, work_of_a_search = 10'000.0;
+constexpr double bytes_per_value = 100.0;
+
+/// How many values JSON holds; long texts count more.
+double sizeOf (const Json& json)
+{
+    constexpr double text_of_a_value = 10.0;   // bytes; a formula is parsed
+    double size = 1.0;
+    if (json.is_object())
+        for (const auto& [key, value] : json.asObject())
+            size += sizeOf (value);
+    else if (json.is_array())
+        for (const auto& value : json.asArray())
+            size += sizeOf (value);
+    else if (json.is_string())
+        size += static_cast<double> (json.asString().size()) / text_of_a_value;
+    return size;
+}
 
 /// Reserves room in large steps, so that many small additions do not move everything each time.
 template <typename T>
@@ -39,13 +58,14 @@ class Flattener
 public:
     Flattener (const Catalogue& c, std::span<const Override> o, Assets* a, Flattened& r) : nodes (c), overrides (o), assets (a), result (r), flat (r.flat) {}
 
-    void runAlone (const graph::Graph& g, const std::string& subgraph)
+    void runAlone (const graph::Graph& g, const std::string& subgraph, const graph::Patch& patch)
     {
         result.top = std::make_unique<Scope>();
         result.top->owner = &g;
-        result.top->patch = g.find (subgraph);
+        result.top->patch = &patch;
         result.top->origin = at ({}, "graphs", subgraph);
         expand (*result.top, {}, false);
+        reportTooLarge();
     }
 
     void run (const graph::Graph& g)
@@ -55,13 +75,9 @@ public:
         top->owner = &g;
         top->patch = &g.root;
         expand (*top, {}, false);
-        if (! too_large) readControls (g);
-        if (! too_large) readOverrides();
-        if (too_large)
-            flat.error ("graph/too_large", *too_large,
-                        "with its subgraphs expanded, the graph has more than " + std::to_string (max_nodes) + " nodes, or " + std::to_string (max_wires)
-                            + " wires or values of parameters",
-                        "use a subgraph fewer times, or with fewer instances");
+        if (! hasToStop()) readControls (g);
+        if (! hasToStop()) readOverrides();
+        reportTooLarge();
     }
 
 private:
@@ -75,6 +91,8 @@ private:
     std::vector<const graph::Patch*> open;      // the patches being expanded, outermost first
     Origin all_nodes = flat.at ({}, "nodes");   // the list `nodes` of the graph itself
     std::optional<Origin> too_large;            // the place where the graph became too large
+    Message why_too_large;
+    std::unordered_set<std::string> roles_seen;
     Ports starts, ends;                         // ports of the wire or value being read
 
     // These take views, because the Place that they make keeps pointing to the name.
@@ -91,7 +109,7 @@ private:
         const auto list = at (scope.origin, "nodes");
         for (const auto& node : scope.patch->nodes)
         {
-            if (isTooLarge (all_nodes) || flat.isFull()) break;
+            if (isTooLarge (all_nodes, 1) || flat.isFull()) break;
             const auto here = at (list, node.name);
             if (! node.origin.empty()) flat.origins.emplace (node.id, node.origin);
             auto& member = scope.members[scope.names.add (node.name)];
@@ -103,7 +121,7 @@ private:
                 addNode (scope, node, here, roles, muted, member);
             }
         }
-        if (! too_large)   // otherwise some of the nodes that names refer to are missing
+        if (! hasToStop())   // otherwise some of the nodes that names refer to are missing
         {
             expose (scope);
             addWires (scope, muted);
@@ -111,18 +129,33 @@ private:
         open.pop_back();
     }
 
+    bool hasToStop() const noexcept { return too_large || flat.spent.is_over; }
+
+    void reportTooLarge()
+    {
+        if (! too_large || flat.spent.is_over) return;
+        flat.spent.is_over = true;
+        flat.error (why_too_large.id, *too_large, why_too_large.text, why_too_large.remedy);
+    }
+
     /// Call this before adding nodes, wires or assignments, because nested subgraphs and instances multiply them.
     bool isTooLarge (Origin here, std::size_t more_nodes = 0, std::size_t more_wires = 0)
     {
-        const bool is_over =
-            flat.nodes.size() + flat.scopes.size() + more_nodes > max_nodes || std::max (flat.wires.size(), flat.assignments.size()) + more_wires > max_wires;
-        if (is_over && ! too_large) too_large = here;
-        return too_large.has_value();
+        const auto check = [&] (double Budgets::*which, double count) {
+            if (hasToStop() || count <= budgets().*which) return;
+            too_large = here;
+            why_too_large =
+                overBudget ("graph/too_large", which, "with its subgraphs expanded, the graph", count, "use a subgraph fewer times, or with fewer instances");
+        };
+        check (&Budgets::nodes, flat.spent.nodes + static_cast<double> (flat.nodes.size() + flat.scopes.size() + more_nodes));
+        check (&Budgets::wires, flat.spent.wires + static_cast<double> (std::max (flat.wires.size(), flat.assignments.size()) + more_wires));
+        return hasToStop();
     }
 
     void addNode (Scope& scope, const graph::Node& node, Origin here, const Roles& roles, bool muted, Scope::Member& member)
     {
         const auto* type = nodes.find (node.type);
+        if (! flat.spend (type == nullptr ? work_of_a_search : work_per_node, 0.0, here)) return;
         if (type == nullptr)
         {
             std::vector<std::string> ids;
@@ -182,6 +215,12 @@ private:
                        "remove the role");
         const auto outer = roles.find (node.role);
         made.role = outer == roles.end() ? node.role : outer->second;
+        if (made.type->bind == nullptr || ! roles_seen.insert (made.role).second) return;
+        if (const auto count = static_cast<double> (roles_seen.size()); count > budgets().roles && ! hasToStop())
+        {
+            too_large = here;
+            why_too_large = overBudget ("graph/too_large", &Budgets::roles, "the graph", count, "let device nodes share roles");
+        }
     }
 
     void readSettings (const Scope& scope, const graph::Node& node, Origin here, FlatNode& made)
@@ -203,6 +242,8 @@ private:
                             is_param ? "it is a parameter: move it to params" : "its settings: " + listed (ids));
                 continue;
             }
+            const double size = sizeOf (value);
+            if (! flat.spend (work_per_value * size, bytes_per_value * size, at (here, "settings", key))) continue;
             std::string within;
             if (auto read = readSetting (value, *sheet, { assets, scope.owner->folder }, within))
                 made.settings[tactus::at (sheet - made.type->settings.begin())] = *std::move (read);
@@ -235,6 +276,7 @@ private:
 
         if (open.size() >= max_depth)
         {
+            if (! flat.spend (work_of_a_search, 0.0, here)) return;
             flat.error ("graph/too_deep", at (here, "type"), "'" + scope.prefix + node.name + "' is nested " + std::to_string (max_depth) + " subgraphs deep",
                         "nest the subgraphs less deeply");
             return;
@@ -256,8 +298,10 @@ private:
 
         if (count && isTooLarge (at (here, "count"), tactus::at (*count) * (first.patch->nodes.size() + 1))) return;
         member.counted = count.has_value();
+        const double work = work_per_node + work_per_value * static_cast<double> (membersOf (node.roles).size() + roles.size());
         for (int k = 0; k < count.value_or (1) && ! isTooLarge (all_nodes) && ! flat.isFull(); ++k)
         {
+            if (! flat.spend (work, 0.0, here)) break;
             auto inside = std::make_unique<Scope>();
             inside->owner = first.owner;
             inside->patch = first.patch;
@@ -297,6 +341,8 @@ private:
 
     void checkRoles (const Scope& scope, const graph::Node& node, Origin here, const graph::Patch& patch, int count)
     {
+        const auto most = static_cast<double> (membersOf (node.roles).size() * (patch.nodes.size() + 1));
+        if (! flat.spend (most, 0.0, here)) return;
         for (const auto& [inner, outer] : membersOf (node.roles))
         {
             const auto origin = at (here, "roles", inner);
@@ -347,9 +393,12 @@ private:
             inside.owner = scope.owner;
             inside.patch = scope.owner->find (name);
             inside.origin = at (fileOf (scope.origin), "graphs", name);
+            const auto graphs = static_cast<double> (scope.owner->graphs.size());   // all of them are compared
+            if (! flat.spend (inside.patch == nullptr ? work_per_value * graphs : graphs, 0.0, here)) return false;
             std::vector<std::string> names;
-            for (const auto& [id, patch] : scope.owner->graphs)
-                names.push_back (id);
+            if (inside.patch == nullptr)
+                for (const auto& [id, patch] : scope.owner->graphs)
+                    names.push_back (id);
             if (inside.patch == nullptr)
                 flat.error ("graph/unknown_subgraph", at (here, "type"),
                             "there is no subgraph '" + std::string (name) + "' under `graphs`" + didYouMean (name, names), "subgraphs here: " + listed (names));
@@ -522,7 +571,7 @@ private:
 
     void assign (const Scope& scope, const graph::Endpoint& e, const Json& value, Origin origin)
     {
-        if (too_large) return;
+        if (hasToStop()) return;
         find (e, Side::param, scope, origin, flat, ends);
         if (isTooLarge (origin, 0, ends.size())) return;
         for (const auto& to : ends)
@@ -585,10 +634,12 @@ Flattened flatten (const graph::Graph& g, const Catalogue& catalogue, std::span<
     return result;
 }
 
-Flattened flattenUnused (const graph::Graph& g, const std::string& subgraph, const Catalogue& catalogue, Assets* assets)
+Flattened flattenUnused (const graph::Graph& g, const std::string& subgraph, const graph::Patch& patch, const Catalogue& catalogue, Assets* assets,
+                         const Spent& spent)
 {
     Flattened result;
-    Flattener { catalogue, {}, assets, result }.runAlone (g, subgraph);
+    result.flat.spent = spent;
+    Flattener { catalogue, {}, assets, result }.runAlone (g, subgraph, patch);
     readParams (result.flat);
     return result;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "live_recording.hpp"
 
+#include <framework/text/quote.hpp>
+
 #include <cstdio>
 #include <utility>
 
@@ -33,7 +35,7 @@ void LiveRecording::giveUp (std::vector<Message> failed)
     for (auto& error : failed)
     {
         std::fprintf (stderr, "%s: warning: %s; this file is no longer written, but the run continues [%s]\n",
-                      error.where.c_str(), error.text.c_str(), error.id.c_str());
+                      printableName (error.where).c_str(), printable (error.text).c_str(), error.id.c_str());
         if (! failure) failure = std::move (error);
     }
 }

@@ -2,6 +2,8 @@
 #include "wav.hpp"
 
 #include <framework/file/atomic_file.hpp>
+#include <framework/file/text_file.hpp>
+#include <framework/text/budget.hpp>
 
 #include <juce_audio_formats/juce_audio_formats.h>
 
@@ -77,6 +79,7 @@ double sampleFrom (int raw, const juce::AudioFormatReader& reader)
 
 Result<Signal> readWav (const std::filesystem::path& path)
 {
+    if (const auto why = whyUnreadable (path); ! why.empty()) return fail ("wav/unreadable", path, why, "check the path");
     const auto full_path = std::filesystem::absolute (path).string();
     auto stream = juce::File (juce::String::fromUTF8 (full_path.c_str())).createInputStream();
     if (stream == nullptr)
@@ -102,6 +105,11 @@ Result<Signal> readWav (const std::filesystem::path& path)
 
     const auto frames = static_cast<std::size_t> (reader->lengthInSamples);
     const std::size_t channels = reader->numChannels;
+    if (const auto samples = static_cast<double> (frames) * static_cast<double> (channels); samples > budgets().numbers)
+    {
+        const auto over = overBudget ("wav/too_large", &Budgets::numbers, "it", samples, "save a part of it");
+        return fail (over.id, path, over.text, over.remedy);
+    }
     Signal recording { .rate_hz = reader->sampleRate, .channels = std::vector (channels, std::vector<double> (frames)) };
 
     std::vector<std::vector<int>> block (channels, std::vector<int> (frames_per_block));

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -115,6 +116,7 @@ struct TextureNoise
     Params params;
     Settings settings;
 
+    Cost cost() const;
     std::string problem() const;
     std::string warning (const Setup&) const;
     void prepare (const Setup&);
@@ -192,6 +194,26 @@ private:
 
 //==============================================================================
 // Implementation below.
+
+/// The stability of each model is checked, and for each pair of a speed and a force the nearest model is searched.
+inline Cost TextureNoise::cost() const
+{
+    constexpr double work_per_product = 2.0, work_per_distance = 3.0;
+    if (settings.models.size() > most_models) return {};   // a problem
+    std::set<double> all_speeds, all_forces;
+    double products = 0.0, numbers = 0.0;
+    for (const Model& m : settings.models)
+    {
+        all_speeds.insert (m.speed);
+        all_forces.insert (m.force);
+        const auto order = static_cast<double> (std::min (m.coefficients.size(), highest_order));
+        products += order * order;
+        numbers += order;
+    }
+    const auto pairs = static_cast<double> (all_speeds.size()) * static_cast<double> (all_forces.size());
+    return { .work = work_per_product * products + work_per_distance * pairs * static_cast<double> (settings.models.size()),
+             .memory = 8.0 * (pairs + numbers) };
+}
 
 inline std::string TextureNoise::problem() const
 {
