@@ -119,7 +119,7 @@ bool Flat::spend (double work, double memory, Origin origin)
         auto over = overBudget ("graph/too_large", which, "with this, the graph", needed, "use fewer instances, or smaller settings");
         error (std::move (over.id), origin, std::move (over.text), std::move (over.remedy));
     };
-    check (&Budgets::work, spent.work);
+    check (&Budgets::time, work_unit_s * spent.work);
     check (&Budgets::memory, spent.memory);
     return ! spent.is_over;
 }

@@ -198,7 +198,7 @@ struct Flat
         return &places.emplace_back (Place { around, made_names.emplace_back (std::move (text)), 0, Place::Kind::as_is });
     }
 
-    /// Counts what follows toward the budgets `work` and `memory`. Call it before anything that multiplies. False if a budget is
+    /// Counts what follows toward the budgets `time` and `memory`. Call it before anything that multiplies. False if a budget is
     /// exceeded; the first time, it reports this as an error.
     bool spend (double work, double memory, Origin);
 

@@ -19,7 +19,7 @@ namespace
 {
 constexpr int max_depth = 32;
 
-// What compiling takes, measured, in units of the budget `work` (about 5 ns).
+// What compiling takes, measured, in units of work (work_unit_s).
 constexpr double work_per_node = 800.0, work_per_value = 50.0, work_of_a_search = 10'000.0;
 constexpr double bytes_per_value = 100.0;
 
@@ -93,7 +93,7 @@ private:
     std::optional<Origin> too_large;            // the place where the graph became too large
     Message why_too_large;
     std::unordered_set<std::string> roles_seen;
-    Ports starts, ends;                         // ports of the wire or value being read
+    Ports starts, ends;   // ports of the wire or value being read
 
     // These take views, because the Place that they make keeps pointing to the name.
     Origin at (Origin around, std::string_view name) { return flat.at (around, name); }

@@ -25,19 +25,20 @@ thread_local double charged = 0.0;   // bytes
 const BudgetSheet& sheetOf (double Budgets::*which) noexcept { return *std::ranges::find (budget_sheets, which, &BudgetSheet::value); }
 
 bool isInBytes (const BudgetSheet& sheet) noexcept { return sheet.unit == "bytes"; }
+bool isInSeconds (const BudgetSheet& sheet) noexcept { return sheet.unit == "s"; }
 
 /// Without an exponent, unlike numberText.
 std::string plainText (double v) { return v == std::floor (v) && v < 1e15 ? std::to_string (static_cast<long long> (v)) : numberText (v); }
 
-/// "64 MB", "200000 nodes".
+/// "64 MB", "200000 nodes", "7.5 s".
 std::string amountText (const BudgetSheet& sheet, double amount)
 {
     if (isInBytes (sheet) && amount < 1e5) return plainText (amount) + " bytes";
     if (isInBytes (sheet)) return plainText (std::ceil (amount / 1e5) / 10.0) + " MB";
-    return plainText (std::ceil (amount)) + " " + std::string (sheet.unit);
+    return plainText (isInSeconds (sheet) ? std::ceil (10.0 * amount) / 10.0 : std::ceil (amount)) + " " + std::string (sheet.unit);
 }
 
-/// An amount with room to spare, as --limits takes it: "400k", "2GB".
+/// An amount with room to spare, as --limits takes it: "400k", "2GB", "60s".
 std::string limitText (const BudgetSheet& sheet, double amount)
 {
     const double digit = std::pow (10.0, std::floor (std::log10 (std::max (amount, 1.0))));
@@ -50,17 +51,18 @@ std::string limitText (const BudgetSheet& sheet, double amount)
             suffix = name;
             break;
         }
-    return plainText (std::round (rounded)) + suffix + (isInBytes (sheet) ? "B" : "");
+    return plainText (std::round (rounded)) + suffix + (isInBytes (sheet) ? "B" : isInSeconds (sheet) ? "s"
+                                                                                                      : "");
 }
 
-std::optional<double> amountIn (std::string_view text, bool in_bytes)
+std::optional<double> amountIn (std::string_view text, const BudgetSheet& sheet)
 {
     double amount = 0.0;
     const auto* const end = text.data() + text.size();
     const auto [stop, problem] = std::from_chars (text.data(), end, amount);
     if (problem != std::errc {}) return std::nullopt;
     std::string_view suffix (stop, static_cast<std::size_t> (end - stop));
-    if (in_bytes && suffix.ends_with ('B')) suffix.remove_suffix (1);
+    if ((isInBytes (sheet) && suffix.ends_with ('B')) || (isInSeconds (sheet) && suffix.ends_with ('s'))) suffix.remove_suffix (1);
     if (suffix == "k")
         amount *= 1e3;
     else if (suffix == "M")
@@ -70,7 +72,8 @@ std::optional<double> amountIn (std::string_view text, bool in_bytes)
     else if (! suffix.empty())
         return std::nullopt;
     constexpr double most = 1e15;   // counts stay exact
-    return amount >= 1.0 && amount <= most ? std::optional (amount) : std::nullopt;
+    const double least = isInSeconds (sheet) ? 1e-6 : 1.0;
+    return amount >= least && amount <= most ? std::optional (amount) : std::nullopt;
 }
 
 Result<> readLimit (std::string_view text, Budgets& to)
@@ -87,10 +90,10 @@ Result<> readLimit (std::string_view text, Budgets& to)
         return fail ("there is no budget " + quote (name), suggestion (name, names));
     }
     const auto value = equals == text.npos ? std::string_view {} : text.substr (equals + 1);
-    const auto amount = amountIn (value, isInBytes (*sheet));
+    const auto amount = amountIn (value, *sheet);
     if (! amount)
         return fail (quote (value) + " is not an amount for the budget `" + std::string (name) + "`",
-                     "give a number of at least 1, such as " + std::string (name) + "=" + limitText (*sheet, Budgets {}.*sheet->value));
+                     "give a positive number, such as " + std::string (name) + "=" + limitText (*sheet, Budgets {}.*sheet->value));
     to.*sheet->value = *amount;
     return {};
 }

@@ -30,7 +30,7 @@ struct Budgets
     double nodes = 2e5;       ///< a processor core computes about 10 000 nodes in a tick
     double wires = 1e6;       ///< five for each node
     double memory = 450e6;    ///< the largest height map, 2048 times 2048, takes 412 MB
-    double work = 1e9;        ///< a unit takes about 5 ns
+    double time = 5.0;        ///< as long as a person waits for a file to open
 };
 
 /// A budget as --limits and messages name it.
@@ -38,7 +38,7 @@ struct BudgetSheet
 {
     std::string_view name;
     double Budgets::*value;
-    std::string_view unit;   ///< "bytes", or what is counted
+    std::string_view unit;   ///< "bytes", "s", or what is counted
     std::string_view about;
 };
 
@@ -54,8 +54,11 @@ inline constexpr BudgetSheet budget_sheets[] {
     { "nodes", &Budgets::nodes, "nodes", "nodes and instances of subgraphs, with all subgraphs expanded" },
     { "wires", &Budgets::wires, "wires", "wires with all subgraphs expanded; also values given to instances" },
     { "memory", &Budgets::memory, "bytes", "estimated memory of the nodes, with their settings and delays" },
-    { "work", &Budgets::work, "units", "estimated work of compiling; a unit takes about 5 ns" },
+    { "time", &Budgets::time, "s", "estimated time of compiling; the work is counted, and a unit of work takes 5 ns" },
 };
+
+/// The time in s that a unit of work takes, such as the arithmetic of one sample. Measured on a slow desktop computer.
+inline constexpr double work_unit_s = 5e-9;
 
 /// The budgets of this process. [any thread]
 const Budgets& budgets() noexcept;
@@ -63,8 +66,8 @@ const Budgets& budgets() noexcept;
 /// Call this before anything is loaded. [main thread]
 void setBudgets (const Budgets&) noexcept;
 
-/// Reads the value of --limits, "nodes=20000,memory=2GB"; budgets that it does not name keep their defaults. Amounts may end in
-/// k, M or G, those in bytes also in B, kB, MB or GB. Error: limits/value.
+/// Reads the value of --limits, "time=60s,memory=4GB"; budgets that it does not name keep their defaults. Amounts may end in
+/// k, M or G, those in bytes also in B, kB, MB or GB, and the time in s. Error: limits/value.
 Result<Budgets> readLimits (std::string_view);
 
 /// The error for something that takes more than a budget allows. `what` begins the sentence, `remedy` names what else helps;

@@ -69,7 +69,7 @@ TEST_CASE ("budgets: a table of many modes and samples is refused before it is c
         return Sketch {}.node ("ring", "vibration.wavetable", Json::object(), { { "table", { { "modes", modes (count) }, { "length", length } } } });
     };
     CHECK (refusal (table (20, 4000)).empty());
-    CHECK_THAT (refusal (table (10'000, 1'000'000)), Contains ("`work`") && Contains ("--limits work="));
+    CHECK_THAT (refusal (table (10'000, 1'000'000)), Contains ("`time`") && Contains ("--limits time="));
 }
 
 TEST_CASE ("budgets: delays in nodes take memory together", "[plan][budget]")
@@ -82,7 +82,7 @@ TEST_CASE ("budgets: delays in nodes take memory together", "[plan][budget]")
 
 TEST_CASE ("budgets: settings count for each instance that reads them", "[plan][budget]")
 {
-    const WithLimits limits ("work=1M");
+    const WithLimits limits ("time=0.005s");
     const auto instances = [] (int count) {
         Sketch sketch;
         sketch.add (sketch.subgraph ("bar"), "ring", "vibration.modal", Json::object(), { { "modes", modes (50) } });
@@ -91,7 +91,7 @@ TEST_CASE ("budgets: settings count for each instance that reads them", "[plan][
         return sketch;
     };
     CHECK (refusal (instances (10)).empty());
-    CHECK_THAT (refusal (instances (1000)), Contains ("`work`"));
+    CHECK_THAT (refusal (instances (1000)), Contains ("`time`"));
 }
 
 TEST_CASE ("budgets: a texture with a thousand models at a thousand speeds and forces is refused", "[plan][budget]")
@@ -103,7 +103,7 @@ TEST_CASE ("budgets: a texture with a thousand models at a thousand speeds and f
         return Sketch {}.node ("noise", "texture.noise", Json::object(), { { "models", models } });
     };
     CHECK (refusal (noise (50)).empty());
-    CHECK_THAT (refusal (noise (1000)), Contains ("`work`"));
+    CHECK_THAT (refusal (noise (1000)), Contains ("`time`"));
 }
 
 TEST_CASE ("budgets: a graph has a limited number of roles", "[plan][budget]")

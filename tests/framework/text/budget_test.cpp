@@ -10,7 +10,7 @@ using Catch::Matchers::Contains;
 
 TEST_CASE ("limits are read with their suffixes, and the other budgets keep their defaults", "[budget]")
 {
-    const auto read = readLimits ("nodes=20000,memory=2GB,work=3G,file=1.5kB,wires=2k");
+    const auto read = readLimits ("nodes=20000,memory=2GB,time=15s,file=1.5kB,wires=2k");
     REQUIRE (read);
     CHECK (read->nodes == 20000.0);
     CHECK (read->memory == 2e9);

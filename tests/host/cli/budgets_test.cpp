@@ -64,7 +64,7 @@ TEST_CASE ("attack: a relief of 10^6 points in a row is refused, and a lower bud
     scratch.write ("map.csv", profile (1'000'000));
     const auto ran = runTactus ({ "validate", file });
     CHECK (ran.status == 1);
-    CHECK_THAT (ran.err, Contains ("the budget `work` allows") && Contains ("--limits work="));
+    CHECK_THAT (ran.err, Contains ("the budget `time` allows") && Contains ("--limits time="));
 
     scratch.write ("map.csv", profile (100));
     CHECK (runTactus ({ "validate", file }).status == 0);
@@ -82,7 +82,7 @@ TEST_CASE ("attack: 10^4 modes of 10^6 samples are refused", "[cli][budget]")
     const auto text = graph (R"("m": { "type": "vibration.wavetable", "settings": { "table": { "length": 1000000, "modes": [)" + modes + "] } } }");
     const auto ran = runTactus ({ "validate", scratch.write ("modes.json", text) });
     CHECK (ran.status == 1);
-    CHECK_THAT (ran.err, Contains ("--limits work="));
+    CHECK_THAT (ran.err, Contains ("--limits time="));
 }
 
 TEST_CASE ("attack: many small devices cannot read one large trace again and again", "[cli][budget]")
@@ -112,7 +112,7 @@ TEST_CASE ("limits that do not exist, or are no amounts, are wrong usage", "[cli
         CHECK_THAT (unknown.err, Contains ("did you mean") && Contains ("nodes"));
     }
     CHECK (runTactus ({ "validate", file, "--limits", "nodes=many" }).status == 2);
-    CHECK (runTactus ({ "validate", file, "--limits", "nodes=1k,memory=1GB,work=10M" }).status == 0);
+    CHECK (runTactus ({ "validate", file, "--limits", "nodes=1k,memory=1GB,time=0.05s" }).status == 0);
     CHECK (runTactus ({ "validate", file, "--limits", "nodes=1" }).status == 1);
 }
 

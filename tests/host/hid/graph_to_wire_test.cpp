@@ -43,7 +43,7 @@ struct Wired final : Device
         const auto values = model.drive (effort);
         for (std::size_t r = 0; r < model.outputs(); ++r)
         {
-            const auto wire = model.encode (r, values);
+            const auto wire = model.encodeValues (r, values);
             const auto body = profile->outputs[r].id ? wire : wire.subspan (1);
             for (const auto& field : profile->outputs[r].fields)
                 for (std::size_t i = 0; i < model.effortNames().size(); ++i)
