@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wav.hpp"
 
-#include <framework/file/atomic_file.hpp>
-
 #include <juce_audio_formats/juce_audio_formats.h>
 
 #include <bit>
+#include <cerrno>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -149,7 +148,7 @@ struct WavWriter::Impl
     }
 };
 
-Result<WavWriter> WavWriter::create (const std::filesystem::path& path, double sample_rate_hz, std::size_t channels)
+Result<WavWriter> WavWriter::create (const std::filesystem::path& path, double sample_rate_hz, std::size_t channels, IfKilled if_killed)
 {
     if (channels == 0 || channels > most_channels)
         return fail ("wav/channels", path, "a WAV cannot have " + std::to_string (channels) + " channels",
@@ -161,7 +160,7 @@ Result<WavWriter> WavWriter::create (const std::filesystem::path& path, double s
         return fail ("wav/sample_rate", path, "a WAV cannot have a sample rate of " + inWords (sample_rate_hz) + " Hz",
                      "choose a rate in whole Hz, or write a CSV");
 
-    auto file = AtomicFile::create (path);
+    auto file = AtomicFile::create (path, if_killed);
     if (! file)
         return file.error();
     if (file->stream().tellp() < 0)
@@ -199,6 +198,16 @@ Result<> WavWriter::frame (std::span<const double> samples)
 
     if (++impl->filled == frames_per_block)
         return impl->writeBlock();
+    return {};
+}
+
+Result<> WavWriter::flush()
+{
+    if (auto written = impl->writeBlock(); ! written)
+        return written;
+    errno = 0;
+    if (! impl->writer->flush() || ! impl->file.stream().flush())
+        return impl->file.writeError();
     return {};
 }
 
