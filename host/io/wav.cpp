@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wav.hpp"
 
+#include <framework/file/atomic_file.hpp>
+
 #include <juce_audio_formats/juce_audio_formats.h>
 
 #include <bit>
