@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <iterator>
@@ -22,6 +23,9 @@ namespace
 {
 /// Longer than any line of a real table, so it tells binary files from tables.
 constexpr std::size_t longest_line = 512 * 1024;
+
+/// Rows are written once there are this many bytes of them.
+constexpr std::size_t bytes_per_write = 64 * 1024;
 
 constexpr std::string_view spaces = " \t";
 
@@ -303,7 +307,7 @@ Result<Table> readTable (const std::filesystem::path& path)
 
 TableWriter::TableWriter (AtomicFile opened, std::size_t width) : file (std::move (opened)), columns (width) {}
 
-Result<TableWriter> TableWriter::create (const std::filesystem::path& path, std::span<const std::string> columns)
+Result<TableWriter> TableWriter::create (const std::filesystem::path& path, std::span<const std::string> columns, IfKilled if_killed)
 {
     std::string header;
     for (const auto& name : columns)
@@ -317,14 +321,12 @@ Result<TableWriter> TableWriter::create (const std::filesystem::path& path, std:
         return Message::error ("csv/column_name", path.string(), "a column name contains a line break, or begins or ends with a space",
                                "write the name on one line, without surrounding spaces");
 
-    auto opened = AtomicFile::create (path);
+    auto opened = AtomicFile::create (path, if_killed);
     if (! opened)
         return opened.error();
 
     TableWriter writer (std::move (*opened), columns.size());
-    writer.line = std::move (header);
-    if (const auto written = writer.writeLine(); ! written)
-        return written.error();
+    writer.lines = std::move (header) + '\n';
     return writer;
 }
 
@@ -335,24 +337,32 @@ Result<> TableWriter::row (std::span<const double> values)
                                "it has " + std::to_string (values.size()) + " values, but the header has " + std::to_string (columns) + " columns",
                                "give one value per column");
 
-    line.clear();
-    for (const double value : values)
+    for (std::size_t i = 0; i < values.size(); ++i)
     {
-        if (! line.empty())
-            line += ',';
-        line += numberText (value);
+        if (i > 0)
+            lines += ',';
+        lines += numberText (values[i]);
     }
-    return writeLine();
+    lines += '\n';
+    return lines.size() < bytes_per_write ? Result<> {} : flush();
 }
 
-Result<> TableWriter::commit() { return file.commit(); }
-
-Result<> TableWriter::writeLine()
+Result<> TableWriter::flush()
 {
-    line += '\n';
-    if (! file.stream().write (line.data(), static_cast<std::streamsize> (line.size())))
+    errno = 0;
+    auto& out = file.stream();
+    const bool written = out.write (lines.data(), static_cast<std::streamsize> (lines.size())) && out.flush();
+    lines.clear();
+    if (! written)
         return file.writeError();
     return {};
+}
+
+Result<> TableWriter::commit()
+{
+    if (auto written = flush(); ! written)
+        return written;
+    return file.commit();
 }
 
 }   // namespace tactus

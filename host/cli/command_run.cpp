@@ -54,6 +54,7 @@ CommandRun::CommandRun (const RunOptions& o, Pace pace) : options (o), loaded (l
     for (const auto* file : { &options.log, &options.capture })
         if (! file->empty()) outputs.push_back (*file);
     refuseOverwriting (outputs, inputs());
+    if (pace == Pace::live) reportUnfinished (outputs);
     if (! options.log.empty()) orFail (running->startLog (options.log, TACTUS_VERSION, options.sets, loaded.graph));
     if (pace == Pace::live) startAudio();
 }

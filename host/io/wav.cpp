@@ -8,6 +8,7 @@
 #include <juce_audio_formats/juce_audio_formats.h>
 
 #include <bit>
+#include <cerrno>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -157,7 +158,7 @@ struct WavWriter::Impl
     }
 };
 
-Result<WavWriter> WavWriter::create (const std::filesystem::path& path, double sample_rate_hz, std::size_t channels)
+Result<WavWriter> WavWriter::create (const std::filesystem::path& path, double sample_rate_hz, std::size_t channels, IfKilled if_killed)
 {
     if (channels == 0 || channels > most_channels)
         return fail ("wav/channels", path, "a WAV file cannot have " + std::to_string (channels) + " channels",
@@ -169,7 +170,7 @@ Result<WavWriter> WavWriter::create (const std::filesystem::path& path, double s
         return fail ("wav/sample_rate", path, "a WAV file cannot have a sample rate of " + inWords (sample_rate_hz) + " Hz",
                      "choose a rate in whole Hz, or write a CSV");
 
-    auto file = AtomicFile::create (path);
+    auto file = AtomicFile::create (path, if_killed);
     if (! file)
         return file.error();
     if (file->stream().tellp() < 0)
@@ -207,6 +208,16 @@ Result<> WavWriter::frame (std::span<const double> samples)
 
     if (++impl->filled == frames_per_block)
         return impl->writeBlock();
+    return {};
+}
+
+Result<> WavWriter::flush()
+{
+    if (auto written = impl->writeBlock(); ! written)
+        return written;
+    errno = 0;
+    if (! impl->writer->flush() || ! impl->file.stream().flush())
+        return impl->file.writeError();
     return {};
 }
 

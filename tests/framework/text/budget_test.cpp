@@ -14,7 +14,7 @@ TEST_CASE ("limits are read with their suffixes, and the other budgets keep thei
     REQUIRE (read);
     CHECK (read->nodes == 20000.0);
     CHECK (read->memory == 2e9);
-    CHECK (read->work == 3e9);
+    CHECK (read->time == 15.0);
     CHECK (read->file == 1500.0);
     CHECK (read->wires == 2000.0);
     CHECK (read->roles == Budgets {}.roles);
@@ -31,7 +31,7 @@ TEST_CASE ("a wrong limit is refused with what would be right", "[budget]")
     };
     CHECK_THAT (refusal ("noodles=3"), Contains ("'noodles'") && Contains ("did you mean 'nodes'?"));
     CHECK_THAT (refusal ("nodes"), Contains ("nodes=200k"));
-    for (const auto* wrong : { "nodes=", "nodes=0", "nodes=-1", "nodes=nan", "nodes=inf", "nodes=1e300", "nodes=2KB", "nodes=3 k", "memory=2TB", "nodes=1,=2" })
+    for (const auto* wrong : { "nodes=", "nodes=0", "nodes=-1", "nodes=nan", "nodes=inf", "nodes=1e300", "nodes=2KB", "nodes=3 k", "memory=2TB", "time=0s", "time=1h", "nodes=1,=2" })
     {
         INFO (wrong);
         refusal (wrong);
@@ -46,6 +46,9 @@ TEST_CASE ("a refusal names the budget, the figure and the option that raises it
     const auto bytes = overBudget ("x/y", &Budgets::memory, "it", 1.23e9, "use less");
     CHECK (bytes.text == "it takes 1230 MB or more; the budget `memory` allows 450 MB");
     CHECK (bytes.remedy == "use less, or raise the budget: --limits memory=2GB");
+    const auto time = overBudget ("x/y", &Budgets::time, "it", 41.23, "use less");
+    CHECK (time.text == "it takes 41.3 s or more; the budget `time` allows 5 s");
+    CHECK (time.remedy == "use less, or raise the budget: --limits time=50s");
 }
 
 TEST_CASE ("a text with too many values is refused where the first one too many stands", "[budget]")
