@@ -86,7 +86,7 @@ double bytesOf (const FlatNode& n)
     return bytes_per_node + bytes_per_number * numbers;
 }
 
-/// Asks nodes what they cost, and nodes that check their own settings for problems, and for warnings at this rate.
+/// Asks each node what it costs, whether its settings are usable, and whether it has a warning at its rate.
 void askNodes (Flat& flat, const Setup& setup)
 {
     for (int i = 0; i < flat.nodeCount(); ++i)

@@ -71,7 +71,7 @@ bool hasChannels (const Effort& e) noexcept { return (e.axes.size() | e.signals.
 double orNothing (double limit) noexcept { return limit >= 0.0 ? limit : 0.0; }
 double orForever (double s) noexcept { return s >= 0.0 ? s : GuardLimits::none; }
 
-/// The window of a limit, if the limit is set; 0 means the whole session.
+/// The window for a limit: infinity (the whole session) if `window` is 0; 0 if the limit is not set.
 double windowOf (double limit, double window) noexcept
 {
     if (limit == GuardLimits::none) return 0.0;

@@ -100,7 +100,7 @@ struct TextureNoise
     static constexpr Info info {
         .id = "texture.noise",
         .name = "Recorded texture",
-        .summary = "Noise of a real surface, for each speed and force.",
+        .summary = "The hiss and rumble of a real surface, from recordings at several speeds and forces.",
         .source = "Culbertson, Unwin & Kuchenbecker 2014; Romano & Kuchenbecker 2012",
     };
 
@@ -245,8 +245,8 @@ inline std::string TextureNoise::warning (const Setup&) const
         for (const double k : reflectionsOf (settings.models[i].coefficients))
             variance /= (1.0 - k) * (1.0 + k);
         if (std::sqrt (variance) > loud)
-            return "model " + std::to_string (i) + " makes " + std::to_string (std::lround (std::min (std::sqrt (variance), 1e15)))
-                   + " N on average: its coefficients are at the edge of stability, or its variance is not in N2";
+            return "model " + std::to_string (i) + " has an RMS force of " + std::to_string (std::lround (std::min (std::sqrt (variance), 1e15)))
+                   + " N: its coefficients are at the edge of stability, or its variance is not in N2";
     }
     return {};
 }

@@ -74,7 +74,7 @@ TEST_CASE ("no motor exceeds its limit or changes faster than its slew on the wi
             limits.ramp = 0.0;
             Guard guard;
             guard.prepare (limits, dt);
-            constexpr double rounding = 1e-3;   // a count of the coarser device
+            constexpr double rounding = 1e-3;   // one count of the coarser of the two devices
 
             Vec3 last = Vec3::Zero();
             for (int k = 0; k < 60; ++k)
