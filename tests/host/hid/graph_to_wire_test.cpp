@@ -115,7 +115,7 @@ std::vector<Bytes> anyReports (const Profile& profile)
 Sketch anyGraph (const std::vector<std::string>& efforts)
 {
     Sketch s;
-    const auto source = [&, n = 0] (double most) mutable {
+    auto source = [&, n = 0] (double most) mutable {
         const auto name = "source" + std::to_string (n++);
         const double size = most * any (0.0, 1.0) * *rc::gen::element (1.0, 1.0, 1e6);
         if (*rc::gen::arbitrary<bool>())
