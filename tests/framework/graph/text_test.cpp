@@ -77,8 +77,8 @@ TEST_CASE ("the text of a wire reads back as it was written")
 
 TEST_CASE ("the text of a malformed wire is refused with the correct form")
 {
-    CHECK_THAT (refusal (parseWire ("a.out b.in")), Contains ("no ->"));
-    CHECK_THAT (refusal (parseWire ("a.out → b.in")), Contains ("no ->"));
+    CHECK_THAT (refusal (parseWire ("a.out b.in")), Contains ("the -> is missing"));
+    CHECK_THAT (refusal (parseWire ("a.out → b.in")), Contains ("the -> is missing"));
     CHECK_THAT (refusal (parseWire ("a -> b.in")), Contains ("the start of the wire") && Contains ("port is missing"));
     CHECK_THAT (refusal (parseWire ("a.out -> ")), Contains ("the end of the wire"));
     CHECK_THAT (refusal (parseWire ("a.out -> [0] -> b.in")), Contains ("from 1 to"));

@@ -251,7 +251,7 @@ std::string slowRow (const std::string& name, double computing, double waiting, 
     CHECK (runner.status().end == end);
     CHECK (tool.force == 0.0);
     const double to_zero = clock.zero_at - static_cast<double> (Slow::slow_from) / rate_hz;
-    CHECK (to_zero <= 2.0 * watchdog + Guard::fade_s);
+    CHECK (to_zero <= 2.0 * watchdog + Guard::fade_s + 2.0 * (computing + waiting) / rate_hz);
     return "| " + name + " | " + inWords (1e3 * to_zero) + " | " + inWords (clock.largest_step) + " | \"" + describe (runner.status().roles[0].event)
            + "\" | " + in_the_end + " |";
 }

@@ -280,7 +280,7 @@ TEST_CASE ("a live run ends at rest, and its log replays bit for bit", "[run]")
     {
         Hands all;
         const bool pauses = GENERATE (false, true);
-        if (pauses) all.limits = { .max_slew = 200.0, .ramp = 0.01, .watchdog = 0.05 };
+        if (pauses) all.limits = { .max_force = 50.0, .max_slew = 200.0, .ramp = 0.01, .watchdog = 0.05 };
         const auto s = spring();
         FreeRun free_run;
         Pausing pausing;
@@ -288,6 +288,7 @@ TEST_CASE ("a live run ends at rest, and its log replays bit for bit", "[run]")
         Run run { catalogue(), { .rate_hz = 1000.0 }, all.opener(), Run::Queries::on_thread };
         auto messages = run.load (s.graph);
         run.openDevices (s.graph, messages);
+        REQUIRE (run.devices().size() == 1);
         REQUIRE (run.startLog (path, "test 1", {}, s.graph));
         run.start (clock, { .length = 200 });
         run.live().wait();

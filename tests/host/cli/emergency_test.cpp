@@ -81,10 +81,10 @@ TEST_CASE ("every signal that would end or suspend a play ends it as Ctrl-C does
     {
         CAPTURE (number);
         const auto recorded = scratch.path (std::to_string (number) + ".csv");
-        Running play { { "play", graph, "--device", "tip=sim", "--record", "motor.applied.x", "--out", recorded } };
-        REQUIRE (play.says ("Ctrl-C stops"));
-        std::this_thread::sleep_for (std::chrono::milliseconds (50));
-        play.signal (SIGTTIN);   // reading and writing in the background neither suspends nor ends the program
+        const auto log = scratch.path (std::to_string (number) + ".jsonl");
+        Running play { { "play", graph, "--device", "tip=sim", "--record", "motor.applied.x", "--out", recorded, "--log", log } };
+        REQUIRE (test::eventually ([&] { return test::textOf (log).find ("\"tick\":0,") != std::string::npos; }));   // it ticks
+        play.signal (SIGTTIN);                                                                                       // reading and writing in the background neither suspends nor ends the program
         play.signal (SIGTTOU);
         play.signal (number);
         const auto ran = play.finish();
