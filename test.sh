@@ -5,8 +5,8 @@
 #   ./test.sh           runs the tests, normally and under ASan and UBSan (everything that does not need JUCE), adds a node as
 #                       a newcomer would, and drives virtual HID devices in a QEMU guest
 #   ./test.sh --quick   runs only the tests
-#   ./test.sh --long    adds to ./test.sh: each fuzzer for 60 s, the tests under TSan (thread tests for 30 s each), the
-#                       window under ASan and UBSan, and a soak of 1.2e8 ticks
+#   ./test.sh --long    adds to ./test.sh: each fuzzer for 60 s, 10 000 mutated files through the command line, the tests under
+#                       TSan (thread tests for 30 s each), the window under ASan and UBSan, and a soak of 1.2e8 ticks
 #
 # Each of these runs only one part:
 #   ./test.sh --screens drives the host with mouse and keyboard on a virtual display, and draws build/screens/;
@@ -96,6 +96,9 @@ if [ "$mode" = --long ]; then
         mkdir -p "build/fuzz/found/$name"
         "$fuzzer" -max_total_time=60 -print_final_stats=1 -artifact_prefix="build/fuzz/found/$name-" "build/fuzz/found/$name" "tests/fuzz/corpus/$name"
     done
+    build release tactus
+    say "Mutated files through the command line"
+    /usr/bin/python3 -B tests/fuzz/whole_program.py build/release/bin/tactus --count 10000
     build tsan
     say "Tests under TSan"
     TACTUS_LIVE_SECONDS=30 run_tests tsan

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <random>
 #include <sstream>
 #include <system_error>
@@ -25,6 +26,49 @@ fs::path temporaryIn (const fs::path& folder)
     name << ".tactus-" << std::hex << process << '-' << count++ << ".tmp";
     return folder / name.str();
 }
+
+/// Removes the temporary files that killed processes have left in a folder.
+void removeLeftovers (const fs::path& folder)
+{
+    std::error_code failed;
+    fs::directory_iterator entry (folder.empty() ? fs::path (".") : folder, failed);
+    for (; ! failed && entry != fs::directory_iterator {}; entry.increment (failed))
+    {
+        const auto name = entry->path().filename().string();
+        std::error_code ignored;
+        if (! name.starts_with (".tactus-") || ! name.ends_with (".tmp") || ! fs::is_regular_file (entry->symlink_status (ignored))) continue;
+        if (const auto lock = FileLock::takeExisting (entry->path())) fs::remove (entry->path(), ignored);
+    }
+}
+
+constexpr int most_partial = 99;   // unfinished files beside one target
+
+/// NAME.partial.csv, NAME.partial-2.csv and so on. The extension stays last, so that other programs know what is in the file.
+fs::path partialName (const fs::path& target, int number)
+{
+    auto name = target.stem();
+    name += number == 1 ? std::string (".partial") : ".partial-" + std::to_string (number);
+    name += target.extension();
+    return target.parent_path() / name;
+}
+
+/// Creates an empty file, and fails if there is a file of this name.
+bool createNew (const fs::path& path)
+{
+    auto* const made = std::fopen (path.string().c_str(), "wbx");   // C++20 has no stream for this
+    if (made == nullptr) return false;
+    std::fclose (made);
+    return true;
+}
+
+/// The file that would be written: a rename would replace a symbolic link.
+fs::path behindLinks (const fs::path& target)
+{
+    std::error_code failed;
+    if (! fs::is_regular_file (target, failed)) return target;
+    auto behind = fs::canonical (target, failed);
+    return failed ? target : behind;
+}
 }   // namespace
 
 Message AtomicFile::unwritable (const std::string& reason) const
@@ -35,14 +79,14 @@ Message AtomicFile::unwritable (const std::string& reason) const
 
 Message AtomicFile::writeError() const { return unwritable (errno != 0 ? std::generic_category().message (errno) : "the system gave no reason"); }
 
-Result<AtomicFile> AtomicFile::create (const fs::path& path)
+Result<AtomicFile> AtomicFile::create (const fs::path& path, IfKilled if_killed)
 {
     AtomicFile file (path);
-    if (auto opened = file.open(); ! opened) return std::move (opened).error();
+    if (auto opened = file.open (if_killed); ! opened) return std::move (opened).error();
     return file;
 }
 
-Result<> AtomicFile::open()
+Result<> AtomicFile::open (IfKilled if_killed)
 {
     std::error_code ignored;
     const auto existing = fs::status (target, ignored);
@@ -51,25 +95,60 @@ Result<> AtomicFile::open()
     const bool direct = fs::exists (existing) && ! fs::is_regular_file (existing);
     if (fs::is_regular_file (existing))
     {
-        // A rename would replace a symbolic link, and ignore the write protection of a file.
-        if (const auto behind_link = fs::canonical (target, ignored); ! ignored) target = behind_link;
-        errno = 0;
+        target = behindLinks (target);
+        errno = 0;   // a rename would ignore the write protection of a file
         if (! std::ofstream (target, std::ios::binary | std::ios::app)) return writeError();
     }
     if (const auto folder = target.parent_path(); ! direct && ! folder.empty() && ! fs::is_directory (folder, ignored))
         return unwritable ("there is no folder " + folder.string());
 
-    const auto opened = direct ? target : temporaryIn (target.parent_path());
     errno = 0;
-    out.open (opened, std::ios::binary);
-    if (! out) return writeError();
-    if (! direct) temporary = opened;
+    if (direct)
+    {
+        out.open (target, std::ios::binary);
+        if (! out) return writeError();
+        return {};
+    }
+    if (auto opened = openTemporary (if_killed); ! opened) return opened;
     if (fs::is_regular_file (existing)) fs::permissions (temporary, existing.permissions(), ignored);
     return {};
 }
 
+Result<> AtomicFile::openTemporary (IfKilled if_killed)
+{
+    removeLeftovers (target.parent_path());
+    const bool kept = if_killed == IfKilled::kept;
+    const int tries = kept ? most_partial : 3;
+    for (int i = 1; i <= tries; ++i)
+    {
+        const auto name = kept ? partialName (target, i) : temporaryIn (target.parent_path());
+        errno = 0;
+        if (! createNew (name))
+        {
+            if (errno == EEXIST) continue;
+            return writeError();
+        }
+        temporary = name;
+        out.open (temporary, std::ios::binary);
+        if (! out) return writeError();
+        // Before the lock is taken, another process may have removed the file as a leftover. The last try also serves file
+        // systems without locks, where no process removes leftovers.
+        if (lockTemporary() || kept || i == tries) return {};
+        discard();
+    }
+    return unwritable ("there are " + std::to_string (most_partial) + " unfinished files beside it, such as " + partialName (target, 1).string());
+}
+
+bool AtomicFile::lockTemporary()
+{
+    if constexpr (FileLock::open_is_locked) return true;
+    lock = FileLock::takeExisting (temporary);
+    std::error_code failed;
+    return lock && fs::exists (temporary, failed);
+}
+
 AtomicFile::AtomicFile (AtomicFile&& other) noexcept
-    : target (std::move (other.target)), temporary (std::exchange (other.temporary, {})), out (std::move (other.out))
+    : target (std::move (other.target)), temporary (std::exchange (other.temporary, {})), out (std::move (other.out)), lock (std::move (other.lock))
 {
 }
 
@@ -81,6 +160,7 @@ AtomicFile& AtomicFile::operator= (AtomicFile&& other) noexcept
         target = std::move (other.target);
         temporary = std::exchange (other.temporary, {});
         out = std::move (other.out);
+        lock = std::move (other.lock);
     }
     return *this;
 }
@@ -94,6 +174,7 @@ void AtomicFile::discard() noexcept
     std::error_code ignored;
     fs::remove (temporary, ignored);
     temporary.clear();
+    lock.reset();
 }
 
 Result<> AtomicFile::commit()
@@ -107,7 +188,22 @@ Result<> AtomicFile::commit()
     fs::rename (temporary, target, failure);
     if (failure) return unwritable (failure.message());
     temporary.clear();
+    lock.reset();
     return {};
+}
+
+std::vector<fs::path> leftUnfinished (const fs::path& target)
+{
+    std::vector<fs::path> left;
+    const auto written = behindLinks (target);
+    for (int i = 1; i <= most_partial; ++i)
+    {
+        const auto name = partialName (written, i);
+        std::error_code failed;
+        if (! fs::is_regular_file (fs::symlink_status (name, failed))) continue;
+        if (FileLock::takeExisting (name)) left.push_back (name);
+    }
+    return left;
 }
 
 }   // namespace tactus

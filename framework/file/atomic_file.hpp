@@ -1,14 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "file_lock.hpp"
+
 #include <framework/text/result.hpp>
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace tactus
 {
+
+/// What becomes of an unfinished file if the process is killed.
+enum class IfKilled
+{
+    removed,   ///< the next process that writes into this folder removes it
+    kept       ///< it is beside the target, as NAME.partial.csv for NAME.csv (or NAME.partial-2.csv and so on if that exists)
+};
 
 /// A file that is written completely or not at all. The error of all functions is output/unwritable.
 ///
@@ -16,12 +27,14 @@ namespace tactus
 /// target stays unchanged. This protects against a program that stops halfway, but not against a power failure: nothing is
 /// synced to the disk. Symbolic links and permissions are kept.
 ///
+/// A temporary file is locked while it is written, so files of killed processes can be told from files of running ones.
+///
 /// A target that exists and is not a regular file (/dev/null, a pipe) cannot be replaced and is written directly.
 class AtomicFile
 {
 public:
     /// Opens the file. Fails immediately if the file cannot be written, so that no work is wasted.
-    static Result<AtomicFile> create (const std::filesystem::path& target);
+    static Result<AtomicFile> create (const std::filesystem::path& target, IfKilled = IfKilled::removed);
 
     AtomicFile (AtomicFile&& other) noexcept;
     AtomicFile& operator= (AtomicFile&& other) noexcept;
@@ -38,13 +51,19 @@ public:
 
 private:
     explicit AtomicFile (std::filesystem::path t) : target (std::move (t)) {}
-    Result<> open();
+    Result<> open (IfKilled);
+    Result<> openTemporary (IfKilled);
+    bool lockTemporary();
     Message unwritable (const std::string& reason) const;
     void discard() noexcept;
 
     std::filesystem::path target;
     std::filesystem::path temporary;   // path of the temporary file; empty if there is none to remove
     std::ofstream out;
+    std::optional<FileLock> lock;   // of the temporary file
 };
+
+/// The unfinished files of this target that killed processes have left (IfKilled::kept).
+std::vector<std::filesystem::path> leftUnfinished (const std::filesystem::path& target);
 
 }   // namespace tactus

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "csv.hpp"
+#include "text_file.hpp"
 
 #include <framework/kit/at.hpp>
+#include <framework/text/budget.hpp>
 #include <framework/text/number_text.hpp>
 #include <framework/text/quote.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <iterator>
@@ -20,6 +23,9 @@ namespace
 {
 /// Longer than any line of a real table, so it tells binary files from tables.
 constexpr std::size_t longest_line = 512 * 1024;
+
+/// Rows are written once there are this many bytes of them.
+constexpr std::size_t bytes_per_write = 64 * 1024;
 
 constexpr std::string_view spaces = " \t";
 
@@ -205,6 +211,12 @@ private:
                          is_short ? "write nan where a number is missing" : "remove the extra fields; numbers have a decimal point, not a comma");
         }
 
+        if (const auto numbers = static_cast<double> (table.values.size() + fields.size()); numbers > budgets().numbers)
+        {
+            auto over = overBudget ("csv/too_large", &Budgets::numbers, "the table", numbers, "save a part of it");
+            return fail (std::move (over.id), 1, std::move (over.text), std::move (over.remedy));
+        }
+
         for (std::size_t i = 0; i < fields.size(); ++i)
         {
             const auto& [text, column] = fields[i];
@@ -278,22 +290,24 @@ Result<Table> readTable (std::istream& in, std::string_view name)
 
 Result<Table> readTable (const std::filesystem::path& path)
 {
-    std::error_code ignored;
-    if (std::filesystem::is_directory (path, ignored))
-        return unreadableTable (path.string(), "it is a folder, not a table");
-
-    if (std::filesystem::exists (path, ignored) && ! std::filesystem::is_regular_file (path, ignored) && ! std::filesystem::is_fifo (path, ignored))
-        return unreadableTable (path.string(), "it is not a regular file, so reading it might never end");
-
-    std::ifstream in (path, std::ios::binary);
-    if (! in)
-        return unreadableTable (path.string(), "there is no such file, or you are not allowed to read it");
-    return readTable (in, path.string());
+    auto text = readFile (path);
+    if (text)
+    {
+        auto table = readTable (*text, path.string());
+        constexpr double bytes_per_number = 16.0;
+        static_cast<void> (chargeReading (table ? bytes_per_number * static_cast<double> (table->values.size()) : 0.0));   // the next file is refused
+        return table;
+    }
+    auto why = std::move (text).error();
+    if (why.id == "file/unreadable")
+        return unreadableTable (path.string(), std::move (why.text));
+    why.where = path.string();
+    return why;
 }
 
 TableWriter::TableWriter (AtomicFile opened, std::size_t width) : file (std::move (opened)), columns (width) {}
 
-Result<TableWriter> TableWriter::create (const std::filesystem::path& path, std::span<const std::string> columns)
+Result<TableWriter> TableWriter::create (const std::filesystem::path& path, std::span<const std::string> columns, IfKilled if_killed)
 {
     std::string header;
     for (const auto& name : columns)
@@ -307,14 +321,12 @@ Result<TableWriter> TableWriter::create (const std::filesystem::path& path, std:
         return Message::error ("csv/column_name", path.string(), "a column name contains a line break, or begins or ends with a space",
                                "write the name on one line, without surrounding spaces");
 
-    auto opened = AtomicFile::create (path);
+    auto opened = AtomicFile::create (path, if_killed);
     if (! opened)
         return opened.error();
 
     TableWriter writer (std::move (*opened), columns.size());
-    writer.line = std::move (header);
-    if (const auto written = writer.writeLine(); ! written)
-        return written.error();
+    writer.lines = std::move (header) + '\n';
     return writer;
 }
 
@@ -325,24 +337,32 @@ Result<> TableWriter::row (std::span<const double> values)
                                "it has " + std::to_string (values.size()) + " values, but the header has " + std::to_string (columns) + " columns",
                                "give one value per column");
 
-    line.clear();
-    for (const double value : values)
+    for (std::size_t i = 0; i < values.size(); ++i)
     {
-        if (! line.empty())
-            line += ',';
-        line += numberText (value);
+        if (i > 0)
+            lines += ',';
+        lines += numberText (values[i]);
     }
-    return writeLine();
+    lines += '\n';
+    return lines.size() < bytes_per_write ? Result<> {} : flush();
 }
 
-Result<> TableWriter::commit() { return file.commit(); }
-
-Result<> TableWriter::writeLine()
+Result<> TableWriter::flush()
 {
-    line += '\n';
-    if (! file.stream().write (line.data(), static_cast<std::streamsize> (line.size())))
+    errno = 0;
+    auto& out = file.stream();
+    const bool written = out.write (lines.data(), static_cast<std::streamsize> (lines.size())) && out.flush();
+    lines.clear();
+    if (! written)
         return file.writeError();
     return {};
+}
+
+Result<> TableWriter::commit()
+{
+    if (auto written = flush(); ! written)
+        return written;
+    return file.commit();
 }
 
 }   // namespace tactus

@@ -34,30 +34,31 @@ struct Table
 /// header alone is a table without rows. Accepts any text.
 ///
 /// Errors: csv/empty, csv/no_header, csv/empty_column_name, csv/duplicate_column, csv/empty_field, csv/not_a_number,
-/// csv/out_of_range, csv/ragged_row, csv/blank_line, csv/broken_quote, csv/nul_byte, csv/line_too_long, csv/unreadable. `where`
+/// csv/out_of_range, csv/ragged_row, csv/blank_line, csv/broken_quote, csv/nul_byte, csv/line_too_long, csv/too_large, csv/unreadable, file/too_large. `where`
 /// is name:line:column. Lines and columns count from 1, and columns count bytes.
 Result<Table> readTable (std::string_view text, std::string_view name);
 Result<Table> readTable (std::istream& in, std::string_view name);
 Result<Table> readTable (const std::filesystem::path& path);
 
 /// Writes a table row by row, each number as the shortest text that reads back to the same double. The file appears on commit()
-/// or not at all.
+/// or not at all; IfKilled says what becomes of it if the process is killed before.
 class TableWriter
 {
 public:
     /// Column names must be valid for readTable: not empty, unique, on one line.
-    static Result<TableWriter> create (const std::filesystem::path& path, std::span<const std::string> columns);
+    static Result<TableWriter> create (const std::filesystem::path& path, std::span<const std::string> columns, IfKilled = IfKilled::removed);
 
     Result<> row (std::span<const double> values);
+
+    /// Hands all rows so far to the system; they then survive the end of the process.
+    Result<> flush();
     Result<> commit();
 
 private:
     TableWriter (AtomicFile opened, std::size_t width);
-    Result<> writeLine();
-
     AtomicFile file;
     std::size_t columns;
-    std::string line;   // reused to save allocations
+    std::string lines;   // that wait to be written; only whole lines are written, because a process can be killed in between
 };
 
 }   // namespace tactus

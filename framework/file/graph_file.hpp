@@ -4,7 +4,8 @@
 /// Graph files: text to graph and back. Messages:
 ///
 ///     file/unreadable       the file cannot be opened or read
-///     file/too_large        more than 64 MB
+///     file/too_large        exceeds the budget `file`, `values` or `reading` (framework/text/budget.hpp)
+///     file/too_many         includes more files than the budget `files` allows
 ///     file/syntax           not JSON; with line, column and what was expected
 ///     file/too_deep         nested deeper than 64 levels, or a chain of more than 32 files
 ///     file/duplicate_key    a key twice in one object
@@ -25,6 +26,7 @@
 ///     output/unwritable     the file cannot be written
 
 #include <framework/graph/graph.hpp>
+#include <framework/text/budget.hpp>
 #include <framework/text/result.hpp>
 #include <framework/text/text_position.hpp>
 
@@ -40,14 +42,16 @@ struct LoadedGraph
     graph::Graph graph;   ///< everything that could be read; complete if there are no errors
     Messages messages;    ///< sorted by line and column
     TextPositions positions;
+    double values = 0.0;   ///< how many JSON values the text has
 
     /// The position of the value at a pointer, or of its nearest parent that exists in the file; for messages of later steps.
     TextPosition positionOf (std::string_view pointer) const;
 };
 
 /// Reads a graph file (contract section 4): syntax, known keys and their kinds, wires, ids, version and migrations.
-/// Everything that needs the catalogue is checked by compile. Does not throw; accepts any text. [main thread]
-LoadedGraph readGraph (std::string_view text);
+/// Everything that needs the catalogue is checked by compile. Does not throw; accepts any text. A text with more than `most_values`
+/// JSON values is refused. [main thread]
+LoadedGraph readGraph (std::string_view text, double most_values = budgets().values);
 
 /// Reads a file and the "file:" subgraphs it refers to, relative to its folder. Each message has the name of its file.
 /// [main thread]

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "graph_file.hpp"
+#include "text_file.hpp"
 
-#include <framework/kit/at.hpp>
 #include <framework/text/json_text.hpp>
 #include <framework/text/quote.hpp>
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -28,21 +26,12 @@ Message unreadable (const fs::path& path, const std::string& reason)
                            "check the path; a path in a file is relative to the folder of that file");
 }
 
-/// The text of a file. Stops soon after the largest allowed size, so that reading an endless file ends, too.
+/// The text of a file.
 Result<std::string> readText (const fs::path& path)
 {
-    std::error_code failure;
-    if (fs::is_directory (path, failure)) return unreadable (path, "it is a folder");
-    errno = 0;
-    std::ifstream in (path, std::ios::binary);
-    if (! in) return unreadable (path, errno != 0 ? std::generic_category().message (errno) : "the system gave no reason");
-
-    std::string text;
-    char block[1u << 16u];
-    while (text.size() <= largest_file && (in.read (block, sizeof block), in.gcount() > 0))
-        text.append (block, at (in.gcount()));
-    if (in.bad()) return unreadable (path, std::generic_category().message (errno));
-    return text;
+    auto text = readFile (path);
+    if (text || text.error().id != "file/unreadable") return text;
+    return unreadable (path, text.error().text);
 }
 
 /// Loads a file and the files it includes. A file that is included twice is loaded once.
@@ -70,7 +59,8 @@ private:
 
     LoadedGraph parse (const fs::path& path, std::string_view text)
     {
-        auto loaded = readGraph (text);
+        auto loaded = readGraph (text, values_left);
+        values_left -= loaded.values;
         loaded.graph.folder = path.parent_path().string();
         chain.push_back (identityOf (path));
         include (loaded);
@@ -102,6 +92,12 @@ private:
             m.column = position.column;
             loaded.messages.push_back (std::move (m));
         };
+        if (++included > budgets().files)
+        {
+            if (included == budgets().files + 1.0)
+                refuse (overBudget ("file/too_many", &Budgets::files, "the graph", included, "move subgraphs into one file"));
+            return;
+        }
         if (written.find ('\0') != std::string::npos) return refuse (unreadable (written, "its name contains a zero byte"));
 
         const auto path = fs::path (loaded.graph.folder) / written;
@@ -130,11 +126,16 @@ private:
         loaded.graph.files.emplace (written, graph);
     }
 
+    double values_left = budgets().values, included = 0.0;
     std::vector<fs::path> chain;   ///< the files being loaded, outermost first
     std::map<fs::path, std::shared_ptr<const graph::Graph>> loaded_files;
 };
 }   // namespace
 
-LoadedGraph loadGraph (const fs::path& path) { return Loader().load (path); }
+LoadedGraph loadGraph (const fs::path& path)
+{
+    beginReading();
+    return Loader().load (path);
+}
 
 }   // namespace tactus

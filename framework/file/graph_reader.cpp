@@ -105,12 +105,13 @@ std::optional<int> readHeader (const Json& file, OrderedReader& problems)
 
 TextPosition LoadedGraph::positionOf (std::string_view pointer) const { return tactus::positionOf (positions, pointer); }
 
-LoadedGraph readGraph (std::string_view text) { return readGraph (text, graph_format); }
+LoadedGraph readGraph (std::string_view text, double most_values) { return readGraph (text, graph_format, most_values); }
 
-LoadedGraph readGraph (std::string_view text, const FileFormat& format)
+LoadedGraph readGraph (std::string_view text, const FileFormat& format, double most_values)
 {
-    auto json = readJson (text);
+    auto json = readJson (text, most_values);
     LoadedGraph loaded;
+    loaded.values = json.values;
     loaded.positions = std::move (json.positions);
 
     GraphReader reader;

@@ -32,6 +32,6 @@ inline constexpr FileFormat graph_format { 1, {} };
 Result<> migrate (Json& file, int version, const FileFormat&);
 
 /// Like readGraph (text), for any format. Used to test migration as long as there is no real step.
-LoadedGraph readGraph (std::string_view text, const FileFormat&);
+LoadedGraph readGraph (std::string_view text, const FileFormat&, double most_values = budgets().values);
 
 }   // namespace tactus

@@ -9,8 +9,8 @@
 namespace tactus::graph
 {
 
-/// The `overrides` of a node in order of precedence, lowest first: overrides that name more single instances take precedence,
-/// whatever order they were written in. The pointers point into `overrides`.
+/// The `overrides` of a node in order of precedence, lowest first: the more names of a path select a single
+/// instance ("a[3]", not "a" or "a[*]"), the higher it ranks. Among equals, the order of the file is kept. The pointers point into `overrides`.
 std::vector<const Json::Member*> byPrecedence (const Json& overrides);
 
 /// Adds an override that takes precedence over all existing ones: removes those that it covers, even if they name a single instance.

@@ -43,6 +43,7 @@ struct NodeType
     void (*tick) (void* node, const double* const* sources, void* outputs) noexcept;
     void (*peek) (void* node, const double* const* sources, void* outputs) noexcept;
     int (*delay) (const void* node) noexcept;
+    Cost (*cost) (const void* node);
     std::string (*problem) (const void* node);
     std::string (*warning) (const void* node, const Setup&);
     void (*prepare) (void* node, const Setup&);
@@ -262,6 +263,7 @@ NodeType describe()
     t.tick = &E::tick;
     if constexpr (Peekable<N>) t.peek = &E::peek;
     if constexpr (Delaying<N>) t.delay = [] (const void* n) noexcept { return static_cast<const N*> (n)->delay(); };
+    if constexpr (Costly<N>) t.cost = [] (const void* n) { return static_cast<const N*> (n)->cost(); };
     if constexpr (SelfChecking<N>) t.problem = [] (const void* n) { return static_cast<const N*> (n)->problem(); };
     if constexpr (Warning<N>) t.warning = [] (const void* n, const Setup& s) { return static_cast<const N*> (n)->warning (s); };
     if constexpr (Preparable<N>) t.prepare = [] (void* n, const Setup& s) { static_cast<N*> (n)->prepare (s); };

@@ -16,6 +16,8 @@
 ///   problem() -> string       what is wrong with the settings, as a sentence for the user; empty if nothing is. Called with
 ///                             params and settings in place, before prepare. A graph with a problem does not run. Only for
 ///                             what the limits in the datasheet cannot express.                          [main thread]
+///   cost() -> Cost            what checking and preparing the node take at most, if this depends on its settings: a graph that
+///                             exceeds the budgets does not run. Called first, so settings may have a problem. [main thread]
 ///   warning (setup) -> string what will not work well at this rate, as a sentence; empty if everything does. Called after
 ///                             problem. The graph still runs.                                            [main thread]
 ///   prepare (setup)           before the first tick, with params and settings in place; may allocate    [main thread]
@@ -77,6 +79,14 @@ struct Claims
     double amplitude = inf;           ///< its outputs never exceed this, in their own unit
 };
 
+/// What a node takes at most to be checked and prepared, estimated from its settings. See the budgets of these names
+/// (framework/text/budget.hpp).
+struct Cost
+{
+    double work = 0.0;     ///< in units of about 5 ns
+    double memory = 0.0;   ///< bytes
+};
+
 // clang-format 14 breaks requirements badly.
 // clang-format off
 template <typename N>
@@ -97,6 +107,9 @@ concept Node = std::default_initializable<N>
            requires (Peekable<N> && requires { { node.tick (in) } noexcept -> std::same_as<void>; })
                || (! Peekable<N> && requires { { node.tick (in) } noexcept -> std::same_as<typename N::Outputs>; });
        };
+
+template <typename N>
+concept Costly = requires (const N node) { { node.cost() } -> std::same_as<Cost>; };
 
 template <typename N>
 concept SelfChecking = requires (const N node) { { node.problem() } -> std::same_as<std::string>; };

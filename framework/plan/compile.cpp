@@ -8,6 +8,7 @@
 
 #include <framework/graph/instances.hpp>
 #include <framework/graph/text.hpp>
+#include <framework/text/budget.hpp>
 
 #include <iterator>
 #include <map>
@@ -29,13 +30,8 @@ bool canRun (const Messages& messages)
 /// Delayed wires take memory, and even a short file can request more than the machine has.
 void checkDelays (Flat& flat)
 {
-    constexpr double most = 5e7;   // in samples; they take 400 MB
-    double total = 0.0;
     for (const auto& w : flat.wires)
-        total += static_cast<double> (w.delay) * flat.widthOf (w.to);
-    if (total > most)
-        flat.error ("graph/too_large", flat.at ({}, "wires"),
-                    "the delays of all wires together take " + std::to_string (static_cast<long long> (total)) + " samples", "shorten the delays");
+        if (w.delay > 0 && ! flat.spend (0.0, sizeof (double) * static_cast<double> (w.delay) * flat.widthOf (w.to), w.origin)) return;
 }
 
 bool addsUp (Quantity q) { return q == Quantity::force || q == Quantity::torque || q == Quantity::hit; }
@@ -80,17 +76,31 @@ void checkFanIn (Flat& flat, const PortUnits& units)
     }
 }
 
-/// Asks nodes that check their own settings for problems, and for warnings at this rate.
+/// Memory of a node in a plan, apart from what it prepares; measured.
+double bytesOf (const FlatNode& n)
+{
+    constexpr double bytes_per_node = 500.0, bytes_per_number = 90.0;
+    int numbers = 0;
+    for (const auto* rows : { &n.type->inputs, &n.type->params })
+        for (const auto& row : *rows)
+            numbers += n.slots (row);
+    return bytes_per_node + bytes_per_number * numbers;
+}
+
+/// Asks each node what it costs, whether its settings are usable, and whether it has a warning at its rate.
 void askNodes (Flat& flat, const Setup& setup)
 {
     for (int i = 0; i < flat.nodeCount(); ++i)
     {
         const auto& n = flat.node (i);
-        if (! n.type->problem && ! n.type->warning) continue;
+        if (! flat.spend (0.0, bytesOf (n), n.origin)) return;
+        if (! n.type->problem && ! n.type->warning && ! n.type->cost) continue;
         auto own = setup;
         own.rate_hz *= flat.speed (n.section);
         const std::string id (n.type->info.id), remedy = "`tactus nodes " + id + "` lists its params and settings, with their ranges";
         const auto node = makeNode (flat, i);
+        const auto cost = n.type->cost && node ? n.type->cost (node.get()) : Cost {};
+        if (! flat.spend (cost.work, cost.memory, n.origin)) return;
         const auto problem = n.type->problem ? n.type->problem (node.get()) : std::string {};
         if (! problem.empty())
             flat.error ("node/problem", n.origin, "'" + n.path + "' (" + id + "): " + problem, remedy);
@@ -98,6 +108,15 @@ void askNodes (Flat& flat, const Setup& setup)
             if (const auto warning = n.type->warning (node.get(), own); ! warning.empty())
                 flat.warn ("node/warning", n.origin, "'" + n.path + "' (" + id + "): " + warning, remedy);
     }
+}
+
+/// What compiling has taken with this flat graph.
+Spent spentOn (const Flat& flat)
+{
+    auto spent = flat.spent;
+    spent.nodes += static_cast<double> (flat.nodes.size() + flat.scopes.size());
+    spent.wires += static_cast<double> (std::max (flat.wires.size(), flat.assignments.size()));
+    return spent;
 }
 
 /// All checks of a flat graph that do not involve feeds and records.
@@ -217,6 +236,7 @@ Outside findOutside (Flat& flat, const Scope& top, const CompileOptions& options
 
 Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const CompileOptions& options)
 {
+    beginReading();
     auto [flat, top, used] = flatten (g, catalogue, options.overrides, options.assets);
     const double rate = options.rate_hz > 0.0 ? options.rate_hz : g.rate_hz;
     if (! (rate >= 1.0 && rate <= 1e6))
@@ -225,12 +245,14 @@ Compiled compile (const graph::Graph& g, const Catalogue& catalogue, const Compi
     const Setup setup { .rate_hz = rate, .services = options.services };
     Order ordered;
     const auto units = check (flat, setup, ordered);
+    auto spent = spentOn (flat);
     for (const auto& [name, patch] : g.graphs)   // an unused subgraph is checked on its own
-        if (! used.contains (&patch))
+        if (! used.contains (&patch) && ! spent.is_over)
         {
-            auto alone = flattenUnused (g, name, catalogue, options.assets);
+            auto alone = flattenUnused (g, name, patch, catalogue, options.assets, spent);
             Order unneeded;
             check (alone.flat, setup, unneeded);
+            spent = spentOn (alone.flat);
             flat.messages.insert (flat.messages.end(), alone.flat.messages.begin(), alone.flat.messages.end());
         }
     auto outside = findOutside (flat, *top, options);

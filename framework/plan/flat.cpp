@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "flat.hpp"
 
+#include <framework/text/budget.hpp>
+
 #include <algorithm>
 
 namespace tactus::plan
@@ -106,6 +108,21 @@ int Flat::ticksOf (int s) const
 }
 
 bool Flat::rests (int s) const { return ticksOf (s) > 1; }
+
+bool Flat::spend (double work, double memory, Origin origin)
+{
+    spent.work += work;
+    spent.memory += memory;
+    const auto check = [&] (double Budgets::*which, double needed) {
+        if (spent.is_over || needed <= budgets().*which) return;
+        spent.is_over = true;
+        auto over = overBudget ("graph/too_large", which, "with this, the graph", needed, "use fewer instances, or smaller settings");
+        error (std::move (over.id), origin, std::move (over.text), std::move (over.remedy));
+    };
+    check (&Budgets::time, work_unit_s * spent.work);
+    check (&Budgets::memory, spent.memory);
+    return ! spent.is_over;
+}
 
 void Flat::error (std::string id, Origin origin, std::string text, std::string remedy)
 {

@@ -52,6 +52,17 @@ struct Identity
     bool operator== (const Identity&) const = default;
 };
 
+/// What compiling has taken so far; see the budgets of the same names (framework/text/budget.hpp).
+struct Spent
+{
+    double nodes = 0.0, wires = 0.0;   ///< of the flat graphs before this one: those of unused subgraphs follow that of the graph
+    double work = 0.0, memory = 0.0;
+    bool is_over = false;   ///< a budget is exceeded, which has been reported
+};
+
+/// What a value of a graph takes when it is compiled, measured, in units of work (work_unit_s).
+inline constexpr double work_per_value = 50.0;
+
 /// A port of a flat node, or an entry or a component of it.
 struct PortRef
 {
@@ -145,6 +156,7 @@ struct Flat
     std::vector<Section> sections { {} };                                  ///< the graph itself, then the inner sections, each after the one that encloses it
     std::unordered_map<graph::Id, std::vector<graph::Ancestor>> origins;   ///< by the id of a copy: what it was copied from
     Messages messages;
+    Spent spent;
 
     const FlatNode& node (int n) const { return nodes[tactus::at (n)]; }
     const FlatNode& node (const PortRef& r) const { return node (r.node); }
@@ -188,6 +200,10 @@ struct Flat
     {
         return &places.emplace_back (Place { around, made_names.emplace_back (std::move (text)), 0, Place::Kind::as_is });
     }
+
+    /// Counts what follows toward the budgets `time` and `memory`. Call it before anything that multiplies. False if a budget is
+    /// exceeded; the first time, it reports this as an error.
+    bool spend (double work, double memory, Origin);
 
     /// Adds a message. A problem that several instances share is reported for the first one only.
     void error (std::string id, Origin, std::string text, std::string remedy);

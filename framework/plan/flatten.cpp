@@ -10,6 +10,7 @@
 #include <framework/graph/instances.hpp>
 #include <framework/graph/overrides.hpp>
 #include <framework/graph/text.hpp>
+#include <framework/text/budget.hpp>
 #include <framework/text/closest_match.hpp>
 
 #include <cmath>
@@ -20,8 +21,9 @@ namespace tactus::plan
 namespace
 {
 constexpr int max_depth = 32;
-constexpr std::size_t max_nodes = 1'000'000;   // nested subgraphs multiply: a small file can request 2^32 nodes
-constexpr std::size_t max_wires = 2'000'000;   // a wire may lead from all instances to all instances; values given to instances have the same limit
+
+// What compiling takes, measured, in units of work (work_unit_s).
+constexpr double work_per_node = 800.0, work_of_a_search = 10'000.0;
 
 /// Reserves room in large steps, so that many small additions do not move everything each time.
 template <typename T>
@@ -35,13 +37,14 @@ class Flattener
 public:
     Flattener (const Catalogue& c, std::span<const Override> o, Assets* a, Flattened& r) : nodes (c), overrides (o), assets (a), result (r), flat (r.flat) {}
 
-    void runAlone (const graph::Graph& g, const std::string& subgraph)
+    void runAlone (const graph::Graph& g, const std::string& subgraph, const graph::Patch& patch)
     {
         result.top = std::make_unique<Scope>();
         result.top->owner = &g;
-        result.top->patch = g.find (subgraph);
+        result.top->patch = &patch;
         result.top->origin = at ({}, "graphs", subgraph);
         expand (*result.top, {}, false);
+        reportTooLarge();
     }
 
     void run (const graph::Graph& g)
@@ -51,13 +54,9 @@ public:
         top->owner = &g;
         top->patch = &g.root;
         expand (*top, {}, false);
-        if (! too_large) readControls (g);
-        if (! too_large) readOverrides();
-        if (too_large)
-            flat.error ("graph/too_large", *too_large,
-                        "with its subgraphs expanded, the graph has more than " + std::to_string (max_nodes) + " nodes, or " + std::to_string (max_wires)
-                            + " wires or values of parameters",
-                        "use a subgraph fewer times, or with fewer instances");
+        if (! hasToStop()) readControls (g);
+        if (! hasToStop()) readOverrides();
+        reportTooLarge();
     }
 
 private:
@@ -69,7 +68,9 @@ private:
     std::vector<const graph::Patch*> open;      // the patches being expanded, outermost first
     Origin all_nodes = flat.at ({}, "nodes");   // the list `nodes` of the graph itself
     std::optional<Origin> too_large;            // the place where the graph became too large
-    Ports starts, ends;                         // ports of the wire or value being read
+    Message why_too_large;
+    std::unordered_set<std::string> roles_seen;
+    Ports starts, ends;   // ports of the wire or value being read
 
     // These take views, because the Place that they make keeps pointing to the name.
     Origin at (Origin around, std::string_view name) { return flat.at (around, name); }
@@ -85,7 +86,7 @@ private:
         const auto list = at (scope.origin, "nodes");
         for (const auto& node : scope.patch->nodes)
         {
-            if (isTooLarge (all_nodes) || flat.isFull()) break;
+            if (isTooLarge (all_nodes, 1) || flat.isFull()) break;
             const auto here = at (list, node.name);
             if (! node.origin.empty()) flat.origins.emplace (node.id, node.origin);
             auto& member = scope.members[scope.names.add (node.name)];
@@ -97,7 +98,7 @@ private:
                 addNode (scope, node, here, roles, muted, member);
             }
         }
-        if (! too_large)   // otherwise some of the nodes that names refer to are missing
+        if (! hasToStop())   // otherwise some of the nodes that names refer to are missing
         {
             expose (scope);
             addWires (scope, muted);
@@ -105,18 +106,33 @@ private:
         open.pop_back();
     }
 
+    bool hasToStop() const noexcept { return too_large || flat.spent.is_over; }
+
+    void reportTooLarge()
+    {
+        if (! too_large || flat.spent.is_over) return;
+        flat.spent.is_over = true;
+        flat.error (why_too_large.id, *too_large, why_too_large.text, why_too_large.remedy);
+    }
+
     /// Call this before adding nodes, wires or assignments, because nested subgraphs and instances multiply them.
     bool isTooLarge (Origin here, std::size_t more_nodes = 0, std::size_t more_wires = 0)
     {
-        const bool is_over =
-            flat.nodes.size() + flat.scopes.size() + more_nodes > max_nodes || std::max (flat.wires.size(), flat.assignments.size()) + more_wires > max_wires;
-        if (is_over && ! too_large) too_large = here;
-        return too_large.has_value();
+        const auto check = [&] (double Budgets::*which, double count) {
+            if (hasToStop() || count <= budgets().*which) return;
+            too_large = here;
+            why_too_large =
+                overBudget ("graph/too_large", which, "with its subgraphs expanded, the graph", count, "use a subgraph fewer times, or with fewer instances");
+        };
+        check (&Budgets::nodes, flat.spent.nodes + static_cast<double> (flat.nodes.size() + flat.scopes.size() + more_nodes));
+        check (&Budgets::wires, flat.spent.wires + static_cast<double> (std::max (flat.wires.size(), flat.assignments.size()) + more_wires));
+        return hasToStop();
     }
 
     void addNode (Scope& scope, const graph::Node& node, Origin here, const Roles& roles, bool muted, Scope::Member& member)
     {
         const auto* type = nodes.find (node.type);
+        if (! flat.spend (type == nullptr ? work_of_a_search : work_per_node, 0.0, here)) return;
         if (type == nullptr)
         {
             std::vector<std::string> ids;
@@ -143,6 +159,7 @@ private:
                                 .section = scope.section });
         auto& made = flat.nodes.back();
         readRole (node, here, roles, made, flat);
+        countRole (made, here);
         readSettings (node, here, assets, scope.owner->folder, made, flat);
         addValues (made, flat);
         for (const auto& [key, value] : node.params.items())
@@ -167,6 +184,16 @@ private:
             flat.assignments.push_back ({ { number, Role::param, port }, &value, &value, 0.0, at (here, "params", key) });
     }
 
+    void countRole (const FlatNode& made, Origin here)
+    {
+        if (made.type->bind == nullptr || ! roles_seen.insert (made.role).second) return;
+        if (const auto count = static_cast<double> (roles_seen.size()); count > budgets().roles && ! hasToStop())
+        {
+            too_large = here;
+            why_too_large = overBudget ("graph/too_large", &Budgets::roles, "the graph", count, "let device nodes share roles");
+        }
+    }
+
     void addSubgraph (Scope& scope, const graph::Node& node, Origin here, const Roles& roles, bool muted, Scope::Member& member)
     {
         Scope first;
@@ -174,6 +201,7 @@ private:
 
         if (open.size() >= max_depth)
         {
+            if (! flat.spend (work_of_a_search, 0.0, here)) return;
             flat.error ("graph/too_deep", at (here, "type"), "'" + scope.prefix + node.name + "' is nested " + std::to_string (max_depth) + " subgraphs deep",
                         "nest the subgraphs less deeply");
             return;
@@ -195,8 +223,10 @@ private:
 
         if (count && isTooLarge (at (here, "count"), tactus::at (*count) * (first.patch->nodes.size() + 1))) return;
         member.counted = count.has_value();
+        const double work = work_per_node + work_per_value * static_cast<double> (node.roles.items().size() + roles.size());
         for (int k = 0; k < count.value_or (1) && ! isTooLarge (all_nodes) && ! flat.isFull(); ++k)
         {
+            if (! flat.spend (work, 0.0, here)) break;
             auto inside = std::make_unique<Scope>();
             inside->owner = first.owner;
             inside->patch = first.patch;
@@ -242,9 +272,12 @@ private:
             inside.owner = scope.owner;
             inside.patch = scope.owner->find (name);
             inside.origin = at (fileOf (scope.origin), "graphs", name);
+            const auto graphs = static_cast<double> (scope.owner->graphs.size());   // all of them are compared
+            if (! flat.spend (inside.patch == nullptr ? work_per_value * graphs : graphs, 0.0, here)) return false;
             std::vector<std::string> names;
-            for (const auto& [id, patch] : scope.owner->graphs)
-                names.push_back (id);
+            if (inside.patch == nullptr)
+                for (const auto& [id, patch] : scope.owner->graphs)
+                    names.push_back (id);
             if (inside.patch == nullptr)
                 flat.error ("graph/unknown_subgraph", at (here, "type"),
                             "there is no subgraph '" + std::string (name) + "' under `graphs`" + didYouMean (name, names), "subgraphs here: " + listed (names));
@@ -325,7 +358,7 @@ private:
 
     void assign (const Scope& scope, const graph::Endpoint& e, const Json& value, Origin origin)
     {
-        if (too_large) return;
+        if (hasToStop()) return;
         find (e, Side::param, scope, origin, flat, ends);
         if (isTooLarge (origin, 0, ends.size())) return;
         for (const auto& to : ends)
@@ -388,10 +421,12 @@ Flattened flatten (const graph::Graph& g, const Catalogue& catalogue, std::span<
     return result;
 }
 
-Flattened flattenUnused (const graph::Graph& g, const std::string& subgraph, const Catalogue& catalogue, Assets* assets)
+Flattened flattenUnused (const graph::Graph& g, const std::string& subgraph, const graph::Patch& patch, const Catalogue& catalogue, Assets* assets,
+                         const Spent& spent)
 {
     Flattened result;
-    Flattener { catalogue, {}, assets, result }.runAlone (g, subgraph);
+    result.flat.spent = spent;
+    Flattener { catalogue, {}, assets, result }.runAlone (g, subgraph, patch);
     readParams (result.flat);
     return result;
 }

@@ -10,6 +10,27 @@
 namespace tactus::plan
 {
 
+namespace
+{
+constexpr double bytes_per_value = 100.0;
+
+/// How many values JSON holds; long texts count more.
+double sizeOf (const Json& json)
+{
+    constexpr double text_of_a_value = 10.0;   // bytes; a formula is parsed
+    double size = 1.0;
+    if (json.is_object())
+        for (const auto& [key, value] : json.asObject())
+            size += sizeOf (value);
+    else if (json.is_array())
+        for (const auto& value : json.asArray())
+            size += sizeOf (value);
+    else if (json.is_string())
+        size += static_cast<double> (json.asString().size()) / text_of_a_value;
+    return size;
+}
+}   // namespace
+
 void readSettings (const graph::Node& node, Origin here, Assets* assets, const std::string& folder, FlatNode& made, Flat& flat)
 {
     for (const auto& sheet : made.type->settings)
@@ -29,6 +50,8 @@ void readSettings (const graph::Node& node, Origin here, Assets* assets, const s
                         is_param ? "it is a parameter: move it to params" : "its settings: " + listed (ids));
             continue;
         }
+        const double size = sizeOf (value);
+        if (! flat.spend (work_per_value * size, bytes_per_value * size, flat.at (here, "settings", key))) continue;
         std::string within;
         if (auto read = readSetting (value, *sheet, { assets, folder }, within))
             made.settings[at (sheet - made.type->settings.begin())] = *std::move (read);

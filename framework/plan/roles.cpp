@@ -29,6 +29,8 @@ void readRole (const graph::Node& node, Origin here, const Roles& roles, FlatNod
 
 void checkRoles (const graph::Node& node, const std::string& path, Origin here, const graph::Patch& patch, int count, Flat& flat)
 {
+    const auto most = static_cast<double> (node.roles.items().size() * (patch.nodes.size() + 1));
+    if (! flat.spend (most, 0.0, here)) return;
     for (const auto& [inner, outer] : node.roles.items())
     {
         const auto origin = flat.at (here, "roles", inner);

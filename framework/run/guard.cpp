@@ -12,36 +12,26 @@ namespace
 // A few units in the last place below the limit, so that rounding cannot exceed it.
 constexpr double just_under = 1.0 - 16.0 * std::numeric_limits<double>::epsilon();
 
-/// v, or the vector of length `most` in its direction if it is longer. v must be finite; its length may overflow.
-Vec3 shortened (const Vec3& v, double most) noexcept
+/// The share of v, 0…1, whose length is at most `most`. v must be finite; its length may overflow.
+double shareWithin (const Vec3& v, double most) noexcept
 {
-    if (most == GuardLimits::none) return v;
+    if (most == GuardLimits::none) return 1.0;
 
     const double biggest = v.cwiseAbs().maxCoeff();
-    if (biggest == 0.0) return v;
+    if (biggest == 0.0) return 1.0;
 
-    const Vec3 scaled = v / biggest;
-    const double length = scaled.norm();
-    if (biggest * length <= most) return v;
-
-    return scaled * (most / length * just_under);
+    const double length = (v / biggest).norm();
+    return biggest * length <= most ? 1.0 : most / biggest / length * just_under;
 }
+
+double shareWithin (double v, double most) noexcept { return std::abs (v) <= most ? 1.0 : most / std::abs (v) * just_under; }
 
 /// Moves from `from` towards `to`, by at most `most`.
-Vec3 approached (const Vec3& from, const Vec3& to, double most) noexcept
-{
-    if (most == GuardLimits::none) return to;
-
-    // Uses halves, because the difference of two finite numbers may be infinite.
-    const Vec3 half_way = 0.5 * to - 0.5 * from;
-    const Vec3 half_step = shortened (half_way, 0.5 * most);
-    return half_step == half_way ? to : Vec3 (from + 2.0 * half_step);
-}
-
 double approached (double from, double to, double most) noexcept
 {
     if (most == GuardLimits::none) return to;
 
+    // Uses halves, because the difference of two finite numbers may be infinite.
     const double half_way = 0.5 * to - 0.5 * from;
     return std::abs (half_way) <= 0.5 * most ? to : from + std::copysign (most * just_under, half_way);
 }
@@ -56,12 +46,30 @@ double approached (double from, double to, double most) noexcept
     return all;
 }
 
+/// The share of all values, 0…1, with which each is at most `most`.
+[[gnu::noinline]] double shareWithin (const Channels& all, double most) noexcept
+{
+    double share = 1.0;
+    for (const double v : all)
+        share = std::min (share, shareWithin (v, most));
+    return share;
+}
+
 [[gnu::noinline]] Channels mixed (double a, const Channels& x, double b, const Channels& y) noexcept
 {
     Channels all;
     for (int i = 0, n = std::max (x.size(), y.size()); i < n; ++i)
         all.set (i, a * x[i] + b * y[i]);
     return all;
+}
+
+/// The first n values; missing ones are 0.
+[[gnu::noinline]] Channels resized (const Channels& all, int n) noexcept
+{
+    Channels some;
+    for (int i = 0; i < n; ++i)
+        some.set (i, all[i]);
+    return some;
 }
 
 /// Most devices have only a tool, so the code for channels is kept off the fast path.
@@ -71,7 +79,7 @@ bool hasChannels (const Effort& e) noexcept { return (e.axes.size() | e.signals.
 double orNothing (double limit) noexcept { return limit >= 0.0 ? limit : 0.0; }
 double orForever (double s) noexcept { return s >= 0.0 ? s : GuardLimits::none; }
 
-/// The window of a limit, if the limit is set; 0 means the whole session.
+/// The window for a limit: infinity (the whole session) if `window` is 0; 0 if the limit is not set.
 double windowOf (double limit, double window) noexcept
 {
     if (limit == GuardLimits::none) return 0.0;
@@ -403,17 +411,43 @@ Effort Guard::operator() (const Effort& wanted, const Reading& reading, double l
         event = describeNow (cause, wanted, reading);   // not another stop, but another reason: a board that was silent is now too hot
     reason = cause;
 
-    const auto smooth = crossfade (wanted, step_s);
-
-    last.force = approached (last.force, shortened (smooth.force, limits.max_force), limits.max_slew * step_s);
-    last.torque = approached (last.torque, shortened (smooth.torque, limits.max_torque), limits.max_torque_slew * step_s);
-    if (hasChannels (last) || hasChannels (smooth))
-    {
-        last.axes = approached (last.axes, smooth.axes, limits.max_axis_effort, limits.max_axis_slew * step_s);
-        last.signals = approached (last.signals, smooth.signals, limits.max_signal, limits.max_signal_slew * step_s);
-    }
+    approach (crossfade (wanted, step_s), step_s);
     if (is_watching) countImpulse (dt);
     return last;
+}
+
+/// Moves the last effort towards this one, as far as the limits of size and slew allow. One factor scales force, torque and axes,
+/// so what they do together keeps its direction. A part that is limited to 0 is left out, rather than scaling the others to 0.
+void Guard::approach (const Effort& to, double step_s) noexcept
+{
+    const bool has_channels = hasChannels (last) || hasChannels (to);
+    const Vec3 to_force = limits.max_force > 0.0 ? to.force : Vec3::Zero(), to_torque = limits.max_torque > 0.0 ? to.torque : Vec3::Zero();
+    double size = std::min (shareWithin (to_force, limits.max_force), shareWithin (to_torque, limits.max_torque));
+    Channels to_axes;
+    if (has_channels)
+    {
+        to_axes = resized (limits.max_axis_effort > 0.0 ? to.axes : Channels {}, std::max (last.axes.size(), to.axes.size()));
+        size = std::min (size, shareWithin (to_axes, limits.max_axis_effort));
+    }
+
+    // Half steps, because the difference of two finite numbers may be infinite.
+    const Vec3 force = 0.5 * size * to_force - 0.5 * last.force, torque = 0.5 * size * to_torque - 0.5 * last.torque;
+    const double half_s = 0.5 * step_s;
+    double step = std::min (shareWithin (force, limits.max_slew * half_s), shareWithin (torque, limits.max_torque_slew * half_s));
+    Channels axes;
+    if (has_channels)
+    {
+        axes = mixed (0.5 * size, to_axes, -0.5, last.axes);
+        step = std::min (step, shareWithin (axes, limits.max_axis_slew * half_s));
+    }
+
+    const bool arrives = step == 1.0;
+    last.force = arrives ? Vec3 (size * to_force) : Vec3 (last.force + 2.0 * step * force);
+    last.torque = arrives ? Vec3 (size * to_torque) : Vec3 (last.torque + 2.0 * step * torque);
+    if (! has_channels) return;
+    last.axes = ! arrives ? mixed (1.0, last.axes, 2.0 * step, axes) : size == 1.0 ? to_axes
+                                                                                   : mixed (size, to_axes, 0.0, {});
+    last.signals = approached (last.signals, to.signals, limits.max_signal, limits.max_signal_slew * step_s);
 }
 
 Effort Guard::crossfade (const Effort& wanted, double fade_by_s) noexcept

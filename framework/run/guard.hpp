@@ -60,8 +60,11 @@ GuardLimits tightest (const GuardLimits&, const GuardLimits&) noexcept;
 ///
 ///     cause      see below
 ///     crossfade  e = enabled w + withheld h          w: wanted now, h: effort at the stop
-///     length     |e| <= max_force                    direction kept; each axis and signal separately
-///     slew       |e - e(last tick)| <= max_slew T    along a straight line, so the length limit holds as well
+///     length     k e            so that |force| <= max_force, |torque| <= max_torque, each |axis| <= max_axis_effort
+///     slew       e' + s (k e - e')                   so that no part changes by more than its slew T; e': last tick
+///
+/// One factor k and one s scale force, torque and axes, so directions are kept, and the limits of size hold on the way as well.
+/// Each signal is limited by itself.
 ///
 /// While there is a cause, `enabled` is 0 and `withheld` falls from 1 to 0 within fade_s, so a stop is never a step,
 /// even without a slew limit; with one, it takes as long as the limit requires. When the cause is gone, `enabled` rises
@@ -180,6 +183,7 @@ private:
     Stop causeOf (const Effort& wanted, const Reading&) const noexcept;
     Event describeNow (Stop, const Effort& wanted, const Reading&) const noexcept;
     Effort crossfade (const Effort& wanted, double fade_by_s) noexcept;
+    void approach (const Effort& to, double step_s) noexcept;
 
     GuardLimits limits;
     double dt = fade_s;    // in s; until prepare is called, a stop takes one tick

@@ -135,7 +135,7 @@ private:
 class Builder : public nlohmann::json_sax<Parser>
 {
 public:
-    Builder (std::string_view text, JsonText& r) : cursor (text), result (r) {}
+    Builder (std::string_view text, JsonText& r, double most) : cursor (text), result (r), most_values (most) {}
 
     bool null() override { return scalar (nullptr); }
     bool boolean (bool v) override { return scalar (v); }
@@ -256,9 +256,19 @@ private:
             frame.elements.push_back (std::move (value));
     }
 
+    /// Counts a value. False, with a message, if there are too many.
+    bool count (TextPosition position)
+    {
+        if (++result.values <= most_values) return true;
+        auto m = overBudget ("file/too_large", &Budgets::values, "the text", budgets().values + 1.0, "put meshes and samples into separate files");
+        complain (std::move (m.id), path, position, std::move (m.text), std::move (m.remedy));
+        return false;
+    }
+
     bool scalar (Json value)
     {
         const auto position = cursor.next();
+        if (! count (position)) return false;
         cursor.skipToken();
         enterValue (position, value.is_number());
         leave();
@@ -269,6 +279,7 @@ private:
     bool open (bool object)
     {
         const auto position = cursor.next();
+        if (! count (position)) return false;
         cursor.skipToken();
         enterValue (position, ! object);
         if (frames.size() >= deepest_nesting)
@@ -399,6 +410,7 @@ private:
 
     Cursor cursor;
     JsonText& result;
+    double most_values;
     std::vector<Frame> frames;
     std::string path;
     std::vector<std::size_t> path_sizes;
@@ -407,16 +419,15 @@ private:
 };
 }   // namespace
 
-JsonText readJson (std::string_view text)
+JsonText readJson (std::string_view text, double most_values)
 {
     JsonText result;
-    if (text.size() > largest_file)
+    if (const auto size = static_cast<double> (text.size()); size > budgets().file)
     {
-        result.messages.push_back (Message::error ("file/too_large", {}, "the file is larger than " + std::to_string (largest_file >> 20u) + " MB",
-                                                   "put meshes and samples into separate files"));
+        result.messages.push_back (overBudget ("file/too_large", &Budgets::file, "the text", size, "put meshes and samples into separate files"));
         return result;
     }
-    Builder builder (text, result);
+    Builder builder (text, result, most_values);
     if (! Parser::sax_parse (text.begin(), text.end(), &builder)) result.root = nullptr;
     return result;
 }

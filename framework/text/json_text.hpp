@@ -4,6 +4,7 @@
 /// Reads JSON with nlohmann's parser, and records the position of each part, so that every problem of a file can be shown with
 /// its line and column.
 
+#include "budget.hpp"
 #include "json.hpp"
 #include "message.hpp"
 #include "text_position.hpp"
@@ -14,17 +15,17 @@
 namespace tactus
 {
 
-inline constexpr std::size_t largest_file = 64u << 20u;   ///< in bytes
-
 struct JsonText
 {
     Json root;   ///< null if the text could not be read
     TextPositions positions;
-    Messages messages;   ///< file/syntax, file/too_deep, file/too_large, file/duplicate_key
+    double values = 0.0;   ///< how many numbers, texts, lists and objects were read
+    Messages messages;     ///< file/syntax, file/too_deep, file/too_large, file/duplicate_key
 };
 
-/// Reads JSON (RFC 8259, UTF-8). Does not throw or recurse; accepts any text. [any thread]
-JsonText readJson (std::string_view text);
+/// Reads JSON (RFC 8259, UTF-8). Does not throw or recurse; accepts any text, and refuses one that exceeds the budget `file` or has
+/// more values than `most_values`. [any thread]
+JsonText readJson (std::string_view text, double most_values = budgets().values);
 
 /// A key in the form used in JSON pointers.
 std::string pointerPart (std::string_view key);

@@ -93,4 +93,19 @@ std::string printable (std::string_view text)
     return out;
 }
 
+std::string printableName (std::string_view text)
+{
+    constexpr std::size_t longest = 200;   // characters; an escape counts as it is shown
+    std::string out;
+    for (std::size_t shown = 0; ! text.empty();)
+    {
+        const auto size = characterSize (text);
+        const auto character = takeCharacter (text);
+        shown += character.size() == size ? 1 : character.size();
+        if (shown > longest) return out + "…";
+        out += character;
+    }
+    return out;
+}
+
 }   // namespace tactus

@@ -15,4 +15,8 @@ std::string quote (std::string_view);
 /// writing or are invisible, and bytes that are not UTF-8. Line ends stay.
 std::string printable (std::string_view);
 
+/// A name from a file, a device or another program, for a status line, a window title or an OSC answer: in one line, escaped like
+/// printable, and cut at 200 characters.
+std::string printableName (std::string_view);
+
 }   // namespace tactus

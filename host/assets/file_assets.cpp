@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "file_assets.hpp"
 #include "image.hpp"
-#include "limits.hpp"
 #include "mesh.hpp"
 #include "table.hpp"
 
+#include <framework/file/text_file.hpp>
+#include <framework/text/budget.hpp>
 #include <host/io/wav.hpp>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 namespace tactus::host
 {
@@ -29,10 +28,18 @@ Result<> checkFile (const std::string& path)
     if (! fs::exists (status)) return fail (path, "there is no such file", "check the path, which is relative to the folder of the graph");
     if (! fs::is_regular_file (status))
         return fail (path, "it is a folder or a device, not a file", "check the path, which is relative to the folder of the graph");
-    if (const auto size = fs::file_size (path, problem); problem || size > most_bytes)
-        return fail (path, "it is larger than " + std::to_string (most_bytes >> 20) + " MB",
-                     "make it smaller, for example by leaving out details that cannot be felt");
-    return {};
+    const auto size = static_cast<double> (fs::file_size (path, problem));
+    if (! problem && size <= budgets().file) return {};
+    auto over = overBudget ("asset/unreadable", &Budgets::file, "it", size, "make it smaller, for example by leaving out details that cannot be felt");
+    over.where = path;
+    return over;
+}
+
+Message overReading (const std::string& path)
+{
+    auto over = tactus::overReading ("asset/unreadable", "this file");
+    over.where = path;
+    return over;
 }
 
 /// The content of a file, parsed by a function that takes the bytes and the file name.
@@ -40,15 +47,17 @@ template <typename T>
 auto fromBytes (Result<T> (*read) (std::string_view, std::string_view))
 {
     return [read] (const std::string& path) -> Result<T> {
-        std::ifstream in (path, std::ios::binary);
-        const std::string bytes { std::istreambuf_iterator<char> (in), {} };
-        if (! in) return Message { .id = "asset/unreadable", .where = path, .text = "it is not readable", .remedy = "check its permissions" };
-        return read (bytes, path);
+        auto bytes = readFile (path);
+        if (bytes) return read (*bytes, path);
+        auto why = std::move (bytes).error();
+        return Message::error ("asset/unreadable", path, "it is not readable: " + why.text, why.remedy.empty() ? "check its permissions" : why.remedy);
     };
 }
 
 Result<Signal> readSignal (const std::string& path)
 {
+    std::error_code unknown;
+    if (const auto size = fs::file_size (path, unknown); ! unknown) static_cast<void> (chargeReading (static_cast<double> (size)));
     auto signal = readWav (path);
     const auto fail = [&] (std::string what) { return Message::error ("asset/signal", path, std::move (what), "record or save it again"); };
 
@@ -60,6 +69,14 @@ Result<Signal> readSignal (const std::string& path)
             return fail ("it has samples that are not finite numbers");
     return signal;
 }
+
+// What the contents of a file add to the budget `reading`, in bytes.
+double costOf (const Signal& s) { return 8.0 * static_cast<double> (s.channels.size() * s.channels.front().size()); }
+double costOf (const Grid& g) { return 8.0 * static_cast<double> (g.values.size()); }
+double costOf (const Mesh& m) { return 200.0 * static_cast<double> (m.points.size()); }
+
+/// A file that could be read only in part may have taken as long as a large one.
+constexpr double cost_of_a_failure = 8e6;
 }   // namespace
 
 template <typename T, typename Read>
@@ -73,8 +90,11 @@ Assets::Loaded<T> FileAssets::load (Cache<T>& cache, const std::string& path, Re
     if (const auto kept = cache.find (path); kept != cache.end() && kept->second.written == written && kept->second.size == size)
         if (auto content = kept->second.content.lock()) return content;
 
+    if (! chargeReading (0.0)) return overReading (path);
     auto fresh = read (path);
+    const bool fits = chargeReading (fresh ? costOf (*fresh) : cost_of_a_failure);
     if (! fresh) return std::move (fresh).error();
+    if (! fits) return overReading (path);
     auto content = std::make_shared<const T> (std::move (*fresh));
     std::erase_if (cache, [] (const auto& entry) { return entry.second.content.expired(); });
     cache[path] = { written, size, content };

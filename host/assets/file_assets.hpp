@@ -13,7 +13,8 @@ namespace tactus::host
 /// Reads files. A file is not read again while its content is in use and it has not changed on disk. [main thread]
 ///
 /// Nodes may rely on this: all numbers are finite, signals and grids are not empty, all channels of a signal have the
-/// same length, and the triangles of a mesh refer to its points. Files over 64 MB are refused.
+/// same length, and the triangles of a mesh refer to its points. Files that exceed a budget are refused
+/// (framework/text/budget.hpp).
 class FileAssets final : public Assets
 {
 public:

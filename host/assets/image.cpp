@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "image.hpp"
-#include "limits.hpp"
+
+#include <framework/text/budget.hpp>
 
 #include <spng.h>
 #include <turbojpeg.h>
@@ -29,10 +30,12 @@ Message broken (std::string_view name, const std::string& why)
 
 Message tooLarge (std::string_view name, std::size_t columns, std::size_t rows)
 {
-    return fail ("image/too_large", name,
-                 "it has " + std::to_string (columns) + " times " + std::to_string (rows) + " pixels, but at most " + std::to_string (most_numbers)
-                     + " are allowed",
-                 "make it smaller");
+    const double pixels = static_cast<double> (columns) * static_cast<double> (rows);
+    auto over = overBudget ("image/too_large", &Budgets::numbers, "with " + std::to_string (columns) + " times " + std::to_string (rows) + " pixels, it",
+                            pixels,
+                            "make it smaller");
+    over.where = name;
+    return over;
 }
 
 Grid gridOf (std::size_t columns, std::size_t rows)
@@ -44,10 +47,11 @@ Read readPng (std::string_view bytes, std::string_view name)
 {
     const std::unique_ptr<spng_ctx, void (*) (spng_ctx*)> png (spng_ctx_new (0), spng_ctx_free);
     spng_ihdr header {};
-    spng_set_chunk_limits (png.get(), most_bytes, most_bytes);
+    const auto largest_chunk = static_cast<std::size_t> (budgets().file);
+    spng_set_chunk_limits (png.get(), largest_chunk, largest_chunk);
     if (const int problem = spng_set_png_buffer (png.get(), bytes.data(), bytes.size()); problem != 0) return broken (name, spng_strerror (problem));
     if (const int problem = spng_get_ihdr (png.get(), &header); problem != 0) return broken (name, spng_strerror (problem));
-    if (std::size_t { header.width } * header.height > most_numbers) return tooLarge (name, header.width, header.height);
+    if (static_cast<double> (std::size_t { header.width } * header.height) > budgets().numbers) return tooLarge (name, header.width, header.height);
 
     // Deflate compresses to a thousandth at best.
     std::size_t unfolded = 0;
@@ -86,7 +90,7 @@ Read readJpeg (std::string_view bytes, std::string_view name)
     if (tjDecompressHeader3 (jpeg.get(), data, bytes.size(), &columns, &rows, &subsampling, &colours) != 0) return broken (name, tjGetErrorStr2 (jpeg.get()));
 
     const auto pixels = static_cast<std::size_t> (columns) * static_cast<std::size_t> (rows);
-    if (pixels > most_numbers) return tooLarge (name, static_cast<std::size_t> (columns), static_cast<std::size_t> (rows));
+    if (static_cast<double> (pixels) > budgets().numbers) return tooLarge (name, static_cast<std::size_t> (columns), static_cast<std::size_t> (rows));
     std::vector<unsigned char> greys (pixels);
     if (tjDecompress2 (jpeg.get(), data, bytes.size(), greys.data(), columns, 0, rows, TJPF_GRAY, TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS | TJFLAG_ACCURATEDCT)
         != 0)

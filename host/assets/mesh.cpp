@@ -2,6 +2,8 @@
 #include "mesh.hpp"
 #include "mesh_parts.hpp"
 
+#include <framework/text/budget.hpp>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -32,6 +34,13 @@ Message fail (std::string id, std::string where, std::string what, std::string r
 {
     return Message { .id = std::move (id), .where = std::move (where), .text = std::move (what), .remedy = std::move (remedy) };
 }
+
+void checkBudget (double Budgets::*which, std::size_t count, std::size_t line)
+{
+    if (static_cast<double> (count) <= budgets().*which) return;
+    auto over = overBudget ("mesh/too_large", which, "it", static_cast<double> (count), "save a coarser mesh");
+    throw MeshProblem { std::move (over.id), std::move (over.text), line, std::move (over.remedy) };
+}
 }   // namespace
 
 void MeshBuilder::point (const Vec3& at, std::size_t line)
@@ -39,6 +48,7 @@ void MeshBuilder::point (const Vec3& at, std::size_t line)
     if (! at.allFinite()) throw MeshProblem { "mesh/syntax", "a point is not finite", line };
     const auto [found, fresh] = known.try_emplace ({ at.x(), at.y(), at.z() }, static_cast<int> (made.points.size()));
     if (fresh) made.points.push_back (at);
+    checkBudget (&Budgets::points, made.points.size(), line);
     joined.push_back (found->second);
 }
 
@@ -53,6 +63,7 @@ void MeshBuilder::face (std::span<const long long> corners, std::size_t line)
     for (std::size_t i = 2; i < corners.size(); ++i)
         if (const std::array<int, 3> t { at (0), at (i - 1), at (i) }; t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
             made.triangles.push_back (t);
+    checkBudget (&Budgets::triangles, made.triangles.size(), line);
 }
 
 namespace
@@ -152,7 +163,7 @@ Result<Mesh> readMesh (std::string_view bytes, std::string_view name)
     catch (const MeshProblem& p)
     {
         return fail (p.id, std::string (name) + (p.line > 0 ? ":" + std::to_string (p.line) : ""), p.what,
-                     "check that it is a complete " + std::string (kind->ending) + " file, and export it again");
+                     p.remedy.empty() ? "check that it is a complete " + std::string (kind->ending) + " file, and export it again" : p.remedy);
     }
 
     auto mesh = builder.take();

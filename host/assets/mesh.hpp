@@ -18,7 +18,8 @@ namespace tactus::host
 /// We use our own readers because Assimp 5.2.5 in Debian allocates gigabytes or aborts on truncated files. No input crashes
 /// them.
 ///
-/// Error ids: mesh/unknown_kind, mesh/syntax, mesh/truncated, mesh/no_such_point, mesh/no_triangles.
+/// Error ids: mesh/unknown_kind, mesh/syntax, mesh/truncated, mesh/no_such_point, mesh/no_triangles,
+/// mesh/too_large.
 /// `where` is name:line for text, name for binary files.
 [[nodiscard]] Result<Mesh> readMesh (std::string_view bytes, std::string_view name);
 

@@ -16,7 +16,8 @@ namespace tactus::host
 struct MeshProblem
 {
     std::string id, what;
-    std::size_t line = 0;   ///< line number; 0 for a binary file
+    std::size_t line = 0;      ///< line number; 0 for a binary file
+    std::string remedy = {};   ///< "": that of a broken file
 };
 
 /// Builds a mesh while the file is read. Points and faces are added in the order of the file, and faces refer to points by

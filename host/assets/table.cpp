@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "table.hpp"
-#include "limits.hpp"
 #include "text.hpp"
 
+#include <framework/text/budget.hpp>
 #include <framework/text/number_text.hpp>
 
 #include <cmath>
@@ -94,9 +94,11 @@ private:
                 return fail (
                     "table/not_a_number", field.empty() ? "a number is missing" : "'" + std::string (field.substr (0, 40)) + "' is not a finite number",
                     field.find (',') == std::string_view::npos ? "fill in missing numbers, and remove other text" : "write decimal points instead of commas");
-            if (grid.values.size() == most_numbers)
-                return fail ("table/too_large", "it has more than " + std::to_string (most_numbers) + " numbers",
-                             "save a part of it, or every second row and column");
+            if (const auto numbers = static_cast<double> (grid.values.size()) + 1.0; numbers > budgets().numbers)
+            {
+                auto over = overBudget ("table/too_large", &Budgets::numbers, "it", numbers, "save a part of it, or every second row and column");
+                return fail (std::move (over.id), std::move (over.text), std::move (over.remedy));
+            }
             grid.values.push_back (*value);
             ++columns;
         }

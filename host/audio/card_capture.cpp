@@ -8,7 +8,7 @@ namespace tactus::host::audio
 
 Result<std::unique_ptr<CardCapture>> CardCapture::create (const std::filesystem::path& path, double rate_hz, int channels)
 {
-    auto writer = WavWriter::create (path, rate_hz, static_cast<std::size_t> (channels));
+    auto writer = WavWriter::create (path, rate_hz, static_cast<std::size_t> (channels), IfKilled::kept);
     if (! writer) return std::move (writer.error());
     return std::unique_ptr<CardCapture> (new CardCapture (std::move (*writer), rate_hz, channels));
 }
@@ -31,7 +31,12 @@ Result<> CardCapture::drain()
         if (has_failed) return;
         result = writer.frame (frame);
         has_failed = ! result;
+        ++unflushed;
     });
+    if (has_failed || unflushed <= frames_per_flush) return result;
+    unflushed = 0;
+    result = writer.flush();
+    has_failed = ! result;
     return result;
 }
 

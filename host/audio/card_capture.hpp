@@ -10,12 +10,13 @@
 namespace tactus::host::audio
 {
 
-/// Records the output of a card as a WAV file of 32-bit floats, which appears when the recording is complete. If writing
-/// fails, the run continues.
+/// Records the output of a card as a WAV file of 32-bit floats, which appears when the recording is complete. If the process is
+/// killed, the recording up to its last second is kept (IfKilled::kept). If writing fails, the run continues.
 class CardCapture
 {
 public:
-    static constexpr double room_s = 2.0;   ///< capacity for samples waiting to be written, in s
+    static constexpr double room_s = 2.0;    ///< capacity for samples that wait to be written, in s
+    static constexpr double flush_s = 0.5;   ///< time between two flushes to the file, in s
 
     /// Ids: those of WavWriter::create. [main thread]
     static Result<std::unique_ptr<CardCapture>> create (const std::filesystem::path&, double rate_hz, int channels);
@@ -31,11 +32,13 @@ public:
 
 private:
     CardCapture (WavWriter w, double rate_hz, int channels)
-        : writer (std::move (w)), ring (static_cast<std::size_t> (room_s * rate_hz), static_cast<std::size_t> (channels))
+        : writer (std::move (w)), frames_per_flush (static_cast<std::size_t> (flush_s * rate_hz)),
+          ring (static_cast<std::size_t> (room_s * rate_hz), static_cast<std::size_t> (channels))
     {
     }
 
     WavWriter writer;
+    std::size_t frames_per_flush, unflushed = 0;
     SpscRing<double> ring;
     bool has_failed = false;
 };

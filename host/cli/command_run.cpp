@@ -6,6 +6,7 @@
 #include <framework/graph/reconcile.hpp>
 #include <framework/plan/missing_parts.hpp>
 #include <framework/text/closest_match.hpp>
+#include <framework/text/quote.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/platform/home_folder.hpp>
 #include <host/sessions/needs.hpp>
@@ -53,6 +54,7 @@ CommandRun::CommandRun (const RunOptions& o, Pace pace) : options (o), loaded (l
     for (const auto* file : { &options.log, &options.capture })
         if (! file->empty()) outputs.push_back (*file);
     refuseOverwriting (outputs, inputs());
+    if (pace == Pace::live) reportUnfinished (outputs);
     if (! options.log.empty()) orFail (running->startLog (options.log, TACTUS_VERSION, options.sets, loaded.graph));
     if (pace == Pace::live) startAudio();
 }
@@ -263,7 +265,7 @@ void CommandRun::attend()
     if (const auto trouble = running->attend())
     {
         const auto ending = trouble->id == "log/broken" ? "; the run continues\n    " + trouble->remedy : ", and the log ends here; the run continues";
-        std::cerr << options.log << ": warning: " << trouble->text << ending << " [" << trouble->id << "]\n";
+        std::cerr << printableName (options.log) << ": warning: " << printable (trouble->text) << printable (ending) << " [" << trouble->id << "]\n";
     }
 }
 
@@ -351,7 +353,7 @@ void CommandRun::reportRun() const
     constexpr Guard::Stop no_limits[] { Guard::Stop::none, Guard::Stop::halted, Guard::Stop::released };
     for (const auto& [role, d] : running->devices())
         if (const auto& event = running->engine().guardOf (role).latest(); std::ranges::count (no_limits, event.why) == 0)
-            std::cerr << role << ": warning: the guard withheld the force: " << describe (event) << '\n';
+            std::cerr << printableName (role) << ": warning: the guard withheld the force: " << describe (event) << '\n';
     const auto late = running->lateTicks();
     if (late == 0) return;
     std::cerr << "warning: an async query (the search of a large surface) was answered too late " << late << (late == 1 ? " time\n" : " times\n");

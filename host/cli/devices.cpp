@@ -4,6 +4,7 @@
 
 #include <framework/text/json.hpp>
 #include <framework/text/number_text.hpp>
+#include <framework/text/quote.hpp>
 #include <host/audio/card.hpp>
 #include <host/hid_link/force_feedback.hpp>
 #include <host/hid_link/hid_device.hpp>
@@ -117,23 +118,24 @@ Json jsonOf (const Listed& l)
 std::string textOf (const Listed& l)
 {
     const auto& d = l.device;
-    std::string text = d.path + "   " + hex4 (d.vid) + ":" + hex4 (d.pid) + "   " + (d.product.empty() ? "unnamed" : d.product);
-    if (! d.serial.empty()) text += ", serial " + d.serial;
+    std::string text = d.path + "   " + hex4 (d.vid) + ":" + hex4 (d.pid) + "   " + (d.product.empty() ? "unnamed" : printableName (d.product));
+    if (! d.serial.empty()) text += ", serial " + printableName (d.serial);
     if (d.bus != Bus::unknown) text += ", " + std::string (nameOf (d.bus));
     text += "\n    ";
     if (l.profiles.empty())
     {
         text += "no profile fits this device\n";
         for (const auto& m : l.unable)
-            text += "    " + m.text + "\n";
+            text += "    " + printable (m.text) + "\n";
         return text;
     }
 
-    text += "profile " + l.profiles.front()->id + " (" + l.profiles.front()->name + "), " + std::string (verifiedOf (*l.profiles.front()));
+    text += "profile " + printableName (l.profiles.front()->id) + " (" + printableName (l.profiles.front()->name) + "), "
+            + std::string (verifiedOf (*l.profiles.front()));
     for (std::size_t i = 1; i < l.profiles.size(); ++i)
-        text += (i == 1 ? "; would also fit: " : ", ") + l.profiles[i]->id;
+        text += (i == 1 ? "; would also fit: " : ", ") + printableName (l.profiles[i]->id);
     text += "\n    ";
-    text += l.may_open ? "may be opened: --device ROLE=hid:" + l.profiles.front()->id : "may not be opened by this user: " + howToPermit (d);
+    text += l.may_open ? "may be opened: --device ROLE=hid:" + printableName (l.profiles.front()->id) : "may not be opened by this user: " + howToPermit (d);
     return text + "\n";
 }
 
@@ -149,11 +151,12 @@ std::string inARow (const Numbers& numbers)
 
 std::string textOf (const audio::ListedCard& c)
 {
-    auto text = "sound card " + c.type + ":" + c.name + "\n    ";
-    if (! c.trouble.empty()) return text + c.trouble + "\n";
+    const auto name = printableName (c.type + ":" + c.name);
+    auto text = "sound card " + name + "\n    ";
+    if (! c.trouble.empty()) return text + printable (c.trouble) + "\n";
     text += std::to_string (c.outputs.size()) + " outputs, " + std::to_string (c.inputs.size()) + " inputs; ";
     text += inARow (c.rates) + " Hz; blocks of " + inARow (c.blocks) + "\n    ";
-    return text + "--audio \"" + c.type + ":" + c.name + "\" --route PORT=CHANNEL, or --device ROLE=audio\n";
+    return text + "--audio \"" + name + "\" --route PORT=CHANNEL, or --device ROLE=audio\n";
 }
 
 Json jsonOf (const audio::ListedCard& c)
@@ -280,7 +283,8 @@ std::vector<std::unique_ptr<Probed>> openAll (const std::vector<Listed>& all)
         if (opened)
             probed.push_back (std::make_unique<Probed> (std::move (*opened)));
         else
-            std::cerr << opened.error().where << ": error: " << opened.error().text << "\n    " << opened.error().remedy << " [" << opened.error().id << "]\n";
+            std::cerr << printableName (opened.error().where) << ": error: " << printable (opened.error().text) << "\n    "
+                      << printable (opened.error().remedy) << " [" << opened.error().id << "]\n";
     }
     return probed;
 }
@@ -302,7 +306,7 @@ void probe (const std::vector<Listed>& all, const Options& options, Json& json)
         const double seconds = std::max (1e-3, std::chrono::duration<double> (Clock::now() - begin).count());
         std::string text;
         for (const auto& p : probed)
-            text += p->text (seconds);
+            text += printable (p->text (seconds));
         return text;
     };
 
@@ -337,7 +341,7 @@ void run (const Options& options)
 {
     const auto profiles = loadProfileLibrary();
     for (const auto& m : profiles.messages)
-        std::cerr << m.file << m.where << ": warning: " << m.text << "\n    " << m.remedy << " [" << m.id << "]\n";
+        std::cerr << printableName (m.file + m.where) << ": warning: " << printable (m.text) << "\n    " << printable (m.remedy) << " [" << m.id << "]\n";
 
     const auto all = listAll (profiles);
     Json json = Json::array();

@@ -35,16 +35,19 @@ Emergency::~Emergency() { watchForEmergency (nullptr, nullptr); }
 
 void Emergency::press() noexcept
 {
+    pressed_at.exchange (now());   // first: see rearm
     engine.emergencyStop();
-    pressed_at = now();
 }
 
 Result<> Emergency::rearm()
 {
+    auto last = pressed_at.load();
     if (now() < pressed_at + pause_s)
         return Message::error ("run/rearm_too_early", {}, "the emergency stop was pressed less than a second ago",
                                "wait a second, make sure that forces may safely return, and rearm again");
     engine.rearm();
+    // A press on another thread since the look above must not be undone. A later press sees this rearm, and stops after it.
+    if (! pressed_at.compare_exchange_strong (last, last)) engine.emergencyStop();
     return {};
 }
 

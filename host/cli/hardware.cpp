@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hardware.hpp"
 
+#include <framework/text/quote.hpp>
 #include <host/hid_link/hid_device.hpp>
 #include <host/hid_link/profile_library.hpp>
 
@@ -63,7 +64,7 @@ std::string statusOf (std::span<const DeviceHealth> devices, const RunClock* clo
 {
     std::string text;
     for (const auto& h : devices)
-        text += "   " + h.role + " " + describe (h);
+        text += "   " + printableName (h.role) + " " + printableName (describe (h));
     if (clock == nullptr || ! clock->isByTimer()) return text;
     text += "   the timer ticks the run because no reports arrive";
     if (clock->isReplaced()) text += "; forces are held at zero";
@@ -75,16 +76,17 @@ std::string accountOf (std::span<const RealDevice> devices, std::span<const Devi
     std::string text;
     for (const auto& real : devices)
     {
+        const auto called = printableName (real.role) + " (" + printableName (real.profile().id) + ")";
         const auto* device = real.device();
         if (device == nullptr)
         {
             const auto trouble = real.awaited->trouble();
-            text += real.role + " (" + real.profile().id + "): the device was never available" + (trouble.empty() ? std::string() : "; " + trouble) + "\n";
+            text += called + ": the device was never available" + (trouble.empty() ? std::string() : "; " + printableName (trouble)) + "\n";
             continue;
         }
         const auto read = device->counts();
         const auto port = device->port().counts();
-        text += real.role + " (" + real.profile().id + "): " + std::to_string (port.reports) + " reports, " + hid::describe (read, port) + "\n";
+        text += called + ": " + std::to_string (port.reports) + " reports, " + hid::describe (read, port) + "\n";
         if (const auto h = std::ranges::find (health, real.role, &DeviceHealth::role); h != health.end()) text += clockOf (*h);
         if (port.writes > 0)
         {
@@ -99,7 +101,7 @@ std::string accountOf (std::span<const RealDevice> devices, std::span<const Devi
             text += "    the device was unplugged " + std::to_string (port.departures) + " times";
             text += device->port().isConnected() ? "\n" : ", and is still unplugged\n";
         }
-        if (const auto trouble = device->port().trouble(); ! trouble.empty()) text += "    last problem: " + trouble + "\n";
+        if (const auto trouble = device->port().trouble(); ! trouble.empty()) text += "    last problem: " + printableName (trouble) + "\n";
     }
     if (clock != nullptr && clock->ticksByTimer() > 0)
         text += "    " + std::to_string (clock->ticksByTimer()) + " ticks came from the timer because no reports arrived\n";

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "live_recording.hpp"
 
+#include <framework/text/quote.hpp>
+
 #include <cstdio>
 #include <utility>
 
@@ -9,11 +11,14 @@ namespace tactus::host
 
 namespace
 {
-constexpr double room_s = 1.0;   // capacity for ticks waiting to be written, in s
+constexpr double room_s = 1.0;    // capacity for ticks waiting to be written, in s
+constexpr double flush_s = 0.5;   // time between two flushes, in s: together with the ticks that wait, less than a second is lost
 }   // namespace
 
 LiveRecording::LiveRecording (Run& run, const std::vector<std::string>& files)
-    : recorder (files, run.recorded(), run.rate(), false), ring (static_cast<std::size_t> (room_s * run.rate()) + 1, recorder.width() + 1)
+    : recorder (files, run.recorded(), run.rate(), false, IfKilled::kept),
+      ticks_per_flush (static_cast<std::uint64_t> (flush_s * run.rate())),
+      ring (static_cast<std::size_t> (room_s * run.rate()) + 1, recorder.width() + 1)
 {
 }
 
@@ -33,14 +38,21 @@ void LiveRecording::giveUp (std::vector<Message> failed)
     for (auto& error : failed)
     {
         std::fprintf (stderr, "%s: warning: %s; this file is no longer written, but the run continues [%s]\n",
-                      error.where.c_str(), error.text.c_str(), error.id.c_str());
+                      printableName (error.where).c_str(), printable (error.text).c_str(), error.id.c_str());
         if (! failure) failure = std::move (error);
     }
 }
 
 void LiveRecording::drain()
 {
-    ring.drain ([this] (std::span<const double> frame) { giveUp (recorder.frame (static_cast<std::uint64_t> (frame[0]), frame.subspan (1))); });
+    ring.drain ([this] (std::span<const double> frame) {
+        const auto tick = static_cast<std::uint64_t> (frame[0]);
+        giveUp (recorder.frame (tick, frame.subspan (1)));
+        drained = tick + 1;
+    });
+    if (drained - flushed <= ticks_per_flush) return;
+    flushed = drained;
+    giveUp (recorder.flush());
 }
 
 std::optional<Message> LiveRecording::commit()

@@ -14,7 +14,8 @@ namespace tactus::host
 {
 
 /// Records a run while it ticks, but not the ticks while it halts. The tick thread never waits for the files, and a full
-/// disk ends the recording but not the run.
+/// disk ends the recording but not the run. If the process is killed, the recording up to its last second is kept in a file
+/// beside the target (IfKilled::kept).
 class LiveRecording final : public RunListener
 {
 public:
@@ -37,7 +38,8 @@ private:
 
     Recorder recorder;
     std::optional<Message> failure;
-    SpscRing<double> ring;   // each frame: the number of a tick, and the values of that tick
+    std::uint64_t ticks_per_flush, drained = 0, flushed = 0;   // drained, flushed: number of ticks before the next one
+    SpscRing<double> ring;                                     // each frame: the number of a tick, and the values of that tick
 };
 
 }   // namespace tactus::host

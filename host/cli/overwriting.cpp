@@ -2,7 +2,11 @@
 #include "overwriting.hpp"
 #include "report.hpp"
 
+#include <framework/file/atomic_file.hpp>
+#include <framework/text/quote.hpp>
+
 #include <algorithm>
+#include <iostream>
 
 namespace tactus::host
 {
@@ -27,6 +31,13 @@ void refuseOverwriting (const std::vector<std::string>& outputs, const std::vect
         if (std::any_of (outputs.begin(), out, is_it))
             fail (Message::error ("output/twice", *out, "two outputs would be written to this file", "give each output its own file"));
     }
+}
+
+void reportUnfinished (const std::vector<std::string>& outputs)
+{
+    for (const auto& file : outputs)
+        for (const auto& left : leftUnfinished (file))
+            std::cerr << "note: " << printable (left.string()) << " is what an earlier run recorded before it was killed; rename it to keep it, or remove it\n";
 }
 
 }   // namespace tactus::host

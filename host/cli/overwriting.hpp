@@ -12,4 +12,7 @@ namespace tactus::host
 /// lost.
 void refuseOverwriting (const std::vector<std::string>& outputs, const std::vector<std::filesystem::path>& inputs);
 
+/// Prints which files of these outputs were left by runs that were killed. They are never overwritten.
+void reportUnfinished (const std::vector<std::string>& outputs);
+
 }   // namespace tactus::host

@@ -8,6 +8,7 @@
 #include "report.hpp"
 
 #include <framework/text/number_text.hpp>
+#include <framework/text/quote.hpp>
 #include <host/io/file_watch.hpp>
 #include <host/osc/osc_options.hpp>
 #include <host/platform/signals.hpp>
@@ -45,7 +46,7 @@ std::unique_ptr<OscPort> openPort (const Options& options)
         return std::move (*opened);
     }
     if (options.osc_asked_for) fail (opened.error());
-    std::fprintf (stderr, "warning: %s\n", describe (opened.error()).c_str());
+    std::fprintf (stderr, "warning: %s\n", printable (describe (opened.error())).c_str());
     return nullptr;
 }
 
@@ -75,7 +76,7 @@ std::unique_ptr<RunClock> clockOf (const CommandRun& command)
 void warnOfCapture (const std::string& file, const Message& error)
 {
     std::fprintf (stderr, "%s: warning: %s, and the signal to the sound card is no longer written; the run continues [%s]\n",
-                  file.c_str(), error.text.c_str(), error.id.c_str());
+                  printableName (file).c_str(), printable (error.text).c_str(), error.id.c_str());
 }
 
 /// A play command, from its first tick to its last.
@@ -123,12 +124,12 @@ private:
         if (command.audio().clock() != nullptr)
             more += ", ticked by the sound card";
         else if (device_clock)
-            more += ", ticked by " + command.clockRole();
+            more += ", ticked by " + printableName (command.clockRole());
         if (port) more += ", OSC on " + port->listensTo().address + ":" + std::to_string (port->number());
         if (port && port->listensTo().isLoopback()) more += " (token to rearm: " + token + ")";
         if (options.watch) more += ", reloading the graph file when it is edited";
         const auto* keys = emergency.hasKeys() ? "Ctrl-C ends the run, the space bar is the emergency stop, R rearms" : "Ctrl-C stops";
-        std::fprintf (stderr, "%s at %g Hz%s; %s\n", name.c_str(), command.rate(), more.c_str(), keys);
+        std::fprintf (stderr, "%s at %g Hz%s; %s\n", printableName (name).c_str(), command.rate(), more.c_str(), keys);
     }
 
     void printNotes()
@@ -161,7 +162,7 @@ private:
         if (terminal) std::fprintf (stderr, "\r\033[K");
         const bool taken_over = command.reload();
         if (taken_over && control) control->graphChanged();
-        std::fprintf (stderr, taken_over ? "%s: reloaded\n" : "%s: not reloaded; the previous graph keeps running\n", options.graph.c_str());
+        std::fprintf (stderr, taken_over ? "%s: reloaded\n" : "%s: not reloaded; the previous graph keeps running\n", printableName (options.graph).c_str());
         file_watch.watch (command.files());
     }
 

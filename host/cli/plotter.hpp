@@ -14,8 +14,8 @@ namespace tactus::host
 class Plotter
 {
 public:
-    /// `over` names the tap for the x axis; empty: time. The command ends if that tap is not recorded. Quantities that
-    /// are 0 throughout, such as the torque of a sink without a wire, may be left out.
+    /// `over` names the tap for the x axis; empty: time. The command ends if that tap is not recorded. With
+    /// `leave_out_silent`, quantities that are 0 throughout, such as the torque of a sink without a wire, are left out.
     Plotter (std::string file, const std::vector<Tap>&, const std::string& over, double rate_hz, bool leave_out_silent);
 
     void frame (std::span<const double> values);

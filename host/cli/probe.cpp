@@ -6,6 +6,7 @@
 #include "triggered_probe.hpp"
 
 #include <framework/text/number_text.hpp>
+#include <framework/text/quote.hpp>
 #include <host/platform/signals.hpp>
 
 #include <chrono>
@@ -69,7 +70,7 @@ void run (const Options& options)
             heard = Clock::now();
             std::cout << 't';
             for (int i = 3; i < m->size(); ++i)
-                if ((*m)[i].isString()) std::cout << ',' << (*m)[i].getString().toStdString();
+                if ((*m)[i].isString()) std::cout << ',' << printableName ((*m)[i].getString().toStdString());
             std::cout << std::endl;
         }
         if (address != "/tactus/value" || rate_hz == 0.0 || m->size() < 2 || ! (*m)[1].isInt32()) continue;

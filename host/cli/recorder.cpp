@@ -42,7 +42,7 @@ void giveUpWhere (std::vector<File>& files, std::vector<Message>& failed, Do&& w
 bool isWave (const std::string& file) { return std::filesystem::path (file).extension() == ".wav"; }
 }   // namespace
 
-Recorder::Recorder (const std::vector<std::string>& files, const std::vector<Tap>& all, double rate, bool to_standard_output)
+Recorder::Recorder (const std::vector<std::string>& files, const std::vector<Tap>& all, double rate, bool to_standard_output, IfKilled if_killed)
     : rate_hz (rate), taps (all.size()), print (to_standard_output && files.empty())
 {
     if (all.empty() && (print || ! files.empty()))
@@ -59,9 +59,9 @@ Recorder::Recorder (const std::vector<std::string>& files, const std::vector<Tap
     for (const auto& file : files)
     {
         if (std::filesystem::path (file).extension() == ".csv")
-            tables.push_back (orFail (TableWriter::create (file, columns)));
+            tables.push_back (orFail (TableWriter::create (file, columns, if_killed)));
         else if (isWave (file))
-            waves.push_back (orFail (WavWriter::create (file, rate_hz * static_cast<double> (per_tick), taps)));
+            waves.push_back (orFail (WavWriter::create (file, rate_hz * static_cast<double> (per_tick), taps, if_killed)));
         else
             fail (Message::error ("output/kind", file, "the file name does not end in .csv or .wav", "choose a name that ends in .csv or .wav"));
     }
@@ -97,6 +97,15 @@ Result<> Recorder::add (WavWriter& wave, std::uint64_t tick, std::span<const dou
     for (std::size_t i = 0; i < per_tick; ++i)
         if (auto written = wave.frame (values.subspan (i * taps, taps)); ! written) return written;
     return {};
+}
+
+std::vector<Message> Recorder::flush()
+{
+    std::vector<Message> failed;
+    const auto flushOne = [] (auto& file) { return file.flush(); };
+    giveUpWhere (tables, failed, flushOne);
+    giveUpWhere (waves, failed, flushOne);
+    return failed;
 }
 
 std::vector<Message> Recorder::commit()

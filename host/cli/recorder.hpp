@@ -17,12 +17,13 @@ namespace tactus::host
 
 /// Writes the recording of a run: one row or frame per tick into each file, or CSV to the standard output if there is no
 /// file. If taps have several samples per tick, a CSV gets the last one; a WAV gets all of them if all taps have the same
-/// number. Files appear on commit(), or not at all. Problems at the start end the command with a message. A file that
-/// cannot be written is given up, and writing of the other files continues.
+/// number. Files appear on commit(), or not at all; IfKilled says what becomes of them if the process is killed before. Problems
+/// at the start end the command with a message. A file that cannot be written is given up, and writing of the other files
+/// continues.
 class Recorder
 {
 public:
-    Recorder (const std::vector<std::string>& files, const std::vector<Tap>&, double rate_hz, bool to_standard_output);
+    Recorder (const std::vector<std::string>& files, const std::vector<Tap>&, double rate_hz, bool to_standard_output, IfKilled = IfKilled::removed);
 
     /// The number of values per tick.
     std::size_t width() const noexcept { return taps * per_tick; }
@@ -33,6 +34,9 @@ public:
     /// Writes the values of a tick. If earlier ticks are missing, a WAV repeats the last values, so that it keeps
     /// time. Returns the reasons why files were given up; usually none.
     std::vector<Message> frame (std::uint64_t tick, std::span<const double> values);
+
+    /// Hands all ticks so far to the system; they then survive the end of the process. Returns the reasons why files were given up.
+    std::vector<Message> flush();
     std::vector<Message> commit();
 
 private:

@@ -2,6 +2,7 @@
 #include "run_options.hpp"
 
 #include <framework/run/turn.hpp>
+#include <framework/text/budget.hpp>
 
 namespace tactus::host
 {
@@ -21,6 +22,22 @@ std::vector<plan::Override> readSets (const std::vector<std::string>& texts)
     return all;
 }
 
+void addLimits (const Command& app)
+{
+    std::string names;
+    for (const auto& sheet : budget_sheets)
+        names += (names.empty() ? "" : ", ") + std::string (sheet.name);
+    app.addOption (
+           "--limits",
+           [] (const std::string& text) {
+               const auto limits = readLimits (text);
+               if (! limits) throw UsageError ("--limits", limits.error().text + "; " + limits.error().remedy);
+               setBudgets (*limits);
+           },
+           "What files may cost, as in nodes=20000,memory=2GB (docs/graph_file.md); budgets: " + names)
+        .type ("BUDGET=AMOUNT,…");
+}
+
 void RunOptions::addTo (const Command& app)
 {
     app.addOption ("graph", graph, "A graph file, such as graphs/dry_wood.json").required();
@@ -34,6 +51,7 @@ void RunOptions::addTo (const Command& app)
                    "The device of a role: ROLE=FILE.json, ROLE=sim, ROLE=trace:FILE.csv, ROLE=gesture:NAME, ROLE=hid:PROFILE (hid:auto) or "
                    "ROLE=audio:CARD; may be given more than once")
         .oneValueEach();
+    addLimits (app);
 }
 
 }   // namespace tactus::host

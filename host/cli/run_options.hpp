@@ -27,6 +27,9 @@ struct RunOptions
     void addTo (const Command&);
 };
 
+/// Adds --limits. Parsing it sets the budgets of files (framework/text/budget.hpp).
+void addLimits (const Command&);
+
 /// Parses NODE.PARAM=VALUE, as in --set.
 plan::Override readSet (const std::string&);
 

@@ -6,6 +6,7 @@
 #include <framework/node/catalogue.hpp>
 #include <framework/plan/compile.hpp>
 #include <framework/text/number_text.hpp>
+#include <framework/text/quote.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/hid_link/profile_library.hpp>
@@ -74,8 +75,14 @@ void stopIfWrong (const LoadedSession& s)
 
 std::string spacesTo (std::size_t width, const std::string& text) { return std::string (width > text.size() ? width - text.size() : 0, ' '); }
 
-void printTable (const std::vector<std::vector<std::string>>& rows)
+void printTable (std::vector<std::vector<std::string>> rows)
 {
+    for (auto& row : rows)
+        for (auto& cell : row)
+        {
+            std::ranges::replace (cell, '\n', ' ');
+            cell = &cell == &row.back() ? printable (cell) : printableName (cell);   // the last column may hold sentences
+        }
     std::vector<std::size_t> widths;
     for (const auto& row : rows)
         for (std::size_t i = 0; i < row.size(); ++i)
@@ -103,9 +110,9 @@ std::string describe (const Workspace& w)
 void printSession (const LoadedSession& s, std::span<const hid::ConnectedDevice> connected, const hid::LoadedProfiles& profiles)
 {
     std::error_code unseen;
-    std::cout << s.file.string() << (fs::exists (s.file, unseen) ? "\n" : " (does not exist yet)\n");
+    std::cout << printableName (s.file.string()) << (fs::exists (s.file, unseen) ? "\n" : " (does not exist yet)\n");
     const auto clock = s.session.clock();
-    std::cout << "clock: " << (clock.empty() ? "the first device that can tick the run" : clock) << '\n';
+    std::cout << "clock: " << (clock.empty() ? "the first device that can tick the run" : printableName (clock)) << '\n';
     const auto roles = s.session.roles();
     if (roles.empty()) std::cout << "no role is bound: each graph uses the devices that it describes; --bind ROLE=hid:auto binds a role\n";
     std::vector<std::vector<std::string>> rows;
@@ -117,7 +124,7 @@ void printSession (const LoadedSession& s, std::span<const hid::ConnectedDevice>
         rows.push_back ({ role, nameOf (b->description), state, describe (b->workspace) });
     }
     printTable (rows);
-    if (const auto* audio = s.session.audio()) std::cout << "audio: " << audio->dump() << '\n';
+    if (const auto* audio = s.session.audio()) std::cout << "audio: " << printable (audio->dump()) << '\n';
 }
 
 std::string verdict (const RoleFit& fit)
@@ -232,7 +239,7 @@ void run (const Options& options)
     printSession (session, connected, profiles);
     if (! graph) return;
     std::cout << '\n'
-              << (graph->graph.name.empty() ? options.graph : graph->graph.name) << '\n';
+              << printableName (graph->graph.name.empty() ? options.graph : graph->graph.name) << '\n';
     std::vector<std::vector<std::string>> rows { { "role", "needs", "bound to", "fits?" } };
     for (const auto& fit : fits)
         rows.push_back ({ fit.role, describe (fit.needs), nameOf (fit.description) + std::string (whose (fit.from)), verdict (fit) });

@@ -4,6 +4,7 @@
 #include "report.hpp"
 
 #include <framework/text/number_text.hpp>
+#include <framework/text/quote.hpp>
 #include <host/platform/signals.hpp>
 
 #include <chrono>
@@ -54,7 +55,7 @@ void print (const Window& window, const juce::OSCMessage& done, double rate_hz)
 {
     std::cout << 't';
     for (int i = 3; i < done.size(); ++i)
-        if (done[i].isString()) std::cout << ',' << done[i].getString().toStdString();
+        if (done[i].isString()) std::cout << ',' << printableName (done[i].getString().toStdString());
     std::cout << '\n';
     for (const auto& [row, values] : window.rows)
     {

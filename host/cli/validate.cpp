@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.hpp"
 #include "report.hpp"
+#include "run_options.hpp"
 
 #include <framework/node/catalogue.hpp>
 #include <framework/plan/compile.hpp>
+#include <framework/text/quote.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/hid_link/open_device.hpp>
@@ -38,7 +40,7 @@ int checkDevices (const LoadedGraph& loaded, const std::string& file)
 
 std::string describe (const plan::PathDelay& d)
 {
-    auto text = "  " + d.source + " -> " + d.sink + ": ";
+    auto text = "  " + printableName (d.source) + " -> " + printableName (d.sink) + ": ";
     text += d.shortest == d.longest ? std::to_string (d.shortest) : std::to_string (d.shortest) + " to " + std::to_string (d.longest);
     text += d.longest == 1 ? " tick" : " ticks";
     return text + (d.recirculates ? ", with echoes\n" : "\n");
@@ -58,9 +60,9 @@ bool check (const std::string& file)
 
     for (const auto& role : compiled.plan->roles())
         if (std::ranges::count (loaded.graph.devices, role.name, &std::pair<std::string, Json>::first) == 0)
-            std::cerr << file << ": warning: no device is described for the role '" << role.name
+            std::cerr << printableName (file) << ": warning: no device is described for the role '" << printableName (role.name)
                       << "'\n    describe a device for it under `devices`, or give --device when you run the graph [device/undescribed]\n";
-    std::cout << file << ": ok\n";
+    std::cout << printableName (file) << ": ok\n";
     for (const auto& d : compiled.plan->delays())
         std::cout << describe (d);
     return true;
@@ -72,11 +74,13 @@ void addValidate (const Command& app)
     const auto files = std::make_shared<std::vector<std::string>>();
     const auto command = app.add ("validate", "Check graph files and report all problems in all of them");
     command.addOption ("graphs", *files, "Graph files").required();
+    addLimits (command);
     command.footer ("For each file without errors, the delay of every path from a device through the graph and back is printed:\n"
                     "each tick of delay lowers the highest stiffness that the hand can feel.\n\n"
                     "Examples:\n"
                     "  tactus validate graphs/dry_wood.json\n"
-                    "  tactus validate graphs/*.json && echo fine");
+                    "  tactus validate graphs/*.json && echo fine\n"
+                    "  tactus validate city.json --limits nodes=1M,memory=2GB");
     command.callback ([files] {
         bool all_fine = true;
         for (const auto& file : *files)

@@ -63,7 +63,7 @@ private:
 class Command
 {
 public:
-    Command (const std::string& about, const std::string& name = {});   ///< makes a program, not a command of one
+    Command (const std::string& about, const std::string& name = {});   ///< makes the top-level command, the program itself; add() makes its subcommands
     Command add (const std::string& name, const std::string& about) const;
 
     /// Options are named --like-this, positional arguments without dashes.

@@ -124,7 +124,7 @@ EffortValues HidModel::drive (const HidEffort& effort) noexcept
     return values;
 }
 
-std::span<const std::uint8_t> HidModel::encode (std::size_t report, const EffortValues& values, std::span<const float> samples) noexcept
+std::span<const std::uint8_t> HidModel::encodeValues (std::size_t report, const EffortValues& values, std::span<const float> samples) noexcept
 {
     return encoder.encode (report, values, samples, decoder);
 }
@@ -133,7 +133,7 @@ std::span<const std::uint8_t> HidModel::encode (std::size_t report, const HidEff
 {
     auto values = asked (effort);
     limiter.shrink (values);
-    return encode (report, values, samples);
+    return encodeValues (report, values, samples);
 }
 
 std::span<const std::uint8_t> HidModel::neutral (std::size_t report) noexcept { return encoder.neutral (report); }

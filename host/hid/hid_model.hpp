@@ -27,7 +27,7 @@ struct HidSample
     std::array<double, most_axes> axes {};     ///< in the order of axisNames()
     double time = 0.0;                         ///< time since the device's first report, on its own clock, in s; 0 unless hasTime()
     std::uint32_t lost = 0;                    ///< reports lost just before this one
-    Succession succession {};                  ///< how the report continues the previous one
+    Succession succession {};                  ///< how the report relates to the previous one
     bool valid = false;                        ///< true if the device reports the values as valid and the kinematics have a solution
     Refusal refusal = Refusal::none;           ///< why the last report changed nothing
     PoseProblem problem = PoseProblem::none;   ///< why the pose cannot be used; none if it can
@@ -76,7 +76,7 @@ public:
     /// The n-th output report of the profile, ready for hid_write (or hid_send_feature_report): without an id it begins
     /// with 0. A field stays neutral if its value is not finite or if the pose has no solution. A report with a stream carries the
     /// samples: interleaved frames, -1…1; missing samples are 0. The span is valid until the next call.
-    std::span<const std::uint8_t> encode (std::size_t report, const EffortValues&, std::span<const float> samples = {}) noexcept;
+    std::span<const std::uint8_t> encodeValues (std::size_t report, const EffortValues&, std::span<const float> samples = {}) noexcept;
 
     /// The same for a single effort, without the limit on the change of the motors.
     std::span<const std::uint8_t> encode (std::size_t report, const HidEffort&, std::span<const float> samples = {}) noexcept;

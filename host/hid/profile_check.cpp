@@ -192,7 +192,7 @@ private:
             }
     }
 
-    /// The motors come to rest as fast as the guard does: no limit of their slew draws out a stop.
+    /// Checks that the motor limits have motors to act on, and that a stop from max_motor takes at most longest_stop_s.
     void motorLimits()
     {
         const double most = p.limits.max_motor, slew = p.limits.max_motor_slew;
@@ -202,10 +202,10 @@ private:
                       "name them in \"force\", or remove the limits");
         if (slew != GuardLimits::none && ! (most / slew <= longest_stop_s))
             in.error ("limits", "device/slow_stop",
-                      most == GuardLimits::none ? "max_motor_slew without max_motor lets a stop take for ever"
+                      most == GuardLimits::none ? "without max_motor, max_motor_slew could prolong a stop indefinitely"
                                                 : "with max_motor_slew, a stop from max_motor takes " + numberText (most / slew) + " s; at most "
                                                       + numberText (longest_stop_s) + " s are allowed",
-                      "raise max_motor_slew, or lower max_motor");
+                      most == GuardLimits::none ? "add max_motor, at most " + numberText (slew * longest_stop_s) : "raise max_motor_slew, or lower max_motor");
     }
 
     void echoes()

@@ -29,7 +29,7 @@ inline constexpr std::size_t refusals = 6;
 /// Describes a refusal, as in "too short".
 std::string_view describe (Refusal) noexcept;
 
-/// How a report continues the previous one with the same id, by its number and its clock.
+/// How a report relates to the previous report with the same id, judged by its sequence number and the device's clock.
 enum class Succession
 {
     next,

@@ -214,10 +214,10 @@ void HidDevice::write (const Effort& guarded) noexcept
     if (has_to_rest) values.rest();
     const auto driven = has_to_rest ? EffortValues {} : values.drive (effort);
     for (std::size_t i = 0; i < values.outputs(); ++i)
-        if (values.channelNames (i).empty()) link->offer (i, has_to_rest ? values.neutral (i) : values.encode (i, driven), episode, latest);
+        if (values.channelNames (i).empty()) link->offer (i, has_to_rest ? values.neutral (i) : values.encodeValues (i, driven), episode, latest);
     for (auto& [report, feed] : streams)
         feed.tick (guarded.signals, [&, i = report] (std::span<const float> samples) {
-            const auto& bytes = has_to_rest ? values.neutral (i) : values.encode (i, driven, samples);
+            const auto& bytes = has_to_rest ? values.neutral (i) : values.encodeValues (i, driven, samples);
             link->offer (i, bytes, episode, latest);
         });
     link->sendNow();

@@ -112,7 +112,7 @@ private:
     bool has_to_rest = true;     // true until the guard has been at zero once
 
     ReportRecord record;
-    bool restarted = false;         // the record is empty because a report went back
+    bool restarted = false;         // a report's number or time went backwards; true until enough new reports have arrived to trust the record again
     ReadingFault standing {};       // why the newest report is no new reading: repeated or clock_stopped
     Nanoseconds arrived_last = 0;   // arrival of the report before; 0: none since the device was connected
     double driven_for = 0.0;        // how long the motors have been driven, in s

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "file_watch.hpp"
 
+#include <framework/file/text_file.hpp>
+
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 namespace tactus::host
 {
@@ -12,13 +12,12 @@ namespace fs = std::filesystem;
 
 namespace
 {
-/// The content of a file; none if the file is empty, because it may have been opened but not written yet.
+/// The content of a file; none if the file is empty, because it may have been opened but not written yet, or cannot be read.
 std::optional<std::string> contentOf (const fs::path& file)
 {
-    std::ifstream in (file, std::ios::binary);
-    std::ostringstream content;
-    if (! in || ! (content << in.rdbuf())) return std::nullopt;
-    return std::move (content).str();
+    auto content = readTextFile (file);
+    if (content && content->empty()) content.reset();
+    return content;
 }
 }   // namespace
 

@@ -2,10 +2,13 @@
 #include "wav.hpp"
 
 #include <framework/file/atomic_file.hpp>
+#include <framework/file/text_file.hpp>
+#include <framework/text/budget.hpp>
 
 #include <juce_audio_formats/juce_audio_formats.h>
 
 #include <bit>
+#include <cerrno>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -77,6 +80,7 @@ double sampleFrom (int raw, const juce::AudioFormatReader& reader)
 
 Result<Signal> readWav (const std::filesystem::path& path)
 {
+    if (const auto why = whyUnreadable (path); ! why.empty()) return fail ("wav/unreadable", path, why, "check the path");
     const auto full_path = std::filesystem::absolute (path).string();
     auto stream = juce::File (juce::String::fromUTF8 (full_path.c_str())).createInputStream();
     if (stream == nullptr)
@@ -102,6 +106,11 @@ Result<Signal> readWav (const std::filesystem::path& path)
 
     const auto frames = static_cast<std::size_t> (reader->lengthInSamples);
     const std::size_t channels = reader->numChannels;
+    if (const auto samples = static_cast<double> (frames) * static_cast<double> (channels); samples > budgets().numbers)
+    {
+        const auto over = overBudget ("wav/too_large", &Budgets::numbers, "it", samples, "save a part of it");
+        return fail (over.id, path, over.text, over.remedy);
+    }
     Signal recording { .rate_hz = reader->sampleRate, .channels = std::vector (channels, std::vector<double> (frames)) };
 
     std::vector<std::vector<int>> block (channels, std::vector<int> (frames_per_block));
@@ -149,7 +158,7 @@ struct WavWriter::Impl
     }
 };
 
-Result<WavWriter> WavWriter::create (const std::filesystem::path& path, double sample_rate_hz, std::size_t channels)
+Result<WavWriter> WavWriter::create (const std::filesystem::path& path, double sample_rate_hz, std::size_t channels, IfKilled if_killed)
 {
     if (channels == 0 || channels > most_channels)
         return fail ("wav/channels", path, "a WAV file cannot have " + std::to_string (channels) + " channels",
@@ -161,7 +170,7 @@ Result<WavWriter> WavWriter::create (const std::filesystem::path& path, double s
         return fail ("wav/sample_rate", path, "a WAV file cannot have a sample rate of " + inWords (sample_rate_hz) + " Hz",
                      "choose a rate in whole Hz, or write a CSV");
 
-    auto file = AtomicFile::create (path);
+    auto file = AtomicFile::create (path, if_killed);
     if (! file)
         return file.error();
     if (file->stream().tellp() < 0)
@@ -199,6 +208,16 @@ Result<> WavWriter::frame (std::span<const double> samples)
 
     if (++impl->filled == frames_per_block)
         return impl->writeBlock();
+    return {};
+}
+
+Result<> WavWriter::flush()
+{
+    if (auto written = impl->writeBlock(); ! written)
+        return written;
+    errno = 0;
+    if (! impl->writer->flush() || ! impl->file.stream().flush())
+        return impl->file.writeError();
     return {};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <framework/file/atomic_file.hpp>
 #include <framework/kit/assets.hpp>
 #include <framework/text/result.hpp>
 
@@ -17,7 +18,7 @@ namespace tactus::host
 [[nodiscard]] Result<Signal> readWav (const std::filesystem::path& path);
 
 /// Writes 32-bit float samples, unscaled and unclipped, frame by frame. Beyond 4 GB the file becomes an RF64. The file
-/// appears on commit(), or not at all.
+/// appears on commit(), or not at all; IfKilled says what becomes of it if the process is killed before.
 ///
 /// A float is less precise than a double: 24 bits are kept, and values beyond 3.4e38 become inf.
 class WavWriter
@@ -25,7 +26,8 @@ class WavWriter
 public:
     /// Refuses sample rates that a WAV cannot store (wav/sample_rate; only whole Hz are allowed) and bad channel counts
     /// (wav/channels; 1 to 1440 are allowed).
-    [[nodiscard]] static Result<WavWriter> create (const std::filesystem::path& path, double sample_rate_hz, std::size_t channels);
+    [[nodiscard]] static Result<WavWriter> create (const std::filesystem::path& path, double sample_rate_hz, std::size_t channels,
+                                                   IfKilled = IfKilled::removed);
 
     WavWriter (WavWriter&&) noexcept;
     WavWriter& operator= (WavWriter&&) noexcept;
@@ -33,6 +35,9 @@ public:
 
     /// One sample per channel.
     [[nodiscard]] Result<> frame (std::span<const double> samples);
+
+    /// Hands all frames so far, and a header that counts them, to the system; they then survive the end of the process.
+    [[nodiscard]] Result<> flush();
     [[nodiscard]] Result<> commit();
 
 private:

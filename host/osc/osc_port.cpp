@@ -46,7 +46,7 @@ Result<std::unique_ptr<OscPort>> OscPort::open (const OscListen& where)
 
 void OscPort::onArrival (std::function<void (const juce::OSCMessage&)> see)
 {
-    const std::lock_guard lock (guard);
+    const std::lock_guard lock (looking);
     first_look = std::move (see);
 }
 
@@ -103,11 +103,14 @@ void OscPort::listen (const std::stop_token& stop)
 void OscPort::take (std::string_view bytes, const std::string& answers_to)
 {
     auto packet = readPacket (bytes);
+    {
+        const std::lock_guard lock (looking);
+        if (first_look)
+            for (const auto& message : packet.messages)
+                first_look (message);
+    }
     const std::lock_guard lock (guard);
     lost += ! packet.right;
-    if (first_look)
-        for (const auto& message : packet.messages)
-            first_look (message);
     for (auto& message : packet.messages)
         if (waiting.size() < most_waiting)
             waiting.push_back ({ std::move (message), answers_to });

@@ -32,6 +32,9 @@ std::string textOf (const juce::String& s) { return s.toStdString(); }
 
 juce::String juceText (const std::string& s) { return juce::String::fromUTF8 (s.c_str()); }
 
+/// A name from the graph; the answer may be printed in a terminal.
+juce::String nameText (const std::string& s) { return juceText (printableName (s)); }
+
 /// A number, float or int.
 std::optional<double> numberOf (const OSCArgument& a)
 {
@@ -183,7 +186,7 @@ void RemoteControl::report (const std::string& address, const std::string& subje
     {
         const auto s = controlled.status();
         const auto whole = [] (std::uint64_t n) { return static_cast<juce::int32> (n & 0x7fffffffu); };
-        port.send (to, OSCMessage ("/tactus/status", juceText (s.name), static_cast<float> (s.rate_hz), static_cast<float> (s.time_s),
+        port.send (to, OSCMessage ("/tactus/status", nameText (s.name), static_cast<float> (s.rate_hz), static_cast<float> (s.time_s),
                                    static_cast<float> (s.force), static_cast<float> (s.peak), whole (s.ticks), whole (s.misses)));
     }
     else if (address == "/tactus/costs" && m.size() <= 2)
@@ -203,15 +206,15 @@ void RemoteControl::sendCosts (const OscReturn& to, std::size_t most)
     auto costs = controlled.costs();
     costs.resize (std::min (costs.size(), most));
     for (const auto& c : costs)
-        port.send (to, OSCMessage ("/tactus/cost", juceText (c.node), juceText (c.type), static_cast<float> (c.mean_s), static_cast<float> (c.share)));
+        port.send (to, OSCMessage ("/tactus/cost", nameText (c.node), nameText (c.type), static_cast<float> (c.mean_s), static_cast<float> (c.share)));
     answer (to, "/tactus/costs", "", {});
 }
 
 void RemoteControl::sendRoles (const OscReturn& to)
 {
     for (const auto& r : controlled.roles())
-        port.send (to, OSCMessage ("/tactus/guard", juceText (r.name), static_cast<juce::int32> (r.withholds), static_cast<float> (r.force),
-                                   static_cast<float> (r.torque), juceText (r.last_stop)));
+        port.send (to, OSCMessage ("/tactus/guard", nameText (r.name), static_cast<juce::int32> (r.withholds), static_cast<float> (r.force),
+                                   static_cast<float> (r.torque), nameText (r.last_stop)));
     answer (to, "/tactus/guard", "", {});
 }
 
@@ -270,7 +273,7 @@ Result<> RemoteControl::subscribe (const OSCMessage& m, const std::string& host,
     const auto& now_probed = *std::ranges::find_if (probes, [&] (const Probe& p) { return p.name == probe.name && p.to == probe.to; });
     OSCMessage done ("/tactus/done", juce::String ("/tactus/probe"), juceText (probe.name), static_cast<float> (rate_hz));
     for (const auto c : now_probed.components)
-        done.addString (juceText (components[c]));
+        done.addString (nameText (components[c]));
     port.send (probe.to, done);
     return {};
 }
@@ -318,7 +321,7 @@ void RemoteControl::confirmCapture()
 {
     OSCMessage done ("/tactus/done", juce::String ("/tactus/trigger"), juceText (capture->name), static_cast<float> (controlled.status().rate_hz));
     for (const auto& name : capture->components)
-        done.addString (juceText (name));
+        done.addString (nameText (name));
     port.send (capture->to, done);
 }
 
@@ -401,7 +404,8 @@ void RemoteControl::answer (const OscReturn& to, const std::string& address, con
     if (to.port == 0) return;
     if (done) return port.send (to, OSCMessage ("/tactus/done", juceText (address), juceText (subject)));
     const auto& why = done.error();
-    port.send (to, OSCMessage ("/tactus/error", juceText (address), juceText (subject), juceText (why.id), juceText (why.text), juceText (why.remedy)));
+    port.send (to, OSCMessage ("/tactus/error", juceText (address), juceText (subject), juceText (why.id), juceText (printable (why.text)),
+                               juceText (printable (why.remedy))));
 }
 
 }   // namespace tactus::host

@@ -76,7 +76,7 @@ void DeviceSession::setAudio (Json audio)
 ReadSession readSession (std::string_view text)
 {
     ReadSession read;
-    auto parsed = readJson (text);
+    auto parsed = readJson (text, Budgets {}.values);   // a low --limits must not make the user's session look damaged
     auto& json = parsed.root;
     auto& messages = parsed.messages;
     const auto refuse = [&] (std::string id, const std::string& where, std::string what, std::string remedy) {

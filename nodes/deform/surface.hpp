@@ -138,6 +138,16 @@ struct ElasticSurface
     Params params;
     Settings settings;
 
+    /// Whether slips gain energy is searched for each triangle, if the curves of a tool differ from node to node.
+    Cost cost() const
+    {
+        constexpr double work_per_triangle = 500.0, work_per_search = 10'000.0, bytes_per_triangle = 200.0;
+        if (! settings.surface || ! settings.surface->mesh) return {};
+        const auto searched = std::ranges::count_if (settings.surface->curves, [] (const auto& tool) { return tool.size() > 1; });
+        const auto triangles = static_cast<double> (settings.surface->mesh->triangles.size());
+        return { .work = triangles * (work_per_triangle + work_per_search * static_cast<double> (searched)), .memory = triangles * bytes_per_triangle };
+    }
+
     std::string problem() const { return settings.surface ? problemOf (*settings.surface) : "no surface is given"; }
 
     std::string warning (const Setup&) const

@@ -94,6 +94,8 @@ struct HuntCrossley
     Params params;
     Settings settings;
 
+    Cost cost() const { return { .memory = 32.0 * settings.voices }; }
+
     std::string problem() const
     {
         const Law& K = settings.stiffness;

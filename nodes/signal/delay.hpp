@@ -42,6 +42,8 @@ struct Delay
     Params params;
     Settings settings;
 
+    Cost cost() const { return { .work = 0.2 * settings.ticks, .memory = 8.0 * settings.ticks }; }
+
     void prepare (const Setup&)
     {
         line.assign (at (settings.ticks), 0.0);

@@ -112,6 +112,7 @@ struct HeightMap
     Params params;
     Settings settings;
 
+    Cost cost() const;
     std::string problem() const;
 
     void prepare (const Setup& setup)
@@ -211,6 +212,19 @@ private:
 
 //==============================================================================
 // Implementation below.
+
+/// The finest level, which is most of the work, has twice the points in each direction. Each is a weighted sum along x, then along
+/// y; the weights are computed once for each column and row.
+inline Cost HeightMap::cost() const
+{
+    if (! grid()) return {};
+    constexpr double weights = 33.0, work_per_weight = 60.0, work_per_product = 0.8, bytes_per_weights = 1000.0;
+    const double columns = std::max (grid()->columns, 0), rows = std::max (grid()->rows, 0), fine = 4.0 * columns * rows, lines = 2.0 * (columns + rows);
+    return {
+        .work = lines * weights * work_per_weight + 1.5 * fine * weights * work_per_product,
+        .memory = 3.0 * sizeof (double) * fine + lines * bytes_per_weights,   // three grids exist at the same time
+    };
+}
 
 inline std::string HeightMap::problem() const
 {

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -99,7 +100,7 @@ struct TextureNoise
     static constexpr Info info {
         .id = "texture.noise",
         .name = "Recorded texture",
-        .summary = "Noise of a real surface, for each speed and force.",
+        .summary = "The hiss and rumble of a real surface, from recordings at several speeds and forces.",
         .source = "Culbertson, Unwin & Kuchenbecker 2014; Romano & Kuchenbecker 2012",
     };
 
@@ -115,6 +116,7 @@ struct TextureNoise
     Params params;
     Settings settings;
 
+    Cost cost() const;
     std::string problem() const;
     std::string warning (const Setup&) const;
     void prepare (const Setup&);
@@ -193,6 +195,26 @@ private:
 //==============================================================================
 // Implementation below.
 
+/// The stability of each model is checked, and for each pair of a speed and a force the nearest model is searched.
+inline Cost TextureNoise::cost() const
+{
+    constexpr double work_per_product = 2.0, work_per_distance = 3.0;
+    if (settings.models.size() > most_models) return {};   // a problem
+    std::set<double> all_speeds, all_forces;
+    double products = 0.0, numbers = 0.0;
+    for (const Model& m : settings.models)
+    {
+        all_speeds.insert (m.speed);
+        all_forces.insert (m.force);
+        const auto order = static_cast<double> (std::min (m.coefficients.size(), highest_order));
+        products += order * order;
+        numbers += order;
+    }
+    const auto pairs = static_cast<double> (all_speeds.size()) * static_cast<double> (all_forces.size());
+    return { .work = work_per_product * products + work_per_distance * pairs * static_cast<double> (settings.models.size()),
+             .memory = 8.0 * (pairs + numbers) };
+}
+
 inline std::string TextureNoise::problem() const
 {
     const auto& models = settings.models;
@@ -223,8 +245,8 @@ inline std::string TextureNoise::warning (const Setup&) const
         for (const double k : reflectionsOf (settings.models[i].coefficients))
             variance /= (1.0 - k) * (1.0 + k);
         if (std::sqrt (variance) > loud)
-            return "model " + std::to_string (i) + " makes " + std::to_string (std::lround (std::min (std::sqrt (variance), 1e15)))
-                   + " N on average: its coefficients are at the edge of stability, or its variance is not in N2";
+            return "model " + std::to_string (i) + " has an RMS force of " + std::to_string (std::lround (std::min (std::sqrt (variance), 1e15)))
+                   + " N: its coefficients are at the edge of stability, or its variance is not in N2";
     }
     return {};
 }

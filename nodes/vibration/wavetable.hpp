@@ -107,6 +107,7 @@ struct Wavetable
     Params params;
     Settings settings;
 
+    Cost cost() const;
     std::string problem() const;
     std::string warning (const Setup&) const;
 
@@ -199,6 +200,21 @@ private:
 
 //==============================================================================
 // Implementation below.
+
+/// A sample is the sum of all modes, or filtered.
+inline Cost Wavetable::cost() const
+{
+    constexpr double work_per_mode = 8.0, work_of_filter = 20.0;
+    const Table& t = settings.table;
+    double samples = t.length, work = work_per_mode * static_cast<double> (t.modes.size());
+    if (t.wav)
+    {
+        samples = t.wav->channels.empty() ? 0.0 : static_cast<double> (t.wav->channels.front().size());
+        work = work_of_filter;
+    }
+    samples *= octaves;
+    return { .work = samples * work, .memory = 8.0 * samples + 40.0 * settings.voices };
+}
 
 inline std::string Wavetable::problem() const
 {

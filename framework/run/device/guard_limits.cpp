@@ -93,7 +93,7 @@ void readEffortLimits (ObjectReader& in, GuardLimits& limits)
     limits.impulse_window = window (in, { "max_impulse", "max_angular_impulse", "max_axis_impulse" }, "impulse_window");
     limits.max_energy = in.number ("max_energy", unit::joule, some, limits.max_energy);
     limits.energy_window = window (in, { "max_energy" }, "energy_window");
-    if (in.has ("max_still")) in.require ("still_force", "give the force from which max_still counts, such as \"0.5 N\"");
+    if (in.has ("max_still")) in.require ("still_force", "give the smallest force at which max_still applies, such as \"0.5 N\"");
     limits.max_still = in.number ("max_still", unit::second, some, limits.max_still);
     limits.still_force = in.number ("still_force", unit::newton, some, limits.still_force);
 }
@@ -117,7 +117,7 @@ void checkStops (const GuardLimits& limits, const std::string& where, Messages& 
             if (unlimited == Unlimited::is_refused)
                 messages.push_back (Message::error ("device/slow_stop", where + "/" + p.slew_key,
                                                     std::string ("without ") + p.most_key + ", " + p.slew_key + " " + numberText (p.slew)
-                                                        + " could draw out a stop without end; a stop may take " + numberText (longest_stop_s) + " s",
+                                                        + " could prolong a stop indefinitely; a stop may take at most " + numberText (longest_stop_s) + " s",
                                                     std::string ("add ") + p.most_key + ", at most " + numberText (longest_stop_s * p.slew)));
             continue;
         }

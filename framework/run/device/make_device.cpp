@@ -4,6 +4,7 @@
 #include "guard_limits.hpp"
 #include "sim.hpp"
 #include <framework/file/csv.hpp>
+#include <framework/file/text_file.hpp>
 #include <framework/text/closest_match.hpp>
 #include <framework/text/message.hpp>
 #include <framework/text/number_text.hpp>
@@ -276,12 +277,11 @@ Json soundCard (std::string_view role, std::string_view card, const std::vector<
 
 Result<DeviceOption> fromFile (std::string_view option, std::string role, const Folder& path)
 {
-    std::ifstream file (path, std::ios::binary);
-    std::ostringstream content;
-    if (! file || ! (content << file.rdbuf()))
-        return Message::error ("device/unreadable", path.string(), "the device file cannot be read", badOption (option, {}).remedy);
+    const auto content = readFile (path);
+    if (! content)
+        return Message::error ("device/unreadable", path.string(), "the device file cannot be read: " + content.error().text, badOption (option, {}).remedy);
 
-    auto read = readJson (content.str());
+    auto read = readJson (*content);
     if (! read.messages.empty())
     {
         const auto& m = read.messages.front();

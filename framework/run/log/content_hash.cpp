@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "content_hash.hpp"
 
+#include <framework/file/text_file.hpp>
+
 #include <cstdint>
 #include <fstream>
 #include <iterator>
@@ -22,6 +24,7 @@ std::string contentHash (std::string_view bytes)
 
 std::optional<std::string> fileHash (const std::filesystem::path& path)
 {
+    if (! whyUnreadable (path).empty()) return std::nullopt;
     std::ifstream in (path, std::ios::binary);
     const std::string bytes { std::istreambuf_iterator<char> (in), {} };
     return in ? std::optional (contentHash (bytes)) : std::nullopt;

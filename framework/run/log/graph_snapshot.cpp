@@ -86,6 +86,7 @@ Result<graph::Graph> readSnapshot (const Json& snapshot, const fs::path& folder)
     if (files == nullptr || ! files->is_array() || files->empty()) return wrong ("", "the graph in the log has no list of files");
 
     std::vector<std::shared_ptr<const graph::Graph>> read;
+    double values_left = budgets().values;
     for (const auto& entry : *files)
     {
         const auto where = "/files/" + std::to_string (read.size());
@@ -95,7 +96,8 @@ Result<graph::Graph> readSnapshot (const Json& snapshot, const fs::path& folder)
             || includes == nullptr || ! includes->is_object())
             return wrong (where, "an entry for a graph file needs text, folder, ids and includes");
 
-        auto loaded = readGraph (text->asString());
+        auto loaded = readGraph (text->asString(), values_left);
+        values_left -= loaded.values;
         for (const auto& m : loaded.messages)
             if (m.severity == Message::Severity::error) return wrong (where + "/text", "the graph cannot be read: " + m.text + " [" + m.id + "]");
         if (! graph::giveIds (loaded.graph, *ids)) return wrong (where + "/ids", "the ids do not match the nodes and wires of the graph");

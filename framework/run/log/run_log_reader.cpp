@@ -2,13 +2,13 @@
 #include "run_log_reader.hpp"
 #include "log_number.hpp"
 
+#include <framework/file/text_file.hpp>
 #include <framework/text/json_text.hpp>
 #include <framework/text/ordered_reader.hpp>
 #include <framework/text/quote.hpp>
 
 #include <algorithm>
 #include <cerrno>
-#include <filesystem>
 #include <fstream>
 #include <system_error>
 
@@ -161,11 +161,10 @@ Message RunLogReader::at (std::string id, std::string what, std::string remedy) 
 
 Result<RunLogReader> RunLogReader::open (const std::string& path)
 {
-    std::error_code failure;
+    if (const auto why = whyUnreadable (path); ! why.empty())
+        return Message::error ("file/unreadable", path, "cannot be read: " + why, "name the file that `tactus play --log` wrote");
     errno = 0;
     auto file = std::make_unique<std::ifstream> (path, std::ios::binary);
-    if (std::filesystem::is_directory (path, failure))
-        return Message::error ("file/unreadable", path, "cannot be read: it is a folder", "name the file that `tactus play --log` wrote");
     if (! *file)
         return Message::error ("file/unreadable", path,
                                "cannot be read: " + (errno != 0 ? std::generic_category().message (errno) : "the system gave no reason"), "check the path");
@@ -184,9 +183,9 @@ Result<RunLogReader> RunLogReader::open (std::unique_ptr<std::istream> from, std
 /// Reads a complete line; empty if there is none, if it breaks off, or if it is longer than any line of a log can be.
 std::optional<std::string> RunLogReader::line()
 {
-    constexpr std::size_t longest = 4 * largest_file;   // in bytes: a line may hold a graph with its included files
+    const double longest = budgets().file;   // readJson refuses more
     std::string text;
-    for (int c = in->get(); c != std::istream::traits_type::eof() && text.size() < longest; c = in->get())
+    for (int c = in->get(); c != std::istream::traits_type::eof() && static_cast<double> (text.size()) <= longest; c = in->get())
     {
         if (c == '\n')
         {

@@ -42,7 +42,7 @@ void describeNode (const Inspected&, const graph::Node&, bool help, const std::f
 void describeWire (const Inspected&, graph::Id, Column&);
 void describeDevice (const Inspected&, const graph::Node&, Column&);
 
-/// A key that changes when a node needs other blocks.
+/// A text that changes whenever the inspector has to show different blocks for the node.
 std::string shapeOf (const Inspected&, const graph::Node&);
 
 }   // namespace tactus::host

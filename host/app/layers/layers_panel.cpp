@@ -11,8 +11,8 @@ namespace tactus::host
 namespace
 {
 constexpr int spectrum_every = 3;   // every third refresh updates the spectra
-constexpr auto introduction = "A layer mixer mixes textures and vibrations. Each layer has gain, mute and solo, and loud layers can duck the "
-                              "others. The layers appear here as strips with faders and meters in newtons.";
+constexpr auto introduction = "A layer mixer mixes textures and vibrations. Each layer has gain, mute and solo, and layers of higher "
+                              "priority can duck the others. The layers appear here as strips with faders and meters in newtons.";
 }   // namespace
 
 LayersPanel::LayersPanel (Document& d, Traces& t, const Catalogue& c) : document (d), catalogue (c), traces (t)

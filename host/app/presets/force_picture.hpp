@@ -20,7 +20,7 @@ struct ForcePicture
 
     std::vector<float> peaks;   ///< maximum per time column, in `unit`
     double peak = 0.0;          ///< the largest of `peaks`
-    double seconds = 0.0;       ///< duration of the picture
+    double seconds = 0.0;       ///< the time that the picture covers
     const char* unit = "N";     ///< "N m" if there is only torque
     std::string problem;        ///< why there is no picture; empty if there is one
 };

@@ -9,6 +9,7 @@
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/hid_link/open_device.hpp>
 #include <host/platform/failsafe.hpp>
+#include <host/platform/signals.hpp>
 #include <host/sessions/binding.hpp>
 
 #include <algorithm>
@@ -313,7 +314,7 @@ void LiveRun::begin()
     beginSound();
     clock = rig->clock() == nullptr ? makeClock() : nullptr;
     watch = HealthWatch { clock_role };
-    run->start (clock ? *clock : *rig->clock());
+    run->start (clock ? *clock : *rig->clock(), { .stop_wanted = stopRequested });
 }
 
 void LiveRun::end()

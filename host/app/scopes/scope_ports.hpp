@@ -21,7 +21,8 @@ struct ScopePort
 /// All ports of a graph and its subgraphs that can be probed, node by node in the order of the file, outputs first.
 std::vector<ScopePort> scopePorts (const graph::Graph&, const Catalogue&);
 
-/// The scopes for a newly opened graph: motor force over time, force against displacement, and energy, as far as the graph has them.
+/// The scopes for a newly opened graph: motor force over time, force against displacement, and energy. Leaves out
+/// scopes for which the graph has no ports.
 std::vector<ScopeSpec> suggestedScopes (const graph::Graph&, const Catalogue&);
 
 /// A scope of a kind, with suitable ports of the graph.

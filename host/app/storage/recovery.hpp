@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <framework/file/file_lock.hpp>
 #include <framework/graph/graph.hpp>
 #include <framework/text/result.hpp>
-#include <host/platform/file_lock.hpp>
 
 #include <filesystem>
 #include <optional>

@@ -6,6 +6,7 @@
 #include <host/app/storage/carry_files.hpp>
 
 #include <framework/file/graph_file.hpp>
+#include <framework/text/quote.hpp>
 
 namespace tactus::host
 {
@@ -30,8 +31,8 @@ void Files::beginSession (const fs::path& h)
 
 std::string Files::name() const
 {
-    if (! document.graph().name.empty()) return document.graph().name;
-    return document.file().empty() ? "Untitled graph" : document.file().stem().string();
+    if (! document.graph().name.empty()) return printableName (document.graph().name);
+    return document.file().empty() ? "Untitled graph" : printableName (document.file().stem().string());
 }
 
 //==============================================================================

@@ -2,6 +2,7 @@
 #include "main_view.hpp"
 #include "appearance.hpp"
 
+#include <framework/text/quote.hpp>
 #include <host/app/model/message_text.hpp>
 
 #include <algorithm>
@@ -165,10 +166,10 @@ void MainView::documentChanged()
         presets.showOpen (edited.file().empty() ? edited.preset() : edited.file());
     }
     if (edited.history().position() > 0) welcome.setVisible (false);
-    std::vector<juce::String> trail { edited.graph().name.empty() ? juce::String ("Untitled graph") : juce::String (edited.graph().name) };
+    std::vector<juce::String> trail { edited.graph().name.empty() ? juce::String ("Untitled graph") : juce::String (printableName (edited.graph().name)) };
     if (onTitle) onTitle (trail.front() + (edited.isChanged() ? " (edited)" : ""));
     for (const auto& [node, subgraph] : patching.breadcrumbs())
-        trail.emplace_back (node);
+        trail.emplace_back (printableName (node));
     top.show (std::move (trail));
 }
 

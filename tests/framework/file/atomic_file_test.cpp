@@ -1,12 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <framework/file/atomic_file.hpp>
 
+#include "support/no_system_calls.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <csignal>
+
 namespace fs = std::filesystem;
 using namespace tactus;
+
+namespace
+{
+/// Begins this file in a child process, which is then killed.
+void beginAndDie (const fs::path& target, IfKilled if_killed)
+{
+    const auto end = test::inChild ([&] {
+        auto file = AtomicFile::create (target, if_killed);
+        if (! file) return 1;
+        file->stream() << "half";
+        file->stream().flush();
+        std::raise (SIGKILL);
+        return 2;
+    });
+    REQUIRE (end.signal == SIGKILL);
+}
+
+std::size_t filesIn (const TemporaryFolder& folder) { return static_cast<std::size_t> (std::distance (fs::directory_iterator (folder.path()), {})); }
+}   // namespace
 
 TEST_CASE ("atomic file: the target changes on commit, not before", "[host][io]")
 {
@@ -120,4 +142,57 @@ TEST_CASE ("atomic file: a device is written to, not replaced", "[host][io]")
     file->stream() << "gone";
     CHECK (file->commit().has_value());
     CHECK (fs::is_character_file ("/dev/null"));
+}
+
+TEST_CASE ("atomic file: what a killed process leaves is removed by the next one that writes there, but no file in use and no other file", "[host][io]")
+{
+    const TemporaryFolder folder;
+    folder.write (".tactus-notes", "mine");
+    fs::create_symlink (folder / ".tactus-notes", folder / ".tactus-1-0.tmp");
+    auto in_use = AtomicFile::create (folder / "in_use.txt");
+    REQUIRE (in_use.has_value());
+    in_use->stream() << "whole";
+    beginAndDie (folder / "killed.txt", IfKilled::removed);
+    CHECK (filesIn (folder) == 4);
+
+    auto next = AtomicFile::create (folder / "next.txt");
+    REQUIRE (next.has_value());
+    CHECK (filesIn (folder) == 4);   // one removed, one begun
+    REQUIRE (next->commit());
+    REQUIRE (in_use->commit());
+    CHECK (folder.textOf ("in_use.txt") == "whole");
+    CHECK (folder.textOf (".tactus-notes") == "mine");
+    CHECK (fs::is_symlink (folder / ".tactus-1-0.tmp"));
+    CHECK (filesIn (folder) == 4);
+}
+
+TEST_CASE ("atomic file: what a killed process leaves is kept beside the target on request, and never overwritten", "[host][io]")
+{
+    const TemporaryFolder folder;
+    const auto target = folder / "out.csv";
+    beginAndDie (target, IfKilled::kept);
+    CHECK (folder.textOf ("out.partial.csv") == "half");
+
+    auto running = AtomicFile::create (target, IfKilled::kept);
+    REQUIRE (running.has_value());
+    CHECK (fs::exists (folder / "out.partial-2.csv"));
+    beginAndDie (target, IfKilled::kept);
+    CHECK (leftUnfinished (target) == std::vector<fs::path> { folder / "out.partial.csv", folder / "out.partial-3.csv" });
+
+    running->stream() << "whole";
+    REQUIRE (running->commit());
+    CHECK (folder.textOf ("out.csv") == "whole");
+    CHECK (folder.textOf ("out.partial.csv") == "half");
+    CHECK (folder.textOf ("out.partial-3.csv") == "half");
+    CHECK (filesIn (folder) == 3);
+}
+
+TEST_CASE ("atomic file: a file that would be kept after a kill is removed if it is only abandoned", "[host][io]")
+{
+    const TemporaryFolder folder;
+    {
+        auto file = AtomicFile::create (folder / "out.csv", IfKilled::kept);
+        REQUIRE (file.has_value());
+    }
+    CHECK (folder.isEmpty());
 }

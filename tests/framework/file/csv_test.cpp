@@ -247,3 +247,22 @@ TEST_CASE ("csv: a full disk is an error, not a short table", "[host][io][csv]")
     CHECK (written.error().id == "output/unwritable");
     CHECK_THAT (written.error().text, Catch::Contains ("No space left"));
 }
+
+TEST_CASE ("csv: rows are in the file once flushed, and the file never ends within a row", "[host][io][csv]")
+{
+    const TemporaryFolder folder;
+    auto writer = TableWriter::create (folder / "out.csv", std::vector<std::string> { "a", "b" }, IfKilled::kept);
+    REQUIRE (writer.has_value());
+    for (int k = 0; k < 20'000; ++k)
+    {
+        REQUIRE (writer->row (std::vector { 1.0 * k, 1.0 / 3.0 }).has_value());
+        if (k % 100 != 0) continue;
+        const auto text = folder.textOf ("out.partial.csv");
+        REQUIRE ((text.empty() || text.ends_with (",0.3333333333333333\n")));
+    }
+    REQUIRE (writer->flush().has_value());
+    const auto table = readTable (folder / "out.partial.csv");
+    REQUIRE (table.has_value());
+    CHECK (table->rows() == 20'000);
+    CHECK (table->at (19'999, 0) == 19'999.0);
+}

@@ -21,7 +21,7 @@ namespace
 {
 graph::Wire wire (const std::string& text) { return *graph::parseWire (text); }
 
-/// A graph under edits, with one port watched.
+/// A running graph that the tests edit, and the ports that it records.
 struct Bench
 {
     explicit Bench (const Sketch& s, std::vector<std::string> records = {}) : Bench (s, CompileOptions { .records = std::move (records) }) {}

@@ -224,6 +224,55 @@ TEST_CASE ("guard: no output exceeds its limit", "[framework][guard]")
               });
 }
 
+TEST_CASE ("guard: one factor scales force, torque and axes, so what they do together keeps its direction", "[framework][guard]")
+{
+    const GuardLimits limits { .max_force = 2.0, .max_torque = 0.1, .max_axis_effort = 1.0, .max_signal = 1.0 };
+    const auto limited = [&] (const Effort& wanted) {
+        auto guard = guardWith (limits);
+        return guard (wanted, fresh);
+    };
+
+    SECTION ("the part that exceeds its limit most decides; signals are limited by themselves")
+    {
+        const auto e = limited ({ .force = { 3, 0, 0 }, .torque = { 0, 0.05, 0 }, .axes = { 0.5, -4.0 }, .signals = { 5.0, 0.3 } });
+        CHECK (e.axes[1] == Approx (-1.0));
+        CHECK (e.axes[0] == Approx (0.125));
+        CHECK (e.force.x() == Approx (0.75));
+        CHECK (e.torque.y() == Approx (0.0125));
+        CHECK (e.signals[0] == 1.0);
+        CHECK (e.signals[1] == 0.3);
+    }
+
+    SECTION ("a part that is limited to 0 does not take the others away")
+    {
+        auto none = limits;
+        none.max_torque = 0.0;
+        auto guard = guardWith (none);
+        const auto e = guard ({ .force = { 1, 0, 0 }, .torque = { 0, 0.05, 0 } }, fresh);
+        CHECK (e.force.x() == 1.0);
+        CHECK (e.torque.isZero (0.0));
+    }
+
+    rc::prop ("a slew limit of one part moves all along a straight line", [] {
+        const auto any = [] { return *rc::gen::inRange (-100, 101) / 100.0; };
+        auto guard = guardWith ({ .max_slew = 1.0 / dt, .max_torque_slew = 0.1 / dt, .max_axis_slew = 0.5 / dt });
+        Effort last;
+        for (int k = 0; k < 10; ++k)
+        {
+            const Effort to { .force = { any(), any(), 0 }, .torque = { any(), 0, 0 }, .axes = { any() } };
+            const auto now = guard (to, fresh);
+            const double way = to.torque.x() - last.torque.x();
+            RC_PRE (std::abs (way) > 1e-3);
+            const double s = (now.torque.x() - last.torque.x()) / way;
+            RC_ASSERT (s >= 0.0);
+            RC_ASSERT (s <= 1.0 + 1e-12);
+            RC_ASSERT ((now.force - last.force - s * (to.force - last.force)).norm() <= 1e-12);
+            RC_ASSERT (std::abs (now.axes[0] - last.axes[0] - s * (to.axes[0] - last.axes[0])) <= 1e-12);
+            last = now;
+        }
+    });
+}
+
 TEST_CASE ("guard: the effort never changes faster than the slew limit, even in stops and recoveries", "[framework][guard]")
 {
     rc::prop ("any run, any limits",

@@ -81,7 +81,7 @@ TEST_CASE ("nesting and size are limited, and the limits are detected quickly")
     const auto begin = std::chrono::steady_clock::now();
     CHECK_THAT (complaint (std::string (10'000'000, '[')), Contains ("1:65 file/too_deep"));
     CHECK_THAT (complaint (std::string (64, '[') + std::string (64, ']')), Contains ("0 messages"));
-    CHECK_THAT (complaint (std::string (largest_file + 1, ' ')), Contains ("file/too_large"));
+    CHECK_THAT (complaint (std::string (static_cast<std::size_t> (budgets().file) + 1, ' ')), Contains ("file/too_large"));
 
     std::string many = "{";
     for (int i = 0; i < 200'000; ++i)

@@ -22,13 +22,30 @@ TEST_CASE ("quote: whatever could disturb a terminal is escaped", "[text]")
     CHECK (printable ("two\nlines\r") == "two\nlines\\x0D");
 }
 
+TEST_CASE ("quote: a name takes one line of at most 200 characters and is never cut within one", "[text]")
+{
+    CHECK (printableName ("dry wood, 木") == "dry wood, 木");
+    CHECK (printableName ("a\nb\x1b") == "a\\x0Ab\\x1B");
+    CHECK (printableName (std::string (200, 'a')) == std::string (200, 'a'));
+    CHECK (printableName (std::string (201, 'a')) == std::string (200, 'a') + "…");
+    std::string woods, whole;
+    for (int i = 0; i < 300; ++i)
+    {
+        woods += "木";
+        if (i < 200) whole += "木";
+    }
+    CHECK (printableName (woods) == whole + "…");
+    CHECK (printableName (std::string (199, 'a') + "\x1b") == std::string (199, 'a') + "…");   // an escape has four characters
+}
+
 TEST_CASE ("quote: any bytes become text without control characters", "[text]")
 {
     rc::prop ("any bytes", [] (const std::string& bytes) {
-        for (const auto& out : { quote (bytes), printable (bytes) })
+        for (const auto& out : { quote (bytes), printable (bytes), printableName (bytes) })
             for (const char c : out)
                 RC_ASSERT (static_cast<unsigned char> (c) >= 0x20u || c == '\n');
         RC_ASSERT (quote (bytes).find ('\n') == std::string::npos);
+        RC_ASSERT (printableName (bytes).find ('\n') == std::string::npos);
         RC_ASSERT (printable (printable (bytes)) == printable (bytes));
     });
 }

@@ -43,7 +43,7 @@ struct Wired final : Device
         const auto values = model.drive (effort);
         for (std::size_t r = 0; r < model.outputs(); ++r)
         {
-            const auto wire = model.encode (r, values);
+            const auto wire = model.encodeValues (r, values);
             const auto body = profile->outputs[r].id ? wire : wire.subspan (1);
             for (const auto& field : profile->outputs[r].fields)
                 for (std::size_t i = 0; i < model.effortNames().size(); ++i)
@@ -115,7 +115,7 @@ std::vector<Bytes> anyReports (const Profile& profile)
 Sketch anyGraph (const std::vector<std::string>& efforts)
 {
     Sketch s;
-    const auto source = [&, n = 0] (double most) mutable {
+    auto source = [&, n = 0] (double most) mutable {
         const auto name = "source" + std::to_string (n++);
         const double size = most * any (0.0, 1.0) * *rc::gen::element (1.0, 1.0, 1e6);
         if (*rc::gen::arbitrary<bool>())

@@ -74,7 +74,7 @@ TEST_CASE ("no motor exceeds its limit or changes faster than its slew on the wi
             limits.ramp = 0.0;
             Guard guard;
             guard.prepare (limits, dt);
-            constexpr double rounding = 1e-3;   // a count of the coarser device
+            constexpr double rounding = 1e-3;   // one count of the coarser of the two devices
 
             Vec3 last = Vec3::Zero();
             for (int k = 0; k < 60; ++k)
@@ -86,7 +86,7 @@ TEST_CASE ("no motor exceeds its limit or changes faster than its slew on the wi
                 const auto guarded = guard (wanted, reading);
                 HidEffort effort { guarded.force, guarded.torque, model.restEfforts() };
                 const auto values = model.drive (effort);
-                const Vec3 now = motorsIn (*profile, model.encode (0, values));
+                const Vec3 now = motorsIn (*profile, model.encodeValues (0, values));
                 RC_ASSERT (now.cwiseAbs().maxCoeff() <= most + rounding);
                 RC_ASSERT ((now - last).cwiseAbs().maxCoeff() <= slew * dt + 2.0 * rounding);
                 last = now;

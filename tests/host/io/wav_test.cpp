@@ -170,6 +170,35 @@ TEST_CASE ("wav: an unfinished recording leaves no file", "[host][io][wav]")
     CHECK (folder.isEmpty());
 }
 
+TEST_CASE ("wav: an unfinished recording can be read up to the last flush", "[host][io][wav]")
+{
+    const TemporaryFolder folder;
+    auto writer = WavWriter::create (folder / "out.wav", 1000.0, 2, tactus::IfKilled::kept);
+    REQUIRE (writer.has_value());
+    std::size_t written = 0;
+    const auto write = [&] (std::size_t frames) {
+        for (std::size_t k = 0; k < frames; ++k, ++written)
+            REQUIRE (writer->frame (std::vector { 1.0 * static_cast<double> (written), -1.0 }).has_value());
+    };
+    for (const std::size_t frames : { 0, 1, 1500, 700 })
+    {
+        write (frames);
+        REQUIRE (writer->flush().has_value());
+        const auto flushed = written;
+        write (1100);   // more than a block
+        const auto read = readWav (folder / "out.partial.wav");
+        REQUIRE (read.has_value());
+        REQUIRE (read->channels[0].size() == flushed);
+        if (flushed > 0) CHECK (read->channels[0].back() == static_cast<double> (flushed - 1));
+    }
+    REQUIRE (writer->commit().has_value());
+    const auto read = readWav (folder / "out.wav");
+    REQUIRE (read.has_value());
+    REQUIRE (read->channels[0].size() == written);
+    for (std::size_t k = 0; k < written; ++k)
+        REQUIRE (read->channels[0][k] == static_cast<double> (k));
+}
+
 TEST_CASE ("wav: unsupported sample rates and channel counts are refused", "[host][io][wav]")
 {
     const TemporaryFolder folder;

@@ -65,10 +65,11 @@ struct Puppet : Controlled
         capturing = std::make_unique<TriggeredCapture> (trigger, 1, std::vector<std::size_t> { 0, 1 }, 1);
         return std::vector<std::string> { port + ".x", port + ".y" };
     }
+    std::string graph_name = "Puppet";
     const TriggeredCapture* captured() override { return capturing && capturing->isComplete() ? capturing.get() : nullptr; }
     void endCapture() override { capturing.reset(); }
 
-    Status status() override { return { "Puppet", 1000.0, 2.5, 0.5, 1.5, 2500, 3 }; }
+    Status status() override { return { graph_name, 1000.0, 2.5, 0.5, 1.5, 2500, 3 }; }
     std::vector<NodeCost> costs() override { return std::vector<NodeCost> (20, { "wood/drag", "friction.elasto_plastic", 2e-6, 0.05 }); }
     std::vector<Role> roles() override { return { { "stylus", true, 0.25, 0.0, "the last reading is 31 ms old" }, { "thumb", false, 0.0, 0.0, {} } }; }
     Result<> transport (const Transport& t) override
@@ -212,6 +213,15 @@ TEST_CASE ("a run reports its status, and stops on request", "[osc]")
     CHECK_FALSE (stage.puppet.stopped);
     stage.send ("/tactus/stop");
     CHECK (stage.puppet.stopped);
+}
+
+TEST_CASE ("a name from a file is escaped and cut in an answer", "[osc]")
+{
+    Stage stage;
+    stage.puppet.graph_name = "a\n\x1b]0;b\x07" + std::string (300, 'x');
+    const auto name = text (stage.ask ("/tactus/status", stage.me()), 0);
+    CHECK (name.find ("a\\x0A\\x1B]0;b\\x07xx") == 0);
+    CHECK (name.size() == 200 + std::string ("…").size());
 }
 
 TEST_CASE ("the emergency stop works, and rearm ends it", "[osc]")

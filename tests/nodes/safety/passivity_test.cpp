@@ -211,7 +211,7 @@ TEST_CASE ("passivity: the damper only ever brakes", "[nodes][safety]")
 {
     auto node = ready<PassivityObserver> ({ .alpha_max = 12.0 });
     step (node, 0.0, 5.0);
-    const auto out = step (node, 1e-3, 5.0);   // the held force pushed along, so the energy is 5 mJ below 0
+    const auto out = step (node, 1e-3, 5.0);   // the held 5 N pushed in the direction of the 1 mm move, so the energy is 5 mJ below 0
     CHECK (out.energy == Approx (-5e-3));
     CHECK (out.alpha == Approx (5e-3 * 1e-3 / 1e-6));
     CHECK (out.force.x() == Approx (5.0 - 5.0).margin (1e-12));   // the damper's force alpha dp / T is 5 N

@@ -1,11 +1,11 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 
-namespace tactus::host
+namespace tactus
 {
 
 /// A file that only one holder may lock, in this process or another. The system releases it when the process ends,
@@ -13,6 +13,13 @@ namespace tactus::host
 class FileLock
 {
 public:
+    /// True if the system itself keeps a file that is open from being locked or removed.
+#if defined(_WIN32)
+    static constexpr bool open_is_locked = true;
+#else
+    static constexpr bool open_is_locked = false;
+#endif
+
     /// Creates the file if necessary. Empty if it is locked or cannot be created.
     static std::optional<FileLock> take (const std::filesystem::path&);
 
@@ -32,4 +39,4 @@ private:
     std::intptr_t handle = none;
 };
 
-}   // namespace tactus::host
+}   // namespace tactus

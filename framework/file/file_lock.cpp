@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT
 #include "file_lock.hpp"
 
 #include <utility>
@@ -11,7 +11,7 @@
 #include <unistd.h>
 #endif
 
-namespace tactus::host
+namespace tactus
 {
 
 std::optional<FileLock> FileLock::take (const std::filesystem::path& path) { return takeOpened (path, true); }
@@ -56,4 +56,4 @@ void FileLock::release() noexcept
     handle = none;
 }
 
-}   // namespace tactus::host
+}   // namespace tactus

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <framework/text/budget.hpp>
+
+/// Changes budgets, as --limits does, until the end of a test.
+class WithLimits
+{
+public:
+    explicit WithLimits (std::string_view limits) { tactus::setBudgets (tactus::readLimits (limits).value()); }
+    ~WithLimits() { tactus::setBudgets ({}); }
+    WithLimits (const WithLimits&) = delete;
+    WithLimits& operator= (const WithLimits&) = delete;
+};
