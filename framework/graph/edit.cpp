@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "edit.hpp"
 
+#include "edit_checks.hpp"
+#include "exchange_member.hpp"
 #include "graph_parts.hpp"
 #include "references.hpp"
+#include "refusals.hpp"
 #include "regroup.hpp"
 #include "text.hpp"
 
 #include <framework/kit/at.hpp>
-#include <framework/text/json_text.hpp>
 #include <framework/text/quote.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <set>
-#include <unordered_set>
 
 namespace tactus::graph
 {
@@ -34,50 +34,6 @@ std::size_t placeOf (Iterator it, List& list)
     return at (it - list.begin());
 }
 
-struct Member
-{
-    std::optional<Json> value;
-    Place place;
-};
-
-/// Sets or removes a member of an object. A new member goes to the given place. Returns the old member.
-Member exchangeMember (Json& object, const std::string& key, const std::optional<Json>& value, Place place)
-{
-    auto& members = object.asObject();
-    const auto it = std::ranges::find (members, key, [] (const auto& m) -> const std::string& { return m.first; });
-    if (it != members.end() && value) return { std::exchange (it->second, *value), std::nullopt };
-    if (it == members.end() && ! value) return {};
-
-    // Keys of an ordered object cannot be moved, so the object is rebuilt.
-    const auto index = it != members.end() ? placeOf (it, members) : std::min (place.value_or (members.size()), members.size());
-    Member old;
-    auto changed = Json::object();
-    std::size_t i = 0;
-    for (auto& [k, v] : members)
-    {
-        if (i++ == index)
-        {
-            if (! value)
-            {
-                old = { std::move (v), index };
-                continue;
-            }
-            append (changed, key, *value);
-        }
-        append (changed, k, std::move (v));
-    }
-    if (value && index == i) append (changed, key, *value);
-    object = std::move (changed);
-    return old;
-}
-
-/// True if two targets of a control have the same path.
-bool hasTwice (const Control& control)
-{
-    std::set<std::string_view> paths;
-    return std::ranges::any_of (control.to, [&] (const auto& target) { return ! paths.insert (target.path).second; });
-}
-
 //==============================================================================
 class Editor
 {
@@ -88,10 +44,10 @@ public:
     {
         auto* patch = find (c.patch);
         if (patch == nullptr) return noPatch (c.patch);
-        if (patch->find (c.node.name) != nullptr) return taken ("a node", c.node.name);
+        if (patch->find (c.node.name) != nullptr) return nameTaken ("a node", c.node.name);
         if (checked())
         {
-            if (idsOf (graph).contains (c.node.id)) return idTaken ("node", c.node.name);
+            if (usedIds (graph).contains (c.node.id)) return idTaken ("node", c.node.name);
             if (auto wrong = check (c.node); ! wrong.empty()) return wrong.front();
         }
         patch->nodes.insert (iteratorAt (patch->nodes, c.place), c.node);
@@ -119,14 +75,14 @@ public:
         if (patch == nullptr) return noPatch (c.patch);
         const auto it = std::ranges::find (patch->nodes, c.name, &Node::name);
         if (it == patch->nodes.end()) return noNode (c.patch, c.name);
-        if (patch->find (c.to) != nullptr) return taken ("a node", c.to);
+        if (patch->find (c.to) != nullptr) return nameTaken ("a node", c.to);
         if (checked() && ! isId (c.to)) return badId (c.to);
 
         Batch back { nameOf (c), {} };
         back.commands.push_back (RenameNode { c.patch, c.to, c.name, true });
         if (! c.only_node) std::ranges::move (renameReferences (graph, c.patch, c.name, c.to), std::back_inserter (back.commands));
         it->name = c.to;
-        if (checked() && anythingTwice())
+        if (checked() && anythingTwice (graph))
         {
             // The new name already occurs in a reference, to a node that does not exist.
             takeBack (back.commands);
@@ -206,8 +162,8 @@ public:
         if (patch == nullptr) return noPatch (c.patch);
         if (checked())
         {
-            if (idsOf (graph).contains (c.wire.id)) return idTaken ("wire", toText (c.wire));
-            if (auto wrong = problem (*patch, c.patch, c.wire)) return *wrong;
+            if (usedIds (graph).contains (c.wire.id)) return idTaken ("wire", toText (c.wire));
+            if (auto wrong = problemWith (c.wire, *patch, c.patch)) return *wrong;
         }
         patch->wires.insert (iteratorAt (patch->wires, c.place), c.wire);
         return RemoveWire { c.patch, c.wire.id };
@@ -231,7 +187,7 @@ public:
         const auto it = std::ranges::find (patch->wires, c.wire, &Wire::id);
         if (it == patch->wires.end()) return noWire (c.patch);
         if (checked())
-            if (auto wrong = problem (*patch, c.patch, c.to)) return *wrong;
+            if (auto wrong = problemWith (c.to, *patch, c.patch)) return *wrong;
         ChangeWire back { c.patch, c.wire, std::exchange (*it, c.to) };
         it->id = c.wire;
         return back;
@@ -246,7 +202,7 @@ public:
             if (auto wrong = check (c.to); ! wrong.empty()) return wrong.front();
             for (const auto* list : { &c.to.inputs, &c.to.outputs, &c.to.params })
                 for (const auto& [id, end] : *list)
-                    if (auto wrong = problem (*patch, c.patch, end.node)) return *wrong;
+                    if (auto wrong = problemWith (end.node, *patch, c.patch)) return *wrong;
         }
         return ChangeExpose { c.patch, std::exchange (patch->expose, c.to) };
     }
@@ -254,9 +210,9 @@ public:
     //==============================================================================
     Inverse operator() (const AddControl& c)
     {
-        if (findControl (c.control.id) != graph.controls.end()) return taken ("a control", c.control.id);
+        if (findControl (c.control.id) != graph.controls.end()) return nameTaken ("a control", c.control.id);
         if (checked())
-            if (auto wrong = problem (c.control)) return *wrong;
+            if (auto wrong = problemWith (c.control, graph)) return *wrong;
         graph.controls.insert (iteratorAt (graph.controls, c.place), c.control);
         return RemoveControl { c.control.id };
     }
@@ -274,21 +230,21 @@ public:
     {
         const auto it = findControl (c.control);
         if (it == graph.controls.end()) return noControl (c.control);
-        if (c.to.id != c.control && findControl (c.to.id) != graph.controls.end()) return taken ("a control", c.to.id);
+        if (c.to.id != c.control && findControl (c.to.id) != graph.controls.end()) return nameTaken ("a control", c.to.id);
         if (checked())
-            if (auto wrong = problem (c.to)) return *wrong;
+            if (auto wrong = problemWith (c.to, graph)) return *wrong;
         return ChangeControl { c.to.id, std::exchange (*it, c.to) };
     }
 
     //==============================================================================
     Inverse operator() (const AddSubgraph& c)
     {
-        if (graph.find (c.name) != nullptr) return taken ("a subgraph", c.name);
+        if (graph.find (c.name) != nullptr) return nameTaken ("a subgraph", c.name);
         if (checked())
         {
             if (! isId (c.name)) return badId (c.name);
             if (auto wrong = check (c.patch); ! wrong.empty()) return wrong.front();
-            auto ids = idsOf (graph);
+            auto ids = usedIds (graph);
             for (const auto& node : c.patch.nodes)
                 if (! ids.insert (node.id).second) return idTaken ("node", node.name);
             for (const auto& wire : c.patch.wires)
@@ -304,7 +260,7 @@ public:
         if (it == graph.graphs.end()) return noPatch (c.name);
         if (checked())
         {
-            const auto users = usersOf (c.name);
+            const auto users = usersOf (graph, c.name);
             if (! users.empty())
                 return Message::error ("edit/in_use", {}, "the subgraph " + quote (c.name) + " is the type of " + users, "remove these nodes first");
         }
@@ -317,7 +273,7 @@ public:
     {
         const auto it = std::ranges::find (graph.graphs, c.name, [] (const auto& g) -> const std::string& { return g.first; });
         if (it == graph.graphs.end()) return noPatch (c.name);
-        if (graph.find (c.to) != nullptr || ! usersOf (c.to).empty()) return subgraphTaken (c.to);
+        if (graph.find (c.to) != nullptr || ! usersOf (graph, c.to).empty()) return subgraphTaken (c.to);
         if (checked() && ! isId (c.to)) return badId (c.to);
         it->first = c.to;
         const auto follow = [&] (Patch& patch) {
@@ -337,8 +293,8 @@ public:
         for (const auto& name : c.nodes)
             if (patch->find (name) == nullptr) return noNode (c.patch, name);
         if (c.nodes.empty()) return Message::error ("edit/bad_value", {}, "there are no nodes to collapse");
-        if (patch->find (c.name) != nullptr) return taken ("a node", c.name);
-        if (graph.find (c.subgraph) != nullptr || ! usersOf (c.subgraph).empty()) return subgraphTaken (c.subgraph);
+        if (patch->find (c.name) != nullptr) return nameTaken ("a node", c.name);
+        if (graph.find (c.subgraph) != nullptr || ! usersOf (graph, c.subgraph).empty()) return subgraphTaken (c.subgraph);
         for (const auto& name : { c.name, c.subgraph })
             if (! isId (name)) return badId (name);
         return regrouped ([&] { return collapse (graph, c); });
@@ -460,28 +416,13 @@ private:
         return C { c.patch, c.node, c.*key, std::move (old.value), old.place };
     }
 
-    /// Lists the nodes that use a subgraph, except nodes inside the subgraph itself.
-    std::string usersOf (const std::string& subgraph) const
-    {
-        std::string users;
-        const auto search = [&] (const std::string& name, const Patch& patch) {
-            if (name == subgraph) return;
-            for (const auto& node : patch.nodes)
-                if (node.type == "graph:" + subgraph) users += (users.empty() ? "" : ", ") + (name.empty() ? "" : name + "/") + node.name;
-        };
-        search ("", graph.root);
-        for (const auto& [name, patch] : graph.graphs)
-            search (name, patch);
-        return users;
-    }
-
     /// Carries out an edit that touches much of the graph, completely or not at all.
     template <typename Edit>
     Inverse regrouped (Edit edit)
     {
         auto before = std::make_shared<Graph> (graph);
         auto done = edit();
-        if (done && checked() && anythingTwice())
+        if (done && checked() && anythingTwice (graph))
             done = Message::error ("edit/name_taken", {}, "a control or an override would refer to the same parameter twice");
         if (done) return ReplaceGraph { std::move (before) };
         graph = std::move (*before);
@@ -493,84 +434,6 @@ private:
     {
         for (const auto& command : commands)
             (void)apply (graph, command, Checks::none);
-    }
-
-    //==============================================================================
-    /// Reports the first node of a path if it does not exist.
-    std::optional<Message> problem (const Patch& patch, const std::string& in, std::string_view path) const
-    {
-        const auto name = std::string (path.substr (0, path.find_first_of ("[/.")));
-        if (patch.find (name) != nullptr) return std::nullopt;
-        return noNode (in, name);
-    }
-
-    std::optional<Message> problem (const Patch& patch, const std::string& in, const Wire& wire) const
-    {
-        if (auto wrong = check (wire); ! wrong.empty()) return wrong.front();
-        if (auto wrong = problem (patch, in, wire.from.node)) return wrong;
-        return problem (patch, in, wire.to.node);
-    }
-
-    std::optional<Message> problem (const Control& control) const
-    {
-        if (auto wrong = check (control); ! wrong.empty()) return wrong.front();
-        for (const auto& target : control.to)
-            if (auto wrong =
-                    problem (graph.root, "", std::string_view (target.path).substr (std::min (target.path.size(), target.path.find_first_not_of (" \t\r\n")))))
-                return wrong;
-        return std::nullopt;
-    }
-
-    bool anythingTwice() const
-    {
-        const auto in = [] (const Patch& patch) {
-            return std::ranges::any_of (patch.nodes, [] (const Node& n) { return ! n.overrides.empty() && ! checkValue (n.overrides); });
-        };
-        return std::ranges::any_of (graph.controls, hasTwice) || in (graph.root)
-               || std::ranges::any_of (graph.graphs, [&] (const auto& g) { return in (g.second); });
-    }
-
-    static std::unordered_set<Id> idsOf (const Graph& g)
-    {
-        std::unordered_set<Id> ids;
-        const auto add = [&] (const Patch& patch) {
-            for (const auto& node : patch.nodes)
-                ids.insert (node.id);
-            for (const auto& wire : patch.wires)
-                ids.insert (wire.id);
-        };
-        add (g.root);
-        for (const auto& [name, patch] : g.graphs)
-            add (patch);
-        return ids;
-    }
-
-    static std::string inside (const std::string& patch) { return patch.empty() ? "" : " in the subgraph " + quote (patch); }
-    static Message noPatch (const std::string& name) { return Message::error ("edit/unknown_patch", {}, "there is no subgraph " + quote (name)); }
-    static Message noNode (const std::string& patch, const std::string& name)
-    {
-        return Message::error ("edit/unknown_node", {}, "there is no node " + quote (name) + inside (patch));
-    }
-    static Message noWire (const std::string& patch) { return Message::error ("edit/unknown_wire", {}, "the wire no longer exists" + inside (patch)); }
-    static Message noControl (const std::string& id) { return Message::error ("edit/unknown_control", {}, "there is no control " + quote (id)); }
-    static Message badId (const std::string& id)
-    {
-        return Message::error ("graph/bad_id", {}, quote (id) + " is not an id", "ids consist of lower-case letters, digits and _, and begin with a letter");
-    }
-    static Message taken (const std::string& what, const std::string& name)
-    {
-        return Message::error ("edit/name_taken", {}, what + " called " + quote (name) + " already exists", "choose another name");
-    }
-    static Message subgraphTaken (const std::string& name)
-    {
-        return Message::error ("edit/name_taken", {},
-                               "a subgraph called " + quote (name) + ", or a node that uses a subgraph called " + quote (name) + ", already exists",
-                               "choose another name");
-    }
-    static Message idTaken (const std::string& what, const std::string& name)
-    {
-        return Message::error ("edit/id_taken", {}, "the " + what + ' ' + quote (name) + " has the same id as another node or wire of the graph",
-                               "give the copy a new id with newId()");
     }
 
     Graph& graph;

@@ -24,17 +24,17 @@ void forEach (Graph& graph, Visit visit)
         patch (subgraph);
 }
 
-bool isId (const Json& value) { return value.is_number_unsigned(); }
+bool isIdNumber (const Json& value) { return value.is_number_unsigned(); }
 
 bool isAncestor (const Json& value)
 {
-    return value.is_array() && value.size() == 2 && isId (value[0]) && isId (value[1]) && value[1].get<Id>() < static_cast<Id> (most_instances);
+    return value.is_array() && value.size() == 2 && isIdNumber (value[0]) && isIdNumber (value[1]) && value[1].get<Id>() < static_cast<Id> (most_instances);
 }
 
 bool isEntry (const Json& value)
 {
-    if (! value.is_array()) return isId (value);
-    return value.size() > 1 && isId (value[0]) && std::all_of (value.begin() + 1, value.end(), isAncestor);
+    if (! value.is_array()) return isIdNumber (value);
+    return value.size() > 1 && isIdNumber (value[0]) && std::all_of (value.begin() + 1, value.end(), isAncestor);
 }
 }   // namespace
 

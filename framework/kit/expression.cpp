@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "expression.hpp"
 
+#include <framework/text/is_digit.hpp>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -286,7 +288,6 @@ private:
     }
 
     static bool beginsCharacter (char c) { return (static_cast<unsigned char> (c) & 0xc0u) != 0x80u; }   // in UTF-8
-    static bool isDigit (char c) { return c >= '0' && c <= '9'; }
     static bool isLetter (char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "aliasing.hpp"
-#include "build.hpp"
 #include "carries.hpp"
+#include "make_node.hpp"
 
 #include <framework/graph/text.hpp>
 #include <framework/text/number_text.hpp>

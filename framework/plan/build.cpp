@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "build.hpp"
+#include "bypass.hpp"
 #include "compile.hpp"
 #include "find_param.hpp"
 #include "grouped.hpp"
 #include "lateness.hpp"
-#include "ops.hpp"
+#include "make_node.hpp"
 #include "plan_diff.hpp"
 #include "rate_conversions.hpp"
 #include "slots.hpp"
+#include "storage.hpp"
+#include "taps.hpp"
 
 #include <algorithm>
 #include <cstring>
-#include <deque>
 #include <limits>
-#include <new>
 #include <set>
 
 namespace tactus::plan
@@ -22,36 +23,6 @@ namespace tactus::plan
 namespace
 {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double zero = 0.0;
-
-/// Everything that the records of a plan point into. Nothing in it moves once the plan runs.
-struct Storage
-{
-    struct Arena
-    {
-        static constexpr std::align_val_t alignment { 64 };
-
-        explicit Arena (std::size_t size) : bytes (static_cast<std::byte*> (::operator new (std::max (size, std::size_t { 1 }), alignment))) {}
-        ~Arena() { ::operator delete (bytes, alignment); }
-        Arena (const Arena&) = delete;
-        Arena& operator= (const Arena&) = delete;
-
-        std::byte* bytes;
-    };
-
-    explicit Storage (std::size_t outputs_size) : outputs (outputs_size) {}
-
-    Arena outputs;
-    std::vector<double> defaults;   // by input component: the value if no wire or feed drives it
-    std::vector<const double*> sources;
-    std::deque<Sum> sums;
-    std::deque<Strike> strikes;
-    std::deque<DelayLine> delays;
-    std::deque<DrivenNode> driven;
-    std::deque<Bypass> bypasses;
-    std::vector<RunningSection> sections;   // by number in Flat::sections; entry 0, the graph itself, stays unused
-    std::deque<std::vector<double>> samples;
-};
 
 /// Records in running order, and for each record the number of the node that it belongs to.
 struct Owned
@@ -113,7 +84,9 @@ public:
         for (int s = 1; s < flat.sectionCount(); ++s)
             if (flat.rests (s)) rests.insert (flat.ticksOf (s));
         parts.rests.assign (rests.begin(), rests.end());
-        addTaps();
+        Taps taps { flat, units, *storage, parts.taps, [this] (const PortRef& r) { return valueOf (r); } };
+        for (const auto& read : outside.records)
+            taps.add (read);
         const auto delays = nodeDelays();
         parts.delays = pathDelays (flat, units, delays);
         warnOfDelays (flat, units, delays);
@@ -146,7 +119,6 @@ private:
     std::vector<std::size_t> output_at;       // by node: offset in the arena
     std::optional<Grouped<Driver>> drivers;   // by slot; within a slot, first the wires, then the feeds
     std::vector<Steps> steps;                 // by section
-    std::set<std::string> tap_names;
 
     static const PlanParts* partsOf (const Plan* other) { return other ? &other->parts : nullptr; }
     std::byte* outputsOf (int n) { return storage->outputs.bytes + output_at[at (n)]; }
@@ -265,20 +237,9 @@ private:
         diff.noteSuccessor (at (i), parts.takeover);
     }
 
-    /// For a node in a section that does not run on every tick: the predecessor, whose outputs are kept until the node first runs.
-    /// Null for other nodes, and if the outputs of the predecessor do not fit.
-    const Instance* heldFrom (int i) const
-    {
-        const auto& n = flat.node (i);
-        const auto* old = flat.rests (n.section) ? diff.predecessorOf (at (i)) : nullptr;
-        if (old == nullptr) return nullptr;
-        const auto& then = before->flat.nodes[at (old - before->instances.data())];
-        return ! then.muted && then.bypass == n.bypass && then.list_size == n.list_size ? old : nullptr;
-    }
-
     void keepOutputs (int i)
     {
-        if (const auto* old = heldFrom (i)) parts.takeover.held.push_back ({ outputsOf (i), old->outputs, flat.node (i).type->outputs_size });
+        if (const auto* old = diff.heldFrom (at (i))) parts.takeover.held.push_back ({ outputsOf (i), old->outputs, flat.node (i).type->outputs_size });
     }
 
     /// Keeps the previous values of the sums and strikes at the inputs of a node until the node runs; meanwhile, only a tap can
@@ -286,7 +247,7 @@ private:
     void keepSums (int i, std::size_t first_sum, std::size_t first_strike)
     {
         const bool any = first_sum < storage->sums.size() || first_strike < storage->strikes.size();
-        const auto* old = any ? heldFrom (i) : nullptr;
+        const auto* old = any ? diff.heldFrom (at (i)) : nullptr;
         if (old == nullptr) return;
         const auto begin = slots.firstInput (i), end = slots.firstInput (i + 1);
         for (auto slot = begin; slot < end; ++slot)
@@ -338,7 +299,7 @@ private:
             {
                 const int from_component = w.from && w.from->component >= 0 ? w.from->component : c;
                 const int to_component = w.to.component >= 0 ? w.to.component : c;
-                const double* from = w.from ? output (*w.from, from_component) : &zero;
+                const double* from = w.from ? output (*w.from, from_component) : &Storage::zero;
                 ConvertedValue value { i, c, w.crosses ? carriedBy (flat, units, w) : Carries::signal };
                 if (w.from && w.crosses) from = conversions.leave (from, flat.node (*w.from).section, w.section, value);
                 if (w.delay > 0) from = delayed (from, i, c);
@@ -467,82 +428,18 @@ private:
 
     void addBypass (int i)
     {
-        const auto& n = flat.node (i);
-        auto& bypass = storage->bypasses.emplace_back();
-        std::memset (outputsOf (i), 0, n.type->outputs_size);
-        for (const auto& out : n.type->outputs)
-        {
-            auto* to = reinterpret_cast<double*> (outputsOf (i) + out.offset);
-            std::size_t first = 0;
-            for (const auto& in : n.type->inputs)
-            {
-                if (in.width == out.width && ! out.list && (in.id == out.id || (in.id == "in" && out.id == "out")))
-                    for (int c = 0; c < out.width; ++c)
-                        bypass.copies.push_back ({ to + c, passedOn (i, static_cast<int> (&in - n.type->inputs.data()), c, first) });
-                first += at (n.slots (in));
-            }
-            const bool is_factor =
-                out.width == 1 && out.unit.kind == UnitRule::Kind::fixed && out.unit.unit.quantity == Quantity::gain;   // a vector is a direction, not a factor
-            if (is_factor) *to = 1.0;
-        }
+        const auto is_driven = [&] (std::size_t input) { return ! (*drivers)[slots.firstInput (i) + input].empty(); };
+        auto& bypass = storage->bypasses.emplace_back (bypassOf (flat.node (i), outputsOf (i), is_driven));
         stepsOf (i).body.add ({ &Bypass::step, &bypass, sourcesOf (i), nullptr }, i);
     }
 
-    /// The sources that are summed to one component of the value that a bypassed input passes on.
-    std::vector<std::size_t> passedOn (int i, int port, int component, std::size_t first)
-    {
-        const auto& n = flat.node (i);
-        const auto& in = n.type->inputs[at (port)];
-        std::vector<std::size_t> passed;
-        for (int k = component; k < n.slots (in); k += in.width)
-            if (! in.list || ! (*drivers)[slots.firstInput (i) + first + at (k)].empty()) passed.push_back (first + at (k));
-        return passed;
-    }
-
-    void addTaps()
-    {
-        for (const auto& [name, port] : outside.records)
-        {
-            if (! port)
-            {
-                addTap (name, Quantity::any, "", &zero, 0);
-                continue;
-            }
-            const auto& row = flat.sheet (*port);
-            const bool every_entry = row.list && port->index < 0, every_component = row.width == 3 && port->component < 0;
-            const int first_entry = every_entry ? 0 : port->index, last_entry = every_entry ? flat.node (*port).list_size - 1 : port->index;
-            const int first_component = every_component ? 0 : port->component, last_component = every_component ? 2 : port->component;
-            for (int i = first_entry; i <= last_entry; ++i)
-            {
-                const auto entry = every_entry ? name + "[" + std::to_string (i) + "]" : name;
-                for (int c = first_component; c <= last_component; ++c)
-                {
-                    const PortRef one { port->node, port->role, port->port, i, c };
-                    addTap (every_component ? entry + "." + "xyz"[c] : entry, units (one).quantity, units.symbol (one), valueOf (one), flat.node (one).section);
-                }
-            }
-        }
-    }
-
-    /// Does nothing if there is a tap with this name already.
-    void addTap (const std::string& name, Quantity quantity, std::string symbol, const double* value, int section)
-    {
-        if (! tap_names.insert (name).second) return;
-        parts.taps.push_back ({ name, quantity, std::move (symbol), value });
-        const double speed = flat.rests (section) ? 1.0 : flat.speed (section);
-        if (speed == 1.0) return;
-        auto& samples = storage->samples.emplace_back (static_cast<std::size_t> (speed));
-        storage->sections[at (section)].samples.push_back ({ value, samples.data(), samples.size() });
-        parts.taps.back().per_tick = static_cast<int> (samples.size());
-        parts.taps.back().samples = samples.data();
-    }
-
+    /// Where a tap reads one component of a port.
     const double* valueOf (const PortRef& r)
     {
         const auto& n = flat.node (r);
         if (r.role == Role::output) return output (r, r.component);
-        if (r.role == Role::param) return n.type->make ? param (r.node, at (r.port), at (slotWithin (r, r.component, flat.sheet (r).width))) : &zero;
-        return n.muted ? &zero : storage->sources[slots (r, r.component)];
+        if (r.role == Role::param) return n.type->make ? param (r.node, at (r.port), at (slotWithin (r, r.component, flat.sheet (r).width))) : &Storage::zero;
+        return n.muted ? &Storage::zero : storage->sources[slots (r, r.component)];
     }
 
     /// Keeps the flat graph for the next plan, without the parts that only messages need.
@@ -585,28 +482,6 @@ private:
         return delays;
     }
 };
-
-std::shared_ptr<void> makeNode (const Flat& flat, int number)
-{
-    const auto& n = flat.node (number);
-    if (! n.type->make) return nullptr;
-    auto node = n.type->make();
-    for (std::size_t p = 0; p < n.type->params.size(); ++p)
-    {
-        const auto values = flat.param (number, p);
-        auto* target = static_cast<std::byte*> (n.type->paramsOf (node.get())) + n.type->params[p].offset;
-        if (n.type->params[p].choices.empty())
-            std::ranges::copy (values, reinterpret_cast<double*> (target));
-        else
-        {
-            const int chosen = static_cast<int> (values[0]);
-            std::memcpy (target, &chosen, sizeof chosen);
-        }
-    }
-    for (std::size_t i = 0; i < n.settings.size(); ++i)
-        n.type->settings[i].set (node.get(), n.settings[i]);
-    return node;
-}
 
 std::shared_ptr<Plan> build (Flat& flat, const PortUnits& units, const Order& order, Outside outside, const Setup& setup, const CompileOptions& options)
 {

@@ -30,9 +30,6 @@ struct Outside
     std::map<std::string, std::vector<PortRef>> exposed;   ///< params and inputs by the names under which subgraphs expose them
 };
 
-/// Makes a node with its params and settings, but does not prepare it. Returns null for a bypassed subgraph.
-std::shared_ptr<void> makeNode (const Flat&, int number);
-
 /// Makes the nodes, lays out their outputs, and writes the records in the given order. The graph must be free of errors. It is
 /// moved into the plan, except for its messages. Uses `before`, `withdrawn` and `kept` of the options.
 std::shared_ptr<Plan> build (Flat&, const PortUnits&, const Order&, Outside, const Setup&, const CompileOptions&);

@@ -2,6 +2,7 @@
 #include "compile.hpp"
 #include "aliasing.hpp"
 #include "build.hpp"
+#include "make_node.hpp"
 #include "sections.hpp"
 #include "slots.hpp"
 

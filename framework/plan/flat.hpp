@@ -60,6 +60,9 @@ struct Spent
     bool is_over = false;   ///< a budget is exceeded, which has been reported
 };
 
+/// What a value of a graph takes when it is compiled, measured, in units of work (work_unit_s).
+inline constexpr double work_per_value = 50.0;
+
 /// A port of a flat node, or an entry or a component of it.
 struct PortRef
 {

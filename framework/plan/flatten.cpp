@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "flatten.hpp"
+#include "node_settings.hpp"
+#include "roles.hpp"
 #include "sections.hpp"
-#include "settings.hpp"
+#include "stand_in.hpp"
 #include "values.hpp"
+#include "wire_fit.hpp"
 
 #include <framework/graph/instances.hpp>
 #include <framework/graph/overrides.hpp>
@@ -20,37 +23,13 @@ namespace
 constexpr int max_depth = 32;
 
 // What compiling takes, measured, in units of work (work_unit_s).
-constexpr double work_per_node = 800.0, work_per_value = 50.0, work_of_a_search = 10'000.0;
-constexpr double bytes_per_value = 100.0;
-
-/// How many values JSON holds; long texts count more.
-double sizeOf (const Json& json)
-{
-    constexpr double text_of_a_value = 10.0;   // bytes; a formula is parsed
-    double size = 1.0;
-    if (json.is_object())
-        for (const auto& [key, value] : json.asObject())
-            size += sizeOf (value);
-    else if (json.is_array())
-        for (const auto& value : json.asArray())
-            size += sizeOf (value);
-    else if (json.is_string())
-        size += static_cast<double> (json.asString().size()) / text_of_a_value;
-    return size;
-}
+constexpr double work_per_node = 800.0, work_of_a_search = 10'000.0;
 
 /// Reserves room in large steps, so that many small additions do not move everything each time.
 template <typename T>
 void makeRoom (std::vector<T>& all, std::size_t more)
 {
     if (all.size() + more > all.capacity()) all.reserve (std::max (all.size() + more, 2 * all.capacity()));
-}
-
-/// The members of an object; no members for any other value. Does not copy them.
-const Json::Object& membersOf (const Json& json)
-{
-    static const Json::Object none;
-    return json.is_object() ? json.asObject() : none;
 }
 
 class Flattener
@@ -81,8 +60,6 @@ public:
     }
 
 private:
-    using Roles = std::unordered_map<std::string, std::string>;
-
     const Catalogue& nodes;
     std::span<const Override> overrides;
     Assets* assets;
@@ -181,9 +158,11 @@ private:
                                 .muted = muted,
                                 .section = scope.section });
         auto& made = flat.nodes.back();
-        readRole (node, here, roles, made);
-        readSettings (scope, node, here, made);
-        for (const auto& [key, value] : membersOf (node.params))
+        readRole (node, here, roles, made, flat);
+        countRole (made, here);
+        readSettings (node, here, assets, scope.owner->folder, made, flat);
+        addValues (made, flat);
+        for (const auto& [key, value] : node.params.items())
             assignOwn (scope, node, here, member.node, key, value);
     }
 
@@ -205,68 +184,14 @@ private:
             flat.assignments.push_back ({ { number, Role::param, port }, &value, &value, 0.0, at (here, "params", key) });
     }
 
-    void readRole (const graph::Node& node, Origin here, const Roles& roles, FlatNode& made)
+    void countRole (const FlatNode& made, Origin here)
     {
-        if (made.type->bind != nullptr && node.role.empty())
-            flat.error ("node/no_role", here, "'" + made.path + "' (" + node.type + ") has no role, so its device is unknown",
-                        "give it a role, for example \"role\": \"stylus\"");
-        if (made.type->bind == nullptr && ! node.role.empty())
-            flat.warn ("node/needless_role", at (here, "role"), "'" + made.path + "' (" + node.type + ") is not a device node, so its role has no effect",
-                       "remove the role");
-        const auto outer = roles.find (node.role);
-        made.role = outer == roles.end() ? node.role : outer->second;
         if (made.type->bind == nullptr || ! roles_seen.insert (made.role).second) return;
         if (const auto count = static_cast<double> (roles_seen.size()); count > budgets().roles && ! hasToStop())
         {
             too_large = here;
             why_too_large = overBudget ("graph/too_large", &Budgets::roles, "the graph", count, "let device nodes share roles");
         }
-    }
-
-    void readSettings (const Scope& scope, const graph::Node& node, Origin here, FlatNode& made)
-    {
-        for (const auto& sheet : made.type->settings)
-            made.settings.push_back (sheet.initial);
-
-        for (const auto& [key, value] : membersOf (node.settings))
-        {
-            const auto sheet = std::ranges::find (made.type->settings, key, &SettingSheet::id);
-            if (sheet == made.type->settings.end())
-            {
-                std::vector<std::string> ids;
-                for (const auto& s : made.type->settings)
-                    ids.emplace_back (s.id);
-                const bool is_param = std::ranges::count (made.type->params, key, &PortSheet::id) > 0;
-                flat.error ("node/unknown_setting", at (here, "settings", key),
-                            "'" + made.path + "' (" + node.type + ") has no setting '" + key + "'" + didYouMean (key, ids),
-                            is_param ? "it is a parameter: move it to params" : "its settings: " + listed (ids));
-                continue;
-            }
-            const double size = sizeOf (value);
-            if (! flat.spend (work_per_value * size, bytes_per_value * size, at (here, "settings", key))) continue;
-            std::string within;
-            if (auto read = readSetting (value, *sheet, { assets, scope.owner->folder }, within))
-                made.settings[tactus::at (sheet - made.type->settings.begin())] = *std::move (read);
-            else
-                flat.error ("setting/value", flat.asIs (at (here, "settings", key), within),
-                            "setting '" + key + "' of '" + made.path + "': " + read.error().text,
-                            "`tactus nodes " + node.type + "` lists the settings and their ranges");
-        }
-
-        for (std::size_t i = 0; i < made.type->settings.size(); ++i)
-            if (made.type->settings[i].id == "inputs")
-                made.list_size = static_cast<int> (std::get<double> (made.settings[i]));
-
-        addValues (made);
-    }
-
-    /// Adds the values of a node's params, initialised with the defaults of the datasheet.
-    void addValues (FlatNode& made)
-    {
-        made.values = flat.values.size();
-        for (const auto& row : made.type->params)
-            for (int k = 0; k < made.slots (row); ++k)
-                flat.values.push_back (row.initial[row.list ? 0 : k]);
     }
 
     void addSubgraph (Scope& scope, const graph::Node& node, Origin here, const Roles& roles, bool muted, Scope::Member& member)
@@ -294,11 +219,11 @@ private:
                         "give a whole number from 1 to " + std::to_string (graph::most_instances) + "; without a `count` it is 1");
             return;
         }
-        checkRoles (scope, node, here, *first.patch, count.value_or (1));
+        checkRoles (node, scope.prefix + node.name, here, *first.patch, count.value_or (1), flat);
 
         if (count && isTooLarge (at (here, "count"), tactus::at (*count) * (first.patch->nodes.size() + 1))) return;
         member.counted = count.has_value();
-        const double work = work_per_node + work_per_value * static_cast<double> (membersOf (node.roles).size() + roles.size());
+        const double work = work_per_node + work_per_value * static_cast<double> (node.roles.items().size() + roles.size());
         for (int k = 0; k < count.value_or (1) && ! isTooLarge (all_nodes) && ! flat.isFull(); ++k)
         {
             if (! flat.spend (work, 0.0, here)) break;
@@ -314,12 +239,12 @@ private:
             member.instances.push_back (std::move (inside));
         }
 
-        for (const auto& [key, value] : membersOf (node.params))
+        for (const auto& [key, value] : node.params.items())
             assign (scope, node.name + "." + key, value, at (here, "params", key));
         giveOverrides (scope, node, here);
         if (node.bypass)
             for (std::size_t k = 0; k < member.instances.size(); ++k)
-                bypassSubgraph (scope, node, here, muted, *member.instances[k], static_cast<int> (k));
+                addStandIn (scope, node, here, muted, *member.instances[k], static_cast<int> (k), flat);
     }
 
     void giveOverrides (const Scope& scope, const graph::Node& node, Origin here)
@@ -337,52 +262,6 @@ private:
             else
                 flat.error ("param/name", origin, inner.error().text, "name a parameter, such as drag.mu");
         }
-    }
-
-    void checkRoles (const Scope& scope, const graph::Node& node, Origin here, const graph::Patch& patch, int count)
-    {
-        const auto most = static_cast<double> (membersOf (node.roles).size() * (patch.nodes.size() + 1));
-        if (! flat.spend (most, 0.0, here)) return;
-        for (const auto& [inner, outer] : membersOf (node.roles))
-        {
-            const auto origin = at (here, "roles", inner);
-            if (! hasRole (patch, inner))
-                flat.warn ("node/unknown_role", origin, "nothing in '" + scope.prefix + node.name + "' has the role '" + inner + "'",
-                           "name a role of the subgraph's device nodes");
-            const bool is_list = outer.is_array() && std::ranges::all_of (outer, &Json::is_string);
-            if (! is_list && ! outer.is_string())
-                flat.error ("node/bad_roles", origin,
-                            "role '" + inner + "' of '" + scope.prefix + node.name + "' must be the name of a role, or a list of names",
-                            "write { \"" + inner + "\": \"stylus\" }");
-            else if (is_list && outer.size() != tactus::at (count))
-                flat.error ("node/bad_roles", origin,
-                            "role '" + inner + "' of '" + scope.prefix + node.name + "' is given " + std::to_string (outer.size()) + " names, but there "
-                                + (count == 1 ? "is 1 instance" : "are " + std::to_string (count) + " instances"),
-                            "give a list with one name for each instance, or a single name for all");
-        }
-    }
-
-    /// Maps the roles inside an instance to roles of the whole graph. Wrong roles have already been reported.
-    static Roles rolesInside (const graph::Node& node, const Roles& roles, int instance)
-    {
-        Roles mapped;
-        const auto k = tactus::at (instance);
-        for (const auto& [inner, outer] : membersOf (node.roles))
-        {
-            const auto& name = outer.is_array() && k < outer.size() ? outer[k] : outer;
-            if (! name.is_string()) continue;
-            const auto through = roles.find (name.asString());
-            mapped[inner] = through == roles.end() ? name.asString() : through->second;
-        }
-        for (const auto& [inner, outer] : roles)
-            mapped.try_emplace (inner, outer);
-        return mapped;
-    }
-
-    /// True if a device node of the patch has the role, or if a device node in a nested subgraph may have it.
-    static bool hasRole (const graph::Patch& patch, const std::string& role)
-    {
-        return std::ranges::any_of (patch.nodes, [&] (const graph::Node& n) { return n.role == role || n.type.find (':') != std::string::npos; });
     }
 
     bool findSubgraph (const Scope& scope, const graph::Node& node, Origin here, Scope& inside)
@@ -413,48 +292,6 @@ private:
             flat.error ("graph/unknown_file", at (here, "type"), "the subgraph file '" + std::string (name) + "' was not loaded",
                         "check the path; it is relative to the file that names it");
         return inside.patch != nullptr;
-    }
-
-    /// Replaces a bypassed subgraph by a node with its exposed ports, whose outputs pass on the inputs of the same name.
-    void bypassSubgraph (const Scope& scope, const graph::Node& node, Origin here, bool muted, Scope& inside, int instance)
-    {
-        NodeType type {};
-        type.info = { .id = "subgraph", .name = "Bypassed subgraph", .summary = "", .source = "" };
-        std::size_t offset = 0;
-        int list_size = 0;
-        for (const auto& x : inside.exposed)
-        {
-            if (x.to.empty()) continue;
-            const auto& to = x.to.front();
-            auto row = flat.sheet (to);
-            row.role = x.role;
-            row.id = flat.made_names.emplace_back (x.name);
-            if (row.unit.kind != UnitRule::Kind::fixed) row.unit = each_its_unit;
-            row.width = flat.widthOf (to);
-            row.list = row.list && to.index < 0;
-            if (row.list) list_size = std::max (list_size, flat.node (to).list_size);
-            if (x.role == Role::output)
-            {
-                row.offset = offset;
-                offset += sizeof (double) * tactus::at (row.list ? list_capacity : row.width);
-            }
-            auto& params_or_outputs = x.role == Role::param ? type.params : type.outputs;
-            (x.role == Role::input ? type.inputs : params_or_outputs).push_back (row);
-        }
-        type.outputs_size = std::max (offset, sizeof (double));
-        type.outputs_align = alignof (double);
-        flat.made_types.push_back (std::move (type));
-
-        inside.stand_in = flat.nodeCount();
-        flat.nodes.push_back ({ .path = inside.prefix.substr (0, inside.prefix.size() - 1),
-                                .identity = { scope.number, node.id, instance },
-                                .type = &flat.made_types.back(),
-                                .origin = here,
-                                .bypass = true,
-                                .muted = muted,
-                                .section = scope.section });
-        flat.nodes.back().list_size = list_size;
-        addValues (flat.nodes.back());
     }
 
     void expose (Scope& scope)
@@ -490,7 +327,7 @@ private:
                          .written = &wire,
                          .identity = { scope.number, wire.id },
                          .section = scope.section };
-            const bool is_active = readGain (wire, w) && ! muted && wire.enabled.value_or (true);
+            const bool is_active = readGain (wire, w, flat) && ! muted && wire.enabled.value_or (true);
             addEach (w, is_active);
         }
     }
@@ -506,62 +343,12 @@ private:
                 w.to = to;
                 if (! starts.empty()) w.from = starts[k];
                 w.crosses = (w.from && flat.node (*w.from).section != w.section) || flat.node (to).section != w.section;
-                if (! wireFits (w) || ! is_active) continue;
+                if (! wireFits (w, flat) || ! is_active) continue;
                 if (from == 1 && ends.size() == 1)
                     flat.wires.push_back (std::move (w));
                 else
                     flat.wires.push_back (w);
             }
-    }
-
-    bool readGain (const graph::Wire& wire, FlatWire& w)
-    {
-        if (wire.gain.is_null()) return true;
-        const auto read = readNumber (wire.gain);
-        if (! read)
-        {
-            flat.error ("wire/gain", at (w.origin, "gain"), "gain of \"" + graph::toText (wire) + "\": " + read.error().text,
-                        "give a number, or text with a unit such as \"1e-4 m/N\"");
-            return false;
-        }
-        w.gain = read->value;
-        w.gain_dimension = read->dimension;
-        return true;
-    }
-
-    bool wireFits (const FlatWire& w)
-    {
-        const auto& to = flat.sheet (w.to);
-        for (const auto& end : { w.from, std::optional { w.to } })
-            if (end && flat.sheet (*end).list && end->index < 0)
-            {
-                const auto name = flat.nameOf (*end);
-                flat.error ("wire/which_entry", w.origin, "\"" + graph::toText (*w.written) + "\" does not name an entry of the array port '" + name + "'",
-                            "write " + name + "[0]");
-                return false;
-            }
-        if (! to.choices.empty())
-        {
-            flat.error ("wire/onto_choice", w.origin, "'" + flat.nameOf (w.to) + "' takes one of a list of names, so nothing can be wired to it",
-                        "set the parameter under `params`");
-            return false;
-        }
-        if (w.add && w.to.role != Role::param)
-        {
-            flat.error ("wire/add_to_input", w.origin, "(+) adds to a parameter's stored value, but '" + flat.nameOf (w.to) + "' is an input", "leave out (+)");
-            return false;
-        }
-        if (w.from && flat.widthOf (*w.from) != flat.widthOf (w.to))
-        {
-            const bool vector_first = flat.widthOf (*w.from) == 3;
-            flat.error ("wire/width", w.origin,
-                        "'" + flat.nameOf (*w.from) + (vector_first ? "' is a vector and '" : "' is a scalar and '") + flat.nameOf (w.to)
-                            + (vector_first ? "' a scalar" : "' a vector"),
-                        vector_first ? "wire one component, as in " + flat.nameOf (*w.from) + ".x"
-                                     : "wire it to one component, as in " + flat.nameOf (w.to) + ".x");
-            return false;
-        }
-        return true;
     }
 
     void assign (const Scope& scope, std::string_view name, const Json& value, Origin origin)

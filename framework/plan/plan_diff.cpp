@@ -166,6 +166,15 @@ std::uint32_t PlanDiff::turnsBefore (const Knobs& knobs, std::size_t knob, doubl
     return knobs.all[knob].turns.load (std::memory_order_acquire);
 }
 
+const Instance* PlanDiff::heldFrom (std::size_t node) const
+{
+    const auto& n = flat.nodes[node];
+    const auto* old = flat.rests (n.section) ? predecessorOf (node) : nullptr;
+    if (old == nullptr) return nullptr;
+    const auto& then = before->flat.nodes[at (old - before->instances.data())];
+    return ! then.muted && then.bypass == n.bypass && then.list_size == n.list_size ? old : nullptr;
+}
+
 std::shared_ptr<Knobs> PlanDiff::knobsOf (std::size_t i, Takeover& takeover) const
 {
     const auto& n = flat.nodes[i];

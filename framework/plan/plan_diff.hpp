@@ -18,6 +18,10 @@ public:
     /// The matching instance of the previous plan; null if there is none, or if its type differs.
     const Instance* predecessorOf (std::size_t node) const noexcept;
 
+    /// For a node in a section that does not run on every tick: the predecessor, whose outputs are kept until the node first runs.
+    /// Null for other nodes, and if the outputs of the predecessor do not fit.
+    const Instance* heldFrom (std::size_t node) const;
+
     /// True if nothing about the node has changed except its wires and params, so both plans share it.
     bool continues (std::size_t node) const noexcept { return continuing[node]; }
 

@@ -129,6 +129,14 @@ std::string miscount (const Json& json, const UnitRule& unit)
     return shown (json) + " counts radians or degrees, but " + std::string (unit.unit.symbol) + " counts whole cycles of 2 pi rad or 360 deg";
 }
 
+void addValues (FlatNode& made, Flat& flat)
+{
+    made.values = flat.values.size();
+    for (const auto& row : made.type->params)
+        for (int k = 0; k < made.slots (row); ++k)
+            flat.values.push_back (row.initial[row.list ? 0 : k]);
+}
+
 void readParams (Flat& flat)
 {
     ParamReader reader { flat };

@@ -32,6 +32,9 @@ std::string rangeText (const Interval&);
 /// Reads a number. An error has neither a location nor a remedy, only a text such as "it is not a finite number".
 Result<Number> readNumber (const Json&);
 
+/// Adds the values of a node's params to Flat::values, with the defaults of the datasheet. The size of its lists must be known.
+void addValues (FlatNode&, Flat&);
+
 /// Stores the assignments of a flat graph in the params of its nodes, and checks kinds, choices, shapes and ranges. unit_check
 /// checks the units, because it knows which units generic nodes carry.
 void readParams (Flat&);

@@ -19,7 +19,7 @@ namespace tactus
 
 namespace
 {
-Budgets now;
+Budgets current_budgets;
 thread_local double charged = 0.0;   // bytes
 
 const BudgetSheet& sheetOf (double Budgets::*which) noexcept { return *std::ranges::find (budget_sheets, which, &BudgetSheet::value); }
@@ -99,9 +99,9 @@ Result<> readLimit (std::string_view text, Budgets& to)
 }
 }   // namespace
 
-const Budgets& budgets() noexcept { return now; }
+const Budgets& budgets() noexcept { return current_budgets; }
 
-void setBudgets (const Budgets& b) noexcept { now = b; }
+void setBudgets (const Budgets& b) noexcept { current_budgets = b; }
 
 Result<Budgets> readLimits (std::string_view text)
 {
@@ -118,7 +118,7 @@ Result<Budgets> readLimits (std::string_view text)
 Message overBudget (std::string id, double Budgets::*which, const std::string& what, double needed, const std::string& remedy)
 {
     const auto& sheet = sheetOf (which);
-    const double allowed = now.*which;
+    const double allowed = current_budgets.*which;
     const std::string name (sheet.name);
     return Message::error (std::move (id), {},
                            what + " takes " + amountText (sheet, needed) + " or more; the budget `" + name + "` allows " + amountText (sheet, allowed),
@@ -130,7 +130,7 @@ void beginReading() noexcept { charged = 0.0; }
 bool chargeReading (double bytes) noexcept
 {
     charged += bytes;
-    return charged <= now.reading;
+    return charged <= current_budgets.reading;
 }
 
 Message overReading (std::string id, const std::string& what)

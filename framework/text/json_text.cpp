@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "json_text.hpp"
 
+#include "is_digit.hpp"
 #include "quote.hpp"
 
 #include <nlohmann/json.hpp>
@@ -14,7 +15,6 @@ namespace
 using Parser = nlohmann::ordered_json;
 
 constexpr bool isSpace (char c) noexcept { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-constexpr bool isDigit (char c) noexcept { return c >= '0' && c <= '9'; }
 constexpr bool isWord (char c) noexcept { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || isDigit (c); }
 
 /// Follows the parser through the text, one token per event, and tracks line and column. The parser itself reports its position

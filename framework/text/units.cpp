@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "units.hpp"
 
+#include "is_digit.hpp"
 #include "quote.hpp"
 
 #include <charconv>
@@ -85,11 +86,10 @@ std::string unknownUnit (std::string_view symbol)
     return text + ", with the prefixes p n u m c d k M G";
 }
 
-constexpr bool isDigit (char c) noexcept { return c >= '0' && c <= '9'; }
-constexpr bool isSpace (char c) noexcept { return c == ' ' || c == '\t'; }
+constexpr bool isBlank (char c) noexcept { return c == ' ' || c == '\t'; }
 
 /// Every character that cannot be part of a unit ends it, so that a message quotes the whole of an unknown unit.
-constexpr bool endsUnit (char c) noexcept { return isSpace (c) || isDigit (c) || c == '*' || c == '/' || c == '^' || c == '-' || c == '+'; }
+constexpr bool endsUnit (char c) noexcept { return isBlank (c) || isDigit (c) || c == '*' || c == '/' || c == '^' || c == '-' || c == '+'; }
 
 /// The unread rest of the text.
 struct Reader
@@ -101,7 +101,7 @@ struct Reader
     bool skipSpace()
     {
         const auto before = text.size();
-        while (isSpace (peek()))
+        while (isBlank (peek()))
             text.remove_prefix (1);
         return text.size() != before;
     }

@@ -12,6 +12,24 @@ namespace
 std::atomic<bool> requested { false };
 static_assert (std::atomic<bool>::is_always_lock_free, "a signal handler may set it");
 
+/// All signals that would end or suspend the process and leave a force on a device, except the real-time signals, whose numbers
+/// are known only at run time. Faults (SIGSEGV and the like) are left to Failsafe.
+constexpr int stopping[] = {
+#ifdef SIGPOLL
+    SIGPOLL,
+#endif
+#ifdef SIGPWR
+    SIGPWR,
+#endif
+#ifdef SIGSTKFLT
+    SIGSTKFLT,
+#endif
+#if defined(__unix__) || defined(__APPLE__)
+    SIGHUP, SIGQUIT, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU, SIGPIPE, SIGTSTP, SIGSYS, SIGTRAP,
+#endif
+    SIGINT, SIGTERM
+};
+
 extern "C" void note (int) { requested = true; }
 
 using Act = void (*)() noexcept;
@@ -26,26 +44,13 @@ void call (const std::atomic<Act>& act) noexcept
 
 void watchForStop() noexcept
 {
-    std::signal (SIGINT, note);
-    std::signal (SIGTERM, note);
-#if defined(__unix__) || defined(__APPLE__)
-    // All signals that would end or suspend the process and leave a force on a device. Faults (SIGSEGV and the like) are left to
-    // Failsafe.
-    for (const int number : { SIGHUP, SIGQUIT, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU, SIGPIPE, SIGTSTP, SIGSYS, SIGTRAP })
+    for (const int number : stopping)
         std::signal (number, note);
+#if defined(__unix__) || defined(__APPLE__)
     // A program in the background may write to its terminal, and its reads fail instead of suspending it. Reaching the file size
     // limit is reported as an error of that file.
     for (const int number : { SIGTTIN, SIGTTOU, SIGXFSZ })
         std::signal (number, SIG_IGN);
-#endif
-#ifdef SIGPOLL
-    std::signal (SIGPOLL, note);
-#endif
-#ifdef SIGPWR
-    std::signal (SIGPWR, note);
-#endif
-#ifdef SIGSTKFLT
-    std::signal (SIGSTKFLT, note);
 #endif
 #ifdef SIGRTMIN
     for (int number = SIGRTMIN; number <= SIGRTMAX; ++number)

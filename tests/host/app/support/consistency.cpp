@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "consistency.hpp"
+
+#include <framework/file/graph_file.hpp>
+#include <framework/graph/endpoints.hpp>
+#include <host/assets/nearest_by_embree.hpp>
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+namespace tactus::host::test
+{
+
+namespace
+{
+std::set<std::string> errorsOf (const Messages& messages)
+{
+    std::set<std::string> found;
+    for (const auto& m : messages)
+    {
+        const bool is_device = m.where.starts_with ("/devices") || m.where.starts_with ("/hand");
+        if (m.severity == Message::Severity::error && ! is_device) found.insert (m.id + " at " + m.where);
+    }
+    return found;
+}
+
+std::string joined (const std::set<std::string>& all)
+{
+    std::string text;
+    for (const auto& one : all)
+        text += "\n    " + one;
+    return text;
+}
+}   // namespace
+
+std::string disagreement (MainView& view)
+{
+    auto& canvas = view.canvas();
+    const auto& graph = view.document().graph();
+    const auto* patch = &graph.root;
+    std::string here;
+    for (const auto& [node, subgraph] : canvas.breadcrumbs())
+    {
+        const auto* entered = patch->find (node);
+        if (entered == nullptr) return "the breadcrumbs contain '" + node + "', which is not in '" + here + "'";
+        if (entered->type != "graph:" + subgraph) return "the breadcrumbs contain '" + node + "' of '" + subgraph + "', but it is a " + entered->type;
+        patch = graph.find (subgraph);
+        if (patch == nullptr) return "the breadcrumbs contain '" + subgraph + "', which does not exist";
+        here = subgraph;
+    }
+
+    const auto& scene = canvas.scene();
+    const auto isSame = [] (const SceneNode& s, const graph::Node& n) { return s.id == n.id && s.name == n.name && s.type == n.type && s.bypass == n.bypass; };
+    if (! std::ranges::equal (scene.nodes(), patch->nodes, isSame)) return "the nodes on the canvas are not those of '" + here + "'";
+    std::vector<graph::Id> wires, drawn;
+    for (const auto& w : patch->wires)
+        if (patch->find (graph::firstNameOf (w.from.node)) != nullptr && patch->find (graph::firstNameOf (w.to.node)) != nullptr) wires.push_back (w.id);
+    for (const auto& w : scene.wires())
+        drawn.push_back (w.id);
+    if (wires != drawn) return "the wires on the canvas are not those of '" + here + "'";
+    if (scene.notes().size() != notesOf (graph, here).size()) return "the notes on the canvas are not those of '" + here + "'";
+
+    for (const auto id : canvas.selection())
+    {
+        const bool exists = isNote (id) ? noteOf (id) < scene.notes().size() : scene.find (id) != nullptr || scene.findWire (id) != nullptr;
+        if (! exists) return "the selection contains something that does not exist";
+    }
+    if (view.document().history().position() > view.document().history().names().size()) return "the history position is beyond its end";
+    return {};
+}
+
+std::string disagreementWithCompile (MainView& view, FileAssets& assets)
+{
+    const auto& graph = view.document().graph();
+    const auto compiled = compile (graph, catalogue(), { .assets = &assets, .services = { .nearest_triangle = nearestByEmbree } });
+    const auto expected = errorsOf (compiled.messages), reported = errorsOf (view.run().messages());
+    if (expected == reported) return {};
+    return "compile reports:" + joined (expected) + "\n  and the run:" + joined (reported);
+}
+
+std::string instability (const graph::Graph& g)
+{
+    const auto text = writeGraph (g);
+    const auto again = readGraph (text);
+    if (hasErrors (again.messages)) return "the written graph cannot be read: " + again.messages.front().text + " at " + again.messages.front().where;
+    return writeGraph (again.graph) == text ? std::string() : std::string ("writing the graph again gives different text");
+}
+
+std::string historyFault (Document& d)
+{
+    const auto at = d.history().position(), all = d.history().names().size();
+    const auto here = writeGraph (d.graph());
+    d.goTo (all);
+    const auto last = writeGraph (d.graph());
+    d.goTo (0);
+    d.goTo (all);
+    if (writeGraph (d.graph()) != last) return "undoing and redoing everything changes the graph";
+    d.goTo (at);
+    return writeGraph (d.graph()) == here ? std::string() : std::string ("jumping through the history and back changes the graph");
+}
+
+}   // namespace tactus::host::test

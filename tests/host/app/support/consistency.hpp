@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <host/app/window/main_view.hpp>
+
+#include <string>
+
+namespace tactus::host::test
+{
+
+// What is inconsistent; "" if nothing is.
+
+/// Between graph and canvas.
+std::string disagreement (MainView&);
+
+/// Between the errors that the live run reports and those of compiling the graph separately.
+std::string disagreementWithCompile (MainView&, FileAssets&);
+
+/// Between a graph and the same graph after it was written and read again.
+std::string instability (const graph::Graph&);
+
+/// Between the graph before and after jumps through its history.
+std::string historyFault (Document&);
+
+}   // namespace tactus::host::test
