@@ -40,7 +40,8 @@ public:
         rotation = now;
         if (! was_known) return Vec3::Zero();
         const double sine = step.vec().norm();
-        if (! (sine > 0.0)) return Vec3::Zero();
+        if (sine == 0.0) return Vec3::Zero();
+        if (! isFinite (sine)) return Vec3::Constant (std::numeric_limits<double>::infinity());   // such an angle is no rotation of a tool
         return step.vec() * (2.0 * std::atan2 (std::copysign (sine, step.w()), std::abs (step.w())) / sine);
     }
 

@@ -2,13 +2,14 @@
 #include "guard.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace tactus
 {
 namespace
 {
+constexpr double most_behind = 50.0;   // watchdogs, so that a run recovers in the end
+
 // A few units in the last place below the limit, so that rounding cannot exceed it.
 constexpr double just_under = 1.0 - 16.0 * std::numeric_limits<double>::epsilon();
 
@@ -113,22 +114,6 @@ int firstNotFinite (const Channels& all) noexcept
     return static_cast<int> (std::find_if_not (all.begin(), all.end(), [] (double v) { return isFinite (v); })
                              - all.begin());
 }
-
-/// Writes four digits, independent of the locale.
-std::string inWords (double value)
-{
-    char text[32];
-    return { text, std::to_chars (text, text + sizeof text, value, std::chars_format::general, 4).ptr };
-}
-
-std::string inWords (const std::array<double, 3>& v) { return "(" + inWords (v[0]) + ", " + inWords (v[1]) + ", " + inWords (v[2]) + ")"; }
-std::string inMilliseconds (double seconds) { return inWords (seconds * 1e3) + " ms"; }
-
-std::string withinWindow (const Guard::Event& event, const char* unit)
-{
-    const auto limit = "; the limit is " + inWords (event.limit) + unit;
-    return event.window > 0.0 && event.window < GuardLimits::none ? limit + " in " + inWords (event.window) + " s" : limit;
-}
 }   // namespace
 
 GuardLimits tightest (const GuardLimits& a, const GuardLimits& b) noexcept
@@ -158,6 +143,7 @@ GuardLimits tightest (const GuardLimits& a, const GuardLimits& b) noexcept
         .energy_window = longer (a.max_energy, a.energy_window, b.max_energy, b.energy_window),
         .max_still = less (a.max_still, b.max_still),
         .still_force = less (a.still_force, b.still_force),
+        .workspace_scale = a.workspace_scale * b.workspace_scale,
         .dead_man_pressure = std::max (orForever (a.dead_man_pressure), orForever (b.dead_man_pressure)),
         .dead_man_buttons = a.dead_man_buttons | b.dead_man_buttons,
     };
@@ -175,7 +161,7 @@ void Guard::prepare (const GuardLimits& wanted, double dt_s, const DeviceLayout&
     watches_axes = knows_axes && limitsAny (limits.max_axis_speed, limits.max_energy);
     is_watching = watches_turns || watches_axes || limitsAny (limits.max_speed, limits.max_still, smallestImpulse (limits));
     enabled = 0.0;
-    rearm();
+    forget();
 }
 
 void Guard::emergencyStop() noexcept
@@ -185,6 +171,12 @@ void Guard::emergencyStop() noexcept
 }
 
 void Guard::rearm() noexcept
+{
+    if (isLatched()) forget();
+}
+
+/// Forgets latched stops, and what the watches have counted.
+void Guard::forget() noexcept
 {
     latched = Stop::none;
     motion = {};
@@ -211,7 +203,8 @@ void Guard::latch (Stop why, double value, Event::Part part, int channel) noexce
     is_news = true;
 }
 
-/// Counts time without ticks. Starvation ends once half of the watchdog's time has been made up.
+/// Counts time without ticks. Starvation ends once ticks have made up for all of it but half of the watchdog's time, so a run that
+/// is starved again and again gets no force in between.
 void Guard::loseTime (double lost_s) noexcept
 {
     if (lost_s > 0.0)
@@ -220,7 +213,7 @@ void Guard::loseTime (double lost_s) noexcept
         if (is_watching) countImpulse (lost_s);
     }
     if (limits.watchdog == GuardLimits::none) return;
-    behind = std::clamp (behind + lost_s - dt, 0.0, 1.5 * limits.watchdog);
+    behind = std::clamp (behind + lost_s - dt, 0.0, most_behind * limits.watchdog);
     is_starved = behind > (is_starved ? 0.5 : 1.0) * limits.watchdog;
 }
 
@@ -236,10 +229,11 @@ void Guard::watch (const Reading& reading, double elapsed_s) noexcept
     }
 
     motion.begin (reading, now);
-    speed (motion.moved, motion.elapsed);
+    const Vec3 moved = motion.moved / limits.workspace_scale;
+    speed (moved, motion.elapsed);
     if (const double v = speed.speed(); ! (v <= limits.max_speed)) latch (Stop::speed, v);
 
-    double work = last.force.dot (motion.moved);
+    double work = last.force.dot (moved);
     if (watches_turns)
     {
         const Vec3 turned = motion.turned (reading);
@@ -464,78 +458,6 @@ Effort Guard::crossfade (const Effort& wanted, double fade_by_s) noexcept
     const double rest = std::min (withheld, 1.0 - enabled);
     return { enabled * wanted.force + rest * at_stop.force, enabled * wanted.torque + rest * at_stop.torque,
              mixed (enabled, wanted.axes, rest, at_stop.axes), mixed (enabled, wanted.signals, rest, at_stop.signals) };
-}
-
-namespace
-{
-std::string inWordsStale (const Guard::Event& event)
-{
-    const auto& f = event.wanted;
-    if (event.fault == ReadingFault::frozen)
-        return "the position has not changed for " + inWords (event.value) + " s while a force of " + inWords (std::hypot (f[0], f[1], f[2]))
-               + " N pushes the hand";
-    const std::string why (describe (event.fault));
-    if (! event.valid) return why.empty() ? "the device has no valid reading" : why;
-    if (event.part == Guard::Event::Part::reading) return "the reading is not a number: " + inWords (f);
-    if (! (event.value >= 0.0)) return "the age of the reading is not a number";
-    return why + (why.empty() ? "" : ": ") + "the last reading is " + inMilliseconds (event.value) + " old; the watchdog allows "
-           + inMilliseconds (event.limit);
-}
-}   // namespace
-
-std::string describe (const Guard::Event& event)
-{
-    using Part = Guard::Event::Part;
-    switch (event.why)
-    {
-    case Guard::Stop::none:
-        return "not stopped";
-    case Guard::Stop::halted:
-        return "halted on request";
-    case Guard::Stop::emergency:
-        return "the emergency stop was pressed";
-
-    case Guard::Stop::stale:
-        return inWordsStale (event);
-
-    case Guard::Stop::starved:
-        return "the run cannot keep up: its ticks are " + inMilliseconds (event.value) + " behind; the watchdog allows " + inMilliseconds (event.limit);
-
-    case Guard::Stop::released:
-        if (event.limit > 0.0 && ! (event.value >= event.limit))
-            return "the hand presses with " + inWords (event.value) + " N; the dead-man's switch requires " + inWords (event.limit) + " N";
-        return "the dead-man's switch is not held";
-
-    case Guard::Stop::speed:
-    {
-        if (event.part == Part::torque) return "the tool turns at " + inWords (event.value) + " rad/s; the limit is " + inWords (event.limit) + " rad/s";
-        if (event.part == Part::none) return "the tool moves at " + inWords (event.value) + " m/s; the limit is " + inWords (event.limit) + " m/s";
-        return "axis " + std::to_string (event.channel + 1) + " moves at " + inWords (event.value) + " units/s; the limit is " + inWords (event.limit)
-               + " units/s";
-    }
-    case Guard::Stop::impulse:
-        if (event.part == Part::torque) return "the impulse of the torque is " + inWords (event.value) + " N*m*s" + withinWindow (event, " N*m*s");
-        if (event.part == Part::none) return "the impulse of the force is " + inWords (event.value) + " N*s" + withinWindow (event, " N*s");
-        return "the impulse on the axes is " + inWords (event.value) + " N*s or N*m*s" + withinWindow (event, "");
-    case Guard::Stop::energy:
-        return "the device has given the hand " + inWords (event.value) + " J" + withinWindow (event, " J");
-
-    case Guard::Stop::not_finite:
-        break;
-    }
-
-    const std::string asked = "the graph asked for ", no_number = " that is not a number: ";
-    switch (event.part)
-    {
-    case Part::axis:
-        return asked + "an effort on axis " + std::to_string (event.channel + 1) + no_number + inWords (event.wanted[0]);
-    case Part::signal:
-        return asked + "a signal on channel " + std::to_string (event.channel + 1) + no_number + inWords (event.wanted[0]);
-    case Part::torque:
-        return asked + "a torque" + no_number + inWords (event.wanted) + " N*m";
-    default:
-        return asked + "a force" + no_number + inWords (event.wanted) + " N";
-    }
 }
 
 }   // namespace tactus

@@ -43,6 +43,8 @@ struct GuardLimits
     double max_still = none;             ///< how long the position may stay exactly the same under a force, as counted by StillWatch, in s
     double still_force = none;           ///< the least force for max_still, in N
 
+    double workspace_scale = 1.0;   ///< motion in the graph divided by motion of the device; the limits are those of the device
+
     double dead_man_pressure = 0.0;       ///< how hard the hand must press before the guard allows any effort, in N; 0: not required
     std::uint64_t dead_man_buttons = 0;   ///< buttons that must all be held, as in Reading::buttons; 0: none
 
@@ -154,10 +156,13 @@ public:
     void halt() noexcept { asked_to_halt = true; }
     void resume() noexcept { asked_to_halt = false; }
 
-    /// Like halt, but only rearm() ends it. rearm() also ends every other latched stop, but not a halt, and resets the
-    /// impulse and energy counts. [tick thread]
+    /// Like halt, but only rearm() ends it. rearm() also ends every other latched stop, but not a halt, and then resets the
+    /// impulse and energy counts. Without a latched stop, it does nothing. [tick thread]
     void emergencyStop() noexcept;
     void rearm() noexcept;
+
+    /// True while a stop lasts that only rearm() ends, even if another cause is reported. [any thread that owns the guard]
+    bool isLatched() const noexcept { return latched != Stop::none; }
 
     /// Why the last effort was withheld. [any thread that owns the guard]
     Stop stop() const noexcept { return reason; }
@@ -173,6 +178,7 @@ public:
     bool isAtRest() const noexcept;
 
 private:
+    void forget() noexcept;
     void loseTime (double lost_s) noexcept;
     void watch (const Reading&, double elapsed_s) noexcept;
     double watchAxes (const Reading&, double elapsed_s) noexcept;

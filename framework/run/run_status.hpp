@@ -37,6 +37,7 @@ struct RunStatus
         std::string_view name;                  ///< lives as long as the engine
         double force = 0.0, torque = 0.0;       ///< magnitudes, in N and N m
         Guard::Stop stop = Guard::Stop::none;   ///< why the guard withholds the effort now
+        bool is_latched = false;                ///< a stop lasts until rearm, even if another cause is reported
 
         // The latest stop, even after it has ended.
         Guard::Stop latest = Guard::Stop::none;

@@ -101,6 +101,7 @@ void Runner::publish() noexcept
         role.force = force;
         role.torque = applied.torque.norm();
         role.stop = guard.stop();
+        role.is_latched = guard.isLatched();
         role.event = guard.latest();
         role.latest = role.event.why;
     }

@@ -20,7 +20,7 @@ double now() noexcept { return std::chrono::duration<double> (std::chrono::stead
 }   // namespace
 
 Emergency::Emergency (Engine& e)
-    : engine (e), pressed_at (-std::numeric_limits<double>::infinity()), alarms_told (Failsafe::alarms()), alarms_stopped (alarms_told)
+    : engine (e), pressed_at (-std::numeric_limits<double>::infinity()), rearmed_at (pressed_at.load()), alarms_told (Failsafe::alarms()), alarms_stopped (alarms_told)
 {
     static_assert (std::atomic<double>::is_always_lock_free, "a signal handler writes it");
     under_signals = this;
@@ -45,6 +45,9 @@ Result<> Emergency::rearm()
     if (now() < pressed_at + pause_s)
         return Message::error ("run/rearm_too_early", {}, "the emergency stop was pressed less than a second ago",
                                "wait a second, make sure that forces may safely return, and rearm again");
+    if (now() < rearmed_at + pause_s)
+        return Message::error ("run/rearm_too_early", {}, "the last rearm was less than a second ago", "find out what stops the run, then rearm again");
+    rearmed_at = now();
     engine.rearm();
     // A press on another thread since the look above must not be undone. A later press sees this rearm, and stops after it.
     if (! pressed_at.compare_exchange_strong (last, last)) engine.emergencyStop();
@@ -53,11 +56,16 @@ Result<> Emergency::rearm()
 
 void Emergency::readKeys (const std::stop_token& stop)
 {
+    double r_at = -repeat_s;
     while (! stop.stop_requested())
         if (const char key = keys.next (std::chrono::milliseconds (20)); key == ' ')
             press();
-        else if ((key == 'r' || key == 'R') && ! rearm())
-            came_too_early = true;
+        else if (key == 'r' || key == 'R')
+        {
+            // A key that is held down repeats: only the first press counts.
+            const bool repeats = now() < std::exchange (r_at, now()) + repeat_s;
+            if (! repeats && ! rearm()) came_too_early = true;
+        }
 }
 
 void Emergency::before (Plan&, std::uint64_t) noexcept

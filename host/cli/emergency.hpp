@@ -20,7 +20,8 @@ namespace tactus::host
 class Emergency final : public RunListener
 {
 public:
-    static constexpr double pause_s = 1.0;   ///< shortest time between a stop and a rearm
+    static constexpr double pause_s = 1.0;    ///< shortest time from a stop, or from a rearm, to the next rearm
+    static constexpr double repeat_s = 0.7;   ///< an R that follows another one within this time comes from a key held down
 
     /// The engine must outlive this object.
     explicit Emergency (Engine&);
@@ -33,7 +34,7 @@ public:
     /// Stops at once. [any thread, also in a signal handler]
     void press() noexcept;
 
-    /// Lets forces rise again. Refuses within `pause_s` of a stop. [any thread]
+    /// Lets forces rise again. Refuses within `pause_s` of a stop or a rearm. Id: run/rearm_too_early. [any thread]
     Result<> rearm();
 
     /// Messages for the user since the last call, one per line; "" if there are none. [main thread]
@@ -47,6 +48,7 @@ private:
     Engine& engine;
     Keys keys;
     std::atomic<double> pressed_at;   // time on the steady clock, in s
+    std::atomic<double> rearmed_at;   // likewise
     std::atomic<bool> came_too_early { false };
     std::uint32_t alarms_told;      // number of alarms that the user has been told about
     std::uint32_t alarms_stopped;   // number of alarms that have stopped the run   [tick thread]

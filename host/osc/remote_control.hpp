@@ -152,6 +152,7 @@ private:
     OscPort& port;
     Controlled& controlled;
     const std::string token;
+    std::chrono::steady_clock::time_point wrong_token_until {};   // until then, no token is accepted
     std::vector<Probe> probes;
     std::optional<Capture> capture;
     std::vector<std::string> components;

@@ -12,7 +12,8 @@ namespace tactus::host
 namespace
 {
 constexpr double least = 1e-3, most = 1e3;   // a scale beyond these limits must be a mistake
-}
+constexpr double farthest = 1e3;             // in m; farther away, rounding would hide the motion of the tool from the guard
+}   // namespace
 
 Workspace readWorkspace (const Json& json, std::string where, Messages& messages)
 {
@@ -20,14 +21,18 @@ Workspace readWorkspace (const Json& json, std::string where, Messages& messages
     Workspace w;
     w.scale = in.number ("scale", unit::gain, { .min = least, .max = most }, w.scale);
     w.offset = in.vector ("offset", unit::metre, w.offset);
+    if (! (w.offset.cwiseAbs().maxCoeff() <= farthest))
+    {
+        in.error ("offset", "device/out_of_range", "the offset is more than 1000 m", "give the position of the device's origin in the graph, in m");
+        w.offset = Vec3::Zero();
+    }
     in.finish();
     return w;
 }
 
 GuardLimits inWorkspace (GuardLimits limits, const Workspace& w) noexcept
 {
-    limits.max_speed *= w.scale;
-    limits.max_energy *= w.scale;
+    limits.workspace_scale *= w.scale;
     return limits;
 }
 

@@ -32,9 +32,9 @@ struct Workspace
 /// Reads `{"scale": 2, "offset": [0, 0, "1 cm"]}`; both keys are optional. The scale is from 0.001 to 1000. Ids: those of ObjectReader.
 Workspace readWorkspace (const Json&, std::string where, Messages&);
 
-/// Converts the limits of a device for its guard, which sees positions in the graph. Speeds in the graph are `scale` times
-/// the speeds of the device, and so is the energy that EnergyWatch counts; efforts and times are the same. The limits on the
-/// hand are thus the ones in the device's profile, at any scale.
+/// Tells the guard of a device, which sees positions in the graph, how the graph scales them. The guard then watches the motion of
+/// the device itself, so limits of speed and energy are those of the hand, whether they come from the profile, the session or the
+/// graph.
 GuardLimits inWorkspace (GuardLimits ofDevice, const Workspace&) noexcept;
 
 /// A device whose readings are converted to a graph's workspace.

@@ -385,3 +385,38 @@ TEST_CASE ("the log of stops keeps the latest ones, and can be read while new on
             torn += entry.event.value != static_cast<double> (entry.tick);
     CHECK (torn == 0);
 }
+
+TEST_CASE ("guard: a rearm without a latched stop does not reset what the watches have counted", "[framework][guard]")
+{
+    rc::prop ("rearmed at any rate", [] {
+        const int every = *rc::gen::inRange (1, 100);
+        auto guard = guardWith ({ .max_impulse = 0.5, .impulse_window = 10.0 });
+        const int stopped = ticksUntilStop (guard, 2000, [&] (int k) {
+            if (k % every == 0) guard.rearm();
+            guard (pushing (1.0), {});
+        });
+        RC_ASSERT (stopped > 0);
+        RC_ASSERT (stopped <= 502);
+    });
+}
+
+TEST_CASE ("guard: a latched stop stays latched while another cause is reported", "[framework][guard]")
+{
+    auto guard = guardWith ({ .max_speed = 1.0 });
+    for (int k = 0; k < 100 && ! guard.isLatched(); ++k)
+        guard (pushing (1.0), at (4.0 * k * dt));
+    CHECK (guard.stop() == Guard::Stop::speed);
+    guard (pushing (1.0), { .valid = false });
+    CHECK (guard.stop() == Guard::Stop::stale);
+    CHECK (guard.isLatched());
+    guard.rearm();
+    CHECK_FALSE (guard.isLatched());
+}
+
+TEST_CASE ("guard: an angle beyond all numbers counts as a rotation that is too fast", "[framework][guard]")
+{
+    auto guard = guardWith ({ .max_angular_speed = 20.0 });
+    for (int k = 0; k < 4; ++k)
+        guard (pushing (1.0), { .rotation = { k % 2 * 1.5e308, k % 2 * 1.5e308, 0 } });
+    CHECK (guard.stop() == Guard::Stop::speed);
+}

@@ -8,6 +8,10 @@ chmod a+rx "$work"
 tactus=${TACTUS_PROGRAM:-build/release/bin/tactus}
 device=${GUEST_DEVICE:-build/release/bin/guest_device}
 export HOME=$work
+# Without hardware acceleration, reports arrive in bunches: the host then sees the tool move many times faster than it does.
+mkdir -p $work/profiles
+sed -e 's/"max_speed": "2 m\/s"/"max_speed": "100 m\/s"/' -e 's/"id": "tactus_board",/&\n  "replaces": "tactus_board",/' host/profiles/tactus_board.json >$work/profiles/tactus_board.json
+export TACTUS_PROFILES=$work/profiles
 failures=0
 say () { echo "== $*"; echo "$SECONDS $*" >>/run/results/times.txt; }
 fail () { echo "FAILED: $*"; failures=$((failures + 1)); }

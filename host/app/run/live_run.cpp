@@ -391,7 +391,7 @@ void LiveRun::rearm() noexcept
 bool LiveRun::isStoppedForGood() const
 {
     const auto now = status();
-    return isRunning() && std::ranges::any_of (now->shown(), [] (const RunStatus::Role& r) { return Guard::latches (r.stop); });
+    return isRunning() && std::ranges::any_of (now->shown(), &RunStatus::Role::is_latched);
 }
 
 std::optional<RunStatus> LiveRun::status() const { return isLive() ? std::optional (run->live().status()) : std::nullopt; }

@@ -233,6 +233,7 @@ TEST_CASE ("the emergency stop works, and rearm ends it", "[osc]")
     CHECK (text (stage.ask ("/tactus/rearm", stage.me()), 2) == "osc/rearm");   // it needs the token
     CHECK (text (stage.ask ("/tactus/rearm", String ("a1b2c4"), stage.me()), 2) == "osc/rearm");
     CHECK (stage.puppet.emergency);
+    std::this_thread::sleep_for (std::chrono::milliseconds (150));   // after a wrong token, none is accepted for 100 ms
     CHECK (text (stage.ask ("/tactus/rearm", String ("a1b2c3"), stage.me()), 0) == "/tactus/rearm");
     CHECK_FALSE (stage.puppet.emergency);
 

@@ -151,9 +151,10 @@ TEST_CASE ("at any scale, a guard stops a device exactly at the device's own lim
     const auto limits = inWorkspace ({ .max_force = 3.0, .max_slew = 100.0, .max_speed = 1.0, .max_impulse = 2.0 }, { 0.5, Vec3::Zero() });
     CHECK (limits.max_force == 3.0);
     CHECK (limits.max_slew == 100.0);
-    CHECK (limits.max_speed == 0.5);
+    CHECK (limits.max_speed == 1.0);
+    CHECK (limits.workspace_scale == 0.5);
     CHECK (limits.max_impulse == 2.0);
-    CHECK (inWorkspace ({}, { 0.5, Vec3::Zero() }) == GuardLimits {});
+    CHECK (tightest (limits, { .max_speed = 2.0 }).workspace_scale == 0.5);
 }
 
 TEST_CASE ("a workspace is read with units, and a bad one is refused", "[sessions]")
