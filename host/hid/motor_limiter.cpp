@@ -25,7 +25,7 @@ MotorLimiter::MotorLimiter (const Profile& profile, const std::vector<std::strin
     {
         const auto isI = [&] (const std::string& name) { return name == names[i]; };
         const bool renders_force = std::ranges::any_of (profile.force, isI), renders_torque = std::ranges::any_of (profile.torque, isI);
-        if (! renders_force && ! renders_torque && units[i] != "N" && units[i] != "N*m" && units[i] != "A") continue;
+        if (! renders_force && ! renders_torque && ! isMechanical (units[i])) continue;
         Motor motor { i };
         if (const auto* field = fieldOf (profile, names[i]); field != nullptr && field->encoding.law == Encoding::Law::linear)
         {

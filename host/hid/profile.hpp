@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -53,6 +54,8 @@ struct Bits
     bool is_float = false;     ///< IEEE 754, 32 bits
 
     std::size_t end() const noexcept { return at + size; }
+
+    bool operator== (const Bits&) const = default;
 };
 
 /// The expected answer to a feature report that requests a number from the device, such as the block of a new effect.
@@ -132,6 +135,8 @@ struct Encoding
     double steps = 1.0, reference = 1.0;
     std::vector<double> x, y;
     double scale = 1.0, offset = 0.0;   ///< applied to the law's result: raw = round ((law - offset)/scale)
+
+    bool operator== (const Encoding&) const = default;
 };
 
 /// A field of an output report.
@@ -153,12 +158,17 @@ struct OutputField
     std::string unit = "1";
 };
 
+/// True for the unit of an effort that pushes. Other units, such as Hz, are those of sounds and settings.
+inline bool isMechanical (std::string_view unit) noexcept { return unit == "N" || unit == "N*m" || unit == "A"; }
+
 /// A counter that the device requires in each report.
 struct SequenceNibble
 {
     std::size_t byte = 0;
     int shift = 0;
     int modulo = 16;
+
+    bool operator== (const SequenceNibble&) const = default;
 };
 
 /// CRC-32 (IEEE 802.3) over a prefix that is not sent, followed by the report up to the checksum. Little-endian.
@@ -166,6 +176,8 @@ struct Checksum
 {
     Bytes prefix;
     std::size_t at = 0;
+
+    bool operator== (const Checksum&) const = default;
 };
 
 /// Interleaved samples within a report.
@@ -200,6 +212,7 @@ struct OutputReport
 /// A device whose position and force need no conversion.
 struct Direct
 {
+    bool operator== (const Direct&) const = default;
 };
 
 /// A signal output for a motor that takes an amplitude, and perhaps a frequency, instead of samples. Each member names an effort.
@@ -214,6 +227,8 @@ struct LinearMap
 {
     Mat3 matrix = Mat3::Identity();
     Vec3 origin = Vec3::Zero();
+
+    bool operator== (const LinearMap&) const = default;
 };
 
 /// A motor with an encoder that drives a joint. The signs give the directions of rotation.
@@ -224,6 +239,8 @@ struct Drive
     double offset = 0.0;                                            ///< joint angle at count 0, in rad
     double torque_constant = 1.0;                                   ///< of the motor, in N m/A
     double max_current = std::numeric_limits<double>::infinity();   ///< A
+
+    bool operator== (const Drive&) const = default;
 };
 
 /// A rotating column (a), with an upper link (b) and a lower link (c) moved in parallel, as in WoodenHaptics: x = cos a (Lb
@@ -233,6 +250,8 @@ struct SerialArm
     std::array<Drive, 3> drives;
     Vec3 links = Vec3::Ones();    ///< La, Lb, Lc in m
     Vec3 origin = Vec3::Zero();   ///< the point that is reported as position 0, in m
+
+    bool operator== (const SerialArm&) const = default;
 };
 
 /// Two driven links whose ends are joined by two passive links, in the plane z = 0. The left pivot is at (-base, 0), the
@@ -243,6 +262,8 @@ struct FiveBar
     double base = 0.0;                                    ///< distance between the pivots, in m
     std::array<double, 4> links { 1.0, 1.0, 1.0, 1.0 };   ///< lengths in m: right driven, right passive, left passive, left driven
     Vec3 origin = Vec3::Zero();                           ///< the point that is reported as position 0, in m
+
+    bool operator== (const FiveBar&) const = default;
 };
 
 using KinematicsModel = std::variant<Direct, LinearMap, SerialArm, FiveBar>;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "profile_check.hpp"
 #include "bits.hpp"
+#include "report_encoder.hpp"
 
 #include <framework/node/device.hpp>
 #include <framework/run/device/guard_limits.hpp>
@@ -70,6 +71,7 @@ public:
         three ("rotation", p.rotation, axes, "rad");
         three ("force", p.force, efforts, direct ? "N" : "");
         three ("torque", p.torque, efforts, "N*m");
+        twice();
         known ("pressure", p.pressure, axes, "N");
         known ("valid", p.valid, axes, "");
         for (const auto& alarm : p.alarms)
@@ -105,6 +107,23 @@ private:
     {
         for (const auto& name : names)
             known (key, name, among, unit);
+    }
+
+    /// Checks that no field renders two components: their sum would exceed the limit of each.
+    void twice()
+    {
+        std::vector<std::string> seen;
+        const auto look = [&] (std::string_view key, const std::array<std::string, 3>& names) {
+            for (const auto& name : names)
+            {
+                if (! name.empty() && std::ranges::count (seen, name) > 0)
+                    in.error (key, "profile/twice", quote (name) + " is named more than once in \"force\" and \"torque\"",
+                              "name each field once, and write null for a component that has no field of its own");
+                seen.push_back (name);
+            }
+        };
+        look ("force", p.force);
+        look ("torque", p.torque);
     }
 
     void signals()
@@ -154,15 +173,24 @@ private:
                 if (field.source == OutputField::Source::enable && raw != 0)
                     in.error ("outputs", "profile/neutral", "the neutral report of " + quote (report.name) + " enables the motors with " + quote (field.name),
                               "set the bits of this field to 0 in the neutral report");
-                const bool pushes = std::ranges::count (p.force, field.name) > 0 || std::ranges::count (p.torque, field.name) > 0;
-                if (field.source != OutputField::Source::effort || ! pushes || field.encoding.law != Encoding::Law::linear) continue;
-                const double rest = numberOf (field.bits, raw) * field.encoding.scale + field.encoding.offset;
-                if (std::abs (rest) > std::abs (field.encoding.scale))
-                    in.error ("outputs", "profile/neutral",
-                              "the neutral report of " + quote (report.name) + " asks for " + numberText (rest) + " " + field.unit + " in "
-                                  + quote (field.name),
-                              "in the neutral report, write the raw value of this field that means no force");
+                const bool pushes = std::ranges::count (p.force, field.name) > 0 || std::ranges::count (p.torque, field.name) > 0 || isMechanical (field.unit);
+                if (field.source == OutputField::Source::effort && pushes) rest (report, field, numberOf (field.bits, raw));
             }
+    }
+
+    /// Checks the number that the neutral report has in the field of a motor.
+    void rest (const OutputReport& report, const OutputField& field, double number)
+    {
+        const auto& e = field.encoding;
+        std::string asked;   // what the number asks for; empty if it is no force
+        if (const double value = number * e.scale + e.offset; e.law == Encoding::Law::linear && ! (std::abs (value) <= std::abs (e.scale)))
+            asked = numberText (value) + " " + field.unit;
+        if (const double zero = encoded (e, 0.0); e.law == Encoding::Law::table && std::isfinite (zero))   // else the scale is refused elsewhere
+            if (const double none = numberOf (field.bits, rawOf (field.bits, zero)); number != none)
+                asked = "the raw value " + numberText (number) + ", but no force is " + numberText (none) + ",";
+        if (! asked.empty())
+            in.error ("outputs", "profile/neutral", "the neutral report of " + quote (report.name) + " asks for " + asked + " in " + quote (field.name),
+                      "in the neutral report, write the raw value of this field that means no force");
     }
 
     /// Checks that each effort has a limit. For an effort that is neither force nor torque, min and max of its field are enough.

@@ -9,6 +9,7 @@
 #include <framework/run/device/guard_limits.hpp>
 #include <framework/text/json_text.hpp>
 #include <framework/text/quote.hpp>
+#include <framework/text/units.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -73,12 +74,20 @@ std::string motorUnit (const Profile& p)
     return {};
 }
 
+/// True if both texts name one unit, as "N/s" and "kg*m/s3" do. A unit that Tactus does not know, such as A, equals only itself.
+bool isSameUnit (const std::string& a, const std::string& b)
+{
+    if (a == b) return true;
+    const auto x = parseMeasure ("1 " + a), y = parseMeasure ("1 " + b);
+    return x && y && x->value == y->value && x->dimension == y->dimension && x->angular == y->angular;
+}
+
 /// Reads a limit of the motors, which may be a bare number, since Tactus does not know all units of motors.
 double motorLimit (ProfileFields& in, const char* key, const std::string& unit)
 {
     const auto [value, given] = in.scale (key, GuardLimits::none);
     if (! (value > 0.0)) in.error (key, "profile/out_of_range", std::string (key) + " must be greater than 0", "write a number greater than 0");
-    if (! given.empty() && given != unit)
+    if (! given.empty() && ! isSameUnit (given, unit))
         in.error (key, "profile/unit", std::string (key) + " is in " + given + ", but the motors of this profile need " + unit,
                   "write a number in " + unit);
     return value;

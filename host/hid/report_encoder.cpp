@@ -52,6 +52,8 @@ double valueOf (const Encoding& e, double number) noexcept
 }
 }   // namespace
 
+double encoded (const Encoding& e, double value) noexcept { return (lawOf (e, value) - e.offset) / e.scale; }
+
 ReportEncoder::ReportEncoder (std::shared_ptr<const Profile> p, const ReportDecoder& decoder) : profile (std::move (p))
 {
     for (const auto& report : profile->outputs)
@@ -124,7 +126,7 @@ std::span<const std::uint8_t> ReportEncoder::encode (std::size_t report, const s
             raw = decoder.raw (static_cast<std::size_t> (f.index));
         else if (const double value = values[static_cast<std::size_t> (f.index)]; isFinite (value))
         {
-            const double number = (lawOf (field.encoding, std::clamp (value, field.min, field.max)) - field.encoding.offset) / field.encoding.scale;
+            const double number = encoded (field.encoding, std::clamp (value, field.min, field.max));
             if (number == number) raw = rawOf (field.bits, number);
         }
         putBits (field.bits, raw, body);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "profile_library.hpp"
 #include <framework/text/quote.hpp>
+#include <host/hid/drive_difference.hpp>
 #include <host/platform/device_file.hpp>
 
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -37,6 +39,24 @@ bool canFitOneDevice (const Profile& a, const Profile& b)
     return std::ranges::any_of (a.match, [&] (const MatchRule& x) {
         return std::ranges::any_of (b.match, [&] (const MatchRule& y) { return canFitOneDevice (x, y); });
     });
+}
+
+/// An error if the user's profile drives the device of a shipped one otherwise, because the limits of the shipped one then mean
+/// nothing. If several shipped profiles fit that device, one of them must be the same, or replaced.
+std::optional<Message> otherDrive (const std::vector<std::shared_ptr<const Profile>>& shipped, const Profile& own)
+{
+    for (const auto& one : shipped)
+    {
+        const auto allows = [&] (const auto& other) {
+            return canFitOneDevice (own, *other) && canFitOneDevice (*one, *other) && (other->id == own.replaces || driveDifference (own, *other).empty());
+        };
+        if (! canFitOneDevice (own, *one) || std::ranges::any_of (shipped, allows)) continue;
+        return Message::error ("profile/competes", "/match",
+                               "the profile fits the same devices as the shipped " + quote (one->id) + " but drives them otherwise ("
+                                   + driveDifference (own, *one) + "), so it is not used",
+                               "fit other devices; or, to use it instead of the shipped one and its limits, add \"replaces\": \"" + one->id + '"');
+    }
+    return {};
 }
 
 /// The user's profile with the limits of the shipped ones that can fit the same device, except the one that it replaces. Appends
@@ -88,6 +108,11 @@ LoadedProfiles joined (LoadedProfiles own, LoadedProfiles shipped)
         {
             note (Message::error ("profile/shadows", "/id", "the profile has the id of a shipped one, " + quote (profile->id) + ", so it is not used",
                                   "give it another id; or, to use it instead of the shipped one and its limits, add \"replaces\": \"" + profile->id + '"'));
+            continue;
+        }
+        if (auto error = otherDrive (shipped.profiles, *profile))
+        {
+            note (std::move (*error));
             continue;
         }
         if (isShipped (profile->replaces))

@@ -17,7 +17,8 @@ std::filesystem::path ownProfileFolder();
 
 /// The user's own profiles and those that come with Tactus. An own one may exceed the limits of a shipped one only if its `replaces`
 /// names that one, which is then not used; this gives a warning. Otherwise, an own one with the id of a shipped one is not used, and
-/// one that can fit the same device has the limits of both. Ids: profile/shadows, and the warnings profile/replaces, profile/competes.
+/// one that can fit the same device is used only if it drives nothing or drives the device as the shipped one does (driveDifference);
+/// it has the limits of both. Ids: the errors profile/shadows and profile/competes, the warnings profile/replaces and profile/competes.
 LoadedProfiles joined (LoadedProfiles own, LoadedProfiles shipped);
 
 /// All profiles in both folders, joined. [main thread]

@@ -169,6 +169,10 @@ TEST_CASE ("every error in a profile is reported with its position")
         { "/position", Json ({ "x" }), "profile/kind" },
         { "/rotation/0", "x", "profile/unit" },
         { "/force/0", "hum", "profile/unit" },
+        { "/force/1", "fx", "profile/twice" },
+        { "/torque", Json ({ "fx", nullptr, nullptr }), "profile/twice" },
+        { "/outputs/0/fields/1", Json::parse (R"({ "name": "lift", "at": 4, "type": "u8", "scale": "1 N", "offset": "-2 N" })"), "profile/neutral" },
+        { "/outputs/0/fields/1", Json::parse (R"({ "name": "coil", "at": 4, "type": "u8", "unit": "A", "offset": -2 })"), "profile/neutral" },
         { "/pressure", "x", "profile/unit" },
         { "/valid", "homed", "profile/unknown_name" },
         { "/alarms", Json::parse (R"([{ "field": "fog", "means": "too_hot" }])"), "profile/unknown_name" },
@@ -237,6 +241,50 @@ TEST_CASE ("a profile with a slew limit whose effort has no maximum is refused, 
     CHECK_FALSE (loaded.profile);
     REQUIRE (loaded.messages.size() == 1);
     CHECK (loaded.messages[0].id == "device/slow_stop");
+}
+
+TEST_CASE ("a force with a table is refused unless its neutral report holds the raw value of no force")
+{
+    auto json = good();
+    json["tables"]["push"] = Json::parse (R"({ "x": [-2, 2], "y": [0, 200] })");
+    json["outputs"][0]["fields"][0] = Json::parse (R"({ "name": "fx", "at": 2, "type": "u16le", "table": "push", "unit": "N" })");
+    for (const auto& [neutral, is_fine] : { std::pair { "03 00 64 00*7", true }, { "03 00 63 00*7", false }, { "03 00*9", false } })
+    {
+        INFO (neutral);
+        json["outputs"][0]["neutral"] = neutral;
+        const auto loaded = readProfile (json);
+        CHECK ((loaded.profile != nullptr) == is_fine);
+        if (! is_fine) CHECK (loaded.messages.at (0).id == "profile/neutral");
+    }
+}
+
+TEST_CASE ("an effort in N that is no force may rest within one count of zero")
+{
+    CHECK (readProfile (with ("/outputs/0/fields/1", Json::parse (R"({ "name": "lift", "at": 4, "type": "u8", "scale": "1 N", "offset": "-1 N" })"))).profile);
+}
+
+TEST_CASE ("the limits of a motor accept every way to write its unit")
+{
+    const auto limited = [] (const Json& most, const Json& slew) {
+        auto json = with ("/limits/max_motor", most);
+        json["limits"]["max_motor_slew"] = slew;
+        return readProfile (json);
+    };
+    for (const auto* slew : { "200 N/s", "0.2 N/ms", "200 kg*m/s3", "2e5 mN/s" })
+    {
+        INFO (slew);
+        const auto loaded = limited ("2 N", slew);
+        CHECK (loaded.messages.empty());
+        REQUIRE (loaded.profile);
+        CHECK (loaded.profile->limits.max_motor_slew == Approx (200.0));
+    }
+    for (const auto* slew : { "200 N", "200 N*m/s", "200 1/s", "200 rad/s" })
+    {
+        INFO (slew);
+        const auto loaded = limited ("2 N", slew);
+        REQUIRE (loaded.messages.size() == 1);
+        CHECK (loaded.messages[0].id == "profile/unit");
+    }
 }
 
 TEST_CASE ("too many items of any kind are refused")

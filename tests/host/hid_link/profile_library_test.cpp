@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <functional>
+#include <limits>
 #include <optional>
 
 using namespace tactus;
@@ -27,6 +29,44 @@ LoadedProfiles having (const std::string& id, double max_force, const std::strin
     profile.file = "own/" + id + ".json";
     profile.limits.guard.max_force = max_force;
     return { { std::make_shared<const Profile> (std::move (profile)) }, {} };
+}
+
+using Change = std::function<void (Profile&)>;
+
+/// A changed copy of a shipped profile, as a user's own one, joined with all shipped ones.
+LoadedProfiles withCopyOf (const std::string& id, const Change& change)
+{
+    auto shipped = loadProfiles (std::filesystem::path (TACTUS_SOURCE_DIR) / "host" / "profiles");
+    const auto original = profileNamed (shipped, id);
+    REQUIRE (original);
+    auto copy = *original;
+    copy.id = "mine";
+    change (copy);
+    return joined ({ { std::make_shared<const Profile> (std::move (copy)) }, {} }, std::move (shipped));
+}
+
+/// The texts of the errors; empty if the copy is used.
+std::string refusal (const std::string& id, const Change& change)
+{
+    const auto all = withCopyOf (id, change);
+    std::string texts;
+    for (const auto& m : all.messages)
+        if (m.severity == Message::Severity::error)
+        {
+            CHECK (m.id == "profile/competes");
+            CHECK (m.remedy.find ("\"replaces\": \"") != std::string::npos);
+            texts += m.text + '\n';
+        }
+    CHECK ((profileNamed (all, "mine") == nullptr) == ! texts.empty());
+    CHECK (profileNamed (all, id));
+    return texts;
+}
+
+OutputField& fieldOf (Profile& profile, const std::string& name)
+{
+    const auto at = std::ranges::find (profile.outputs[0].fields, name, &OutputField::name);
+    REQUIRE (at != profile.outputs[0].fields.end());
+    return *at;
 }
 }   // namespace
 
@@ -104,4 +144,107 @@ TEST_CASE ("own profiles: one that replaces a shipped profile keeps to the limit
     CHECK (all.messages[0].id == "profile/replaces");
     CHECK (all.messages[1].id == "profile/competes");
     CHECK (all.messages[2].id == "profile/shadows");
+}
+
+TEST_CASE ("own profiles: one that drives the device of a shipped profile otherwise is refused", "[hid]")
+{
+    struct Case
+    {
+        std::string differs;
+        Change make;
+    };
+    const Case cases[] = {
+        { "instead of force x",   // signals of 1e6 in place of 2 N
+          [] (Profile& p) {
+              p.force = p.torque = {};
+              p.signals = { { "fx", {} }, { "fy", {} }, { "fz", {} } };
+              p.limits.guard.max_signal = 1e6;
+          } },
+        { "instead of force x", [] (Profile& p) { p.force = {}; } },
+        { "instead of force x", [] (Profile& p) { std::swap (p.force[0], p.force[1]); } },
+        { "instead of torque z", [] (Profile& p) { p.torque[2].clear(); } },
+        { "instead of the effort 'effort1'", [] (Profile& p) { fieldOf (p, "effort1").name = "effort9"; } },   // the guard would not count its energy
+        { "another scale", [] (Profile& p) { fieldOf (p, "fx").encoding.scale = 1e-9; } },
+        { "another scale", [] (Profile& p) { fieldOf (p, "fx").encoding.offset = 1.0; } },
+        { "another scale", [] (Profile& p) { fieldOf (p, "effort1").unit = "A"; } },
+        { "another scale",
+          [] (Profile& p) {
+              auto& e = fieldOf (p, "fx").encoding;
+              e.law = Encoding::Law::table;
+              e.x = { 0.0, 1.0 };
+              e.y = { 0.0, 1000.0 };
+          } },
+        { "other bits", [] (Profile& p) { fieldOf (p, "fx").bits.big_endian = true; } },
+        { "other bits", [] (Profile& p) { p.outputs[0].fields[0].bits.at = 8 * 11; } },   // the enable bit within a force
+        { "constants", [] (Profile& p) { p.outputs[0].body[8] = 1; } },
+        { "constants", [] (Profile& p) { p.outputs[0].id = 0x54; } },
+        { "stream", [] (Profile& p) { p.outputs[0].stream = Stream { .at = 48, .frames = 4, .rate = 1000.0, .channels = { "l" } }; } },
+        { "kinematics", [] (Profile& p) { p.kinematics = LinearMap { .matrix = 10.0 * Mat3::Identity() }; } },
+        { "axes", [] (Profile& p) { p.axes.col (0) = -p.axes.col (0); } },
+        { "init", [] (Profile& p) { p.init.push_back ({ .kind = Step::Kind::output, .bytes = Bytes (64) }); } },
+    };
+    for (const auto& [differs, make] : cases)
+    {
+        const auto text = refusal ("tactus_board", make);
+        INFO (differs << ": " << text);
+        CHECK (text.find (differs) != std::string::npos);
+        CHECK (text.find ("'tactus_board'") != std::string::npos);
+    }
+
+    const auto arm = [] (const Change& make) { return refusal ("woodenhaptics_usb", make); };
+    CHECK_FALSE (arm ([] (Profile& p) { fieldOf (p, "motor_a").max = 6.0; }).empty());
+    CHECK_FALSE (arm ([] (Profile& p) { fieldOf (p, "motor_a").min = -std::numeric_limits<double>::infinity(); }).empty());
+    CHECK_FALSE (arm ([] (Profile& p) { std::get<SerialArm> (p.kinematics).drives[1].torque_constant = 0.001; }).empty());
+}
+
+TEST_CASE ("own profiles: one that drives the device of a shipped profile just as that does, or less, is used", "[hid]")
+{
+    const Change fine[] = {
+        [] (Profile&) {},
+        [] (Profile& p) { p.limits.guard.max_force = 50.0; },
+        [] (Profile& p) { fieldOf (p, "fx").max = 1.0; },
+        [] (Profile& p) { p.outputs[0].fields.pop_back(); },
+        [] (Profile& p) { p.inputs[0].fields.pop_back(); },
+        [] (Profile& p) { fieldOf (p, "fx").name = p.force[0] = "push"; },
+        [] (Profile& p) {   // readings only
+            p.outputs.clear();
+            p.force = p.torque = {};
+            p.kinematics = LinearMap {};
+        },
+    };
+    for (const auto& change : fine)
+        CHECK (refusal ("tactus_board", change) == "");
+
+    const auto stronger = withCopyOf ("tactus_board", fine[1]);
+    CHECK (profileNamed (stronger, "mine")->limits.guard.max_force == 2.0);
+
+    const Change scaled = [] (Profile& p) { fieldOf (p, "fx").encoding.scale = 1e-9; };
+    const auto replacing = withCopyOf ("tactus_board", [&] (Profile& p) {
+        scaled (p);
+        p.replaces = "tactus_board";
+    });
+    CHECK (profileNamed (replacing, "mine"));
+    CHECK_FALSE (profileNamed (replacing, "tactus_board"));
+    CHECK_FALSE (refusal ("tactus_board", [&] (Profile& p) {   // a shipped profile of another device
+                     scaled (p);
+                     p.replaces = "woodenhaptics_usb";
+                 })
+                     .empty());
+}
+
+TEST_CASE ("own profiles: where several shipped profiles fit a device, the same drive as one of them is enough", "[hid]")
+{
+    const Change scaled = [] (Profile& p) { p.outputs[0].fields[0].encoding.scale *= 0.1; };
+    for (const auto* id : { "dualsense_usb", "dualsense_bluetooth", "dualsense_bluetooth_samples" })
+    {
+        INFO (id);
+        CHECK (refusal (id, [] (Profile&) {}) == "");
+        CHECK_FALSE (refusal (id, scaled).empty());
+        const auto replacing = withCopyOf (id, [&] (Profile& p) {
+            scaled (p);
+            p.replaces = id;
+        });
+        CHECK (profileNamed (replacing, "mine"));
+        CHECK_FALSE (profileNamed (replacing, id));
+    }
 }
