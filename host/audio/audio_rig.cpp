@@ -15,6 +15,10 @@
 
 namespace tactus::host::audio
 {
+namespace
+{
+constexpr double longest_fall_s = 0.5;   // the longest stop that checkStops() allows a slew limit
+}
 
 AudioRig::AudioRig (AudioSettings settings, CardSystem& system) : wanted (std::move (settings)), cards (system), keeper (system, *this) {}
 
@@ -75,6 +79,9 @@ Messages AudioRig::begin (const Plan& plan, double tick_rate_hz, const Engine* e
     if (hasErrors (messages)) return messages;
 
     makeStreams (played, per_tick);
+    limits = {};
+    for (const auto* device : devices)
+        device->tighten (limits);
     mixer = std::make_unique<PortMixer> (played, per_tick, tick_hz);
     has_begun = true;
     if (auto opened = openCard (played); ! opened) messages.push_back (std::move (opened).error());
@@ -169,6 +176,8 @@ void AudioRig::begin (const OpenedFormat& opened)
     const double silence = std::max (CardKeeper::silence_s, CardKeeper::silence_blocks * opened.block / opened.rate_hz);
     ticks_of_silence = static_cast<std::uint64_t> (silence * tick_hz) + 1;
     last_block = {};
+    for (auto& limit : limits)
+        limit.restart();
     if (! capture || opened.rate_hz == capture_rate) return;
     captures = nullptr;
     capture_result =
@@ -239,7 +248,10 @@ void AudioRig::block (const float* const* in, int ins, float* const* out, int ou
     for (int from = 0; from < frames; from += format.block)
         play (in, ins, out, outs, from, std::min (format.block, frames - from));
     for (int c = 0; c < outs; ++c)
-        limit (out[c], frames);
+    {
+        clip (out[c], frames);
+        if (c < most_channels) limits[static_cast<std::size_t> (c)](out[c], frames, format.rate_hz);
+    }
     if (auto* to = captures.load (std::memory_order_acquire)) to->note (out, outs, frames);
 }
 
@@ -273,7 +285,7 @@ void AudioRig::play (const float* const* in, int ins, float* const* out, int out
     }
 }
 
-void AudioRig::limit (float* samples, int frames) noexcept
+void AudioRig::clip (float* samples, int frames) noexcept
 {
     std::uint64_t beyond = 0;
     for (int i = 0; i < frames; ++i)
@@ -312,7 +324,10 @@ void AudioRig::playRest() const
     };
     while (goes() && flows())
         std::this_thread::sleep_for (1ms);
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double> (OutStream::fade_out_s + 2.0 * format.block / format.rate_hz);
+    double fall = 0.0;
+    for (const auto& limit : limits)
+        fall = std::max (fall, std::min (limit.fall(), longest_fall_s));
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double> (OutStream::fade_out_s + fall + 2.0 * format.block / format.rate_hz);
     while (goes() && std::chrono::steady_clock::now() < end)
         std::this_thread::sleep_for (1ms);
 }

@@ -116,7 +116,7 @@ private:
     void begin (const OpenedFormat&) override;
     void block (const float* const* in, int ins, float* const* out, int outs, int frames) noexcept override;
     void play (const float* const* in, int ins, float* const* out, int outs, int from, int frames) noexcept;
-    void limit (float* samples, int frames) noexcept;
+    void clip (float* samples, int frames) noexcept;
     void playRest() const;
     Messages chooseRoutes (const Plan&, std::vector<Route>& played, std::vector<int>& per_tick) const;
     void makeStreams (const std::vector<Route>&, const std::vector<int>& per_tick);
@@ -144,6 +144,7 @@ private:
     std::atomic<std::uint64_t> ticks_of_silence = 0;
     std::atomic<bool> plays = false;
 
+    std::array<ChannelLimit, most_channels> limits {};   // by channel of the card   [audio thread, while a card is open]
     std::atomic<std::uint64_t> clipped = 0, late_blocks = 0;
     std::chrono::steady_clock::time_point last_block {};   // [audio thread]
     std::unique_ptr<CardCapture> capture;
