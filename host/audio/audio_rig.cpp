@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 #include <thread>
 #include <utility>
 
@@ -73,15 +74,15 @@ Messages AudioRig::begin (const Plan& plan, double tick_rate_hz, const Engine* e
 {
     tick_hz = tick_rate_hz;
     engine = e;
+    limits = {};
+    for (const auto* device : devices)
+        device->tighten (limits);
     std::vector<int> per_tick;
     std::vector<Route> played;
     auto messages = chooseRoutes (plan, played, per_tick);
     if (hasErrors (messages)) return messages;
 
     makeStreams (played, per_tick);
-    limits = {};
-    for (const auto* device : devices)
-        device->tighten (limits);
     mixer = std::make_unique<PortMixer> (played, per_tick, tick_hz);
     has_begun = true;
     if (auto opened = openCard (played); ! opened) messages.push_back (std::move (opened).error());
@@ -339,6 +340,11 @@ Result<> AudioRig::end()
     captures = nullptr;
     if (! capture) return {};
     return std::exchange (capture, nullptr)->commit();
+}
+
+bool AudioRig::limitsFirst (int count) const noexcept
+{
+    return std::ranges::any_of (std::span (limits).first (static_cast<std::size_t> (std::clamp (count, 0, most_channels))), &ChannelLimit::isSet);
 }
 
 AudioStatus AudioRig::status() const

@@ -185,8 +185,11 @@ TEST_CASE ("a route onto the channel of a role obeys the limits of the role; oth
     Bench b { s, { { "stylus", roleOn (plain, limited) } }, routes };
     b.run (0.5);
     checkWithin (b);
+    CHECK (b.rig.limitsFirst (2));
+    CHECK_FALSE (b.rig.limitsFirst (0));
     Bench without { s, { { "stylus", roleOn (plain, "") } }, routes };
     without.run (0.5);
+    CHECK_FALSE (without.rig.limitsFirst (2));
     CHECK (without.peak() > 3.9);
     CHECK (b.peak (1) == Approx (2.0).margin (0.3));
     CHECK (b.card.played[1] == without.card.played[1]);
