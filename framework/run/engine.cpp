@@ -96,6 +96,8 @@ void Engine::equip (Channel& channel, Device& device, const GuardLimits& limits,
     channel.device = &device;
     channel.guard.prepare (limits, dt_s, layout);
     channel.is_news = true;
+    const auto valid = tightest (limits, limits);   // as the guard reads them: a limit that is negative or not a number lets nothing through
+    device.limitSignals (valid.max_signal, valid.max_signal_slew);
     device.prepare (dt_s);
 }
 

@@ -29,6 +29,14 @@ void AudioDevice::write (const Effort& guarded) noexcept
     }
 }
 
+void AudioDevice::tighten (std::span<ChannelLimit> channels) const noexcept
+{
+    if (max_signal == GuardLimits::none) return;
+    for (const auto& use : role.outputs)
+        if (const auto at = static_cast<std::size_t> (use.channel - 1); at < channels.size())
+            channels[at].tighten (max_signal / use.full_scale.value, max_signal_slew / use.full_scale.value);
+}
+
 void AudioDevice::hear (std::span<const float> channels) noexcept
 {
     for (std::size_t i = 0; i < role.inputs.size(); ++i)

@@ -2,9 +2,11 @@
 #pragma once
 
 #include "audio_settings.hpp"
+#include "channel_limit.hpp"
 #include "high_pass.hpp"
 
 #include <framework/node/device.hpp>
+#include <framework/run/guard.hpp>
 
 #include <atomic>
 #include <functional>
@@ -29,6 +31,11 @@ public:
     AudioDevice& operator= (const AudioDevice&) = delete;
 
     void prepare (double dt_s) override;
+    void limitSignals (double max, double max_slew) override
+    {
+        max_signal = max;
+        max_signal_slew = max_slew;
+    }
     Reading read() noexcept override;
     void write (const Effort& guarded) noexcept override;
     DeviceLayout layout() const override
@@ -37,6 +44,9 @@ public:
     }
 
     const AudioRole& uses() const noexcept { return role; }
+
+    /// Adds the limits of the role to those of the channels that its outputs drive. Call after limitSignals(). [main thread]
+    void tighten (std::span<ChannelLimit> channels) const noexcept;
 
     /// Stores the input samples of this tick, by channel. Call before read(). [tick thread]
     void hear (std::span<const float> channels) noexcept;
@@ -50,6 +60,7 @@ private:
     const std::function<void (const AudioDevice&)> on_end;
     std::vector<HighPass> filters;
     Channels heard, samples;
+    double max_signal = GuardLimits::none, max_signal_slew = GuardLimits::none;
 };
 
 }   // namespace tactus::host::audio

@@ -10,11 +10,16 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 #include <thread>
 #include <utility>
 
 namespace tactus::host::audio
 {
+namespace
+{
+constexpr double longest_fall_s = 0.5;   // the longest stop that checkStops() allows a slew limit
+}
 
 AudioRig::AudioRig (AudioSettings settings, CardSystem& system) : wanted (std::move (settings)), cards (system), keeper (system, *this) {}
 
@@ -69,6 +74,9 @@ Messages AudioRig::begin (const Plan& plan, double tick_rate_hz, const Engine* e
 {
     tick_hz = tick_rate_hz;
     engine = e;
+    limits = {};
+    for (const auto* device : devices)
+        device->tighten (limits);
     std::vector<int> per_tick;
     std::vector<Route> played;
     auto messages = chooseRoutes (plan, played, per_tick);
@@ -169,6 +177,8 @@ void AudioRig::begin (const OpenedFormat& opened)
     const double silence = std::max (CardKeeper::silence_s, CardKeeper::silence_blocks * opened.block / opened.rate_hz);
     ticks_of_silence = static_cast<std::uint64_t> (silence * tick_hz) + 1;
     last_block = {};
+    for (auto& limit : limits)
+        limit.restart();
     if (! capture || opened.rate_hz == capture_rate) return;
     captures = nullptr;
     capture_result =
@@ -239,7 +249,10 @@ void AudioRig::block (const float* const* in, int ins, float* const* out, int ou
     for (int from = 0; from < frames; from += format.block)
         play (in, ins, out, outs, from, std::min (format.block, frames - from));
     for (int c = 0; c < outs; ++c)
-        limit (out[c], frames);
+    {
+        clip (out[c], frames);
+        if (c < most_channels) limits[static_cast<std::size_t> (c)](out[c], frames, format.rate_hz);
+    }
     if (auto* to = captures.load (std::memory_order_acquire)) to->note (out, outs, frames);
 }
 
@@ -273,7 +286,7 @@ void AudioRig::play (const float* const* in, int ins, float* const* out, int out
     }
 }
 
-void AudioRig::limit (float* samples, int frames) noexcept
+void AudioRig::clip (float* samples, int frames) noexcept
 {
     std::uint64_t beyond = 0;
     for (int i = 0; i < frames; ++i)
@@ -312,7 +325,10 @@ void AudioRig::playRest() const
     };
     while (goes() && flows())
         std::this_thread::sleep_for (1ms);
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double> (OutStream::fade_out_s + 2.0 * format.block / format.rate_hz);
+    double fall = 0.0;
+    for (const auto& limit : limits)
+        fall = std::max (fall, std::min (limit.fall(), longest_fall_s));
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double> (OutStream::fade_out_s + fall + 2.0 * format.block / format.rate_hz);
     while (goes() && std::chrono::steady_clock::now() < end)
         std::this_thread::sleep_for (1ms);
 }
@@ -324,6 +340,11 @@ Result<> AudioRig::end()
     captures = nullptr;
     if (! capture) return {};
     return std::exchange (capture, nullptr)->commit();
+}
+
+bool AudioRig::limitsFirst (int count) const noexcept
+{
+    return std::ranges::any_of (std::span (limits).first (static_cast<std::size_t> (std::clamp (count, 0, most_channels))), &ChannelLimit::isSet);
 }
 
 AudioStatus AudioRig::status() const

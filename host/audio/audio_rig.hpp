@@ -72,9 +72,9 @@ public:
     bool isOptional (const std::string& port) const override;
     void setLenient (bool l) noexcept { lenient = l; }
 
-    /// Opens the card. The plan must be compiled with the ports of the routes. The engine, if given, provides the emergency stop. Ids:
-    /// audio/port, audio/unit, audio/rate, and those of CardSystem::open. If only opening the card fails, it is retried,
-    /// like a card that went away. [main thread, before ticking]
+    /// Opens the card. The roles must have their limits (Engine::attach), and the plan must be compiled with the ports of the
+    /// routes. The engine, if given, provides the emergency stop. Ids: audio/port, audio/unit, audio/rate, and those of
+    /// CardSystem::open. If only opening the card fails, it is retried, like a card that went away. [main thread, before ticking]
     Messages begin (const Plan&, double tick_rate_hz, const Engine* = nullptr);
 
     /// Call this instead of begin() if isNeeded() is false: no role can be opened from now on. [main thread]
@@ -94,6 +94,9 @@ public:
 
     /// Closes the card and the capture. Returns an error of the capture. Call this when the run no longer ticks. [main thread]
     Result<> end();
+
+    /// True if a role with a max_signal plays on one of the first `count` channels. Call after begin(). [main thread]
+    bool limitsFirst (int count) const noexcept;
 
     AudioStatus status() const;   // [main thread]
 
@@ -116,7 +119,7 @@ private:
     void begin (const OpenedFormat&) override;
     void block (const float* const* in, int ins, float* const* out, int outs, int frames) noexcept override;
     void play (const float* const* in, int ins, float* const* out, int outs, int from, int frames) noexcept;
-    void limit (float* samples, int frames) noexcept;
+    void clip (float* samples, int frames) noexcept;
     void playRest() const;
     Messages chooseRoutes (const Plan&, std::vector<Route>& played, std::vector<int>& per_tick) const;
     void makeStreams (const std::vector<Route>&, const std::vector<int>& per_tick);
@@ -144,6 +147,7 @@ private:
     std::atomic<std::uint64_t> ticks_of_silence = 0;
     std::atomic<bool> plays = false;
 
+    std::array<ChannelLimit, most_channels> limits {};   // by channel of the card   [audio thread, while a card is open]
     std::atomic<std::uint64_t> clipped = 0, late_blocks = 0;
     std::chrono::steady_clock::time_point last_block {};   // [audio thread]
     std::unique_ptr<CardCapture> capture;

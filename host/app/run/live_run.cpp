@@ -247,9 +247,11 @@ audio::AudioSettings LiveRun::audioWanted (Messages& messages) const
     return hasErrors (messages) ? audio::AudioSettings {} : settings;
 }
 
-/// If the sound cannot be opened, the run continues without it.
+/// If the sound cannot be opened, the run continues without it. The sound of the force opens the card a second time, where the
+/// limits of a role cannot reach it, so it is silent if it could play on a channel that a role limits.
 void LiveRun::beginSound()
 {
+    mutes_sound = false;
     if (! rig->isNeeded()) return rig->seal();
     for (auto& m : rig->begin (run->engine().plan(), run->rate(), &run->engine()))
     {
@@ -257,6 +259,11 @@ void LiveRun::beginSound()
         if (setup != nullptr && m.where.starts_with ("/")) place (m, setup->session());
         said.push_back (std::move (m));
     }
+    mutes_sound = rig->limitsFirst (Sound::channels);
+    if (mutes_sound && sound != nullptr && sound->isOn())
+        said.push_back (Message::warning ("audio/force_silent", "",
+                                          "the force is not played, because a role with a max_signal uses channel 1 or 2 of a sound card",
+                                          "to hear the force, move the role to other channels"));
 }
 
 std::unique_ptr<Run> LiveRun::makeRun (Run::Queries queries)
@@ -466,7 +473,7 @@ void LiveRun::after (const Plan& plan, std::uint64_t, bool) noexcept
     if (role == plan.roles().end()) return;
     const auto& device = *role->state;
     const auto &p = device.reading.position, &f = device.applied.force;
-    if (sound != nullptr) sound->push (f.sum());
+    if (sound != nullptr && ! mutes_sound) sound->push (f.sum());
     seen.store ({ p.x(), p.y(), p.z(), f.x(), f.y(), f.z() });
 }
 

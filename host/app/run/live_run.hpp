@@ -185,6 +185,7 @@ private:
     Messages said;
     Traces probes;
     Sound* sound;
+    bool mutes_sound = false;   // a role of this run limits a channel that the sound may share
     Hand moved_by;
     std::chrono::steady_clock::time_point stopped_at = std::chrono::steady_clock::time_point::min();
     bool held = false;                                       // an emergency stop or another latched stop holds the forces at zero until rearm()

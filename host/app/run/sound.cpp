@@ -30,7 +30,7 @@ Result<> Sound::start()
 /// Opens the card in stereo, or in mono if it has only one channel.
 Result<> Sound::open()
 {
-    auto opened = keeper.open ({}, 2, 0);
+    auto opened = keeper.open ({}, channels, 0);
     if (! opened && opened.error().id == "audio/channel") opened = keeper.open ({}, 1, 0);
     return opened;
 }

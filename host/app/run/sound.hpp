@@ -19,6 +19,7 @@ class Sound final : private audio::CardUser
 public:
     static constexpr double newton_at_full_scale = 4.0;
     static constexpr double lowest_hz = 20.0;
+    static constexpr int channels = 2;   ///< plays on the first channels of the card, at most this many
 
     explicit Sound (audio::CardSystem& = audio::soundCards());
     ~Sound() override { stop(); }

@@ -11,6 +11,7 @@
 #include <rapidcheck/catch.h>
 
 #include <cmath>
+#include <utility>
 
 using namespace tactus;
 using namespace tactus::host;
@@ -25,11 +26,13 @@ struct Put final : Device
     void prepare (double) override {}
     Reading read() noexcept override { return reading; }
     void write (const Effort& e) noexcept override { asked = e; }
+    void limitSignals (double max, double max_slew) override { signal_limits = { max, max_slew }; }
     DeviceLayout layout() const override { return { .axes = { "trigger" } }; }
     double duration() const noexcept override { return 3.0; }
 
     Reading reading;
     Effort asked;
+    std::pair<double, double> signal_limits;
 };
 
 double within (double low, double high) { return low + (high - low) * *rc::gen::inRange (0, 1'000'001) / 1e6; }
@@ -179,4 +182,16 @@ TEST_CASE ("a workspace is read with units, and a bad one is refused", "[session
     CHECK (messages.front().id == id);
     CHECK (messages.front().where.starts_with ("/roles/stylus/workspace"));
     CHECK (w.scale == 1.0);
+}
+
+TEST_CASE ("a device in a workspace gets the signal limits of its guard, as the guard reads them", "[sessions][safety]")
+{
+    const auto plan = test::Sketch {}.node ("out", "device.signal_out").compile ({ .rate_hz = 1.0 / dt }).plan;
+    REQUIRE (plan);
+    Engine engine { plan };
+    Placed placed { { .scale = 2.0 } };
+    engine.attach ("stylus", *placed.device, { .max_signal = 0.5, .max_signal_slew = 20.0 });
+    CHECK (placed.put->signal_limits == std::pair { 0.5, 20.0 });
+    engine.attach ("stylus", *placed.device, { .max_signal = -1.0, .max_signal_slew = std::nan ("") });
+    CHECK (placed.put->signal_limits == std::pair { 0.0, 0.0 });
 }
