@@ -16,7 +16,8 @@ namespace
 std::atomic<Emergency*> under_signals { nullptr };   // the emergency stop that the signal handlers press
 std::atomic<bool> asked_by_signal { false };         // SIGUSR2 has arrived
 
-double now() noexcept { return std::chrono::duration<double> (std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double inSeconds (std::chrono::steady_clock::time_point t) noexcept { return std::chrono::duration<double> (t.time_since_epoch()).count(); }
+double now() noexcept { return inSeconds (std::chrono::steady_clock::now()); }
 }   // namespace
 
 Emergency::Emergency (Engine& e)
@@ -39,10 +40,10 @@ void Emergency::press() noexcept
     engine.emergencyStop();
 }
 
-Result<> Emergency::rearm()
+Result<> Emergency::rearm (std::chrono::steady_clock::time_point asked)
 {
     auto last = pressed_at.load();
-    if (now() < pressed_at + pause_s)
+    if (inSeconds (asked) < pressed_at + pause_s)
         return Message::error ("run/rearm_too_early", {}, "the emergency stop was pressed less than a second ago",
                                "wait a second, make sure that forces may safely return, and rearm again");
     if (now() < rearmed_at + pause_s)
@@ -60,6 +61,8 @@ void Emergency::readKeys (const std::stop_token& stop)
     while (! stop.stop_requested())
         if (const char key = keys.next (std::chrono::milliseconds (20)); key == ' ')
             press();
+        else if (key == '\x03')   // Ctrl-C in a terminal that sends no signal for it
+            requestStop();
         else if (key == 'r' || key == 'R')
         {
             // A key that is held down repeats: only the first press counts.

@@ -34,8 +34,9 @@ public:
     /// Stops at once. [any thread, also in a signal handler]
     void press() noexcept;
 
-    /// Lets forces rise again. Refuses within `pause_s` of a stop or a rearm. Id: run/rearm_too_early. [any thread]
-    Result<> rearm();
+    /// Lets forces rise again. Refuses if it was asked for before the latest stop, or within `pause_s` of a stop or a rearm. Id:
+    /// run/rearm_too_early. [any thread]
+    Result<> rearm (std::chrono::steady_clock::time_point asked = std::chrono::steady_clock::now());
 
     /// Messages for the user since the last call, one per line; "" if there are none. [main thread]
     std::string takeNotes();

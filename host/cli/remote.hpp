@@ -38,7 +38,7 @@ public:
     void stop() override { command.run().live().stop(); }
     void emergencyStop() override { emergency.press(); }
     void emergencyNow() noexcept override { emergency.press(); }
-    Result<> rearm() override { return emergency.rearm(); }
+    Result<> rearm (std::chrono::steady_clock::time_point asked) override { return emergency.rearm (asked); }
     std::vector<Role> roles() override { return rolesOf (command.run().live().status()); }
 
     Status status() override

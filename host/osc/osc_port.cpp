@@ -102,6 +102,7 @@ void OscPort::listen (const std::stop_token& stop)
 
 void OscPort::take (std::string_view bytes, const std::string& answers_to)
 {
+    const auto now = std::chrono::steady_clock::now();
     auto packet = readPacket (bytes);
     {
         const std::lock_guard lock (looking);
@@ -113,7 +114,7 @@ void OscPort::take (std::string_view bytes, const std::string& answers_to)
     lost += ! packet.right;
     for (auto& message : packet.messages)
         if (waiting.size() < most_waiting)
-            waiting.push_back ({ std::move (message), answers_to });
+            waiting.push_back ({ std::move (message), answers_to, now });
         else
             ++lost;
     arrived.notify_one();

@@ -46,7 +46,8 @@ public:
     struct Received
     {
         juce::OSCMessage message;
-        std::string host;   ///< where to send answers; "": the sender gets none
+        std::string host;                           ///< where to send answers; "": the sender gets none
+        std::chrono::steady_clock::time_point at;   ///< time of arrival
     };
 
     /// Port 0: any free port. Ids: osc/port_taken, osc/no_address.

@@ -108,7 +108,10 @@ void RemoteControl::attend (Clock::time_point now)
 {
     for (int i = 0; i < most_at_a_time; ++i)
         if (const auto received = port.receive())
+        {
+            arrived_at = received->at;
             carryOut (received->message, received->host, now);
+        }
         else
             break;
 
@@ -236,7 +239,7 @@ Result<> RemoteControl::rearm (const std::string& given)
     if (token.empty() || given != token)
         return Message::error ("osc/rearm", {}, given.empty() ? "a rearm over OSC needs a token" : "the token is wrong",
                                token.empty() ? "press REARM in the window" : "give the token that play printed, or press R in its terminal");
-    return controlled.rearm();
+    return controlled.rearm (arrived_at);
 }
 
 Result<> RemoteControl::transport (const std::string& what, const OSCMessage& m)

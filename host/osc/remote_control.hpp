@@ -75,7 +75,10 @@ public:
     virtual Result<> start() = 0;
     virtual void stop() = 0;
     virtual void emergencyStop() = 0;
-    virtual Result<> rearm() = 0;
+
+    /// Lets forces rise again. `asked` is the time at which the message arrived, which may be long before it is handled: it must not
+    /// undo a stop that came later.
+    virtual Result<> rearm (std::chrono::steady_clock::time_point asked) = 0;
 
     /// Called as soon as the message for an emergency stop arrives, ahead of the waiting messages. emergencyStop() follows on the
     /// main thread. [thread of the port]
@@ -152,6 +155,7 @@ private:
     OscPort& port;
     Controlled& controlled;
     const std::string token;
+    std::chrono::steady_clock::time_point arrived_at {};          // of the message that is handled
     std::chrono::steady_clock::time_point wrong_token_until {};   // until then, no token is accepted
     std::vector<Probe> probes;
     std::optional<Capture> capture;

@@ -40,10 +40,21 @@ void call (const std::atomic<Act>& act) noexcept
 {
     if (const auto a = act.load()) a();
 }
+
+/// The program that starts this one may have left signals blocked. Threads that start later inherit what this thread unblocks.
+void unblockAll() noexcept
+{
+#if defined(__unix__) || defined(__APPLE__)
+    sigset_t all;
+    sigfillset (&all);
+    pthread_sigmask (SIG_UNBLOCK, &all, nullptr);
+#endif
+}
 }   // namespace
 
 void watchForStop() noexcept
 {
+    unblockAll();
     for (const int number : stopping)
         std::signal (number, note);
 #if defined(__unix__) || defined(__APPLE__)

@@ -40,6 +40,8 @@ Keys::Keys()
     if (isatty (STDIN_FILENO) == 0 || tcgetpgrp (STDIN_FILENO) != getpgrp() || tcgetattr (STDIN_FILENO, &mode) != 0) return;
     auto found = std::make_unique<Before> (Before { mode });
     mode.c_lflag &= ~static_cast<tcflag_t> (ICANON | ECHO);
+    mode.c_cc[VMIN] = 1;   // a single key is enough; another program may have left a larger number here
+    mode.c_cc[VTIME] = 0;
     if (tcsetattr (STDIN_FILENO, TCSANOW, &mode) == 0) before = std::move (found);
 }
 

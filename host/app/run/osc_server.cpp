@@ -30,7 +30,7 @@ Result<> OscServer::setParam (const std::string& name, const Json& value)
     return {};
 }
 
-Result<> OscServer::rearm()
+Result<> OscServer::rearm (std::chrono::steady_clock::time_point)
 {
     live_run.rearm();
     return {};

@@ -39,7 +39,7 @@ private:
     Result<> start() override;
     void stop() override { playback.stop(); }
     void emergencyStop() override { playback.emergencyStop(); }
-    Result<> rearm() override;
+    Result<> rearm (std::chrono::steady_clock::time_point asked) override;
 
     void checkProbes();
     void sendValues();

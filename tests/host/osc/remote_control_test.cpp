@@ -82,7 +82,7 @@ struct Puppet : Controlled
     void stop() override { stopped = true; }
     void emergencyStop() override { emergency = true; }
     void emergencyNow() noexcept override { ++emergencies_now; }
-    Result<> rearm() override
+    Result<> rearm (std::chrono::steady_clock::time_point) override
     {
         emergency = false;
         return {};
