@@ -342,3 +342,32 @@ TEST_CASE ("an emergency stop takes effect while the main thread compiles an edi
     CHECK (play.finish() == 0);
     checkLog (log, scratch);
 }
+
+TEST_CASE ("a rearm over OSC that came before a stop does not undo it, however late it is handled", "[cli][safety]")
+{
+    const Scratch scratch;
+    const auto log = scratch.path ("run.jsonl");
+    OnTerminal play { { "play", scratch.write ("g.json", graphWith ("")), "--osc", "0", "--duration", "600", "--log", log }, true };
+    REQUIRE (eventually ([&] { return play.err().find (ready) != std::string::npos; }));
+    const auto said = play.err();
+    const auto behind = [&] (const std::string& words) { return said.substr (said.find (words) + words.size()); };
+    const int port = std::stoi (behind ("OSC on 127.0.0.1:"));
+    const auto us = std::move (*host::OscPort::open (0));
+    juce::OSCMessage rearm ("/tactus/rearm");
+    rearm.addString (behind ("token to rearm: ").substr (0, 6));
+    rearm.addInt32 (us->number());
+
+    play.type ("\x13");   // Ctrl-S
+    REQUIRE (waitForSilence ([&] { return textOf (log).size(); }));
+    us->send (port, rearm);
+    REQUIRE (eventually ([&] { return ! hasUnreadPackets (port); }));
+    press (Way::signal, play, port);
+    std::this_thread::sleep_for (std::chrono::milliseconds (1200));   // more than the pause after a stop, if it counted from the handling
+    play.type ("\x11");                                               // Ctrl-Q
+    const auto answer = us->next (std::chrono::seconds (30));
+    REQUIRE (answer);
+    CHECK (answer->getAddressPattern().toString() == "/tactus/error");
+    play.signal (SIGINT);
+    CHECK (play.finish() == 0);
+    checkLog (log, scratch);
+}
