@@ -304,7 +304,7 @@ TEST_CASE ("wav: metadata is skipped, however deep or long, and the samples are 
         const auto read = readWav (folder / "full.wav");
         REQUIRE (read.has_value());
         CHECK (read->rate_hz == 8000.0);
-        CHECK (read->channels == std::vector { std::vector<double> { 0.1f, -25.0f } });
+        CHECK (read->channels.at (0) == std::vector<double> { 0.1f, -25.0f });
     }
 }
 
@@ -320,7 +320,7 @@ TEST_CASE ("wav: an RF64 file states the size of its samples in its first chunk"
     folder.write ("short.wav", rf64 (4'000'000));
     const auto read = readWav (folder / "whole.wav");
     REQUIRE (read.has_value());
-    CHECK (read->channels == std::vector { std::vector { 0.5, -1.0 } });
+    CHECK (read->channels.at (0) == std::vector { 0.5, -1.0 });
     CHECK (readWav (folder / "short.wav").error().id == "wav/truncated");
 }
 
