@@ -146,6 +146,7 @@ private:
                 if (x.role == role && x.name == e.port)
                     return std::ranges::all_of (x.to, [&] (const PortRef& r) { return narrow (r); });
 
+        if (flat.isFull()) return false;
         std::vector<std::string> names;
         for (const auto role : rolesOf (side))
             for (const auto& x : inside.exposed)

@@ -190,7 +190,7 @@ struct Flat
     bool rests (int section) const;
 
     /// True once there are too many problems to store more. Callers can then skip writing the message.
-    bool isFull() const noexcept { return messages.size() >= 1000; }
+    bool isFull() const noexcept { return messages.size() >= most_messages; }
 
     Origin at (Origin around, std::string_view name) { return &places.emplace_back (Place { around, name, 0, Place::Kind::name }); }
     Origin at (Origin around, std::string_view name, std::string_view inner) { return at (at (around, name), inner); }

@@ -5,6 +5,7 @@
 
 #include <framework/plan/find_hit.hpp>
 #include <framework/plan/find_param.hpp>
+#include <framework/text/quote.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +36,7 @@ Result<> Replay::begin()
     const auto& head = log.head();
     if (head.program != options.program)
         warnings.push_back (Message::warning ("log/other_program", log.name(),
-                                              "the run was recorded by " + head.program + ", but this is " + options.program
+                                              "the run was recorded by " + quote (head.program) + ", but this is " + options.program
                                                   + "; only the same program is certain to reproduce the run bit for bit"));
     if (options.duration_s > 0.0) most = static_cast<std::uint64_t> (std::ceil (options.duration_s * rate() - 1e-6));
 

@@ -98,6 +98,7 @@ Run::RoleDevice Run::openOne (const std::string& role, const graph::Graph& graph
     }
     checkStops (opened.limits, where, found);
     if (hasErrors (found)) opened = {};   // better no device than a device without its limits
+    if (messages.size() >= most_messages && hasErrors (messages)) return opened;
     for (auto& m : found)
     {
         const auto isKnown = [&m] (const Message& other) { return other.id == m.id && other.where == m.where; };

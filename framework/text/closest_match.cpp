@@ -32,7 +32,8 @@ int editDistance (std::string_view a, std::string_view b)
 std::string_view closestMatch (std::string_view word, std::span<const std::string_view> known)
 {
     constexpr std::size_t longest = 30;   // no known word is longer than this, so a key of a megabyte need not be compared
-    if (word.size() > longest) return {};
+    constexpr std::size_t most = 1000;    // a hostile file asks about thousands of names among tens of thousands
+    if (word.size() > longest || known.size() > most) return {};
     std::string_view best;
     int nearest = 3;
     for (const auto candidate : known)

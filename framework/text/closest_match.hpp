@@ -13,7 +13,7 @@ namespace tactus
 int editDistance (std::string_view, std::string_view);
 
 /// The known word that was probably meant: one typo away, or two for words of more than four letters. Empty if there is
-/// none.
+/// none, or if more than 1000 words are known, as the search would take too long.
 std::string_view closestMatch (std::string_view word, std::span<const std::string_view> known);
 
 /// "did you mean 'damping'?", or the whole list if no known word is close.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,6 +54,9 @@ inline std::string sentence (const Message& m) { return (m.where.empty() ? "" : 
 inline std::string describe (const Message& m) { return m.where + ": " + m.text + "; " + m.remedy + " [" + m.id + "]"; }
 
 using Messages = std::vector<Message>;
+
+/// More are not worth reading, and a hostile file may have millions of problems.
+inline constexpr std::size_t most_messages = 1000;
 
 inline bool hasErrors (const Messages& messages)
 {

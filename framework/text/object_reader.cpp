@@ -38,7 +38,7 @@ ObjectReader::ObjectReader (const Json& object, std::string where, Messages& lis
     : given (object), object_here (object.is_object() ? object : empty_object), here (std::move (where)), all_messages (list), prefix (id_prefix)
 {
     if (! object.is_object())
-        all_messages.push_back (Message::error (messageId ("kind"), here, "expected an object, found " + kindOf (object), "write { … }"));
+        add (Message::error (messageId ("kind"), here, "expected an object, found " + kindOf (object), "write { … }"));
 }
 
 std::string ObjectReader::pointer (std::string_view key) const { return here + "/" + pointerPart (key); }
@@ -50,15 +50,25 @@ const Json* ObjectReader::find (std::string_view key)
     return member == object_here.end() ? nullptr : &*member;
 }
 
+void ObjectReader::add (Message message)
+{
+    if (is_full) return;
+    is_full = all_messages.size() >= most_messages;
+    if (is_full)
+        message = Message::error (messageId ("more"), here, "there are more problems than the " + std::to_string (most_messages) + " that are listed",
+                                  "fix these first");
+    all_messages.push_back (std::move (message));
+}
+
 void ObjectReader::error (std::string_view key, std::string id, std::string text, std::string remedy)
 {
-    all_messages.push_back (Message::error (std::move (id), pointer (key), std::move (text), std::move (remedy)));
+    add (Message::error (std::move (id), pointer (key), std::move (text), std::move (remedy)));
 }
 
 bool ObjectReader::measure (const Json& json, const std::string& where, const Unit& unit, double& value)
 {
     const auto wrong = [&] (const char* what, std::string text) {
-        all_messages.push_back (Message::error (messageId (what), where, std::move (text), "write " + example (unit)));
+        add (Message::error (messageId (what), where, std::move (text), "write " + example (unit)));
         return false;
     };
 
@@ -190,16 +200,21 @@ std::vector<double> ObjectReader::numbers (std::string_view key)
 
 void ObjectReader::require (std::string_view key, std::string_view remedy)
 {
-    if (! has (key)) all_messages.push_back (Message::error (messageId ("missing"), here, quote (key) + " is missing", std::string (remedy)));
+    if (! has (key)) add (Message::error (messageId ("missing"), here, quote (key) + " is missing", std::string (remedy)));
 }
 
 void ObjectReader::ignore (std::string_view key) { known.emplace_back (key); }
 
 void ObjectReader::finish()
 {
+    constexpr std::size_t most_listed = 100;   // of one object: a graph has many, and each message lists the known keys
+    std::size_t unknown = 0;
     for (const auto& [key, value] : object_here.items())
-        if (std::ranges::find (known, key) == known.end())
+        if (std::ranges::find (known, key) == known.end() && ++unknown <= most_listed)
             error (key, messageId ("unknown_key"), quote (key) + " is not a known key here", suggestion (key, known));
+    if (unknown > most_listed)
+        add (Message::error (messageId ("unknown_key"), here, std::to_string (unknown - most_listed) + " more keys here are not known",
+                             "remove all keys that are not known"));
 }
 
 }   // namespace tactus

@@ -30,7 +30,7 @@ struct Bounds
 /// have been read, finish() reports the rest.
 ///
 /// Numbers are SI, or strings with a unit, which is checked and converted. Each message id is the prefix followed by kind, unit,
-/// out_of_range, missing or unknown_key; `where` is a JSON pointer. For files whose keys must keep their order, see
+/// out_of_range, missing, unknown_key or more; `where` is a JSON pointer. For files whose keys must keep their order, see
 /// OrderedReader.
 class ObjectReader
 {
@@ -61,7 +61,7 @@ public:
 
     void require (std::string_view key, std::string_view remedy);   ///< reports the key if it is missing
     void ignore (std::string_view key);                             ///< marks a key as known without reading it
-    void finish();                                                  ///< reports all keys that are not known
+    void finish();                                                  ///< reports the keys that are not known, of which it lists 100
 
     void error (std::string_view key, std::string id, std::string text, std::string remedy);
 
@@ -72,6 +72,7 @@ public:
 
 private:
     const Json* find (std::string_view key);
+    void add (Message);
     bool measure (const Json&, const std::string& where, const Unit&, double& value);
     bool readVector (std::string_view key, const Unit&, std::array<double, 3>& value);
     std::string messageId (std::string_view what) const { return std::string (prefix).append (what); }
@@ -81,6 +82,7 @@ private:
     Messages& all_messages;
     std::string_view prefix;
     std::vector<std::string> known;
+    bool is_full = false;   // the message list; the message about this has been added
 };
 
 }   // namespace tactus

@@ -35,8 +35,6 @@ struct KnownKey
 class OrderedReader
 {
 public:
-    static constexpr std::size_t most_messages = 1000;   ///< more are not worth reading, and a hostile file may have millions of problems
-
     void error (std::string id, const std::string& where, std::string text, std::string remedy = {});
     void warning (std::string id, const std::string& where, std::string text, std::string remedy = {});
 

@@ -34,6 +34,7 @@ Message fail (std::string id, std::string where, std::string what, std::string r
 {
     return Message { .id = std::move (id), .where = std::move (where), .text = std::move (what), .remedy = std::move (remedy) };
 }
+}   // namespace
 
 void checkBudget (double Budgets::*which, std::size_t count, std::size_t line)
 {
@@ -41,7 +42,6 @@ void checkBudget (double Budgets::*which, std::size_t count, std::size_t line)
     auto over = overBudget ("mesh/too_large", which, "it", static_cast<double> (count), "save a coarser mesh");
     throw MeshProblem { std::move (over.id), std::move (over.text), line, std::move (over.remedy) };
 }
-}   // namespace
 
 void MeshBuilder::point (const Vec3& at, std::size_t line)
 {

@@ -4,6 +4,7 @@
 #include "text.hpp"
 
 #include <framework/kit/assets.hpp>
+#include <framework/text/budget.hpp>
 
 #include <map>
 #include <span>
@@ -19,6 +20,9 @@ struct MeshProblem
     std::size_t line = 0;      ///< line number; 0 for a binary file
     std::string remedy = {};   ///< "": that of a broken file
 };
+
+/// Throws if this many points or triangles exceed their budget.
+void checkBudget (double Budgets::*which, std::size_t count, std::size_t line);
 
 /// Builds a mesh while the file is read. Points and faces are added in the order of the file, and faces refer to points by
 /// their number in the file.

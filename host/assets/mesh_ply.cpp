@@ -168,7 +168,10 @@ void readFace (const Element& element, Body& body, MeshBuilder* mesh)
             continue;
         }
         const bool wanted = mesh != nullptr && (p.name == "vertex_indices" || p.name == "vertex_index");
-        for (auto left = body.wholeNumber (p.length); left > 0; --left)
+        const auto count = body.wholeNumber (p.length);
+        const auto all = corners.size() + static_cast<std::size_t> (count);
+        if (wanted && all > 2) checkBudget (&Budgets::triangles, all - 2, body.line());   // before they are kept
+        for (auto left = count; left > 0; --left)
             if (wanted)
                 corners.push_back (body.wholeNumber (p.value));
             else

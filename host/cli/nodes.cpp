@@ -6,6 +6,7 @@
 #include <framework/text/closest_match.hpp>
 #include <framework/text/json.hpp>
 #include <framework/text/number_text.hpp>
+#include <framework/text/quote.hpp>
 
 #include <algorithm>
 #include <iostream>
@@ -228,7 +229,7 @@ void run (const std::string& wanted, bool json)
             std::vector<std::string> ids;
             for (const auto& t : catalogue())
                 ids.emplace_back (t.info.id);
-            fail ("node/unknown_type", "there is no node type '" + wanted + "'" + didYouMean (wanted, ids), "`tactus nodes` lists them all");
+            fail ("node/unknown_type", "there is no node type " + quote (wanted) + didYouMean (wanted, ids), "`tactus nodes` lists them all");
         }
         if (json)
             std::cout << toJson (*type).dump (2) << '\n';

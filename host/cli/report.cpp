@@ -32,13 +32,16 @@ std::string inOneLine (std::string text)
 int report (const Messages& messages, const LoadedGraph& loaded, const std::string& file)
 {
     int errors = 0;
+    std::size_t count = 0;
     for (const auto& m : messages)
     {
         const bool error = m.severity == Message::Severity::error;
         errors += error;
+        if (++count > most_messages) continue;
         std::cerr << inOneLine (placeOf (m, loaded, file)) << ": " << (error ? "error: " : "warning: ") << printable (m.text);
         std::cerr << "\n    " << printable (m.remedy) << " [" << m.id << "]\n";
     }
+    if (count > most_messages) std::cerr << inOneLine (file) << ": there are " << count - most_messages << " more problems\n    fix these first\n";
     return errors;
 }
 

@@ -22,7 +22,7 @@ struct Stop
 {
 };
 
-/// Prints each message to stderr: the location, the problem, the remedy. Returns the number of errors.
+/// Prints each message, up to most_messages, to stderr: the location, the problem, the remedy. Returns the number of errors.
 int report (const Messages&, const LoadedGraph&, const std::string& file);
 
 /// Prints a warning about this file.

@@ -30,6 +30,11 @@ int checkDevices (const LoadedGraph& loaded, const std::string& file)
     const auto profiles = any_real ? hid::loadProfileLibrary() : hid::LoadedProfiles {};
     for (const auto& [role, description] : devices)
     {
+        if (errors >= static_cast<int> (most_messages))
+        {
+            std::cerr << printableName (file) << ": the other devices are not checked, because there are too many problems\n    fix these first\n";
+            break;
+        }
         auto messages = checkDescription (description, std::filesystem::path (file).parent_path(), profiles);
         for (auto& m : messages)
             m.where = "/devices/" + role + m.where;

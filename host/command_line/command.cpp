@@ -2,6 +2,7 @@
 #include "command.hpp"
 
 #include <framework/text/number_text.hpp>
+#include <framework/text/quote.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -16,6 +17,16 @@ Check checkOf (const CLI::Validator& v)
 {
     return { [v] (const std::string& value) { return v (value); },
              v.get_description() };
+}
+
+/// CLI11 repeats arguments as they are: escapes what could disturb a terminal, and line ends, which could forge a message.
+std::string usageMessage (const CLI::App* app, const CLI::Error& error)
+{
+    const std::string what = error.what(), whole = CLI::FailureMessage::simple (app, error);
+    std::string shown;
+    for (const char c : printable (what))
+        shown += c == '\n' ? "\\x0A" : std::string (1, c);
+    return shown + whole.substr (what.size());   // the rest says how to ask for help
 }
 
 template <typename Parse>
@@ -101,7 +112,7 @@ Option Option::type (const std::string& name) const
 bool Option::isGiven() const { return option->count() > 0; }
 
 //==============================================================================
-Command::Command (const std::string& about, const std::string& name) : app (std::make_shared<CLI::App> (about, name)) {}
+Command::Command (const std::string& about, const std::string& name) : app (std::make_shared<CLI::App> (about, name)) { app->failure_message (usageMessage); }
 
 Command Command::add (const std::string& name, const std::string& about) const
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wav.hpp"
+#include "wav_samples.hpp"
 
 #include <framework/file/atomic_file.hpp>
 #include <framework/file/text_file.hpp>
@@ -82,13 +83,15 @@ Result<Signal> readWav (const std::filesystem::path& path)
 {
     if (const auto why = whyUnreadable (path); ! why.empty()) return fail ("wav/unreadable", path, why, "check the path");
     const auto full_path = std::filesystem::absolute (path).string();
-    auto stream = juce::File (juce::String::fromUTF8 (full_path.c_str())).createInputStream();
+    std::unique_ptr<juce::InputStream> stream = juce::File (juce::String::fromUTF8 (full_path.c_str())).createInputStream();
     if (stream == nullptr)
         return fail ("wav/unreadable", path, "there is no such file, or it is not readable",
                      "check the path and the permissions");
 
     const auto bytes_in_file = stream->getTotalLength();
-    const std::unique_ptr<juce::AudioFormatReader> reader (juce::WavAudioFormat().createReaderFor (stream.release(), true));
+    std::unique_ptr<juce::AudioFormatReader> reader;
+    if (auto samples = samplesOnly (std::move (stream)); samples != nullptr)
+        reader.reset (juce::WavAudioFormat().createReaderFor (samples.release(), true));
 
     if (reader == nullptr || ! isKnown (*reader))
         return fail ("wav/not_a_wav", path, "it is not a supported WAV file",

@@ -53,6 +53,18 @@ TEST_CASE ("budgets: 64 levels of count 2 are refused, used or not", "[plan][bud
     CHECK_THAT (refusal (nested (64)), Contains ("--limits"));
 }
 
+TEST_CASE ("budgets: thousands of wires to unknown ports give a limited list of problems", "[plan][budget]")
+{
+    Sketch sketch;
+    sketch.node ("a", "signal.gain");
+    for (int i = 0; i < 10'000; ++i)
+        sketch.wire ("a.out -> a.port" + std::to_string (i));
+    const auto compiled = sketch.compile();
+    CHECK (compiled.plan == nullptr);
+    CHECK (compiled.messages.size() <= most_messages + 10);   // later stages may add a few
+    CHECK (has (compiled.messages, "port/unknown"));
+}
+
 TEST_CASE ("budgets: unused subgraphs count together with the graph", "[plan][budget]")
 {
     const WithLimits limits ("nodes=100");

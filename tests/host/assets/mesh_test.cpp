@@ -201,6 +201,13 @@ TEST_CASE ("an unreadable mesh gives an error with a position", "[host][assets][
     CHECK (problem ("solid\nvertex 0 0 0\n", "a.stl") == "mesh/truncated at a.stl:2");
 }
 
+TEST_CASE ("a face with more corners than the budget allows is refused before they are read", "[host][assets][mesh]")
+{
+    const std::string head = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nelement face 1\nproperty list int int vertex_index\nend_header\n0\n";
+    CHECK (problem (head + "2000000000 0 0 0\n", "a.ply") == "mesh/too_large at a.ply:9");
+    CHECK (problem (head + "1000 0 0 0\n", "a.ply") == "mesh/truncated at a.ply:9");
+}
+
 TEST_CASE ("no damaged mesh crashes the reader", "[host][assets][mesh]")
 {
     const auto all = samples();

@@ -96,6 +96,40 @@ TEST_CASE ("a command that is used wrongly exits with status 2 and prints its us
     CHECK_FALSE (ran.err.empty());
 }
 
+TEST_CASE ("an argument with control characters or line ends disturbs no message", "[cli]")
+{
+    const std::string forged = "a\nb: error: \x1b[2J";
+    for (const auto& arguments : { std::vector<std::string> { "nodes", forged }, std::vector<std::string> { "validate", "x.json", "--" + forged },
+                                   std::vector<std::string> { "render", "x.json", "--rate", forged } })
+    {
+        const auto ran = runTactus (arguments);
+        INFO (ran.err);
+        CHECK (ran.status != 0);
+        CHECK (ran.err.find ('\x1b') == std::string::npos);
+        CHECK (ran.err.find ("a\nb") == std::string::npos);
+        CHECK (ran.err.find ("a\\x0Ab: error: \\x1B[2J") != std::string::npos);
+    }
+}
+
+TEST_CASE ("thousands of unknown keys of devices are not all reported", "[cli]")
+{
+    const Scratch scratch;
+    std::string keys, devices;
+    for (int i = 0; i < 200; ++i)
+        keys += ", \"k" + std::to_string (i) + "\": 1";
+    for (int i = 0; i < 30; ++i)
+        devices += (i == 0 ? "\"r" : ", \"r") + std::to_string (i) + R"(": { "driver": "sim")" + keys + " }";
+    const auto ran = runTactus ({ "validate", scratch.write ("many.json", graph (hand, "", ", \"devices\": { " + devices + " }")) });
+    CHECK (ran.status == 1);
+    std::size_t shown = 0;
+    for (auto at = ran.err.find ("[device/unknown_key]"); at != std::string::npos; at = ran.err.find ("[device/unknown_key]", at + 1))
+        ++shown;
+    CHECK (shown >= 1000);
+    CHECK (shown <= 1200);
+    CHECK (ran.err.find ("100 more keys here are not known") != std::string::npos);
+    CHECK (ran.err.find ("the other devices are not checked") != std::string::npos);
+}
+
 TEST_CASE ("the help of every command has examples", "[cli]")
 {
     for (const auto* command : { "nodes", "validate", "render", "play" })

@@ -209,6 +209,9 @@ TEST_CASE ("a damaged log is replayed as far as possible, even with another grap
     other_program.replace (other_program.find ("tactus 0"), 8, "tactus 9");
     CHECK (replay (other_program).err.find ("[log/other_program]") != std::string::npos);
 
+    other_program.replace (other_program.find ("tactus 9"), 8, "x\\nforged: error: \\u001b");
+    CHECK (replay (other_program).err.find ("recorded by 'x\\x0Aforged: error: \\x1B") != std::string::npos);
+
     // The logged inputs also drive another graph, which gives its own output.
     const auto wall = scratch.write ("wall.json", R"({ "format": "tactus-graph", "version": 1,
       "nodes": { "hand": { "type": "device.position", "role": "stylus" }, "wall": { "type": "deform.plane" },

@@ -275,6 +275,68 @@ TEST_CASE ("wav: a file that is not a recording is refused, each error with its 
     CHECK (readWav (folder / "wide.wav").error().id == "wav/too_many_channels");
 }
 
+TEST_CASE ("wav: metadata is skipped, however deep or long, and the samples are the same", "[host][io][wav]")
+{
+    const TemporaryFolder folder;
+    const auto chunk = [] (std::string_view name, const std::string& content) {
+        const auto size = static_cast<std::uint32_t> (content.size());
+        return Bytes().ascii (name).u32 (size).ascii (content).ascii (size % 2 == 1 ? std::string (1, '\0') : "").text;
+    };
+    std::string deep;
+    for (int i = 0; i < 100'000; ++i)
+        deep += "<a>";
+    const auto huge = std::numeric_limits<std::uint32_t>::max();
+    const auto many = std::string (28, '\0') + Bytes().u32 (huge).u32 (0).text + std::string (240, '\1');   // the count of loops
+    const auto metadata = chunk ("axml", deep) + chunk ("iXML", "<b>") + chunk ("smpl", many) + chunk ("cue ", Bytes().u32 (huge).text)
+                          + chunk ("LIST", "adtl" + std::string (80, '\0')) + chunk ("bext", "x");
+
+    const auto samples = Bytes().u32 (std::bit_cast<std::uint32_t> (0.1f)).u32 (std::bit_cast<std::uint32_t> (-25.0f)).text;
+    const auto plain = wavOf (3, 1, 32, samples, 8);
+    const auto withMetadata = [&] (std::size_t at) {
+        auto bytes = plain;
+        bytes.insert (at, metadata);
+        return bytes.replace (4, 4, Bytes().u32 (static_cast<std::uint32_t> (bytes.size() - 8)).text);
+    };
+    for (const auto at : { std::size_t { 12 }, plain.find ("data"), plain.size() })   // before the format, before the samples, at the end
+    {
+        CAPTURE (at);
+        folder.write ("full.wav", withMetadata (at));
+        const auto read = readWav (folder / "full.wav");
+        REQUIRE (read.has_value());
+        CHECK (read->rate_hz == 8000.0);
+        CHECK (read->channels.at (0) == std::vector<double> { 0.1f, -25.0f });
+    }
+}
+
+TEST_CASE ("wav: an RF64 file states the size of its samples in its first chunk", "[host][io][wav]")
+{
+    const TemporaryFolder folder;
+    const auto fmt = wavOf (1, 1, 16, "", 0).substr (12, 24);
+    const auto rf64 = [&] (std::uint32_t bytes) {
+        return Bytes().ascii ("RF64").u32 (0xffffffff).ascii ("WAVEds64").u32 (28).u32 (76).u32 (0).u32 (bytes).u32 (0).u32 (0).u32 (0).u32 (0).ascii (fmt).text
+               + Bytes().ascii ("data").u32 (0xffffffff).u16 (0x4000).u16 (0x8000).text;
+    };
+    folder.write ("whole.wav", rf64 (4));
+    folder.write ("short.wav", rf64 (4'000'000));
+    const auto read = readWav (folder / "whole.wav");
+    REQUIRE (read.has_value());
+    CHECK (read->channels.at (0) == std::vector { 0.5, -1.0 });
+    CHECK (readWav (folder / "short.wav").error().id == "wav/truncated");
+}
+
+TEST_CASE ("wav: a file of thousands of empty chunks is refused", "[host][io][wav]")
+{
+    const TemporaryFolder folder;
+    auto bytes = wavOf (1, 1, 16, "ab", 2);
+    std::string empty;
+    for (int i = 0; i < 2000; ++i)
+        empty += Bytes().ascii ("JUNK").u32 (0).text;
+    bytes.insert (12, empty);
+    bytes.replace (4, 4, Bytes().u32 (static_cast<std::uint32_t> (bytes.size() - 8)).text);
+    folder.write ("chunks.wav", bytes);
+    CHECK (readWav (folder / "chunks.wav").error().id == "wav/not_a_wav");
+}
+
 TEST_CASE ("wav: no damaged header crashes the reader", "[host][io][wav]")
 {
     const TemporaryFolder folder;

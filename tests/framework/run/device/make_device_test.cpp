@@ -99,6 +99,27 @@ TEST_CASE ("device description: the tool starts in the hand, unless it has its o
     CHECK (simulationOf (made (R"({"driver": "sim", "position": [0, 0, 0], "hand": {"path": "circle"}})")).position == Vec3 (0, 0, 0));
 }
 
+TEST_CASE ("device description: of thousands of problems, the first are listed", "[host][devices]")
+{
+    auto description = Json::object();
+    description["driver"] = "sim";
+    for (int i = 0; i < 300; ++i)
+        description["k" + std::to_string (i)] = 1;
+    const auto many = makeDevice (description, {});
+    CHECK (many.device == nullptr);
+    REQUIRE (many.messages.size() == 101);
+    CHECK (many.messages.back().id == "device/unknown_key");
+    CHECK (many.messages.back().text == "200 more keys here are not known");
+
+    auto axes = Json::object();
+    for (int i = 0; i < 3000; ++i)
+        axes["Bad" + std::to_string (i)] = Json::object();
+    const auto full = makeDevice (Json { { "driver", "sim" }, { "axes", axes } }, {});
+    CHECK (full.device == nullptr);
+    REQUIRE (full.messages.size() == 1001);
+    CHECK (full.messages.back().id == "device/more");
+}
+
 TEST_CASE ("device description: all problems are reported together, each with its own place", "[host][devices]")
 {
     const auto m = made (R"({"driver": "sim", "mass": 0, "damping": "-1 N*s/m", "quantum": "1 N", "delay": 1.5, "first_mode": [1], "dampign": 1,

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wav_samples.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace tactus::host
+{
+
+namespace
+{
+constexpr int shortest_format = 16, longest_format = 40;   // bytes; an extensible format takes 40
+
+/// No program writes this many chunks; a file of empty chunks would take millions of reads.
+constexpr int most_chunks = 1000;
+
+struct Chunks
+{
+    std::string format;
+    std::optional<juce::int64> data_bytes;   // as claimed; none if there is no data chunk after the format
+    juce::int64 data_start = 0;
+};
+
+std::string take (juce::InputStream& in, int bytes)
+{
+    std::string taken (static_cast<std::size_t> (bytes), '\0');
+    taken.resize (static_cast<std::size_t> (std::max (0, in.read (taken.data(), bytes))));
+    return taken;
+}
+
+/// The size of a chunk, which its name precedes.
+juce::int64 takeSize (juce::InputStream& in) { return static_cast<std::uint32_t> (in.readInt()); }
+
+juce::int64 padded (juce::int64 bytes) { return bytes + (bytes & 1); }
+
+bool isSupported (const std::string& format)
+{
+    if (format.size() < shortest_format) return false;
+    const int code = static_cast<unsigned char> (format[0]) | static_cast<unsigned char> (format[1]) << 8;
+    return code == 1 || code == 3 || code == 0xfffe;   // integers, floats, extensible; JUCE would decode Ogg Vorbis too
+}
+
+/// Finds the chunks as JUCE does: the claimed size of the file ends the search. None if the file is not a WAV.
+std::optional<Chunks> findChunks (juce::InputStream& wav)
+{
+    const auto kind = take (wav, 4);
+    const bool is_rf64 = kind == "RF64";
+    if (! is_rf64 && kind != "RIFF") return std::nullopt;
+    auto end = static_cast<std::uint64_t> (takeSize (wav)) + 8;
+    if (take (wav, 4) != "WAVE") return std::nullopt;
+
+    std::optional<juce::int64> long_size;
+    if (is_rf64)
+    {
+        if (take (wav, 4) != "ds64") return std::nullopt;
+        const auto size = takeSize (wav), start = wav.getPosition();
+        if (size < 28) return std::nullopt;
+        end = static_cast<std::uint64_t> (wav.readInt64()) + 8;
+        long_size = wav.readInt64();
+        wav.setPosition (start + padded (size));
+    }
+
+    Chunks found;
+    for (int chunk = 0; static_cast<std::uint64_t> (wav.getPosition()) < end && ! wav.isExhausted(); ++chunk)
+    {
+        if (chunk == most_chunks) return std::nullopt;
+        const auto name = take (wav, 4);
+        const auto size = takeSize (wav), start = wav.getPosition();
+        if (name == "fmt ") found.format = take (wav, static_cast<int> (std::min<juce::int64> (size, longest_format)));
+        if (name == "data" && ! found.format.empty())
+        {
+            found.data_bytes = long_size.value_or (size);
+            found.data_start = start;
+            break;
+        }
+        wav.setPosition (start + padded (size));
+    }
+    return found;
+}
+
+/// The header for JUCE. It is that of an RF64 file, which can state the size of any data.
+std::string headerFor (const Chunks& chunks)
+{
+    constexpr auto unlimited = std::numeric_limits<juce::int64>::max() / 2;   // JUCE adds to the sizes
+    juce::MemoryOutputStream out;
+    out.write ("RF64", 4);
+    out.writeInt (-1);
+    out.write ("WAVEds64", 8);
+    out.writeInt (28);
+    out.writeInt64 (unlimited);   // the end of the stream ends the file
+    out.writeInt64 (std::min (chunks.data_bytes.value_or (0), unlimited));
+    out.writeInt64 (0);   // number of samples: not read
+    out.writeInt (0);     // further sizes: none
+    out.write ("fmt ", 4);
+    out.writeInt (static_cast<int> (chunks.format.size()));
+    out.write (chunks.format.data(), chunks.format.size());
+    if (chunks.format.size() % 2 == 1) out.writeByte (0);
+    if (chunks.data_bytes)
+    {
+        out.write ("data", 4);
+        out.writeInt (0);
+    }
+    return { static_cast<const char*> (out.getData()), out.getDataSize() };
+}
+
+/// A header, followed by a part of a file.
+class HeaderAndPart final : public juce::InputStream
+{
+public:
+    HeaderAndPart (std::string h, std::unique_ptr<juce::InputStream> f, juce::int64 start, juce::int64 bytes)
+        : header (std::move (h)), file (std::move (f)), part_start (start), header_bytes (static_cast<juce::int64> (header.size())),
+          total (header_bytes + bytes)
+    {
+    }
+
+    juce::int64 getTotalLength() override { return total; }
+    bool isExhausted() override { return position >= total; }
+    juce::int64 getPosition() override { return position; }
+    bool setPosition (juce::int64 to) override
+    {
+        position = std::clamp (to, juce::int64 { 0 }, total);
+        return true;
+    }
+
+    int read (void* into, int most) override
+    {
+        int done = 0;
+        auto* bytes = static_cast<char*> (into);
+        const auto room = [&] (juce::int64 available) { return static_cast<int> (std::clamp<juce::int64> (available, 0, most - done)); };
+        if (const int now = room (header_bytes - position); now > 0)
+        {
+            std::memcpy (bytes, header.data() + position, static_cast<std::size_t> (now));
+            done += now;
+            position += now;
+        }
+        if (const int now = room (total - position); now > 0 && file->setPosition (part_start + position - header_bytes))
+        {
+            const int got = std::max (0, file->read (bytes + done, now));
+            done += got;
+            position += got;
+        }
+        return done;
+    }
+
+private:
+    std::string header;
+    std::unique_ptr<juce::InputStream> file;
+    juce::int64 part_start, header_bytes, total, position = 0;
+};
+}   // namespace
+
+std::unique_ptr<juce::InputStream> samplesOnly (std::unique_ptr<juce::InputStream> wav)
+{
+    const auto chunks = findChunks (*wav);
+    if (! chunks || ! isSupported (chunks->format)) return nullptr;
+    const auto in_file = std::max (juce::int64 { 0 }, wav->getTotalLength() - chunks->data_start);
+    const auto bytes = std::clamp (chunks->data_bytes.value_or (0), juce::int64 { 0 }, in_file);
+    return std::make_unique<HeaderAndPart> (headerFor (*chunks), std::move (wav), chunks->data_start, bytes);
+}
+
+}   // namespace tactus::host
