@@ -55,7 +55,7 @@ struct Identity
 /// What compiling has taken so far; see the budgets of the same names (framework/text/budget.hpp).
 struct Spent
 {
-    double nodes = 0.0, wires = 0.0;   ///< of the flat graphs before this one: those of unused subgraphs follow that of the graph
+    double nodes = 0.0, wires = 0.0;   ///< in the flat graphs before this one; each unused subgraph is flattened on its own, after the graph
     double work = 0.0, memory = 0.0;
     bool is_over = false;   ///< a budget is exceeded, which has been reported
 };

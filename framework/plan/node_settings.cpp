@@ -17,7 +17,7 @@ constexpr double bytes_per_value = 100.0;
 /// How many values JSON holds; long texts count more.
 double sizeOf (const Json& json)
 {
-    constexpr double text_of_a_value = 10.0;   // bytes; a formula is parsed
+    constexpr double text_of_a_value = 10.0;   // bytes of a text that count as one value, because a text may be a formula to parse
     double size = 1.0;
     if (json.is_object())
         for (const auto& [key, value] : json.asObject())

@@ -101,8 +101,8 @@ private:
 class StillWatch
 {
 public:
-    /// Only another position ends the count. Without a force the count waits, because a stop that ended itself by taking the
-    /// force away would push the hand again and again. [tick thread]
+    /// Only a change of position resets the count. Without a force the count is kept: if it were reset, a stop would end itself by
+    /// taking the force away, and the force would push the hand again and again. [tick thread]
     void operator() (const Vec3& position, bool is_pushed, double dt_s) noexcept
     {
         if (position != before)

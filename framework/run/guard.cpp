@@ -8,7 +8,7 @@ namespace tactus
 {
 namespace
 {
-constexpr double most_behind = 50.0;   // watchdogs, so that a run recovers in the end
+constexpr double most_behind = 50.0;   // times the watchdog; a limit, so that a run that keeps up again recovers in the end
 
 // A few units in the last place below the limit, so that rounding cannot exceed it.
 constexpr double just_under = 1.0 - 16.0 * std::numeric_limits<double>::epsilon();
@@ -381,7 +381,7 @@ Effort Guard::operator() (const Effort& wanted, const Reading& reading, double l
     loseTime (elapsed - dt);
     if (is_watching) watch (reading, elapsed);
     const auto cause = causeOf (wanted, reading);
-    // A stop that has begun continues during lost time. A stop that begins now, and all that rises, takes one tick at a time.
+    // A stop that has begun continues during lost time. A stop that begins now, and everything that rises, advances by one tick.
     const double step_s = reason != Stop::none && cause != Stop::none ? elapsed : dt;
 
     if (cause != reason && cause != Stop::none)

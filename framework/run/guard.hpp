@@ -75,7 +75,7 @@ GuardLimits tightest (const GuardLimits&, const GuardLimits&) noexcept;
 ///     stop        cause                                                       ends
 ///     not_finite  the graph asked for a value that is not a number            with its cause, then the ramp
 ///     stale       no reading, or one that is old, frozen or not a number      with its cause, then the ramp
-///     starved     for longer than the watchdog, more time lost than ticked    with its cause, then the ramp
+///     starved     more time lost than ticked, by more than the watchdog       with its cause, then the ramp
 ///     released    the dead-man's switch is not held                           with its cause, then the ramp
 ///     halted      requested: the end of a session, the stop button            with resume(), then the ramp
 ///     speed       the tool or an axis moves or turns too fast                 with rearm(), then the ramp
@@ -142,7 +142,7 @@ public:
         std::array<double, 3> wanted {};   ///< force or torque that was not a number; for an axis or signal, only the first component is used
         std::int32_t channel = 0;          ///< number of the axis or signal, from 0
         std::uint32_t valid = 1;           ///< 1 if the reading was valid
-        ReadingFault fault {};             ///< what is wrong with the reading, if it is known; `frozen` has the force on the tool in `wanted`
+        ReadingFault fault {};             ///< what is wrong with the reading, if it is known; if it is `frozen`, `wanted` is the force on the tool
     };
 
     /// The layout says which axes the efforts push. [main thread]
@@ -167,8 +167,8 @@ public:
     /// Why the last effort was withheld. [any thread that owns the guard]
     Stop stop() const noexcept { return reason; }
 
-    /// The values on the first tick of the latest stop, even after the stop has ended. If a reading stays bad for another reason
-    /// that is known, the values on the tick on which that reason began. `why` is none if there was no stop since prepare().
+    /// The values on the first tick of the latest stop, even after the stop has ended. If a reading stays bad but the reason
+    /// changes to another known one, the values on the tick of that change. `why` is none if there was no stop since prepare().
     const Event& latest() const noexcept { return event; }
 
     /// How many stops there were since prepare.

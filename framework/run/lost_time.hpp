@@ -9,7 +9,7 @@ namespace tactus
 /// Compares the ticks of a run with the wall clock, and finds the time for which ticks are missing, because the machine is too slow
 /// or busy. The guards count this time too, so ramps aside, their limits hold in seconds and not in ticks.
 ///
-/// Time is lost once a tick begins more than a period, and a block, too late. Up to there the clock may still catch up.
+/// Time is lost once a tick begins too late by more than a period plus a block. Until then the clock can still catch up.
 class LostTime
 {
 public:

@@ -5,7 +5,7 @@
 /// are counted, not measured: the same files are accepted or refused on every computer. The defaults keep the loading of any
 /// file to about 5 s and 500 MB. `tactus validate`, `render` and `play` change them with --limits.
 ///
-/// These limits are no budgets, because they protect the stack or tell files apart: 64 levels of JSON (deepest_nesting), 32
+/// These limits are not budgets, because they protect the stack or tell files apart: 64 levels of JSON (deepest_nesting), 32
 /// levels of subgraphs and of included files, 64 levels of an expression, and 512 KB in a line of a CSV.
 
 #include "message.hpp"

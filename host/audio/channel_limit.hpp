@@ -26,7 +26,7 @@ public:
 
     bool isSet() const noexcept { return is_set; }
 
-    /// How long the longest way to zero takes, in s.
+    /// The longest time that a channel can take to reach zero, in s.
     double fall() const noexcept { return ! is_set || most == 0.0 ? 0.0 : most / slew; }
 
     /// Call when a card starts, whose channels are silent. [main thread, while no block is requested]

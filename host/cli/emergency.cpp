@@ -21,7 +21,8 @@ double now() noexcept { return inSeconds (std::chrono::steady_clock::now()); }
 }   // namespace
 
 Emergency::Emergency (Engine& e)
-    : engine (e), pressed_at (-std::numeric_limits<double>::infinity()), rearmed_at (pressed_at.load()), alarms_told (Failsafe::alarms()), alarms_stopped (alarms_told)
+    : engine (e), pressed_at (-std::numeric_limits<double>::infinity()), rearmed_at (pressed_at.load()),
+      alarms_told (Failsafe::alarms()), alarms_stopped (alarms_told)
 {
     static_assert (std::atomic<double>::is_always_lock_free, "a signal handler writes it");
     under_signals = this;
@@ -50,7 +51,7 @@ Result<> Emergency::rearm (std::chrono::steady_clock::time_point asked)
         return Message::error ("run/rearm_too_early", {}, "the last rearm was less than a second ago", "find out what stops the run, then rearm again");
     rearmed_at = now();
     engine.rearm();
-    // A press on another thread since the look above must not be undone. A later press sees this rearm, and stops after it.
+    // A press on another thread since `pressed_at` was read must not be undone. A later press sees this rearm, and stops after it.
     if (! pressed_at.compare_exchange_strong (last, last)) engine.emergencyStop();
     return {};
 }
@@ -81,7 +82,7 @@ std::string Emergency::takeNotes()
     std::string notes;
     if (const auto now = Failsafe::alarms(); std::exchange (alarms_told, now) != now)
     {
-        press();   // also refuses to rearm within a second
+        press();   // press() also makes rearm() refuse for a second
         const auto alarm = Failsafe::alarm();
         notes += "warning: " + sentence (alarm) + (hasKeys() ? " (R)" : "") + " [" + alarm.id + "]\n";
     }

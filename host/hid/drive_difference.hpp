@@ -6,8 +6,8 @@
 namespace tactus::host::hid
 {
 
-/// How a profile drives a device otherwise than another profile of that device does, as in "'fx' has another scale"; empty if it
-/// does not. The same newtons then make the same bytes, so the limits of the other profile mean the same. A profile may drive fewer
+/// How a profile drives a device differently from another profile for it, such as "'fx' has another scale"; empty if there is no
+/// difference. The same newtons then give the same bytes, so the limits of the other profile mean the same. A profile may drive fewer
 /// fields, within narrower bounds; one without output reports drives nothing. Readings are not compared.
 std::string driveDifference (const Profile& own, const Profile& other);
 

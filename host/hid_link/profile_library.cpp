@@ -41,8 +41,8 @@ bool canFitOneDevice (const Profile& a, const Profile& b)
     });
 }
 
-/// An error if the user's profile drives the device of a shipped one otherwise, because the limits of the shipped one then mean
-/// nothing. If several shipped profiles fit that device, one of them must be the same, or replaced.
+/// An error if the user's profile drives a device differently from the shipped one for it, whose limits then mean
+/// nothing. If several shipped profiles fit that device, one of them must drive it in the same way, or be replaced.
 std::optional<Message> otherDrive (const std::vector<std::shared_ptr<const Profile>>& shipped, const Profile& own)
 {
     for (const auto& one : shipped)
@@ -126,7 +126,8 @@ LoadedProfiles joined (LoadedProfiles own, LoadedProfiles shipped)
         if (! others.empty())
             note (Message::warning ("profile/competes", "/match",
                                     "the profile fits the same devices as the shipped " + others + ", so it keeps to those limits too",
-                                    "fit other devices; or, to use it instead of one shipped profile and its limits, add \"replaces\" with the id of that one"));
+                                    "fit other devices; or, to use it instead of one shipped profile and its limits, add \"replaces\" with the "
+                                    "id of that one"));
         used.push_back (std::move (profile));
     }
     std::ranges::copy_if (shipped.profiles, std::back_inserter (all.profiles),

@@ -235,7 +235,7 @@ Result<> RemoteControl::rearm (const std::string& given)
     const auto now = std::chrono::steady_clock::now();
     if (now < wrong_token_until)
         return Message::error ("osc/rearm", {}, "the last token was wrong", "wait a tenth of a second, then give the token that play printed");
-    if (! given.empty() && given != token) wrong_token_until = now + std::chrono::milliseconds (100);   // 1.5e9 tokens take five years
+    if (! given.empty() && given != token) wrong_token_until = now + std::chrono::milliseconds (100);   // so trying all 1.5e9 tokens takes five years
     if (token.empty() || given != token)
         return Message::error ("osc/rearm", {}, given.empty() ? "a rearm over OSC needs a token" : "the token is wrong",
                                token.empty() ? "press REARM in the window" : "give the token that play printed, or press R in its terminal");

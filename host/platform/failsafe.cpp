@@ -45,7 +45,7 @@ std::array<Entry, Failsafe::most_devices> armed;
 static_assert (std::atomic<int>::is_always_lock_free, "a signal handler reads it");
 
 constexpr std::int64_t shortest_sleep = 50'000'000;     // ns; far longer than the two readings of hasSleptFor() are apart
-constexpr std::int64_t longest_pause = 1'000'000'000;   // ns between two beats; longer than patience, because only a frozen guardian lets it happen
+constexpr std::int64_t longest_pause = 1'000'000'000;   // ns between two beats; longer than `patience`: the guardian must have been frozen too
 
 std::mutex changing;
 std::atomic<Shared*> shared { nullptr };   // from the first guardian on

@@ -29,7 +29,7 @@ namespace tactus::host
 ///  - The guardian is forked when the first failsafe is armed, and ends with this process. It ignores Ctrl-C. If it is killed, a
 ///    thread of this process forks another one at once.
 ///  - The guardian counts its own looks at the beats and reads no clock, so it takes no device when the whole computer pauses.
-///    While program and guardian are frozen together, nothing is sent. beat() finds a pause of a second out afterwards.
+///    While program and guardian are frozen together, nothing is sent. Afterwards, beat() detects a pause of more than a second.
 class Failsafe
 {
 public:
@@ -52,7 +52,7 @@ public:
     ~Failsafe();   ///< disarms the failsafe
 
     /// A sign of life from the thread that writes to the device. Needed several times per `patience` while there may be an effort
-    /// on the device (`driven`), and once more without. No system call. Returns false from when the guardian has taken the device,
+    /// on the device (`driven`), and once more when there is none. Makes no system call. Returns false once the guardian has taken the device,
     /// the computer has slept, or the last beat under effort was more than a second ago. The device must then be opened anew, and
     /// get no effort until then. [one thread at a time]
     bool beat (bool driven) noexcept;

@@ -43,7 +43,8 @@ struct Shared
     std::atomic<std::int64_t> detail { 0 };
     std::atomic<std::uint32_t> alarms { 0 };   ///< counts them
 
-    static constexpr std::int64_t at_rest = 0, taken = -1;   ///< there is nothing to watch; the device is no longer the program's, until it is opened again
+    static constexpr std::int64_t at_rest = 0;   ///< there is nothing to watch
+    static constexpr std::int64_t taken = -1;    ///< the program must not drive the device until it opens the device again
 
     void raiseAlarm (Cause c, std::int64_t d) noexcept
     {

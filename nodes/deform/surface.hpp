@@ -138,7 +138,7 @@ struct ElasticSurface
     Params params;
     Settings settings;
 
-    /// Whether slips gain energy is searched for each triangle, if the curves of a tool differ from node to node.
+    /// If the curves of a tool differ from node to node, each triangle is searched for slips that gain energy.
     Cost cost() const
     {
         constexpr double work_per_triangle = 500.0, work_per_search = 10'000.0, bytes_per_triangle = 200.0;

@@ -271,9 +271,11 @@ TEST_CASE ("the table of faults in docs/safety.md is correct", "[runtime][safety
             CHECK (m.largest_step == 0.0);
         table += rowOf (fault, m) + "\n";
     }
-    table += slowRow ("the machine is too busy: the run gets a tenth of its ticks", 0.5, 9.5, 3000, RunStatus::End::length, "once it keeps up, it rises along the ramp") + "\n";
+    table += slowRow ("the machine is too busy: the run gets a tenth of its ticks", 0.5, 9.5, 3000, RunStatus::End::length,
+                      "rises along the ramp once the run keeps up")
+             + "\n";
     table += slowRow ("a graph that takes four times as long as a tick period", 4.0, 0.0, 1'000'000, RunStatus::End::overrun,
-                      "the run is over 500 ms after its first late tick")
+                      "the run ends 500 ms after its first late tick")
              + "\n";
 
     std::ifstream in (document());

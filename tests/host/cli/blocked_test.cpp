@@ -362,7 +362,7 @@ TEST_CASE ("a rearm over OSC that came before a stop does not undo it, however l
     us->send (port, rearm);
     REQUIRE (eventually ([&] { return ! hasUnreadPackets (port); }));
     press (Way::signal, play, port);
-    std::this_thread::sleep_for (std::chrono::milliseconds (1200));   // more than the pause after a stop, if it counted from the handling
+    std::this_thread::sleep_for (std::chrono::milliseconds (1200));   // longer than the pause after a stop
     play.type ("\x11");                                               // Ctrl-Q
     const auto answer = us->next (std::chrono::seconds (30));
     REQUIRE (answer);

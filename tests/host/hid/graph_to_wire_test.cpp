@@ -90,7 +90,7 @@ std::shared_ptr<const Profile> anyProfile()
     return std::make_shared<const Profile> (std::move (p));
 }
 
-/// The hand moves as fast as it likes.
+/// Reports of a hand that moves arbitrarily fast.
 std::vector<Bytes> anyReports (const Profile& profile)
 {
     const auto& in = profile.inputs[0];
