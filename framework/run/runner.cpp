@@ -10,7 +10,8 @@ namespace tactus
 {
 
 Runner::Runner (Engine& e, TickClock& c, double rate_hz, Options o)
-    : engine (e), clock (c), options (o), longest_halt (static_cast<std::uint64_t> (longest_halt_s * rate_hz)), ticks_so_far (1.0 / rate_hz), lost_time (1.0 / rate_hz),
+    : engine (e), clock (c), options (o), longest_halt (static_cast<std::uint64_t> (longest_halt_s * rate_hz)), ticks_so_far (1.0 / rate_hz),
+      lost_time (1.0 / rate_hz),
       node_costs (c)
 {
 }

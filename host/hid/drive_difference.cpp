@@ -69,7 +69,8 @@ private:
     {
         const auto same = std::ranges::find_if (other.outputs, [&] (const auto& r) { return haveSameFrame (report, r); });
         if (same == other.outputs.end()) return "its report " + quote (report.name) + " has another id, kind or constants, or another counter or checksum";
-        if (report.stream && ! (same->stream && haveSameSamples (*report.stream, *same->stream))) return "its report " + quote (report.name) + " has another stream";
+        if (report.stream && ! (same->stream && haveSameSamples (*report.stream, *same->stream)))
+            return "its report " + quote (report.name) + " has another stream";
         for (const auto& field : report.fields)
             if (auto difference = in (field, *same); ! difference.empty()) return difference;
         return {};

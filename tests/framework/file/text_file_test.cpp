@@ -46,7 +46,8 @@ TEST_CASE ("included files count toward one budget of values, and their number i
     const TemporaryFolder folder;
     folder.write ("part.json", R"({ "format": "tactus-graph", "version": 1, "ui": { "a": [1, 2, 3] } })");
     folder.write ("other.json", R"({ "format": "tactus-graph", "version": 1, "ui": { "a": [1, 2, 3] } })");
-    folder.write ("main.json", R"({ "format": "tactus-graph", "version": 1, "nodes": { "a": { "type": "file:part.json" }, "b": { "type": "file:other.json" } } })");
+    folder.write ("main.json", R"({ "format": "tactus-graph", "version": 1, 
+      "nodes": { "a": { "type": "file:part.json" }, "b": { "type": "file:other.json" } } })");
     CHECK_FALSE (hasErrors (loadGraph (folder / "main.json").messages));   // 8 values in each file
     const auto idWith = [&] (const char* limits) {
         const WithLimits changed (limits);

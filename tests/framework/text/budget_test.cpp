@@ -31,7 +31,8 @@ TEST_CASE ("a wrong limit is refused with what would be right", "[budget]")
     };
     CHECK_THAT (refusal ("noodles=3"), Contains ("'noodles'") && Contains ("did you mean 'nodes'?"));
     CHECK_THAT (refusal ("nodes"), Contains ("nodes=200k"));
-    for (const auto* wrong : { "nodes=", "nodes=0", "nodes=-1", "nodes=nan", "nodes=inf", "nodes=1e300", "nodes=2KB", "nodes=3 k", "memory=2TB", "time=0s", "time=1h", "nodes=1,=2" })
+    for (const auto* wrong : { "nodes=", "nodes=0", "nodes=-1", "nodes=nan", "nodes=inf", "nodes=1e300", "nodes=2KB", "nodes=3 k", "memory=2TB",
+                               "time=0s", "time=1h", "nodes=1,=2" })
     {
         INFO (wrong);
         refusal (wrong);

@@ -84,7 +84,8 @@ TEST_CASE ("every signal that would end or suspend a play ends it as Ctrl-C does
         const auto log = scratch.path (std::to_string (number) + ".jsonl");
         Running play { { "play", graph, "--device", "tip=sim", "--record", "motor.applied.x", "--out", recorded, "--log", log } };
         REQUIRE (test::eventually ([&] { return test::textOf (log).find ("\"tick\":0,") != std::string::npos; }));   // it ticks
-        play.signal (SIGTTIN);                                                                                       // reading and writing in the background neither suspends nor ends the program
+        // Reading and writing in the background neither suspends nor ends the program.
+        play.signal (SIGTTIN);
         play.signal (SIGTTOU);
         play.signal (number);
         const auto ran = play.finish();

@@ -119,7 +119,10 @@ Sketch anyGraph (const std::vector<std::string>& efforts)
         const auto name = "source" + std::to_string (n++);
         const double size = most * any (0.0, 1.0) * *rc::gen::element (1.0, 1.0, 1e6);
         if (*rc::gen::arbitrary<bool>())
-            s.node (name, "signal.lfo", { { "amplitude", size }, { "frequency", any (1.0, 300.0) }, { "shape", *rc::gen::element<std::string> ("sine", "square") } });
+        {
+            const auto shape = *rc::gen::element<std::string> ("sine", "square");
+            s.node (name, "signal.lfo", { { "amplitude", size }, { "frequency", any (1.0, 300.0) }, { "shape", shape } });
+        }
         else
             s.node (name, "signal.constant", { { "value", size * *rc::gen::element (1.0, -1.0) } });
         return name + ".out";
