@@ -153,7 +153,7 @@ void Guard::prepare (const GuardLimits& wanted, double dt_s, const DeviceLayout&
 {
     *this = Guard();
     if (isFinite (dt_s) && dt_s > 0.0) dt = dt_s;
-    limits = tightest (wanted, wanted);
+    limits = tightest (wanted, {});
     const auto limitsAny = [] (auto... all) { return ((all != GuardLimits::none) || ...); };
     watches_turns = limitsAny (limits.max_angular_speed, limits.max_energy);
     axis_of_effort = axesOf (layout);
@@ -172,7 +172,9 @@ void Guard::emergencyStop() noexcept
 
 void Guard::rearm() noexcept
 {
-    if (isLatched()) forget();
+    // A limit that was exceeded on the last tick takes effect on the next one, and only then can it be rearmed.
+    const bool has_effect = latched == Stop::emergency || ! is_news;
+    if (isLatched() && has_effect) forget();
 }
 
 /// Forgets latched stops, and what the watches have counted.

@@ -146,7 +146,8 @@ TEST_CASE ("a session can only tighten the limits of a device's profile, in the 
     REQUIRE (bound.device);
     CHECK (bound.messages.empty());
     CHECK (bound.limits.max_force == 3.0);
-    CHECK (bound.limits.max_speed == 0.5);
+    CHECK (bound.limits.max_speed == 1.0);
+    CHECK (bound.limits.workspace_scale == 0.5);
     CHECK (bound.limits.ramp == 0.5);
     CHECK (bound.driver != bound.device.get());
     CHECK (realDevice ("stylus", *bound.driver));
