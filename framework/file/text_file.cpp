@@ -64,7 +64,7 @@ std::string whyUnreadable (const fs::path& path)
     case fs::file_type::directory:
         return "it is a folder";
     case fs::file_type::fifo:
-        return "it is a named pipe, not a file; save what it delivers into a file";
+        return "it is a named pipe, not a file; save its output to a file";
     case fs::file_type::character:
     case fs::file_type::block:
         return "it is a device, not a file";

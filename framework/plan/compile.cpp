@@ -132,7 +132,7 @@ PortUnits check (Flat& flat, const Setup& setup, Order& ordered)
     return units;
 }
 
-/// Collects the params and inputs that subgraphs expose, by their names from the top.
+/// Collects the params and inputs that subgraphs expose, by their full names.
 void addExposed (const Scope& scope, std::map<std::string, Ports>& all)
 {
     for (const auto& member : scope.members)

@@ -22,7 +22,7 @@ namespace
 {
 constexpr int max_depth = 32;
 
-// What compiling takes, measured, in units of work (work_unit_s).
+// Measured costs of compiling, in units of work (work_unit_s).
 constexpr double work_per_node = 800.0, work_of_a_search = 10'000.0;
 
 /// Reserves room in large steps, so that many small additions do not move everything each time.

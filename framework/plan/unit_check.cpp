@@ -325,8 +325,8 @@ private:
         if (a == Quantity::any || b == Quantity::any || a == b) return;
         const auto& w = *l.wire;
         flat.warn ("wire/quantity", w.origin,
-                   "'" + flat.nameOf (*w.from) + "' carries a " + std::string (name (a)) + " and '" + flat.nameOf (w.to) + "' a " + std::string (name (b))
-                       + "; both are in " + symbolOf (dimensions.dimension (l.a).value_or (Dimension {})),
+                   "the quantity of '" + flat.nameOf (*w.from) + "' is " + std::string (name (a)) + ", that of '" + flat.nameOf (w.to) + "' is "
+                       + std::string (name (b)) + "; both have the unit " + symbolOf (dimensions.dimension (l.a).value_or (Dimension {})),
                    "fine if intended; otherwise wire another port");
     }
 

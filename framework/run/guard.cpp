@@ -268,7 +268,7 @@ bool Guard::hasBrokenAxes (const Reading& reading) const noexcept { return watch
     return work;
 }
 
-/// Adds the last effort, which was on the device for this time.
+/// Adds the impulse of the last effort, which was on the device for s seconds.
 void Guard::countImpulse (double s) noexcept
 {
     const auto for_ticks = static_cast<std::uint64_t> (std::clamp (s / dt, 1.0, 1e9));

@@ -161,7 +161,7 @@ public:
     void emergencyStop() noexcept;
     void rearm() noexcept;
 
-    /// True while a stop lasts that only rearm() ends, even if another cause is reported. [any thread that owns the guard]
+    /// True during a stop that only rearm() can end, even if another cause is reported. [any thread that owns the guard]
     bool isLatched() const noexcept { return latched != Stop::none; }
 
     /// Why the last effort was withheld. [any thread that owns the guard]

@@ -174,7 +174,7 @@ public:
         std::vector<std::pair<std::string, RoleDevice>> opened;
     };
 
-    /// Compiles an edited graph. The run keeps its rate: if the graph has another one, a message reports it (watch/rate). For
+    /// Compiles an edited graph. The run keeps its rate: if the graph has a different one, a message reports it (watch/rate). For
     /// `kept`, see CompileOptions.
     Edit edit (const graph::Graph& g, std::vector<std::string> kept = {}) { return { *this, g, std::move (kept) }; }
 

@@ -61,7 +61,7 @@ public:
 
     void require (std::string_view key, std::string_view remedy);   ///< reports the key if it is missing
     void ignore (std::string_view key);                             ///< marks a key as known without reading it
-    void finish();                                                  ///< reports the keys that are not known, of which it lists 100
+    void finish();                                                  ///< reports the keys that are not known, and lists at most 100 of them
 
     void error (std::string_view key, std::string id, std::string text, std::string remedy);
 

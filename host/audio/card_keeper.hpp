@@ -31,7 +31,7 @@ public:
     Result<> open (const CardWanted&, int outputs, int inputs);
     void close();
 
-    /// Call this many times a second. [main thread]
+    /// Must be called many times a second. [main thread]
     void attend (Clock::time_point now = Clock::now());
 
     bool isOpen() const noexcept { return card != nullptr; }                                   ///< [main thread]

@@ -16,7 +16,7 @@ namespace tactus::host::audio
 class ChannelLimit
 {
 public:
-    /// Adds the limits of a role. Both are in samples (1 is full scale), the slew per s. [main thread, while no block is requested]
+    /// Adds the limits of a role: the largest sample value (1 is full scale), and how much it may change per s. [main thread, while no block is requested]
     void tighten (double most_sample, double slew_per_s) noexcept
     {
         is_set = true;

@@ -7,7 +7,7 @@
 namespace tactus::bench
 {
 
-/// How many times as long the first function of a pair takes as the second, over many rounds.
+/// The time of the first function of a pair divided by that of the second, over many rounds.
 struct Ratio
 {
     double median = 0.0, low = 0.0, high = 0.0;   ///< low to high: the 95 % confidence interval of the median

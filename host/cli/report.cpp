@@ -41,7 +41,7 @@ int report (const Messages& messages, const LoadedGraph& loaded, const std::stri
         std::cerr << inOneLine (placeOf (m, loaded, file)) << ": " << (error ? "error: " : "warning: ") << printable (m.text);
         std::cerr << "\n    " << printable (m.remedy) << " [" << m.id << "]\n";
     }
-    if (count > most_messages) std::cerr << inOneLine (file) << ": there are " << count - most_messages << " more problems\n    fix these first\n";
+    if (count > most_messages) std::cerr << inOneLine (file) << ": problems not listed: " << count - most_messages << "\n    fix the listed ones first\n";
     return errors;
 }
 

@@ -68,7 +68,7 @@ private:
     std::string in (const OutputReport& report) const
     {
         const auto same = std::ranges::find_if (other.outputs, [&] (const auto& r) { return haveSameFrame (report, r); });
-        if (same == other.outputs.end()) return "its report " + quote (report.name) + " has another id, kind or constants, or another counter or checksum";
+        if (same == other.outputs.end()) return "its report " + quote (report.name) + " differs in its id, kind, constants, counter or checksum";
         if (report.stream && ! (same->stream && haveSameSamples (*report.stream, *same->stream)))
             return "its report " + quote (report.name) + " has another stream";
         for (const auto& field : report.fields)

@@ -15,7 +15,7 @@ namespace tactus::host::hid
 
 class ReportDecoder;
 
-/// What the law and the scale make of a finite value: the number to write, before it is rounded and limited to the bits of its field.
+/// A finite value after its law and its scale are applied: the number to write, before it is rounded and limited to the bits of its field.
 double encoded (const Encoding&, double value) noexcept;
 
 /// Encodes values into bytes: clamped to the range of each field, with counters and checksums. Never allocates or throws

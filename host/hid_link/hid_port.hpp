@@ -68,7 +68,7 @@ class HidPort
 public:
     struct Options
     {
-        std::chrono::milliseconds look_again { 500 };   ///< interval between looks for a device that is disconnected
+        std::chrono::milliseconds look_again { 500 };   ///< interval between attempts to find a disconnected device
         bool real_time = true;                          ///< real-time priority for the threads, if the system grants it
     };
 

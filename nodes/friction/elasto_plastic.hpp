@@ -361,7 +361,7 @@ inline ElastoPlastic::Step ElastoPlastic::exponential (const Vec3& d, const Vec3
     return { .d = after, .loss = std::max (0.0, work - 0.5 * (after - d).dot (after + d)), .slips = true };
 }
 
-/// Drags the contact point along until the stretch, pulled to d of length r, is back at d_max. The contact holds up to a stretch
+/// Drags the contact point along: the stretch, which was pulled to d (of length r), returns to d_max. The contact holds up to a stretch
 /// of `hold`, or of `from` if that is longer because the bound has shrunk. From there the spring falls back to d_max, and the
 /// rest of the way is slip against the mean of static and sliding friction.
 inline ElastoPlastic::Step ElastoPlastic::drag (double from, const Vec3& d, double r, double hold) const noexcept

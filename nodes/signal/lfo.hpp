@@ -55,7 +55,7 @@ struct SignalLfo
     };
 
     static constexpr std::tuple ports {
-        param (&Params::frequency, "frequency", unit::hertz, "cycles per second; a negative one runs backwards", { .usual = { 0, 100 } }),
+        param (&Params::frequency, "frequency", unit::hertz, "cycles per second; a negative frequency runs backwards", { .usual = { 0, 100 } }),
         param (&Params::amplitude, "amplitude", any_unit, "largest deviation from the offset", { .usual = { 0, 10 } }),
         param (&Params::offset, "offset", sameAs ("amplitude"), "middle of the oscillation", { .usual = { -10, 10 } }),
         param (&Params::phase, "phase", unit::radian, "where in the cycle it starts", { .usual = { -2 * std::numbers::pi, 2 * std::numbers::pi } }),

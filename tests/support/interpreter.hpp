@@ -44,7 +44,7 @@ private:
         int around = -1;
         int every = 1, times = 1;
         bool linear = false;
-        double up = 1.0, down = 1.0;   // it ticks up / down times per tick of the graph
+        double up = 1.0, down = 1.0;   // number of its ticks per tick of the graph: up / down
         std::uint64_t number = 0;      // number of its current tick, counted in its own ticks
         bool done = false;             // has run in this tick of the enclosing section
     };

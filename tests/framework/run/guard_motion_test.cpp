@@ -209,7 +209,7 @@ TEST_CASE ("guard: limits with which a stop would take longer than half a second
     CHECK (found (R"({"max_torque": "1 N*m", "max_torque_slew": "1 N*m/s"})") == "device/slow_stop/guard/max_torque_slew");
     CHECK (found (R"({"max_axis_effort": 1, "max_axis_slew": 1})") == "device/slow_stop/guard/max_axis_slew");
     CHECK (found (R"({"max_signal": 1, "max_signal_slew": 1})") == "device/slow_stop/guard/max_signal_slew");
-    CHECK (found (R"({"max_slew": "1 N/s"})").empty());   // the device's profile may have the maximum
+    CHECK (found (R"({"max_slew": "1 N/s"})").empty());   // the device's profile may set max_force
     CHECK (found (R"({"max_angular_impulse": "1 N*m*s"})") == "device/missing/guard");
 }
 

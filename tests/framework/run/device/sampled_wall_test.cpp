@@ -60,7 +60,7 @@ double restlessness (double stiffness, int delay)
     return high - low;
 }
 
-/// Hunt and Crossley's e for a dissipation times speed of x: the root of x - ln (1 + x) = -x e - ln (1 - x e).
+/// Hunt and Crossley's coefficient of restitution e, where x is dissipation times impact speed: the root of x - ln (1 + x) = -x e - ln (1 - x e).
 double restitution (double x)
 {
     double low = 0.0, high = std::min (1.0, 1.0 / x);
