@@ -5,9 +5,7 @@
 #include <framework/plan/missing_parts.hpp>
 #include <framework/run/turn.hpp>
 #include <framework/text/message.hpp>
-#include <host/app/model/device_profiles.hpp>
 #include <host/assets/nearest_by_embree.hpp>
-#include <host/hid_link/open_device.hpp>
 #include <host/platform/failsafe.hpp>
 #include <host/platform/signals.hpp>
 #include <host/sessions/binding.hpp>
@@ -21,13 +19,7 @@ namespace tactus::host
 
 namespace
 {
-/// In m. The pointer starts this far above the origin, so that a run does not start inside an object.
-constexpr double hover = 5e-3;
-
 constexpr int looks_apart = 3;   // every third call of attend() checks the devices: ten times a second
-
-// For a hand that the graph does not describe.
-constexpr double usual_stiffness = 400.0, usual_damping = 4.0;   // N/m, N s/m
 
 Message stopped() { return Message::error ("run/stopped", {}, "nothing is running in the window", "press START in the window"); }
 }   // namespace
@@ -59,164 +51,17 @@ void LiveRun::setupChanged()
     };
     const auto sounds = [] (const DeviceSession& s) { return s.audio() != nullptr ? *s.audio() : Json(); };
     if (now.clock() != run_session.clock() || sounds (now) != sounds (run_session) || std::ranges::any_of (run->engine().newest().roles(), differs))
-        beginAnew (true);
-}
-
-bool LiveRun::isBound (const std::string& role) const { return setup != nullptr && setup->session().session.binding (role) != nullptr; }
-
-/// The first role that is not a sound card. Its tool is the one that is drawn and heard, and that the mouse can move.
-std::string LiveRun::handRoleOf (const Plan& plan) const
-{
-    for (const auto& role : plan.roles())
-    {
-        const auto* description = isBound (role.name) ? setup->session().session.binding (role.name) : document.graph().device (role.name);
-        if (description == nullptr || ! audio::isAudio (*description)) return role.name;
-    }
-    return {};
-}
-
-/// True if the mouse, or a path that the user has chosen, moves the tool.
-bool LiveRun::isMovedOtherwise (const std::string& role) const { return role == hand_role && moved_by.kind != Hand::Kind::described; }
-
-MadeDevice LiveRun::make (const Json& description, const std::filesystem::path& folder, const std::string& role, const Plan& plan)
-{
-    if (audio::isAudio (description)) return audio::openAudio (audio::withChannels (description, plan, role), *rig);
-    return hid::openDevice (description, folder, setup != nullptr ? setup->system() : hid::thisComputer(),
-                            setup != nullptr ? setup->profiles() : deviceProfiles());
-}
-
-/// Opens the device that the session binds a role to. Returns none, with a message, if it cannot be opened.
-Run::RoleDevice LiveRun::openBySession (const std::string& role, const Plan& plan, Messages& messages)
-{
-    const auto& session = setup->session();
-    const auto openOne = [&] (const Json& description, const std::filesystem::path& folder) { return make (description, folder, role, plan); };
-    const auto binding = bindingOf (session, role);
-    auto bound = openBound (session, role, *binding, openOne, setup->system(), setup->profiles(), Absence::waits);
-    std::ranges::move (bound.messages, std::back_inserter (messages));
-    if (! bound.device) return {};
-
-    Run::RoleDevice opened { std::move (bound.device), bound.limits, bound.driver };
-    if (role != hand_role) return opened;
-    if (const auto real = realDevice (role, *opened.driver)) hand_damping = real->profile().limits.device_damping / binding->workspace.scale;
-    const auto* simulated = dynamic_cast<const SimulatedDevice*> (opened.driver);
-    if (simulated == nullptr) return opened;
-    hand_damping = simulated->simulation().damping;
-    if (auto hand = chosenHand (simulated, hand_damping, messages))
-    {
-        opened.driver = hand.get();
-        if (binding->workspace.isPlain())
-            opened.device = std::move (hand);
-        else
-            opened.device = std::make_unique<WorkspaceDevice> (std::move (hand), binding->workspace);
-    }
-    return opened;
-}
-
-Run::RoleDevice LiveRun::openDescribed (const std::string& role, const Plan& plan, Messages& messages)
-{
-    const auto* described = document.graph().device (role);
-    auto made = make (described != nullptr ? *described : Json { { "driver", "sim" } }, document.graph().folder, role, plan);
-    for (auto& m : made.messages)
-        m.where = "/devices/" + role + m.where;
-    std::ranges::move (made.messages, std::back_inserter (messages));
-    if (! made.device || role != hand_role) return { std::move (made.device), made.limits };
-
-    const auto* simulated = dynamic_cast<SimulatedDevice*> (made.device.get());
-    hand_damping = simulated != nullptr ? simulated->simulation().damping : 0.0;
-    if (auto hand = chosenHand (simulated, hand_damping, messages)) made.device = std::move (hand);
-    return { std::move (made.device), made.limits };
-}
-
-Run::RoleDevice LiveRun::open (const std::string& role, const Plan& plan, Messages& messages)
-{
-    return ! isMovedOtherwise (role) && isBound (role) ? openBySession (role, plan, messages) : openDescribed (role, plan, messages);
-}
-
-/// A device that has its own clock ticks the run, as on the command line.
-ClockChoice LiveRun::decideClock (const Plan& plan) const
-{
-    auto& system = setup != nullptr ? setup->system() : hid::thisComputer();
-    const auto& profiles = setup != nullptr ? setup->profiles() : deviceProfiles();
-    std::vector<Described> described;
-    for (const auto& role : plan.roles())
-    {
-        const bool is_moved = isMovedOtherwise (role.name);
-        const auto bound = setup != nullptr ? bindingOf (setup->session(), role.name) : std::nullopt;
-        const auto* own = document.graph().device (role.name);
-        if (! is_moved && (bound || own != nullptr))
-            described.emplace_back (role.name, bound ? bound->description : *own);
-        else
-            described.emplace_back (role.name, Json { { "driver", "sim" } });
-    }
-    const auto rateOf = [&] (const Described& d, bool may_wait) {
-        const bool is_bound = setup != nullptr && setup->session().session.binding (d.first) != nullptr;
-        return tickRateOf (d.second, system, profiles, may_wait && is_bound);
-    };
-    return chooseClock ({ {}, setup != nullptr ? setup->session().session.clock() : std::string(), {} }, described, rateOf);
-}
-
-std::vector<RealDevice> LiveRun::realDevices() const
-{
-    std::vector<RealDevice> all;
-    if (run)
-        for (const auto& [role, d] : run->devices())
-            if (auto real = realDevice (role, d.driver != nullptr ? *d.driver : *d.device)) all.push_back (std::move (*real));
-    return all;
-}
-
-std::unique_ptr<TickClock> LiveRun::makeClock()
-{
-    for (const auto& real : realDevices())
-        if (real.role == clock_role)
-        {
-            if (real.present != nullptr) return std::make_unique<RunClock> (*real.present, run->rate());
-            return std::make_unique<RunClock> (*real.awaited, run->rate());
-        }
-    clock_role.clear();
-    return std::make_unique<AbsoluteTimer> (1.0 / run->rate());
-}
-
-/// The simulated tool of the first role, held by the chosen hand; null if the described device should be used.
-std::unique_ptr<Device> LiveRun::chosenHand (const SimulatedDevice* described, double& damping, Messages& messages)
-{
-    auto what = described != nullptr ? described->simulation() : Simulation {};
-    if (what.hand.stiffness == 0.0) what.hand = { usual_stiffness, usual_damping, nullptr };
-    switch (moved_by.kind)
-    {
-    case Hand::Kind::described:
-        if (described == nullptr || ! what.hand.path) return nullptr;
-        what.hand.path = transported = std::make_shared<TransportPath> (what.hand.path);
-        break;
-    case Hand::Kind::pointer:
-        what.position = Vec3 (0.0, 0.0, hover);
-        what.velocity.setZero();
-        what.hand_force.setZero();
-        what.hand.path = pointer = std::make_shared<PointerPath> (what.position);
-        break;
-    case Hand::Kind::path:
-    {
-        auto made = makeDevice ({ { "driver", "sim" }, { "hand", { { "path", moved_by.path } } } }, document.graph().folder);
-        std::ranges::move (made.messages, std::back_inserter (messages));
-        const auto* chosen = dynamic_cast<SimulatedDevice*> (made.device.get());
-        if (chosen == nullptr) return nullptr;
-        what.hand.path = transported = std::make_shared<TransportPath> (chosen->simulation().hand.path);
-        what.position = what.hand.path->at (0.0).position;
-        what.velocity.setZero();
-        break;
-    }
-    }
-    damping = what.damping;
-    return std::make_unique<SimulatedDevice> (std::move (what));
+        restart (true);
 }
 
 void LiveRun::start (Hand who)
 {
     moved_by = std::move (who);
-    beginAnew (false);
+    restart (false);
 }
 
 /// Restarts the run, for changes that cannot be applied while it runs. A latched stop stays latched unless the user starts the run.
-void LiveRun::beginAnew (bool stays_stopped)
+void LiveRun::restart (bool stays_stopped)
 {
     held = stays_stopped && (held || isStoppedForGood());
     stop();
@@ -347,7 +192,7 @@ void LiveRun::documentChanged()
     auto checked = makeRun (Run::Queries::within_tick)->check (graph);   // reports problems now: the previous run may take a moment to end
     said = std::move (checked.messages);
     if (checked.plan) needed = needsOf (*checked.plan);
-    if (wanted) beginAnew (true);   // the edited graph may compile now
+    if (wanted) restart (true);   // the edited graph may compile now
 }
 
 void LiveRun::takeOver()
@@ -361,7 +206,7 @@ void LiveRun::takeOver()
     if (hand_role.empty() && ! handRoleOf (*edit.plan()).empty())   // the run had no hand
     {
         edit.drop();
-        return beginAnew (true);
+        return restart (true);
     }
     note (*edit.plan());
     edit.openDevices();

@@ -159,7 +159,7 @@ private:
     void after (const Plan&, std::uint64_t tick, bool halts) noexcept override;
 
     bool isLive() const noexcept { return run && run->isLive(); }
-    void beginAnew (bool stays_stopped);
+    void restart (bool stays_stopped);
     void begin();
     void end();
     std::unique_ptr<Run> makeRun (Run::Queries);
