@@ -117,7 +117,8 @@ LoadedProfiles joined (LoadedProfiles own, LoadedProfiles shipped)
         }
         if (isShipped (profile->replaces))
         {
-            note (Message::warning ("profile/replaces", "/replaces", "the profile replaces the shipped profile " + quote (profile->replaces) + " and its limits",
+            const auto shipped_one = "the shipped profile " + quote (profile->replaces);
+            note (Message::warning ("profile/replaces", "/replaces", "the profile replaces " + shipped_one + " and its limits",
                                     "remove this file to use the shipped profile"));
             replaced.push_back (profile->replaces);
         }

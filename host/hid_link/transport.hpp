@@ -48,7 +48,7 @@ public:
     virtual Result<> armFailsafe (const std::vector<OutgoingReport>&) { return {}; }
 
     /// Tells the failsafe that the writing thread is alive, and whether there may be an effort on the device. Returns false if the
-    /// device must be opened anew and get no effort until then, because the failsafe has written to it or the computer has slept.
+    /// failsafe has written to the device, or if the computer has slept. Then open the device again before sending any effort.
     virtual bool beat (bool /*driven*/) noexcept { return true; }
 };
 

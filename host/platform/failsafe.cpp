@@ -248,7 +248,7 @@ std::uint32_t Failsafe::alarms() noexcept
 
 Message Failsafe::alarm()
 {
-    constexpr auto remedy = "rearm once it is safe";
+    constexpr auto remedy = "make sure that forces may safely return, then rearm";
     const auto* with = shared.load();
     if (with == nullptr) return {};
     const auto detail = with->detail.load();

@@ -41,7 +41,7 @@ public:
 
     static constexpr std::size_t most_devices = 16, most_reports = 16, most_bytes = 4096;
 
-    /// How long a device under effort may go without a beat. The guardian takes the device about this long after the last one.
+    /// While an effort is on a device, the guardian takes the device about this long after its last beat.
     static constexpr std::chrono::milliseconds patience { 100 };
 
     /// Arms the failsafe. Writes nothing now. Id: device/failsafe. [main thread, or one that opens devices]
@@ -51,10 +51,10 @@ public:
     Failsafe& operator= (Failsafe&&) noexcept;
     ~Failsafe();   ///< disarms the failsafe
 
-    /// A sign of life from the thread that writes to the device. Needed several times per `patience` while there may be an effort
-    /// on the device (`driven`), and once more when there is none. Makes no system call. Returns false once the guardian has taken the device,
-    /// the computer has slept, or the last beat under effort was more than a second ago. The device must then be opened anew, and
-    /// get no effort until then. [one thread at a time]
+    /// A sign of life from the thread that writes to the device. Call it several times per `patience` while an effort may be on the
+    /// device (`driven`), and once more when there is none. Makes no system call. Returns false if the guardian has taken the device,
+    /// if the computer has slept, or if more than a second has passed since the last beat while an effort was on the device. Then
+    /// open the device again before sending any effort. [one thread at a time]
     bool beat (bool driven) noexcept;
 
     /// The number of alarms so far. One atomic read. [any thread, also the tick thread]

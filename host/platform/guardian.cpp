@@ -49,8 +49,8 @@ bool receive (int from, FinalReports& reports, int& file) noexcept
     return true;
 }
 
-/// Takes each device whose beats have stopped under effort. The exchange fails if a beat comes at the last moment, and later
-/// beats see that the device is taken, so it never happens that both sides drive the device.
+/// Takes each device whose beats have stopped while an effort was on it. If a beat comes at the last moment, the exchange fails.
+/// Later beats see that the device is taken, so the program and the guardian never both drive it.
 void lookAtBeats (Shared& shared) noexcept
 {
     struct Seen

@@ -9,6 +9,7 @@
 #include <rapidcheck/catch.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 using namespace tactus;
@@ -240,4 +241,41 @@ TEST_CASE ("a run: the guard that the graph describes holds for any device of th
     CHECK (appliedWith ({}, R"({"max_signal": "2 N"})").second.empty());
     CHECK (appliedWith ({}, R"({"max_signal": "2 apples"})").second == "device/unit/devices/stylus/guard/max_signal");
     CHECK (appliedWith ({}, R"({"dead_man_button": "grip"})").second == "device/unknown_button/devices/stylus/guard/dead_man_button");
+}
+
+TEST_CASE ("guard: a session can tighten a profile's limits, but never loosen them", "[framework][guard]")
+{
+    const GuardLimits profile { .max_force = 3.3, .max_slew = 500.0, .ramp = 0.2, .watchdog = 0.02 };
+    const GuardLimits session { .max_force = 10.0, .max_torque = 0.1, .max_slew = 200.0, .ramp = 0.1, .watchdog = 1.0 };
+
+    CHECK (tightest (profile, session) == GuardLimits { .max_force = 3.3, .max_torque = 0.1, .max_slew = 200.0, .ramp = 0.2, .watchdog = 0.02 });
+    CHECK (tightest (profile, {}) == profile);
+
+    const GuardLimits short_window { .max_impulse = 1.0, .impulse_window = 0.1, .max_energy = 0.5, .energy_window = 2.0, .dead_man_buttons = 1 };
+    const GuardLimits long_window {
+        .max_axis_effort = 2.0,
+        .max_signal = 1.0,
+        .max_speed = 1.0,
+        .max_impulse = 3.0,
+        .impulse_window = 1.0,
+        .max_energy = 0.1,
+        .dead_man_pressure = 0.5,
+        .dead_man_buttons = 4,
+    };
+    const auto both = tightest (short_window, long_window);
+    CHECK (both == tightest (long_window, short_window));
+    CHECK (both == GuardLimits {
+               .max_axis_effort = 2.0,
+               .max_signal = 1.0,
+               .max_speed = 1.0,
+               .max_impulse = 1.0,
+               .impulse_window = 1.0,
+               .max_energy = 0.1,
+               .energy_window = 0.0,
+               .dead_man_pressure = 0.5,
+               .dead_man_buttons = 5,
+           });
+    CHECK (tightest (both, {}) == both);
+    CHECK (tightest ({ .impulse_window = 5.0 }, short_window).impulse_window == 0.1);   // the window of an unused limit does not count
+    CHECK (tightest (profile, { .max_force = std::numeric_limits<double>::quiet_NaN(), .ramp = std::numeric_limits<double>::quiet_NaN() }).max_force == 0.0);
 }

@@ -482,43 +482,6 @@ TEST_CASE ("guard: the reason for a stop is reported with its numbers, and kept 
     CHECK (describe (guard.latest()) == "the device has no valid reading");
 }
 
-TEST_CASE ("guard: a session can tighten a profile's limits, but never loosen them", "[framework][guard]")
-{
-    const GuardLimits profile { .max_force = 3.3, .max_slew = 500.0, .ramp = 0.2, .watchdog = 0.02 };
-    const GuardLimits session { .max_force = 10.0, .max_torque = 0.1, .max_slew = 200.0, .ramp = 0.1, .watchdog = 1.0 };
-
-    CHECK (tightest (profile, session) == GuardLimits { .max_force = 3.3, .max_torque = 0.1, .max_slew = 200.0, .ramp = 0.2, .watchdog = 0.02 });
-    CHECK (tightest (profile, {}) == profile);
-
-    const GuardLimits short_window { .max_impulse = 1.0, .impulse_window = 0.1, .max_energy = 0.5, .energy_window = 2.0, .dead_man_buttons = 1 };
-    const GuardLimits long_window {
-        .max_axis_effort = 2.0,
-        .max_signal = 1.0,
-        .max_speed = 1.0,
-        .max_impulse = 3.0,
-        .impulse_window = 1.0,
-        .max_energy = 0.1,
-        .dead_man_pressure = 0.5,
-        .dead_man_buttons = 4,
-    };
-    const auto both = tightest (short_window, long_window);
-    CHECK (both == tightest (long_window, short_window));
-    CHECK (both == GuardLimits {
-               .max_axis_effort = 2.0,
-               .max_signal = 1.0,
-               .max_speed = 1.0,
-               .max_impulse = 1.0,
-               .impulse_window = 1.0,
-               .max_energy = 0.1,
-               .energy_window = 0.0,
-               .dead_man_pressure = 0.5,
-               .dead_man_buttons = 5,
-           });
-    CHECK (tightest (both, {}) == both);
-    CHECK (tightest ({ .impulse_window = 5.0 }, short_window).impulse_window == 0.1);   // the window of an unused limit does not count
-    CHECK (tightest (profile, { .max_force = not_a_number, .ramp = not_a_number }).max_force == 0.0);
-}
-
 TEST_CASE ("guard: the halt that ends a run does not hide the earlier reason for withholding the force", "[framework][guard]")
 {
     Guard guard;

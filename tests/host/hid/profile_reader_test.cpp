@@ -227,7 +227,8 @@ TEST_CASE ("a profile that drives signals, by samples or by their amplitude, say
 
     json = good();
     json["outputs"].push_back (
-        Json::parse (R"({ "name": "samples", "id": 4, "neutral": "04 00*4", "verified": true, "stream": { "at": 1, "frames": 4, "channels": ["l"], "rate": 3000 } })"));
+        Json::parse (R"({ "name": "samples", "id": 4, "neutral": "04 00*4", "verified": true,
+                          "stream": { "at": 1, "frames": 4, "channels": ["l"], "rate": 3000 } })"));
     const auto unlimited = readProfile (json);
     REQUIRE (unlimited.messages.size() == 1);
     CHECK (unlimited.messages[0].id == "profile/no_limit");

@@ -100,7 +100,8 @@ inline std::shared_ptr<const Surface> uneven (Mesh mesh, unsigned seed, double m
     return body (std::move (mesh), { nodes }, ratios);
 }
 
-inline ElasticSurface made (std::shared_ptr<const Surface> surface, ElasticSurface::Friction friction = ElasticSurface::Friction::bound, double rate_hz = 1000.0)
+inline ElasticSurface made (std::shared_ptr<const Surface> surface, ElasticSurface::Friction friction = ElasticSurface::Friction::bound,
+                            double rate_hz = 1000.0)
 {
     ElasticSurface node;
     node.settings.surface = std::move (surface);
