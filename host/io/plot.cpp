@@ -3,7 +3,7 @@
 
 #include "figure_layout.hpp"
 #include "polyline.hpp"
-#include <framework/file/atomic_file.hpp>
+#include <tactus/file/atomic_file.hpp>
 
 #include <juce_events/juce_events.h>
 #include <juce_graphics/juce_graphics.h>
@@ -267,32 +267,24 @@ private:
     const FigureStyle& style;
 };
 
-Message fail (std::string id, const std::filesystem::path& path, std::string what, std::string remedy)
-{
-    return Message { .id = std::move (id),
-                     .where = path.string(),
-                     .text = std::move (what),
-                     .remedy = std::move (remedy) };
-}
-
 Result<> check (const Figure& figure, const std::filesystem::path& path)
 {
     constexpr int smallest = 200, largest = 16'384;
 
     if (figure.panels.empty())
-        return fail ("plot/no_panels", path, "the figure has no panels", "record something to plot");
+        return Message::error ("plot/no_panels", path.string(), "the figure has no panels", "record something to plot");
 
     if (figure.width < smallest || figure.width > largest || figure.height < 0 || figure.height > largest)
-        return fail ("plot/size", path,
-                     "a figure cannot be " + std::to_string (figure.width) + " by " + std::to_string (figure.height) + " pixels",
-                     "choose " + std::to_string (smallest) + " to " + std::to_string (largest) + " pixels");
+        return Message::error ("plot/size", path.string(),
+                               "a figure cannot be " + std::to_string (figure.width) + " by " + std::to_string (figure.height) + " pixels",
+                               "choose " + std::to_string (smallest) + " to " + std::to_string (largest) + " pixels");
 
     for (const auto& axes : figure.panels)
         for (const auto& [label, x, y, colour, style] : axes.series)
             if (x.size() != y.size())
-                return fail ("plot/ragged_series", path,
-                             "series '" + label + "' has " + std::to_string (x.size()) + " x values and " + std::to_string (y.size()) + " y values",
-                             "give one y value per x value");
+                return Message::error ("plot/ragged_series", path.string(),
+                                       "series '" + label + "' has " + std::to_string (x.size()) + " x values and " + std::to_string (y.size()) + " y values",
+                                       "give one y value per x value");
     return {};
 }
 }   // namespace
@@ -307,8 +299,8 @@ Result<> writePng (const Figure& figure, const std::filesystem::path& path)
 
     FigureLayout layout (figure);
     if (! layout.arrange())
-        return fail ("plot/size", path, "the figure is too small for " + std::to_string (figure.panels.size()) + " panels",
-                     "plot fewer panels, make the figure higher, or leave out its height");
+        return Message::error ("plot/size", path.string(), "the figure is too small for " + std::to_string (figure.panels.size()) + " panels",
+                               "plot fewer panels, make the figure higher, or leave out its height");
 
     juce::MemoryOutputStream png;
     juce::PNGImageFormat().writeImageToStream (Painter (layout).paint(), png);

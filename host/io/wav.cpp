@@ -2,9 +2,9 @@
 #include "wav.hpp"
 #include "wav_samples.hpp"
 
-#include <framework/file/atomic_file.hpp>
-#include <framework/file/text_file.hpp>
-#include <framework/text/budget.hpp>
+#include <tactus/file/atomic_file.hpp>
+#include <tactus/file/text_file.hpp>
+#include <tactus/text/budget.hpp>
 
 #include <juce_audio_formats/juce_audio_formats.h>
 
@@ -51,14 +51,6 @@ private:
     std::ostream& out;
 };
 
-Message fail (std::string id, const std::filesystem::path& path, std::string what, std::string remedy)
-{
-    return Message { .id = std::move (id),
-                     .where = path.string(),
-                     .text = std::move (what),
-                     .remedy = std::move (remedy) };
-}
-
 std::string inWords (double number)
 {
     std::ostringstream text;
@@ -81,12 +73,12 @@ double sampleFrom (int raw, const juce::AudioFormatReader& reader)
 
 Result<Signal> readWav (const std::filesystem::path& path)
 {
-    if (const auto why = whyUnreadable (path); ! why.empty()) return fail ("wav/unreadable", path, why, "check the path");
+    if (const auto why = whyUnreadable (path); ! why.empty()) return Message::error ("wav/unreadable", path.string(), why, "check the path");
     const auto full_path = std::filesystem::absolute (path).string();
     std::unique_ptr<juce::InputStream> stream = juce::File (juce::String::fromUTF8 (full_path.c_str())).createInputStream();
     if (stream == nullptr)
-        return fail ("wav/unreadable", path, "there is no such file, or it is not readable",
-                     "check the path and the permissions");
+        return Message::error ("wav/unreadable", path.string(), "there is no such file, or it is not readable",
+                               "check the path and the permissions");
 
     const auto bytes_in_file = stream->getTotalLength();
     std::unique_ptr<juce::AudioFormatReader> reader;
@@ -94,25 +86,25 @@ Result<Signal> readWav (const std::filesystem::path& path)
         reader.reset (juce::WavAudioFormat().createReaderFor (samples.release(), true));
 
     if (reader == nullptr || ! isKnown (*reader))
-        return fail ("wav/not_a_wav", path, "it is not a supported WAV file",
-                     "save it as WAV, 32-bit float or 8-, 16-, 24- or 32-bit integer");
+        return Message::error ("wav/not_a_wav", path.string(), "it is not a supported WAV file",
+                               "save it as WAV, 32-bit float or 8-, 16-, 24- or 32-bit integer");
 
     const std::size_t bytes_per_frame = reader->numChannels * reader->bitsPerSample / 8;
     if (bytes_per_frame > largest_frame_bytes)
-        return fail ("wav/too_many_channels", path, "it has " + std::to_string (reader->numChannels) + " channels",
-                     "save it with fewer channels");
+        return Message::error ("wav/too_many_channels", path.string(), "it has " + std::to_string (reader->numChannels) + " channels",
+                               "save it with fewer channels");
 
     // Checked before memory is allocated, because a header may claim any size.
     if (reader->lengthInSamples < 0 || reader->lengthInSamples > bytes_in_file / static_cast<juce::int64> (bytes_per_frame))
-        return fail ("wav/truncated", path, "its header declares more samples than the file contains",
-                     "create the file again; writing it was interrupted");
+        return Message::error ("wav/truncated", path.string(), "its header declares more samples than the file contains",
+                               "create the file again; writing it was interrupted");
 
     const auto frames = static_cast<std::size_t> (reader->lengthInSamples);
     const std::size_t channels = reader->numChannels;
     if (const auto samples = static_cast<double> (frames) * static_cast<double> (channels); samples > budgets().numbers)
     {
         const auto over = overBudget ("wav/too_large", &Budgets::numbers, "it", samples, "save a part of it");
-        return fail (over.id, path, over.text, over.remedy);
+        return Message::error (over.id, path.string(), over.text, over.remedy);
     }
     Signal recording { .rate_hz = reader->sampleRate, .channels = std::vector (channels, std::vector<double> (frames)) };
 
@@ -126,7 +118,7 @@ Result<Signal> readWav (const std::filesystem::path& path)
         const auto now = std::min (frames_per_block, frames - done);
         if (! reader->read (pointers.data(), static_cast<int> (channels), static_cast<juce::int64> (done),
                             static_cast<int> (now), false))
-            return fail ("wav/unreadable", path, "reading stopped midway", "check the disk");
+            return Message::error ("wav/unreadable", path.string(), "reading stopped midway", "check the disk");
 
         for (std::size_t channel = 0; channel < channels; ++channel)
             for (std::size_t i = 0; i < now; ++i)
@@ -164,22 +156,22 @@ struct WavWriter::Impl
 Result<WavWriter> WavWriter::create (const std::filesystem::path& path, double sample_rate_hz, std::size_t channels, IfKilled if_killed)
 {
     if (channels == 0 || channels > most_channels)
-        return fail ("wav/channels", path, "a WAV file cannot have " + std::to_string (channels) + " channels",
-                     "record 1 to " + std::to_string (most_channels) + " components, or write a CSV");
+        return Message::error ("wav/channels", path.string(), "a WAV file cannot have " + std::to_string (channels) + " channels",
+                               "record 1 to " + std::to_string (most_channels) + " components, or write a CSV");
 
     // The header stores the sample rate and the bytes per second as 32-bit integers.
     const auto highest = std::floor (std::numeric_limits<int>::max() / static_cast<double> (channels * sizeof (float)));
     if (! (sample_rate_hz >= 1.0 && sample_rate_hz <= highest) || std::floor (sample_rate_hz) != sample_rate_hz)
-        return fail ("wav/sample_rate", path, "a WAV file cannot have a sample rate of " + inWords (sample_rate_hz) + " Hz",
-                     "choose a rate in whole Hz, or write a CSV");
+        return Message::error ("wav/sample_rate", path.string(), "a WAV file cannot have a sample rate of " + inWords (sample_rate_hz) + " Hz",
+                               "choose a rate in whole Hz, or write a CSV");
 
     auto file = AtomicFile::create (path, if_killed);
     if (! file)
         return file.error();
     if (file->stream().tellp() < 0)
-        return fail ("output/unwritable", path,
-                     "cannot be written: the header of a WAV is completed at the end, which a pipe does not allow",
-                     "write to a file");
+        return Message::error ("output/unwritable", path.string(),
+                               "cannot be written: the header of a WAV is completed at the end, which a pipe does not allow",
+                               "write to a file");
 
     auto impl = std::make_unique<Impl> (std::move (*file), channels);
 
@@ -202,9 +194,9 @@ WavWriter::~WavWriter() = default;
 Result<> WavWriter::frame (std::span<const double> samples)
 {
     if (samples.size() != impl->block.size())
-        return fail ("wav/channels", "the frame to write",
-                     "it has " + std::to_string (samples.size()) + " samples for " + std::to_string (impl->block.size()) + " channels",
-                     "give one sample per channel");
+        return Message::error ("wav/channels", "the frame to write",
+                               "it has " + std::to_string (samples.size()) + " samples for " + std::to_string (impl->block.size()) + " channels",
+                               "give one sample per channel");
 
     for (std::size_t channel = 0; channel < samples.size(); ++channel)
         impl->block[channel][impl->filled] = static_cast<float> (samples[channel]);

@@ -2,8 +2,8 @@
 // How the interpreter reads a graph; interpreter_tick.cpp runs it.
 #include "interpreter.hpp"
 
-#include <framework/plan/compile.hpp>
-#include <framework/text/units.hpp>
+#include <tactus/plan/compile.hpp>
+#include <tactus/text/units.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -59,6 +59,8 @@ Interpreter::Interpreter (const graph::Graph& graph_, double rate_hz) : g (graph
         if (i.type->prepare) i.type->prepare (i.node.get(), { .rate_hz = rate_hz * (section.up / section.down) });
         if (i.type->update) i.type->update (i.node.get());
     }
+    for (std::size_t w = 0; w < wires.size(); ++w)
+        wires_to[wires[w].to.node].push_back (w);
     route();
     if (sections.size() > 1) findWhatIsCarried();
 }
@@ -212,10 +214,12 @@ void Interpreter::findWhatIsCarried()
         for (const auto* end : { &w.from, &w.to })
             options.records.push_back (nameOf (*end));
     const auto compiled = compile (g, catalogue(), options);
+    std::map<std::string, Quantity> quantities;
+    for (const auto& tap : compiled.plan->taps())
+        quantities.emplace (tap.name, tap.quantity);
     const auto quantityOf = [&] (const End& e) {
-        for (const auto& tap : compiled.plan->taps())
-            if (tap.name == nameOf (e) || tap.name == nameOf (e) + ".x") return tap.quantity;
-        throw std::out_of_range (nameOf (e));
+        const auto scalar = quantities.find (nameOf (e));
+        return scalar != quantities.end() ? scalar->second : quantities.at (nameOf (e) + ".x");
     };
     for (auto& w : wires)
     {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/graph/graph.hpp>
-#include <framework/node/catalogue.hpp>
+#include <tactus/graph/graph.hpp>
+#include <tactus/node/catalogue.hpp>
 
 #include <deque>
 #include <map>
@@ -73,6 +73,7 @@ private:
     const graph::Graph& g;
     std::map<std::string, Instance> instances;
     std::vector<Wire> wires;
+    std::map<std::string, std::vector<std::size_t>> wires_to;   // indices into wires, by the node at their end
     std::vector<Section> sections { {} };
     std::map<std::string, std::unique_ptr<DeviceState>> roles;
 

@@ -67,10 +67,13 @@ double Interpreter::leavingValue (Wire& w, int section, int component)
 /// Sums the wires into one component of a port. Returns false if there are none.
 bool Interpreter::driven (const std::string& path, const std::string& port, int component, bool add, double& value)
 {
+    const auto ends_here = wires_to.find (path);
+    if (ends_here == wires_to.end()) return false;
     std::vector<double> terms;
-    for (auto& w : wires)
+    for (const auto index : ends_here->second)
     {
-        if (w.to.node != path || w.to.port != port || w.wire->add != add || (w.to.component >= 0 && w.to.component != component)) continue;
+        auto& w = wires[index];
+        if (w.to.port != port || w.wire->add != add || (w.to.component >= 0 && w.to.component != component)) continue;
         const double v = arrives (w, component, w.enters.size());
         terms.push_back (v * w.gain);
     }

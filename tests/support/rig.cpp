@@ -29,8 +29,7 @@ const NodeType& typeNamed (std::string_view id)
 std::size_t firstOf (std::string_view id, const std::vector<Rig::Component>& components, int index)
 {
     const auto at = std::ranges::find_if (components, [&] (const auto& c) { return c.port->id == id && c.index == index; });
-    INFO ("the node has no '" << id << "[" << index << "]'");
-    REQUIRE (at != components.end());
+    if (at == components.end()) FAIL ("the node has no '" << id << "[" << index << "]'");   // INFO would format its text on every call
     return static_cast<std::size_t> (at - components.begin());
 }
 }   // namespace
