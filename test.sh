@@ -3,7 +3,8 @@
 # Builds and tests everything. Works on a fresh Debian 12 and can be run repeatedly.
 #
 #   ./test.sh           runs the tests, normally and under ASan and UBSan (everything that does not need JUCE), adds a node as
-#                       a newcomer would, and drives virtual HID devices in a QEMU guest
+#                       a newcomer would, builds the examples against the installed library, and drives virtual HID devices in a
+#                       QEMU guest
 #   ./test.sh --quick   runs only the tests
 #   ./test.sh --long    adds to ./test.sh: each fuzzer for 60 s, 10 000 mutated files through the command line, the tests under
 #                       TSan (thread tests for 30 s each), the window under ASan and UBSan, and a soak of 1.2e8 ticks
@@ -117,6 +118,10 @@ build release
 if [ "$mode" != --quick ]; then
     say "A newcomer's node"
     tests/newcomer/run.sh
+fi
+if [ "$mode" != --quick ]; then
+    say "The installed library"
+    tests/install/run.sh build/release
 fi
 [ "$mode" = --quick ] || run_guest
 say "Tests"

@@ -1,27 +1,31 @@
 # SPDX-License-Identifier: MIT
-# Builds the catalogue from the headers in nodes/. A header registers its node by ending with
-#     TACTUS_NODE (tactus::nodes::MyNode);
-# Each node gets its own translation unit, so editing a node compiles one file. This script reads only the names of the headers,
-# so that an edit does not rerun CMake.
-function (tactus_collect_nodes result)
-    file (GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/*.hpp)
+# Builds a catalogue from a folder of headers. A header registers its node by ending with
+#     TACTUS_NODE (my::Node);
+# Each node gets its own translation unit, so editing a node compiles one file. This script reads only the names of the headers and
+# their TACTUS_NODE lines, so that an edit does not rerun CMake.
+
+# tactus_collect_nodes (RESULT FOLDER INCLUDED_AS END): RESULT becomes the generated sources of all nodes in the folder, whose headers
+# are included as INCLUDED_AS/path. END is C++ code that follows the declaration of `nodeTypes()`, which returns all of them.
+function (tactus_collect_nodes result folder included_as end)
+    file (GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${folder} ${folder}/*.hpp)
     list (SORT headers)
+    get_filename_component (library ${CMAKE_CURRENT_BINARY_DIR} NAME)
 
     foreach (header IN LISTS headers)
-        file (STRINGS ${PROJECT_SOURCE_DIR}/${header} line REGEX "^TACTUS_NODE")
+        file (STRINGS ${folder}/${header} line REGEX "^TACTUS_NODE")
         list (LENGTH line nodes)
         if (nodes EQUAL 0)
-            message (FATAL_ERROR "${header} has no TACTUS_NODE line. Helpers that nodes share belong in framework/kit/.")
+            message (FATAL_ERROR "${folder}/${header} has no TACTUS_NODE line. Helpers that nodes share belong in framework/kit/, or outside of this folder.")
         elseif (nodes GREATER 1)
-            message (FATAL_ERROR "${header} has ${nodes} TACTUS_NODE lines. Each node has its own header.")
+            message (FATAL_ERROR "${folder}/${header} has ${nodes} TACTUS_NODE lines. Each node has its own header.")
         endif ()
-        string (REGEX REPLACE "[/.]" "_" name "${header}")
+        string (MAKE_C_IDENTIFIER "${library}_${header}" name)
 
         file (CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT
-"#include <framework/node/catalogue.hpp>
+"#include <tactus/node/catalogue.hpp>
 #undef TACTUS_REGISTER
 #define TACTUS_REGISTER(N) tactus::NodeType ${name}() { return tactus::describe<N>(); }
-#include <${header}>
+#include <${included_as}/${header}>
 " @ONLY)
         list (APPEND sources ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
         string (APPEND declarations "tactus::NodeType ${name}();\n")
@@ -29,14 +33,20 @@ function (tactus_collect_nodes result)
     endforeach ()
 
     file (CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/catalogue.cpp CONTENT
-"#include <framework/node/catalogue.hpp>
+"#include <tactus/node/catalogue.hpp>
 ${declarations}
-const tactus::Catalogue& tactus::catalogue()
-{
-    static const Catalogue all { { ${types}} };
-    return all;
-}
+static std::vector<tactus::NodeType> nodeTypes() { return { ${types}}; }
+${end}
 " @ONLY)
     list (APPEND sources ${CMAKE_CURRENT_BINARY_DIR}/catalogue.cpp)
     set (${result} ${sources} PARENT_SCOPE)
+endfunction ()
+
+# tactus_add_nodes (PROGRAM FOLDER): adds the nodes of a folder to a program. Its catalogue contains them beside the nodes of Tactus.
+function (tactus_add_nodes program folder)
+    get_filename_component (folder ${folder} ABSOLUTE)
+    tactus_collect_nodes (sources ${folder} ${folder} "static const tactus::NodeLibrary library { nodeTypes };")
+    add_library (${program}_nodes OBJECT ${sources})   # objects, because a linker drops members of an archive that nobody calls
+    target_link_libraries (${program}_nodes PUBLIC tactus::nodes)
+    target_link_libraries (${program} PRIVATE ${program}_nodes tactus::nodes)
 endfunction ()

@@ -55,11 +55,31 @@ struct NodeType
     Effort (*effort) (const void* node) noexcept;
 };
 
+/// The nodes of a program that are not in nodes/. The build defines one object of static storage duration per folder; see
+/// tactus_add_nodes in catalogue.cmake.
+class NodeLibrary
+{
+public:
+    using Types = std::vector<NodeType> (*)();
+
+    explicit NodeLibrary (Types) noexcept;
+    NodeLibrary (const NodeLibrary&) = delete;
+    NodeLibrary& operator= (const NodeLibrary&) = delete;
+
+    /// The types of all libraries that exist so far.
+    static std::vector<NodeType> all();
+
+private:
+    Types types;
+    const NodeLibrary* next;
+};
+
 /// All node types, sorted by id.
 class Catalogue
 {
 public:
-    explicit Catalogue (std::vector<NodeType>);
+    /// Throws std::invalid_argument if two types have the same id: a graph would not say which one it means.
+    explicit Catalogue (std::vector<NodeType>, std::vector<NodeType> more = {});
 
     const NodeType* find (std::string_view id) const noexcept;
 
@@ -70,6 +90,7 @@ private:
     std::vector<NodeType> types;
 };
 
+/// The nodes in nodes/ and those of all NodeLibrary objects that exist when this is called for the first time. [any thread]
 const Catalogue& catalogue();
 
 //==============================================================================

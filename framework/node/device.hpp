@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/vec3.hpp>
-#include <framework/node/reading_fault.hpp>
+#include <tactus/kit/vec3.hpp>
+#include <tactus/node/reading_fault.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -70,6 +70,8 @@ inline bool isFinite (const Channels& all) noexcept
 /// What a device reports at a tick. SI, right-handed: x right, y away from the person, z up.
 struct Reading
 {
+    static constexpr int most_buttons = 32;
+
     Vec3 position = Vec3::Zero();        ///< as measured, so quantised; in m
     Vec3 rotation = Vec3::Zero();        ///< rotation vector, in rad
     double pressure = 0.0;               ///< in N, if the device measures it

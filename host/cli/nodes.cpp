@@ -2,11 +2,12 @@
 #include "commands.hpp"
 #include "report.hpp"
 
-#include <framework/node/catalogue.hpp>
-#include <framework/text/closest_match.hpp>
-#include <framework/text/json.hpp>
-#include <framework/text/number_text.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/node/catalogue.hpp>
+#include <tactus/node/datasheet_json.hpp>
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/json.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <iostream>
@@ -17,23 +18,6 @@ namespace tactus::host
 
 namespace
 {
-std::string unitText (const UnitRule& u)
-{
-    switch (u.kind)
-    {
-    case UnitRule::Kind::fixed:
-        return std::string (u.unit.symbol);
-    case UnitRule::Kind::open:
-    case UnitRule::Kind::each:
-        return "as wired";
-    case UnitRule::Kind::same:
-        return "as " + std::string (u.a) + (u.unit == unit::count ? "" : " * " + std::string (u.unit.symbol));
-    case UnitRule::Kind::product:
-        break;
-    }
-    return std::string (u.a) + (u.b.empty() ? "[0] * " + std::string (u.a) + "[1] …" : " * " + std::string (u.b));
-}
-
 std::string initialText (const PortSheet& p)
 {
     if (! p.choices.empty()) return std::string (p.choices[static_cast<std::size_t> (p.initial[0])]);
@@ -131,72 +115,6 @@ void printDatasheet (const NodeType& t)
     section ("outputs", t.outputs, false);
 }
 
-Json number (double v) { return isFinite (v) ? Json (v) : Json(); }
-
-Json toJson (const UnitRule& u)
-{
-    Json j = { { "unit", unitText (u) } };
-    if (u.kind == UnitRule::Kind::fixed) j["quantity"] = name (u.unit.quantity);
-    return j;
-}
-
-void add (Json& j, const Limits& l)
-{
-    if (! (l.hard == Interval {})) j["hard_range"] = { number (l.hard.min), number (l.hard.max) };
-    if (! (l.usual == Interval {})) j["usual_range"] = { number (l.usual.min), number (l.usual.max) };
-    if (l.latch) j["latch"] = true;
-}
-
-Json initialOf (const PortSheet& p)
-{
-    if (! p.choices.empty()) return initialText (p);
-    if (p.width == 1) return number (p.initial[0]);
-    return { p.initial[0], p.initial[1], p.initial[2] };
-}
-
-Json toJson (const PortSheet& p)
-{
-    Json j = { { "id", p.id } };
-    if (p.choices.empty())
-        j.update (toJson (p.unit));
-    else
-        j["choices"] = std::vector<std::string> (p.choices.begin(), p.choices.end());
-    if (p.width == 3) j["components"] = { "x", "y", "z" };
-    if (p.list) j["array"] = true;
-    if (p.role != Role::output) j["default"] = initialOf (p);
-    add (j, p.limits);
-    j["about"] = p.about;
-    return j;
-}
-
-Json toJson (const SettingSheet& s)
-{
-    Json j = { { "id", s.id }, { "kind", name (s.kind) } };
-    if (const auto* v = std::get_if<double> (&s.initial)) j["default"] = number (*v);
-    if (const auto* v = std::get_if<std::string> (&s.initial)) j["default"] = *v;
-    j.update (toJson (s.unit));
-    add (j, s.limits);
-    for (const auto& f : s.fields)
-        j["fields"].push_back (toJson (f));
-    j["about"] = s.about;
-    return j;
-}
-
-Json toJson (const NodeType& t)
-{
-    Json j = { { "id", t.info.id }, { "name", t.info.name }, { "summary", t.info.summary }, { "source", t.info.source } };
-    const auto all = [&] (const char* key, const auto& sheets) {
-        j[key] = Json::array();
-        for (const auto& s : sheets)
-            j[key].push_back (toJson (s));
-    };
-    all ("inputs", t.inputs);
-    all ("params", t.params);
-    all ("settings", t.settings);
-    all ("outputs", t.outputs);
-    return j;
-}
-
 void listAll()
 {
     std::string family;
@@ -232,7 +150,7 @@ void run (const std::string& wanted, bool json)
             fail ("node/unknown_type", "there is no node type " + quote (wanted) + didYouMean (wanted, ids), "`tactus nodes` lists them all");
         }
         if (json)
-            std::cout << toJson (*type).dump (2) << '\n';
+            std::cout << datasheetJson (*type).dump (2) << '\n';
         else
             printDatasheet (*type);
         return;
@@ -240,7 +158,7 @@ void run (const std::string& wanted, bool json)
     if (! json) return listAll();
     Json all = Json::array();
     for (const auto& t : catalogue())
-        all.push_back (toJson (t));
+        all.push_back (datasheetJson (t));
     std::cout << all.dump (2) << '\n';
 }
 }   // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node/device_parts.hpp>
-#include <framework/node/generic.hpp>
+#include <tactus/node/device_parts.hpp>
+#include <tactus/node/generic.hpp>
 
 #include <charconv>
 #include <string>
@@ -74,7 +74,7 @@ private:
     {
         int at = partNamed (settings.button, device_has.buttons);
         if (at < 0) at = number();
-        return at < static_cast<int> (device_has.buttons.size()) && at < most_buttons ? at : -1;
+        return at < static_cast<int> (device_has.buttons.size()) && at < Reading::most_buttons ? at : -1;
     }
 
     /// The setting as a number; -1 if it is a name.
@@ -86,7 +86,6 @@ private:
         return failure == std::errc() && end == text.data() + text.size() ? n : -1;
     }
 
-    static constexpr int most_buttons = 32;   // bits of Reading::buttons
 
     const DeviceState* device = &no_device;
     int index = -1;

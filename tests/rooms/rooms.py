@@ -13,7 +13,7 @@ import pathlib
 import re
 import sys
 
-LAYERS = ["text", "kit", "node", "graph", "plan", "file", "run"]   # lowest first; a layer may include those before it
+LAYERS = ["text", "kit", "node", "graph", "plan", "file", "run", "capi"]   # lowest first; a layer may include those before it
 PARTS = ["framework", "nodes", "host"]                             # the same for the parts of the project
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
@@ -33,12 +33,19 @@ def includes(root, file):
         if not match:
             continue
         quoted, bracketed = match.groups()
-        candidates = [file.parent / quoted, pathlib.PurePath(quoted)] if quoted else [pathlib.PurePath(bracketed)]
+        candidates = [file.parent / quoted, pathlib.PurePath(quoted)] if quoted else [in_the_tree(bracketed)]
         for candidate in candidates:
             target = (root / candidate).resolve()
             if target.is_file() and root in target.parents:
                 yield number, target.relative_to(root)
                 break
+
+
+def in_the_tree(header):
+    """Where the sources have the header that an installed Tactus has under this name."""
+    if header.startswith("tactus/nodes/"):
+        return pathlib.PurePath(header.removeprefix("tactus/"))
+    return pathlib.PurePath("framework" + header.removeprefix("tactus") if header.startswith("tactus/") else header)
 
 
 def room(path):

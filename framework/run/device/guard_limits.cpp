@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "guard_limits.hpp"
 
-#include <framework/node/device_parts.hpp>
-#include <framework/text/number_text.hpp>
-#include <framework/text/units.hpp>
+#include <tactus/node/device_parts.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/units.hpp>
 
 #include <utility>
 
@@ -17,7 +17,6 @@ constexpr Unit per_second { Quantity::any, { 0, 0, -1 }, "1/s" };
 constexpr Unit angular_speed { Quantity::any, { 0, 0, -1 }, "rad/s" };
 constexpr Unit impulse { Quantity::any, { 1, 1, -1 }, "N*s" };
 constexpr Unit angular_impulse { Quantity::any, { 2, 1, -1 }, "N*m*s" };
-constexpr int most_buttons = 32;
 
 constexpr auto any = Bounds::notNegative();
 constexpr auto some = Bounds::positive();
@@ -46,11 +45,11 @@ std::uint64_t button (const Json& json, ObjectReader& in, const DeviceLayout& de
 
     int number = -1;
     if (! json.at (key).is_string())
-        number = in.whole (key, 0, most_buttons - 1, -1);
+        number = in.whole (key, 0, Reading::most_buttons - 1, -1);
     else if (const auto name = in.text (key); ! name.empty())
     {
         number = partNamed (name, device.buttons);
-        if (number >= most_buttons) number = -1;
+        if (number >= Reading::most_buttons) number = -1;
         if (number < 0)
             in.error (key, "device/unknown_button", "the device has " + lacking ("button", "buttons", name, device.buttons),
                       "name one of its buttons, or give the number of the button, counted from 0");

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "trace.hpp"
-#include <framework/text/message.hpp>
-#include <framework/text/number_text.hpp>
+#include <tactus/text/message.hpp>
+#include <tactus/text/number_text.hpp>
 
-#include <framework/graph/text.hpp>
-#include <framework/text/closest_match.hpp>
-#include <framework/text/quote.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -18,7 +18,6 @@ namespace tactus
 {
 namespace
 {
-constexpr int most_buttons = 32;
 
 // Times in files are rounded, at worst to microseconds. A row that is late by less than this fraction of a tick counts
 // as on time.
@@ -37,7 +36,7 @@ std::optional<int> numberOf (std::string_view column, std::string_view prefix, i
     return number;
 }
 
-std::optional<int> buttonOf (std::string_view column) { return numberOf (column, "button", 0, most_buttons - 1); }
+std::optional<int> buttonOf (std::string_view column) { return numberOf (column, "button", 0, Reading::most_buttons - 1); }
 std::optional<int> signalOf (std::string_view column) { return numberOf (column, "signal", 1, Channels::most); }
 
 constexpr std::string_view part_names[] { "t", "x", "y", "z", "rx", "ry", "rz", "pressure" };

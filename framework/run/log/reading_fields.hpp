@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/node/device.hpp>
+#include <tactus/node/device.hpp>
 
 #include <array>
 #include <cstddef>
@@ -69,12 +69,12 @@ inline Reading toReading (const LoggedReading& logged) noexcept
 {
     const auto& n = logged.numbers;
     const auto vector = [&] (std::size_t i) { return Vec3 (n[i], n[i + 1], n[i + 2]); };
-    constexpr double most_buttons = 4294967295.0;
+    constexpr double all_buttons = 4294967295.0;
     return {
         .position = vector (0),
         .rotation = vector (3),
         .pressure = n[6],
-        .buttons = n[7] >= 0.0 && n[7] <= most_buttons ? static_cast<std::uint32_t> (n[7]) : 0u,
+        .buttons = n[7] >= 0.0 && n[7] <= all_buttons ? static_cast<std::uint32_t> (n[7]) : 0u,
         .fault = n[16] >= 0.0 && n[16] < static_cast<double> (reading_faults.size()) ? static_cast<ReadingFault> (static_cast<std::uint32_t> (n[16]))
                                                                                      : ReadingFault::none,
         .age = n[8],

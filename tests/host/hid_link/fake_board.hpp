@@ -4,7 +4,7 @@
 #include <host/hid/profile_reader.hpp>
 #include <host/hid_link/hid_device.hpp>
 
-#include <framework/text/json.hpp>
+#include <tactus/text/json.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -27,7 +27,9 @@ using Bytes = std::vector<std::uint8_t>;
 /// x, y, z as s32 in nm. Out: mark, enable, echoed sequence u16, force as s32 in uN.
 struct BoardProfile
 {
-    double rate = 1000.0, max_rate = 1000.0, keepalive = 0.0, watchdog = 0.02, ramp = 0.01;
+    double rate = 1000.0, max_rate = 1000.0, keepalive = 0.0;
+    double watchdog = 10.0;   // long, so that the port does not send neutral reports by itself when the machine is busy
+    double ramp = 0.01;
     std::string more_fields {}, more_of_input {}, more {};   // further fields, and keys of the input report and of the profile
     std::string steps = R"("init": [{"bytes": "aa 01"}, {"kind": "feature", "bytes": "aa 02"}], "exit": [{"bytes": "aa 03"}],)";
 

@@ -3,13 +3,13 @@
 
 #include "fake_board.hpp"
 
-#include <framework/file/graph_file.hpp>
-#include <framework/plan/compile.hpp>
-#include <framework/run/device/sim.hpp>
-#include <framework/run/engine.hpp>
-#include <framework/run/runner.hpp>
 #include <host/hid_link/hid_clock.hpp>
 #include <host/hid_link/open_device.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/plan/compile.hpp>
+#include <tactus/run/device/sim.hpp>
+#include <tactus/run/engine.hpp>
+#include <tactus/run/runner.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -133,7 +133,7 @@ TEST_CASE ("a live run over dry wood sends the same forces as the offline run, b
         if (b.size() == 25 && b[2] == 1) sendNext();
     };
 
-    const test::BoardProfile profile { .max_rate = 1e5, .watchdog = 10.0, .ramp = 0.02 };
+    const test::BoardProfile profile { .max_rate = 1e5, .ramp = 0.02 };
     const auto limits = limitsOf (*profile.make(), {});
     std::vector<Reading> readings;
     {

@@ -6,7 +6,7 @@
 #include "support/no_allocation.hpp"
 #include "support/no_system_calls.hpp"
 
-#include <framework/run/guard.hpp>
+#include <tactus/run/guard.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -114,7 +114,7 @@ TEST_CASE ("bad reports change no value, invalidate the reading and are counted 
 TEST_CASE ("a motor of the force cannot be reached by an axis effort, whatever a graph asks for", "[hid]")
 {
     FakeBoard board;
-    const auto device = openBoard (board, { .watchdog = 10.0 });   // so that the port never sends neutral reports on a busy machine
+    const auto device = openBoard (board);
     CHECK (device->layout().efforts.empty());
     const GuardLimits limits { .max_force = 2.0, .max_slew = 100.0, .ramp = 0.01, .watchdog = 0.02 };
     Driven run { *device, limits };
@@ -263,7 +263,7 @@ TEST_CASE ("an effort from before a device went away is never sent afterwards", 
 TEST_CASE ("a device that the guardian has brought to rest is opened again, and starts from zero", "[hid]")
 {
     FakeBoard board;
-    const auto device = openBoard (board, { .watchdog = 10.0 });
+    const auto device = openBoard (board);
     tell (board, *device, boardReport (1));
     CHECK (board.beats() == 0);
     const Effort none {}, push { { 1.0, 0.0, 0.0 }, Vec3::Zero() };
@@ -331,7 +331,7 @@ TEST_CASE ("while a device is slow to take reports, only the latest effort is ke
         while (slow)
             std::this_thread::sleep_for (100us);
     };
-    const auto device = openBoard (board, { .watchdog = 10.0 });
+    const auto device = openBoard (board);
     tell (board, *device, boardReport (1));
     device->write ({});
     REQUIRE (board.until ([&] { return driven (board) == 1; }));
@@ -356,7 +356,7 @@ TEST_CASE ("while a device is slow to take reports, only the latest effort is ke
 TEST_CASE ("reports are sent no faster than the maximum rate, and repeated while nothing changes", "[hid]")
 {
     FakeBoard board;
-    const auto device = openBoard (board, { .max_rate = 100.0, .keepalive = 0.03, .watchdog = 10.0 });
+    const auto device = openBoard (board, { .max_rate = 100.0, .keepalive = 0.03 });
     tell (board, *device, boardReport (1));
     device->write ({});
     const auto begin = std::chrono::steady_clock::now();

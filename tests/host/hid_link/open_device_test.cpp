@@ -34,7 +34,7 @@ ConnectedDevice board (const std::string& path, const std::string& serial)
     return d;
 }
 
-LoadedProfiles profiles() { return { .profiles = { test::BoardProfile {}.make() }, .messages = {} }; }
+LoadedProfiles profiles() { return { .profiles = { test::BoardProfile { .watchdog = 0.02 }.make() }, .messages = {} }; }
 
 std::string idOf (const Messages& messages) { return messages.empty() ? "" : messages.front().id; }
 }   // namespace

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// What the handles of the C API point to. Only the files in this folder include this.
+
+#include "pushed_device.hpp"
+#include "tactus.h"
+
+#include <tactus/graph/history.hpp>
+#include <tactus/kit/spsc_ring.hpp>
+#include <tactus/run/device/make_device.hpp>
+#include <tactus/run/run.hpp>
+#include <tactus/run/tick_clock.hpp>
+#include <tactus/text/message.hpp>
+
+#include <cstring>
+#include <map>
+#include <memory>
+#include <new>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+struct tactus_messages
+{
+    tactus::Messages list;
+};
+
+struct tactus_graph
+{
+    tactus::graph::History history;
+};
+
+/// Copies the recorded values of each tick for the main thread.
+class tactus_recorder final : public tactus::RunListener
+{
+public:
+    void after (const tactus::Plan& plan, std::uint64_t, bool) noexcept override
+    {
+        if (! ring) return;
+        const auto& taps = plan.taps();
+        if (const auto row = ring->claim(); ! row.empty())
+            for (std::size_t i = 0; i < row.size() && i < taps.size(); ++i)
+                row[i] = *taps[i].value;
+        ring->commit();
+    }
+
+    std::unique_ptr<tactus::SpscRing<double>> ring;
+};
+
+struct tactus_run
+{
+    explicit tactus_run (tactus::CompileOptions o) : options (std::move (o)) {}
+
+    tactus::CompileOptions options;
+    tactus::graph::Graph graph;
+    std::map<std::string, tactus::DeviceOption> described;                        // by role, instead of the graph's description
+    std::map<std::string, std::unique_ptr<tactus::capi::PushedDevice>> waiting;   // by role, until the run opens them
+    std::map<std::string, tactus::GuardLimits> limits;                            // of pushed devices, by role
+    std::map<std::string, tactus::capi::PushedDevice*, std::less<>> pushed;       // by role; the run owns them
+    std::vector<std::string> roles, names, units;
+    tactus_recorder recorder;
+    std::optional<tactus::AbsoluteTimer> clock;   // must outlive the run
+    std::unique_ptr<tactus::Run> run;
+    bool is_open = false;
+    bool has_ended = false;
+};
+
+namespace tactus::capi
+{
+
+inline void add (tactus_messages* to, Messages messages)
+{
+    if (to != nullptr) std::ranges::move (messages, std::back_inserter (to->list));
+}
+
+inline tactus_result failed (tactus_messages* to, Message why)
+{
+    if (to != nullptr) to->list.push_back (std::move (why));
+    return TACTUS_FAILED;
+}
+
+inline tactus_result asResult (tactus_messages* to, Result<> result) { return result ? TACTUS_OK : failed (to, std::move (result).error()); }
+
+inline std::string text (const char* t) { return t != nullptr ? t : ""; }
+
+/// Runs a function of the API so that no exception leaves it.
+template <typename R, typename F>
+R guarded (tactus_messages* messages, R on_failure, F&& f) noexcept
+{
+    const auto report = [&] (const char* id, const char* what) {
+        try
+        {
+            if (messages != nullptr) messages->list.push_back (Message::error (id, "", what, "free what is not used any more, and try again"));
+        }
+        catch (...)
+        {
+        }
+    };
+    try
+    {
+        return f();
+    }
+    catch (const std::bad_alloc&)
+    {
+        report ("api/no_memory", "there is not enough memory");
+        if constexpr (std::is_same_v<R, tactus_result>) return TACTUS_NO_MEMORY;
+    }
+    catch (const std::exception& e)
+    {
+        report ("api/exception", e.what());
+    }
+    return on_failure;
+}
+
+/// A copy that C code frees with tactus_text_free.
+inline char* copied (const std::string& text)
+{
+    char* copy = static_cast<char*> (std::malloc (text.size() + 1));
+    if (copy != nullptr) std::memcpy (copy, text.c_str(), text.size() + 1);
+    return copy;
+}
+
+/// The members of a struct of the caller that this version knows. A caller compiled against an older version has fewer.
+template <typename T>
+T known (const T* given, T defaults = {})
+{
+    if (given == nullptr) return defaults;
+    std::memcpy (&defaults, given, std::min<std::size_t> (given->size, sizeof (T)));
+    return defaults;
+}
+
+/// Fills a struct of the caller with as many members as it has.
+template <typename T>
+void give (T* to, const T& from)
+{
+    const auto size = to->size;
+    std::memcpy (to, &from, std::min<std::size_t> (size, sizeof (T)));
+    to->size = size;
+}
+
+}   // namespace tactus::capi

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tactus.h"
+
+#include <tactus/kit/snapshot.hpp>
+#include <tactus/node/device.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+namespace tactus::capi
+{
+
+/// A device whose readings come from one thread of the embedding program, and whose efforts any thread may read. Nobody waits.
+class PushedDevice final : public Device
+{
+public:
+    explicit PushedDevice (DeviceLayout parts) : has (std::move (parts)) {}
+
+    void prepare (double dt_s) override { period = dt_s; }
+
+    /// A reading that is not renewed gets older with each tick, so that the guard's watchdog sees it.
+    Reading read() noexcept override
+    {
+        const auto now = readings.load();
+        silent = now.number == last ? silent + 1 : 0;
+        last = now.number;
+        if (now.number == 0) return { .valid = false };
+        const auto& from = now.reading;
+        Reading r { .position = Vec3 { from.position }, .rotation = Vec3 { from.rotation }, .pressure = from.pressure, .buttons = from.buttons };
+        r.age = from.age_s + static_cast<double> (silent) * period;
+        r.valid = from.valid != 0;
+        copy (from.axes, from.axis_count, r.axes);
+        copy (from.signals, from.signal_count, r.signals);
+        return r;
+    }
+
+    void write (const Effort& e) noexcept override
+    {
+        tactus_effort to {};
+        to.size = sizeof to;
+        std::copy_n (e.force.data(), 3, to.force);
+        std::copy_n (e.torque.data(), 3, to.torque);
+        to.axis_count = copy (e.axes, to.axes);
+        to.signal_count = copy (e.signals, to.signals);
+        efforts.store (to);
+    }
+
+    DeviceLayout layout() const override { return has; }
+
+    void push (const tactus_reading& r) noexcept { readings.store ({ r, ++pushes }); }   ///< [one thread of the program]
+    tactus_effort effort() const noexcept { return efforts.load(); }                     ///< [any thread]
+
+private:
+    struct Pushed
+    {
+        tactus_reading reading {};
+        std::uint64_t number = 0;   // 0: nothing has been pushed yet
+    };
+
+    static void copy (const double* from, std::uint32_t count, Channels& to) noexcept
+    {
+        for (int i = static_cast<int> (std::min<std::uint32_t> (count, Channels::most)) - 1; i >= 0; --i)
+            to.set (i, from[i]);
+    }
+
+    static std::uint32_t copy (const Channels& from, double* to) noexcept
+    {
+        std::copy (from.begin(), from.end(), to);
+        return static_cast<std::uint32_t> (from.size());
+    }
+
+    DeviceLayout has;
+    Snapshot<Pushed> readings;
+    Snapshot<tactus_effort> efforts;
+    std::uint64_t pushes = 0;   // [pushing thread]
+    std::uint64_t last = 0;     // number of the reading of the last tick   [tick thread]
+    std::uint64_t silent = 0;   // ticks since that reading was new          [tick thread]
+    double period = 0.0;
+
+    static_assert (Channels::most == TACTUS_CHANNELS);
+};
+
+}   // namespace tactus::capi

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: MIT
+#include "handles.hpp"
+
+#include <tactus/node/catalogue.hpp>
+#include <tactus/run/device/guard_limits.hpp>
+#include <tactus/run/turn.hpp>
+#include <tactus/text/json.hpp>
+
+#include <span>
+
+using namespace tactus::capi;
+using tactus::Message;
+using tactus::Messages;
+using tactus::Run;
+
+namespace
+{
+std::vector<std::string> list (const char* const* texts, size_t count)
+{
+    std::vector<std::string> all;
+    for (size_t i = 0; texts != nullptr && i < count; ++i)
+        all.push_back (text (texts[i]));
+    return all;
+}
+
+/// The pushed device of a role, else the one given in words, else the one that the graph describes, else a simulated tool at rest.
+Run::RoleDevice open (tactus_run& r, const std::string& role, const tactus::graph::Graph& graph, Messages& messages)
+{
+    if (const auto mine = r.waiting.find (role); mine != r.waiting.end())
+    {
+        r.pushed[role] = mine->second.get();
+        auto device = std::move (mine->second);
+        r.waiting.erase (mine);
+        return { std::move (device), r.limits[role] };
+    }
+    const auto given = r.described.find (role);
+    const bool is_given = given != r.described.end();
+    const auto* described = graph.device (role);
+    if (! is_given && described == nullptr)
+        messages.push_back (Message::warning ("device/undescribed", "/devices",
+                                              "no device is given for the role '" + role + "', so it gets a simulated tool at rest",
+                                              "give it one with tactus_run_device or tactus_run_pushed_device"));
+    tactus::Json description { { "driver", "sim" } };
+    if (described != nullptr) description = *described;
+    if (is_given) description = given->second.description;
+    auto made = tactus::makeDevice (description, is_given ? given->second.folder : std::filesystem::path (graph.folder));
+    for (auto& m : made.messages)
+        m.where = "/devices/" + role + m.where;
+    std::ranges::move (made.messages, std::back_inserter (messages));
+    return { std::move (made.device), made.limits };
+}
+
+tactus_run* create (const tactus_graph& g, const tactus_run_options& given, tactus_messages* messages)
+{
+    tactus::CompileOptions options { .rate_hz = given.rate_hz,
+                                     .feeds = list (given.feeds, given.feed_count),
+                                     .records = list (given.records, given.record_count) };
+    for (const auto& set : list (given.sets, given.set_count))
+    {
+        auto read = tactus::readOverride (set);
+        if (! read)
+        {
+            failed (messages, std::move (read).error());
+            return nullptr;
+        }
+        options.overrides.push_back (std::move (*read));
+    }
+    auto made = std::make_unique<tactus_run> (options);
+    made->graph = g.history.graph();
+    const auto opener = [r = made.get()] (const std::string& role, const tactus::graph::Graph& graph, const tactus::Plan&, Messages& out) {
+        return open (*r, role, graph, out);
+    };
+    made->run = std::make_unique<Run> (tactus::catalogue(), std::move (options), opener, Run::Queries::within_tick);
+    made->run->add (made->recorder);
+    auto loaded = made->run->load (made->graph);
+    const bool is_broken = tactus::hasErrors (loaded);
+    add (messages, std::move (loaded));
+    if (is_broken || ! made->run->hasEngine()) return nullptr;
+    made->run->keepRecords();
+    const auto& plan = made->run->engine().newest();
+    for (const auto& role : plan.roles())
+        made->roles.emplace_back (role.name);
+    for (const auto& tap : plan.taps())
+    {
+        made->names.push_back (tap.name);
+        made->units.push_back (tap.unit);
+    }
+    return made.release();
+}
+
+bool knowsRole (const tactus_run& r, const char* role, tactus_messages* messages)
+{
+    if (std::ranges::find (r.roles, text (role)) != r.roles.end()) return true;
+    failed (messages,
+            Message::error ("api/unknown_role", "/devices", "the graph has no role '" + text (role) + "'", "use a name that tactus_run_role returns"));
+    return false;
+}
+
+bool isTickedByCaller (const tactus_run* r) noexcept { return r != nullptr && r->is_open && ! r->run->isLive(); }
+}   // namespace
+
+tactus_run* tactus_run_create (const tactus_graph* g, const tactus_run_options* given, tactus_messages* messages)
+{
+    if (g == nullptr) return nullptr;
+    return guarded<tactus_run*> (messages, nullptr, [&] { return create (*g, known (given, tactus_run_options TACTUS_RUN_OPTIONS), messages); });
+}
+
+void tactus_run_free (tactus_run* r)
+{
+    if (r == nullptr) return;
+    tactus_run_stop (r);
+    delete r;
+}
+
+double tactus_run_rate (const tactus_run* r) { return r != nullptr ? r->run->rate() : 0.0; }
+size_t tactus_run_role_count (const tactus_run* r) { return r != nullptr ? r->roles.size() : 0; }
+const char* tactus_run_role (const tactus_run* r, size_t i) { return r != nullptr && i < r->roles.size() ? r->roles[i].c_str() : nullptr; }
+size_t tactus_run_feed_count (const tactus_run* r) { return r != nullptr ? r->options.feeds.size() : 0; }
+size_t tactus_run_record_count (const tactus_run* r) { return r != nullptr ? r->names.size() : 0; }
+const char* tactus_run_record_name (const tactus_run* r, size_t i) { return r != nullptr && i < r->names.size() ? r->names[i].c_str() : nullptr; }
+const char* tactus_run_record_unit (const tactus_run* r, size_t i) { return r != nullptr && i < r->units.size() ? r->units[i].c_str() : nullptr; }
+
+//==============================================================================
+tactus_result tactus_run_device (tactus_run* r, const char* role, const char* device, tactus_messages* messages)
+{
+    if (r == nullptr || device == nullptr || r->is_open) return TACTUS_MISUSE;
+    return guarded (messages, TACTUS_FAILED, [&] {
+        if (! knowsRole (*r, role, messages)) return TACTUS_FAILED;
+        auto parsed = tactus::parseDeviceOption (text (role) + "=" + device, r->graph.devices, r->graph.folder);
+        if (! parsed) return failed (messages, std::move (parsed).error());
+        r->waiting.erase (text (role));
+        r->described[text (role)] = std::move (*parsed);
+        return TACTUS_OK;
+    });
+}
+
+tactus_result tactus_run_pushed_device (tactus_run* r, const char* role, const tactus_device_options* given, tactus_messages* messages)
+{
+    if (r == nullptr || r->is_open) return TACTUS_MISUSE;
+    return guarded (messages, TACTUS_FAILED, [&] {
+        if (! knowsRole (*r, role, messages)) return TACTUS_FAILED;
+        const auto options = known (given, tactus_device_options TACTUS_DEVICE_OPTIONS);
+        tactus::DeviceLayout parts { .axes = list (options.axes, options.axis_count),
+                                     .efforts = list (options.efforts, options.effort_count),
+                                     .buttons = list (options.buttons, options.button_count),
+                                     .signal_inputs = options.signal_inputs,
+                                     .signal_outputs = options.signal_outputs };
+        Messages found;
+        tactus::GuardLimits limits;
+        if (options.guard != nullptr)
+        {
+            const auto json = tactus::Json::tryParse (options.guard);
+            if (! json) return failed (messages, Message::error ("api/value", "/guard", "the limits are not JSON", "write them as in docs/safety.md"));
+            limits = tactus::readGuardLimits (*json, "/guard", found, parts);
+            if (! tactus::hasErrors (found)) tactus::checkStops (limits, "/guard", found);
+        }
+        const bool is_broken = tactus::hasErrors (found);
+        add (messages, std::move (found));
+        if (is_broken) return TACTUS_FAILED;
+        r->described.erase (text (role));
+        r->limits[text (role)] = limits;
+        r->waiting[text (role)] = std::make_unique<PushedDevice> (std::move (parts));
+        return TACTUS_OK;
+    });
+}
+
+tactus_result tactus_run_open (tactus_run* r, tactus_messages* messages)
+{
+    if (r == nullptr || r->is_open) return TACTUS_MISUSE;
+    return guarded (messages, TACTUS_FAILED, [&] {
+        Messages found;
+        r->run->openDevices (r->graph, found);
+        const bool is_broken = tactus::hasErrors (found);
+        add (messages, std::move (found));
+        r->is_open = ! is_broken;
+        return is_broken ? TACTUS_FAILED : TACTUS_OK;
+    });
+}
+
+tactus_result tactus_run_push (tactus_run* r, const char* role, const tactus_reading* reading)
+{
+    if (r == nullptr || role == nullptr || reading == nullptr) return TACTUS_MISUSE;
+    const auto device = r->pushed.find (std::string_view (role));
+    if (device == r->pushed.end()) return TACTUS_MISUSE;
+    device->second->push (known (reading, tactus_reading {}));
+    return TACTUS_OK;
+}
+
+tactus_result tactus_run_take (const tactus_run* r, const char* role, tactus_effort* effort)
+{
+    if (r == nullptr || role == nullptr || effort == nullptr) return TACTUS_MISUSE;
+    const auto device = r->pushed.find (std::string_view (role));
+    if (device == r->pushed.end()) return TACTUS_MISUSE;
+    give (effort, device->second->effort());
+    return TACTUS_OK;
+}
+
+//==============================================================================
+tactus_result tactus_run_tick (tactus_run* r)
+{
+    if (! isTickedByCaller (r)) return TACTUS_MISUSE;
+    r->run->tick();
+    return TACTUS_OK;
+}
+
+tactus_result tactus_run_set_feeds (tactus_run* r, const double* values)
+{
+    if (! isTickedByCaller (r) || values == nullptr) return TACTUS_MISUSE;
+    r->run->engine().plan().setFeeds ({ values, r->options.feeds.size() });
+    return TACTUS_OK;
+}
+
+tactus_result tactus_run_get_records (const tactus_run* r, double* values)
+{
+    if (! isTickedByCaller (r) || values == nullptr) return TACTUS_MISUSE;
+    const auto& taps = r->run->engine().plan().taps();
+    for (size_t i = 0; i < r->names.size() && i < taps.size(); ++i)
+        values[i] = *taps[i].value;
+    return TACTUS_OK;
+}
+
+tactus_result tactus_run_steps (tactus_run* r, size_t ticks, const double* feeds, double* records)
+{
+    if (! isTickedByCaller (r)) return TACTUS_MISUSE;
+    for (size_t k = 0; k < ticks; ++k)
+    {
+        if (feeds != nullptr) r->run->engine().plan().setFeeds ({ feeds + k * r->options.feeds.size(), r->options.feeds.size() });
+        r->run->tick();
+        if (records != nullptr) tactus_run_get_records (r, records + k * r->names.size());
+    }
+    return TACTUS_OK;
+}
+
+double tactus_run_duration (const tactus_run* r)
+{
+    double seconds = 0.0;
+    if (r != nullptr)
+        for (const auto& [role, d] : r->run->devices())
+            seconds = std::max (seconds, d.device->duration());
+    return seconds;
+}
+
+//==============================================================================
+tactus_result tactus_run_start (tactus_run* r, const tactus_start_options* given, tactus_messages* messages)
+{
+    if (! isTickedByCaller (r) || r->has_ended) return TACTUS_MISUSE;
+    return guarded (messages, TACTUS_FAILED, [&] {
+        const auto options = known (given, tactus_start_options TACTUS_START_OPTIONS);
+        tactus::Runner::Options runner;
+        if (options.length > 0) runner.length = options.length;
+        if (options.core >= 0) runner.core = options.core;
+        if (options.buffer > 0) r->recorder.ring = std::make_unique<tactus::SpscRing<double>> (options.buffer, r->names.size());
+        r->clock.emplace (1.0 / r->run->rate());
+        for (auto& refused : r->run->start (*r->clock, runner))
+            if (messages != nullptr) messages->list.push_back (Message::warning ("run/privilege", "", std::move (refused)));
+        return TACTUS_OK;
+    });
+}
+
+tactus_result tactus_run_attend (tactus_run* r, tactus_messages* messages)
+{
+    if (r == nullptr || ! r->is_open) return TACTUS_MISUSE;
+    return guarded (messages, TACTUS_FAILED, [&] {
+        const auto trouble = r->run->attend();
+        return trouble ? failed (messages, *trouble) : TACTUS_OK;
+    });
+}
+
+size_t tactus_run_collect (tactus_run* r, double* rows, size_t most)
+{
+    if (r == nullptr || rows == nullptr || ! r->recorder.ring) return 0;
+    auto& ring = *r->recorder.ring;
+    size_t count = 0;
+    while (count < most)
+    {
+        const auto values = ring.front();
+        const auto frames = std::min (values.size() / ring.width(), most - count);
+        if (frames == 0) break;
+        std::copy_n (values.begin(), frames * ring.width(), rows + count * ring.width());
+        ring.take (frames);
+        count += frames;
+    }
+    return count;
+}
+
+uint64_t tactus_run_lost (const tactus_run* r) { return r != nullptr && r->recorder.ring ? r->recorder.ring->lost() : 0; }
+
+tactus_result tactus_run_stop (tactus_run* r)
+{
+    if (r == nullptr) return TACTUS_MISUSE;
+    return guarded (nullptr, TACTUS_FAILED, [&] {
+        if (r->run->isLive() && ! r->has_ended) r->run->end();
+        r->has_ended = true;
+        return TACTUS_OK;
+    });
+}
+
+tactus_result tactus_run_status (const tactus_run* r, tactus_status* to)
+{
+    if (r == nullptr || to == nullptr) return TACTUS_MISUSE;
+    tactus_status status TACTUS_STATUS;
+    if (r->run->isLive())
+    {
+        const auto now = r->run->live().status();
+        status.phase = static_cast<tactus_phase> (static_cast<std::uint32_t> (now.phase) + 1);
+        status.ticks = now.ticks;
+        status.late_ticks = now.misses;
+        status.force = now.force;
+        status.peak_force = now.peak;
+    }
+    status.is_emergency = r->run->engine().isEmergency();
+    give (to, status);
+    return TACTUS_OK;
+}
+
+//==============================================================================
+tactus_result tactus_run_set (tactus_run* r, const char* param, double value, tactus_messages* messages)
+{
+    if (r == nullptr) return TACTUS_MISUSE;
+    return guarded (messages, TACTUS_FAILED, [&] {
+        auto found = r->run->engine().params (text (param));
+        if (! found) return failed (messages, std::move (found).error());
+        for (const auto& p : *found)
+            r->run->engine().set (p, value);
+        return TACTUS_OK;
+    });
+}
+
+tactus_result tactus_run_hit (tactus_run* r, const char* input, double speed, tactus_messages* messages)
+{
+    if (r == nullptr) return TACTUS_MISUSE;
+    return guarded (messages, TACTUS_FAILED, [&] {
+        auto found = r->run->engine().hits (text (input));
+        if (! found) return failed (messages, std::move (found).error());
+        for (const auto& h : *found)
+            r->run->engine().strike (h, speed);
+        return TACTUS_OK;
+    });
+}
+
+tactus_result tactus_run_edit (tactus_run* r, const tactus_graph* g, tactus_messages* messages)
+{
+    if (r == nullptr || g == nullptr || ! r->is_open) return TACTUS_MISUSE;
+    return guarded (messages, TACTUS_FAILED, [&] {
+        auto next = g->history.graph();
+        auto edit = r->run->edit (next);
+        const bool runs = edit.plan() != nullptr && ! tactus::hasErrors (edit.messages());
+        if (runs) edit.openDevices();
+        const bool is_broken = ! runs || tactus::hasErrors (edit.messages());
+        add (messages, std::move (edit.messages()));
+        if (is_broken) return TACTUS_FAILED;
+        edit.commit();
+        r->graph = std::move (next);
+        return TACTUS_OK;
+    });
+}
+
+tactus_result tactus_run_emergency_stop (tactus_run* r)
+{
+    if (r == nullptr) return TACTUS_MISUSE;
+    r->run->engine().emergencyStop();
+    return TACTUS_OK;
+}
+
+tactus_result tactus_run_rearm (tactus_run* r)
+{
+    if (r == nullptr) return TACTUS_MISUSE;
+    r->run->engine().rearm();
+    return TACTUS_OK;
+}

@@ -1,0 +1,309 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef TACTUS_H
+#define TACTUS_H
+
+/**
+ * The C API of Tactus: load and edit graphs, render them, and play them in your own loop or in real time.
+ *
+ *     tactus_messages* messages = tactus_messages_create();
+ *     tactus_graph* graph = tactus_graph_load ("dry_wood.json", messages);
+ *     const char* records[] = { "motor.force" };
+ *     tactus_run_options options = TACTUS_RUN_OPTIONS;
+ *     options.records = records;
+ *     options.record_count = 1;
+ *     tactus_run* run = tactus_run_create (graph, &options, messages);
+ *     tactus_run_pushed_device (run, "stylus", NULL, messages);      // instead of the device that the graph describes
+ *     tactus_run_open (run, messages);
+ *     for (;;)
+ *     {
+ *         tactus_run_push (run, "stylus", &reading);                  // what your device measured
+ *         tactus_run_tick (run);
+ *         tactus_run_take (run, "stylus", &effort);                   // what your device should apply
+ *     }
+ *
+ * Conventions
+ *  - SI units; right-handed axes: x right, y away from the person, z up. Rotations are rotation vectors in rad.
+ *  - Text is UTF-8. Text that a function returns belongs to the object that returned it, unless the comment says that you free it.
+ *  - A function that can fail returns NULL or a tactus_result other than TACTUS_OK, and appends the reasons to `messages`, which may
+ *    be NULL. No C++ exception leaves a function.
+ *  - A handle may be NULL: freeing it does nothing, and everything else returns TACTUS_MISUSE, NULL or 0.
+ *  - [main thread]: one thread at a time per handle. [tick thread]: the thread that calls tactus_run_tick; it may be the main thread.
+ *    [any thread]: any thread at any time while the handle exists.
+ *  - Structs begin with their size. Fill them from the initialisers below, so that code compiled against this version works with
+ *    later versions, which may add members at the end.
+ */
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(_WIN32)
+#define TACTUS_API
+#else
+#define TACTUS_API __attribute__ ((visibility ("default")))
+#endif
+
+/** The version of this interface. It grows only when a program compiled against an older version no longer works. */
+#define TACTUS_API_VERSION 1
+
+typedef enum tactus_result
+{
+    TACTUS_OK = 0,
+    TACTUS_FAILED = 1, /**< the messages say why */
+    TACTUS_MISUSE = 2, /**< a handle or pointer is NULL, or the call is not allowed at this time */
+    TACTUS_NO_MEMORY = 3
+} tactus_result;
+
+typedef struct tactus_messages tactus_messages; /**< a list of errors and warnings */
+typedef struct tactus_graph tactus_graph;       /**< a graph with its undo history */
+typedef struct tactus_run tactus_run;           /**< a graph that is played */
+
+TACTUS_API const char* tactus_version (void);       /**< of the library, such as "0.2.0" [any thread] */
+TACTUS_API uint32_t tactus_api_version (void);      /**< TACTUS_API_VERSION of the library [any thread] */
+TACTUS_API void tactus_text_free (char* text);      /**< frees a text that a function allocated for you [any thread] */
+
+/** The datasheets of all node types as JSON, in the format of `tactus nodes --json`. Free it with tactus_text_free. [any thread] */
+TACTUS_API char* tactus_nodes_json (void);
+
+/* ============================================================================ Messages */
+
+typedef struct tactus_message
+{
+    uint32_t size;
+    int32_t is_error;   /**< 1: an error, 0: a warning */
+    const char* id;     /**< stable, such as "unit/mismatch" */
+    const char* where;  /**< JSON pointer into the graph file, a file name, or "" */
+    const char* text;   /**< what is wrong */
+    const char* remedy; /**< what to do about it */
+    const char* file;   /**< the file that the text was read from, or "" */
+    int32_t line, column; /**< counted from 1; 0 if unknown */
+} tactus_message;
+
+#define TACTUS_MESSAGE { sizeof (tactus_message), 0, 0, 0, 0, 0, 0, 0, 0 }
+
+TACTUS_API tactus_messages* tactus_messages_create (void);                 /**< [any thread] */
+TACTUS_API void tactus_messages_free (tactus_messages*);                   /**< [main thread] */
+TACTUS_API void tactus_messages_clear (tactus_messages*);                  /**< [main thread] */
+TACTUS_API size_t tactus_messages_count (const tactus_messages*);          /**< [main thread] */
+TACTUS_API int32_t tactus_messages_have_errors (const tactus_messages*);   /**< [main thread] */
+
+/** The texts stay valid until the list changes. [main thread] */
+TACTUS_API tactus_result tactus_messages_get (const tactus_messages*, size_t index, tactus_message*);
+
+/* ============================================================================ Graphs */
+
+/** An empty graph that is ticked at this rate in Hz. [main thread] */
+TACTUS_API tactus_graph* tactus_graph_create (const char* name, double rate_hz, tactus_messages*);
+
+/** Reads a graph file and the files that it includes. NULL if it has errors. [main thread] */
+TACTUS_API tactus_graph* tactus_graph_load (const char* path, tactus_messages*);
+
+/** Reads a graph from text. Files that the graph names are relative to `folder` (NULL: the current folder). Subgraphs in files of
+ *  their own are not read. [main thread] */
+TACTUS_API tactus_graph* tactus_graph_parse (const char* text, size_t length, const char* folder, tactus_messages*);
+
+TACTUS_API void tactus_graph_free (tactus_graph*);                                            /**< [main thread] */
+TACTUS_API tactus_result tactus_graph_save (const tactus_graph*, const char* path, tactus_messages*);   /**< [main thread] */
+TACTUS_API char* tactus_graph_text (const tactus_graph*);   /**< the text of its file; free it with tactus_text_free [main thread] */
+TACTUS_API double tactus_graph_rate (const tactus_graph*);  /**< in Hz [main thread] */
+
+/* Edits. Each is one undo step, is checked, and changes nothing if it fails. `patch` is "" for the graph itself, or the name of a
+ * subgraph. Values are JSON, as in a graph file: 0.4, "20 um", [0, 0, 1]; NULL removes the value. [main thread] */
+TACTUS_API tactus_result tactus_graph_add_node (tactus_graph*, const char* patch, const char* name, const char* type, tactus_messages*);
+TACTUS_API tactus_result tactus_graph_remove_node (tactus_graph*, const char* patch, const char* name, tactus_messages*);
+TACTUS_API tactus_result tactus_graph_rename_node (tactus_graph*, const char* patch, const char* name, const char* to, tactus_messages*);
+TACTUS_API tactus_result tactus_graph_set_param (tactus_graph*, const char* patch, const char* node, const char* param, const char* value, tactus_messages*);
+TACTUS_API tactus_result tactus_graph_set_setting (tactus_graph*, const char* patch, const char* node, const char* setting, const char* value,
+                                                   tactus_messages*);
+/** Any other key of a node, such as "role" or "count". */
+TACTUS_API tactus_result tactus_graph_set_key (tactus_graph*, const char* patch, const char* node, const char* key, const char* value, tactus_messages*);
+/** A wire as in a graph file: "a.out -> b.in". */
+TACTUS_API tactus_result tactus_graph_add_wire (tactus_graph*, const char* patch, const char* wire, tactus_messages*);
+TACTUS_API tactus_result tactus_graph_remove_wire (tactus_graph*, const char* patch, const char* wire, tactus_messages*);
+/** The description of a role's device: {"driver": "sim", …}. */
+TACTUS_API tactus_result tactus_graph_set_device (tactus_graph*, const char* role, const char* description, tactus_messages*);
+TACTUS_API int32_t tactus_graph_undo (tactus_graph*);   /**< 0 if there is nothing to undo */
+TACTUS_API int32_t tactus_graph_redo (tactus_graph*);   /**< 0 if there is nothing to redo */
+
+/* ============================================================================ Runs */
+
+typedef struct tactus_run_options
+{
+    uint32_t size;
+    double rate_hz;             /**< 0: the graph's rate */
+    const char* const* feeds;   /**< ports driven by you: "drag.position.x", "drag.mu" */
+    size_t feed_count;
+    const char* const* records; /**< ports to record: "motor.force"; none: the inputs of all sinks */
+    size_t record_count;
+    const char* const* sets;    /**< values that replace those of the graph: "drag.mu=0.3" */
+    size_t set_count;
+} tactus_run_options;
+
+#define TACTUS_RUN_OPTIONS { sizeof (tactus_run_options), 0.0, 0, 0, 0, 0, 0, 0 }
+
+/** Compiles a graph, which may be freed or edited afterwards. NULL if it does not compile. [main thread] */
+TACTUS_API tactus_run* tactus_run_create (const tactus_graph*, const tactus_run_options*, tactus_messages*);
+
+/** Stops the run, waits until all forces are zero, and frees it. [main thread] */
+TACTUS_API void tactus_run_free (tactus_run*);
+
+TACTUS_API double tactus_run_rate (const tactus_run*);                        /**< in Hz [main thread] */
+TACTUS_API size_t tactus_run_role_count (const tactus_run*);                  /**< [main thread] */
+TACTUS_API const char* tactus_run_role (const tactus_run*, size_t index);     /**< name of a role [main thread] */
+TACTUS_API size_t tactus_run_feed_count (const tactus_run*);                  /**< [main thread] */
+TACTUS_API size_t tactus_run_record_count (const tactus_run*);                /**< components, not ports [main thread] */
+TACTUS_API const char* tactus_run_record_name (const tactus_run*, size_t index);   /**< "motor.force.x" [main thread] */
+TACTUS_API const char* tactus_run_record_unit (const tactus_run*, size_t index);   /**< "N"; "" if unknown [main thread] */
+
+/* ---------------------------------------------------------------------------- Devices, before tactus_run_open */
+
+/** The device of a role in the words of the command line's --device: "sim", "trace:FILE.csv", "gesture:NAME", "FILE.json".
+ *  Without this, it is the device that the graph describes. Real devices belong to the host. [main thread] */
+TACTUS_API tactus_result tactus_run_device (tactus_run*, const char* role, const char* device, tactus_messages*);
+
+#define TACTUS_CHANNELS 32
+
+/** What a device measured. */
+typedef struct tactus_reading
+{
+    uint32_t size;
+    int32_t valid;        /**< 0: the device has nothing to report, and the guard holds its force at zero */
+    double position[3];   /**< m */
+    double rotation[3];   /**< rotation vector, rad */
+    double pressure;      /**< N */
+    double age_s;         /**< time since the device took this reading */
+    uint32_t buttons;     /**< bit i: button i is down */
+    uint32_t axis_count, signal_count;
+    double axes[TACTUS_CHANNELS], signals[TACTUS_CHANNELS];
+} tactus_reading;
+
+/** What a device should apply: after the guard. */
+typedef struct tactus_effort
+{
+    uint32_t size;
+    double force[3];    /**< on the tool, N */
+    double torque[3];   /**< on the tool, N m */
+    uint32_t axis_count, signal_count;
+    double axes[TACTUS_CHANNELS], signals[TACTUS_CHANNELS];
+} tactus_effort;
+
+/** What your device has, beyond a tool that moves and can be pushed. Everything may be 0 or NULL. */
+typedef struct tactus_device_options
+{
+    uint32_t size;
+    const char* const* axes;      /**< names of axes that can be read */
+    size_t axis_count;
+    const char* const* efforts;   /**< names of axes that can be pushed */
+    size_t effort_count;
+    const char* const* buttons;
+    size_t button_count;
+    int32_t signal_inputs, signal_outputs;
+    const char* guard;            /**< JSON with the limits of docs/safety.md: {"max_force": "3 N", "watchdog": "20 ms", …} */
+} tactus_device_options;
+
+#define TACTUS_DEVICE_OPTIONS { sizeof (tactus_device_options), 0, 0, 0, 0, 0, 0, 0, 0, 0 }
+
+/** Your own device: you push readings and take efforts. Until the first reading, and when readings stop for longer than the guard's
+ *  watchdog, the effort is zero. [main thread] */
+TACTUS_API tactus_result tactus_run_pushed_device (tactus_run*, const char* role, const tactus_device_options*, tactus_messages*);
+
+/** Opens the devices of all roles. [main thread] */
+TACTUS_API tactus_result tactus_run_open (tactus_run*, tactus_messages*);
+
+/** The reading that the next ticks use; the latest one wins. One thread per role. Waits for nothing. [that thread] */
+TACTUS_API tactus_result tactus_run_push (tactus_run*, const char* role, const tactus_reading*);
+
+/** The effort of the latest tick. Waits for nothing. [any thread] */
+TACTUS_API tactus_result tactus_run_take (const tactus_run*, const char* role, tactus_effort*);
+
+/* ---------------------------------------------------------------------------- Ticking in your own loop */
+
+/** Runs one tick. Allocates nothing, takes no lock, reads no clock. [tick thread] */
+TACTUS_API tactus_result tactus_run_tick (tactus_run*);
+
+/** Sets the feeds for the next tick, one value per feed. [tick thread] */
+TACTUS_API tactus_result tactus_run_set_feeds (tactus_run*, const double* values);
+
+/** The recorded components after the latest tick. [tick thread] */
+TACTUS_API tactus_result tactus_run_get_records (const tactus_run*, double* values);
+
+/** Runs many ticks: row k of `feeds` (ticks x feed count; NULL if there are none) drives tick k, and row k of `records` (ticks x record
+ *  count; may be NULL) receives its records. [tick thread] */
+TACTUS_API tactus_result tactus_run_steps (tactus_run*, size_t ticks, const double* feeds, double* records);
+
+/** The duration in s of the devices that have one (traces, gestures); 0 if none has. After tactus_run_open. [main thread] */
+TACTUS_API double tactus_run_duration (const tactus_run*);
+
+/* ---------------------------------------------------------------------------- Ticking in real time */
+
+typedef struct tactus_start_options
+{
+    uint32_t size;
+    int32_t core;      /**< CPU core for the tick thread; -1: any */
+    uint64_t length;   /**< in ticks; 0: until it is stopped */
+    size_t buffer;     /**< recorded ticks that are kept until tactus_run_collect; 0: none */
+} tactus_start_options;
+
+#define TACTUS_START_OPTIONS { sizeof (tactus_start_options), -1, 0, 0 }
+
+/** Ticks the run by a timer on a thread of its own. From now on, that is the tick thread. Real-time privileges that the system
+ *  refuses are warnings. Call it once. [main thread] */
+TACTUS_API tactus_result tactus_run_start (tactus_run*, const tactus_start_options*, tactus_messages*);
+
+/** Frees what the tick thread has let go. Call it several times a second while the run plays. [main thread] */
+TACTUS_API tactus_result tactus_run_attend (tactus_run*, tactus_messages*);
+
+/** Moves recorded ticks, the oldest first, into `rows` (up to `most` rows of record count values). Returns how many. [main thread] */
+TACTUS_API size_t tactus_run_collect (tactus_run*, double* rows, size_t most);
+
+/** Recorded ticks that were lost because the buffer was full. [main thread] */
+TACTUS_API uint64_t tactus_run_lost (const tactus_run*);
+
+/** Brings all forces to zero and ends the tick thread. Waits for both. [main thread] */
+TACTUS_API tactus_result tactus_run_stop (tactus_run*);
+
+typedef enum tactus_phase
+{
+    TACTUS_IDLE = 0,     /**< not started; ticked by you */
+    TACTUS_RUNNING = 1,
+    TACTUS_HALTING = 2,  /**< the forces are falling to zero */
+    TACTUS_OVER = 3
+} tactus_phase;
+
+typedef struct tactus_status
+{
+    uint32_t size;
+    tactus_phase phase;
+    uint64_t ticks, late_ticks;   /**< late: began at least one period late */
+    double force, peak_force;     /**< largest force of all roles in N: now, and since the start */
+    int32_t is_emergency;
+} tactus_status;
+
+#define TACTUS_STATUS { sizeof (tactus_status), TACTUS_IDLE, 0, 0, 0.0, 0.0, 0 }
+
+TACTUS_API tactus_result tactus_run_status (const tactus_run*, tactus_status*);   /**< [any thread] */
+
+/* ---------------------------------------------------------------------------- While it plays */
+
+/** Sets a parameter by name: "drag.mu", "finger[*]/drag.mu". The value ramps to it. [main thread] */
+TACTUS_API tactus_result tactus_run_set (tactus_run*, const char* param, double value, tactus_messages*);
+
+/** Triggers a hit input: "ring.hit", in m/s. [main thread] */
+TACTUS_API tactus_result tactus_run_hit (tactus_run*, const char* input, double speed, tactus_messages*);
+
+/** Plays an edited graph from the next tick on. What both graphs contain continues, and no force jumps. [main thread] */
+TACTUS_API tactus_result tactus_run_edit (tactus_run*, const tactus_graph*, tactus_messages*);
+
+/** Fades all forces to zero and keeps them there, from the next tick on, until tactus_run_rearm. Safe in a signal handler. [any thread] */
+TACTUS_API tactus_result tactus_run_emergency_stop (tactus_run*);
+
+/** Ends emergency stops and all other stops of the guards. Only a person should decide this. [any thread] */
+TACTUS_API tactus_result tactus_run_rearm (tactus_run*);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: MIT
+# What `cmake --install` installs of the libraries: headers, static and shared libraries, and how CMake and pkg-config find them.
+include (GNUInstallDirs)
+include (CMakePackageConfigHelpers)
+
+set (package ${CMAKE_INSTALL_LIBDIR}/cmake/Tactus)
+install (DIRECTORY framework/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus COMPONENT development
+    FILES_MATCHING PATTERN "*.hpp" PATTERN capi EXCLUDE)
+install (FILES framework/capi/tactus.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus COMPONENT development)
+install (DIRECTORY nodes/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tactus/nodes COMPONENT development FILES_MATCHING PATTERN "*.hpp")
+
+foreach (part framework nodes run c)
+    set_target_properties (tactus_${part} PROPERTIES EXPORT_NAME ${part})
+    install (TARGETS tactus_${part} EXPORT TactusStatic ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+endforeach ()
+install (EXPORT TactusStatic NAMESPACE tactus:: DESTINATION ${package} FILE TactusStatic.cmake COMPONENT development)
+if (TARGET tactus_shared)
+    install (TARGETS tactus_shared EXPORT TactusShared
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+        RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT library)
+    install (EXPORT TactusShared NAMESPACE tactus:: DESTINATION ${package} FILE TactusShared.cmake COMPONENT development)
+endif ()
+
+configure_package_config_file (framework/TactusConfig.cmake.in ${PROJECT_BINARY_DIR}/TactusConfig.cmake INSTALL_DESTINATION ${package})
+write_basic_package_version_file (${PROJECT_BINARY_DIR}/TactusConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+file (RELATIVE_PATH to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)   # so that an installed tree can be moved
+configure_file (framework/tactus.pc.in ${PROJECT_BINARY_DIR}/tactus.pc @ONLY)
+install (FILES ${PROJECT_BINARY_DIR}/TactusConfig.cmake ${PROJECT_BINARY_DIR}/TactusConfigVersion.cmake framework/node/catalogue.cmake
+    DESTINATION ${package} COMPONENT development)
+install (FILES ${PROJECT_BINARY_DIR}/tactus.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)

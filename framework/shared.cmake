@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: MIT
+# libtactus: framework, nodes, run and the C API as one shared library, made of the objects of the static ones.
+add_library (tactus_shared SHARED
+    $<TARGET_OBJECTS:tactus_framework> $<TARGET_OBJECTS:tactus_framework_cold> $<TARGET_OBJECTS:tactus_nodes>
+    $<TARGET_OBJECTS:tactus_run> $<TARGET_OBJECTS:tactus_run_cold> $<TARGET_OBJECTS:tactus_c>)
+set_target_properties (tactus_shared PROPERTIES
+    OUTPUT_NAME tactus EXPORT_NAME shared VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR} LINKER_LANGUAGE CXX)
+target_compile_features (tactus_shared INTERFACE cxx_std_20)
+target_compile_options (tactus_shared INTERFACE "$<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:${TACTUS_SAME_BITS}>")
+target_include_directories (tactus_shared INTERFACE $<INSTALL_INTERFACE:include>)
+target_link_libraries (tactus_shared PUBLIC Eigen3::Eigen Threads::Threads)
+if (CMAKE_SYSTEM_NAME STREQUAL Linux)
+    # Exports what is ours, and neither nlohmann's library nor instances of std templates: they would replace the program's.
+    set (exports ${CMAKE_CURRENT_SOURCE_DIR}/framework/exports.map)
+    target_link_options (tactus_shared PRIVATE LINKER:--version-script=${exports} LINKER:-z,defs)
+    set_target_properties (tactus_shared PROPERTIES LINK_DEPENDS ${exports})
+endif ()
