@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <framework/kit/band_noise.hpp>
-#include <framework/kit/random.hpp>
-#include <framework/node/generic.hpp>
+#include <tactus/kit/band_noise.hpp>
+#include <tactus/kit/random.hpp>
+#include <tactus/node/generic.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,11 +3,11 @@
 
 #include "support/sketch.hpp"
 
-#include <framework/file/graph_file.hpp>
-#include <framework/run/device/make_device.hpp>
-#include <framework/run/engine.hpp>
 #include <host/assets/file_assets.hpp>
 #include <host/assets/nearest_by_embree.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/run/device/make_device.hpp>
+#include <tactus/run/engine.hpp>
 
 #include <catch2/catch.hpp>
 #include <unsupported/Eigen/FFT>
