@@ -18,8 +18,9 @@ namespace tactus::nodes
 ///
 ///     velocity = (p_k - p_(k-n)) / (n T)
 ///
-/// where n is the largest, up to `max_window`, for which the line through p_(k-n) and p_k passes within `noise` of every sample
-/// between. A braking hand shortens the window immediately; a steady one is averaged for as long as it is steady.
+/// where n is the largest, up to `max_window` or the ticks of `window`, for which the line through p_(k-n) and p_k passes within
+/// `noise` of every sample between. A braking hand shortens the window immediately; a steady one is averaged for as long as it is
+/// steady.
 ///
 /// Source: Janabi-Sharifi, Hayward & Chen 2000, first-order adaptive windowing, end-fit.
 ///
@@ -37,7 +38,9 @@ namespace tactus::nodes
 ///  - Exact on ramps, from the second sample if its steps exceed the noise, else from the third. With quantised positions the
 ///    error is below 2 noise / (n T). The lag is n T / 2: under an acceleration a, n T is about sqrt (8 noise / a). So the node
 ///    helps most where the hand is slow; with `noise` set too large it lags.
-///  - Cost grows with max_window.
+///  - `window`, in seconds, gives the same resolution at every tick rate. With `max_window`, in ticks, a graph that is ten times faster
+///    sees ten times more of the quantum. The window is at most 256 ticks long: 12.8 ms at 20 kHz.
+///  - Cost grows with the window in ticks.
 ///  - It is 0 on the first sample and after a fault. The learnt quantum stays.
 struct Velocity
 {
@@ -54,6 +57,7 @@ struct Velocity
     struct Settings
     {
         int max_window = 16;
+        double window = 0.0;
     };
 
     struct Outputs
@@ -75,6 +79,7 @@ struct Velocity
         input (&Inputs::position, "position", unit::metre, "tool position p"),
         param (&Params::noise, "noise", unit::metre, "distance between samples at rest; 0: the learnt quantum", { .hard = { 0, inf }, .usual = { 0, 1e-3 } }),
         setting (&Settings::max_window, "max_window", unit::count, "longest window, in ticks", { .hard = { 1, longest_window }, .usual = { 1, 64 } }),
+        setting (&Settings::window, "window", unit::second, "longest window, in seconds; 0: max_window", { .hard = { 0, inf }, .usual = { 0, 0.02 } }),
         output (&Outputs::velocity, "velocity", unit::speed, "velocity of the tool"),
         output (&Outputs::speed, "speed", unit::speed, "magnitude of the velocity"),
     };
@@ -85,6 +90,8 @@ struct Velocity
     void prepare (const Setup& setup) noexcept
     {
         dt = setup.dt_s();
+        const double ticks = settings.window > 0.0 ? std::round (settings.window / dt) : settings.max_window;
+        longest = static_cast<int> (std::clamp (ticks, 1.0, static_cast<double> (longest_window)));
         axes = {};
         known = 0;
     }
@@ -158,8 +165,8 @@ private:
     /// End-fit slope over the longest window that fits, in m per tick.
     double slope (const Axis& axis) const noexcept
     {
-        const int longest = std::min (settings.max_window, known - 1);
-        if (longest < 1) return 0.0;
+        const int reach = std::min (longest, known - 1);
+        if (reach < 1) return 0.0;
 
         const bool is_set = params.noise > 0.0;
         const double learnt = axis.quantum < inf ? axis.quantum : 0.0;
@@ -170,7 +177,7 @@ private:
         // of these samples.
         double least = -inf, most = inf, lowest = now, highest = now;
         int fitting = 0;
-        for (int n = 1; n <= longest && least <= most; ++n)
+        for (int n = 1; n <= reach && least <= most; ++n)
         {
             const double then = ago (axis, n), inverse = inverses[at (n)], step = (now - then) * inverse, play = noise * inverse;
             if (step >= least && step <= most) fitting = n;
@@ -180,8 +187,8 @@ private:
             highest = std::max (highest, then);
         }
 
-        const bool rests = least <= most && highest - lowest <= noise && (is_set || longest > 1);
-        if (fitting == 0 || (rests && ! isRamp (axis, longest))) return 0.0;
+        const bool rests = least <= most && highest - lowest <= noise && (is_set || reach > 1);
+        if (fitting == 0 || (rests && ! isRamp (axis, reach))) return 0.0;
         return (now - ago (axis, fitting)) / fitting;
     }
 
@@ -197,6 +204,7 @@ private:
 
     std::array<Axis, 3> axes;
     int newest = 0, known = 0;
+    int longest = 16;                     // ticks
     double dt = 1.0 / Setup {}.rate_hz;   // s
 };
 

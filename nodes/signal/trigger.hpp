@@ -12,7 +12,10 @@ namespace tactus::nodes
 /// Triggers a hit each time a signal rises through a threshold.
 ///
 ///     hit    speed, on the tick where `in` rises above threshold + hysteresis / 2
-///     gate   1 from there until `in` is back at threshold - hysteresis / 2 or below, which arms the next hit
+///     gate   1 from there until `in` has been at threshold - hysteresis / 2 or below for longer than `hold`, which arms the next hit
+///
+/// `hold` is for signals that come in pulses: the state of friction or of a blade is that of one tick, so between two steps of the
+/// encoder it says that nothing moves. A gate with a hold says whether something has moved during the last moment, at any rate.
 ///
 /// A signal that is already high on the first sample, or on the first sample after a non-finite one, opens the gate without a
 /// hit. The hysteresis should be wider than the noise on the signal, or one crossing makes many hits.
@@ -27,6 +30,7 @@ struct SignalTrigger
         double threshold = 0.0;
         double hysteresis = 0.0;
         double speed = 1.0;
+        double hold = 0.0;
     };
 
     struct Outputs
@@ -47,11 +51,15 @@ struct SignalTrigger
         param (&Params::threshold, "threshold", sameAs ("in"), "middle of the two levels", { .usual = { -1, 1 } }),
         param (&Params::hysteresis, "hysteresis", sameAs ("in"), "distance between the two levels", { .hard = { 0, inf }, .usual = { 0, 1 } }),
         param (&Params::speed, "speed", unit::speed, "impact speed of each hit", { .hard = { 0, inf }, .usual = { 0, 5 } }),
+        param (&Params::hold, "hold", unit::second, "time for which the gate stays open after the signal was last high",
+               { .hard = { 0, inf }, .usual = { 0, 0.1 } }),
         output (&Outputs::hit, "hit", unit::hit, "speed on the tick of the hit, else 0"),
-        output (&Outputs::gate, "gate", unit::gain, "1 while the signal is high, else 0"),
+        output (&Outputs::gate, "gate", unit::gain, "1 while the signal is high and during hold, else 0"),
     };
 
     Params params;
+
+    void prepare (const Setup& setup) noexcept { dt = setup.dt_s(); }
 
     Outputs tick (const Inputs& in) noexcept
     {
@@ -62,10 +70,14 @@ struct SignalTrigger
         }
 
         const double half = 0.5 * params.hysteresis;
+        const bool is_low = in.in <= params.threshold - half;
+        low_ticks = is_low ? low_ticks + 1.0 : 0.0;
+
         const Seen before = seen;
+        const bool holds = low_ticks * dt <= params.hold * (1.0 + 1e-9);
         if (in.in > params.threshold + half)
             seen = Seen::high;
-        else if (in.in <= params.threshold - half || before == Seen::nothing)
+        else if (before == Seen::nothing || (is_low && ! holds))
             seen = Seen::low;
 
         const bool rose = before == Seen::low && seen == Seen::high;
@@ -83,6 +95,8 @@ private:
     };
 
     Seen seen = Seen::nothing;
+    double low_ticks = 0.0;               // ticks for which the signal has been low
+    double dt = 1.0 / Setup {}.rate_hz;   // s
 };
 
 }   // namespace tactus::nodes

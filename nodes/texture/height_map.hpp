@@ -22,9 +22,10 @@ namespace tactus::nodes
 /// over any closed path.
 ///
 /// A relief scanned fast would contain higher frequencies than the tick rate can carry. So h has levels, each with half the
-/// detail of the previous one, and the speed of the hand blends between two of them: nothing is left above
+/// detail of the previous one, and the speed of the hand blends between two of them: nothing is left above f_max.
 ///
-///     f_max = 1 / (alpha T),  alpha = 4      250 Hz at 1 kHz, where touch is most sensitive (Table 1: alpha >= 2, better 10)
+/// By default f_max = 1 / (alpha T) with alpha = 4: 250 Hz at 1 kHz, where touch is most sensitive (Table 1: alpha >= 2, better 10).
+/// So a faster graph renders finer detail. The param `f_max` makes the relief the same at all rates above 2 f_max.
 ///
 /// A component (kx, ky) sounds at |kx vx + ky vy| <= k_max (|vx| + |vy|), and each level ends at a k_max in x and in y, so it is
 /// usable up to the speed at which this bound reaches f_max. From half of that speed up, the finest level gives way to the next.
@@ -81,6 +82,7 @@ struct HeightMap
     struct Params
     {
         double gain = 1.0;
+        double f_max = 0.0;
     };
 
     struct Settings
@@ -104,6 +106,8 @@ struct HeightMap
     static constexpr std::tuple ports {
         input (&Inputs::position, "position", unit::metre, "tool position"),
         param (&Params::gain, "gain", unit::newton, "force on a slope of 1", { .usual = { 0, 10 } }),
+        param (&Params::f_max, "f_max", unit::hertz, "highest frequency that is rendered, at most half the rate; 0: a quarter of the rate",
+               { .hard = { 0, inf }, .usual = { 0, 1000 } }),
         setting (&Settings::map, "map", unit::count, "the relief; without one it is flat"),
         output (&Outputs::force, "force", unit::newton, "force on the tool, down the slope"),
         output (&Outputs::value, "value", unit::metre, "height of the relief under the tool"),
@@ -118,11 +122,17 @@ struct HeightMap
     void prepare (const Setup& setup)
     {
         dt = setup.dt_s();
-        f_max = 1.0 / (alpha * dt);
         hold = static_cast<int> (hold_s / dt);
         release = std::exp (-dt / release_s);
         last = {};
         build();
+        update();
+    }
+
+    void update() noexcept
+    {
+        f_max = params.f_max > 0.0 ? std::min (params.f_max, 0.5 / dt) : 1.0 / (alpha * dt);
+        fastest = levels.size() < 2 ? 0.0 : 1.01 * f_max / levels[levels.size() - 2].edge;
     }
 
     void adopt (const HeightMap& old) noexcept { last = old.last; }
@@ -287,7 +297,6 @@ inline void HeightMap::build()
         levels.push_back ({ edge, SplineSurface { points } });
     }
 
-    fastest = 1.01 * f_max / levels.back().edge;
     levels.push_back ({ 0.0, SplineSurface { MirroredGrid { {}, {}, { mean } } } });
 }
 

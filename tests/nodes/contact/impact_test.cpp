@@ -75,6 +75,66 @@ TEST_CASE ("impact: a quantised ramp gives one hit, with the speed within the bo
     CHECK (worst_slow < 0.15);
 }
 
+TEST_CASE ("impact: a slow approach seen by a coarse encoder has its speed within 5 % at every rate, and one hit", "[nodes][contact]")
+{
+    std::mt19937 random (5);
+    std::uniform_real_distribution<double> uniform;
+    for (const double rate : { 1000.0, 2500.0, 4000.0, 10'000.0, 20'000.0 })
+        for (const double quantum : { 0.0, 1e-6, 7e-6, 2e-5, 5e-5 })
+            for (const double v : { 0.005, 0.02, 0.1, 0.5 })
+                for (int trial = 0; trial < 20; ++trial)
+                {
+                    // The surface lies anywhere between two steps of the encoder.
+                    const double surface = 5e-5 * uniform (random), start = -0.1 * v * (2.0 + uniform (random));
+                    const auto depth = [&] (int k) { return quantised (start + v * k / rate + surface, quantum) - surface; };
+                    const auto [hits, speed] = strike (impact ({}, rate), static_cast<int> (0.4 * rate), depth);
+                    INFO (rate << " Hz, quantum " << quantum << ", " << v << " m/s");
+                    REQUIRE (hits == 1);
+                    REQUIRE (speed == Approx (v).epsilon (0.05));
+                }
+}
+
+TEST_CASE ("impact: a braking approach has the same speed at every rate", "[nodes][contact]")
+{
+    for (const double release : { 1e-6, 1e-5, 5e-5 })
+    {
+        const auto speed = [&] (double rate) {
+            const auto depth = [&] (int k) {
+                const double t = k / rate - 0.1003;   // comes at 0.3 m/s, loses 5 m/s2
+                return 0.3 * t - 2.5 * t * t;
+            };
+            return strike (impact ({ .release = release }, rate), static_cast<int> (0.11 * rate), depth).speed;
+        };
+        const double expected = speed (20'000.0);
+        CHECK (expected == Approx (0.3).epsilon (0.08));
+        for (const double rate : { 1000.0, 4000.0 })
+            CHECK (speed (rate) == Approx (expected).epsilon (0.02));
+    }
+}
+
+TEST_CASE ("impact: the speed is not taken over more than the window", "[nodes][contact]")
+{
+    // The tool speeds up 20 ms before the contact, by less than a generous `release` tells apart.
+    const auto depth = [] (int k) { return k < 180 ? -1e-3 * (220 - k) / 10.0 : -3.5e-3 + 2e-4 * (k - 180); };
+    for (const double window : { 0.005, 0.015 })
+        CHECK (strike (impact ({ .release = 1e-2, .window = window }), 300, depth).speed == Approx (0.2).epsilon (1e-6));
+    CHECK (strike (impact ({ .release = 1e-2, .window = 0.1 }), 300, depth).speed < 0.18);
+}
+
+TEST_CASE ("impact: a tremor of one quantum at the surface counts as one contact, wherever the surface lies", "[nodes][contact]")
+{
+    const double q = 5e-5;
+    for (const double rate : { 1000.0, 20'000.0 })
+        for (double surface = q / 16.0; surface < q; surface += q / 16.0)
+        {
+            const auto depth = [&] (int k) {
+                const double t = k / rate, tremor = 0.45 * q * std::sin (2.0 * M_PI * 9.0 * t);
+                return quantised (std::min (-0.01 + 0.05 * t, surface) + tremor, q) - surface;
+            };
+            CHECK (strike (impact ({}, rate), static_cast<int> (2.0 * rate), depth).hits == 1);
+        }
+}
+
 TEST_CASE ("impact: quantised positions that flicker at the surface count as one contact", "[nodes][contact]")
 {
     // A hand hovers at half a quantum, with a tremor of 0.4 quanta on either side, so the rounded depth flickers.

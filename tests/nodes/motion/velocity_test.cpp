@@ -203,3 +203,26 @@ TEST_CASE ("velocity: a new instance adopts the past samples", "[nodes][motion]"
     const double x = quantised (0.013 * T * 30);
     CHECK (along (next, x) == along (old, x));
 }
+
+TEST_CASE ("velocity: with a window in seconds, a quantised ramp has the same noise at 1, 4 and 20 kHz", "[nodes][motion]")
+{
+    const auto worst = [] (double rate_hz, double window) {
+        double error = 0.0;
+        for (const double v : { 0.011, 0.023, 0.047 })
+        {
+            Velocity node;
+            node.settings.window = window;
+            node.prepare ({ .rate_hz = rate_hz });
+            for (int k = 0; k < static_cast<int> (0.2 * rate_hz); ++k)
+            {
+                const double measured = along (node, quantised (0.37 * q + v * k / rate_hz));
+                if (k > 0.05 * rate_hz) error = std::max (error, std::abs (measured - v));
+            }
+        }
+        return error;
+    };
+    const double bound = 2.0 * q / 0.01;
+    for (const double rate : { 1000.0, 4000.0, 20000.0 })
+        CHECK (worst (rate, 0.01) <= bound);
+    CHECK (worst (20000.0, 0.0) > 3.0 * bound);   // 16 ticks
+}

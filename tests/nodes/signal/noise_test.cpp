@@ -2,7 +2,10 @@
 #include <tactus/nodes/signal/noise.hpp>
 
 #include <catch2/catch.hpp>
+#include <unsupported/Eigen/FFT>
 
+#include <cmath>
+#include <complex>
 #include <vector>
 
 using tactus::nodes::SignalNoise;
@@ -19,6 +22,38 @@ std::vector<double> noiseOf (int seed, int n, double amplitude = 1.0)
     for (int k = 0; k < n; ++k)
         all.push_back (node.tick ({}).out);
     return all;
+}
+
+/// The noise of a band of 250 Hz.
+SignalNoise inBand (double rate_hz, double amplitude = 2.0)
+{
+    SignalNoise node;
+    node.settings.seed = 7;
+    node.params = { .amplitude = amplitude, .bandwidth = 250.0 };
+    node.prepare ({ .rate_hz = rate_hz });
+    node.update();
+    return node;
+}
+
+std::vector<double> lasting (double seconds, double rate_hz)
+{
+    auto node = inBand (rate_hz);
+    std::vector<double> all;
+    for (int k = 0; k < static_cast<int> (seconds * rate_hz); ++k)
+        all.push_back (node.tick ({}).out);
+    return all;
+}
+
+/// RMS between two frequencies.
+double rms (const std::vector<double>& values, double rate_hz, double from_hz, double to_hz)
+{
+    std::vector<std::complex<double>> bins;
+    Eigen::FFT<double> {}.fwd (bins, values);
+    const auto n = static_cast<double> (values.size());
+    double power = 0.0;
+    for (std::size_t i = 1; 2 * i < values.size(); ++i)
+        if (const double f = static_cast<double> (i) * rate_hz / n; f >= from_hz && f < to_hz) power += 2.0 * std::norm (bins[i]) / (n * n);
+    return std::sqrt (power);
 }
 }   // namespace
 
@@ -51,4 +86,71 @@ TEST_CASE ("noise: the same seed gives the same noise, a different seed gives di
 {
     CHECK (noiseOf (1, 1000) == noiseOf (1, 1000));
     CHECK (noiseOf (1, 1000) != noiseOf (2, 1000));
+}
+
+TEST_CASE ("noise: without a band it is the white noise of files of version 1, number by number", "[nodes][signal]")
+{
+    tactus::Random random { 3 };
+    for (const double v : noiseOf (3, 1000, 2.0))
+        REQUIRE (v == 2.0 * random.normal());
+}
+
+TEST_CASE ("noise: in a band it is the same function of time at every rate of at least twice the band", "[nodes][signal]")
+{
+    const auto fast = lasting (20.0, 20000.0);
+    for (const std::size_t every : { 5, 20, 40 })
+    {
+        const auto slow = lasting (20.0, 20000.0 / static_cast<double> (every));
+        for (std::size_t k = 0; k < slow.size(); ++k)
+            REQUIRE (slow[k] == Approx (fast[every * k]).margin (1e-8));
+    }
+}
+
+TEST_CASE ("noise: its RMS lies within the band and is the amplitude, at 1, 4 and 20 kHz", "[nodes][signal]")
+{
+    // 100 s of 225 Hz, the width of the spectrum, hold 45000 independent numbers: the standard error of the RMS is 0.33 %.
+    constexpr double five_errors = 0.017;
+    for (const double rate : { 1000.0, 4000.0, 20000.0 })
+    {
+        const auto x = lasting (100.0, rate);
+        CHECK (rms (x, rate, 0.0, 250.0) == Approx (2.0).epsilon (five_errors));
+        CHECK (rms (x, rate, 250.0, 0.5 * rate) < 5e-3 * 2.0);
+        CHECK (rms (x, rate, 0.0, 100.0) == Approx (rms (x, rate, 100.0, 200.0)).epsilon (0.04));   // flat, 20000 numbers each
+        CHECK (rms (x, rate, 0.0, 200.0) == Approx (2.0 * std::sqrt (200.0 / 225.0)).epsilon (0.02));
+    }
+}
+
+TEST_CASE ("noise: its first second is as loud as every other", "[nodes][signal]")
+{
+    double squares = 0.0;
+    for (int seed = 0; seed < 4000; ++seed)
+    {
+        auto node = inBand (1000.0);
+        node.settings.seed = seed;
+        node.prepare ({ .rate_hz = 1000.0 });
+        squares += std::pow (node.tick ({}).out / 2.0, 2);
+    }
+    CHECK (squares / 4000.0 == Approx (1.0).epsilon (5.0 * std::sqrt (2.0 / 4000.0)));
+}
+
+TEST_CASE ("noise: a graph too slow for the band has the part of the noise below half its rate, and is warned", "[nodes][signal]")
+{
+    const auto x = lasting (100.0, 300.0);
+    double squares = 0.0;
+    for (const double v : x)
+        squares += v * v;
+    CHECK (std::sqrt (squares / static_cast<double> (x.size())) == Approx (2.0 * std::sqrt (150.0 / 250.0)).epsilon (0.03));
+    CHECK (inBand (500.0).warning ({ .rate_hz = 500.0 }).empty());
+    CHECK (inBand (300.0).warning ({ .rate_hz = 300.0 }).find ("500 Hz") != std::string::npos);
+}
+
+TEST_CASE ("noise: a band that moves leaves it within its claim", "[nodes][signal]")
+{
+    auto node = inBand (1000.0);
+    for (int k = 0; k < 20000; ++k)
+    {
+        node.params.bandwidth = k % 500 == 0 ? 0.0 : 1.0 + 0.1 * k;
+        node.update();
+        REQUIRE (std::abs (node.tick ({}).out) <= inBand (1000.0).claims().amplitude);
+    }
 }

@@ -56,3 +56,39 @@ TEST_CASE ("trigger: a signal that is high from the start triggers no hit", "[no
     node.tick ({ .in = 0.0 });
     CHECK (node.tick ({ .in = 1.0 }).hit == 1.0);
 }
+
+TEST_CASE ("trigger: the gate stays open for the time of hold, at any rate", "[nodes][signal]")
+{
+    for (const double rate : { 1000.0, 4000.0, 20000.0 })
+    {
+        SignalTrigger node;
+        node.params = { .threshold = 0.5, .hold = 0.02 };
+        node.prepare ({ .rate_hz = rate });
+        node.tick ({ .in = 0.0 });
+        CHECK (node.tick ({ .in = 1.0 }).hit == 1.0);
+        int ticks = 0;
+        while (node.tick ({ .in = 0.0 }).gate == 1.0)
+            ++ticks;
+        CHECK (ticks / rate == Approx (0.02).margin (1e-9));
+        CHECK (node.tick ({ .in = 1.0 }).hit == 1.0);
+    }
+}
+
+TEST_CASE ("trigger: pulses closer than hold keep the gate open and make one hit", "[nodes][signal]")
+{
+    for (const double rate : { 1000.0, 4000.0, 20000.0 })
+    {
+        SignalTrigger node;
+        node.params = { .threshold = 3.5, .hold = 0.02 };
+        node.prepare ({ .rate_hz = rate });
+        node.tick ({ .in = 3.0 });
+        double hits = 0.0;
+        for (int k = 0; k < static_cast<int> (0.5 * rate); ++k)   // a blade that an encoder moves on every 15 ms
+        {
+            const auto out = node.tick ({ .in = k % static_cast<int> (0.015 * rate) == 0 ? 4.0 : 3.0 });
+            REQUIRE (out.gate == 1.0);
+            hits += out.hit;
+        }
+        CHECK (hits == 1.0);
+    }
+}

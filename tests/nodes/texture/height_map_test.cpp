@@ -224,6 +224,29 @@ TEST_CASE ("height map: up to half of f_max nothing is lost; beyond it, detail g
     CHECK (fast.tick ({ .position = { 20.0, 0.4, 0.0 } }).value == Approx (sum / all).margin (1e-18));
 }
 
+TEST_CASE ("height map: with a given f_max it is the same relief at 1, 4 and 20 kHz", "[nodes][texture]")
+{
+    const double v = 0.15;
+    const auto forces = [&] (double rate_hz, double f_max) {
+        auto node = over (rough (4), rate_hz);
+        node.params.f_max = f_max;
+        node.update();
+        return scan (node, { 0.0, 1e-4, 0.0 }, { v / rate_hz, 0.0, 0.0 }, static_cast<int> (0.02 * rate_hz));
+    };
+    const auto expected = forces (20'000.0, 200.0);
+    for (const std::size_t every : { 5, 20 })
+    {
+        const auto is = forces (20'000.0 / static_cast<double> (every), 200.0);
+        for (std::size_t k = 0; k < is.size(); ++k)
+            REQUIRE ((is[k] - expected[every * k]).norm() < 1e-9);
+    }
+    const auto by_default = forces (20'000.0, 0.0);
+    double finer = 0.0;
+    for (std::size_t k = 0; k < expected.size(); ++k)
+        finer = std::max (finer, (by_default[k] - expected[k]).norm());
+    CHECK (finer > 1e-3);
+}
+
 TEST_CASE ("height map: speed blends the levels without a step", "[nodes][texture]")
 {
     auto node = over (rough (6));
