@@ -92,7 +92,8 @@ GuardLimits readGuard (Json guard, const std::string& where, Messages& messages,
 
 /// Opens the device of a role. The guards that the graph and the graphs that it includes describe for the role apply even if an
 /// option or a session chose another device.
-Run::RoleDevice Run::openOne (const std::string& role, const graph::Graph& graph, const std::vector<IncludedGuard>& guards, const Plan& plan, Messages& messages)
+Run::RoleDevice Run::openOne (const std::string& role, const graph::Graph& graph, const std::vector<IncludedGuard>& guards, const Plan& plan,
+                              Messages& messages)
 {
     auto opened = open (role, graph, plan, messages);
     if (! opened.device) return opened;
@@ -258,7 +259,8 @@ void Run::Edit::openDevices()
     for (const auto& role : compiled.plan->roles())
     {
         if (! run->open || run->hasDevice (role.name)) continue;
-        if (auto made = run->openOne (role.name, graph, guards, *compiled.plan, compiled.messages); made.device) opened.emplace_back (role.name, std::move (made));
+        auto made = run->openOne (role.name, graph, guards, *compiled.plan, compiled.messages);
+        if (made.device) opened.emplace_back (role.name, std::move (made));
     }
 }
 

@@ -246,7 +246,10 @@ void CommandRun::decideLength (Pace pace)
     constexpr auto most_unasked = static_cast<double> (Replay::most_ticks_unasked);
     const double by_files = feed ? static_cast<double> (feed->ticks()) : seconds * rate();
     if (pace == Pace::offline && options.duration_s == 0.0 && by_files > most_unasked)
-        fail ("run/too_long", std::string (feed ? "the feed" : "a device's path") + " asks for " + numberText (std::ceil (by_files)) + " ticks; without --duration, " + numberText (most_unasked) + " are the most", "give a --duration in s or a lower --rate");
+    {
+        const auto asks = (feed ? "the feed asks for " : "a device's path asks for ") + numberText (std::ceil (by_files)) + " ticks";
+        fail ("run/too_long", asks + "; without --duration, " + numberText (most_unasked) + " are the most", "give a --duration in s or a lower --rate");
+    }
 
     if (feed) count = feed->ticks();
     if (options.duration_s > 0.0 || (! feed && seconds > 0.0))

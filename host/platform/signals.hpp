@@ -23,8 +23,8 @@ void holdEmergencySignals() noexcept;
 void takeEmergencySignals() noexcept;
 
 /// Sets the actions of two signals, on systems that have them: SIGUSR1 calls `stop`, the emergency stop; SIGUSR2, which rearmed in
-/// earlier versions, calls `asked_to_rearm`. The system calls them on any thread that does not hold these signals, whatever the thread is doing. Null: no action.
-/// [main thread]
+/// earlier versions, calls `asked_to_rearm`. The system calls them on any thread that does not hold these signals, whatever the
+/// thread is doing. Null: no action. [main thread]
 void watchForEmergency (void (*stop)() noexcept, void (*asked_to_rearm)() noexcept) noexcept;
 
 }   // namespace tactus::host

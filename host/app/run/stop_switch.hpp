@@ -21,9 +21,10 @@ public:
         bool operator== (const Presses&) const = default;
     };
 
-    void stop() noexcept { stops.fetch_add (1, std::memory_order_relaxed); }                                                                ///< [any thread, also in a signal handler]
-    void emergencyStop() noexcept { emergencies.fetch_add (1, std::memory_order_relaxed); }                                                 ///< likewise
-    Presses presses() const noexcept { return { stops.load (std::memory_order_relaxed), emergencies.load (std::memory_order_relaxed) }; }   ///< [any thread]
+    // [any thread, also in a signal handler]
+    void stop() noexcept { stops.fetch_add (1, std::memory_order_relaxed); }
+    void emergencyStop() noexcept { emergencies.fetch_add (1, std::memory_order_relaxed); }
+    Presses presses() const noexcept { return { stops.load (std::memory_order_relaxed), emergencies.load (std::memory_order_relaxed) }; }
 
     /// The presses that the message thread knew of at its last notice(). A run starts from these, so that it obeys a later press that
     /// came before its first tick. [message thread]

@@ -85,8 +85,8 @@ TEST_CASE ("the guard of an included graph tightens that of the whole graph, and
 
 TEST_CASE ("the guard of an included graph follows its role through the roles, the instances and the graphs around it", "[run][safety]")
 {
-    auto graph = read (R"("hand": { "type": "graph:hand", "roles": { "middle": "ring" } })", "",
-                       R"("hand": { "nodes": { "finger": { "type": "file:part.json", "count": 2, "roles": { "tip": [ "thumb", "middle" ] } } }, "wires": [] })");
+    const std::string fingers = R"("finger": { "type": "file:part.json", "count": 2, "roles": { "tip": [ "thumb", "middle" ] } })";
+    auto graph = read (R"("hand": { "type": "graph:hand", "roles": { "middle": "ring" } })", "", R"("hand": { "nodes": { )" + fingers + R"( }, "wires": [] })");
     graph.files["part.json"] = pushing();
     const auto found = includedGuards (graph);
     REQUIRE (found.size() == 2);

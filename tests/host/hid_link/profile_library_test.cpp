@@ -275,7 +275,8 @@ TEST_CASE ("own profiles: one that leaves out an init or exit report of the ship
     auto shipped = having ("arm", 5.0, {}, Ids { 2 });
     auto arm = *shipped.profiles[0];
     arm.outputs.emplace_back();
-    arm.init = { { .kind = Step::Kind::feature, .bytes = { 1, 2 } }, { .kind = Step::Kind::get_feature, .bytes = { 3 } }, { .kind = Step::Kind::feature, .bytes = { 4, 5 } } };
+    using Kind = Step::Kind;
+    arm.init = { { .kind = Kind::feature, .bytes = { 1, 2 } }, { .kind = Kind::get_feature, .bytes = { 3 } }, { .kind = Kind::feature, .bytes = { 4, 5 } } };
     arm.exit = { { .kind = Step::Kind::output, .bytes = { 6 } } };
     shipped.profiles = { std::make_shared<const Profile> (arm) };
     const auto isUsed = [&] (const Change& change) {
