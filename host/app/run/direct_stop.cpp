@@ -15,7 +15,7 @@ std::optional<Message> DirectStop::follow (juce::Component& component, juce::Rec
         watch.reset();
         if (window != 0)
         {
-            auto opened = WindowStop::open (window, { [this] { pressed.stop(); }, [this] { pressed.emergencyStop(); } });
+            auto opened = WindowStop::open (window, { [&s = pressed] { s.stop(); }, [&s = pressed] { s.emergencyStop(); } });
             if (opened)
                 watch = std::move (*opened);
             else
