@@ -92,7 +92,8 @@ Result<std::unique_ptr<WindowStop>> WindowStop::open (std::uintptr_t window, Act
     auto server = std::make_unique<Server>();
     server->connection = xcb_connect (nullptr, nullptr);
     if (! server->isThere())
-        return Message::error ("stop/no_server", {}, "no second connection to the X server", "let the X server accept more clients, or run the graph with `tactus play`");
+        return Message::error ("stop/no_server", {}, "there is no second connection to the X server",
+                               "let the X server accept more clients, or run the graph with `tactus play`");
     if (window == 0 || window > largest_id || ! server->watch (static_cast<xcb_window_t> (window)))
         return Message::error ("stop/no_window", {}, "the X server does not know the window", "run the graph with `tactus play`");
     server->readKeyboard();

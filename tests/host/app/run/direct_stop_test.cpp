@@ -224,18 +224,19 @@ TEST_CASE ("on a screen: a click on STOP", "[.screen]")
     REQUIRE (Window::untilStuck ([&] { return ! w.run().isRunning(); }));
     CHECK (w.run().isWanted());   // the window has not noticed yet
     std::this_thread::sleep_for (1s);
-    const auto end = std::chrono::steady_clock::now() + 500ms;
-    w.until ([&] { return std::chrono::steady_clock::now() > end; });
+    const auto shown = std::chrono::steady_clock::now();
+    for (int i = 0; i < 10; ++i)
+        w.attend();
     CHECK_FALSE (w.run().isWanted());
     CHECK_FALSE (w.run().isRunning());
 
     xdo ("click 1");   // START is there now, but for less than a second
     std::this_thread::sleep_for (50ms);
     w.attend();
-    CHECK_FALSE (w.run().isWanted());
+    if (std::chrono::steady_clock::now() - shown < 950ms) CHECK_FALSE (w.run().isWanted());   // else the machine is too busy to tell
     const auto later = std::chrono::steady_clock::now() + 1200ms;
     w.until ([&] { return std::chrono::steady_clock::now() > later; });
-    xdo ("click 1");
+    if (! w.run().isWanted()) xdo ("click 1");
     CHECK (w.until ([&] { return w.force() == 2.0; }));
 
     xdo ("key Escape");
