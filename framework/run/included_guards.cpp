@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "included_guards.hpp"
 
-#include <framework/graph/instances.hpp>
-#include <framework/plan/roles.hpp>
+#include <tactus/graph/instances.hpp>
+#include <tactus/plan/roles.hpp>
 
 #include <algorithm>
 

@@ -3,15 +3,15 @@
 #include "overwriting.hpp"
 #include "report.hpp"
 
-#include <framework/graph/reconcile.hpp>
-#include <framework/plan/missing_parts.hpp>
-#include <framework/run/replay.hpp>
-#include <framework/text/closest_match.hpp>
-#include <framework/text/number_text.hpp>
-#include <framework/text/quote.hpp>
 #include <host/assets/nearest_by_embree.hpp>
 #include <host/platform/home_folder.hpp>
 #include <host/sessions/needs.hpp>
+#include <tactus/graph/reconcile.hpp>
+#include <tactus/plan/missing_parts.hpp>
+#include <tactus/run/replay.hpp>
+#include <tactus/text/closest_match.hpp>
+#include <tactus/text/number_text.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <cmath>
 #include <iostream>

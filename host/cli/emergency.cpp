@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "emergency.hpp"
 
-#include <framework/run/realtime.hpp>
 #include <host/platform/failsafe.hpp>
 #include <host/platform/signals.hpp>
+#include <tactus/run/realtime.hpp>
 
 #include <chrono>
 #include <limits>

@@ -2,7 +2,7 @@
 #include "live_recording.hpp"
 #include "report.hpp"
 
-#include <framework/text/quote.hpp>
+#include <tactus/text/quote.hpp>
 
 #include <cstdio>
 #include <utility>

@@ -2,7 +2,7 @@
 #include "osc_port.hpp"
 #include "read_packet.hpp"
 
-#include <framework/run/realtime.hpp>
+#include <tactus/run/realtime.hpp>
 
 #include <vector>
 

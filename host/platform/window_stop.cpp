@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "window_stop.hpp"
 
-#include <framework/run/realtime.hpp>
+#include <tactus/run/realtime.hpp>
 
 #include <utility>
 

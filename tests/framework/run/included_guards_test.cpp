@@ -3,10 +3,10 @@
 
 #include "support/sketch.hpp"
 
-#include <framework/file/graph_file.hpp>
-#include <framework/graph/text.hpp>
-#include <framework/run/included_guards.hpp>
-#include <framework/run/run.hpp>
+#include <tactus/file/graph_file.hpp>
+#include <tactus/graph/text.hpp>
+#include <tactus/run/included_guards.hpp>
+#include <tactus/run/run.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <framework/run/realtime.hpp>
+#include <tactus/run/realtime.hpp>
 
 #include <catch2/catch.hpp>
 
